@@ -1,0 +1,40 @@
+/* comm.h - the ranks of a run: MPI, or none.
+ *
+ * A process that was not started by an MPI launcher never initialises MPI (that alone costs
+ * more than many 1D cases); it is then rank 0 of 1 and every call here is a no-op or a copy.
+ * Reductions are minima, maxima and integer sums only, or collect per-item values: sums of
+ * doubles in an order that depends on the ranks would break the bitwise contract. */
+#ifndef COMM_H
+#define COMM_H
+
+#include <mpi.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Initialises MPI if a launcher's environment is seen. Ends with comm_done. */
+void comm_init(int *argc, char ***argv);
+void comm_done(void);
+
+/* True when MPI is initialised (HDF5 then opens files through MPI-IO). */
+bool comm_active(void);
+int comm_rank(void);
+int comm_size(void);
+MPI_Comm comm_world(void);
+
+/* Ends all ranks now with this exit code. */
+void comm_abort(int code) __attribute__((noreturn));
+
+/* In place, over all ranks. */
+void comm_min(double *values, int count);
+void comm_max(double *values, int count);
+void comm_sum_counts(long long *values, int count);
+
+/* The largest code of all ranks: a failure on one is a failure on all. */
+int comm_agree(int code);
+
+/* From rank 0 to all. */
+void comm_bcast(void *data, size_t bytes);
+
+void comm_barrier(void);
+
+#endif

@@ -1,0 +1,76 @@
+/* mem.c - see mem.h. malloc is called in this file only. */
+#include "base/mem.h"
+
+#include "base/comm.h"
+#include "base/status.h"
+
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+enum { MEM_ALIGN = 64 };
+
+static void mem_give_up(size_t count, size_t size)
+{
+    fprintf(stderr, "bulla: error: out of memory: could not get %zu x %zu bytes\n", count, size);
+    comm_abort(STATUS_RUN);
+}
+
+void *mem_new(size_t count, size_t size)
+{
+    if (size && count > (SIZE_MAX - MEM_ALIGN) / size) mem_give_up(count, size);
+    size_t bytes = count * size;
+    bytes = (bytes / MEM_ALIGN + 1) * MEM_ALIGN;
+    void *block = aligned_alloc(MEM_ALIGN, bytes);
+    if (!block) mem_give_up(count, size);
+    memset(block, 0, bytes);
+    return block;
+}
+
+void *mem_grow(void *block, size_t old_count, size_t new_count, size_t size)
+{
+    void *larger = mem_new(new_count, size);
+    if (block) memcpy(larger, block, (old_count < new_count ? old_count : new_count) * size);
+    free(block);
+    return larger;
+}
+
+char *mem_text(const char *text)
+{
+    return text ? mem_text_n(text, strlen(text)) : NULL;
+}
+
+char *mem_text_n(const char *text, size_t length)
+{
+    char *copy = mem_new(length + 1, 1);
+    memcpy(copy, text, length);
+    return copy;
+}
+
+char *mem_print(const char *format, ...)
+{
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    int length = vsnprintf(NULL, 0, format, args);
+    va_end(args);
+    char *text = mem_new((size_t)length + 1, 1);
+    vsnprintf(text, (size_t)length + 1, format, again);
+    va_end(again);
+    return text;
+}
+
+void mem_free(void *block)
+{
+    free(block);
+}
+
+double mem_peak(void)
+{
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * (double)usage.ru_maxrss;
+}

@@ -1,0 +1,40 @@
+/* status.c - the one place where the text of the last failure lives.
+ *
+ * One process is one thread of control (MPI ranks, no threads), so a static buffer serves. */
+#include "base/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static char status_buffer[4096];
+
+int status_fail(int code, const char *format, ...)
+{
+    char text[sizeof status_buffer]; /* the arguments may point into the old message */
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    memcpy(status_buffer, text, sizeof text);
+    return code;
+}
+
+int status_wrap(int code, const char *format, ...)
+{
+    char head[1024], text[sizeof status_buffer];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(head, sizeof head, format, args);
+    va_end(args);
+    size_t length = strlen(head);
+    memcpy(text, head, length);
+    snprintf(text + length, sizeof text - length, "%s", status_buffer);
+    memcpy(status_buffer, text, sizeof text);
+    return code;
+}
+
+const char *status_text(void)
+{
+    return status_buffer;
+}

@@ -1,0 +1,39 @@
+/* shape.h - regions, and how much of a cell they cover.
+ *
+ * A shape is a tree: primitives (box, half-space, sphere, cylinder, ellipsoid, ring, polygon)
+ * and complement, union, intersection of shapes. It knows a signed level function (negative
+ * inside, never larger in magnitude than the distance to its surface), from which the covered
+ * fraction of a cell follows by subdivision and, in the last boxes, the exact volume under a
+ * plane (Scardovelli & Zaleski 2000, J. Comput. Phys. 164, 228). */
+#ifndef SHAPE_H
+#define SHAPE_H
+
+enum shape_type {
+    SHAPE_EVERYWHERE, SHAPE_BOX, SHAPE_HALF_SPACE, SHAPE_SPHERE, SHAPE_CYLINDER, SHAPE_ELLIPSOID, SHAPE_RING,
+    SHAPE_POLYGON, SHAPE_COMPLEMENT, SHAPE_UNION, SHAPE_INTERSECTION,
+};
+
+struct shape {
+    enum shape_type type;
+    double a[3];          /* box: lower; half-space: a point of the plane; others: centre (cylinder: one end) */
+    double b[3];          /* box: upper; half-space: unit normal, pointing INTO the region; cylinder: other end; ellipsoid: half-axes */
+    double radius, inner; /* sphere, cylinder; ring (2D or shell): outer radius and inner radius */
+    unsigned n;           /* vertices of the polygon, or number of parts */
+    double (*vertex)[2];  /* polygon in the (x, y) plane, either orientation */
+    struct shape **parts; /* complement (1), union, intersection */
+};
+
+/* Signed level of a point: < 0 inside, |level| <= distance to the surface. */
+double shape_level(const struct shape *shape, const double x[3]);
+
+/* Is the point inside (surface included)? NULL shape: everywhere. */
+int shape_contains(const struct shape *shape, const double x[3]);
+
+/* Fraction of a cell's volume that the shape covers, 0 <= f <= 1, with the metric of the
+ * geometry (beta 0: uniform, 1: weight x, 2: weight x^2). `dim` axes are used; exact 0 and 1
+ * where the cell is clearly outside or inside. NULL shape: 1. */
+double shape_fraction(const struct shape *shape, const double lower[3], const double upper[3], int dim, int beta);
+
+void shape_free(struct shape *shape); /* parts too; NULL is fine */
+
+#endif

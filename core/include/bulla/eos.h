@@ -1,0 +1,67 @@
+/* bulla/eos.h - functions of a module of kind "eos".
+ *
+ * One material's equation of state, hydrodynamic part only (elastic energy is added by
+ * core). Coordinates are density rho and pressure p. Every call is a batch over n points:
+ * [any thread; pure; no allocation; n >= 1; arrays do not overlap; unit stride; SI units].
+ * The value at a point must not depend on its place in the row or on n.
+ *
+ * Well-posed means, for every rho > 0 and p > p_min(rho) that a solver can produce:
+ * d(rho_e)/dp > 0, c2 > 0, T > 0, nothing infinite. Outside its stated range a module
+ * continues its formulas so that this still holds; a state at or below p_min shows in the
+ * value (c2 <= 0), never by a trap.
+ */
+#ifndef BULLA_EOS_H
+#define BULLA_EOS_H
+
+#include "bulla/module.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Where the formulas are backed by data; beyond it the continuation rules. */
+struct bulla_eos_range {
+    double rho_min, rho_max; /* kg/m3 */
+    double p_min, p_max;     /* Pa */
+    double T_min, T_max;     /* K */
+};
+
+struct bulla_eos {
+    uint32_t size; /* sizeof(struct bulla_eos) */
+
+    /* The hot call: energy per volume rho e [J/m3] and squared sound speed c^2 [m2/s2]. */
+    void (*state)(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
+                  double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT c2);
+
+    /* Derivatives of the energy per volume: d(rho e)/dp at constant rho [1], d(rho e)/drho at constant p [J/kg]. */
+    void (*derivatives)(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
+                        double *BULLA_RESTRICT de_dp, double *BULLA_RESTRICT de_drho);
+
+    /* Temperature [K]. */
+    void (*temperature)(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
+                        double *BULLA_RESTRICT T);
+
+    /* Specific entropy [J/(kg K)], up to a constant. */
+    void (*entropy)(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
+                    double *BULLA_RESTRICT s);
+
+    /* Density from pressure and temperature [kg/m3]: initial states. */
+    void (*density)(const void *self, size_t n, const double *BULLA_RESTRICT p, const double *BULLA_RESTRICT T,
+                    double *BULLA_RESTRICT rho);
+
+    /* Lowest pressure at which the state is still well-posed [Pa]. */
+    void (*p_min)(const void *self, size_t n, const double *BULLA_RESTRICT rho, double *BULLA_RESTRICT p);
+
+    /* Optional (NULL: core iterates): rho e = a p + b at fixed rho, exactly the function that
+     * `state` gives. With it on all materials core closes the mixture pressure in closed form. */
+    void (*linear)(const void *self, size_t n, const double *BULLA_RESTRICT rho, double *BULLA_RESTRICT a,
+                   double *BULLA_RESTRICT b);
+
+    /* Validity of the formulas as given. */
+    void (*range)(const void *self, struct bulla_eos_range *ret_range);
+};
+
+#ifdef __cplusplus
+}
+#endif
+#endif

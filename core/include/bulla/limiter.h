@@ -1,0 +1,27 @@
+/* bulla/limiter.h - functions of a module of kind "limiter".
+ *
+ * A limiter turns the two one-sided differences of a cell into one slope (per cell width).
+ * [any thread; pure; no allocation; n >= 1; arrays do not overlap; unit stride]
+ * Contract, relied on by core to keep face values inside the range of the neighbours:
+ *   slope = 0 where the differences have opposite signs or one of them is 0,
+ *   |slope| <= 2 min(|d_minus|, |d_plus|), and slope(-a, -b) = -slope(a, b).
+ */
+#ifndef BULLA_LIMITER_H
+#define BULLA_LIMITER_H
+
+#include "bulla/module.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct bulla_limiter {
+    uint32_t size; /* sizeof(struct bulla_limiter) */
+    void (*slope)(const void *self, size_t n, const double *BULLA_RESTRICT d_minus,
+                  const double *BULLA_RESTRICT d_plus, double *BULLA_RESTRICT slope);
+};
+
+#ifdef __cplusplus
+}
+#endif
+#endif

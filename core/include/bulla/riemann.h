@@ -1,0 +1,62 @@
+/* bulla/riemann.h - functions of a module of kind "riemann".
+ *
+ * A Riemann solver gets the states left and right of n faces, completed by core, in a frame
+ * whose first velocity component is normal to the face, and returns the fluxes through the
+ * faces and the two face values that the non-conservative terms need.
+ * [any thread; pure; no allocation; n >= 1; arrays do not overlap; unit stride; SI units]
+ *
+ * Contract. alpha is advected: its flux, formed by core, is alpha* u*, with the u* that also
+ * stands in div u; so a solver returns alpha* (bounded by the two sides, summing to 1) and u*.
+ * c is the frozen sound speed of the mixture, c_f^2 = sum_l Y_l c_l^2: alpha is frozen across
+ * the acoustic waves, and Wood's speed here makes water-air flows fail.
+ * At uniform p and u on both sides the momentum flux must be (rho u) u + p, u* = u and the
+ * energy flux u (rho E* + p), each to round-off, for any jump of alpha and densities.
+ */
+#ifndef BULLA_RIEMANN_H
+#define BULLA_RIEMANN_H
+
+#include "bulla/module.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One side of the faces. Arrays of n doubles. */
+struct bulla_side {
+    const double *rho;          /* mixture density, sum of m_l */
+    const double *p;            /* pressure */
+    const double *rho_E;        /* total energy per volume */
+    const double *c;            /* frozen sound speed */
+    const double *const *u;     /* [n_velocity] velocity; u[0] is normal to the face */
+    const double *const *m;     /* [n_material] partial densities alpha_l rho_l */
+    const double *const *alpha; /* [n_alpha] volume fractions */
+};
+
+/* What goes through the faces. Arrays of n doubles, written by the solver. */
+struct bulla_flux {
+    double *const *m;        /* [n_material] mass fluxes */
+    double *const *momentum; /* [n_velocity] momentum fluxes, [0] normal (with pressure) */
+    double *rho_E;           /* energy flux */
+    double *u;               /* face velocity u*_n */
+    double *const *alpha;    /* [n_alpha] face volume fractions alpha* */
+};
+
+struct bulla_faces {
+    size_t n;
+    unsigned n_material; /* >= 1 */
+    unsigned n_alpha;    /* n_material, or 0 when there is one material */
+    unsigned n_velocity; /* 1, 2 or 3 */
+    struct bulla_side left, right;
+    struct bulla_flux flux;
+    double *work[4]; /* scratch of n doubles each */
+};
+
+struct bulla_riemann {
+    uint32_t size; /* sizeof(struct bulla_riemann) */
+    void (*solve)(const void *self, const struct bulla_faces *faces);
+};
+
+#ifdef __cplusplus
+}
+#endif
+#endif

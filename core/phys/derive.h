@@ -1,0 +1,31 @@
+/* derive.h - named fields of a state, for snapshots, probes, histories and pictures. */
+#ifndef DERIVE_H
+#define DERIVE_H
+
+#include "mesh/mesh.h"
+#include "phys/model.h"
+
+struct derive {
+    char name[SCENE_NAME];
+    const char *unit;      /* SI, "1" for pure numbers */
+    unsigned components;   /* 1, or 3 for velocity and vorticity (always three: unused ones are 0) */
+    int what, index;       /* how derive.c finds it again: quantity and material or axis */
+    double scale;          /* set by derive_prepare where the field needs a global value (schlieren) */
+};
+
+/* Looks a name up. Unknown: STATUS_CASE, the message lists the nearest. Component names
+ * (velocity_x) are fields of one component. */
+int derive_find(const struct model *model, const char *name, struct derive *ret_field);
+
+/* NULL-terminated list of all names this scene offers; valid as long as the model. */
+const char *const *derive_names(const struct model *model);
+
+/* Once per output time, before tiles are derived: global values of the field. Collective. */
+void derive_prepare(const struct model *model, const struct mesh *mesh, double t, struct derive *field);
+
+/* Values in the cells of a local tile: out[component][cell], cells x fastest. Not collective
+ * (after a completed step all neighbour data is at hand). */
+void derive_tile(const struct model *model, const struct mesh *mesh, int level, unsigned local, double t,
+                 const struct derive *field, double *out);
+
+#endif
