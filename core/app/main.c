@@ -1,0 +1,5 @@
+/* main.c - where the program starts. */
+int main(void)
+{
+    return 0;
+}
