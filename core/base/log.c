@@ -44,13 +44,13 @@ static void log_put(FILE *stream, const char *head, const char *format, va_list 
     va_end(copy);
 }
 
-#define LOG_BOTH(terminal, head)              \
-    do {                                      \
-        va_list args;                         \
-        va_start(args, format);               \
-        log_put(terminal, head, format, args); \
+#define LOG_BOTH(terminal, head)                 \
+    do {                                         \
+        va_list args;                            \
+        va_start(args, format);                  \
+        log_put(terminal, head, format, args);   \
         log_put(log_stream, head, format, args); \
-        va_end(args);                         \
+        va_end(args);                            \
     } while (0)
 
 void log_note(const char *format, ...)

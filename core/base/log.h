@@ -12,9 +12,9 @@ void log_close(void);
 void log_set_quiet(bool quiet);
 
 /* A line without its newline; printf formats. */
-void log_note(const char *format, ...) __attribute__((format(printf, 1, 2)));    /* terminal + file */
-void log_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));    /* "warning: " + line */
-void log_error(const char *format, ...) __attribute__((format(printf, 1, 2)));   /* "error: " + line */
-void log_file(const char *format, ...) __attribute__((format(printf, 1, 2)));    /* file only */
+void log_note(const char *format, ...) __attribute__((format(printf, 1, 2)));  /* terminal + file */
+void log_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));  /* "warning: " + line */
+void log_error(const char *format, ...) __attribute__((format(printf, 1, 2))); /* "error: " + line */
+void log_file(const char *format, ...) __attribute__((format(printf, 1, 2)));  /* file only */
 
 #endif

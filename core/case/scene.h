@@ -23,11 +23,11 @@ struct scene_value {
 };
 
 enum scene_boundary_type {
-    SCENE_AXIS,        /* mirror, at r = 0 */
-    SCENE_SYMMETRY,    /* mirror */
-    SCENE_REFLECTING,  /* mirror: rigid slip wall */
-    SCENE_NO_SLIP,     /* mirror with all velocities reversed */
-    SCENE_OUTFLOW,     /* zero gradient */
+    SCENE_AXIS,       /* mirror, at r = 0 */
+    SCENE_SYMMETRY,   /* mirror */
+    SCENE_REFLECTING, /* mirror: rigid slip wall */
+    SCENE_NO_SLIP,    /* mirror with all velocities reversed */
+    SCENE_OUTFLOW,    /* zero gradient */
     SCENE_NONREFLECTING,
     SCENE_PERIODIC,
     SCENE_INFLOW,
@@ -50,13 +50,13 @@ struct scene_boundary {
     /* incoming-wave */
     enum scene_pulse pulse;
     double amplitude, frequency, decay, cycles, centre, width, delay; /* Pa, Hz, 1/s, 1, s, s, s */
-    bool compressive_only;           /* keep only p' > 0 up to the first zero (model.md 8) */
-    double *series_t, *series_p;     /* n_series pairs, t ascending */
+    bool compressive_only;       /* keep only p' > 0 up to the first zero (model.md 8) */
+    double *series_t, *series_p; /* n_series pairs, t ascending */
     unsigned n_series;
     const struct script *script;
     /* inflow: a fixed state */
-    double *fractions;               /* [n_material] */
-    struct scene_value *density;     /* [n_material] per material */
+    double *fractions;           /* [n_material] */
+    struct scene_value *density; /* [n_material] per material */
     struct scene_value velocity[SCENE_AXES];
 };
 
@@ -68,16 +68,16 @@ struct scene_material {
 /* One layer of paint. Layers are applied in order; a later one covers an earlier one by its
  * sub-cell volume fraction. */
 struct scene_layer {
-    struct shape *shape;           /* region; NULL: everywhere */
-    bool has_material;             /* else an overlay: only the given fields change */
-    double *fractions;             /* [n_material], sum 1 */
-    struct scene_value *density;   /* [n_material]; not given where the fraction is 0 or temperature is given */
+    struct shape *shape;         /* region; NULL: everywhere */
+    bool has_material;           /* else an overlay: only the given fields change */
+    double *fractions;           /* [n_material], sum 1 */
+    struct scene_value *density; /* [n_material]; not given where the fraction is 0 or temperature is given */
     struct scene_value temperature;
     struct scene_value pressure;
     struct scene_value velocity[SCENE_AXES];
-    const struct script *script;   /* `lua:` layer: returns a table of named fields of (x, y, z) */
-    double centre[SCENE_AXES];     /* r in expressions is measured from here */
-    int line;                      /* in the case file, for messages */
+    const struct script *script; /* `lua:` layer: returns a table of named fields of (x, y, z) */
+    double centre[SCENE_AXES];   /* r in expressions is measured from here */
+    int line;                    /* in the case file, for messages */
 };
 
 enum scene_closure { SCENE_KAPILA, SCENE_ALLAIRE };
@@ -90,18 +90,30 @@ struct scene_every {
 };
 
 enum scene_measure {
-    SCENE_VOLUME, SCENE_MASS, SCENE_CENTROID, SCENE_MIN, SCENE_MAX, SCENE_MEAN, SCENE_INTEGRAL, SCENE_TOTAL,
-    SCENE_PENETRATION, SCENE_EQUIVALENT_RADIUS, SCENE_JET_SPEED, SCENE_ISOSURFACE_MEAN, SCENE_VALUE,
+    SCENE_VOLUME,
+    SCENE_MASS,
+    SCENE_CENTROID,
+    SCENE_MIN,
+    SCENE_MAX,
+    SCENE_MEAN,
+    SCENE_INTEGRAL,
+    SCENE_TOTAL,
+    SCENE_PENETRATION,
+    SCENE_EQUIVALENT_RADIUS,
+    SCENE_JET_SPEED,
+    SCENE_ISOSURFACE_MEAN,
+    SCENE_VALUE,
 };
 
 struct scene_column {
-    char name[SCENE_NAME];       /* history.csv header; an identifier */
+    char name[SCENE_NAME]; /* history.csv header; an identifier */
     enum scene_measure measure;
-    int material;                /* volume, mass, centroid, penetration, equivalent-radius, ...: the material; else -1 */
-    char field[SCENE_NAME];      /* min, max, mean, integral, isosurface-mean: the field; total: mass | momentum_x.. | energy */
-    int in;                      /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
-    struct shape *where;         /* restrict to a region, or NULL */
-    int along;                   /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
+    int material; /* volume, mass, centroid, penetration, equivalent-radius, ...: the material; else -1 */
+    char
+        field[SCENE_NAME]; /* min, max, mean, integral, isosurface-mean: a field; total: mass | momentum_x.. | energy */
+    int in;                /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
+    struct shape *where;   /* restrict to a region, or NULL */
+    int along;             /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
     const struct script *script; /* value: an expression of other columns */
 };
 
@@ -113,58 +125,58 @@ struct scene_probe {
 };
 
 struct scene_expect {
-    char *value;                     /* expression over history and probe columns; NULL for a norm */
+    char *value; /* expression over history and probe columns; NULL for a norm */
     bool has_at_most, has_at_least, has_equals;
     double at_most, at_least, equals, tolerance, relative; /* equals: |v - equals| <= tolerance + relative |equals| */
     /* norm against a reference CSV */
-    char *reference;                 /* path, resolved against the case file */
-    char *norm;                      /* "L1", "L2", "Linf" */
-    char *field;                     /* a field of the final state (profile along x), or a history/probe column */
-    char *column;                    /* column of the CSV */
-    char *coordinate;                /* column of the CSV that holds x or t */
-    double scale;                    /* the norm is divided by it; 1 by default */
-    char *label;                     /* how the report calls it */
+    char *reference;  /* path, resolved against the case file */
+    char *norm;       /* "L1", "L2", "Linf" */
+    char *field;      /* a field of the final state (profile along x), or a history/probe column */
+    char *column;     /* column of the CSV */
+    char *coordinate; /* column of the CSV that holds x or t */
+    double scale;     /* the norm is divided by it; 1 by default */
+    char *label;      /* how the report calls it */
     int line;
 };
 
 struct scene {
-    char *path, *name;               /* of the case file; base name without extension */
+    char *path, *name; /* of the case file; base name without extension */
     char *title, *about, *cite;
-    char *resolved;                  /* the fully resolved case as YAML text */
-    int dim;                         /* 1, 2, 3 */
+    char *resolved; /* the fully resolved case as YAML text */
+    int dim;        /* 1, 2, 3 */
     enum scene_geometry geometry;
     double lower[SCENE_AXES], upper[SCENE_AXES];
-    int cells[SCENE_AXES];           /* 1 beyond dim */
+    int cells[SCENE_AXES];                         /* 1 beyond dim */
     struct scene_boundary boundary[SCENE_AXES][2]; /* [axis][0 lower, 1 upper] */
-    int levels, tile;                /* mesh; tile 0: chosen by the mesh */
+    int levels, tile;                              /* mesh; tile 0: chosen by the mesh */
     unsigned n_material;
     struct scene_material material[SCENE_MATERIALS];
     unsigned n_layer;
     struct scene_layer *layers;
     enum scene_closure closure;
     struct instance riemann, limiter;
-    double cfl, dt_fixed;            /* dt_fixed 0: from cfl */
+    double cfl, dt_fixed; /* dt_fixed 0: from cfl */
     enum scene_guard guard;
-    double until;                    /* s */
-    long max_steps;                  /* 0: no limit */
-    char *directory;                 /* output directory, resolved against the working directory */
+    double until;    /* s */
+    long max_steps;  /* 0: no limit */
+    char *directory; /* output directory, resolved against the working directory */
     struct scene_every snapshots, history, probes_every, checkpoints;
     int checkpoints_keep;
     char (*snapshot_fields)[SCENE_NAME];
     unsigned n_snapshot_field;
-    bool snapshot_double;            /* float64 instead of float32 */
+    bool snapshot_double; /* float64 instead of float32 */
     unsigned n_column, n_probe, n_expect;
     struct scene_column *columns;
     struct scene_probe *probes;
     struct scene_expect *expects;
-    struct script_host *host;        /* the Lua state all scripts live in */
+    struct script_host *host; /* the Lua state all scripts live in */
 };
 
 /* What the command line adds to a case. */
 struct scene_options {
-    const char *const *sets;         /* NULL-terminated "path=value" list, or NULL */
-    const char *variant;             /* or NULL */
-    const char *directory;           /* -o, or NULL */
+    const char *const *sets; /* NULL-terminated "path=value" list, or NULL */
+    const char *variant;     /* or NULL */
+    const char *directory;   /* -o, or NULL */
 };
 
 /* Reads, checks and resolves a case file. All errors of the file are printed (to stderr, or

@@ -9,14 +9,23 @@
 #define SHAPE_H
 
 enum shape_type {
-    SHAPE_EVERYWHERE, SHAPE_BOX, SHAPE_HALF_SPACE, SHAPE_SPHERE, SHAPE_CYLINDER, SHAPE_ELLIPSOID, SHAPE_RING,
-    SHAPE_POLYGON, SHAPE_COMPLEMENT, SHAPE_UNION, SHAPE_INTERSECTION,
+    SHAPE_EVERYWHERE,
+    SHAPE_BOX,
+    SHAPE_HALF_SPACE,
+    SHAPE_SPHERE,
+    SHAPE_CYLINDER,
+    SHAPE_ELLIPSOID,
+    SHAPE_RING,
+    SHAPE_POLYGON,
+    SHAPE_COMPLEMENT,
+    SHAPE_UNION,
+    SHAPE_INTERSECTION,
 };
 
 struct shape {
     enum shape_type type;
-    double a[3];          /* box: lower; half-space: a point of the plane; others: centre (cylinder: one end) */
-    double b[3];          /* box: upper; half-space: unit normal, pointing INTO the region; cylinder: other end; ellipsoid: half-axes */
+    double a[3]; /* box: lower; half-space: a point of the plane; others: centre (cylinder: one end) */
+    double b[3]; /* box: upper; half-space: unit normal INTO the region; cylinder: other end; ellipsoid: half-axes */
     double radius, inner; /* sphere, cylinder; ring (2D or shell): outer radius and inner radius */
     unsigned n;           /* vertices of the polygon, or number of parts */
     double (*vertex)[2];  /* polygon in the (x, y) plane, either orientation */

@@ -32,10 +32,10 @@ struct neighbour {
 struct halo;
 
 struct level {
-    double h[3];      /* cell size [m]; 1 beyond dim */
-    int extent[3];    /* tiles per axis */
+    double h[3];   /* cell size [m]; 1 beyond dim */
+    int extent[3]; /* tiles per axis */
     unsigned n_tile, first, n_local;
-    struct tile *tiles;                       /* [n_tile], replicated, Morton order */
+    struct tile *tiles;                         /* [n_tile], replicated, Morton order */
     struct neighbour (*neighbours)[MESH_FACES]; /* [n_local] */
     double **u_old, **u_new; /* [n_local] conserved at t^n and the one being made: [n_field][n^d], 64-byte aligned */
     double **w;              /* [n_local] primitives of the last completed stage: [n_prim][n^d] */
@@ -43,11 +43,11 @@ struct level {
 };
 
 struct mesh {
-    int dim, beta;           /* beta: 0 cartesian, 1 axisymmetric, 2 spherical */
+    int dim, beta; /* beta: 0 cartesian, 1 axisymmetric, 2 spherical */
     double lower[3], upper[3];
-    int n[3];                /* cells of a tile per axis: n, or 1 beyond dim */
-    size_t n_cell;           /* cells of a tile */
-    unsigned n_field;        /* evolved fields */
+    int n[3];         /* cells of a tile per axis: n, or 1 beyond dim */
+    size_t n_cell;    /* cells of a tile */
+    unsigned n_field; /* evolved fields */
     int n_level;
     struct level levels[MESH_LEVELS];
     bool periodic[3];

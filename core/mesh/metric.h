@@ -17,7 +17,7 @@ enum { METRIC_CELLS = 256 }; /* most cells of a tile along an axis */
 struct metric {
     double area[METRIC_CELLS + 1]; /* face i is the lower face of cell i */
     double volume[METRIC_CELLS];
-    double centre[METRIC_CELLS];   /* middle of the cell along axis 0 */
+    double centre[METRIC_CELLS]; /* middle of the cell along axis 0 */
 };
 
 void metric_of_tile(const struct mesh *mesh, const struct level *level, const struct tile *tile, struct metric *ret);

@@ -7,10 +7,10 @@
 
 struct derive {
     char name[SCENE_NAME];
-    const char *unit;      /* SI, "1" for pure numbers */
-    unsigned components;   /* 1, or 3 for velocity and vorticity (always three: unused ones are 0) */
-    int what, index;       /* how derive.c finds it again: quantity and material or axis */
-    double scale;          /* set by derive_prepare where the field needs a global value (schlieren) */
+    const char *unit;    /* SI, "1" for pure numbers */
+    unsigned components; /* 1, or 3 for velocity and vorticity (always three: unused ones are 0) */
+    int what, index;     /* how derive.c finds it again: quantity and material or axis */
+    double scale;        /* set by derive_prepare where the field needs a global value (schlieren) */
 };
 
 /* Looks a name up. Unknown: STATUS_CASE, the message lists the nearest. Component names

@@ -29,8 +29,8 @@ struct model {
     const void *limiter_self;
     const struct bulla_riemann *riemann;
     const void *riemann_self;
-    char **names;                    /* derived field names, NULL-terminated (derive.h) */
-    char **field_names;              /* names of the evolved fields, for messages and ledgers */
+    char **names;       /* derived field names, NULL-terminated (derive.h) */
+    char **field_names; /* names of the evolved fields, for messages and ledgers */
 };
 
 struct model *model_new(const struct scene *scene);

@@ -8,19 +8,19 @@
 
 /* Everything the guard did, and the work done; totals over all ranks. */
 struct state_counts {
-    long long cells;     /* cell-stages computed */
-    long long fallback;  /* cell-steps redone with first-order fluxes */
-    long long relaxed;   /* cell-stages whose volume fractions came from pressure relaxation */
-    long long clipped;   /* cell-stages with a volume fraction clipped into its range */
-    long long retries;   /* steps repeated with half the time step */
+    long long cells;    /* cell-stages computed */
+    long long fallback; /* cell-steps redone with first-order fluxes */
+    long long relaxed;  /* cell-stages whose volume fractions came from pressure relaxation */
+    long long clipped;  /* cell-stages with a volume fraction clipped into its range */
+    long long retries;  /* steps repeated with half the time step */
 };
 
 struct state {
     const struct scene *scene;
     struct mesh *mesh;
     struct model *model;
-    double t, dt;  /* time reached and the last step's size [s] */
-    long step;     /* steps done */
+    double t, dt; /* time reached and the last step's size [s] */
+    long step;    /* steps done */
     struct state_counts counts;
     double dt_shrink; /* 1, or the factor that retries left on the time step */
 };

@@ -17,8 +17,8 @@ extern "C" {
 
 struct bulla_limiter {
     uint32_t size; /* sizeof(struct bulla_limiter) */
-    void (*slope)(const void *self, size_t n, const double *BULLA_RESTRICT d_minus,
-                  const double *BULLA_RESTRICT d_plus, double *BULLA_RESTRICT slope);
+    void (*slope)(const void *self, size_t n, const double *BULLA_RESTRICT d_minus, const double *BULLA_RESTRICT d_plus,
+                  double *BULLA_RESTRICT slope);
 };
 
 #ifdef __cplusplus

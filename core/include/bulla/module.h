@@ -33,8 +33,7 @@ extern "C" {
 /* Builds a kernel for several instruction sets; the loader picks one at run time. All
  * variants give bitwise equal results (no contraction, no reassociation). */
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(BULLA_NO_CLONES)
-#define BULLA_KERNEL \
-    __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#define BULLA_KERNEL __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
 #define BULLA_KERNEL
 #endif
@@ -73,8 +72,8 @@ struct bulla_preset {
 /* Services that core offers to a module while it is opened. */
 struct bulla_host {
     uint32_t size;
-    void (*say)(const char *text);             /* a line for the log */
-    void (*fail)(const char *text);            /* the reason why `open` is about to return non-zero */
+    void (*say)(const char *text);  /* a line for the log */
+    void (*fail)(const char *text); /* the reason why `open` is about to return non-zero */
 };
 
 struct bulla_module {

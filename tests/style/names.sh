@@ -1,0 +1,23 @@
+# Names: what a file offers to others begins with the file's name, so that the name tells the room.
+set -eu
+command -v ctags >/dev/null || { echo "skipped: no ctags"; exit 77; }
+cd "$BULLA_SOURCE"
+find core modules -name '*.[ch]' | sort >"$OLDPWD/files"
+[ -s "$OLDPWD/files" ]
+ctags -f - --languages=C --langmap=C:.c.h --kinds-C=fv --fields=+fk-t --sort=no -L "$OLDPWD/files" | awk -F '\t' '
+    {
+        file = $2
+        header = file ~ /\.h$/
+        local = 0
+        for (i = 4; i <= NF; i++) if ($i ~ /^file:/) local = 1
+        room = file
+        sub(/.*\//, "", room)
+        sub(/\.[ch]$/, "", room)
+        if (local && !header) next
+        if ($1 == "bulla_module") next
+        if ($1 != room && index($1, room "_") != 1) {
+            print file ": " $1 " should begin with " room "_ (or be static)"
+            bad = 1
+        }
+    }
+    END { exit bad }'
