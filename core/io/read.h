@@ -21,15 +21,15 @@ struct snapshot_field {
 /* The cells of a snapshot do not overlap and fill the domain; their order is the file's: tiles along
  * the Morton curve, within a tile x fastest. A mesh of one level has equal cells. */
 struct snapshot {
-    char *title, *name;         /* of the case; name: base name of the case file */
-    char *version;              /* of the bulla that wrote it */
-    double time;                /* [s] */
+    char *title, *name; /* of the case; name: base name of the case file */
+    char *version;      /* of the bulla that wrote it */
+    double time;        /* [s] */
     long step;
-    int dim;                    /* 1, 2, 3 */
-    int beta;                   /* 0 cartesian, 1 axisymmetric (x = r, y = z), 2 spherical (x = r) */
-    double domain[2][3];        /* [0] lower, [1] upper corner [m]; 0 beyond dim */
+    int dim;             /* 1, 2, 3 */
+    int beta;            /* 0 cartesian, 1 axisymmetric (x = r, y = z), 2 spherical (x = r) */
+    double domain[2][3]; /* [0] lower, [1] upper corner [m]; 0 beyond dim */
     size_t n_cell;
-    double (*lower)[3];         /* [n_cell] corners of each cell [m]; 0 beyond dim */
+    double (*lower)[3]; /* [n_cell] corners of each cell [m]; 0 beyond dim */
     double (*upper)[3];
     unsigned n_material;
     char (*materials)[READ_NAME];
