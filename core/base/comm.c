@@ -2,9 +2,12 @@
  * writers in io (file access) only. */
 #include "base/comm.h"
 
+#include "base/mem.h"
 #include "base/status.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static bool comm_is_active;
 
@@ -79,10 +82,37 @@ void comm_sum_counts(long long *values, int count)
     comm_reduce(values, count, MPI_LONG_LONG, MPI_SUM);
 }
 
+/* Copies the recorded message of the lowest rank with `has` to all. */
+static void comm_share_message(bool has)
+{
+    char text[4096];
+    int source = has ? comm_rank() : comm_size();
+    comm_reduce(&source, 1, MPI_INT, MPI_MIN);
+    snprintf(text, sizeof text, "%s", status_text());
+    if (comm_is_active) MPI_Bcast(text, (int)sizeof text, MPI_CHAR, source, MPI_COMM_WORLD);
+    if (source != comm_rank()) status_fail(STATUS_OK, "%s", text);
+}
+
 int comm_agree(int code)
 {
-    comm_reduce(&code, 1, MPI_INT, MPI_MAX);
-    return code;
+    int largest = code;
+    comm_reduce(&largest, 1, MPI_INT, MPI_MAX);
+    if (largest) comm_share_message(code == largest);
+    return largest;
+}
+
+void comm_join(const double *values, int count, double *ret_all)
+{
+    if (!comm_is_active) {
+        memcpy(ret_all, values, (size_t)count * sizeof *values);
+        return;
+    }
+    int size = comm_size();
+    int *counts = mem_new(2 * (size_t)size, sizeof *counts), *starts = counts + size;
+    MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, MPI_COMM_WORLD);
+    for (int rank = 1; rank < size; rank++) starts[rank] = starts[rank - 1] + counts[rank - 1];
+    MPI_Allgatherv(values, count, MPI_DOUBLE, ret_all, counts, starts, MPI_DOUBLE, MPI_COMM_WORLD);
+    mem_free(counts);
 }
 
 void comm_bcast(void *data, size_t bytes)

@@ -29,8 +29,12 @@ void comm_min(double *values, int count);
 void comm_max(double *values, int count);
 void comm_sum_counts(long long *values, int count);
 
-/* The largest code of all ranks: a failure on one is a failure on all. */
+/* The largest code of all ranks: a failure on one is a failure on all. The recorded message
+ * (status.h) of the first rank that has this code becomes everybody's. */
 int comm_agree(int code);
+
+/* Joins the `count` values of each rank, in rank order, into `ret_all` on every rank. */
+void comm_join(const double *values, int count, double *ret_all);
 
 /* From rank 0 to all. */
 void comm_bcast(void *data, size_t bytes);
