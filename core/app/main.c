@@ -1,5 +1,12 @@
-/* main.c - where the program starts. */
-int main(void)
+/* main.c - where the program starts: ranks, one command, the exit code. */
+#include "app/command.h"
+#include "app/launch.h"
+#include "base/comm.h"
+
+int main(int argc, char **argv)
 {
-    return 0;
+    comm_init(&argc, &argv);
+    int code = launch_report(command_main(argc, argv));
+    comm_done();
+    return code;
 }

@@ -1,0 +1,125 @@
+/* command.c - the one table that drives dispatch, help and usage errors.
+ *
+ * What an option means is said here, what it does in the command's own file. */
+#include "app/command.h"
+
+#include "app/cli.h"
+#include "base/comm.h"
+#include "base/log.h"
+#include "base/status.h"
+#include "base/text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static int command_help(const struct cli_given *given);
+static int command_version(const struct cli_given *given);
+
+static const struct cli_command command_table[] = {
+    {"version", "", "Version of the program.", NULL, 0, 0, command_version, NULL},
+    {"help", "[COMMAND]", "This list, or the help of one command.", NULL, 0, 1, command_help, NULL},
+};
+
+enum { COMMANDS = sizeof command_table / sizeof *command_table };
+
+/* Planned, not there: one clear sentence instead of "unknown". */
+static const char *const command_later[] = {"sweep", "new", "module", NULL};
+static const char *const command_launcher[] = {"setup", "test", NULL};
+
+static const struct cli_command *command_find(const char *name)
+{
+    for (size_t i = 0; i < COMMANDS; i++)
+        if (!strcmp(command_table[i].name, name)) return &command_table[i];
+    return NULL;
+}
+
+static bool command_listed(const char *name, const char *const *names)
+{
+    for (; *names; names++)
+        if (!strcmp(name, *names)) return true;
+    return false;
+}
+
+static int command_unknown(const char *name)
+{
+    if (command_listed(name, command_later))
+        return status_fail(STATUS_CASE, "bulla %s is not part of version " BULLA_VERSION, name);
+    if (command_listed(name, command_launcher))
+        return status_fail(STATUS_CASE, "%s belongs to the launcher: ./bulla %s in the source tree", name, name);
+    const char *names[COMMANDS + 1] = {NULL};
+    for (size_t i = 0; i < COMMANDS; i++) names[i] = command_table[i].name;
+    const char *near = text_nearest(name, names);
+    if (near) return status_fail(STATUS_CASE, "there is no command '%s'; did you mean '%s'?", name, near);
+    return status_fail(STATUS_CASE, "there is no command '%s'; `bulla help` lists them", name);
+}
+
+static void command_list(FILE *stream)
+{
+    fputs("bulla COMMAND ...: simulates bubbles, shocks and soft materials from case files\n\n", stream);
+    for (size_t i = 0; i < COMMANDS; i++) {
+        char left[64];
+        snprintf(left, sizeof left, "%s %s", command_table[i].name, command_table[i].words);
+        fprintf(stream, "  %-28s %s\n", left, command_table[i].doc);
+    }
+    fputs("\nFrom the source tree also: ./bulla setup (packages and build), ./bulla test (all tests).\n"
+          "`bulla COMMAND -h` has the options of a command.\n"
+          "Exit codes: 0 done; 1 an expectation failed; 2 bad usage or case; 3 the run failed; 4 interrupted.\n",
+          stream);
+}
+
+static int command_version(const struct cli_given *given)
+{
+    (void)given;
+    if (comm_rank() == 0) puts("bulla " BULLA_VERSION);
+    return 0;
+}
+
+static int command_help(const struct cli_given *given)
+{
+    if (comm_rank() != 0) return 0;
+    if (given->n_word == 0) {
+        command_list(stdout);
+        return 0;
+    }
+    const struct cli_command *command = command_find(given->words[0]);
+    if (!command) return cli_failed(command_unknown(given->words[0]));
+    cli_help(stdout, command);
+    return 0;
+}
+
+/* Is there a -h or --help before any `--`? */
+static bool command_asks_help(int argc, char **argv)
+{
+    for (int i = 2; i < argc && strcmp(argv[i], "--") != 0; i++)
+        if (!strcmp(argv[i], "-h") || !strcmp(argv[i], "--help")) return true;
+    return false;
+}
+
+static const char *command_name(const char *word)
+{
+    if (!strcmp(word, "-h") || !strcmp(word, "--help")) return "help";
+    if (!strcmp(word, "-V") || !strcmp(word, "--version")) return "version";
+    return word;
+}
+
+int command_main(int argc, char **argv)
+{
+    if (argc < 2) {
+        if (comm_rank() == 0) command_list(stderr);
+        return STATUS_CASE;
+    }
+    const char *name = command_name(argv[1]);
+    const struct cli_command *command = command_find(name);
+    if (!command) return cli_failed(command_unknown(name));
+    if (command_asks_help(argc, argv)) {
+        if (comm_rank() == 0) cli_help(stdout, command);
+        return 0;
+    }
+    if (command->own) return command->own(argc - 1, argv + 1);
+    struct cli_given given;
+    int code = cli_parse(command, argc, argv, &given);
+    if (code) return cli_failed(code);
+    code = command->run(&given);
+    cli_done(&given);
+    return code;
+}
