@@ -1,0 +1,229 @@
+/* exact.c - see exact.h.
+ *
+ * The pressure between the waves is the root of an increasing function, found by bisection down
+ * to neighbouring doubles: no starting value, no tolerance, no failure. Inside a rarefaction the
+ * pressure on a ray follows the same way. Cell averages are sums over the pieces of the
+ * solution; a piece of a fan is smooth and integrated by 8 Gauss points in 8 parts. */
+#include "app/exact.h"
+
+#include "base/status.h"
+#include "bulla/eos.h"
+
+#include <math.h>
+#include <string.h>
+
+static double exact_volume(const struct exact_side *side, double rho)
+{
+    return 1 / rho - side->covolume; /* h */
+}
+
+/* Velocity change across a wave that takes a side to pressure p: Toro (4.6), (4.7) in h, P. */
+static double exact_jump(const struct exact_side *side, double p)
+{
+    double g = side->gamma, h = exact_volume(side, side->rho);
+    double before = side->p + side->p_inf, after = p + side->p_inf;
+    if (p > side->p) return (p - side->p) * sqrt(2 * h / ((g + 1) * after + (g - 1) * before));
+    return 2 * sqrt(g * before * h) / (g - 1) * (pow(after / before, (g - 1) / (2 * g)) - 1);
+}
+
+/* Density behind a wave that takes a side to pressure p: Toro (4.50), (4.53). */
+static double exact_density(const struct exact_side *side, double p)
+{
+    double g = side->gamma, h = exact_volume(side, side->rho);
+    double ratio = (p + side->p_inf) / (side->p + side->p_inf), k = (g - 1) / (g + 1);
+    if (p > side->p) return 1 / (h * (k * ratio + 1) / (ratio + k) + side->covolume);
+    return 1 / (h * pow(ratio, -1 / g) + side->covolume);
+}
+
+static double exact_sound(const struct exact_side *side, double rho, double p)
+{
+    return sqrt(side->gamma * (p + side->p_inf) / exact_volume(side, rho)) / rho;
+}
+
+/* Speed in space of the characteristic of side k (0: u - c, 1: u + c) at pressure p of its fan. */
+static double exact_ray(const struct exact *exact, int k, double p)
+{
+    const struct exact_side *side = &exact->side[k];
+    double sign = k ? 1 : -1, rho = exact_density(side, p);
+    return side->u + sign * (exact_jump(side, p) + exact_sound(side, rho, p));
+}
+
+static double exact_imbalance(const struct exact_side side[2], double p)
+{
+    return exact_jump(&side[0], p) + exact_jump(&side[1], p) + side[1].u - side[0].u;
+}
+
+static double exact_star(const struct exact_side side[2], double least)
+{
+    double low = least, high = (side[0].p > side[1].p ? side[0].p : side[1].p) + 1e-300;
+    while (exact_imbalance(side, high) < 0) high += high - least;
+    for (;;) {
+        double middle = low + (high - low) / 2;
+        if (middle <= low || middle >= high) return middle;
+        if (exact_imbalance(side, middle) < 0) low = middle;
+        else high = middle;
+    }
+}
+
+static void exact_wave(struct exact *exact, int k)
+{
+    const struct exact_side *side = &exact->side[k];
+    double sign = k ? 1 : -1;
+    exact->rho_star[k] = exact_density(side, exact->p_star);
+    if (exact->p_star > side->p) { /* shock: mass flux through it, Toro (4.20) */
+        double g = side->gamma, h = exact_volume(side, side->rho);
+        double after = exact->p_star + side->p_inf, before = side->p + side->p_inf;
+        double flux = sqrt(((g + 1) * after + (g - 1) * before) / (2 * h));
+        exact->head[k] = exact->tail[k] = side->u + sign * flux / side->rho;
+        return;
+    }
+    exact->head[k] = exact_ray(exact, k, side->p);
+    exact->tail[k] = exact_ray(exact, k, exact->p_star);
+}
+
+int exact_solve(const struct exact_side side[2], struct exact *ret_exact)
+{
+    double least = -(side[0].p_inf < side[1].p_inf ? side[0].p_inf : side[1].p_inf);
+    for (int k = 0; k < 2; k++)
+        if (!(side[k].rho > 0) || !(side[k].p > least) || !(exact_volume(&side[k], side[k].rho) > 0))
+            return status_fail(STATUS_CASE,
+                               "no Riemann problem: density %g kg/m3, pressure %g Pa is no state of its material",
+                               side[k].rho, side[k].p);
+    if (exact_imbalance(side, least) >= 0)
+        return status_fail(STATUS_CASE,
+                           "the two states separate so fast that a vacuum opens: no exact solution offered");
+    struct exact exact = {.side = {side[0], side[1]}, .material = {-1, -1}};
+    exact.p_star = exact_star(side, least);
+    exact.u_star =
+        (side[0].u + side[1].u + exact_jump(&side[1], exact.p_star) - exact_jump(&side[0], exact.p_star)) / 2;
+    exact_wave(&exact, 0);
+    exact_wave(&exact, 1);
+    *ret_exact = exact;
+    return STATUS_OK;
+}
+
+/* Pressure on a ray inside the fan of side k. */
+static double exact_fan(const struct exact *exact, int k, double speed)
+{
+    double low = exact->p_star, high = exact->side[k].p, sign = k ? 1 : -1;
+    for (;;) { /* sign * ray grows with p */
+        double middle = low + (high - low) / 2;
+        if (middle <= low || middle >= high) return middle;
+        if (sign * exact_ray(exact, k, middle) < sign * speed) low = middle;
+        else high = middle;
+    }
+}
+
+void exact_sample(const struct exact *exact, double speed, double ret_value[EXACT_VALUES])
+{
+    int k = speed > exact->u_star;
+    const struct exact_side *side = &exact->side[k];
+    double sign = k ? 1 : -1, p = exact->p_star;
+    if (sign * speed >= sign * exact->head[k]) p = side->p;
+    else if (sign * speed > sign * exact->tail[k]) p = exact_fan(exact, k, speed);
+    ret_value[EXACT_RHO] = exact_density(side, p);
+    ret_value[EXACT_U] = side->u + sign * exact_jump(side, p);
+    ret_value[EXACT_P] = p;
+    ret_value[EXACT_LEFT] = !k;
+}
+
+/* Adds the integral over speeds [from, to], a range without kinks; `smooth`: not constant. */
+static void exact_piece(const struct exact *exact, double from, double to, int smooth, double sum[EXACT_VALUES])
+{
+    static const double node[8] = {-0.9602898564975363, -0.7966664774136267, -0.5255324099163290, -0.1834346424956498,
+                                   0.1834346424956498,  0.5255324099163290,  0.7966664774136267,  0.9602898564975363};
+    static const double weight[8] = {0.1012285362903763, 0.2223810344533745, 0.3137066458778873, 0.3626837833783620,
+                                     0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
+    int parts = smooth ? 8 : 1, points = smooth ? 8 : 1;
+    double half = (to - from) / (2 * parts), value[EXACT_VALUES];
+    for (int part = 0; part < parts; part++)
+        for (int i = 0; i < points; i++) {
+            double middle = from + (2 * part + 1) * half;
+            exact_sample(exact, smooth ? middle + half * node[i] : middle, value);
+            for (int v = 0; v < EXACT_VALUES; v++) sum[v] += (smooth ? weight[i] : 2) * half * value[v];
+        }
+}
+
+void exact_average(const struct exact *exact, double t, double lower, double upper, double ret_value[EXACT_VALUES])
+{
+    double edge[7] = {-INFINITY,      exact->head[0], exact->tail[0], exact->u_star,
+                      exact->tail[1], exact->head[1], INFINITY};
+    double first = (lower - exact->x0) / t, last = (upper - exact->x0) / t, sum[EXACT_VALUES] = {0};
+    for (int piece = 0; piece < 6; piece++) {
+        double from = edge[piece] > first ? edge[piece] : first, to = edge[piece + 1] < last ? edge[piece + 1] : last;
+        if (to > from) exact_piece(exact, from, to, piece == 1 || piece == 4, sum);
+    }
+    for (int v = 0; v < EXACT_VALUES; v++) ret_value[v] = sum[v] / (last - first);
+}
+
+/* The layer that shows at x, or -1. */
+static int exact_layer(const struct scene *scene, double x)
+{
+    double point[SCENE_AXES] = {x, 0, 0};
+    int found = -1;
+    for (unsigned i = 0; i < scene->n_layer; i++)
+        if (shape_contains(scene->layers[i].shape, point)) found = (int)i;
+    return found;
+}
+
+static double exact_parameter(const struct instance *eos, const char *name)
+{
+    int row = instance_param_find(eos->module, name);
+    return row < 0 ? 0 : eos->values[row].number;
+}
+
+/* A layer's pure material and uniform state. */
+static int exact_side_of(const struct scene *scene, const struct scene_layer *layer, struct exact_side *ret,
+                         int *ret_material)
+{
+    const double origin[SCENE_AXES] = {0};
+    int material = 0;
+    while (material < (int)scene->n_material && layer->has_material && layer->fractions[material] < 1) material++;
+    if (!layer->has_material || layer->script || material == (int)scene->n_material)
+        return status_fail(STATUS_CASE, "%s:%d: the exact Riemann solution needs layers of one material each",
+                           scene->path, layer->line);
+    const struct instance *eos = &scene->material[material].eos;
+    if (instance_param_find(eos->module, "gamma") < 0)
+        return status_fail(STATUS_CASE,
+                           "the exact Riemann solution knows ideal gas, stiffened gas, NASG and MNASG, not '%s'",
+                           eos->module->name);
+    const struct bulla_eos *law = eos->module->table;
+    double p, u, rho, T;
+    TRY(scene_value_at(&layer->pressure, origin, 0, 0, &p));
+    u = 0;
+    if (layer->velocity[0].given) TRY(scene_value_at(&layer->velocity[0], origin, 0, 0, &u));
+    if (layer->temperature.given) {
+        TRY(scene_value_at(&layer->temperature, origin, 0, 0, &T));
+        law->density(eos->self, 1, &p, &T, &rho);
+    } else {
+        TRY(scene_value_at(&layer->density[material], origin, 0, 0, &rho));
+    }
+    *ret = (struct exact_side){
+        exact_parameter(eos, "gamma"), exact_parameter(eos, "p-inf"), exact_parameter(eos, "covolume"), rho, u, p};
+    *ret_material = material;
+    return STATUS_OK;
+}
+
+int exact_of_scene(const struct scene *scene, struct exact *ret_exact)
+{
+    double low = scene->lower[0], high = scene->upper[0];
+    int layer[2] = {exact_layer(scene, low), exact_layer(scene, high)}, material[2];
+    if (scene->dim != 1 || scene->geometry != SCENE_CARTESIAN || layer[0] == layer[1] || layer[0] < 0 || layer[1] < 0)
+        return status_fail(STATUS_CASE,
+                           "'exact-riemann' needs a 1D cartesian scene of two layers that meet at one point");
+    for (;;) {
+        double middle = low + (high - low) / 2;
+        if (middle <= low || middle >= high) break;
+        int here = exact_layer(scene, middle);
+        if (here != layer[0] && here != layer[1])
+            return status_fail(STATUS_CASE, "'exact-riemann' needs two layers that meet at one point, not three");
+        if (here == layer[0]) low = middle;
+        else high = middle;
+    }
+    struct exact_side side[2];
+    for (int k = 0; k < 2; k++) TRY(exact_side_of(scene, &scene->layers[layer[k]], &side[k], &material[k]));
+    TRY(exact_solve(side, ret_exact));
+    ret_exact->x0 = low + (high - low) / 2;
+    memcpy(ret_exact->material, material, sizeof material);
+    return STATUS_OK;
+}

@@ -1,0 +1,216 @@
+/* norm.c - see norm.h. Numerical cell values are averages, so a reference must be averaged over
+ * the same cells: a point value in the middle differs by O(h^2), and at a jump by O(1). */
+#include "app/norm.h"
+
+#include "app/exact.h"
+#include "app/table.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+#include "io/read.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct norm {
+    double sum, square, most, weight;
+};
+
+static void norm_add(struct norm *norm, double weight, double difference)
+{
+    double size = fabs(difference);
+    norm->sum += weight * size;
+    norm->square += weight * size * size;
+    norm->weight += weight;
+    if (!(size <= norm->most)) norm->most = size; /* takes a NaN too */
+}
+
+static double norm_value(const struct norm *norm, const struct scene_expect *expect)
+{
+    double value = norm->sum / norm->weight;
+    if (strcmp(expect->norm, "L2") == 0) value = sqrt(norm->square / norm->weight);
+    if (strcmp(expect->norm, "Linf") == 0) value = norm->most;
+    return value / expect->scale;
+}
+
+static bool norm_is_reference(const struct scene_expect *expect, const char *name)
+{
+    const char *slash = strrchr(expect->reference, '/');
+    return strcmp(slash ? slash + 1 : expect->reference, name) == 0;
+}
+
+/* One number per cell of a field or of a component of it ("velocity_x"). */
+struct norm_cells {
+    const double *data;
+    unsigned stride;
+};
+
+static int norm_cells_of(const struct snapshot *snapshot, const char *name, struct norm_cells *ret)
+{
+    const struct snapshot_field *field = read_field(snapshot, name);
+    size_t length = strlen(name);
+    unsigned axis = 0;
+    if (!field && length > 2 && name[length - 2] == '_' && name[length - 1] >= 'x' && name[length - 1] <= 'z') {
+        char *vector = mem_text_n(name, length - 2);
+        axis = (unsigned)(name[length - 1] - 'x');
+        field = read_field(snapshot, vector);
+        mem_free(vector);
+    }
+    if (!field || axis >= field->components) {
+        struct text known = {0};
+        for (unsigned i = 0; i < snapshot->n_field; i++) text_add(&known, " %s", snapshot->fields[i].name);
+        int code = status_fail(STATUS_CASE,
+                               "'%s' is neither a column of history.csv or probes.csv nor a field of the "
+                               "snapshots (output: snapshots: fields:), which hold%s",
+                               name, known.at ? known.at : " none");
+        text_done(&known);
+        return code;
+    }
+    *ret = (struct norm_cells){field->data + axis, field->components};
+    return STATUS_OK;
+}
+
+static double norm_weight(const struct snapshot *snapshot, size_t cell)
+{
+    double weight = 1;
+    for (int d = 0; d < snapshot->dim; d++) weight *= snapshot->upper[cell][d] - snapshot->lower[cell][d];
+    return weight;
+}
+
+/* Which value of the exact solution a field is. `ret_flip`: alpha of the right material. */
+static int norm_exact_value(const struct scene *scene, const struct exact *exact, const char *name, int *ret_value,
+                            bool *ret_flip)
+{
+    *ret_flip = false;
+    *ret_value = strcmp(name, "density") == 0      ? EXACT_RHO
+                 : strcmp(name, "velocity_x") == 0 ? EXACT_U
+                 : strcmp(name, "pressure") == 0   ? EXACT_P
+                                                   : EXACT_VALUES;
+    if (*ret_value < EXACT_VALUES) return STATUS_OK;
+    for (int k = 0; k < 2 && exact->material[0] != exact->material[1]; k++)
+        if (strncmp(name, "alpha_", 6) == 0 && strcmp(name + 6, scene->material[exact->material[k]].name) == 0) {
+            *ret_flip = k == 1;
+            *ret_value = EXACT_LEFT;
+            return STATUS_OK;
+        }
+    return status_fail(STATUS_CASE,
+                       "the exact solution has density, velocity_x, pressure and the volume fractions of "
+                       "its two materials, not '%s'",
+                       name);
+}
+
+static int norm_against_exact(const struct scene *scene, const char *name, const struct snapshot *last,
+                              struct norm *norm)
+{
+    struct exact exact;
+    struct norm_cells cells;
+    int value;
+    bool flip;
+    TRY(exact_of_scene(scene, &exact));
+    TRY(norm_exact_value(scene, &exact, name, &value, &flip));
+    TRY(norm_cells_of(last, name, &cells));
+    if (last->time <= 0) return status_fail(STATUS_CASE, "the exact solution needs a snapshot after t = 0");
+    for (size_t i = 0; i < last->n_cell; i++) {
+        double mean[EXACT_VALUES];
+        exact_average(&exact, last->time, last->lower[i][0], last->upper[i][0], mean);
+        double wanted = flip ? 1 - mean[value] : mean[value];
+        norm_add(norm, norm_weight(last, i), cells.data[i * cells.stride] - wanted);
+    }
+    return STATUS_OK;
+}
+
+static int norm_against_initial(const char *name, const struct snapshot *last, const char *first_path,
+                                struct norm *norm)
+{
+    struct snapshot *first;
+    struct norm_cells cells, before;
+    TRY(read_snapshot(first_path, NULL, &first));
+    int code = norm_cells_of(last, name, &cells);
+    if (!code) code = norm_cells_of(first, name, &before);
+    if (!code && (first->time != 0 || first->n_cell != last->n_cell))
+        code = status_fail(STATUS_CASE, "'initial' needs a snapshot at t = 0 on the same cells as the last one");
+    for (size_t i = 0; !code && i < last->n_cell; i++)
+        norm_add(norm, norm_weight(last, i), cells.data[i * cells.stride] - before.data[i * before.stride]);
+    read_free(first);
+    return code;
+}
+
+static int norm_column(const struct table *table, const struct scene_expect *expect, const char *name,
+                       const double **ret)
+{
+    *ret = table_column(table, name);
+    if (*ret) return STATUS_OK;
+    struct text known = {0};
+    for (unsigned c = 0; c < table->n_column; c++) text_add(&known, " %s", table->names[c]);
+    int code = status_fail(STATUS_CASE, "%s has no column '%s'; it has%s", expect->reference, name, known.at);
+    text_done(&known);
+    return code;
+}
+
+/* Opens the reference and finds its two columns; on success the caller releases the table. */
+static int norm_reference(const struct scene_expect *expect, const char *coordinate, struct table *table,
+                          const double **ret_x, const double **ret_y)
+{
+    TRY(table_read(expect->reference, table));
+    int code = norm_column(table, expect, expect->coordinate ? expect->coordinate : coordinate, ret_x);
+    if (!code) code = norm_column(table, expect, expect->column ? expect->column : expect->field, ret_y);
+    if (!code && table->n_row < 2) code = status_fail(STATUS_CASE, "%s has less than two rows", expect->reference);
+    if (code) table_done(table);
+    return code;
+}
+
+static int norm_against_profile(const struct scene_expect *expect, const struct snapshot *last, struct norm *norm)
+{
+    struct norm_cells cells;
+    struct table table;
+    const double *x, *y;
+    if (last->dim != 1) return status_fail(STATUS_CASE, "a CSV profile is a reference for 1D scenes only");
+    TRY(norm_cells_of(last, expect->field, &cells));
+    TRY(norm_reference(expect, "x", &table, &x, &y));
+    for (size_t i = 0; i < last->n_cell; i++) {
+        double wanted = table_average(table.n_row, x, y, last->lower[i][0], last->upper[i][0]);
+        norm_add(norm, norm_weight(last, i), cells.data[i * cells.stride] - wanted);
+    }
+    table_done(&table);
+    return STATUS_OK;
+}
+
+int norm_of_field(const struct scene *scene, const struct scene_expect *expect, const char *directory, double *ret_norm)
+{
+    struct snapshot_series series;
+    struct snapshot *last;
+    struct norm norm = {0};
+    TRY(read_series(directory, &series));
+    int code = series.n ? read_snapshot(series.paths[series.n - 1], NULL, &last)
+                        : status_fail(STATUS_RUN, "%s holds no snapshots", directory);
+    if (!code) {
+        if (norm_is_reference(expect, "exact-riemann")) code = norm_against_exact(scene, expect->field, last, &norm);
+        else if (norm_is_reference(expect, "initial"))
+            code = norm_against_initial(expect->field, last, series.paths[0], &norm);
+        else code = norm_against_profile(expect, last, &norm);
+        read_free(last);
+    }
+    read_series_done(&series);
+    if (!code) *ret_norm = norm_value(&norm, expect);
+    return code;
+}
+
+int norm_of_trace(const struct scene_expect *expect, const struct trace *trace, double *ret_norm)
+{
+    struct table table;
+    struct norm norm = {0};
+    const double *t, *y;
+    TRY(norm_reference(expect, "t", &table, &t, &y));
+    for (size_t i = 0; i < trace->n; i++) {
+        if (trace->t[i] < t[0] || trace->t[i] > t[table.n_row - 1]) continue;
+        double before = i > 0 ? trace->t[i - 1] : trace->t[i], after = i + 1 < trace->n ? trace->t[i + 1] : trace->t[i];
+        norm_add(&norm, (after - before) / 2, trace->v[i] - table_interpolate(table.n_row, t, y, trace->t[i]));
+    }
+    table_done(&table);
+    if (!(norm.weight > 0))
+        return status_fail(STATUS_CASE, "%s covers none of the times of the run", expect->reference);
+    *ret_norm = norm_value(&norm, expect);
+    return STATUS_OK;
+}

@@ -1,0 +1,193 @@
+/* table.c - see table.h. Rows are collected one after the other and turned into columns at the
+ * end, so that a file is read once and grows in one block. */
+#include "app/table.h"
+
+#include "base/mem.h"
+#include "base/status.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct table_reader {
+    const char *path;
+    long line;
+    char **names;
+    unsigned n_column;
+    double *cells; /* row by row */
+    size_t n_row, capacity;
+    bool cut; /* the last row was incomplete */
+};
+
+/* "Rdot[m/s]" -> "Rdot"; "T (nan: no cv given)" -> "T"; "rho(T)" stays. */
+static size_t table_name_length(const char *name, size_t length)
+{
+    size_t used = 0;
+    while (used < length && name[used] != '[' && name[used] != ' ' && name[used] != '\t') used++;
+    return used;
+}
+
+static void table_forget_names(struct table_reader *reader)
+{
+    for (unsigned c = 0; c < reader->n_column; c++) mem_free(reader->names[c]);
+    mem_free(reader->names);
+    reader->names = NULL;
+    reader->n_column = 0;
+}
+
+static void table_take_names(struct table_reader *reader, const char *list)
+{
+    table_forget_names(reader);
+    for (const char *at = list; *at;) {
+        at += strspn(at, " \t");
+        size_t length = strcspn(at, ",;\r\n");
+        reader->names = mem_grow(reader->names, reader->n_column, reader->n_column + 1, sizeof *reader->names);
+        reader->names[reader->n_column++] = mem_text_n(at, table_name_length(at, length));
+        at += length;
+        if (*at != ',') break;
+        at++;
+    }
+}
+
+/* Reads one number; the locale is always "C", so strtod is safe. Returns false if there is none. */
+static bool table_number(const char **at, double *ret)
+{
+    char *end;
+    *ret = strtod(*at, &end);
+    if (end == *at) return false;
+    *at = end + strspn(end, " \t");
+    return true;
+}
+
+static void table_row(struct table_reader *reader, const char *line)
+{
+    unsigned n = reader->n_column;
+    if ((reader->n_row + 1) * n > reader->capacity) {
+        size_t more = 2 * (reader->n_row + 1) * n + 1024;
+        reader->cells = mem_grow(reader->cells, reader->capacity, more, sizeof *reader->cells);
+        reader->capacity = more;
+    }
+    const char *at = line + strspn(line, " \t");
+    for (unsigned c = 0; c < n; c++) {
+        bool last = c + 1 == n;
+        double value;
+        if (!table_number(&at, &value) || !strchr(last ? "\r\n" : ",", *at)) {
+            reader->cut = true;
+            return;
+        }
+        if (!last) at++;
+        reader->cells[reader->n_row * n + c] = value;
+    }
+    reader->n_row++;
+}
+
+static int table_line(struct table_reader *reader, const char *line)
+{
+    reader->line++;
+    if (reader->cut)
+        return status_fail(STATUS_RUN, "%s:%ld: not a row of %u numbers", reader->path, reader->line - 1,
+                           reader->n_column);
+    if (line[strspn(line, " \t\r\n")] == '\0') return STATUS_OK;
+    if (*line == '#') {
+        const char *mark = strstr(line, "columns:");
+        if (mark && reader->n_row == 0) table_take_names(reader, mark + strlen("columns:"));
+        return STATUS_OK;
+    }
+    double value;
+    const char *at = line;
+    if (reader->n_row == 0 && !table_number(&at, &value)) {
+        table_take_names(reader, line);
+        return STATUS_OK;
+    }
+    if (reader->n_column == 0)
+        return status_fail(STATUS_RUN, "%s:%ld: numbers before a line that names the columns", reader->path,
+                           reader->line);
+    table_row(reader, line);
+    return STATUS_OK;
+}
+
+static void table_transpose(struct table_reader *reader, struct table *table)
+{
+    unsigned n = reader->n_column;
+    *table = (struct table){.n_column = n, .n_row = reader->n_row};
+    table->names = mem_grow(reader->names, n, n + 1, sizeof *table->names);
+    reader->names = NULL;
+    reader->n_column = 0;
+    table->columns = mem_new(n + 1, sizeof *table->columns);
+    for (unsigned c = 0; c < n; c++) {
+        table->columns[c] = mem_new(reader->n_row + 1, sizeof **table->columns);
+        for (size_t r = 0; r < reader->n_row; r++) table->columns[c][r] = reader->cells[r * n + c];
+    }
+}
+
+int table_read(const char *path, struct table *ret_table)
+{
+    FILE *file = fopen(path, "r");
+    if (!file) return status_fail(STATUS_RUN, "cannot read %s: %s", path, strerror(errno));
+    struct table_reader reader = {.path = path};
+    char *line = NULL;
+    size_t capacity = 0;
+    int code = STATUS_OK;
+    while (!code && getline(&line, &capacity, file) > 0) code = table_line(&reader, line);
+    if (!code && reader.n_column == 0) code = status_fail(STATUS_RUN, "%s: no line names the columns", path);
+    if (!code) table_transpose(&reader, ret_table);
+    table_forget_names(&reader);
+    mem_free(reader.cells);
+    free(line);
+    fclose(file);
+    return code;
+}
+
+void table_done(struct table *table)
+{
+    for (unsigned c = 0; c < table->n_column; c++) {
+        mem_free(table->names[c]);
+        mem_free(table->columns[c]);
+    }
+    mem_free(table->names);
+    mem_free(table->columns);
+    *table = (struct table){0};
+}
+
+const double *table_column(const struct table *table, const char *name)
+{
+    for (unsigned c = 0; c < table->n_column; c++)
+        if (strcmp(table->names[c], name) == 0) return table->columns[c];
+    return NULL;
+}
+
+/* Number of leading entries of xs that are <= x. */
+static size_t table_below(size_t n, const double *xs, double x)
+{
+    size_t low = 0, high = n;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (xs[middle] <= x) low = middle + 1;
+        else high = middle;
+    }
+    return low;
+}
+
+double table_interpolate(size_t n, const double *xs, const double *ys, double x)
+{
+    size_t after = table_below(n, xs, x);
+    if (after == 0) return ys[0];
+    if (after == n) return ys[n - 1];
+    double weight = (x - xs[after - 1]) / (xs[after] - xs[after - 1]);
+    return ys[after - 1] + weight * (ys[after] - ys[after - 1]);
+}
+
+double table_average(size_t n, const double *xs, const double *ys, double lower, double upper)
+{
+    double sum = 0, x = lower, y = table_interpolate(n, xs, ys, lower);
+    for (size_t i = table_below(n, xs, lower); i < n && xs[i] < upper; i++) {
+        sum += (xs[i] - x) * (y + ys[i]) / 2;
+        x = xs[i];
+        y = ys[i];
+    }
+    sum += (upper - x) * (y + table_interpolate(n, xs, ys, upper)) / 2;
+    return sum / (upper - lower);
+}
