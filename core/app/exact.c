@@ -7,10 +7,8 @@
 #include "app/exact.h"
 
 #include "base/status.h"
-#include "bulla/eos.h"
 
 #include <math.h>
-#include <string.h>
 
 static double exact_volume(const struct exact_side *side, double rho)
 {
@@ -92,7 +90,7 @@ int exact_solve(const struct exact_side side[2], struct exact *ret_exact)
     if (exact_imbalance(side, least) >= 0)
         return status_fail(STATUS_CASE,
                            "the two states separate so fast that a vacuum opens: no exact solution offered");
-    struct exact exact = {.side = {side[0], side[1]}, .material = {-1, -1}};
+    struct exact exact = {.side = {side[0], side[1]}};
     exact.p_star = exact_star(side, least);
     exact.u_star =
         (side[0].u + side[1].u + exact_jump(&side[1], exact.p_star) - exact_jump(&side[0], exact.p_star)) / 2;
@@ -148,82 +146,10 @@ void exact_average(const struct exact *exact, double t, double lower, double upp
 {
     double edge[7] = {-INFINITY,      exact->head[0], exact->tail[0], exact->u_star,
                       exact->tail[1], exact->head[1], INFINITY};
-    double first = (lower - exact->x0) / t, last = (upper - exact->x0) / t, sum[EXACT_VALUES] = {0};
+    double first = lower / t, last = upper / t, sum[EXACT_VALUES] = {0};
     for (int piece = 0; piece < 6; piece++) {
         double from = edge[piece] > first ? edge[piece] : first, to = edge[piece + 1] < last ? edge[piece + 1] : last;
         if (to > from) exact_piece(exact, from, to, piece == 1 || piece == 4, sum);
     }
     for (int v = 0; v < EXACT_VALUES; v++) ret_value[v] = sum[v] / (last - first);
-}
-
-/* The layer that shows at x, or -1. */
-static int exact_layer(const struct scene *scene, double x)
-{
-    double point[SCENE_AXES] = {x, 0, 0};
-    int found = -1;
-    for (unsigned i = 0; i < scene->n_layer; i++)
-        if (shape_contains(scene->layers[i].shape, point)) found = (int)i;
-    return found;
-}
-
-static double exact_parameter(const struct instance *eos, const char *name)
-{
-    int row = instance_param_find(eos->module, name);
-    return row < 0 ? 0 : eos->values[row].number;
-}
-
-/* A layer's pure material and uniform state. */
-static int exact_side_of(const struct scene *scene, const struct scene_layer *layer, struct exact_side *ret,
-                         int *ret_material)
-{
-    const double origin[SCENE_AXES] = {0};
-    int material = 0;
-    while (material < (int)scene->n_material && layer->has_material && layer->fractions[material] < 1) material++;
-    if (!layer->has_material || layer->script || material == (int)scene->n_material)
-        return status_fail(STATUS_CASE, "%s:%d: the exact Riemann solution needs layers of one material each",
-                           scene->path, layer->line);
-    const struct instance *eos = &scene->material[material].eos;
-    if (instance_param_find(eos->module, "gamma") < 0)
-        return status_fail(STATUS_CASE,
-                           "the exact Riemann solution knows ideal gas, stiffened gas, NASG and MNASG, not '%s'",
-                           eos->module->name);
-    const struct bulla_eos *law = eos->module->table;
-    double p, u, rho, T;
-    TRY(scene_value_at(&layer->pressure, origin, 0, 0, &p));
-    u = 0;
-    if (layer->velocity[0].given) TRY(scene_value_at(&layer->velocity[0], origin, 0, 0, &u));
-    if (layer->temperature.given) {
-        TRY(scene_value_at(&layer->temperature, origin, 0, 0, &T));
-        law->density(eos->self, 1, &p, &T, &rho);
-    } else {
-        TRY(scene_value_at(&layer->density[material], origin, 0, 0, &rho));
-    }
-    *ret = (struct exact_side){
-        exact_parameter(eos, "gamma"), exact_parameter(eos, "p-inf"), exact_parameter(eos, "covolume"), rho, u, p};
-    *ret_material = material;
-    return STATUS_OK;
-}
-
-int exact_of_scene(const struct scene *scene, struct exact *ret_exact)
-{
-    double low = scene->lower[0], high = scene->upper[0];
-    int layer[2] = {exact_layer(scene, low), exact_layer(scene, high)}, material[2];
-    if (scene->dim != 1 || scene->geometry != SCENE_CARTESIAN || layer[0] == layer[1] || layer[0] < 0 || layer[1] < 0)
-        return status_fail(STATUS_CASE,
-                           "'exact-riemann' needs a 1D cartesian scene of two layers that meet at one point");
-    for (;;) {
-        double middle = low + (high - low) / 2;
-        if (middle <= low || middle >= high) break;
-        int here = exact_layer(scene, middle);
-        if (here != layer[0] && here != layer[1])
-            return status_fail(STATUS_CASE, "'exact-riemann' needs two layers that meet at one point, not three");
-        if (here == layer[0]) low = middle;
-        else high = middle;
-    }
-    struct exact_side side[2];
-    for (int k = 0; k < 2; k++) TRY(exact_side_of(scene, &scene->layers[layer[k]], &side[k], &material[k]));
-    TRY(exact_solve(side, ret_exact));
-    ret_exact->x0 = low + (high - low) / 2;
-    memcpy(ret_exact->material, material, sizeof material);
-    return STATUS_OK;
 }

@@ -8,8 +8,6 @@
 #ifndef EXACT_H
 #define EXACT_H
 
-#include "case/scene.h"
-
 enum { EXACT_RHO, EXACT_U, EXACT_P, EXACT_LEFT, EXACT_VALUES }; /* LEFT: 1 in the left material, else 0 */
 
 struct exact_side {
@@ -22,21 +20,15 @@ struct exact {
     double p_star, u_star;     /* between the waves */
     double rho_star[2];        /* left and right of the contact */
     double head[2], tail[2];   /* speeds of the outer and inner edge of each wave; equal for a shock */
-    double x0;                 /* where the waves start [m]; 0 unless exact_of_scene set it */
-    int material[2];           /* of the scene; -1 unless exact_of_scene set it */
 };
 
 /* Solves for the star states. States that separate into vacuum are STATUS_CASE. */
 int exact_solve(const struct exact_side side[2], struct exact *ret_exact);
 
-/* Values on the ray (x - x0)/t = speed. */
+/* Values on the ray x/t = speed. */
 void exact_sample(const struct exact *exact, double speed, double ret_value[EXACT_VALUES]);
 
-/* Averages over the cell [lower, upper] at time t > 0, to round-off. */
+/* Averages over the cell [lower, upper] at time t > 0, to round-off; the waves start at x = 0. */
 void exact_average(const struct exact *exact, double t, double lower, double upper, double ret_value[EXACT_VALUES]);
-
-/* The Riemann problem that a 1D cartesian scene paints: two uniform pure states that meet at one
- * point. Anything else is STATUS_CASE. */
-int exact_of_scene(const struct scene *scene, struct exact *ret_exact);
 
 #endif

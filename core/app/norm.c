@@ -2,8 +2,8 @@
  * the same cells: a point value in the middle differs by O(h^2), and at a jump by O(1). */
 #include "app/norm.h"
 
-#include "app/exact.h"
 #include "app/table.h"
+#include "app/tube.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
@@ -80,7 +80,7 @@ static double norm_weight(const struct snapshot *snapshot, size_t cell)
 }
 
 /* Which value of the exact solution a field is. `ret_flip`: alpha of the right material. */
-static int norm_exact_value(const struct scene *scene, const struct exact *exact, const char *name, int *ret_value,
+static int norm_exact_value(const struct scene *scene, const struct tube *tube, const char *name, int *ret_value,
                             bool *ret_flip)
 {
     *ret_flip = false;
@@ -89,8 +89,8 @@ static int norm_exact_value(const struct scene *scene, const struct exact *exact
                  : strcmp(name, "pressure") == 0   ? EXACT_P
                                                    : EXACT_VALUES;
     if (*ret_value < EXACT_VALUES) return STATUS_OK;
-    for (int k = 0; k < 2 && exact->material[0] != exact->material[1]; k++)
-        if (strncmp(name, "alpha_", 6) == 0 && strcmp(name + 6, scene->material[exact->material[k]].name) == 0) {
+    for (int k = 0; k < 2 && tube->material[0] != tube->material[1]; k++)
+        if (strncmp(name, "alpha_", 6) == 0 && strcmp(name + 6, scene->material[tube->material[k]].name) == 0) {
             *ret_flip = k == 1;
             *ret_value = EXACT_LEFT;
             return STATUS_OK;
@@ -104,17 +104,17 @@ static int norm_exact_value(const struct scene *scene, const struct exact *exact
 static int norm_against_exact(const struct scene *scene, const char *name, const struct snapshot *last,
                               struct norm *norm)
 {
-    struct exact exact;
+    struct tube tube;
     struct norm_cells cells;
     int value;
     bool flip;
-    TRY(exact_of_scene(scene, &exact));
-    TRY(norm_exact_value(scene, &exact, name, &value, &flip));
+    TRY(tube_of_scene(scene, &tube));
+    TRY(norm_exact_value(scene, &tube, name, &value, &flip));
     TRY(norm_cells_of(last, name, &cells));
     if (last->time <= 0) return status_fail(STATUS_CASE, "the exact solution needs a snapshot after t = 0");
     for (size_t i = 0; i < last->n_cell; i++) {
         double mean[EXACT_VALUES];
-        exact_average(&exact, last->time, last->lower[i][0], last->upper[i][0], mean);
+        exact_average(&tube.exact, last->time, last->lower[i][0] - tube.x0, last->upper[i][0] - tube.x0, mean);
         double wanted = flip ? 1 - mean[value] : mean[value];
         norm_add(norm, norm_weight(last, i), cells.data[i * cells.stride] - wanted);
     }

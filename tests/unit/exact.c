@@ -120,9 +120,8 @@ static void test_averages(void **state)
     struct exact exact;
     fclose(open_tube("R06", &tube));
     assert_int_equal(exact_solve(tube.side, &exact), STATUS_OK);
-    exact.x0 = tube.x0;
     double lower = 0.05, upper = 0.97, mean[EXACT_VALUES], sum[EXACT_VALUES] = {0};
-    exact_average(&exact, tube.t, lower, upper, mean);
+    exact_average(&exact, tube.t, lower - tube.x0, upper - tube.x0, mean);
     enum { POINTS = 200000 };
     for (int i = 0; i < POINTS; i++) {
         double value[EXACT_VALUES], x = lower + (upper - lower) * (i + 0.5) / POINTS;

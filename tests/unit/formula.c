@@ -101,7 +101,7 @@ static void test_refusals(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"min(W)", "did you mean 'V'"},
+        {"min(walls.pressure)", "did you mean 'wall.pressure'"},
         {"minn(V)", "did you mean 'min'"},
         {"max(wall.presure)", "did you mean 'wall.pressure'"},
         {"V", "reduce it"},
