@@ -1,0 +1,45 @@
+/* due.c - see due.h. */
+#include "app/due.h"
+
+#include <math.h>
+
+static const double due_same = 1e-9; /* of the interval */
+
+void due_init(struct due *due, struct scene_every every)
+{
+    *due = (struct due){.every = every, .next = 0, .last_step = -1};
+}
+
+bool due_now(const struct due *due, double t, long step)
+{
+    if (step == due->last_step) return false;
+    double every = due->every.time;
+    if (every > 0) return (double)due->next * every - t <= due_same * every;
+    return due->every.steps > 0 && step % due->every.steps == 0;
+}
+
+void due_written(struct due *due, double t, long step)
+{
+    due->last_step = step;
+    double every = due->every.time;
+    if (every > 0) due->next = (long)floor(t / every + due_same) + 1;
+}
+
+double due_target(const struct due *const *dues, int n, double t, double until)
+{
+    double target = until;
+    for (int i = 0; i < n; i++) {
+        double every = dues[i]->every.time;
+        if (every <= 0) continue;
+        double time = (double)dues[i]->next * every, slack = due_same * every;
+        if (time > t + slack && time < target - slack) target = time;
+    }
+    return target;
+}
+
+double due_step(double dt, double remaining)
+{
+    if (remaining <= 1.0001 * dt) return remaining;
+    if (remaining < 2 * dt) return remaining / 2;
+    return dt;
+}

@@ -1,0 +1,35 @@
+/* due.h - when an output is due, and how steps are cut to hit its times exactly.
+ *
+ * Times are multiples k * every, never sums, so that they carry no drift. Two times closer
+ * than 1e-9 of the interval are one time: 3 * 0.1 us must not ask for a step of one ulp
+ * after 0.3 us. */
+#ifndef DUE_H
+#define DUE_H
+
+#include "case/scene.h"
+
+#include <stdbool.h>
+
+struct due {
+    struct scene_every every;
+    long next;      /* time: the next multiple of every.time */
+    long last_step; /* the step written last, -1 before the first */
+};
+
+/* A schedule that starts at t = 0 with step 0 (both are due at once). */
+void due_init(struct due *due, struct scene_every every);
+
+/* Is an output due at this time and step? Nothing is due twice at one step. */
+bool due_now(const struct due *due, double t, long step);
+
+/* Notes that the output of this time and step has been written. */
+void due_written(struct due *due, double t, long step);
+
+/* The earliest of `until` and the next times of `n` schedules that is later than t. */
+double due_target(const struct due *const *dues, int n, double t, double until);
+
+/* The step to take when `dt` is possible and `remaining` time is left to the target: dt, or
+ * all that remains (stretched by up to 1e-4), or half of it where dt would leave a sliver. */
+double due_step(double dt, double remaining);
+
+#endif

@@ -1,0 +1,136 @@
+/* outdir.c - see outdir.h. */
+#include "app/outdir.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* What a run writes; folders only with files that end in one of ours. */
+static const char *const outdir_files[] = {"case.yaml", "provenance.json", "history.csv", "probes.csv", "log.txt"};
+static const char *const outdir_folders[] = {"fields", "checkpoints"};
+static const char *const outdir_endings[] = {".hdf", ".hdf.series", ".chk", ".tmp"};
+enum { FILES = 5, FOLDERS = 2, ENDINGS = 4 };
+
+static bool outdir_is_ours(const char *name)
+{
+    size_t length = strlen(name);
+    for (int i = 0; i < ENDINGS; i++) {
+        size_t tail = strlen(outdir_endings[i]);
+        if (length > tail && !strcmp(name + length - tail, outdir_endings[i])) return true;
+    }
+    return false;
+}
+
+/* Counts our files in a folder; removes them if asked. -1: cannot remove (errno). */
+static int outdir_sweep(const char *folder, bool remove_them)
+{
+    DIR *stream = opendir(folder);
+    if (!stream) return 0;
+    int count = 0;
+    for (struct dirent *entry; count >= 0 && (entry = readdir(stream));) {
+        if (!outdir_is_ours(entry->d_name)) continue;
+        char *path = mem_print("%s/%s", folder, entry->d_name);
+        count = remove_them && unlink(path) ? -1 : count + 1;
+        mem_free(path);
+    }
+    int kept = errno;
+    closedir(stream);
+    errno = kept;
+    return count;
+}
+
+static void outdir_list(const char *path, struct text *found)
+{
+    struct stat info;
+    for (int i = 0; i < FILES; i++) {
+        char *name = mem_print("%s/%s", path, outdir_files[i]);
+        if (!stat(name, &info)) text_add(found, "%s%s", found->length ? ", " : "", outdir_files[i]);
+        mem_free(name);
+    }
+    for (int i = 0; i < FOLDERS; i++) {
+        char *name = mem_print("%s/%s", path, outdir_folders[i]);
+        int count = outdir_sweep(name, false);
+        if (count > 0)
+            text_add(found, "%s%s/ (%d file%s)", found->length ? ", " : "", outdir_folders[i], count,
+                     count == 1 ? "" : "s");
+        mem_free(name);
+    }
+}
+
+static int outdir_clear(const char *path)
+{
+    int code = 0;
+    for (int i = 0; i < FILES + FOLDERS && !code; i++) {
+        bool is_file = i < FILES;
+        char *name = mem_print("%s/%s", path, is_file ? outdir_files[i] : outdir_folders[i - FILES]);
+        if (is_file ? unlink(name) && errno != ENOENT : outdir_sweep(name, true) < 0)
+            code = status_fail(STATUS_RUN, "cannot remove %s: %s", name, strerror(errno));
+        mem_free(name);
+    }
+    return code;
+}
+
+static int outdir_make(const char *path)
+{
+    char *part = mem_text(path);
+    int code = 0;
+    for (char *at = part + 1; !code; at++) {
+        if (*at && *at != '/') continue;
+        char here = *at;
+        *at = '\0';
+        if (mkdir(part, 0777) && errno != EEXIST)
+            code = status_fail(STATUS_RUN, "cannot make the output directory %s: %s", part, strerror(errno));
+        *at = here;
+        if (!here) break;
+    }
+    mem_free(part);
+    return code;
+}
+
+static int outdir_prepare_here(const char *path, bool overwrite)
+{
+    struct stat info;
+    if (!stat(path, &info) && !S_ISDIR(info.st_mode))
+        return status_fail(STATUS_CASE, "the output directory %s is a file", path);
+    if (overwrite) {
+        TRY(outdir_clear(path));
+        return outdir_make(path);
+    }
+    struct text found = {0};
+    outdir_list(path, &found);
+    int code = 0;
+    if (found.length)
+        code = status_fail(STATUS_CASE, "%s holds a run: %s; --overwrite replaces it, -o DIR writes elsewhere", path,
+                           found.at);
+    text_done(&found);
+    return code ? code : outdir_make(path);
+}
+
+int outdir_prepare(const char *path, bool overwrite)
+{
+    return comm_agree(comm_rank() == 0 ? outdir_prepare_here(path, overwrite) : 0);
+}
+
+static int outdir_write_here(const char *directory, const char *name, const char *text)
+{
+    char *path = mem_print("%s/%s", directory, name);
+    FILE *file = fopen(path, "w");
+    bool good = file && fputs(text, file) >= 0;
+    if (file) good = fclose(file) == 0 && good;
+    int code = good ? 0 : status_fail(STATUS_RUN, "cannot write %s: %s", path, strerror(errno));
+    mem_free(path);
+    return code;
+}
+
+int outdir_write(const char *directory, const char *name, const char *text)
+{
+    return comm_agree(comm_rank() == 0 ? outdir_write_here(directory, name, text) : 0);
+}

@@ -1,0 +1,110 @@
+/* progress.c - see progress.h. */
+#include "app/progress.h"
+
+#include "app/human.h"
+#include "base/comm.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+/* Seconds between lines, by mode; and the memory of the smoothed speed. */
+static const double progress_every[] = {
+    [PROGRESS_LINES] = 5, [PROGRESS_LIVE] = 0.1, [PROGRESS_JSON] = 1, [PROGRESS_SILENT] = INFINITY};
+static const double progress_memory = 10;
+
+double progress_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+enum progress_mode progress_choose(bool json, bool quiet, bool terminal)
+{
+    if (json) return PROGRESS_JSON;
+    if (quiet) return PROGRESS_SILENT;
+    return terminal ? PROGRESS_LIVE : PROGRESS_LINES;
+}
+
+static void progress_print(json_t *object)
+{
+    json_dumpf(object, stdout, JSON_COMPACT | JSON_REAL_PRECISION(15));
+    putchar('\n');
+    fflush(stdout);
+    json_decref(object);
+}
+
+void progress_begin(struct progress *progress, const char *name, const char *directory)
+{
+    if (comm_rank() != 0) progress->mode = PROGRESS_SILENT;
+    const char *plain = getenv("NO_COLOR");
+    progress->color = progress->mode == PROGRESS_LIVE && !(plain && *plain);
+    progress->start = progress->shown = progress_clock();
+    if (progress->mode == PROGRESS_JSON)
+        progress_print(json_pack("{ss ss ss sf sf si}", "event", "start", "case", name, "directory", directory, "until",
+                                 progress->until, "cells", progress->cells, "ranks", comm_size()));
+}
+
+static double progress_share(const struct progress *progress, double t, long step)
+{
+    double share = progress->until > 0 ? t / progress->until : 0;
+    if (progress->most_steps > 0) {
+        double steps = (double)step / (double)progress->most_steps;
+        if (steps > share) share = steps;
+    }
+    return share < 1 ? share : 1;
+}
+
+static void progress_show(struct progress *progress, double t, double dt, long step, double rate, double eta)
+{
+    char time[HUMAN_ROOM], end[HUMAN_ROOM], size[HUMAN_ROOM], cells[HUMAN_ROOM], speed[HUMAN_ROOM], left[HUMAN_ROOM];
+    bool live = progress->mode == PROGRESS_LIVE;
+    fprintf(stderr, "%s%s%3.0f%%%s  t %s of %s  step %ld  dt %s  %s  %s/s  ETA %s%s", live ? "\r\033[K" : "",
+            progress->color ? "\033[1;32m" : "", floor(100 * progress->share), progress->color ? "\033[0m" : "",
+            human_si(t, "s", time), human_si(progress->until, "s", end), step, human_si(dt, "s", size),
+            human_si(progress->cells, "cells", cells), human_si(rate, "updates", speed), human_duration(eta, left),
+            live ? "" : "\n");
+    fflush(stderr);
+    progress->line_open = live;
+}
+
+void progress_step(struct progress *progress, double t, double dt, long step)
+{
+    double now = progress_clock(), passed = now - progress->shown;
+    if (passed < progress_every[progress->mode]) return;
+    double share = progress_share(progress, t, step), speed = (share - progress->share) / passed;
+    double keep = progress->speed > 0 ? exp(-passed / progress_memory) : 0;
+    double rate = progress->cells * (double)(step - progress->step) / passed;
+    progress->speed = keep * progress->speed + (1 - keep) * speed;
+    progress->shown = now;
+    progress->share = share;
+    progress->step = step;
+    double eta = progress->speed > 0 ? (1 - share) / progress->speed : INFINITY;
+    if (progress->mode != PROGRESS_JSON) {
+        progress_show(progress, t, dt, step, rate, eta);
+        return;
+    }
+    json_t *object = json_pack("{ss sf sf sI sf sf sf}", "event", "progress", "percent", 100 * share, "t", t, "step",
+                               (json_int_t)step, "dt", dt, "cells", progress->cells, "updates_per_s", rate);
+    json_object_set_new(object, "eta_s", isfinite(eta) ? json_real(eta) : json_null());
+    progress_print(object);
+}
+
+void progress_clear(struct progress *progress)
+{
+    if (!progress->line_open) return;
+    fputs("\r\033[K", stderr);
+    fflush(stderr);
+    progress->line_open = false;
+}
+
+void progress_end(struct progress *progress, double t, long step, int code, const char *reason)
+{
+    progress_clear(progress);
+    if (progress->mode != PROGRESS_JSON) return;
+    progress_print(json_pack("{ss si ss sf sI sf}", "event", "end", "exit", code, "reason", reason, "t", t, "step",
+                             (json_int_t)step, "wall_s", progress_clock() - progress->start));
+}

@@ -1,0 +1,12 @@
+/* stop.h - SIGINT, SIGTERM, SIGUSR1: the first asks the run to save and stop, the second ends
+ * the process at once (exit code 4, nothing saved). */
+#ifndef STOP_H
+#define STOP_H
+
+/* Catches the signals from now on. */
+void stop_catch(void);
+
+/* The signal that asked to stop, 0 if none did. Of this rank: agree before acting on it. */
+int stop_signal(void);
+
+#endif
