@@ -17,7 +17,7 @@ static int cli_unknown(const struct cli_command *command, const char *word)
     const char *names[CLI_NAMES] = {NULL};
     size_t n = 0;
     for (const struct cli_option *const *o = command->options; o && *o && n < CLI_NAMES - 1; o++)
-        names[n++] = (*o)->name;
+        if ((*o)->doc) names[n++] = (*o)->name;
     char bare[64];
     snprintf(bare, sizeof bare, "%.*s", (int)strcspn(word, "="), word);
     const char *near = text_nearest(bare, names);
@@ -50,6 +50,9 @@ static int cli_option_at(struct cli_given *given, int *at)
     const char *value, *word = given->argv[*at];
     const struct cli_option *option = cli_match(given->command, word, &value);
     if (!option) return cli_unknown(given->command, word);
+    if (!option->doc)
+        return status_fail(STATUS_CASE, "%s %s is not part of version " BULLA_VERSION, given->command->name,
+                           option->name);
     if (option->value && !value) {
         const char *next = *at + 1 < given->argc ? given->argv[*at + 1] : NULL;
         if (!next || !strncmp(next, "--", 2))
@@ -129,6 +132,7 @@ void cli_help(FILE *stream, const struct cli_command *command)
             command->doc);
     if (command->options) fputs("\n", stream);
     for (const struct cli_option *const *o = command->options; o && *o; o++) {
+        if (!(*o)->doc) continue;
         char left[64];
         snprintf(left, sizeof left, "%s%s%s %s", (*o)->letter ? (*o)->letter : "", (*o)->letter ? ", " : "", (*o)->name,
                  (*o)->value ? (*o)->value : "");

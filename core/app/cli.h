@@ -13,7 +13,7 @@ struct cli_option {
     const char *name;   /* "--until" */
     const char *letter; /* "-o", or NULL */
     const char *value;  /* what follows it ("DIR"), or NULL for a switch */
-    const char *doc;
+    const char *doc;    /* NULL: not there yet; giving it is refused with a clear sentence */
 };
 
 struct cli_given;

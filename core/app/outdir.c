@@ -14,10 +14,11 @@
 #include <unistd.h>
 
 /* What a run writes; folders only with files that end in one of ours. */
-static const char *const outdir_files[] = {"case.yaml", "provenance.json", "history.csv", "probes.csv", "log.txt"};
+static const char *const outdir_files[] = {"case.yaml",  "provenance.json", "history.csv",
+                                           "probes.csv", "expect.json",     "log.txt"};
 static const char *const outdir_folders[] = {"fields", "checkpoints"};
 static const char *const outdir_endings[] = {".hdf", ".hdf.series", ".chk", ".tmp"};
-enum { FILES = 5, FOLDERS = 2, ENDINGS = 4 };
+enum { FILES = 6, FOLDERS = 2, ENDINGS = 4 };
 
 static bool outdir_is_ours(const char *name)
 {
@@ -95,28 +96,36 @@ static int outdir_make(const char *path)
     return code;
 }
 
-static int outdir_prepare_here(const char *path, bool overwrite)
+static int outdir_check_here(const char *path, bool overwrite)
 {
     struct stat info;
     if (!stat(path, &info) && !S_ISDIR(info.st_mode))
         return status_fail(STATUS_CASE, "the output directory %s is a file", path);
-    if (overwrite) {
-        TRY(outdir_clear(path));
-        return outdir_make(path);
-    }
+    if (overwrite) return 0;
     struct text found = {0};
-    outdir_list(path, &found);
     int code = 0;
+    outdir_list(path, &found);
     if (found.length)
         code = status_fail(STATUS_CASE, "%s holds a run: %s; --overwrite replaces it, -o DIR writes elsewhere", path,
                            found.at);
     text_done(&found);
-    return code ? code : outdir_make(path);
+    return code;
 }
 
-int outdir_prepare(const char *path, bool overwrite)
+int outdir_check(const char *path, bool overwrite)
 {
-    return comm_agree(comm_rank() == 0 ? outdir_prepare_here(path, overwrite) : 0);
+    return comm_agree(comm_rank() == 0 ? outdir_check_here(path, overwrite) : 0);
+}
+
+static int outdir_prepare_here(const char *path)
+{
+    TRY(outdir_clear(path));
+    return outdir_make(path);
+}
+
+int outdir_prepare(const char *path)
+{
+    return comm_agree(comm_rank() == 0 ? outdir_prepare_here(path) : 0);
 }
 
 static int outdir_write_here(const char *directory, const char *name, const char *text)

@@ -4,12 +4,15 @@
 
 #include <stdbool.h>
 
-/* Makes the directory (and its parents). If it holds the output of a run, that is removed when
- * `overwrite`, else it is STATUS_CASE with a message that lists what is there. Files that are
- * not ours are never touched. Collective; rank 0 acts. */
-int outdir_prepare(const char *path, bool overwrite);
+/* May a run write there? If the directory holds the output of a run and not `overwrite`:
+ * STATUS_CASE with a message that lists what is there. Collective, as all calls here; rank 0 acts. */
+int outdir_check(const char *path, bool overwrite);
 
-/* Writes a text file of the run, for example case.yaml. Collective; rank 0 acts. */
+/* Makes the directory (and its parents) and removes the output of an older run. Files that are
+ * not ours are never touched. */
+int outdir_prepare(const char *path);
+
+/* Writes a text file of the run, for example case.yaml. */
 int outdir_write(const char *directory, const char *name, const char *text);
 
 #endif

@@ -49,22 +49,25 @@ static void old_runs_are_refused_then_replaced(void **state)
 {
     (void)state;
     char *run = mem_print("%s/a/b", place), *fields = mem_print("%s/fields", run);
-    assert_int_equal(outdir_prepare(run, false), 0);
-    assert_int_equal(outdir_prepare(run, false), 0); /* empty: still fine */
+    assert_int_equal(outdir_check(run, false), 0); /* not there yet */
+    assert_int_equal(outdir_prepare(run), 0);
+    assert_int_equal(outdir_check(run, false), 0); /* empty */
     assert_int_equal(outdir_write(run, "notes.md", "mine"), 0);
-    assert_int_equal(outdir_prepare(run, false), 0); /* not ours: no run */
+    assert_int_equal(outdir_check(run, false), 0); /* not ours: no run */
 
     assert_int_equal(outdir_write(run, "history.csv", "t\n"), 0);
     assert_int_equal(mkdir(fields, 0777), 0);
     assert_int_equal(outdir_write(fields, "x_0.hdf", ""), 0);
     assert_int_equal(outdir_write(fields, "mine.txt", ""), 0);
-    assert_int_equal(outdir_prepare(run, false), STATUS_CASE);
+    assert_int_equal(outdir_check(run, false), STATUS_CASE);
     assert_non_null(strstr(status_text(), "history.csv"));
     assert_non_null(strstr(status_text(), "fields/ (1 file)"));
     assert_non_null(strstr(status_text(), "--overwrite"));
     assert_true(exists(run, "history.csv"));
 
-    assert_int_equal(outdir_prepare(run, true), 0);
+    assert_int_equal(outdir_check(run, true), 0);
+    assert_true(exists(run, "history.csv"));
+    assert_int_equal(outdir_prepare(run), 0);
     assert_false(exists(run, "history.csv"));
     assert_false(exists(fields, "x_0.hdf"));
     assert_true(exists(fields, "mine.txt"));
@@ -78,9 +81,9 @@ static void impossible_places_are_named(void **state)
     (void)state;
     assert_int_equal(outdir_write(place, "file", "x"), 0);
     char *at_file = mem_print("%s/file", place), *below = mem_print("%s/file/run", place);
-    assert_int_equal(outdir_prepare(at_file, false), STATUS_CASE);
+    assert_int_equal(outdir_check(at_file, true), STATUS_CASE);
     assert_non_null(strstr(status_text(), "is a file"));
-    assert_int_equal(outdir_prepare(below, false), STATUS_RUN);
+    assert_int_equal(outdir_prepare(below), STATUS_RUN);
     assert_non_null(strstr(status_text(), "cannot make the output directory"));
     mem_free(at_file);
     mem_free(below);

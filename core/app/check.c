@@ -1,0 +1,139 @@
+/* check.c - see check.h.
+ *
+ * Steps and time are measured, not guessed: the scene is painted on a coarse copy of its mesh
+ * (which also finds scripts that fail), whose time step, scaled by the cell size, gives the number
+ * of steps, and whose first steps give the cost per cell on this machine. Both hold for the
+ * initial state: what happens later may need smaller steps. */
+#include "app/check.h"
+
+#include "app/human.h"
+#include "app/progress.h"
+#include "app/scenes.h"
+#include "base/comm.h"
+#include "base/status.h"
+#include "solve/advance.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { CHECK_COARSE = 32, CHECK_STEPS = 4 }; /* cells along an axis of the coarse copy; steps that are timed */
+
+struct check_cost {
+    double steps, seconds;
+};
+
+static const char *const check_geometry[] = {"cartesian", "axisymmetric", "spherical"};
+
+static void check_print_module(const char *what, const struct instance *instance)
+{
+    const struct bulla_module *module = instance->module;
+    printf("  %-12s %s:%s", what, module->kind, module->name);
+    for (unsigned i = 0; i < instance_param_count(module); i++) {
+        const struct bulla_param *param = &module->params[i];
+        if (param->type == BULLA_NUMBER) printf("  %s %g %s", param->name, instance->values[i].number, param->unit);
+        else if (instance->values[i].text) printf("  %s %s", param->name, instance->values[i].text);
+    }
+    putchar('\n');
+}
+
+static void check_print_fields(const struct model *model)
+{
+    printf("  %-12s %u:", "fields", model->n_field);
+    for (unsigned i = 0; i < model->n_field; i++) printf(" %s", model->field_names[i]);
+    putchar('\n');
+}
+
+/* Three copies of the fields (old, new, primitive) and a tenth for frames and exchange. */
+static double check_memory(const struct scene *scene, unsigned n_field)
+{
+    return scenes_cells(scene) * 3 * 8 * n_field * 1.1;
+}
+
+/* The scene with every axis halved until it is coarse. */
+static struct scene check_coarsen(const struct scene *scene, double *ret_ratio)
+{
+    struct scene coarse = *scene;
+    int most = 1;
+    for (int axis = 0; axis < scene->dim; axis++)
+        if (scene->cells[axis] > most) most = scene->cells[axis];
+    int limit = scene->dim == 1 ? 8 * CHECK_COARSE : CHECK_COARSE, factor = 1;
+    while (most / factor > limit) {
+        bool even = true;
+        for (int axis = 0; axis < scene->dim; axis++) even = even && scene->cells[axis] / factor % 8 == 0;
+        if (!even) break;
+        factor *= 2;
+    }
+    for (int axis = 0; axis < scene->dim; axis++) coarse.cells[axis] = scene->cells[axis] / factor;
+    coarse.tile = factor == 1 ? scene->tile : 0;
+    *ret_ratio = factor;
+    return coarse;
+}
+
+static int check_measure(struct state *coarse, double ratio, const struct scene *scene, struct check_cost *ret)
+{
+    double dt = advance_dt(coarse) / (scene->dt_fixed > 0 ? 1 : ratio), begin = progress_clock();
+    int steps = 0;
+    for (; steps < CHECK_STEPS && coarse->t < scene->until; steps++) {
+        double left = scene->until - coarse->t, take = advance_dt(coarse);
+        TRY(advance_step(coarse, take < left ? take : left));
+    }
+    double spent = (progress_clock() - begin) / (steps ? steps : 1);
+    ret->steps = ceil(scene->until / dt);
+    if (scene->max_steps > 0 && ret->steps > (double)scene->max_steps) ret->steps = (double)scene->max_steps;
+    ret->seconds = ret->steps * spent * scenes_cells(scene) / scenes_cells(coarse->scene);
+    return 0;
+}
+
+static void check_print(const struct scene *scene, const struct state *coarse, const struct check_cost *cost)
+{
+    char text[HUMAN_ROOM];
+    printf("%s: good\n", scene->path);
+    if (scene->title) printf("  %-12s %s\n", "title", scene->title);
+    printf("  %-12s %dD %s, %d", "domain", scene->dim, check_geometry[scene->geometry], scene->cells[0]);
+    for (int axis = 1; axis < scene->dim; axis++) printf(" x %d", scene->cells[axis]);
+    int tile = mesh_tile_size(scene);
+    double tiles = 1;
+    for (int axis = 0; axis < scene->dim; axis++) tiles *= scene->cells[axis] / (double)tile;
+    printf(" = %.0f cells in %.0f tiles of %d\n", scenes_cells(scene), tiles, tile);
+    check_print_fields(coarse->model);
+    for (unsigned i = 0; i < scene->n_material; i++)
+        check_print_module(scene->material[i].name, &scene->material[i].eos);
+    printf("  %-12s %s\n", "closure", scene->closure == SCENE_KAPILA ? "kapila" : "allaire");
+    check_print_module("riemann", &scene->riemann);
+    check_print_module("limiter", &scene->limiter);
+    printf("  %-12s about %s\n", "memory", human_bytes(check_memory(scene, coarse->model->n_field), text));
+    printf("  %-12s until %s, about %.0f steps (from the initial state)\n", "run", human_si(scene->until, "s", text),
+           cost->steps);
+    printf("  %-12s about %s on one core (from %d steps on a coarse copy)\n", "time",
+           human_duration(cost->seconds, text), CHECK_STEPS);
+    printf("  %-12s %s\n", "output", scene->directory);
+}
+
+static int check_one(const struct cli_given *given, const char *path)
+{
+    struct scene *scene = NULL;
+    int code = scenes_read(given, path, &scene);
+    if (code) return code;
+    double ratio;
+    struct scene coarse_scene = check_coarsen(scene, &ratio);
+    struct state *coarse = NULL;
+    struct check_cost cost = {0, 0};
+    if (!mesh_tile_size(scene)) code = STATUS_CASE;
+    if (!code) code = state_new(&coarse_scene, &coarse);
+    if (!code) code = check_measure(coarse, ratio, scene, &cost);
+    if (code) cli_failed(code);
+    else if (comm_rank() == 0) check_print(scene, coarse, &cost);
+    state_free(coarse);
+    scene_free(scene);
+    return code ? STATUS_CASE : 0;
+}
+
+int check_command(const struct cli_given *given)
+{
+    int worst = 0;
+    for (int i = 0; i < given->n_word; i++) {
+        int code = check_one(given, given->words[i]);
+        if (code > worst) worst = code;
+    }
+    return worst;
+}
