@@ -8,6 +8,7 @@
 #include "base/log.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "base/version.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -70,7 +71,7 @@ static void command_list(FILE *stream)
 static int command_version(const struct cli_given *given)
 {
     (void)given;
-    if (comm_rank() == 0) puts("bulla " BULLA_VERSION);
+    if (comm_rank() == 0) printf("bulla " BULLA_VERSION " (commit %.12s)\n", version_commit());
     return 0;
 }
 

@@ -1,0 +1,8 @@
+/* version.h - which bulla this is. The number is BULLA_VERSION, known everywhere. */
+#ifndef VERSION_H
+#define VERSION_H
+
+/* The commit the program was built from (40 hexadecimal digits), or "unknown". */
+const char *version_commit(void);
+
+#endif
