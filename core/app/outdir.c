@@ -72,7 +72,7 @@ static int outdir_clear(const char *path)
     for (int i = 0; i < FILES + FOLDERS && !code; i++) {
         bool is_file = i < FILES;
         char *name = mem_print("%s/%s", path, is_file ? outdir_files[i] : outdir_folders[i - FILES]);
-        if (is_file ? unlink(name) && errno != ENOENT : outdir_sweep(name, true) < 0)
+        if (is_file ? unlink(name) && errno != ENOENT && errno != ENOTDIR : outdir_sweep(name, true) < 0)
             code = status_fail(STATUS_RUN, "cannot remove %s: %s", name, strerror(errno));
         mem_free(name);
     }
