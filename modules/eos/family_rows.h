@@ -1,0 +1,118 @@
+/* family_rows.h - the functions of kind "eos" for the family of family_point.h.
+ *
+ * The including module first defines FAMILY_ROOM, either family_room_all or family_room_left,
+ * then opens its instances with family_open and fills its table with FAMILY_TABLE(range). */
+#ifndef FAMILY_ROWS_H
+#define FAMILY_ROWS_H
+
+#include "bulla/eos.h"
+#include "family_point.h"
+
+#include <stdlib.h>
+
+BULLA_KERNEL static void rows_state(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                          const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e,
+                                          double *BULLA_RESTRICT c2)
+{
+    const struct family par = *(const struct family *)self;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double density = rho[i], pressure = p[i];
+        struct family_room room = FAMILY_ROOM(&par, density);
+        rho_e[i] = family_slope(&par, room) * pressure + family_rest(&par, room, density);
+        c2[i] = family_c2(&par, room, density, pressure);
+    }
+}
+
+BULLA_KERNEL static void rows_derivatives(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                                const double *BULLA_RESTRICT p, double *BULLA_RESTRICT de_dp,
+                                                double *BULLA_RESTRICT de_drho)
+{
+    const struct family par = *(const struct family *)self;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double density = rho[i], pressure = p[i];
+        struct family_room room = FAMILY_ROOM(&par, density);
+        de_dp[i] = family_slope(&par, room);
+        de_drho[i] = family_de_drho(&par, room, density, pressure);
+    }
+}
+
+BULLA_KERNEL static void rows_temperature(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                                const double *BULLA_RESTRICT p, double *BULLA_RESTRICT T)
+{
+    const struct family par = *(const struct family *)self;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double density = rho[i], pressure = p[i];
+        T[i] = family_temperature(&par, FAMILY_ROOM(&par, density), density, pressure);
+    }
+}
+
+BULLA_KERNEL static void rows_density(const void *self, size_t n, const double *BULLA_RESTRICT p,
+                                            const double *BULLA_RESTRICT T, double *BULLA_RESTRICT rho)
+{
+    const struct family par = *(const struct family *)self;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double pressure = p[i], temperature = T[i];
+        rho[i] = family_density(&par, pressure, temperature);
+    }
+}
+
+BULLA_KERNEL static void rows_linear(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                           double *BULLA_RESTRICT a, double *BULLA_RESTRICT b)
+{
+    const struct family par = *(const struct family *)self;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double density = rho[i];
+        struct family_room room = FAMILY_ROOM(&par, density);
+        a[i] = family_slope(&par, room);
+        b[i] = family_rest(&par, room, density);
+    }
+}
+
+
+/* log is no vector function without leave to change values, so this row stays scalar. */
+static void rows_entropy(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
+                         double *BULLA_RESTRICT s)
+{
+    const struct family *par = self;
+    for (size_t i = 0; i < n; i++) s[i] = family_entropy(par, FAMILY_ROOM(par, rho[i]), rho[i], p[i]);
+}
+
+static void rows_p_min(const void *self, size_t n, const double *BULLA_RESTRICT rho, double *BULLA_RESTRICT p)
+{
+    const struct family *par = self;
+    (void)rho;
+    for (size_t i = 0; i < n; i++) p[i] = -par->p_inf;
+}
+
+/* Makes an instance; the caller's `par` needs no `inverse`. */
+static int family_open(const struct bulla_host *host, struct family par, void **ret_self)
+{
+    struct family *self = malloc(sizeof *self);
+    if (!self) {
+        host->fail("out of memory");
+        return 1;
+    }
+    par.inverse = 1.0 / (par.gamma - 1.0);
+    *self = par;
+    *ret_self = self;
+    return 0;
+}
+
+static void family_close(void *self)
+{
+    free(self);
+}
+
+#define FAMILY_TABLE(range_function)                                                                          \
+    {                                                                                                         \
+        .size = sizeof(struct bulla_eos), .state = rows_state, .derivatives = rows_derivatives,               \
+        .temperature = rows_temperature, .entropy = rows_entropy, .density = rows_density, .p_min = rows_p_min, \
+        .linear = rows_linear, .range = (range_function)                                                      \
+    }
+
+#endif

@@ -1,0 +1,52 @@
+/* ideal_gas.c - p = (gamma - 1) rho e, T = p/((gamma - 1) cv rho). The family without attraction,
+ * co-volume and heat bond. */
+#define FAMILY_ROOM family_room_all
+#include "family_rows.h"
+
+enum { GAMMA, CV };
+
+static const struct bulla_param ideal_gas_params[] = {
+    {"gamma", "1", 1.0001, 100.0, NAN, "ratio of specific heats", BULLA_NUMBER, NULL},
+    {"cv", "J/kg/K", 1e-3, 1e9, 717.5, "specific heat at constant volume; only temperatures depend on it",
+     BULLA_NUMBER, NULL},
+    {0},
+};
+
+static const struct bulla_preset ideal_gas_presets[] = {
+    {"air", "dry air at room temperature", (const double[]){1.4, 717.5}},
+    {"air-r287", "dry air with the gas constant 287.05 J/(kg K)", (const double[]){1.4, 717.625}},
+    {"helium", "helium: gamma 5/3, gas constant 2077.26 J/(kg K)", (const double[]){5.0 / 3.0, 3115.9}},
+    {0},
+};
+
+static int ideal_gas_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
+{
+    struct family par = {.gamma = values[GAMMA].number, .cv = values[CV].number};
+    return family_open(host, par, ret_self);
+}
+
+/* Air: below 100 K it condenses, above 2000 K vibration and dissociation change gamma. */
+static void ideal_gas_range(const void *self, struct bulla_eos_range *ret_range)
+{
+    (void)self;
+    *ret_range = (struct bulla_eos_range){
+        .rho_min = 0.0, .rho_max = 300.0, .p_min = 0.0, .p_max = 3e7, .T_min = 100.0, .T_max = 2000.0};
+}
+
+static const struct bulla_eos ideal_gas_table = FAMILY_TABLE(ideal_gas_range);
+
+BULLA_EXPORT const struct bulla_module bulla_module = {
+    .magic = BULLA_MAGIC,
+    .abi = BULLA_ABI,
+    .size = sizeof bulla_module,
+    .kind = "eos",
+    .name = "ideal-gas",
+    .version = "1.0",
+    .doc = "Calorically perfect gas: p = (gamma - 1) rho e. For gases far from condensation and dissociation.",
+    .cite = "Toro 2009, Riemann Solvers and Numerical Methods for Fluid Dynamics, section 1.2",
+    .params = ideal_gas_params,
+    .presets = ideal_gas_presets,
+    .open = ideal_gas_open,
+    .close = family_close,
+    .table = &ideal_gas_table,
+};

@@ -1,0 +1,67 @@
+/* stiffened_gas.c - p = (gamma - 1) rho (e - q) - gamma p_inf: a gas with an attraction p_inf that
+ * gives liquids and soft solids their sound speed. The family without co-volume.
+ *
+ * Water has many parameter sets in the literature. The mechanical ones (sg4, sg44, sg659, sg659b)
+ * give no temperature of their own; their cv is set so that T = 300 K at 998.2 kg/m3 and 1e5 Pa. */
+#define FAMILY_ROOM family_room_all
+#include "family_rows.h"
+
+enum { GAMMA, P_INF, CV, HEAT_BOND };
+
+static const struct bulla_param stiffened_gas_params[] = {
+    {"gamma", "1", 1.0001, 100.0, NAN, "exponent; with p-inf it sets the sound speed", BULLA_NUMBER, NULL},
+    {"p-inf", "Pa", 0.0, 1e13, NAN, "attraction: the pressure -p-inf is where the sound speed is zero", BULLA_NUMBER,
+     NULL},
+    {"cv", "J/kg/K", 1e-3, 1e9, 1000.0, "specific heat at constant volume; only temperatures depend on it",
+     BULLA_NUMBER, NULL},
+    {"heat-bond", "J/kg", -1e12, 1e12, 0.0, "energy at zero temperature; shifts the zero of energy", BULLA_NUMBER,
+     NULL},
+    {0},
+};
+
+static const struct bulla_preset stiffened_gas_presets[] = {
+    {"sg44", "water, gamma 4.4, p-inf 600 MPa (mechanical)", (const double[]){4.4, 6e8, 589.394243, 0.0}},
+    {"sg4", "water, gamma 4, p-inf 600 MPa (mechanical)", (const double[]){4.0, 6e8, 667.980142, 0.0}},
+    {"sg659", "water, gamma 6.59, p-inf 4049 atm (mechanical)", (const double[]){6.59, 4.10264925e8, 245.143061, 0.0}},
+    {"sg659b", "water, gamma 6.59, p-inf 410 MPa (mechanical)", (const double[]){6.59, 4.1e8, 244.984801, 0.0}},
+    {"sg3", "water, gamma 3, p-inf 853.3 MPa, with temperatures", (const double[]){3.0, 8.533e8, 1395.0, -1148e3}},
+    {"sg235", "water, gamma 2.35, p-inf 1 GPa (Le Metayer et al. 2004)",
+     (const double[]){2.35, 1e9, 1816.0, -1167e3}},
+    {0},
+};
+
+static int stiffened_gas_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
+{
+    struct family par = {.gamma = values[GAMMA].number,
+                         .p_inf = values[P_INF].number,
+                         .cv = values[CV].number,
+                         .q = values[HEAT_BOND].number};
+    return family_open(host, par, ret_self);
+}
+
+/* Liquid water; in tension down to where the sound speed ends. */
+static void stiffened_gas_range(const void *self, struct bulla_eos_range *ret_range)
+{
+    const struct family *par = self;
+    *ret_range = (struct bulla_eos_range){
+        .rho_min = 0.0, .rho_max = 3000.0, .p_min = -par->p_inf, .p_max = 1e10, .T_min = 273.0, .T_max = 500.0};
+}
+
+static const struct bulla_eos stiffened_gas_table = FAMILY_TABLE(stiffened_gas_range);
+
+BULLA_EXPORT const struct bulla_module bulla_module = {
+    .magic = BULLA_MAGIC,
+    .abi = BULLA_ABI,
+    .size = sizeof bulla_module,
+    .kind = "eos",
+    .name = "stiffened-gas",
+    .version = "1.0",
+    .doc = "Stiffened gas: p = (gamma - 1) rho (e - q) - gamma p-inf. For liquids and soft solids under shocks; "
+           "its temperatures are rough.",
+    .cite = "Le Metayer, Massoni & Saurel, Int. J. Therm. Sci. 43 (2004) 265-276",
+    .params = stiffened_gas_params,
+    .presets = stiffened_gas_presets,
+    .open = stiffened_gas_open,
+    .close = family_close,
+    .table = &stiffened_gas_table,
+};

@@ -1,0 +1,76 @@
+/* wave.h - signal speeds and the contact of one face, shared by all Riemann solvers.
+ *
+ * Two signal speeds S_L, S_R bound the waves; between them the flow has one velocity S_M and one
+ * pressure p* on both sides of the contact (Toro 2009, 10.37 and 10.36), with the impedances
+ * a_L = rho_L (S_L - u_L) < 0 < a_R = rho_R (S_R - u_R):
+ *     S_M = (p_R - p_L + a_L u_L - a_R u_R)/(a_L - a_R),   p* = p_K + a_K (S_M - u_K).
+ * S_M is written around the mean velocity: it is exactly u where u and p do not jump, hence
+ * exactly 0 in a fluid at rest, and changes sign exactly when the sides are mirrored. p* is the
+ * mean of its two equal forms for the same reason. */
+#ifndef WAVE_H
+#define WAVE_H
+
+#include "bulla/riemann.h"
+
+#include <math.h>
+
+/* One side of one face; u is normal to the face. */
+struct wave_side {
+    double rho, u, p, c, rho_E;
+};
+
+struct wave {
+    double s_left, s_right, s_contact, p_star;
+};
+
+static inline double wave_least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double wave_most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* S_L = min(u - c), S_R = max(u + c) over both sides (Davis, SIAM J. Sci. Stat. Comput. 9 (1988) 445). */
+static inline struct wave wave_davis(struct wave_side left, struct wave_side right)
+{
+    return (struct wave){.s_left = wave_least(left.u - left.c, right.u - right.c),
+                         .s_right = wave_most(left.u + left.c, right.u + right.c)};
+}
+
+/* S_R = -S_L = the largest |u| + c (Rusanov, USSR Comput. Math. Math. Phys. 1 (1961) 304). */
+static inline struct wave wave_rusanov(struct wave_side left, struct wave_side right)
+{
+    double s = wave_most(fabs(left.u) + left.c, fabs(right.u) + right.c);
+    return (struct wave){.s_left = -s, .s_right = s};
+}
+
+/* Adds velocity and pressure between the signals. */
+static inline struct wave wave_contact(struct wave wave, struct wave_side left, struct wave_side right)
+{
+    double a_left = left.rho * (wave.s_left - left.u), a_right = right.rho * (wave.s_right - right.u);
+    double half = 0.5 * (right.u - left.u);
+    double excess = ((right.p - left.p) - half * (a_left + a_right)) / (a_left - a_right);
+    wave.s_contact = 0.5 * (left.u + right.u) + excess;
+    wave.p_star =
+        0.5 * ((left.p + a_left * (wave.s_contact - left.u)) + (right.p + a_right * (wave.s_contact - right.u)));
+    return wave;
+}
+
+/* Velocity at the face itself. */
+static inline double wave_face_velocity(struct wave wave, struct wave_side left, struct wave_side right)
+{
+    double inner = wave.s_right <= 0.0 ? right.u : wave.s_contact;
+    return wave.s_left >= 0.0 ? left.u : inner;
+}
+
+/* Diffusion speed of the two-wave average at the face: -S_L S_R/(S_R - S_L), 0 where supersonic. */
+static inline double wave_spread(struct wave wave)
+{
+    double s_left = wave_least(wave.s_left, 0.0), s_right = wave_most(wave.s_right, 0.0);
+    return -s_left * s_right / (s_right - s_left);
+}
+
+#endif
