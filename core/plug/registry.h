@@ -27,6 +27,7 @@ void registry_done(void);
 int registry_load(const char *path);
 
 /* All entries, sorted by kind, then name. */
+/* Entries move when a module is loaded: keep what they point to, not the entry. */
 size_t registry_count(void);
 const struct registry_entry *registry_at(size_t index);
 

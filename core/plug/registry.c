@@ -1,0 +1,168 @@
+/* registry.c - see registry.h.
+ *
+ * A sorted array of loaded objects. The first file that brings a kind and name keeps it: a later
+ * one is refused, naming both, unless it is the same file or has the same bytes (a copy in a
+ * second folder of the search path). */
+#include "plug/registry.h"
+
+#include "base/log.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "plug/loader.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static struct loader_object *registry_objects;
+static struct registry_entry *registry_entries; /* the public view, same order */
+static const char **registry_list;              /* last answer of registry_names */
+static size_t registry_size;
+static bool registry_scanned;
+
+static int registry_compare(const struct bulla_module *a, const char *kind, const char *name)
+{
+    int order = strcmp(a->kind, kind);
+    return order ? order : strcmp(a->name, name);
+}
+
+/* First place whose module is not before (kind, name). */
+static size_t registry_place(const char *kind, const char *name)
+{
+    size_t at = 0;
+    while (at < registry_size && registry_compare(registry_entries[at].module, kind, name) < 0) at++;
+    return at;
+}
+
+static void registry_insert(struct loader_object object)
+{
+    size_t at = registry_place(object.module->kind, object.module->name), size = registry_size++;
+    registry_objects = mem_grow(registry_objects, size, size + 1, sizeof *registry_objects);
+    registry_entries = mem_grow(registry_entries, size, size + 1, sizeof *registry_entries);
+    memmove(registry_objects + at + 1, registry_objects + at, (size - at) * sizeof *registry_objects);
+    memmove(registry_entries + at + 1, registry_entries + at, (size - at) * sizeof *registry_entries);
+    registry_objects[at] = object;
+    registry_entries[at] = (struct registry_entry){object.module, object.path, object.hash};
+}
+
+int registry_load(const char *path)
+{
+    struct loader_object object;
+    TRY(loader_open(path, &object));
+    const struct registry_entry *taken = registry_find(object.module->kind, object.module->name);
+    if (!taken) {
+        registry_insert(object);
+        return STATUS_OK;
+    }
+    bool same = taken->hash == object.hash;
+    if (!same)
+        status_fail(STATUS_CASE, "%s brings %s '%s', which %s has brought already", object.path, object.module->kind,
+                    object.module->name, taken->path);
+    loader_close(&object);
+    return same ? STATUS_OK : STATUS_CASE;
+}
+
+static int registry_is_object(const struct dirent *entry)
+{
+    size_t length = strlen(entry->d_name);
+    return length > 3 && strcmp(entry->d_name + length - 3, ".so") == 0;
+}
+
+/* All *.so of a folder, by name. One that is refused costs a warning, not the run. */
+static void registry_scan(const char *folder, bool must_exist)
+{
+    struct dirent **files;
+    int count = scandir(folder, &files, registry_is_object, alphasort);
+    if (count < 0) {
+        if (must_exist) log_warn("module folder %s cannot be read: %s", folder, strerror(errno));
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        char *path = mem_print("%s/%s", folder, files[i]->d_name);
+        if (registry_load(path)) log_warn("module skipped: %s", status_text());
+        mem_free(path);
+        free(files[i]);
+    }
+    free(files);
+}
+
+/* Folders of a colon separated list; empty ones are skipped (never the working directory). */
+static void registry_scan_list(const char *list)
+{
+    while (*list) {
+        size_t length = strcspn(list, ":");
+        if (length) {
+            char *folder = mem_text_n(list, length);
+            registry_scan(folder, true);
+            mem_free(folder);
+        }
+        list += length + (list[length] == ':');
+    }
+}
+
+/* ../lib/bulla/modules seen from the folder of the running program. */
+static void registry_scan_own(void)
+{
+    char program[4096];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (length < 0) return;
+    program[length] = '\0';
+    char *slash = strrchr(program, '/');
+    if (slash) *slash = '\0';
+    char *folder = mem_print("%s/../lib/bulla/modules", program);
+    registry_scan(folder, false);
+    mem_free(folder);
+}
+
+int registry_init(void)
+{
+    if (registry_scanned) return STATUS_OK;
+    registry_scanned = true;
+    const char *list = getenv("BULLA_MODULE_PATH");
+    if (list) registry_scan_list(list);
+    registry_scan_own();
+    return STATUS_OK;
+}
+
+void registry_done(void)
+{
+    for (size_t i = 0; i < registry_size; i++) loader_close(&registry_objects[i]);
+    mem_free(registry_objects);
+    mem_free(registry_entries);
+    mem_free(registry_list);
+    registry_objects = NULL;
+    registry_entries = NULL;
+    registry_list = NULL;
+    registry_size = 0;
+    registry_scanned = false;
+}
+
+size_t registry_count(void)
+{
+    return registry_size;
+}
+
+const struct registry_entry *registry_at(size_t index)
+{
+    return index < registry_size ? &registry_entries[index] : NULL;
+}
+
+const struct registry_entry *registry_find(const char *kind, const char *name)
+{
+    size_t at = registry_place(kind, name);
+    if (at == registry_size || registry_compare(registry_entries[at].module, kind, name) != 0) return NULL;
+    return &registry_entries[at];
+}
+
+const char *const *registry_names(const char *kind)
+{
+    mem_free(registry_list);
+    registry_list = mem_new(registry_size + 1, sizeof *registry_list);
+    size_t count = 0;
+    for (size_t i = 0; i < registry_size; i++)
+        if (strcmp(registry_entries[i].module->kind, kind) == 0) registry_list[count++] = registry_entries[i].module->name;
+    return registry_list;
+}

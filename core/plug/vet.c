@@ -1,0 +1,201 @@
+/* vet.c - see vet.h. What is checked here is never checked again: the case layer, the schema and
+ * the kernels take a loaded module's tables at their word. */
+#include "plug/vet.h"
+
+#include "base/status.h"
+#include "bulla/eos.h"
+#include "bulla/limiter.h"
+#include "bulla/riemann.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+enum { VET_ROWS = 256, VET_PRESETS = 256, VET_SLOTS = 8 };
+
+/* A function that a kind must supply. */
+struct vet_slot {
+    const char *name;
+    size_t offset;
+};
+
+struct vet_kind {
+    const char *name;
+    size_t size; /* of the table of functions */
+    struct vet_slot slots[VET_SLOTS];
+};
+
+#define VET_SLOT(table, slot)            \
+    {                                    \
+        #slot, offsetof(struct table, slot) \
+    }
+
+static const struct vet_kind vet_kinds[] = {
+    {"eos",
+     sizeof(struct bulla_eos),
+     {VET_SLOT(bulla_eos, state), VET_SLOT(bulla_eos, derivatives), VET_SLOT(bulla_eos, temperature),
+      VET_SLOT(bulla_eos, entropy), VET_SLOT(bulla_eos, density), VET_SLOT(bulla_eos, p_min),
+      VET_SLOT(bulla_eos, range)}},
+    {"limiter", sizeof(struct bulla_limiter), {VET_SLOT(bulla_limiter, slope)}},
+    {"riemann", sizeof(struct bulla_riemann), {VET_SLOT(bulla_riemann, solve)}},
+};
+
+enum { VET_KINDS = sizeof vet_kinds / sizeof *vet_kinds };
+
+static bool vet_empty(const char *text)
+{
+    return !text || !*text;
+}
+
+/* Lower case with hyphens: [a-z][a-z0-9]*(-[a-z0-9]+)* */
+static bool vet_name(const char *name)
+{
+    if (vet_empty(name) || !islower((unsigned char)*name)) return false;
+    for (const char *at = name; *at; at++) {
+        bool letter = islower((unsigned char)*at) || isdigit((unsigned char)*at);
+        if (!letter && (*at != '-' || at[1] == '-' || at[1] == '\0')) return false;
+    }
+    return true;
+}
+
+static int vet_head(const struct bulla_module *module, size_t space)
+{
+    if (space && space < offsetof(struct bulla_module, kind))
+        return status_fail(STATUS_CASE, "is no module: its bulla_module has %zu bytes", space);
+    if (module->magic != BULLA_MAGIC)
+        return status_fail(STATUS_CASE, "is no module: magic number 0x%08x instead of 0x%08x", module->magic,
+                           BULLA_MAGIC);
+    if (module->abi != BULLA_ABI)
+        return status_fail(STATUS_CASE, "was built for %s module interface %u; this program has %u: build it again",
+                           module->abi < BULLA_ABI ? "the older" : "a newer", module->abi, BULLA_ABI);
+    size_t size = space && space < module->size ? space : module->size;
+    if (size < sizeof *module)
+        return status_fail(STATUS_CASE, "has a descriptor of %zu bytes; at least %zu are needed", size, sizeof *module);
+    if (!vet_name(module->name))
+        return status_fail(STATUS_CASE, "has the name '%s'; names are lower case with hyphens",
+                           module->name ? module->name : "");
+    if (vet_empty(module->version) || vet_empty(module->doc) || vet_empty(module->cite))
+        return status_fail(STATUS_CASE, "lacks its %s",
+                           vet_empty(module->version) ? "version" : vet_empty(module->doc) ? "doc" : "cite");
+    return STATUS_OK;
+}
+
+static int vet_table(const struct bulla_module *module)
+{
+    const struct vet_kind *kind = NULL;
+    for (int i = 0; i < VET_KINDS; i++)
+        if (module->kind && strcmp(module->kind, vet_kinds[i].name) == 0) kind = &vet_kinds[i];
+    if (!kind)
+        return status_fail(STATUS_CASE, "is of the unknown kind '%s'; kinds are eos, limiter, riemann",
+                           module->kind ? module->kind : "");
+    if (!module->table) return status_fail(STATUS_CASE, "has no table of functions");
+    uint32_t size;
+    memcpy(&size, module->table, sizeof size);
+    if (size < kind->size)
+        return status_fail(STATUS_CASE, "has a table of functions of size %u; kind %s needs %zu", size, kind->name,
+                           kind->size);
+    for (const struct vet_slot *slot = kind->slots; slot->name; slot++) {
+        void *function;
+        memcpy(&function, (const char *)module->table + slot->offset, sizeof function);
+        if (!function) return status_fail(STATUS_CASE, "has no function '%s', which kind %s needs", slot->name, kind->name);
+    }
+    return STATUS_OK;
+}
+
+/* "a|b|c" without empty or repeated words. */
+static bool vet_choices(const char *choices)
+{
+    if (vet_empty(choices)) return false;
+    for (const char *word = choices;;) {
+        size_t length = strcspn(word, "|");
+        if (length == 0) return false;
+        for (const char *before = choices; before < word; before += strcspn(before, "|") + 1)
+            if (strcspn(before, "|") == length && strncmp(before, word, length) == 0) return false;
+        if (word[length] == '\0') return true;
+        word += length + 1;
+    }
+}
+
+static int vet_number(const struct bulla_param *row)
+{
+    if (vet_empty(row->unit)) return status_fail(STATUS_CASE, "has parameter '%s' without a unit", row->name);
+    if (!(row->min <= row->max))
+        return status_fail(STATUS_CASE, "has parameter '%s' with the range %g to %g", row->name, row->min, row->max);
+    if (row->fallback < row->min || row->fallback > row->max) /* false for NaN: the key is required */
+        return status_fail(STATUS_CASE, "has parameter '%s' with the default %g outside %g to %g", row->name,
+                           row->fallback, row->min, row->max);
+    return STATUS_OK;
+}
+
+static int vet_row(const struct bulla_param *table, const struct bulla_param *row)
+{
+    if (!vet_name(row->name))
+        return status_fail(STATUS_CASE, "has a parameter '%s'; names are lower case with hyphens", row->name);
+    if (strcmp(row->name, "type") == 0 || strcmp(row->name, "preset") == 0)
+        return status_fail(STATUS_CASE, "has a parameter '%s'; that key is reserved", row->name);
+    for (const struct bulla_param *other = table; other < row; other++)
+        if (strcmp(other->name, row->name) == 0)
+            return status_fail(STATUS_CASE, "has parameter '%s' twice", row->name);
+    if (vet_empty(row->doc)) return status_fail(STATUS_CASE, "has parameter '%s' without a doc", row->name);
+    switch (row->type) {
+    case BULLA_NUMBER: return vet_number(row);
+    case BULLA_TEXT: return STATUS_OK;
+    case BULLA_CHOICE:
+        if (vet_choices(row->choices)) return STATUS_OK;
+        return status_fail(STATUS_CASE, "has parameter '%s' with bad choices '%s'", row->name,
+                           row->choices ? row->choices : "");
+    default: return status_fail(STATUS_CASE, "has parameter '%s' of the unknown type %d", row->name, row->type);
+    }
+}
+
+static int vet_params(const struct bulla_module *module)
+{
+    if (!module->params) return STATUS_OK;
+    const struct bulla_param *row = module->params;
+    for (; row->name; row++) {
+        if (row - module->params == VET_ROWS)
+            return status_fail(STATUS_CASE, "has a parameter table without an end in %d rows", VET_ROWS);
+        TRY(vet_row(module->params, row));
+    }
+    return STATUS_OK;
+}
+
+static int vet_preset(const struct bulla_module *module, const struct bulla_preset *preset)
+{
+    if (!vet_name(preset->name))
+        return status_fail(STATUS_CASE, "has a preset '%s'; names are lower case with hyphens", preset->name);
+    for (const struct bulla_preset *other = module->presets; other < preset; other++)
+        if (strcmp(other->name, preset->name) == 0)
+            return status_fail(STATUS_CASE, "has preset '%s' twice", preset->name);
+    if (vet_empty(preset->doc) || !preset->values)
+        return status_fail(STATUS_CASE, "has preset '%s' without a doc or values", preset->name);
+    for (size_t i = 0; module->params[i].name; i++) {
+        const struct bulla_param *row = &module->params[i];
+        double value = preset->values[i];
+        if (row->type == BULLA_NUMBER && !(value >= row->min && value <= row->max))
+            return status_fail(STATUS_CASE, "has preset '%s' with %s = %g outside %g to %g", preset->name, row->name,
+                               value, row->min, row->max);
+    }
+    return STATUS_OK;
+}
+
+static int vet_presets(const struct bulla_module *module)
+{
+    if (!module->presets) return STATUS_OK;
+    if (!module->params) return status_fail(STATUS_CASE, "has presets but no parameters");
+    for (const struct bulla_preset *preset = module->presets; preset->name; preset++) {
+        if (preset - module->presets == VET_PRESETS)
+            return status_fail(STATUS_CASE, "has a list of presets without an end in %d entries", VET_PRESETS);
+        TRY(vet_preset(module, preset));
+    }
+    return STATUS_OK;
+}
+
+int vet_module(const struct bulla_module *module, size_t space)
+{
+    TRY(vet_head(module, space));
+    TRY(vet_table(module));
+    TRY(vet_params(module));
+    return vet_presets(module);
+}

@@ -1,0 +1,15 @@
+/* vet.h - is a module's descriptor one that core can work with? */
+#ifndef VET_H
+#define VET_H
+
+#include "bulla/module.h"
+
+#include <stddef.h>
+
+/* Checks everything that core relies on: magic, interface number, sizes, kind, the functions of
+ * the kind, names and texts, the parameter table and the presets. `space` is the size of the
+ * symbol in the object file [bytes], 0 if unknown. Returns 0, or STATUS_CASE with a message
+ * that is the end of a sentence about the file ("... has no function 'state'"). */
+int vet_module(const struct bulla_module *module, size_t space);
+
+#endif
