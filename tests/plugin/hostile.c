@@ -92,10 +92,12 @@ BULLA_EXPORT const int bulla_module_int __asm__("bulla_module") = 1;
 const void *const hostile_keep[] = {&hostile_table, hostile_params, hostile_presets, (const void *)hostile_open};
 #else
 #ifdef FLAW_NAMELESS
-#define bulla_module hostile_other_name
-extern BULLA_EXPORT const struct bulla_module bulla_module;
+#define HOSTILE_SYMBOL hostile_other_name
+extern BULLA_EXPORT const struct bulla_module HOSTILE_SYMBOL;
+#else
+#define HOSTILE_SYMBOL bulla_module
 #endif
-BULLA_EXPORT const struct bulla_module bulla_module = {
+BULLA_EXPORT const struct bulla_module HOSTILE_SYMBOL = {
     .magic = IS(bad_magic) ? 0x12345678u : BULLA_MAGIC,
     .abi = IS(old_abi) ? BULLA_ABI - 1 : IS(new_abi) ? BULLA_ABI + 1 : BULLA_ABI,
     .size = IS(short_size) ? 40 : sizeof(struct bulla_module),
