@@ -38,6 +38,13 @@ void *mem_grow(void *block, size_t old_count, size_t new_count, size_t size)
     return larger;
 }
 
+void *mem_try(void *block, size_t bytes)
+{
+    if (bytes) return realloc(block, bytes);
+    free(block);
+    return NULL;
+}
+
 char *mem_text(const char *text)
 {
     return text ? mem_text_n(text, strlen(text)) : NULL;

@@ -16,6 +16,10 @@ void *mem_new(size_t count, size_t size);
  * `old_count` items; new items are zeroed. */
 void *mem_grow(void *block, size_t old_count, size_t new_count, size_t size);
 
+/* Like realloc (0 bytes frees), unaligned and not zeroed; NULL when there is no memory. For memory with its
+ * own limit, which the caller answers for (Lua). */
+void *mem_try(void *block, size_t bytes);
+
 /* A copy of a string (NULL gives NULL), of `length` bytes of it. */
 char *mem_text(const char *text);
 char *mem_text_n(const char *text, size_t length);

@@ -3,17 +3,20 @@
  * One host (Lua state) per case. Scripts see math, a few base functions and the case's
  * parameters; no files, no processes, no loading of code, no random numbers, and an order of
  * `pairs` that is always the same, so that results never depend on run or rank. Memory is
- * capped, endless loops are ended; every error carries the line of the case file. */
+ * capped, endless loops are ended; every error carries the line of the case file.
+ * Globals can be written while a chunk is loaded, and never afterwards. */
 #ifndef SCRIPT_H
 #define SCRIPT_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-struct script_host;
-struct script;
+struct script_host; /* the Lua state and all that lives in it */
+struct script;      /* a compiled expression or function; owned by its host */
 
-struct script_host *script_host_new(void);
+enum { SCRIPT_ARGUMENTS = 16 }; /* most numbers in and out of a call */
+
+struct script_host *script_host_new(void);       /* ends the program if there is no memory for it */
 void script_host_free(struct script_host *host); /* frees its scripts too; NULL is fine */
 
 /* Makes a number visible to all scripts as a global (a case parameter). */
@@ -23,26 +26,19 @@ void script_set_number(struct script_host *host, const char *name, double value)
  * stands. Errors: STATUS_CASE. A non-finite result is an error. */
 int script_evaluate(struct script_host *host, const char *text, const char *file, int line, double *ret_value);
 
-/* Compiles an expression of the named arguments ("x,y,z,r,t"). `text` without the leading "=". */
+/* Compiles an expression of the named arguments ("x,y,z,r,t"; at most SCRIPT_ARGUMENTS). `text` without the leading "=". */
 int script_compile(struct script_host *host, const char *text, const char *arguments, const char *file, int line,
                    const struct script **ret_script);
 
 /* Compiles a chunk that must return a function (YAML block or the text of a .lua file). A
- * text that starts with "function" is accepted too. */
+ * text that starts with "function(" is accepted too. */
 int script_compile_function(struct script_host *host, const char *text, const char *file, int line,
                             const struct script **ret_script);
 
-/* Does an expression mention none of its arguments (it can be replaced by a number)? */
+/* Does an expression mention none of its arguments (it can be replaced by a number)? False for functions. */
 bool script_is_constant(const struct script *script);
 
 /* Calls with n_in numbers; wants n_out numbers back, all finite. */
 int script_call(const struct script *script, const double *in, unsigned n_in, double *out, unsigned n_out);
-
-/* Calls a function that returns a table of named numbers, or of named tables of numbers by
- * material: { pressure = 1e5, alpha = { water = 1 } }. For each name of `names` (dotted for
- * nested ones, "alpha.water") the value is stored, NaN if the table has none. A key that is
- * not in `names` is an error with a suggestion. */
-int script_call_table(const struct script *script, const double *in, unsigned n_in, const char *const *names,
-                      unsigned n_name, double *out);
 
 #endif

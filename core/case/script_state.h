@@ -1,0 +1,38 @@
+/* script_state.h - the inside of the Lua host, shared by script.c and script_table.c alone. */
+#ifndef SCRIPT_STATE_H
+#define SCRIPT_STATE_H
+
+#include "case/script.h"
+
+#include <lua.h>
+
+struct script_table;
+
+struct script_host {
+    lua_State *lua;
+    size_t used;  /* bytes that Lua holds */
+    int globals;  /* registry: the numbers and libraries that all scripts see */
+    int frozen;   /* registry: the same behind glass, the environment of expressions */
+    bool loading; /* a chunk is being run: its globals can be written */
+    struct script *scripts;
+    struct script_table *tables;
+};
+
+struct script {
+    struct script_host *host;
+    struct script *next;
+    char *file, *arguments; /* arguments: as given, NULL for a function */
+    int line, function;     /* function: registry */
+    bool constant;
+};
+
+/* Calls; on success n_out results are on the stack, on failure nothing. */
+int script_begin(const struct script *script, const double *in, unsigned n_in, unsigned n_out);
+
+/* Is the value at `at` a finite number? Else a message that begins with file and line. */
+int script_check_number(lua_State *lua, int at, const char *file, int line, double *ret_value);
+
+/* Adds the arguments of a call to the recorded message. Returns STATUS_CASE. */
+int script_fail_at(const struct script *script, const double *in, unsigned n_in);
+
+#endif
