@@ -108,7 +108,7 @@ static char *expect_what(const struct scene_expect *expect)
     return mem_print("%s(%s)", expect->norm, expect->field);
 }
 
-static int expect_judge(struct expect_run *run, struct expect_result *results)
+static int expect_evaluate(struct expect_run *run, struct expect_result *results)
 {
     for (unsigned i = 0; i < run->scene->n_expect; i++) {
         const struct scene_expect *expect = &run->scene->expects[i];
@@ -172,7 +172,7 @@ static int expect_on_one_rank(const struct scene *scene, const char *directory, 
     struct expect_run run = {.scene = scene, .directory = directory};
     struct expect_result *results = mem_new(scene->n_expect, sizeof *results);
     int code = expect_open(&run), failed = 0;
-    if (!code) code = expect_judge(&run, results);
+    if (!code) code = expect_evaluate(&run, results);
     if (!code) {
         for (unsigned i = 0; i < scene->n_expect; i++) failed += !results[i].passed;
         if (!quiet) expect_print(results, scene->n_expect);
@@ -190,7 +190,7 @@ static int expect_on_one_rank(const struct scene *scene, const char *directory, 
     return code;
 }
 
-int expect_check(const struct scene *scene, const char *directory, bool quiet)
+int expect_judge(const struct scene *scene, const char *directory, bool quiet)
 {
     int code = STATUS_OK;
     if (scene->n_expect && comm_rank() == 0) code = expect_on_one_rank(scene, directory, quiet);

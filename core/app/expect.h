@@ -10,6 +10,6 @@
  * fails; a value that is not finite fails. A scene without expectations passes silently.
  * STATUS_CASE: an expression, name or reference that makes no sense, with the line of the case
  * file; STATUS_RUN: files that cannot be read or written. Only rank 0 works; collective. */
-int expect_check(const struct scene *scene, const char *directory, bool quiet);
+int expect_judge(const struct scene *scene, const char *directory, bool quiet);
 
 #endif

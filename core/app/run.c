@@ -168,7 +168,7 @@ static int run_in_directory(struct run *run)
     if (!code && scene->n_expect && run->shortened)
         log_note("expectations are not judged: the command line shortened the run");
     else if (!code) {
-        code = expect_check(scene, directory, run->quiet || run->json);
+        code = expect_judge(scene, directory, run->quiet || run->json);
         if (code > STATUS_EXPECT) cli_failed(code);
     }
     progress_end(&run->progress, run->state->t, run->state->step, code, run->reason);
