@@ -147,6 +147,7 @@ static json_t *expect_json(const struct scene *scene, const struct expect_result
         json_object_set_new(item, "norm", scene->expects[i].value ? json_null() : json_string(scene->expects[i].norm));
         json_object_set_new(item, "field",
                             scene->expects[i].value ? json_null() : json_string(scene->expects[i].field));
+        json_object_set_new(item, "order", json_real(scene->expects[i].order));
         json_array_append_new(list, item);
         all = all && results[i].passed;
     }

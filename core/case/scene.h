@@ -135,6 +135,7 @@ struct scene_expect {
     char *column;     /* column of the CSV */
     char *coordinate; /* column of the CSV that holds x or t */
     double scale;     /* the norm is divided by it; 1 by default */
+    double order;     /* least order of convergence of a norm that `bulla verify` accepts; 0: none */
     char *label;      /* how the report calls it */
     int line;
 };

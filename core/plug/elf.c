@@ -23,7 +23,7 @@ static bool elf_inside(size_t size, uint64_t offset, uint64_t length)
     return offset <= size && length <= size - offset;
 }
 
-static bool elf_segments_inside(const char *bytes, size_t size, const ElfW(Ehdr) *head)
+static bool elf_segments_inside(const char *bytes, size_t size, const ElfW(Ehdr) * head)
 {
     if (head->e_phentsize != sizeof(ElfW(Phdr)) || head->e_phnum == 0) return false;
     if (!elf_inside(size, head->e_phoff, (uint64_t)head->e_phnum * head->e_phentsize)) return false;
@@ -35,7 +35,7 @@ static bool elf_segments_inside(const char *bytes, size_t size, const ElfW(Ehdr)
     return true;
 }
 
-static bool elf_sections_inside(const char *bytes, size_t size, const ElfW(Ehdr) *head)
+static bool elf_sections_inside(const char *bytes, size_t size, const ElfW(Ehdr) * head)
 {
     if (head->e_shoff == 0) return true; /* stripped of its section table */
     if (head->e_shentsize != sizeof(ElfW(Shdr))) return false;

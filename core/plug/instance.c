@@ -20,8 +20,9 @@ static void instance_fail(const char *text)
     snprintf(instance_reason, sizeof instance_reason, "%s", text ? text : "");
 }
 
-static const struct bulla_host instance_host = {
-    .size = sizeof(struct bulla_host), .say = instance_say, .fail = instance_fail};
+static const struct bulla_host instance_host = {.size = sizeof(struct bulla_host),
+                                                .say = instance_say,
+                                                .fail = instance_fail};
 
 unsigned instance_param_count(const struct bulla_module *module)
 {

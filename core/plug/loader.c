@@ -2,7 +2,7 @@
  *
  * Order of work: read the file whole (for the hash and elf_flaw), dlopen with RTLD_NOW so that a
  * missing symbol is refused now and not in mid-run, then compare the floating-point state: an
- * object linked with -ffast-math switches the whole process to flush-to-zero while it is loaded. */
+ * object linked with fast-math options switches the whole process to flush-to-zero while it loads. */
 #include "plug/loader.h"
 
 #include "base/mem.h"
@@ -92,7 +92,8 @@ static int loader_map(const char *path, void **ret_handle)
         dlclose(handle);
         loader_fp_restore(mode);
         return status_fail(STATUS_CASE,
-                           "%s changes the floating-point mode (flush to zero?): link it without -ffast-math", path);
+                           "%s changes the floating-point mode (flush to zero?): link it without fast-math options",
+                           path);
     }
     *ret_handle = handle;
     return STATUS_OK;

@@ -163,6 +163,7 @@ const char *const *registry_names(const char *kind)
     registry_list = mem_new(registry_size + 1, sizeof *registry_list);
     size_t count = 0;
     for (size_t i = 0; i < registry_size; i++)
-        if (strcmp(registry_entries[i].module->kind, kind) == 0) registry_list[count++] = registry_entries[i].module->name;
+        if (strcmp(registry_entries[i].module->kind, kind) == 0)
+            registry_list[count++] = registry_entries[i].module->name;
     return registry_list;
 }

@@ -26,9 +26,9 @@ struct vet_kind {
     struct vet_slot slots[VET_SLOTS];
 };
 
-#define VET_SLOT(table, slot)            \
-    {                                    \
-        #slot, offsetof(struct table, slot) \
+#define VET_SLOT(table, slot)               \
+    {                                       \
+#slot, offsetof(struct table, slot) \
     }
 
 static const struct vet_kind vet_kinds[] = {
@@ -77,7 +77,9 @@ static int vet_head(const struct bulla_module *module, size_t space)
                            module->name ? module->name : "");
     if (vet_empty(module->version) || vet_empty(module->doc) || vet_empty(module->cite))
         return status_fail(STATUS_CASE, "lacks its %s",
-                           vet_empty(module->version) ? "version" : vet_empty(module->doc) ? "doc" : "cite");
+                           vet_empty(module->version) ? "version"
+                           : vet_empty(module->doc)   ? "doc"
+                                                      : "cite");
     return STATUS_OK;
 }
 
@@ -98,7 +100,8 @@ static int vet_table(const struct bulla_module *module)
     for (const struct vet_slot *slot = kind->slots; slot->name; slot++) {
         void *function;
         memcpy(&function, (const char *)module->table + slot->offset, sizeof function);
-        if (!function) return status_fail(STATUS_CASE, "has no function '%s', which kind %s needs", slot->name, kind->name);
+        if (!function)
+            return status_fail(STATUS_CASE, "has no function '%s', which kind %s needs", slot->name, kind->name);
     }
     return STATUS_OK;
 }
@@ -135,8 +138,7 @@ static int vet_row(const struct bulla_param *table, const struct bulla_param *ro
     if (strcmp(row->name, "type") == 0 || strcmp(row->name, "preset") == 0)
         return status_fail(STATUS_CASE, "has a parameter '%s'; that key is reserved", row->name);
     for (const struct bulla_param *other = table; other < row; other++)
-        if (strcmp(other->name, row->name) == 0)
-            return status_fail(STATUS_CASE, "has parameter '%s' twice", row->name);
+        if (strcmp(other->name, row->name) == 0) return status_fail(STATUS_CASE, "has parameter '%s' twice", row->name);
     if (vet_empty(row->doc)) return status_fail(STATUS_CASE, "has parameter '%s' without a doc", row->name);
     switch (row->type) {
     case BULLA_NUMBER: return vet_number(row);

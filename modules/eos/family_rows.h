@@ -1,18 +1,18 @@
-/* family_rows.h - the functions of kind "eos" for the family of family_point.h.
+/* family_rows.h - the functions of kind "eos" for the family of family.h.
  *
  * The including module first defines FAMILY_ROOM, either family_room_all or family_room_left,
- * then opens its instances with family_open and fills its table with FAMILY_TABLE(range). */
+ * then opens its instances with family_rows_open and fills its table with FAMILY_TABLE(range). */
 #ifndef FAMILY_ROWS_H
 #define FAMILY_ROWS_H
 
 #include "bulla/eos.h"
-#include "family_point.h"
+#include "family.h"
 
 #include <stdlib.h>
 
-BULLA_KERNEL static void rows_state(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                          const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e,
-                                          double *BULLA_RESTRICT c2)
+BULLA_KERNEL static void family_rows_state(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                           const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e,
+                                           double *BULLA_RESTRICT c2)
 {
     const struct family par = *(const struct family *)self;
 #pragma omp simd
@@ -24,9 +24,9 @@ BULLA_KERNEL static void rows_state(const void *self, size_t n, const double *BU
     }
 }
 
-BULLA_KERNEL static void rows_derivatives(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                                const double *BULLA_RESTRICT p, double *BULLA_RESTRICT de_dp,
-                                                double *BULLA_RESTRICT de_drho)
+BULLA_KERNEL static void family_rows_derivatives(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                                 const double *BULLA_RESTRICT p, double *BULLA_RESTRICT de_dp,
+                                                 double *BULLA_RESTRICT de_drho)
 {
     const struct family par = *(const struct family *)self;
 #pragma omp simd
@@ -38,8 +38,8 @@ BULLA_KERNEL static void rows_derivatives(const void *self, size_t n, const doub
     }
 }
 
-BULLA_KERNEL static void rows_temperature(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                                const double *BULLA_RESTRICT p, double *BULLA_RESTRICT T)
+BULLA_KERNEL static void family_rows_temperature(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                                 const double *BULLA_RESTRICT p, double *BULLA_RESTRICT T)
 {
     const struct family par = *(const struct family *)self;
 #pragma omp simd
@@ -49,8 +49,8 @@ BULLA_KERNEL static void rows_temperature(const void *self, size_t n, const doub
     }
 }
 
-BULLA_KERNEL static void rows_density(const void *self, size_t n, const double *BULLA_RESTRICT p,
-                                            const double *BULLA_RESTRICT T, double *BULLA_RESTRICT rho)
+BULLA_KERNEL static void family_rows_density(const void *self, size_t n, const double *BULLA_RESTRICT p,
+                                             const double *BULLA_RESTRICT T, double *BULLA_RESTRICT rho)
 {
     const struct family par = *(const struct family *)self;
 #pragma omp simd
@@ -60,8 +60,8 @@ BULLA_KERNEL static void rows_density(const void *self, size_t n, const double *
     }
 }
 
-BULLA_KERNEL static void rows_linear(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                           double *BULLA_RESTRICT a, double *BULLA_RESTRICT b)
+BULLA_KERNEL static void family_rows_linear(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                            double *BULLA_RESTRICT a, double *BULLA_RESTRICT b)
 {
     const struct family par = *(const struct family *)self;
 #pragma omp simd
@@ -73,16 +73,15 @@ BULLA_KERNEL static void rows_linear(const void *self, size_t n, const double *B
     }
 }
 
-
 /* log is no vector function without leave to change values, so this row stays scalar. */
-static void rows_entropy(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
-                         double *BULLA_RESTRICT s)
+static void family_rows_entropy(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                const double *BULLA_RESTRICT p, double *BULLA_RESTRICT s)
 {
     const struct family *par = self;
     for (size_t i = 0; i < n; i++) s[i] = family_entropy(par, FAMILY_ROOM(par, rho[i]), rho[i], p[i]);
 }
 
-static void rows_p_min(const void *self, size_t n, const double *BULLA_RESTRICT rho, double *BULLA_RESTRICT p)
+static void family_rows_p_min(const void *self, size_t n, const double *BULLA_RESTRICT rho, double *BULLA_RESTRICT p)
 {
     const struct family *par = self;
     (void)rho;
@@ -90,7 +89,7 @@ static void rows_p_min(const void *self, size_t n, const double *BULLA_RESTRICT 
 }
 
 /* Makes an instance; the caller's `par` needs no `inverse`. */
-static int family_open(const struct bulla_host *host, struct family par, void **ret_self)
+static int family_rows_open(const struct bulla_host *host, struct family par, void **ret_self)
 {
     struct family *self = malloc(sizeof *self);
     if (!self) {
@@ -103,16 +102,16 @@ static int family_open(const struct bulla_host *host, struct family par, void **
     return 0;
 }
 
-static void family_close(void *self)
+static void family_rows_close(void *self)
 {
     free(self);
 }
 
-#define FAMILY_TABLE(range_function)                                                                          \
-    {                                                                                                         \
-        .size = sizeof(struct bulla_eos), .state = rows_state, .derivatives = rows_derivatives,               \
-        .temperature = rows_temperature, .entropy = rows_entropy, .density = rows_density, .p_min = rows_p_min, \
-        .linear = rows_linear, .range = (range_function)                                                      \
+#define FAMILY_TABLE(range_function)                                                                            \
+    {                                                                                                           \
+        .size = sizeof(struct bulla_eos), .state = family_rows_state, .derivatives = family_rows_derivatives,   \
+        .temperature = family_rows_temperature, .entropy = family_rows_entropy, .density = family_rows_density, \
+        .p_min = family_rows_p_min, .linear = family_rows_linear, .range = (range_function)                     \
     }
 
 #endif

@@ -7,8 +7,8 @@ enum { GAMMA, CV };
 
 static const struct bulla_param ideal_gas_params[] = {
     {"gamma", "1", 1.0001, 100.0, NAN, "ratio of specific heats", BULLA_NUMBER, NULL},
-    {"cv", "J/kg/K", 1e-3, 1e9, 717.5, "specific heat at constant volume; only temperatures depend on it",
-     BULLA_NUMBER, NULL},
+    {"cv", "J/kg/K", 1e-3, 1e9, 717.5, "specific heat at constant volume; only temperatures depend on it", BULLA_NUMBER,
+     NULL},
     {0},
 };
 
@@ -22,7 +22,7 @@ static const struct bulla_preset ideal_gas_presets[] = {
 static int ideal_gas_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
 {
     struct family par = {.gamma = values[GAMMA].number, .cv = values[CV].number};
-    return family_open(host, par, ret_self);
+    return family_rows_open(host, par, ret_self);
 }
 
 /* Air: below 100 K it condenses, above 2000 K vibration and dissociation change gamma. */
@@ -47,6 +47,6 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .params = ideal_gas_params,
     .presets = ideal_gas_presets,
     .open = ideal_gas_open,
-    .close = family_close,
+    .close = family_rows_close,
     .table = &ideal_gas_table,
 };

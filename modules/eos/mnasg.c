@@ -22,7 +22,7 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .cite = "Le Metayer & Saurel, Phys. Fluids 28 (2016) 046102, equations 13-20, with refitted p_inf and b",
     .params = mnasg_params,
     .presets = mnasg_presets,
-    .open = nasg_open,
-    .close = family_close,
-    .table = &nasg_table,
+    .open = nasg_module_open,
+    .close = family_rows_close,
+    .table = &nasg_module_table,
 };

@@ -25,8 +25,7 @@ static const struct bulla_preset stiffened_gas_presets[] = {
     {"sg659", "water, gamma 6.59, p-inf 4049 atm (mechanical)", (const double[]){6.59, 4.10264925e8, 245.143061, 0.0}},
     {"sg659b", "water, gamma 6.59, p-inf 410 MPa (mechanical)", (const double[]){6.59, 4.1e8, 244.984801, 0.0}},
     {"sg3", "water, gamma 3, p-inf 853.3 MPa, with temperatures", (const double[]){3.0, 8.533e8, 1395.0, -1148e3}},
-    {"sg235", "water, gamma 2.35, p-inf 1 GPa (Le Metayer et al. 2004)",
-     (const double[]){2.35, 1e9, 1816.0, -1167e3}},
+    {"sg235", "water, gamma 2.35, p-inf 1 GPa (Le Metayer et al. 2004)", (const double[]){2.35, 1e9, 1816.0, -1167e3}},
     {0},
 };
 
@@ -36,7 +35,7 @@ static int stiffened_gas_open(const struct bulla_host *host, const struct bulla_
                          .p_inf = values[P_INF].number,
                          .cv = values[CV].number,
                          .q = values[HEAT_BOND].number};
-    return family_open(host, par, ret_self);
+    return family_rows_open(host, par, ret_self);
 }
 
 /* Liquid water; in tension down to where the sound speed ends. */
@@ -62,6 +61,6 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .params = stiffened_gas_params,
     .presets = stiffened_gas_presets,
     .open = stiffened_gas_open,
-    .close = family_close,
+    .close = family_rows_close,
     .table = &stiffened_gas_table,
 };

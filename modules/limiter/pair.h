@@ -27,10 +27,10 @@ BULLA_KERNEL static void pair_slope(const void *self, size_t n, const double *BU
 
 static const struct bulla_limiter pair_table = {.size = sizeof(struct bulla_limiter), .slope = pair_slope};
 
-#define PAIR_MODULE(name_, doc_, cite_)                                                                      \
-    {                                                                                                        \
-        .magic = BULLA_MAGIC, .abi = BULLA_ABI, .size = sizeof(struct bulla_module), .kind = "limiter",      \
-        .name = (name_), .version = "1.0", .doc = (doc_), .cite = (cite_), .table = &pair_table              \
+#define PAIR_MODULE(name_, doc_, cite_)                                                                 \
+    {                                                                                                   \
+        .magic = BULLA_MAGIC, .abi = BULLA_ABI, .size = sizeof(struct bulla_module), .kind = "limiter", \
+        .name = (name_), .version = "1.0", .doc = (doc_), .cite = (cite_), .table = &pair_table         \
     }
 
 #endif

@@ -11,5 +11,6 @@ static inline double superbee(double less, double more)
 #include "pair.h"
 
 BULLA_EXPORT const struct bulla_module bulla_module =
-    PAIR_MODULE("superbee", "Superbee: the steepest slope that stays monotone. Sharpens contacts, squares off smooth waves.",
+    PAIR_MODULE("superbee",
+                "Superbee: the steepest slope that stays monotone. Sharpens contacts, squares off smooth waves.",
                 "Roe, Annu. Rev. Fluid Mech. 18 (1986) 337-365");

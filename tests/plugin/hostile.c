@@ -43,7 +43,7 @@ enum flaw {
 extern double nobody_defines_this(double x);
 #define HOSTILE_SLOPE(x) nobody_defines_this(x)
 #else
-#define HOSTILE_SLOPE(x) ((x) * 0.0)
+#define HOSTILE_SLOPE(x) ((x)*0.0)
 #endif
 
 #ifdef FLAW_FLUSH
@@ -69,12 +69,15 @@ static int hostile_open(const struct bulla_host *host, const struct bulla_value 
     return 1;
 }
 
-static const struct bulla_limiter hostile_table = {
-    .size = IS(short_table) ? 4 : sizeof(struct bulla_limiter), .slope = IS(null_slot) ? NULL : hostile_slope};
+static const struct bulla_limiter hostile_table = {.size = IS(short_table) ? 4 : sizeof(struct bulla_limiter),
+                                                   .slope = IS(null_slot) ? NULL : hostile_slope};
 
 static const struct bulla_param hostile_params[] = {
-    {IS(param_upper) ? "Strength" : IS(param_reserved) ? "type" : "strength", IS(param_unit) ? "" : "Pa",
-     IS(param_range) ? 5.0 : 0.0, 2.0, IS(param_fallback) ? 3.0 : 1.0, "how strong", BULLA_NUMBER, NULL},
+    {IS(param_upper)      ? "Strength"
+     : IS(param_reserved) ? "type"
+                          : "strength",
+     IS(param_unit) ? "" : "Pa", IS(param_range) ? 5.0 : 0.0, 2.0, IS(param_fallback) ? 3.0 : 1.0, "how strong",
+     BULLA_NUMBER, NULL},
     {IS(param_twice) ? "strength" : "mode", "Pa", 0.0, 2.0, 1.0, "which way", BULLA_CHOICE,
      IS(param_choices) ? "one||two" : "one|two"},
     {"note", NULL, 0.0, 0.0, NAN, "any text", BULLA_TEXT, ""},
@@ -99,10 +102,14 @@ extern BULLA_EXPORT const struct bulla_module HOSTILE_SYMBOL;
 #endif
 BULLA_EXPORT const struct bulla_module HOSTILE_SYMBOL = {
     .magic = IS(bad_magic) ? 0x12345678u : BULLA_MAGIC,
-    .abi = IS(old_abi) ? BULLA_ABI - 1 : IS(new_abi) ? BULLA_ABI + 1 : BULLA_ABI,
+    .abi = IS(old_abi)   ? BULLA_ABI - 1
+           : IS(new_abi) ? BULLA_ABI + 1
+                         : BULLA_ABI,
     .size = IS(short_size) ? 40 : sizeof(struct bulla_module),
     .kind = IS(unknown_kind) ? "weather" : "limiter",
-    .name = IS(bad_name) ? "Bad_Name" : IS(duplicate) ? "minmod" : "hostile",
+    .name = IS(bad_name)    ? "Bad_Name"
+            : IS(duplicate) ? "minmod"
+                            : "hostile",
     .version = "1.0",
     .doc = IS(no_doc) ? NULL : "A limiter for tests.",
     .cite = "nobody",

@@ -13,8 +13,10 @@ forbid() { # PATTERN REASON FILES...
 }
 
 fast='-ffast-math|-Ofast|-ffinite-math-only|-funsafe-math|-fassociative-math|-freciprocal-math|-ffp-contract=(fast|on)'
-forbid "$fast" "the optimiser may not change values" CMakeLists.txt CMakePresets.json tests/CMakeLists.txt bulla \
-    "$BULLA_BUILD/compile_commands.json" $(find core modules -name '*.[ch]')
+forbid "$fast" "the optimiser may not change values" CMakeLists.txt CMakePresets.json bulla \
+    "$BULLA_BUILD/compile_commands.json"
+forbid 'pragma.*(fp_contract|fast|optimize)|__attribute__.*optimize' "the optimiser may not change values" \
+    $(find core modules -name '*.[ch]')
 
 notes='TO''DO|FIX''ME|XX''X|HA''CK'
 forbid "(^|[^A-Za-z_])($notes)([^A-Za-z_]|$)" "finish it or open an issue" \

@@ -42,9 +42,9 @@ static void test_builtin(void **state)
 {
     (void)state;
     static const char *const expected[][2] = {
-        {"eos", "ideal-gas"},    {"eos", "mnasg"},         {"eos", "nasg"},         {"eos", "stiffened-gas"},
-        {"limiter", "mc"},       {"limiter", "minmod"},    {"limiter", "superbee"}, {"limiter", "van-albada"},
-        {"limiter", "van-leer"}, {"riemann", "hll"},       {"riemann", "hllc"},     {"riemann", "rusanov"},
+        {"eos", "ideal-gas"},    {"eos", "mnasg"},      {"eos", "nasg"},         {"eos", "stiffened-gas"},
+        {"limiter", "mc"},       {"limiter", "minmod"}, {"limiter", "superbee"}, {"limiter", "van-albada"},
+        {"limiter", "van-leer"}, {"riemann", "hll"},    {"riemann", "hllc"},     {"riemann", "rusanov"},
     };
     size_t count = sizeof expected / sizeof *expected;
     assert_int_equal(registry_count(), count);
@@ -267,11 +267,11 @@ static void test_open_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_builtin),   cmocka_unit_test(test_names),
-        cmocka_unit_test(test_params),    cmocka_unit_test(test_same_again),
-        cmocka_unit_test(test_hostile),   cmocka_unit_test(test_duplicate_names_both),
-        cmocka_unit_test(test_fast_math), cmocka_unit_test(test_truncated),
-        cmocka_unit_test(test_no_file),   cmocka_unit_test(test_good),
+        cmocka_unit_test(test_builtin),    cmocka_unit_test(test_names),
+        cmocka_unit_test(test_params),     cmocka_unit_test(test_same_again),
+        cmocka_unit_test(test_hostile),    cmocka_unit_test(test_duplicate_names_both),
+        cmocka_unit_test(test_fast_math),  cmocka_unit_test(test_truncated),
+        cmocka_unit_test(test_no_file),    cmocka_unit_test(test_good),
         cmocka_unit_test(test_open_fails),
     };
     return cmocka_run_group_tests(tests, start, stop);

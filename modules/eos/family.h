@@ -1,4 +1,4 @@
-/* family_point.h - point physics of one family: ideal gas, stiffened gas, NASG, MNASG.
+/* family.h - point physics of one family: ideal gas, stiffened gas, NASG, MNASG.
  *
  * One set of formulas with the parameters (gamma, p_inf, b, q, cv); v = 1/rho:
  *     rho e = (p + p_inf) rho w/(gamma - 1) + p_inf (1 - b rho) + q rho,
@@ -9,13 +9,13 @@
  * This derives from a potential like the rest, so the thermodynamics stay exact; p is
  * continuously differentiable, c^2 > 0 for every density, and all is still linear in p.
  * Formulas use r = b rho, never v, so that b = 0 and small densities lose no digits. */
-#ifndef FAMILY_POINT_H
-#define FAMILY_POINT_H
+#ifndef FAMILY_H
+#define FAMILY_H
 
 #include <math.h>
 
-#define FAMILY_EDGE 0.98                 /* b/vx */
-#define FAMILY_D (1.0 / FAMILY_EDGE - 1.0) /* d/b */
+#define FAMILY_EDGE 0.98                            /* b/vx */
+#define FAMILY_D (1.0 / FAMILY_EDGE - 1.0)          /* d/b */
 #define FAMILY_REACH (FAMILY_D + 1.0 / FAMILY_EDGE) /* (d + vx)/b */
 
 struct family {
