@@ -1,0 +1,44 @@
+/* picture.h - a field in a plane as a picture: colours, level lines, axes, colour bar, legend.
+ *
+ * The caller says what to show; the layout follows from the shape of the view: a colour bar on the right,
+ * or below when the view is wide or shows two fields, so that nothing overlaps at any aspect ratio. */
+#ifndef PICTURE_H
+#define PICTURE_H
+
+#include "app/colormap.h"
+#include "app/contour.h"
+#include "app/picture_scale.h"
+#include "app/raster.h"
+
+enum { PICTURE_LAYERS = 2, PICTURE_LINES = 16 }; /* lines: as in picture_header.h */
+
+/* A field: one value per cell, its colours and their scale. */
+struct picture_layer {
+    size_t n;
+    const struct raster_cell *cells;
+    const double *values; /* SI; NaN is left white */
+    struct picture_scale scale;
+    struct colormap map;
+};
+
+struct picture_lines {
+    const struct contour *contour;
+    const char *name; /* in the legend */
+};
+
+struct picture {
+    const char *title, *note;     /* first line; second line on the left (the time) */
+    struct picture_scale axis[2]; /* lo, hi: what part of the plane is shown */
+    unsigned n_layer;             /* 1; 2: colour bars side by side below (left and right half) */
+    struct picture_layer layer[PICTURE_LAYERS];
+    unsigned n_lines;
+    struct picture_lines lines[PICTURE_LINES];
+    const char *lines_label; /* what the legend says before the names */
+    size_t n_tile;           /* outlines of mesh tiles */
+    const struct raster_cell *tiles;
+};
+
+/* Draws on a new image surface, see picture_canvas_draw. */
+int picture_draw(const struct picture *picture, int width, cairo_surface_t **ret_image);
+
+#endif
