@@ -1,0 +1,196 @@
+/* plot.c - see plot.h. Chooses snapshots and names of files; what they show is plot_picture's. */
+#include "app/plot.h"
+
+#include "app/picture_canvas.h"
+#include "app/plot_history.h"
+#include "app/plot_picture.h"
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "io/read.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static bool plot_is_directory(const char *path)
+{
+    struct stat entry;
+    return stat(path, &entry) == 0 && S_ISDIR(entry.st_mode);
+}
+
+/* The step in the name of a snapshot, "<case>_<step>.hdf"; -1 if it has none. */
+static long plot_step_of(const char *path)
+{
+    const char *last = strrchr(path, '_');
+    return last ? strtol(last + 1, NULL, 10) : -1;
+}
+
+static int plot_find_step(const struct snapshot_series *series, long step, size_t *ret_index)
+{
+    size_t near = 0;
+    for (size_t i = 1; i < series->n; i++)
+        if (labs(plot_step_of(series->paths[i]) - step) < labs(plot_step_of(series->paths[near]) - step)) near = i;
+    *ret_index = near;
+    if (plot_step_of(series->paths[near]) == step) return STATUS_OK;
+    return status_fail(STATUS_CASE, "no snapshot of step %ld; the nearest is --step %ld (t = %.6g s); there are %zu",
+                       step, plot_step_of(series->paths[near]), series->times[near], series->n);
+}
+
+/* Snapshots [*ret_first, *ret_end) of the series. */
+static int plot_choose(const struct snapshot_series *series, const struct plot_option *option, size_t *ret_first,
+                       size_t *ret_end)
+{
+    size_t index = series->n - 1;
+    if (option->when == PLOT_STEP) TRY(plot_find_step(series, option->step, &index));
+    for (size_t i = 0; option->when == PLOT_TIME && i < series->n; i++)
+        if (fabs(series->times[i] - option->time) < fabs(series->times[index] - option->time)) index = i;
+    *ret_first = option->when == PLOT_ALL ? 0 : index;
+    *ret_end = index + 1;
+    return STATUS_OK;
+}
+
+/* DIR/plots/<case>_<step>_<fields>.png, or what -o says. */
+static char *plot_path(const char *directory, const struct snapshot *snapshot, const struct plot_picture *picture)
+{
+    const char *output = picture->option->output;
+    if (output && !plot_is_directory(output)) return mem_text(output);
+    char *path = output ? mem_print("%s/%s_%06ld", output, snapshot->name, snapshot->step)
+                        : mem_print("%s/plots/%s_%06ld", directory, snapshot->name, snapshot->step);
+    for (unsigned i = 0; i < picture->n_field; i++) {
+        char *longer = mem_print("%s%c%s", path, i ? '+' : '_', picture->fields[i]);
+        mem_free(path);
+        path = longer;
+    }
+    char *complete = mem_print("%s.png", path);
+    mem_free(path);
+    return complete;
+}
+
+static int plot_write(const char *directory, const struct snapshot *snapshot, const struct plot_picture *picture)
+{
+    cairo_surface_t *image;
+    TRY(plot_picture_draw(snapshot, picture, &image));
+    char *path = plot_path(directory, snapshot, picture);
+    int code = picture_canvas_write(image, path);
+    if (!code) printf("%s\n", path);
+    cairo_surface_destroy(image);
+    mem_free(path);
+    return code;
+}
+
+/* A plane shows one field (or a pair): one file for each of the list. A line shows all in one file. */
+static int plot_fields(const char *directory, const struct snapshot *snapshot, const struct plot_picture *picture)
+{
+    if (picture->option->left || plot_picture_shape(snapshot, picture->option) != 2)
+        return plot_write(directory, snapshot, picture);
+    for (unsigned i = 0; i < picture->n_field; i++) {
+        struct plot_picture one = *picture;
+        one.n_field = 1;
+        one.fields[0] = picture->fields[i];
+        memcpy(one.extremes[0], picture->extremes[i], sizeof one.extremes[0]);
+        TRY(plot_write(directory, snapshot, &one));
+    }
+    return STATUS_OK;
+}
+
+static int plot_gather(const struct snapshot_series *series, struct plot_picture *picture)
+{
+    picture->common = true;
+    for (unsigned i = 0; i < picture->n_field; i++) {
+        picture->extremes[i][0] = INFINITY;
+        picture->extremes[i][1] = -INFINITY;
+    }
+    for (size_t i = 0; i < series->n; i++) {
+        struct snapshot *snapshot;
+        TRY(read_snapshot(series->paths[i], NULL, &snapshot));
+        int code = plot_picture_extremes(snapshot, picture);
+        read_free(snapshot);
+        if (code) return code;
+    }
+    return STATUS_OK;
+}
+
+static int plot_series(const char *directory, const struct snapshot_series *series, struct plot_picture *picture)
+{
+    size_t first, end;
+    TRY(plot_choose(series, picture->option, &first, &end));
+    if (end - first > 1 && picture->option->output && !plot_is_directory(picture->option->output))
+        return status_fail(STATUS_CASE, "-o %s: --all writes many files; name a directory that is there",
+                           picture->option->output);
+    picture->time_like = series->times[series->n - 1];
+    if (end - first > 1) TRY(plot_gather(series, picture));
+    for (size_t i = first; i < end; i++) {
+        struct snapshot *snapshot;
+        TRY(read_snapshot(series->paths[i], NULL, &snapshot));
+        int code = plot_fields(directory, snapshot, picture);
+        read_free(snapshot);
+        if (code) return code;
+    }
+    return STATUS_OK;
+}
+
+/* Splits "pressure,density" in place. */
+static int plot_split(char *list, struct plot_picture *picture)
+{
+    for (char *name = strtok(list, ","); name; name = strtok(NULL, ",")) {
+        if (picture->n_field == PLOT_PICTURE_FIELDS)
+            return status_fail(STATUS_CASE, "too many fields: at most %d", PLOT_PICTURE_FIELDS);
+        picture->fields[picture->n_field++] = name;
+    }
+    return STATUS_OK;
+}
+
+static int plot_snapshots(const char *directory, const char *fields, const struct plot_option *option)
+{
+    struct plot_picture picture = {.option = option};
+    struct snapshot_series series;
+    TRY(read_series(directory, &series));
+    char *list = option->left ? mem_print("%s,%s", option->left, option->right) : mem_text(fields);
+    int code = plot_split(list, &picture);
+    if (!code && !series.n) code = status_fail(STATUS_CASE, "no snapshots in %s/fields", directory);
+    if (!code) code = plot_series(directory, &series, &picture);
+    mem_free(list);
+    read_series_done(&series);
+    return code;
+}
+
+static int plot_prepare(const char *directory, const struct plot_option *option)
+{
+    if (!plot_is_directory(directory))
+        return status_fail(STATUS_CASE, "no directory %s: plot wants the output directory of a run", directory);
+    if (option->output) return STATUS_OK;
+    char *plots = mem_print("%s/plots", directory);
+    int code = STATUS_OK;
+    if (mkdir(plots, 0777) != 0 && errno != EEXIST)
+        code = status_fail(STATUS_RUN, "cannot make %s: %s", plots, strerror(errno));
+    mem_free(plots);
+    return code;
+}
+
+static int plot_run(const struct cli_given *given)
+{
+    struct plot_option option;
+    TRY(plot_option_read(given, &option));
+    const char *directory = given->words[0], *what = given->n_word > 1 ? given->words[1] : NULL;
+    if (!what && !option.left)
+        return status_fail(STATUS_CASE,
+                           "which field? bulla plot %s pressure, or history; `bulla info` lists the fields", directory);
+    bool history = what && strcmp(what, "history") == 0;
+    if (!history && given->n_word > 2)
+        return status_fail(STATUS_CASE, "plot does not know what to do with '%s'; several fields go by comma: %s,%s",
+                           given->words[2], what, given->words[2]);
+    if (option.left && what)
+        return status_fail(STATUS_CASE, "--left and --right name the fields; '%s' is one too many", what);
+    TRY(plot_prepare(directory, &option));
+    if (history) return plot_history_write(directory, given->words + 2, (unsigned)(given->n_word - 2), &option);
+    return plot_snapshots(directory, what, &option);
+}
+
+int plot_command(const struct cli_given *given)
+{
+    return comm_rank() == 0 ? cli_failed(plot_run(given)) : STATUS_OK;
+}

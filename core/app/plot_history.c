@@ -1,0 +1,186 @@
+/* plot_history.c - see plot_history.h. Each column gets a panel; histories carry no units, so their scales
+ * show plain numbers or powers of ten. Columns of probes are fields and have the unit of their field. */
+#include "app/plot_history.h"
+
+#include "app/chart.h"
+#include "app/picture_canvas.h"
+#include "app/picture_text.h"
+#include "app/plot_profile.h"
+#include "app/table.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+#include "io/read.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { HISTORY_TABLES = 2 };
+
+struct history {
+    struct table tables[HISTORY_TABLES]; /* history.csv, probes.csv */
+    char *title;
+};
+
+static int history_read(const char *directory, const char *name, struct table *table)
+{
+    char *path = mem_print("%s/%s", directory, name);
+    int code = STATUS_OK;
+    if (access(path, F_OK) == 0) code = table_read(path, table);
+    mem_free(path);
+    return code;
+}
+
+/* The title of the case as the last snapshot has it; without snapshots the name of the directory. */
+static char *history_title(const char *directory)
+{
+    struct snapshot_series series = {0};
+    struct snapshot *snapshot = NULL;
+    const char *const nothing[] = {NULL};
+    char *title = NULL;
+    if (read_series(directory, &series) == STATUS_OK) {
+        if (series.n && read_snapshot(series.paths[series.n - 1], nothing, &snapshot) == STATUS_OK)
+            title = mem_text(snapshot->title);
+        read_free(snapshot);
+        read_series_done(&series);
+    }
+    if (title) return title;
+    const char *slash = strrchr(directory, '/');
+    return mem_text(slash && slash[1] ? slash + 1 : directory);
+}
+
+static int history_open(const char *directory, struct history *history)
+{
+    *history = (struct history){0};
+    TRY(history_read(directory, "history.csv", &history->tables[0]));
+    TRY(history_read(directory, "probes.csv", &history->tables[1]));
+    if (!history->tables[0].n_column && !history->tables[1].n_column)
+        return status_fail(STATUS_CASE, "no history.csv and no probes.csv in %s", directory);
+    history->title = history_title(directory);
+    return STATUS_OK;
+}
+
+static void history_done(struct history *history)
+{
+    for (int i = 0; i < HISTORY_TABLES; i++) table_done(&history->tables[i]);
+    mem_free(history->title);
+}
+
+static int history_unknown(const struct history *history, const char *column)
+{
+    struct text list = {0};
+    unsigned count = history->tables[0].n_column + history->tables[1].n_column, n = 0;
+    const char **names = mem_new(count + 1, sizeof *names);
+    for (int i = 0; i < HISTORY_TABLES; i++)
+        for (unsigned c = 0; c < history->tables[i].n_column; c++) {
+            if (strcmp(history->tables[i].names[c], "t") == 0) continue;
+            names[n] = history->tables[i].names[c];
+            text_add(&list, "%s%s", n ? ", " : "", names[n]);
+            n++;
+        }
+    const char *near = text_nearest(column, names);
+    int code = status_fail(STATUS_CASE, "no column '%s'%s%s%s; there are: %s", column, near ? " (did you mean '" : "",
+                           near ? near : "", near ? "'?)" : "", list.at ? list.at : "none");
+    mem_free(names);
+    text_done(&list);
+    return code;
+}
+
+/* The unit of a column, as far as its name tells: probes are named <probe>.<field>. */
+static const char *history_unit(const char *column)
+{
+    static const char *const units[][2] = {
+        {"pressure", "Pa"}, {"density", "kg/m3"}, {"velocity", "m/s"},    {"temperature", "K"},
+        {"stress", "Pa"},   {"sigma", "Pa"},      {"sound_speed", "m/s"},
+    };
+    const char *dot = strchr(column, '.');
+    if (strcmp(column, "dt") == 0) return "s";
+    for (size_t i = 0; dot && i < sizeof units / sizeof *units; i++)
+        if (strncmp(dot + 1, units[i][0], strlen(units[i][0])) == 0) return units[i][1];
+    return "";
+}
+
+static int history_add(const struct history *history, const char *column, struct chart *chart, const char **units)
+{
+    for (int i = 0; i < HISTORY_TABLES; i++) {
+        const struct table *table = &history->tables[i];
+        const double *y = table_column(table, column), *t = table_column(table, "t");
+        if (!y || !t) continue;
+        struct chart_series series = {.name = column, .n = table->n_row, .x = t, .y = y};
+        return plot_profile_add(chart, units, series, history_unit(column));
+    }
+    return history_unknown(history, column);
+}
+
+static int history_fill(const struct history *history, const char *const *columns, unsigned n, struct chart *chart,
+                        const char **units)
+{
+    for (unsigned i = 0; i < n; i++) TRY(history_add(history, columns[i], chart, units));
+    const struct table *table = &history->tables[0];
+    for (unsigned c = 0; n == 0 && c < table->n_column && chart->n_panel < CHART_PANELS; c++) {
+        const char *name = table->names[c];
+        if (strcmp(name, "t") && strcmp(name, "step") && strcmp(name, "dt"))
+            TRY(history_add(history, name, chart, units));
+    }
+    if (!chart->n_panel)
+        return status_fail(STATUS_CASE,
+                           "history.csv has no columns of its own; name one: dt, or a column of probes.csv");
+    return STATUS_OK;
+}
+
+static void history_window(const struct chart *chart, const struct plot_option *option, double ret_window[2])
+{
+    ret_window[0] = INFINITY;
+    ret_window[1] = -INFINITY;
+    for (unsigned p = 0; p < chart->n_panel; p++)
+        for (unsigned i = 0; i < chart->panel[p].n_series; i++) {
+            const struct chart_series *series = &chart->panel[p].series[i];
+            struct chart_series times = {.n = series->n, .x = series->x, .y = series->x};
+            chart_range(&times, (const double[2]){-INFINITY, INFINITY}, &ret_window[0], &ret_window[1]);
+        }
+    if (option->limit[0].given) {
+        ret_window[0] = option->limit[0].lo;
+        ret_window[1] = option->limit[0].hi;
+    }
+}
+
+static int history_draw(const struct history *history, const char *const *columns, unsigned n,
+                        const struct plot_option *option, cairo_surface_t **ret_image)
+{
+    struct chart chart = {.title = history->title, .note = ""};
+    const char *units[CHART_PANELS];
+    double window[2];
+    TRY(history_fill(history, columns, n, &chart, units));
+    history_window(&chart, option, window);
+    if (window[0] > window[1]) return status_fail(STATUS_CASE, "the history has no rows yet");
+    picture_scale_init(&chart.x, &(struct picture_scale_inp){.name = PICTURE_ITALIC "t" PICTURE_UPRIGHT,
+                                                             .unit = "s",
+                                                             .lo = window[0],
+                                                             .hi = window[1]});
+    TRY(plot_profile_scale(&chart, units, window, option));
+    return chart_draw(&chart, option->width, ret_image);
+}
+
+int plot_history_draw(const char *directory, const char *const *columns, unsigned n, const struct plot_option *option,
+                      cairo_surface_t **ret_image)
+{
+    struct history history;
+    int code = history_open(directory, &history);
+    if (!code) code = history_draw(&history, columns, n, option, ret_image);
+    history_done(&history);
+    return code;
+}
+
+int plot_history_write(const char *directory, const char *const *columns, unsigned n, const struct plot_option *option)
+{
+    cairo_surface_t *image;
+    TRY(plot_history_draw(directory, columns, n, option, &image));
+    char *path = option->output ? mem_text(option->output) : mem_print("%s/plots/history.png", directory);
+    int code = picture_canvas_write(image, path);
+    if (!code) printf("%s\n", path);
+    cairo_surface_destroy(image);
+    mem_free(path);
+    return code;
+}

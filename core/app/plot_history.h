@@ -1,0 +1,17 @@
+/* plot_history.h - columns of history.csv and probes.csv against time. */
+#ifndef PLOT_HISTORY_H
+#define PLOT_HISTORY_H
+
+#include "app/plot_option.h"
+
+#include <cairo.h>
+
+/* Draws the named columns ("V", "pmax", "wall.pressure"; none: all of history.csv but step and dt) of a run's
+ * directory. An unknown column is STATUS_CASE with those that are there. The caller destroys the image. */
+int plot_history_draw(const char *directory, const char *const *columns, unsigned n, const struct plot_option *option,
+                      cairo_surface_t **ret_image);
+
+/* The same into DIR/plots/history.png, or where -o says; prints the path. */
+int plot_history_write(const char *directory, const char *const *columns, unsigned n, const struct plot_option *option);
+
+#endif
