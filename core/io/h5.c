@@ -1,0 +1,218 @@
+/* h5.c - see h5.h.
+ *
+ * A rank that fails goes on with invalid handles, which HDF5 refuses at once: so the order of
+ * the collective calls is the same on all ranks until h5_outcome compares notes. HDF5 drops its
+ * error stack at the next call, therefore h5_check reads it on the spot and keeps the first. */
+#include "io/h5.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+
+#include <errno.h>
+#include <hdf5.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/statvfs.h>
+
+enum { H5_REASON = 512 };
+
+/* Keeps the innermost entry: it says why, the outer ones only where. */
+static herr_t h5_collect(unsigned depth, const H5E_error2_t *entry, void *context)
+{
+    char *reason = context;
+    if (depth == 0 && entry->desc) snprintf(reason, H5_REASON, "%s", entry->desc);
+    return 0;
+}
+
+/* The folder of a path, for asking how full its disk is. */
+static void h5_folder(const char *path, char folder[H5_REASON])
+{
+    snprintf(folder, H5_REASON, "%s", path);
+    char *slash = strrchr(folder, '/');
+    if (slash) *(slash == folder ? slash + 1 : slash) = '\0';
+    else snprintf(folder, H5_REASON, ".");
+}
+
+/* ", 12.3 MB free" when space seems to be the reason; else "". */
+static void h5_space(const char *path, const char *reason, char *ret_text, size_t size)
+{
+    char folder[H5_REASON];
+    struct statvfs disk;
+    h5_folder(path, folder);
+    *ret_text = '\0';
+    if (statvfs(folder, &disk)) return;
+    double free_bytes = (double)disk.f_bavail * (double)disk.f_frsize;
+    if (strstr(reason, "No space") || strstr(reason, "quota") || strstr(reason, "NO_SPACE") || free_bytes < 1e6)
+        snprintf(ret_text, size, "; %.3g MB are free in %s", free_bytes / 1e6, folder);
+}
+
+int64_t h5_check(struct h5 *file, int64_t id, const char *what)
+{
+    if (id >= 0 || file->code) return id;
+    char reason[H5_REASON] = "unknown reason", space[2 * H5_REASON];
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, h5_collect, reason);
+    h5_space(file->path, reason, space, sizeof space);
+    file->code = status_fail(STATUS_RUN, "%s: cannot %s: %s%s", file->path, what, reason, space);
+    return id;
+}
+
+int h5_outcome(struct h5 *file)
+{
+    if (file->shared) file->code = comm_agree(file->code);
+    return file->code;
+}
+
+int64_t h5_type_id(enum h5_type type)
+{
+    switch (type) {
+    case H5_F32: return H5T_NATIVE_FLOAT;
+    case H5_F64: return H5T_NATIVE_DOUBLE;
+    case H5_I32: return H5T_NATIVE_INT32;
+    case H5_I64: return H5T_NATIVE_INT64;
+    default: return H5T_NATIVE_UINT8;
+    }
+}
+
+size_t h5_type_size(enum h5_type type)
+{
+    static const size_t sizes[] = {[H5_F32] = 4, [H5_F64] = 8, [H5_I32] = 4, [H5_I64] = 8, [H5_U8] = 1};
+    return sizes[type];
+}
+
+int64_t h5_string_type(struct h5 *file, const char *text, size_t length)
+{
+    bool ascii = true;
+    for (size_t i = 0; i < length; i++) ascii = ascii && (unsigned char)text[i] < 128;
+    hid_t type = h5_check(file, H5Tcopy(H5T_C_S1), "make a text type");
+    h5_check(file, H5Tset_size(type, length ? length : 1), "size a text type");
+    h5_check(file, H5Tset_strpad(type, H5T_STR_NULLPAD), "pad a text type");
+    h5_check(file, H5Tset_cset(type, ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8), "mark a text type");
+    return type;
+}
+
+int64_t h5_record_type(struct h5 *file, const char *const *members, unsigned n)
+{
+    hid_t type = h5_check(file, H5Tcreate(H5T_COMPOUND, n * sizeof(int32_t)), "make a record type");
+    for (unsigned i = 0; i < n; i++)
+        h5_check(file, H5Tinsert(type, members[i], i * sizeof(int32_t), H5T_NATIVE_INT32), "fill a record type");
+    return type;
+}
+
+static struct h5 *h5_handle(const char *path)
+{
+    struct h5 *file = mem_new(1, sizeof *file);
+    file->path = mem_text(path);
+    file->id = -1;
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* reasons travel in the status, not to the terminal */
+    return file;
+}
+
+void h5_abandon(struct h5 *file)
+{
+    if (!file) return;
+    if (file->id >= 0) H5Fclose(file->id);
+    mem_free(file->path);
+    mem_free(file);
+}
+
+/* Access of a file to be written: format versions that know virtual data sets, all handles end
+ * with the file, and with MPI the small data (metadata) in one request for all ranks. */
+static hid_t h5_access(struct h5 *file)
+{
+    hid_t access = h5_check(file, H5Pcreate(H5P_FILE_ACCESS), "prepare");
+    h5_check(file, H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST), "set the file version");
+    h5_check(file, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "prepare");
+    if (!file->shared) return access;
+    h5_check(file, H5Pset_fapl_mpio(access, comm_world(), MPI_INFO_NULL), "choose MPI-IO");
+    h5_check(file, H5Pset_all_coll_metadata_ops(access, true), "choose MPI-IO");
+    h5_check(file, H5Pset_coll_metadata_write(access, true), "choose MPI-IO");
+    return access;
+}
+
+int h5_create(const char *path, struct h5 **ret_file)
+{
+    struct h5 *file = h5_handle(path);
+    file->shared = comm_active();
+    hid_t access = h5_access(file);
+    file->id = h5_check(file, H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access), "create it");
+    H5Pclose(access);
+    int code = h5_outcome(file);
+    if (code) h5_abandon(file);
+    else *ret_file = file;
+    return code;
+}
+
+int h5_open(const char *path, struct h5 **ret_file)
+{
+    FILE *probe = fopen(path, "rb"); /* the system's reason is clearer than HDF5's */
+    if (!probe) return status_fail(STATUS_RUN, "%s: cannot open it: %s", path, strerror(errno));
+    fclose(probe);
+    struct h5 *file = h5_handle(path);
+    if (H5Fis_hdf5(path) <= 0) {
+        h5_abandon(file);
+        return status_fail(STATUS_RUN, "%s: not an HDF5 file", path);
+    }
+    file->id = h5_check(file, H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), "open it");
+    int code = file->code;
+    if (code) h5_abandon(file);
+    else *ret_file = file;
+    return code;
+}
+
+int h5_close(struct h5 *file)
+{
+    h5_check(file, H5Fclose(file->id), "finish it");
+    file->id = -1;
+    int code = h5_outcome(file);
+    h5_abandon(file);
+    return code;
+}
+
+int h5_group(struct h5 *file, const char *path)
+{
+    hid_t options = h5_check(file, H5Pcreate(H5P_GROUP_CREATE), "prepare a group");
+    h5_check(file, H5Pset_obj_track_times(options, false), "prepare a group"); /* equal runs give equal files */
+    hid_t group = h5_check(file, H5Gcreate2(file->id, path, H5P_DEFAULT, options, H5P_DEFAULT), "make a group");
+    if (group >= 0) H5Gclose(group);
+    if (options >= 0) H5Pclose(options);
+    return h5_outcome(file);
+}
+
+/* Makes and writes one attribute of type id[0] and space id[1]; closes the space. */
+static int h5_put(struct h5 *file, const char *object, const char *name, const hid_t id[2], const void *values)
+{
+    hid_t put =
+        h5_check(file, H5Acreate_by_name(file->id, object, name, id[0], id[1], H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                 name);
+    h5_check(file, put < 0 ? -1 : H5Awrite(put, id[0], values), name);
+    if (put >= 0) H5Aclose(put);
+    if (id[1] >= 0) H5Sclose(id[1]);
+    return h5_outcome(file);
+}
+
+int h5_attribute(struct h5 *file, const char *object, const char *name, enum h5_type type, unsigned n, const void *in)
+{
+    hsize_t extent = n;
+    hid_t space = n ? H5Screate_simple(1, &extent, NULL) : H5Screate(H5S_SCALAR);
+    return h5_put(file, object, name, (hid_t[2]){h5_type_id(type), h5_check(file, space, "make an attribute")}, in);
+}
+
+int h5_attribute_text(struct h5 *file, const char *object, const char *name, const char *text)
+{
+    hid_t type = h5_string_type(file, text, strlen(text));
+    hid_t space = h5_check(file, H5Screate(H5S_SCALAR), "make an attribute");
+    int code = h5_put(file, object, name, (hid_t[2]){type, space}, text);
+    if (type >= 0) H5Tclose(type);
+    return code;
+}
+
+int h5_attribute_record(struct h5 *file, const char *object, const char *name, const char *const *members, unsigned n,
+                        const int32_t *values)
+{
+    hid_t type = h5_record_type(file, members, n);
+    hid_t space = h5_check(file, H5Screate(H5S_SCALAR), "make an attribute");
+    int code = h5_put(file, object, name, (hid_t[2]){type, space}, values);
+    if (type >= 0) H5Tclose(type);
+    return code;
+}

@@ -1,0 +1,64 @@
+/* h5.h - HDF5 files, checked: opening, closing, groups and attributes.
+ *
+ * HDF5 is called by h5.c, h5out.c (data sets out) and h5in.c (back in) only. Every call is
+ * checked; a failure becomes one status message (STATUS_RUN) with the file, what was being
+ * done, the innermost reason that HDF5 gives and, when the disk is full, the free space.
+ * Files being written are shared by all ranks (MPI-IO) when MPI is active: every rank makes
+ * the same calls in the same order, and a failure on one is a failure on all. Files being
+ * read are read by this process alone. */
+#ifndef H5_H
+#define H5_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* What the numbers of a data set or attribute are, in memory and in the file alike. */
+enum h5_type { H5_F32, H5_F64, H5_I32, H5_I64, H5_U8 };
+
+struct h5 {
+    int64_t id; /* HDF5's handle of the file */
+    char *path;
+    bool shared; /* written through MPI-IO */
+    int code;    /* the first failure on this rank; later calls keep its message */
+};
+
+/* Creates (replaces) a file for writing. Collective. */
+int h5_create(const char *path, struct h5 **ret_file);
+
+/* Opens a file for reading. */
+int h5_open(const char *path, struct h5 **ret_file);
+
+/* Closes; what could not be written until then fails here. Collective for created files. */
+int h5_close(struct h5 *file);
+
+/* Closes after a failure, without looking; NULL is fine. */
+void h5_abandon(struct h5 *file);
+
+/* Makes a group. Collective. */
+int h5_group(struct h5 *file, const char *path);
+
+/* Attributes of the object `object` ("/": the file). Numbers: n values, n = 0: one scalar. Text: a
+ * null-padded string of exactly its length, ASCII where it is. Record: one compound of n named i32.
+ * Collective: every rank gives the same values. */
+int h5_attribute(struct h5 *file, const char *object, const char *name, enum h5_type type, unsigned n, const void *in);
+int h5_attribute_text(struct h5 *file, const char *object, const char *name, const char *text);
+int h5_attribute_record(struct h5 *file, const char *object, const char *name, const char *const *members, unsigned n,
+                        const int32_t *values);
+
+/* For h5out.c and h5in.c: notes a failed HDF5 call (a negative `id`) and returns `id`; HDF5's
+ * reason is only known right after the call. `what` completes "cannot write FILE: ...". */
+int64_t h5_check(struct h5 *file, int64_t id, const char *what);
+
+/* For h5out.c and h5in.c: the outcome so far, the same on all ranks for files being written. */
+int h5_outcome(struct h5 *file);
+
+/* For h5out.c and h5in.c: HDF5's handle of a type, and its size in bytes. */
+int64_t h5_type_id(enum h5_type type);
+size_t h5_type_size(enum h5_type type);
+
+/* For h5out.c: a string type of `length` bytes; a compound of n named i32 (release with H5Tclose). */
+int64_t h5_string_type(struct h5 *file, const char *text, size_t length);
+int64_t h5_record_type(struct h5 *file, const char *const *members, unsigned n);
+
+#endif

@@ -1,0 +1,22 @@
+/* history.h - history.csv: `step,t,dt,<columns>` and what the guard did so far, one row per call.
+ *
+ * The columns are those of the case (measure.h); after them stand guard_fallback, guard_relaxed,
+ * guard_clipped, guard_retries: totals since the start (state.h). `value` columns are scripts of
+ * the others. Rows are the same on any number of ranks. */
+#ifndef HISTORY_H
+#define HISTORY_H
+
+#include "solve/state.h"
+
+struct history;
+
+/* Opens <directory>/history.csv. A state with steps behind it goes on with the rows up to its step.
+ * STATUS_CASE for an unknown field. Collective, as all calls here. */
+int history_new(const struct state *state, struct history **ret_history);
+void history_free(struct history *history); /* NULL is fine */
+
+/* Appends the row of the present state, unless this step was the last written. A `value` that
+ * cannot be computed (0/0, a column that is NaN) is NaN. */
+int history_write(struct history *history, const struct state *state);
+
+#endif

@@ -1,0 +1,317 @@
+/* measure.c - see measure.h. One pass over the tiles serves all columns: volumes once per tile,
+ * each derived field once per tile, then every column adds its sums or extremes. */
+#include "io/measure.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "io/line.h"
+#include "io/region.h"
+#include "io/surface.h"
+#include "io/tally.h"
+#include "mesh/metric.h"
+#include "phys/derive.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MEASURE_SLOTS = 2 };
+
+struct measure_column {
+    const struct scene_column *from;
+    struct region *where; /* or NULL */
+    int field;            /* in `fields`, or -1 */
+    int axis;
+    double origin; /* penetration */
+};
+
+struct measures {
+    unsigned n;
+    struct measure_column *columns;
+    unsigned n_field;
+    struct derive *fields;
+    /* the tile at hand */
+    const struct state *state;
+    const struct level *level;
+    int l;
+    unsigned local;
+    double *volume, *ones, *weight, *work; /* [n_cell] */
+    double **derived;                      /* [n_field][3 n_cell], the magnitude first */
+    bool *is_derived;
+    double *sums;     /* [local tiles][n][MEASURE_SLOTS] */
+    double *extremes; /* [n][MEASURE_SLOTS]: largest of the values, of their negatives */
+};
+
+static bool measure_wants_field(enum scene_measure measure)
+{
+    return measure == SCENE_MIN || measure == SCENE_MAX || measure == SCENE_MEAN || measure == SCENE_INTEGRAL ||
+           measure == SCENE_ISOSURFACE_MEAN;
+}
+
+static int measure_find_field(struct measures *measures, const struct model *model, const char *name)
+{
+    for (unsigned i = 0; i < measures->n_field; i++)
+        if (!strcmp(measures->fields[i].name, name)) return (int)i;
+    if (derive_find(model, name, &measures->fields[measures->n_field])) return -1;
+    return (int)measures->n_field++;
+}
+
+static int measure_prepare_column(struct measures *measures, const struct state *state, unsigned i)
+{
+    struct measure_column *column = &measures->columns[i];
+    const struct scene_column *from = &state->scene->columns[i];
+    column->from = from;
+    column->field = -1;
+    column->axis = from->along >= 0 && from->along < state->mesh->dim ? from->along : state->mesh->dim - 1;
+    if (from->where) column->where = region_new(state->mesh, from->where);
+    if (from->measure == SCENE_PENETRATION)
+        column->origin = line_crossing(state, (unsigned)from->material, column->axis);
+    if (!measure_wants_field(from->measure)) return STATUS_OK;
+    column->field = measure_find_field(measures, state->model, from->field);
+    return column->field < 0 ? status_wrap(STATUS_CASE, "output.history.columns.%s: ", from->name) : STATUS_OK;
+}
+
+int measure_new(const struct state *state, struct measures **ret_measures)
+{
+    struct measures *measures = mem_new(1, sizeof *measures);
+    size_t n_cell = state->mesh->n_cell;
+    unsigned n = state->scene->n_column;
+    measures->n = n;
+    measures->state = state;
+    measures->columns = mem_new(n, sizeof *measures->columns);
+    measures->fields = mem_new(n, sizeof *measures->fields);
+    measures->volume = mem_new(n_cell, sizeof(double));
+    measures->ones = mem_new(n_cell, sizeof(double));
+    measures->weight = mem_new(n_cell, sizeof(double));
+    measures->work = mem_new(n_cell, sizeof(double));
+    for (size_t i = 0; i < n_cell; i++) measures->ones[i] = 1.0;
+    measures->sums = mem_new((tally_tiles(state->mesh) + 1) * n * MEASURE_SLOTS, sizeof(double));
+    measures->extremes = mem_new((size_t)n * MEASURE_SLOTS, sizeof(double));
+    int code = STATUS_OK;
+    for (unsigned i = 0; !code && i < n; i++) code = measure_prepare_column(measures, state, i);
+    measures->derived = mem_new(measures->n_field, sizeof *measures->derived);
+    measures->is_derived = mem_new(measures->n_field, sizeof *measures->is_derived);
+    for (unsigned i = 0; i < measures->n_field; i++) measures->derived[i] = mem_new(3 * n_cell, sizeof(double));
+    if (code) measure_free(measures);
+    else *ret_measures = measures;
+    return code;
+}
+
+void measure_free(struct measures *measures)
+{
+    if (!measures) return;
+    for (unsigned i = 0; i < measures->n_field; i++) mem_free(measures->derived[i]);
+    for (unsigned i = 0; i < measures->n; i++) region_free(measures->columns[i].where);
+    mem_free(measures->derived);
+    mem_free(measures->is_derived);
+    mem_free(measures->columns);
+    mem_free(measures->fields);
+    mem_free(measures->volume);
+    mem_free(measures->ones);
+    mem_free(measures->weight);
+    mem_free(measures->work);
+    mem_free(measures->sums);
+    mem_free(measures->extremes);
+    mem_free(measures);
+}
+
+/* An evolved field of the tile at hand. */
+static const double *measure_evolved(const struct measures *measures, unsigned index)
+{
+    return measures->level->u_old[measures->local] + index * measures->state->mesh->n_cell;
+}
+
+/* Volume fraction of a material (-1, or the only one: ones). */
+static const double *measure_alpha(const struct measures *measures, int material)
+{
+    const struct model *model = measures->state->model;
+    if (material < 0 || !model->n_alpha) return measures->ones;
+    return measure_evolved(measures, model->i_alpha + (unsigned)material);
+}
+
+/* A derived field of the tile at hand; of a vector, its magnitude. */
+static const double *measure_field(struct measures *measures, int index)
+{
+    double *values = measures->derived[index];
+    if (measures->is_derived[index]) return values;
+    const struct derive *field = &measures->fields[index];
+    const struct state *state = measures->state;
+    size_t n = state->mesh->n_cell;
+    derive_tile(state->model, state->mesh, measures->l, measures->local, state->t, field, values);
+    for (size_t i = 0; field->components == 3 && i < n; i++) {
+        double x = values[i], y = values[n + i], z = values[2 * n + i];
+        values[i] = sqrt(x * x + y * y + z * z);
+    }
+    measures->is_derived[index] = true;
+    return values;
+}
+
+/* Covered fraction b f of each cell, NULL where the column does not look at this tile at all. */
+static const double *measure_cover(struct measures *measures, const struct measure_column *column)
+{
+    const double *fractions = NULL, *alpha = measure_alpha(measures, column->from->in);
+    enum region_cover cover =
+        column->where ? region_tile(column->where, measures->l, measures->local, &fractions) : REGION_ALL;
+    if (cover == REGION_NONE) return NULL;
+    if (cover == REGION_ALL) return alpha;
+    for (size_t i = 0; i < measures->state->mesh->n_cell; i++) measures->weight[i] = fractions[i] * alpha[i];
+    return measures->weight;
+}
+
+/* Centroids of the cells along an axis: int x dV / V with the metric along the first axis. */
+static void measure_positions(const struct measures *measures, int axis, double *ret_x)
+{
+    const struct mesh *mesh = measures->state->mesh;
+    double corner[3], h = measures->level->h[axis];
+    mesh_corner(mesh, measures->level, &measures->level->tiles[measures->level->first + measures->local], corner);
+    size_t step = 1, n = (size_t)mesh->n[axis];
+    for (int before = 0; before < axis; before++) step *= (size_t)mesh->n[before];
+    for (size_t i = 0; i < mesh->n_cell; i++) {
+        double x = corner[axis] + ((double)(i / step % n) + 0.5) * h;
+        if (axis == 0 && mesh->beta == 1) x += h * h / (12.0 * x);
+        if (axis == 0 && mesh->beta == 2) x *= 3.0 * (4.0 * x * x + h * h) / (12.0 * x * x + h * h);
+        ret_x[i] = x;
+    }
+}
+
+/* The density whose integral `total` and `mass` are; NULL: sum over materials, in `work`. */
+static const double *measure_content(struct measures *measures, const struct scene_column *from)
+{
+    const struct model *model = measures->state->model;
+    size_t n = measures->state->mesh->n_cell;
+    if (from->measure == SCENE_TOTAL && !strcmp(from->field, "energy")) return measure_evolved(measures, model->i_E);
+    if (from->measure == SCENE_TOTAL && !strncmp(from->field, "momentum_", 9)) {
+        int axis = from->field[9] - 'x';
+        return axis < model->dim ? measure_evolved(measures, model->i_u + (unsigned)axis) : NULL;
+    }
+    if (from->measure == SCENE_MASS && from->material >= 0)
+        return measure_evolved(measures, model->i_m + (unsigned)from->material);
+    memset(measures->work, 0, n * sizeof *measures->work);
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const double *m = measure_evolved(measures, model->i_m + l);
+        for (size_t i = 0; i < n; i++) measures->work[i] += m[i];
+    }
+    return measures->work;
+}
+
+/* Multiplies the cover into volumes, unless it is one everywhere. */
+static const double *measure_weigh(struct measures *measures, const double *cover)
+{
+    if (cover == measures->ones) return measures->volume;
+    for (size_t i = 0; i < measures->state->mesh->n_cell; i++) measures->weight[i] = cover[i] * measures->volume[i];
+    return measures->weight;
+}
+
+static void measure_sum(struct measures *measures, const struct measure_column *column, double *sums)
+{
+    const struct scene_column *from = column->from;
+    size_t n = measures->state->mesh->n_cell;
+    const double *cover = measure_cover(measures, column), *content = NULL;
+    if (!cover) return;
+    const double *weight = measure_weigh(measures, cover), *alpha = measure_alpha(measures, from->material);
+    switch (from->measure) {
+    case SCENE_VOLUME:
+    case SCENE_EQUIVALENT_RADIUS: sums[0] = tally_row(n, alpha, weight); break;
+    case SCENE_MASS:
+    case SCENE_TOTAL:
+        content = measure_content(measures, from);
+        sums[0] = content ? tally_row(n, content, weight) : 0.0;
+        break;
+    case SCENE_CENTROID:
+        measure_positions(measures, column->axis, measures->work);
+        for (size_t i = 0; i < n; i++) measures->work[i] *= alpha[i];
+        sums[0] = tally_row(n, measures->work, weight);
+        sums[1] = tally_row(n, alpha, weight);
+        break;
+    case SCENE_MEAN:
+    case SCENE_INTEGRAL:
+        sums[0] = tally_row(n, measure_field(measures, column->field), weight);
+        sums[1] = tally_row(n, measures->ones, weight);
+        break;
+    default: break;
+    }
+}
+
+/* Velocity along the axis of a jet, from the primitives. */
+static const double *measure_velocity(const struct measures *measures, int axis)
+{
+    const struct state *state = measures->state;
+    return measures->level->w[measures->local] + (state->model->i_u + (unsigned)axis) * state->mesh->n_cell;
+}
+
+static void measure_extreme(struct measures *measures, const struct measure_column *column, double *extremes)
+{
+    const struct scene_column *from = column->from;
+    bool jet = from->measure == SCENE_JET_SPEED;
+    if (!jet && from->measure != SCENE_MIN && from->measure != SCENE_MAX) return;
+    const double *cover = measure_cover(measures, column);
+    if (!cover) return;
+    const double *alpha = measure_alpha(measures, jet ? from->material : -1);
+    const double *values = jet ? measure_velocity(measures, column->axis) : measure_field(measures, column->field);
+    for (size_t i = 0; i < measures->state->mesh->n_cell; i++) {
+        if (cover[i] < 0.5 || alpha[i] < 0.5) continue;
+        if (values[i] > extremes[0]) extremes[0] = values[i];
+        if (-values[i] > extremes[1]) extremes[1] = -values[i];
+    }
+}
+
+static void measure_tile(struct measures *measures, double *sums)
+{
+    memset(measures->is_derived, 0, measures->n_field * sizeof *measures->is_derived);
+    metric_volumes(measures->state->mesh, measures->level,
+                   &measures->level->tiles[measures->level->first + measures->local], measures->volume);
+    for (unsigned i = 0; i < measures->n; i++) {
+        sums[i * MEASURE_SLOTS] = sums[i * MEASURE_SLOTS + 1] = 0.0;
+        measure_sum(measures, &measures->columns[i], sums + i * MEASURE_SLOTS);
+        measure_extreme(measures, &measures->columns[i], measures->extremes + i * MEASURE_SLOTS);
+    }
+}
+
+static double measure_radius(const struct mesh *mesh, double volume)
+{
+    if (mesh->beta || mesh->dim == 3) return cbrt(0.75 * volume / M_PI);
+    return mesh->dim == 2 ? sqrt(volume / M_PI) : 0.5 * volume;
+}
+
+/* The number of a column from its sums and extremes. */
+static double measure_result(struct measures *measures, const struct measure_column *column, const double *sums,
+                             const double *extremes)
+{
+    const struct state *state = measures->state;
+    const struct scene_column *from = column->from;
+    bool empty = !(extremes[0] >= -extremes[1]);
+    switch (from->measure) {
+    case SCENE_CENTROID:
+    case SCENE_MEAN: return sums[0] / sums[1];
+    case SCENE_EQUIVALENT_RADIUS: return measure_radius(state->mesh, sums[0]);
+    case SCENE_MIN: return empty ? NAN : -extremes[1];
+    case SCENE_MAX: return empty ? NAN : extremes[0];
+    case SCENE_JET_SPEED: return empty ? NAN : extremes[0] >= extremes[1] ? extremes[0] : -extremes[1];
+    case SCENE_PENETRATION: return line_crossing(state, (unsigned)from->material, column->axis) - column->origin;
+    case SCENE_ISOSURFACE_MEAN:
+        return surface_mean(state, (unsigned)from->material, &measures->fields[column->field], column->where);
+    case SCENE_VALUE: return NAN;
+    default: return sums[0];
+    }
+}
+
+void measure_take(struct measures *measures, const struct state *state, double *ret_values)
+{
+    const struct mesh *mesh = state->mesh;
+    unsigned slots = measures->n * MEASURE_SLOTS;
+    double *totals = mem_new(slots, sizeof *totals), *sums = measures->sums;
+    measures->state = state;
+    for (unsigned i = 0; i < slots; i++) measures->extremes[i] = -INFINITY;
+    for (unsigned i = 0; i < measures->n_field; i++) derive_prepare(state->model, mesh, state->t, &measures->fields[i]);
+    for (measures->l = 0; measures->l < mesh->n_level; measures->l++) {
+        measures->level = &mesh->levels[measures->l];
+        for (measures->local = 0; measures->local < measures->level->n_local; measures->local++, sums += slots)
+            measure_tile(measures, sums);
+    }
+    tally_add(mesh, slots, measures->sums, totals);
+    comm_max(measures->extremes, (int)slots);
+    for (unsigned i = 0; i < measures->n; i++)
+        ret_values[i] = measure_result(measures, &measures->columns[i], totals + i * MEASURE_SLOTS,
+                                       measures->extremes + i * MEASURE_SLOTS);
+    mem_free(totals);
+}

@@ -1,0 +1,34 @@
+/* measure.h - the numbers of a history: volumes, means, extremes, ... of the present state.
+ *
+ * What each measure is (V: whole cell volumes, 2 pi and 4 pi included; f: covered fraction of the
+ * cell by `where`, 1 without it; a: volume fraction of the material, b: of the material `in`):
+ *   volume              sum a b f V
+ *   mass                sum m_l b f V; without a material: of all
+ *   centroid            sum a x b f V / sum a b f V; x: centroid of the cell along `along`
+ *   mean, integral      sum q b f V (/ sum b f V)
+ *   total               sum of rho, rho u_i or rho E times b f V
+ *   min, max            of q over the cells with b >= 0.5 and f >= 0.5
+ *   equivalent-radius   of the ball (axisymmetric, spherical, 3D), disc (2D) or half-width (1D) with
+ *                       that volume
+ *   penetration         line_crossing along `along`, less its value when the measures were made
+ *   jet-speed           velocity along `along` of largest magnitude, with its sign, over the cells
+ *                       with a >= 0.5 (b, f likewise)
+ *   isosurface-mean     surface_mean of q on a = 0.5
+ * q of a vector field is its magnitude. `along` that is not given is the last axis. An empty set
+ * gives NaN. Sums are the same on any number of ranks (tally.h). */
+#ifndef MEASURE_H
+#define MEASURE_H
+
+#include "solve/state.h"
+
+struct measures;
+
+/* Looks fields up (STATUS_CASE for an unknown one, naming the column) and notes where materials
+ * end now. Collective. */
+int measure_new(const struct state *state, struct measures **ret_measures);
+void measure_free(struct measures *measures); /* NULL is fine */
+
+/* One number per column of the scene, NaN for `value` columns; equal on all ranks. Collective. */
+void measure_take(struct measures *measures, const struct state *state, double *ret_values);
+
+#endif

@@ -1,0 +1,81 @@
+/* place.c - see place.h. */
+#include "io/place.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static int place_make(const char *path)
+{
+    struct stat there;
+    if (!mkdir(path, 0777)) return STATUS_OK;
+    int reason = errno;
+    if (reason == EEXIST && !stat(path, &there) && S_ISDIR(there.st_mode)) return STATUS_OK;
+    return status_fail(STATUS_RUN, "%s: cannot make this folder: %s", path, strerror(reason));
+}
+
+static int place_make_all(const char *path)
+{
+    char *part = mem_text(path);
+    int code = STATUS_OK;
+    for (char *end = part + 1; !code && *end; end++) {
+        if (*end != '/') continue;
+        *end = '\0';
+        code = place_make(part);
+        *end = '/';
+    }
+    if (!code) code = place_make(part);
+    mem_free(part);
+    return code;
+}
+
+int place_folder(const char *path)
+{
+    return comm_agree(comm_rank() == 0 ? place_make_all(path) : STATUS_OK);
+}
+
+char *place_draft(const char *path)
+{
+    return mem_print("%s.tmp", path);
+}
+
+static int place_write(const char *path, const char *text)
+{
+    FILE *stream = fopen(path, "w");
+    if (!stream) return status_fail(STATUS_RUN, "%s: cannot write: %s", path, strerror(errno));
+    int bad = fputs(text, stream) < 0;
+    bad = fclose(stream) || bad;
+    return bad ? status_fail(STATUS_RUN, "%s: cannot write: %s", path, strerror(errno)) : STATUS_OK;
+}
+
+int place_text(const char *path, const char *text)
+{
+    char *draft = place_draft(path);
+    int code = comm_agree(comm_rank() == 0 ? place_write(draft, text) : STATUS_OK);
+    mem_free(draft);
+    return code ? code : place_accept(path);
+}
+
+int place_accept(const char *path)
+{
+    int code = STATUS_OK;
+    if (comm_rank() == 0) {
+        char *draft = place_draft(path);
+        if (rename(draft, path)) code = status_fail(STATUS_RUN, "%s: cannot rename to it: %s", path, strerror(errno));
+        mem_free(draft);
+    }
+    return comm_agree(code);
+}
+
+void place_reject(const char *path)
+{
+    if (comm_rank() != 0) return;
+    char *draft = place_draft(path);
+    remove(draft);
+    mem_free(draft);
+}

@@ -1,0 +1,28 @@
+/* probes.h - probes.csv: fields at points over time, `t,<probe>.<field>...` (velocity as
+ * <probe>.velocity_x, ...).
+ *
+ * In space, values are interpolated linearly along each axis between the centres of the cells
+ * around the point, across tiles and ranks; beyond the last centre before a boundary they stay
+ * constant, across a periodic boundary they go on. In time, rows stand at the times that the
+ * case asks for (multiples of `every`), linear between the steps around them; with `every: N
+ * steps` at every N-th step. Without `every` each step makes a row. */
+#ifndef PROBES_H
+#define PROBES_H
+
+#include "solve/state.h"
+
+struct probes;
+
+/* Opens <directory>/probes.csv if the case has probes (else *ret_probes is NULL, which all calls
+ * accept). STATUS_CASE for unknown fields and points outside the domain. Collective, as all calls here. */
+int probes_new(const struct state *state, struct probes **ret_probes);
+void probes_free(struct probes *probes);
+
+/* To be called with the initial state and after every step: writes the rows that fall between the
+ * last call and this state. */
+int probes_record(struct probes *probes, const struct state *state);
+
+/* Writes a row for this state if the last row lies before it: the end of a run. */
+int probes_finish(struct probes *probes, const struct state *state);
+
+#endif

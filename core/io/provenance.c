@@ -1,0 +1,273 @@
+/* provenance.c - see provenance.h. Figures are collected from all ranks by all; the text is made
+ * by rank 0, the only one that knows the time, and sent to the others. */
+#include "io/provenance.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/version.h"
+#include "io/ledger.h"
+#include "io/place.h"
+#include "plug/registry.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { PROVENANCE_HOST = 64 };
+
+struct provenance {
+    int argc;
+    char *const *argv;
+    char *path, *text;
+    double wall_0, cpu_0; /* at the start of the run [s] */
+    long step_0;
+    char started[32];
+    struct ledger initial;
+    char (*hosts)[PROVENANCE_HOST]; /* [ranks] */
+};
+
+const char *provenance_text(const struct provenance *provenance)
+{
+    return provenance->text;
+}
+
+static double provenance_wall(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* User and system time of this process since it began [s]. */
+static double provenance_cpu(void)
+{
+    struct rusage used;
+    getrusage(RUSAGE_SELF, &used);
+    return (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+           1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+}
+
+static void provenance_now(char *ret_text, size_t size)
+{
+    time_t now = time(NULL);
+    struct tm parts;
+    strftime(ret_text, size, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &parts));
+}
+
+static double provenance_sum(double value)
+{
+    double *all = mem_new((size_t)comm_size(), sizeof *all), sum = 0.0;
+    comm_join(&value, 1, all);
+    for (int rank = 0; rank < comm_size(); rank++) sum += all[rank];
+    mem_free(all);
+    return sum;
+}
+
+/* Names of the machines of all ranks; they travel as the bytes of doubles. */
+static void provenance_find_hosts(struct provenance *provenance)
+{
+    double name[PROVENANCE_HOST / sizeof(double)] = {0};
+    gethostname((char *)name, sizeof name - 1);
+    provenance->hosts = mem_new((size_t)comm_size(), sizeof *provenance->hosts);
+    comm_join(name, (int)(sizeof name / sizeof *name), (double *)provenance->hosts);
+}
+
+static json_t *provenance_hosts(const struct provenance *provenance)
+{
+    json_t *hosts = json_object(); /* name: ranks on it */
+    for (int rank = 0; rank < comm_size(); rank++) {
+        const char *name = provenance->hosts[rank];
+        json_int_t ranks = json_integer_value(json_object_get(hosts, name));
+        json_object_set_new(hosts, name, json_integer(ranks + 1));
+    }
+    return hosts;
+}
+
+static json_t *provenance_command(const struct provenance *provenance)
+{
+    json_t *command = json_array();
+    for (int i = 0; i < provenance->argc; i++) json_array_append_new(command, json_string(provenance->argv[i]));
+    return command;
+}
+
+static json_t *provenance_environment(void)
+{
+    static const char *const names[] = {"BULLA_MODULE_PATH", "OMP_NUM_THREADS", "OMPI_COMM_WORLD_SIZE",
+                                        "SLURM_JOB_ID",      "LD_PRELOAD",      "LANG"};
+    json_t *environment = json_object();
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const char *value = getenv(names[i]);
+        if (value) json_object_set_new(environment, names[i], json_string(value));
+    }
+    return environment;
+}
+
+static void provenance_add_module(json_t *modules, const struct bulla_module *module)
+{
+    if (!module) return;
+    json_t *known;
+    size_t i;
+    json_array_foreach(modules, i, known)
+    {
+        if (!strcmp(json_string_value(json_object_get(known, "name")), module->name) &&
+            !strcmp(json_string_value(json_object_get(known, "kind")), module->kind))
+            return;
+    }
+    const struct registry_entry *entry = registry_find(module->kind, module->name);
+    char hash[32] = "";
+    if (entry) snprintf(hash, sizeof hash, "%016llx", (unsigned long long)entry->hash);
+    json_array_append_new(modules, json_pack("{s:s, s:s, s:s, s:s, s:s}", "kind", module->kind, "name", module->name,
+                                             "version", module->version ? module->version : "", "path",
+                                             entry ? entry->path : "", "xxh64", hash));
+}
+
+static json_t *provenance_modules(const struct scene *scene)
+{
+    json_t *modules = json_array();
+    for (unsigned l = 0; l < scene->n_material; l++) provenance_add_module(modules, scene->material[l].eos.module);
+    provenance_add_module(modules, scene->limiter.module);
+    provenance_add_module(modules, scene->riemann.module);
+    return modules;
+}
+
+/* A number, or null where JSON has none. */
+static json_t *provenance_number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* Totals at the start and now; what went through boundaries is part of the difference. */
+static json_t *provenance_conservation(const struct provenance *provenance, const struct state *state,
+                                       const struct ledger *now)
+{
+    json_t *conservation = json_object();
+    for (unsigned i = 0; i < now->n; i++) {
+        char name[2 * SCENE_NAME];
+        ledger_name(state->model, i, name, sizeof name);
+        double initial = provenance->initial.total[i], final = now->total[i];
+        json_t *entry = json_object();
+        json_object_set_new(entry, "initial", provenance_number(initial));
+        json_object_set_new(entry, "final", provenance_number(final));
+        json_object_set_new(entry, "relative_change", provenance_number((final - initial) / fabs(initial)));
+        json_object_set_new(conservation, name, entry);
+    }
+    return conservation;
+}
+
+/* Who ran what, where. */
+static json_t *provenance_origin(const struct provenance *provenance, const struct scene *scene)
+{
+    return json_pack("{s:s, s:s, s:s, s:s?, s:s?, s:s?, s:o, s:o, s:o, s:o, s:i}", "version", BULLA_VERSION, "commit",
+                     version_commit(), "compiler", __VERSION__, "case", scene->path, "name", scene->name, "title",
+                     scene->title, "command", provenance_command(provenance), "environment", provenance_environment(),
+                     "modules", provenance_modules(scene), "hosts", provenance_hosts(provenance), "ranks", comm_size());
+}
+
+/* What it cost. */
+struct provenance_cost {
+    double wall, cpu, cpu_run, memory; /* s, s, s since the run began, bytes; sums over ranks but wall */
+};
+
+static json_t *provenance_work(const struct provenance *provenance, const struct state *state,
+                               const struct provenance_cost *cost)
+{
+    const struct mesh *mesh = state->mesh;
+    json_t *work = json_object();
+    double cells = 0.0;
+    for (int l = 0; l < mesh->n_level; l++) cells += (double)mesh->levels[l].n_tile * (double)mesh->n_cell;
+    json_object_set_new(work, "cells", json_real(cells));
+    json_object_set_new(work, "steps", json_integer(state->step));
+    json_object_set_new(work, "steps_of_this_run", json_integer(state->step - provenance->step_0));
+    json_object_set_new(work, "time", json_real(state->t));
+    json_object_set_new(work, "wall_s", json_real(cost->wall));
+    json_object_set_new(work, "cpu_s", json_real(cost->cpu));
+    json_object_set_new(work, "cells_updated", json_integer(state->counts.cells));
+    json_object_set_new(work, "cpu_ns_per_cell_stage",
+                        provenance_number(1e9 * cost->cpu_run / (double)state->counts.cells));
+    json_object_set_new(work, "peak_memory_bytes", json_real(cost->memory));
+    json_object_set_new(work, "bytes_per_cell", json_real(cost->memory / cells));
+    return work;
+}
+
+static json_t *provenance_guard(const struct state_counts *counts)
+{
+    return json_pack("{s:I, s:I, s:I, s:I}", "fallback", (json_int_t)counts->fallback, "relaxed",
+                     (json_int_t)counts->relaxed, "clipped", (json_int_t)counts->clipped, "retries",
+                     (json_int_t)counts->retries);
+}
+
+static char *provenance_compose(const struct provenance *provenance, const struct state *state,
+                                const struct provenance_cost *cost, const struct ledger *now, const char *reason,
+                                int exit_code)
+{
+    char time_text[32];
+    provenance_now(time_text, sizeof time_text);
+    json_t *root = provenance_origin(provenance, state->scene), *work = provenance_work(provenance, state, cost);
+    json_object_set_new(root, "started", json_string(provenance->started));
+    json_object_set_new(root, strcmp(reason, "running") ? "ended" : "written", json_string(time_text));
+    json_object_update(root, work);
+    json_decref(work);
+    json_object_set_new(root, "conservation", provenance_conservation(provenance, state, now));
+    json_object_set_new(root, "guard", provenance_guard(&state->counts));
+    json_object_set_new(root, "exit_reason", json_string(reason));
+    json_object_set_new(root, "exit_code", strcmp(reason, "running") ? json_integer(exit_code) : json_null());
+    char *json = json_dumps(root, JSON_INDENT(2)), *text = mem_print("%s\n", json ? json : "{}");
+    free(json);
+    json_decref(root);
+    return text;
+}
+
+/* Sends the text of rank 0 to all. */
+static char *provenance_share(char *text)
+{
+    size_t length = text ? strlen(text) : 0;
+    comm_bcast(&length, sizeof length);
+    if (!text) text = mem_new(length + 1, 1);
+    comm_bcast(text, length);
+    return text;
+}
+
+int provenance_write(struct provenance *provenance, const struct state *state, const char *reason, int exit_code)
+{
+    double cpu = provenance_cpu();
+    struct provenance_cost cost = {provenance_wall() - provenance->wall_0, provenance_sum(cpu),
+                                   provenance_sum(cpu - provenance->cpu_0), provenance_sum(mem_peak())};
+    struct ledger now;
+    ledger_take(state, &now);
+    char *text = comm_rank() == 0 ? provenance_compose(provenance, state, &cost, &now, reason, exit_code) : NULL;
+    mem_free(provenance->text);
+    provenance->text = provenance_share(text);
+    return place_text(provenance->path, provenance->text);
+}
+
+int provenance_new(const struct state *state, int argc, char *const *argv, struct provenance **ret_provenance)
+{
+    TRY(place_folder(state->scene->directory));
+    struct provenance *provenance = mem_new(1, sizeof *provenance);
+    *provenance = (struct provenance){.argc = argc, .argv = argv, .step_0 = state->step};
+    provenance->path = mem_print("%s/provenance.json", state->scene->directory);
+    provenance->wall_0 = provenance_wall();
+    provenance->cpu_0 = provenance_cpu();
+    provenance_now(provenance->started, sizeof provenance->started);
+    provenance_find_hosts(provenance);
+    ledger_take(state, &provenance->initial);
+    int code = provenance_write(provenance, state, "running", 0);
+    if (code) provenance_free(provenance);
+    else *ret_provenance = provenance;
+    return code;
+}
+
+void provenance_free(struct provenance *provenance)
+{
+    if (!provenance) return;
+    mem_free(provenance->hosts);
+    mem_free(provenance->text);
+    mem_free(provenance->path);
+    mem_free(provenance);
+}

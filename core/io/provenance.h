@@ -1,0 +1,23 @@
+/* provenance.h - provenance.json: what made these results, and what it cost.
+ *
+ * Written when a run begins (exit_reason "running") and again when it ends, by draft and rename:
+ * a file that says "running" belongs to a run that was killed. */
+#ifndef PROVENANCE_H
+#define PROVENANCE_H
+
+#include "solve/state.h"
+
+struct provenance;
+
+/* Takes stock of a state that is about to run and writes the first file. `argv` must outlive it. Collective. */
+int provenance_new(const struct state *state, int argc, char *const *argv, struct provenance **ret_provenance);
+void provenance_free(struct provenance *provenance); /* NULL is fine */
+
+/* Writes the file again with the present figures; `reason`: "running", "finished", "interrupted by
+ * SIGTERM", or the message of the failure. Collective. */
+int provenance_write(struct provenance *provenance, const struct state *state, const char *reason, int exit_code);
+
+/* The text as last written, equal on all ranks; valid until the next write. */
+const char *provenance_text(const struct provenance *provenance);
+
+#endif

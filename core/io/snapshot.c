@@ -1,0 +1,169 @@
+/* snapshot.c - see snapshot.h. The order of one file: root attributes, /VTKHDF with the data,
+ * the Chombo view onto them, /bulla. A failure leaves the files before it as they are. */
+#include "io/snapshot.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+#include "base/version.h"
+#include "io/chombo.h"
+#include "io/filelist.h"
+#include "io/h5out.h"
+#include "io/place.h"
+#include "io/vtkhdf.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { SNAPSHOT_FORMAT = 1, SNAPSHOT_BLOCK = 5 };
+
+struct snapshots {
+    const struct scene *scene;
+    char *folder, *list_path;
+    struct filelist list; /* rank 0 */
+    unsigned n_field;
+    struct derive *fields;
+    long last; /* step of the last file, or -1 */
+};
+
+static int snapshot_find_fields(struct snapshots *snapshots, const struct state *state)
+{
+    const struct scene *scene = state->scene;
+    snapshots->fields = mem_new(scene->n_snapshot_field + 1u, sizeof *snapshots->fields);
+    for (unsigned i = 0; i < scene->n_snapshot_field; i++) {
+        int code = derive_find(state->model, scene->snapshot_fields[i], &snapshots->fields[i]);
+        if (code) return status_wrap(code, "output.snapshots.fields: ");
+    }
+    snapshots->n_field = scene->n_snapshot_field;
+    return STATUS_OK;
+}
+
+/* The files of the run that is being taken up again, as far as they lie in its past. */
+static void snapshot_recall(struct snapshots *snapshots, const struct state *state)
+{
+    struct filelist *list = &snapshots->list;
+    if (state->step == 0 || comm_rank() != 0 || filelist_read(snapshots->list_path, list)) return;
+    while (list->n && list->times[list->n - 1] > state->t) mem_free(list->names[--list->n]);
+}
+
+int snapshot_new(const struct state *state, struct snapshots **ret_snapshots)
+{
+    struct snapshots *snapshots = mem_new(1, sizeof *snapshots);
+    snapshots->scene = state->scene;
+    snapshots->last = -1;
+    snapshots->folder = mem_print("%s/fields", state->scene->directory);
+    snapshots->list_path = mem_print("%s/%s.hdf.series", snapshots->folder, state->scene->name);
+    int code = snapshot_find_fields(snapshots, state);
+    if (!code) code = place_folder(snapshots->folder);
+    if (!code) snapshot_recall(snapshots, state);
+    if (code) snapshot_free(snapshots);
+    else *ret_snapshots = snapshots;
+    return code;
+}
+
+void snapshot_free(struct snapshots *snapshots)
+{
+    if (!snapshots) return;
+    filelist_done(&snapshots->list);
+    mem_free(snapshots->fields);
+    mem_free(snapshots->list_path);
+    mem_free(snapshots->folder);
+    mem_free(snapshots);
+}
+
+/* Level, tile coordinates and rank of every tile. */
+static int snapshot_write_blocks(struct h5 *file, const struct mesh *mesh)
+{
+    size_t n = vtkhdf_first_cell(mesh, mesh->n_level, 0) / mesh->n_cell, at = 0;
+    int32_t *blocks = mem_new(n * SNAPSHOT_BLOCK, sizeof *blocks);
+    for (int l = 0; l < mesh->n_level; l++)
+        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++) {
+            const struct tile *tile = &mesh->levels[l].tiles[i];
+            const int32_t block[SNAPSHOT_BLOCK] = {l, tile->at[0], tile->at[1], tile->at[2], tile->rank};
+            for (int q = 0; q < SNAPSHOT_BLOCK; q++) blocks[at++] = block[q];
+        }
+    int code = h5out_array(file, "/bulla/blocks", H5_I32, n, SNAPSHOT_BLOCK, blocks);
+    mem_free(blocks);
+    return code;
+}
+
+/* Who wrote it: format, program, case. */
+static int snapshot_write_origin(struct h5 *file, const struct scene *scene)
+{
+    int32_t format = SNAPSHOT_FORMAT;
+    struct text materials = {0};
+    for (unsigned l = 0; l < scene->n_material; l++)
+        text_add(&materials, "%s%s", l ? "," : "", scene->material[l].name);
+    TRY(h5_group(file, "/bulla"));
+    TRY(h5_attribute(file, "/bulla", "format", H5_I32, 0, &format));
+    TRY(h5_attribute_text(file, "/bulla", "version", BULLA_VERSION));
+    TRY(h5_attribute_text(file, "/bulla", "git", version_commit()));
+    TRY(h5_attribute_text(file, "/bulla", "case", scene->name));
+    TRY(h5_attribute_text(file, "/bulla", "title", scene->title ? scene->title : ""));
+    int code = h5_attribute_text(file, "/bulla", "materials", materials.at ? materials.at : "");
+    text_done(&materials);
+    return code;
+}
+
+static int snapshot_write_bulla(struct h5 *file, const struct state *state, const char *provenance)
+{
+    const struct mesh *mesh = state->mesh;
+    int32_t dim = mesh->dim, beta = mesh->beta;
+    TRY(snapshot_write_origin(file, state->scene));
+    TRY(h5_attribute(file, "/bulla", "dim", H5_I32, 0, &dim));
+    TRY(h5_attribute(file, "/bulla", "beta", H5_I32, 0, &beta));
+    TRY(h5_attribute(file, "/bulla", "lower", H5_F64, 3, mesh->lower));
+    TRY(h5_attribute(file, "/bulla", "upper", H5_F64, 3, mesh->upper));
+    TRY(h5out_text(file, "/bulla/case.yaml", state->scene->resolved ? state->scene->resolved : ""));
+    TRY(h5out_text(file, "/bulla/provenance.json", provenance));
+    return snapshot_write_blocks(file, mesh);
+}
+
+static int snapshot_fill(struct h5 *file, const struct state *state, const struct vtkhdf_fields *fields,
+                         const char *provenance)
+{
+    int32_t step = (int32_t)state->step;
+    TRY(h5_attribute(file, "/", "time", H5_F64, 0, &state->t));
+    TRY(h5_attribute(file, "/", "iteration", H5_I32, 0, &step));
+    TRY(vtkhdf_write(file, state, fields));
+    if (state->mesh->dim > 1) TRY(chombo_write(file, state, fields));
+    return snapshot_write_bulla(file, state, provenance);
+}
+
+/* Writes the draft of a file. */
+static int snapshot_draft(struct snapshots *snapshots, const struct state *state, const char *path,
+                          const char *provenance)
+{
+    struct vtkhdf_fields fields = {snapshots->n_field, snapshots->fields,
+                                   snapshots->scene->snapshot_double ? H5_F64 : H5_F32};
+    for (unsigned i = 0; i < snapshots->n_field; i++)
+        derive_prepare(state->model, state->mesh, state->t, &snapshots->fields[i]);
+    char *draft = place_draft(path);
+    struct h5 *file;
+    int code = h5_create(draft, &file);
+    mem_free(draft);
+    if (code) return code;
+    code = snapshot_fill(file, state, &fields, provenance);
+    if (!code) return h5_close(file);
+    h5_abandon(file);
+    return code;
+}
+
+int snapshot_write(struct snapshots *snapshots, const struct state *state, const char *provenance)
+{
+    if (snapshots->last == state->step) return STATUS_OK;
+    char *name = mem_print("%s_%06ld.hdf", state->scene->name, state->step);
+    char *path = mem_print("%s/%s", snapshots->folder, name);
+    int code = snapshot_draft(snapshots, state, path, provenance);
+    if (code) place_reject(path);
+    else code = place_accept(path);
+    if (!code) {
+        filelist_add(&snapshots->list, name, state->t);
+        code = filelist_write(&snapshots->list, snapshots->list_path);
+        snapshots->last = state->step;
+    }
+    mem_free(path);
+    mem_free(name);
+    return code;
+}

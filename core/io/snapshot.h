@@ -1,0 +1,29 @@
+/* snapshot.h - plot files: one HDF5 file per output time that ParaView and yt open as it is.
+ *
+ * <directory>/fields/<case>_<step>.hdf holds, stored once, two views of the same arrays:
+ *   /VTKHDF            an unstructured grid (VTKHDF 1.0) of lines, quads or hexahedra with shared
+ *                      points; CellData/<name> [n_cell] or [n_cell, 3], float32 or float64
+ *   /level_<l>, ...    the Chombo layout of the same tiles, as virtual data sets (2D and 3D);
+ *                      it knows one cell width: where cells are not square its lengths are off
+ *   /bulla             case.yaml, blocks (level, i, j, k, rank), provenance.json, and what
+ *                      read.h needs: title, case, dim, beta, domain, materials
+ * Cells are ordered by level, tile (Morton), x fastest within a tile. <case>.hdf.series lists all
+ * files with their times. Files get their names when complete. The numbers do not depend on the
+ * ranks (but for the rank column of blocks and provenance.json). */
+#ifndef SNAPSHOT_H
+#define SNAPSHOT_H
+
+#include "solve/state.h"
+
+struct snapshots;
+
+/* Prepares the folder and looks the fields up (STATUS_CASE for an unknown one). A state with steps
+ * behind it goes on with the list of files up to its time; a new one starts it. Collective. */
+int snapshot_new(const struct state *state, struct snapshots **ret_snapshots);
+void snapshot_free(struct snapshots *snapshots); /* NULL is fine */
+
+/* Writes the present state unless this step was the last written; `provenance` is the text of
+ * provenance.json, equal on all ranks. Collective. */
+int snapshot_write(struct snapshots *snapshots, const struct state *state, const char *provenance);
+
+#endif

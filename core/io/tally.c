@@ -1,0 +1,52 @@
+/* tally.c - see tally.h. */
+#include "io/tally.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+
+#include <math.h>
+
+enum { TALLY_LANES = 8 };
+
+double tally_row(size_t n, const double *a, const double *b)
+{
+    double lane[TALLY_LANES] = {0};
+    size_t whole = n - n % TALLY_LANES;
+    for (size_t i = 0; i < whole; i += TALLY_LANES)
+        for (size_t j = 0; j < TALLY_LANES; j++) lane[j] += a[i + j] * b[i + j];
+    for (size_t i = whole; i < n; i++) lane[i - whole] += a[i] * b[i];
+    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
+size_t tally_tiles(const struct mesh *mesh)
+{
+    size_t tiles = 0;
+    for (int l = 0; l < mesh->n_level; l++) tiles += mesh->levels[l].n_local;
+    return tiles;
+}
+
+/* sum + lost, where lost is what rounding has taken from the sum so far. */
+static void tally_put(double value, double *sum, double *lost)
+{
+    double next = *sum + value;
+    *lost += fabs(*sum) >= fabs(value) ? (*sum - next) + value : (value - next) + *sum;
+    *sum = next;
+}
+
+void tally_add(const struct mesh *mesh, unsigned n_value, const double *local, double *ret_totals)
+{
+    double *lost = mem_new(n_value, sizeof *lost);
+    for (unsigned q = 0; q < n_value; q++) ret_totals[q] = 0.0;
+    for (int l = 0; l < mesh->n_level; l++) {
+        const struct level *level = &mesh->levels[l];
+        double *all = mem_new((size_t)level->n_tile * n_value, sizeof *all);
+        comm_join(local, (int)(level->n_local * n_value), all);
+        for (unsigned tile = 0; tile < level->n_tile; tile++)
+            for (unsigned q = 0; q < n_value; q++) tally_put(all[(size_t)tile * n_value + q], &ret_totals[q], &lost[q]);
+        local += (size_t)level->n_local * n_value;
+        mem_free(all);
+    }
+    for (unsigned q = 0; q < n_value; q++)
+        if (isfinite(lost[q])) ret_totals[q] += lost[q];
+    mem_free(lost);
+}

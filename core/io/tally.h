@@ -1,0 +1,21 @@
+/* tally.h - sums over the mesh that do not depend on the ranks.
+ *
+ * Sums are taken per tile, every rank gets the sums of all tiles, and adds them in the order of
+ * levels and of the Morton curve: the same additions in the same order on any number of ranks. */
+#ifndef TALLY_H
+#define TALLY_H
+
+#include "mesh/mesh.h"
+
+/* Sum of a[i] b[i] over a row, in an order that depends on n alone (eight interleaved sums). */
+double tally_row(size_t n, const double *a, const double *b);
+
+/* Adds per-tile values up: `local` is [local tiles of level 0, then of level 1, ...][n_value]; the
+ * totals of each value, with compensated summation (Neumaier 1974), are the same on all ranks.
+ * Collective. */
+void tally_add(const struct mesh *mesh, unsigned n_value, const double *local, double *ret_totals);
+
+/* Local tiles of all levels: rows of `local` above. */
+size_t tally_tiles(const struct mesh *mesh);
+
+#endif
