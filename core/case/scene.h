@@ -10,6 +10,7 @@
 #include "plug/instance.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 
 enum { SCENE_AXES = 3, SCENE_MATERIALS = 16, SCENE_NAME = 64 };
 
@@ -115,6 +116,8 @@ struct scene_column {
     struct shape *where;   /* restrict to a region, or NULL */
     int along;             /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
     const struct script *script; /* value: an expression of other columns */
+    char (*uses)[SCENE_NAME];    /* value: its arguments, in order: "t" or columns further up */
+    unsigned n_use;
 };
 
 struct scene_probe {
@@ -132,12 +135,20 @@ struct scene_expect {
     char *reference;  /* path, resolved against the case file */
     char *norm;       /* "L1", "L2", "Linf" */
     char *field;      /* a field of the final state (profile along x), or a history/probe column */
+    bool of_history;  /* it is a column */
     char *column;     /* column of the CSV */
     char *coordinate; /* column of the CSV that holds x or t */
     double scale;     /* the norm is divided by it; 1 by default */
     double order;     /* least order of convergence of a norm that `bulla verify` accepts; 0: none */
     char *label;      /* how the report calls it */
     int line;
+};
+
+/* One axis of `matrix:`: a path as --set takes it, and the values to set, as text. */
+struct scene_sweep {
+    char *path;
+    char **values;
+    unsigned n_value;
 };
 
 struct scene {
@@ -171,6 +182,10 @@ struct scene {
     struct scene_probe *probes;
     struct scene_expect *expects;
     struct script_host *host; /* the Lua state all scripts live in */
+    unsigned n_variant;
+    char **variants; /* names that --variant takes, "quick" among them if the case has it */
+    unsigned n_sweep;
+    struct scene_sweep *sweeps; /* `matrix:`, in the order of the file */
 };
 
 /* What the command line adds to a case. */
@@ -178,11 +193,13 @@ struct scene_options {
     const char *const *sets; /* NULL-terminated "path=value" list, or NULL */
     const char *variant;     /* or NULL */
     const char *directory;   /* -o, or NULL */
+    bool json;               /* messages as one JSON object per line */
+    FILE *messages;          /* where they go; NULL: stderr, on rank 0 */
 };
 
 /* Reads, checks and resolves a case file. All errors of the file are printed (to stderr, or
- * as JSON lines with `json`) in one pass; returns STATUS_CASE then. Loads the modules that
- * the case names. */
+ * `messages`; as JSON lines with `json`) in one pass; returns STATUS_CASE then, with a one-line
+ * summary as its text. Loads the modules that the case names. `options` may be NULL. */
 int scene_read(const char *path, const struct scene_options *options, struct scene **ret_scene);
 
 /* Value at a point; `t` in s. A script error returns STATUS_CASE with the line of the case file. */

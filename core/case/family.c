@@ -1,0 +1,102 @@
+/* family.c - see family.h. */
+#include "case/family.h"
+
+#include "base/mem.h"
+#include "base/text.h"
+#include "plug/instance.h"
+#include "plug/registry.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *family_number(struct forest *forest, double value)
+{
+    struct text text = {0};
+    text_double(&text, value);
+    const char *kept = tree_print(forest, "%s", text.at);
+    text_done(&text);
+    return kept;
+}
+
+/* A row of a module's table as a key of ours. */
+static struct key family_key(struct forest *forest, const struct bulla_module *module, const struct bulla_param *param)
+{
+    struct key key = {.name = param->name, .doc = param->doc};
+    if (param->type == BULLA_NUMBER) {
+        key.type = KEYS_NUMBER;
+        key.unit = param->unit;
+        key.min = isfinite(param->min) ? param->min : -KEYS_MOST;
+        key.max = isfinite(param->max) ? param->max : KEYS_MOST;
+        key.required = isnan(param->fallback);
+        if (!key.required) key.fallback = family_number(forest, param->fallback);
+    } else if (param->type == BULLA_CHOICE) {
+        key.type = KEYS_CHOICE;
+        key.choices = param->choices;
+        key.fallback = tree_print(forest, "%.*s", (int)strcspn(param->choices, "|"), param->choices);
+    } else {
+        key.type = KEYS_TEXT;
+        key.required = param->choices == NULL;
+    }
+    if (module->presets && key.type == KEYS_NUMBER) key.doc = tree_print(forest, "%s; set by `preset` too", param->doc);
+    return key;
+}
+
+static const char *family_preset_names(struct forest *forest, const struct bulla_preset *presets)
+{
+    const char *names = presets->name;
+    for (presets++; presets->name; presets++) names = tree_print(forest, "%s|%s", names, presets->name);
+    return names;
+}
+
+static const struct keys_section *family_of_module(struct forest *forest, const struct bulla_module *module)
+{
+    unsigned count = instance_param_count(module), at = 0;
+    struct key *keys = tree_take(forest, (count + 2) * sizeof *keys);
+    if (module->presets && module->presets->name)
+        keys[at++] = (struct key){.name = "preset", .type = KEYS_CHOICE,
+                                  .choices = family_preset_names(forest, module->presets),
+                                  .doc = "A named set of values; keys given beside it win."};
+    for (unsigned i = 0; i < count; i++) keys[at++] = family_key(forest, module, &module->params[i]);
+    struct keys_section *section = tree_take(forest, sizeof *section);
+    *section = (struct keys_section){.name = module->name, .doc = module->doc, .keys = keys, .module = module};
+    return section;
+}
+
+const struct keys_section *family_find(struct forest *forest, const struct keys_section *section, const char *name)
+{
+    if (section->kind) {
+        const struct registry_entry *entry = registry_find(section->kind, name);
+        return entry ? family_of_module(forest, entry->module) : NULL;
+    }
+    for (const struct keys_section *const *at = section->cases; at && *at; at++)
+        if (strcmp((*at)->name, name) == 0) return *at;
+    return NULL;
+}
+
+const char *const *family_names(struct forest *forest, const struct keys_section *section)
+{
+    if (section->kind) {
+        const char *const *names = registry_names(section->kind);
+        unsigned count = 0;
+        while (names[count]) count++;
+        const char **copy = tree_take(forest, (count + 1) * sizeof *copy);
+        for (unsigned i = 0; i < count; i++) copy[i] = tree_print(forest, "%s", names[i]);
+        return copy;
+    }
+    unsigned count = 0;
+    while (section->cases[count]) count++;
+    const char **names = tree_take(forest, (count + 1) * sizeof *names);
+    for (unsigned i = 0; i < count; i++) names[i] = section->cases[i]->name;
+    return names;
+}
+
+const char *family_preset(struct forest *forest, const struct bulla_module *module, const char *preset,
+                          const char *key)
+{
+    int row = instance_param_find(module, key);
+    const struct bulla_preset *at = module->presets;
+    if (row < 0 || !at) return NULL;
+    for (; at->name; at++)
+        if (strcmp(at->name, preset) == 0) return isnan(at->values[row]) ? NULL : family_number(forest, at->values[row]);
+    return NULL;
+}

@@ -1,0 +1,236 @@
+/* scene_boundary.c - what lies behind the faces of the domain. */
+#include "case/scene_draft.h"
+
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+#include "case/series.h"
+
+#include <string.h>
+
+#define AMPLITUDE \
+    {.name = "amplitude", .type = KEYS_NUMBER, .unit = "Pa", .min = -KEYS_MOST, .max = KEYS_MOST, .required = true, \
+     .doc = "Peak gauge pressure."}
+
+static const struct key scene_boundary_lithotripter[] = {
+    AMPLITUDE,
+    {.name = "frequency", .type = KEYS_NUMBER, .unit = "Hz", .min = KEYS_POSITIVE, .max = KEYS_MOST,
+     .fallback = "83.3 kHz", .doc = "Frequency of the oscillation."},
+    {.name = "decay", .type = KEYS_NUMBER, .unit = "1/s", .min = 0, .max = KEYS_MOST, .fallback = "9.1e5",
+     .doc = "Rate of the exponential decay."},
+    {0},
+};
+
+static const struct key scene_boundary_sine[] = {
+    AMPLITUDE,
+    {.name = "frequency", .type = KEYS_NUMBER, .unit = "Hz", .min = KEYS_POSITIVE, .max = KEYS_MOST, .required = true,
+     .doc = "Frequency of the wave."},
+    {.name = "cycles", .type = KEYS_NUMBER, .unit = "1", .min = 0, .max = KEYS_MOST, .fallback = "0",
+     .doc = "Number of periods; 0: for ever."},
+    {0},
+};
+
+static const struct key scene_boundary_gaussian[] = {
+    AMPLITUDE,
+    {.name = "center", .type = KEYS_NUMBER, .unit = "s", .min = -KEYS_MOST, .max = KEYS_MOST, .required = true,
+     .doc = "Time of the peak at the boundary."},
+    {.name = "width", .type = KEYS_NUMBER, .unit = "s", .min = KEYS_POSITIVE, .max = KEYS_MOST, .required = true,
+     .doc = "Time from the peak to 1/e of it."},
+    {0},
+};
+
+static const struct key scene_boundary_series[] = {
+    {.name = "file", .type = KEYS_TEXT, .required = true,
+     .doc = "CSV file with two columns, time [s] (ascending) and gauge pressure [Pa], relative to this file."},
+    {0},
+};
+
+static const struct key scene_boundary_lua[] = {
+    {.name = "lua", .type = KEYS_TEXT, .required = true,
+     .doc = "File or block: function(t, x, y, z) that returns the gauge pressure [Pa]."},
+    {0},
+};
+
+static const struct keys_section scene_boundary_pulses[] = {
+    {.name = "lithotripter", .keys = scene_boundary_lithotripter,
+     .doc = "Shock-wave lithotripter: 2 amplitude exp(-decay t) cos(2 pi frequency t + pi/3)."},
+    {.name = "sine", .keys = scene_boundary_sine, .doc = "amplitude sin(2 pi frequency t)."},
+    {.name = "gaussian", .keys = scene_boundary_gaussian, .doc = "amplitude exp(-((t - center)/width)^2)."},
+    {.name = "series", .keys = scene_boundary_series, .doc = "Measured pulse, interpolated linearly."},
+    {.name = "lua", .keys = scene_boundary_lua, .doc = "Gauge pressure from a Lua function."},
+};
+
+static const struct keys_section *const scene_boundary_pulse_cases[] = {
+    &scene_boundary_pulses[0], &scene_boundary_pulses[1], &scene_boundary_pulses[2], &scene_boundary_pulses[3],
+    &scene_boundary_pulses[4], NULL};
+
+static const struct key scene_boundary_wave[] = {
+    {.name = "pulse", .type = KEYS_CHOICE, .required = true, .doc = "The form of the wave in time."},
+    {.name = "pressure", .type = KEYS_VALUE, .unit = "Pa",
+     .doc = "Far-field pressure to which the pulse adds; the initial pressure at the boundary if not given."},
+    {.name = "delay", .type = KEYS_NUMBER, .unit = "s", .min = -KEYS_MOST, .max = KEYS_MOST, .fallback = "0",
+     .doc = "Time by which the pulse comes later."},
+    {.name = "compressive-only", .type = KEYS_FLAG, .fallback = "false",
+     .doc = "Keep only the first compressive phase, up to the first zero."},
+    {0},
+};
+
+static const struct key scene_boundary_far[] = {
+    {.name = "pressure", .type = KEYS_VALUE, .unit = "Pa",
+     .doc = "Far-field pressure; the initial pressure at the boundary if not given."},
+    {0},
+};
+
+static const struct keys_section scene_boundary_types[] = {
+    {.name = "axis", .doc = "The axis or centre r = 0."},
+    {.name = "symmetry", .doc = "Plane of symmetry."},
+    {.name = "reflecting", .doc = "Rigid wall along which the fluid slips."},
+    {.name = "no-slip", .doc = "Rigid wall at which the fluid rests."},
+    {.name = "outflow", .doc = "Zero gradient."},
+    {.name = "non-reflecting", .keys = scene_boundary_far, .doc = "Outgoing waves leave, none comes in."},
+    {.name = "periodic", .doc = "What leaves here enters at the opposite face."},
+    {.name = "inflow", .keys = scene_state_rows, .doc = "A fixed state flows in."},
+    {.name = "incoming-wave", .keys = scene_boundary_wave, .selector = "pulse", .cases = scene_boundary_pulse_cases,
+     .doc = "A pressure wave comes in; outgoing waves leave."},
+};
+
+static const struct keys_section *const scene_boundary_cases[] = {
+    &scene_boundary_types[0], &scene_boundary_types[1], &scene_boundary_types[2],
+    &scene_boundary_types[3], &scene_boundary_types[4], &scene_boundary_types[5],
+    &scene_boundary_types[6], &scene_boundary_types[7], &scene_boundary_types[8], NULL};
+
+static const struct key scene_boundary_rows[] = {
+    {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "What lies behind this face."},
+    {0},
+};
+
+const struct keys_section scene_boundary_keys = {.name = "boundary",
+                                                 .doc = "What lies behind a face of the domain.",
+                                                 .keys = scene_boundary_rows,
+                                                 .selector = "type",
+                                                 .cases = scene_boundary_cases};
+
+static void scene_boundary_read_series(struct draft *draft, struct scene_boundary *boundary,
+                                       const struct keys_value *value)
+{
+    const char *path = value->given ? scene_file(draft, value) : NULL;
+    if (path && series_read(path, &boundary->series_t, &boundary->series_p, &boundary->n_series))
+        keys_error(&draft->keys, value, "%s", status_text());
+}
+
+static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+{
+    boundary->pressure = scene_state_value(keys_at(map, "pressure"));
+    boundary->pulse = (enum scene_pulse)keys_at(map, "pulse")->integer;
+    boundary->amplitude = keys_at(map, "amplitude")->number;
+    boundary->frequency = keys_at(map, "frequency")->number;
+    boundary->decay = keys_at(map, "decay")->number;
+    boundary->cycles = keys_at(map, "cycles")->number;
+    boundary->centre = keys_at(map, "center")->number;
+    boundary->width = keys_at(map, "width")->number;
+    boundary->delay = keys_at(map, "delay")->number;
+    boundary->compressive_only = keys_at(map, "compressive-only")->integer != 0;
+    if (keys_at(map, "file")->given) scene_boundary_read_series(draft, boundary, keys_at(map, "file"));
+    if (keys_at(map, "lua")->given) boundary->script = scene_file_lua(draft, keys_at(map, "lua"));
+}
+
+static void scene_boundary_read_inflow(struct draft *draft, struct scene_boundary *boundary,
+                                       const struct keys_map *map)
+{
+    struct keys_value here = {.node = map->node, .path = map->path};
+    boundary->pressure = scene_state_value(keys_at(map, "pressure"));
+    boundary->fractions = scene_state_fractions(draft, map);
+    boundary->density = scene_state_density(draft, map, boundary->fractions);
+    scene_state_velocity(draft, map, boundary->velocity);
+    if (keys_at(map, "temperature")->given)
+        keys_error(&draft->keys, keys_at(map, "temperature"), "an inflow is given by its density");
+    bool named = keys_at(map, "material")->node || keys_at(map, "fractions")->node;
+    if (!named || !keys_at(map, "density")->node || !keys_at(map, "pressure")->node || !keys_at(map, "velocity")->node)
+        keys_error(&draft->keys, &here, "an inflow needs material (or fractions), density, pressure and velocity");
+}
+
+static void scene_boundary_read(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+{
+    const struct keys_value *type = keys_at(map, "type");
+    if (!type->given) return;
+    boundary->type = (enum scene_boundary_type)type->integer;
+    if (boundary->type == SCENE_NONREFLECTING) boundary->pressure = scene_state_value(keys_at(map, "pressure"));
+    if (boundary->type == SCENE_INFLOW) scene_boundary_read_inflow(draft, boundary, map);
+    if (boundary->type == SCENE_INCOMING_WAVE) scene_boundary_read_wave(draft, boundary, map);
+}
+
+/* Rules that concern the type and the place together. */
+static void scene_boundary_place(struct draft *draft, int axis, int side, const struct keys_map *map)
+{
+    const struct scene *scene = draft->scene;
+    const struct keys_value *type = keys_at(map, "type");
+    if (!type->given) return;
+    enum scene_boundary_type here = scene->boundary[axis][side].type;
+    bool radial = scene->geometry != SCENE_CARTESIAN && axis == 0, centre = radial && side == 0 && scene->lower[0] == 0.0;
+    if (here == SCENE_AXIS && !centre)
+        keys_error(&draft->keys, type, radial && side == 0 ? "the axis is at r = 0, but the domain begins elsewhere"
+                                                           : "only 'x-' of axisymmetric or spherical domains is an axis");
+    if (centre && here != SCENE_AXIS && here != SCENE_SYMMETRY) {
+        keys_error(&draft->keys, type, "at r = 0 there is the axis or a symmetry, not '%s'", type->text);
+        diag_help(draft->keys.diag, "write 'x-: axis'");
+    }
+    if (radial && here == SCENE_PERIODIC) keys_error(&draft->keys, type, "the radius is not periodic");
+}
+
+/* Both faces of an axis are periodic, or none. */
+static void scene_boundary_pair(struct draft *draft, int axis, const struct keys_value *pair[2])
+{
+    for (int side = 0; side < 2; side++) {
+        const struct keys_value *type = keys_at(pair[side]->map, "type"), *other = keys_at(pair[1 - side]->map, "type");
+        if (!type->given || !other->given || draft->scene->boundary[axis][side].type != SCENE_PERIODIC) continue;
+        if (draft->scene->boundary[axis][1 - side].type == SCENE_PERIODIC) continue;
+        keys_error(&draft->keys, type, "periodic faces come in pairs, but '%s' is '%s'", pair[1 - side]->key->name,
+                   other->text);
+    }
+}
+
+/* The face at r = 0 needs no words: it is the axis, or the centre. */
+static bool scene_boundary_default(struct draft *draft, int axis, int side, const struct keys_map *boundaries)
+{
+    const struct scene *scene = draft->scene;
+    if (axis || side || scene->geometry == SCENE_CARTESIAN || scene->lower[0] != 0.0) return false;
+    bool sphere = scene->geometry == SCENE_SPHERICAL;
+    struct node *map = tree_map(draft->keys.forest, &boundaries->node->mark);
+    tree_set(draft->keys.forest, map, "type",
+             tree_scalar(draft->keys.forest, &map->mark, TREE_PLAIN, sphere ? "symmetry" : "axis"));
+    draft->scene->boundary[0][0].type = sphere ? SCENE_SYMMETRY : SCENE_AXIS;
+    struct node *rest = tree_map(draft->keys.forest, &map->mark);
+    tree_set(draft->keys.forest, rest, "x-", map);
+    for (unsigned i = 0; i < boundaries->node->count; i++)
+        tree_add(draft->keys.forest, rest, boundaries->node->keys[i], boundaries->node->items[i]);
+    *boundaries->node = *rest;
+    return true;
+}
+
+void scene_boundary(struct draft *draft)
+{
+    static const char *const names[SCENE_AXES][2] = {{"x-", "x+"}, {"y-", "y+"}, {"z-", "z+"}};
+    const struct keys_map *boundaries = keys_at(keys_at(draft->root, "domain")->map, "boundaries")->map;
+    struct text missing = {0};
+    if (!boundaries || draft->scene->dim == 0) return;
+    for (int axis = 0; axis < SCENE_AXES; axis++) {
+        const struct keys_value *pair[2] = {keys_at(boundaries, names[axis][0]), keys_at(boundaries, names[axis][1])};
+        for (int side = 0; side < 2; side++) {
+            struct scene_boundary *boundary = &draft->scene->boundary[axis][side];
+            if (pair[side]->node && axis >= draft->scene->dim)
+                keys_error(&draft->keys, pair[side], "the domain has only %d ax%s", draft->scene->dim,
+                           draft->scene->dim == 1 ? "is" : "es");
+            else if (pair[side]->node)
+                scene_boundary_read(draft, boundary, pair[side]->map);
+            else if (axis < draft->scene->dim && !scene_boundary_default(draft, axis, side, boundaries))
+                text_add(&missing, "%s%s", missing.length ? ", " : "", names[axis][side]);
+            scene_boundary_place(draft, axis, side, pair[side]->map);
+        }
+        scene_boundary_pair(draft, axis, pair);
+    }
+    if (missing.length) {
+        diag_error(draft->keys.diag, &boundaries->node->mark, "domain.boundaries: nothing is said about %s", missing.at);
+        diag_help(draft->keys.diag, "every face of the domain needs a boundary, as in '%.2s: outflow'", missing.at);
+    }
+    text_done(&missing);
+}

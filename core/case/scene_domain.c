@@ -1,0 +1,152 @@
+/* scene_domain.c - the region, its cells, and the mesh upon it. */
+#include "case/scene_draft.h"
+
+#include <string.h>
+
+static const struct key scene_domain_boundaries[] = {
+    {.name = "x-", .type = KEYS_SECTION, .section = &scene_boundary_keys, .doc = "Lower end of the first axis."},
+    {.name = "x+", .type = KEYS_SECTION, .section = &scene_boundary_keys, .doc = "Upper end of the first axis."},
+    {.name = "y-", .type = KEYS_SECTION, .section = &scene_boundary_keys, .doc = "Lower end of the second axis."},
+    {.name = "y+", .type = KEYS_SECTION, .section = &scene_boundary_keys, .doc = "Upper end of the second axis."},
+    {.name = "z-", .type = KEYS_SECTION, .section = &scene_boundary_keys, .doc = "Lower end of the third axis."},
+    {.name = "z+", .type = KEYS_SECTION, .section = &scene_boundary_keys, .doc = "Upper end of the third axis."},
+    {0},
+};
+
+static const struct keys_section scene_domain_boundaries_keys = {
+    .name = "boundaries", .doc = "What lies behind each face of the domain.", .keys = scene_domain_boundaries};
+
+static const struct key scene_domain_rows[] = {
+    {.name = "geometry", .type = KEYS_CHOICE, .choices = "cartesian|axisymmetric|spherical", .fallback = "cartesian",
+     .doc = "Coordinates: x, y, z; or r, z; or r."},
+    {.name = "lower", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = true,
+     .doc = "Lower corner; its length is the dimension: [x], [x, y], [x, y, z], axisymmetric [r, z]."},
+    {.name = "upper", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = true, .doc = "Upper corner."},
+    {.name = "cells", .type = KEYS_INTEGER, .many = KEYS_LIST, .min = 1, .max = 1 << 24, .required = true,
+     .doc = "Cells of the coarsest level along each axis."},
+    {.name = "boundaries", .type = KEYS_SECTION, .section = &scene_domain_boundaries_keys, .required = true,
+     .doc = "What lies behind each face of the domain: x-, x+, y-, ..."},
+    {0},
+};
+
+const struct keys_section scene_domain_keys = {
+    .name = "domain", .doc = "The region, its cells and its boundaries.", .keys = scene_domain_rows};
+
+static const struct key scene_domain_refine_rows[] = {
+    {.name = "gradient", .type = KEYS_TEXT, .doc = "Field whose relative jump between cells asks for refinement."},
+    {.name = "above", .type = KEYS_NUMBER, .unit = "1", .min = 0, .max = KEYS_MOST,
+     .doc = "Jump from which on cells are refined."},
+    {.name = "interface", .type = KEYS_TEXT, .doc = "Material whose surface is refined."},
+    {0},
+};
+
+static const struct keys_section scene_domain_refine = {
+    .name = "refine", .doc = "A criterion of refinement.", .keys = scene_domain_refine_rows};
+
+static const struct key scene_domain_mesh[] = {
+    {.name = "levels", .type = KEYS_INTEGER, .min = 0, .max = 15, .fallback = "0",
+     .doc = "Levels of refinement above the coarsest; each halves the cell size."},
+    {.name = "tile", .type = KEYS_INTEGER, .min = 4, .max = 256,
+     .doc = "Cells of a tile along each axis; chosen by the program if not given."},
+    {.name = "regrid-every", .type = KEYS_INTEGER, .min = 1, .max = 1000000,
+     .doc = "Steps of a level between two regriddings."},
+    {.name = "buffer", .type = KEYS_INTEGER, .min = 0, .max = 64, .doc = "Cells refined around a tagged cell."},
+    {.name = "refine", .type = KEYS_SECTION, .many = KEYS_LIST, .section = &scene_domain_refine,
+     .doc = "Where to refine: gradients of fields, interfaces of materials."},
+    {0},
+};
+
+const struct keys_section scene_domain_mesh_keys = {
+    .name = "mesh", .doc = "Tiles and refinement.", .keys = scene_domain_mesh};
+
+bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES])
+{
+    int dim = draft->scene->dim;
+    for (int axis = 0; axis < SCENE_AXES; axis++) ret[axis] = 0.0;
+    if (!value->given || dim == 0) return false;
+    if (value->count != (unsigned)dim) {
+        keys_error(&draft->keys, value, "%d number%s needed, one per axis of the domain, not %u", dim,
+                   dim == 1 ? " is" : "s are", value->count);
+        return false;
+    }
+    for (int axis = 0; axis < dim; axis++) ret[axis] = value->list[axis].number;
+    return true;
+}
+
+/* The dimension is the length of `lower`, if that is a list of one to three. */
+static int scene_domain_dim(struct draft *draft, const struct keys_value *lower)
+{
+    if (!lower->node || lower->node->kind != TREE_LIST) return 0;
+    if (lower->count >= 1 && lower->count <= SCENE_AXES) return (int)lower->count;
+    keys_error(&draft->keys, lower, "1, 2 or 3 numbers are needed, not %u", lower->count);
+    return 0;
+}
+
+static void scene_domain_geometry(struct draft *draft, const struct keys_map *domain)
+{
+    struct scene *scene = draft->scene;
+    const struct keys_value *geometry = keys_at(domain, "geometry"), *lower = keys_at(domain, "lower");
+    scene->geometry = (enum scene_geometry)geometry->integer;
+    if (scene->geometry == SCENE_CARTESIAN || scene->dim == 0) return;
+    int most = scene->geometry == SCENE_SPHERICAL ? 1 : 2;
+    if (scene->dim > most)
+        keys_error(&draft->keys, geometry, "%s has %s, but 'lower' has %d numbers", geometry->text,
+                   most == 1 ? "one axis, [r]" : "the axes [r, z]", scene->dim);
+    if (scene->lower[0] < 0.0)
+        keys_error(&draft->keys, &lower->list[0], "the first axis is the radius, which is not negative");
+}
+
+static void scene_domain_corners(struct draft *draft, const struct keys_map *domain)
+{
+    struct scene *scene = draft->scene;
+    const struct keys_value *lower = keys_at(domain, "lower"), *upper = keys_at(domain, "upper");
+    bool good = scene_domain_vector(draft, lower, scene->lower);
+    good &= scene_domain_vector(draft, upper, scene->upper);
+    for (int axis = 0; good && axis < scene->dim; axis++)
+        if (scene->upper[axis] <= scene->lower[axis])
+            keys_error(&draft->keys, &upper->list[axis], "%g m is not above the lower end, %g m", scene->upper[axis],
+                       scene->lower[axis]);
+}
+
+static void scene_domain_cells(struct draft *draft, const struct keys_map *domain)
+{
+    struct scene *scene = draft->scene;
+    const struct keys_value *cells = keys_at(domain, "cells");
+    for (int axis = 0; axis < SCENE_AXES; axis++) scene->cells[axis] = 1;
+    if (!cells->given || scene->dim == 0) return;
+    if (cells->count != (unsigned)scene->dim) {
+        keys_error(&draft->keys, cells, "%d integer%s needed, one per axis, not %u", scene->dim,
+                   scene->dim == 1 ? " is" : "s are", cells->count);
+        return;
+    }
+    for (int axis = 0; axis < scene->dim; axis++) scene->cells[axis] = (int)cells->list[axis].integer;
+}
+
+static void scene_domain_mesh_read(struct draft *draft)
+{
+    const struct keys_map *mesh = keys_at(draft->root, "mesh")->map;
+    const struct keys_value *levels = keys_at(mesh, "levels"), *refine = keys_at(mesh, "refine");
+    draft->scene->levels = (int)levels->integer;
+    draft->scene->tile = (int)keys_at(mesh, "tile")->integer;
+    if (levels->integer > 0)
+        keys_error(&draft->keys, levels, "this version computes on the coarsest level only: use 'levels: 0' and more cells");
+    for (unsigned i = 0; i < refine->count; i++) {
+        const struct keys_map *map = refine->list[i].map;
+        bool gradient = keys_at(map, "gradient")->given, interface = keys_at(map, "interface")->given;
+        if (map && gradient == interface)
+            keys_error(&draft->keys, &refine->list[i], "one of 'gradient' and 'interface' is needed");
+        char field[SCENE_NAME];
+        if (gradient) scene_field(draft, keys_at(map, "gradient"), field);
+        if (interface) scene_material_index(draft, keys_at(map, "interface"));
+    }
+}
+
+void scene_domain(struct draft *draft)
+{
+    const struct keys_map *domain = keys_at(draft->root, "domain")->map;
+    draft->scene->dim = scene_domain_dim(draft, keys_at(domain, "lower"));
+    scene_domain_corners(draft, domain);
+    scene_domain_geometry(draft, domain);
+    scene_domain_cells(draft, domain);
+    scene_domain_mesh_read(draft);
+}

@@ -1,0 +1,79 @@
+/* scene_draft.h - what the scene_*.c files share while a tree becomes a scene.
+ *
+ * Every section has one file with its table (what may be written) and its function (what it
+ * means). The functions record mistakes and go on: all of a case's errors come in one pass. */
+#ifndef SCENE_DRAFT_H
+#define SCENE_DRAFT_H
+
+#include "case/keys.h"
+#include "case/scene.h"
+
+struct draft {
+    struct keys keys;
+    struct scene *scene;
+    const struct keys_map *root;
+};
+
+extern const struct keys_section scene_root_keys;
+extern const struct keys_section scene_domain_keys, scene_domain_mesh_keys, scene_boundary_keys;
+extern const struct keys_section scene_material_keys, scene_scheme_keys;
+extern const struct keys_section scene_shape_keys, scene_initial_keys;
+extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
+extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_expect_keys;
+
+/* In the order in which they are called; each reads its section of draft->root. */
+void scene_domain(struct draft *draft);
+void scene_material(struct draft *draft);
+void scene_scheme(struct draft *draft);
+void scene_boundary(struct draft *draft);
+void scene_initial(struct draft *draft);
+void scene_output(struct draft *draft);
+void scene_history(struct draft *draft);
+void scene_expect(struct draft *draft);
+
+/* A list of `dim` numbers into ret[3] (rest 0); false after a recorded error. */
+bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES]);
+
+/* Index of a material, or -1 after a recorded error with a suggestion. */
+int scene_material_index(struct draft *draft, const struct keys_value *value);
+int scene_material_find(const struct scene *scene, const char *name);
+
+/* Opens the module that a section names; nothing happens if the section is wrong. */
+void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);
+
+/* A file name as seen from the file it stands in: absolute if that exists; in the forest. */
+const char *scene_file_beside(struct forest *forest, const struct source *source, const char *name);
+
+/* Path of a file that the case names, relative to the file the name stands in; in the forest.
+ * The node is rewritten to the absolute path. */
+const char *scene_file(struct draft *draft, const struct keys_value *value);
+
+/* Lua given as a file name (ends in .lua) or as a block; NULL after a recorded error. A file's
+ * text takes the place of its name in the tree. */
+const struct script *scene_file_lua(struct draft *draft, const struct keys_value *value);
+
+/* Number or script of a value; not given if it is absent. */
+struct scene_value scene_state_value(const struct keys_value *value);
+
+/* material/fractions of a state -> volume fractions by material, NULL if neither is given or
+ * one is wrong (recorded). */
+double *scene_state_fractions(struct draft *draft, const struct keys_map *map);
+
+/* density: of a state, by material (never NULL); `fractions` NULL: of an overlay. */
+struct scene_value *scene_state_density(struct draft *draft, const struct keys_map *map, const double *fractions);
+
+void scene_state_velocity(struct draft *draft, const struct keys_map *map, struct scene_value ret[SCENE_AXES]);
+
+/* The shape that a map names by its key (`ret_value`); NULL if it names none (an error if one is
+ * wanted), or after a recorded error. */
+struct shape *scene_shape(struct draft *draft, const struct keys_map *map, bool wanted,
+                          const struct keys_value **ret_value);
+
+/* Checks a field name and copies it; false after a recorded error. */
+bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME]);
+bool scene_field_list(struct draft *draft, const struct keys_value *list, char (**ret_names)[SCENE_NAME],
+                      unsigned *ret_count);
+
+struct scene_every scene_output_every(const struct keys_value *value);
+
+#endif

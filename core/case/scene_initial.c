@@ -1,0 +1,125 @@
+/* scene_initial.c - the initial state: layers of paint, in the order of the file. */
+#include "case/scene_draft.h"
+
+#include "base/mem.h"
+
+#include <string.h>
+
+static const struct keys_section scene_initial_state = {.name = "state", .base = &scene_shape_keys, .keys = scene_state_rows};
+
+static const struct key scene_initial_rows[] = {
+    {.name = "lua", .type = KEYS_TEXT,
+     .doc = "File or block: function(x, y, z) that returns a table of named fields, {pressure = ..., alpha = {...}}."},
+    {0},
+};
+
+const struct keys_section scene_initial_keys = {.name = "layer",
+                                                .doc = "A region and the state in it; without a material only the "
+                                                       "given fields change.",
+                                                .base = &scene_initial_state,
+                                                .keys = scene_initial_rows};
+
+/* r in expressions is measured from the centre of round shapes, else from the origin. */
+static void scene_initial_centre(struct scene_layer *layer)
+{
+    const struct shape *shape = layer->shape;
+    if (!shape) return;
+    bool round = shape->type == SHAPE_SPHERE || shape->type == SHAPE_ELLIPSOID || shape->type == SHAPE_RING;
+    if (round) memcpy(layer->centre, shape->a, sizeof layer->centre);
+}
+
+/* A shape with a unit that was forgotten lies far outside, or covers all. */
+static void scene_initial_look(struct draft *draft, const struct scene_layer *layer, const struct keys_value *value)
+{
+    const struct scene *scene = draft->scene;
+    if (!layer->shape || layer->shape->type == SHAPE_EVERYWHERE || scene->dim == 0) return;
+    for (int axis = 0; axis < scene->dim; axis++)
+        if (scene->upper[axis] <= scene->lower[axis]) return;
+    double covered = shape_fraction(layer->shape, scene->lower, scene->upper, scene->dim, 0);
+    if (covered > 0.0 && covered < 1.0) return;
+    diag_warn(draft->keys.diag, &value->node->mark, "%s: this shape %s", value->path,
+              covered > 0.0 ? "covers the whole domain" : "lies outside of the domain");
+    diag_help(draft->keys.diag, "the domain is %g to %g m along the first axis: are the units right?", scene->lower[0],
+              scene->upper[0]);
+}
+
+static void scene_initial_need(struct draft *draft, const struct keys_map *map, const char *what, const char *help)
+{
+    diag_error(draft->keys.diag, &map->node->mark, "%s: %s", map->path, what);
+    diag_help(draft->keys.diag, "%s", help);
+}
+
+/* What a layer with a material must say: everything that makes a state. */
+static void scene_initial_complete(struct draft *draft, struct scene_layer *layer, const struct keys_map *map)
+{
+    bool density = keys_at(map, "density")->node, temperature = keys_at(map, "temperature")->node;
+    if (density && temperature)
+        keys_error(&draft->keys, keys_at(map, "temperature"), "either 'density' or 'temperature', not both");
+    if (!layer->has_material) return;
+    if (!density && !temperature)
+        scene_initial_need(draft, map, "the density is missing", "give 'density: 998.2 kg/m3' or 'temperature: 300 K'");
+    if (!keys_at(map, "pressure")->node)
+        scene_initial_need(draft, map, "the pressure is missing", "give 'pressure: 101325 Pa'");
+}
+
+static void scene_initial_lua(struct draft *draft, struct scene_layer *layer, const struct keys_map *map)
+{
+    layer->script = scene_file_lua(draft, keys_at(map, "lua"));
+    for (const struct key *row = scene_state_rows; row->name; row++)
+        if (keys_at(map, row->name)->node)
+            keys_error(&draft->keys, keys_at(map, row->name), "a layer that is made by 'lua' has no '%s' of its own", row->name);
+}
+
+static void scene_initial_layer(struct draft *draft, struct scene_layer *layer, const struct keys_map *map)
+{
+    const struct keys_value *lua = keys_at(map, "lua"), *shape = NULL;
+    if (!map) return;
+    layer->line = map->node->mark.line;
+    layer->shape = scene_shape(draft, map, !lua->node, &shape);
+    if (shape) scene_initial_look(draft, layer, shape);
+    scene_initial_centre(layer);
+    if (lua->given) {
+        scene_initial_lua(draft, layer, map);
+        return;
+    }
+    layer->has_material = keys_at(map, "material")->node || keys_at(map, "fractions")->node;
+    layer->fractions = scene_state_fractions(draft, map);
+    layer->density = scene_state_density(draft, map, layer->fractions);
+    layer->temperature = scene_state_value(keys_at(map, "temperature"));
+    layer->pressure = scene_state_value(keys_at(map, "pressure"));
+    scene_state_velocity(draft, map, layer->velocity);
+    scene_initial_complete(draft, layer, map);
+}
+
+/* Every cell needs a state: the layers that give a whole one must cover the domain. */
+static void scene_initial_cover(struct draft *draft, const struct keys_value *initial)
+{
+    const struct scene *scene = draft->scene;
+    struct shape all = {.type = SHAPE_UNION};
+    all.parts = mem_new(scene->n_layer + 1, sizeof *all.parts);
+    for (unsigned i = 0; i < scene->n_layer; i++) {
+        const struct scene_layer *layer = &scene->layers[i];
+        bool whole = layer->has_material || layer->script;
+        if (whole && layer->shape && layer->shape->type != SHAPE_EVERYWHERE) all.parts[all.n++] = layer->shape;
+        else if (whole)
+            all.type = SHAPE_EVERYWHERE;
+    }
+    double covered = 1.0;
+    if (all.type == SHAPE_UNION) covered = all.n ? shape_fraction(&all, scene->lower, scene->upper, scene->dim, 0) : 0.0;
+    if (covered < 0.999) {
+        keys_error(&draft->keys, initial, "%.3g %% of the domain get no state", 100.0 * (1.0 - covered));
+        diag_help(draft->keys.diag, "begin with a layer '{everywhere: true, material: ..., density: ..., pressure: ...}'");
+    }
+    mem_free(all.parts);
+}
+
+void scene_initial(struct draft *draft)
+{
+    const struct keys_value *initial = keys_at(draft->root, "initial");
+    struct scene *scene = draft->scene;
+    unsigned before = diag_errors(draft->keys.diag);
+    scene->layers = mem_new(initial->count + 1, sizeof *scene->layers);
+    scene->n_layer = initial->count;
+    for (unsigned i = 0; i < initial->count; i++) scene_initial_layer(draft, &scene->layers[i], initial->list[i].map);
+    if (initial->given && scene->dim > 0 && diag_errors(draft->keys.diag) == before) scene_initial_cover(draft, initial);
+}

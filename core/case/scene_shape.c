@@ -1,0 +1,232 @@
+/* scene_shape.c - the words for regions, and the regions made from them. */
+#include "case/scene_draft.h"
+
+#include "base/mem.h"
+
+#include <math.h>
+#include <string.h>
+
+#define POINT(word, text) \
+    {.name = word, .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = true, .doc = text}
+#define LENGTH(word, text) \
+    {.name = word, .type = KEYS_NUMBER, .unit = "m", .min = KEYS_POSITIVE, .max = KEYS_MOST, .required = true, .doc = text}
+
+static const struct key scene_shape_box[] = {POINT("lower", "Lower corner."), POINT("upper", "Upper corner."), {0}};
+static const struct key scene_shape_half_space[] = {
+    POINT("point", "A point of the plane."),
+    {.name = "normal", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "1", .required = true,
+     .doc = "Direction that points into the region; any length."},
+    {0}};
+static const struct key scene_shape_sphere[] = {POINT("center", "Centre."), LENGTH("radius", "Radius."), {0}};
+static const struct key scene_shape_cylinder[] = {POINT("from", "Centre of one end."), POINT("to", "Centre of the other end."),
+                                                  LENGTH("radius", "Radius."), {0}};
+static const struct key scene_shape_ellipsoid[] = {
+    POINT("center", "Centre."),
+    {.name = "semi-axes", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .min = KEYS_POSITIVE, .max = KEYS_MOST,
+     .required = true, .doc = "Half-lengths along the axes."},
+    {0}};
+static const struct key scene_shape_ring[] = {POINT("center", "Centre."), LENGTH("outer", "Outer radius."),
+                                              LENGTH("inner", "Inner radius."), {0}};
+static const struct key scene_shape_polygon[] = {
+    {.name = "vertices", .type = KEYS_TREE, .required = true, .doc = "List of [x, y], in order around the region."}, {0}};
+
+#define SHAPE(variable, word, text) \
+    static const struct keys_section scene_shape_##variable##_keys = {.name = word, .doc = text, .keys = scene_shape_##variable};
+
+SHAPE(box, "box", "A box along the axes.")
+SHAPE(half_space, "half-space", "All on one side of a plane.")
+SHAPE(sphere, "sphere", "A sphere; in 2D cartesian geometry a disc, in 1D an interval.")
+SHAPE(cylinder, "cylinder", "A cylinder between two points, in 3D.")
+SHAPE(ellipsoid, "ellipsoid", "An ellipsoid along the axes.")
+SHAPE(ring, "ring", "A ring or spherical shell.")
+SHAPE(polygon, "polygon", "A polygon in the plane of the first two axes.")
+
+/* In the order of enum shape_type. */
+static const struct key scene_shape_rows[] = {
+    {.name = "everywhere", .type = KEYS_FLAG, .doc = "The whole domain: `everywhere: true`."},
+    {.name = "box", .type = KEYS_SECTION, .section = &scene_shape_box_keys, .doc = "A box along the axes."},
+    {.name = "half-space", .type = KEYS_SECTION, .section = &scene_shape_half_space_keys,
+     .doc = "All on one side of a plane."},
+    {.name = "sphere", .type = KEYS_SECTION, .section = &scene_shape_sphere_keys,
+     .doc = "A sphere; in 2D cartesian geometry a disc, in 1D an interval."},
+    {.name = "cylinder", .type = KEYS_SECTION, .section = &scene_shape_cylinder_keys, .doc = "A cylinder, in 3D."},
+    {.name = "ellipsoid", .type = KEYS_SECTION, .section = &scene_shape_ellipsoid_keys,
+     .doc = "An ellipsoid along the axes."},
+    {.name = "ring", .type = KEYS_SECTION, .section = &scene_shape_ring_keys, .doc = "A ring or spherical shell."},
+    {.name = "polygon", .type = KEYS_SECTION, .section = &scene_shape_polygon_keys,
+     .doc = "A polygon in the plane of the first two axes."},
+    {.name = "complement", .type = KEYS_SECTION, .section = &scene_shape_keys, .doc = "All outside of a shape."},
+    {.name = "union", .type = KEYS_SECTION, .many = KEYS_LIST, .section = &scene_shape_keys,
+     .doc = "All that is in one of several shapes."},
+    {.name = "intersection", .type = KEYS_SECTION, .many = KEYS_LIST, .section = &scene_shape_keys,
+     .doc = "All that is in each of several shapes."},
+    {0},
+};
+
+const struct keys_section scene_shape_keys = {.name = "shape", .doc = "A region.", .keys = scene_shape_rows};
+
+static const char *const scene_shape_names[] = {"everywhere", "box",     "half-space", "sphere", "cylinder",     "ellipsoid",
+                                                "ring",       "polygon", "complement", "union",  "intersection", NULL};
+
+static bool scene_shape_corners(struct draft *draft, struct shape *shape, const struct keys_map *map)
+{
+    bool good = scene_domain_vector(draft, keys_at(map, "lower"), shape->a);
+    good &= scene_domain_vector(draft, keys_at(map, "upper"), shape->b);
+    for (int axis = 0; good && axis < draft->scene->dim; axis++) {
+        if (shape->b[axis] > shape->a[axis]) continue;
+        keys_error(&draft->keys, &keys_at(map, "upper")->list[axis], "%g m is not above the lower end, %g m",
+                   shape->b[axis], shape->a[axis]);
+        good = false;
+    }
+    return good;
+}
+
+static bool scene_shape_plane(struct draft *draft, struct shape *shape, const struct keys_map *map)
+{
+    const struct keys_value *normal = keys_at(map, "normal");
+    bool good = scene_domain_vector(draft, keys_at(map, "point"), shape->a);
+    good &= scene_domain_vector(draft, normal, shape->b);
+    if (!good) return false;
+    double length = sqrt(shape->b[0] * shape->b[0] + shape->b[1] * shape->b[1] + shape->b[2] * shape->b[2]);
+    for (int axis = 0; axis < SCENE_AXES; axis++) shape->b[axis] /= length;
+    if (length > 0.0 && isfinite(length)) return true;
+    keys_error(&draft->keys, normal, "a direction is needed, not [0, ...]");
+    return false;
+}
+
+static bool scene_shape_ball(struct draft *draft, struct shape *shape, const struct keys_map *map)
+{
+    const struct keys_value *inner = keys_at(map, "inner");
+    bool ring = shape->type == SHAPE_RING, good = scene_domain_vector(draft, keys_at(map, "center"), shape->a);
+    shape->radius = keys_at(map, ring ? "outer" : "radius")->number;
+    shape->inner = inner->number;
+    if (ring && inner->given && shape->inner >= shape->radius) {
+        keys_error(&draft->keys, inner, "the inner radius is not less than the outer one");
+        good = false;
+    }
+    return good;
+}
+
+static bool scene_shape_rod(struct draft *draft, struct shape *shape, const struct keys_map *map)
+{
+    bool good = scene_domain_vector(draft, keys_at(map, "from"), shape->a);
+    good &= scene_domain_vector(draft, keys_at(map, "to"), shape->b);
+    shape->radius = keys_at(map, "radius")->number;
+    const struct keys_value here = {.node = map->node, .path = map->path};
+    if (draft->scene->dim != 3) {
+        keys_error(&draft->keys, &here, "a cylinder needs three axes; in fewer use a box or a sphere (a disc in 2D)");
+        return false;
+    }
+    if (good && memcmp(shape->a, shape->b, sizeof shape->a) == 0) {
+        keys_error(&draft->keys, &here, "the two ends are the same point");
+        return false;
+    }
+    return good;
+}
+
+/* One [x, y] of a polygon: a list of two numbers, read with a row of its own. */
+static bool scene_shape_vertex(struct draft *draft, struct node *node, const char *path, double ret[2])
+{
+    static const struct key vertex[] = {{.name = "vertex", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m"}, {0}};
+    static const struct keys_section section = {.name = "vertex", .keys = vertex};
+    struct node *map = tree_map(draft->keys.forest, &node->mark);
+    tree_set(draft->keys.forest, map, "vertex", node);
+    const struct keys_value *value = keys_at(keys_read(&draft->keys, map, &section, path), "vertex");
+    if (value->given && value->count != 2) keys_error(&draft->keys, value, "two numbers are needed, not %u", value->count);
+    if (!value->given || value->count != 2) return false;
+    for (int i = 0; i < 2; i++) ret[i] = value->list[i].number;
+    return true;
+}
+
+static bool scene_shape_outline(struct draft *draft, struct shape *shape, const struct keys_map *map)
+{
+    const struct keys_value *vertices = keys_at(map, "vertices");
+    if (!vertices->given || draft->scene->dim == 0) return false;
+    if (draft->scene->dim < 2 || vertices->node->kind != TREE_LIST || vertices->node->count < 3) {
+        keys_error(&draft->keys, vertices, draft->scene->dim < 2 ? "a polygon needs two axes"
+                                                                 : "a list of at least three [x, y] is needed");
+        return false;
+    }
+    bool good = true;
+    shape->n = vertices->node->count;
+    shape->vertex = mem_new(shape->n, sizeof *shape->vertex);
+    for (unsigned i = 0; i < shape->n; i++) {
+        const char *path = tree_print(draft->keys.forest, "%s[%u]", vertices->path, i);
+        good &= scene_shape_vertex(draft, vertices->node->items[i], path, shape->vertex[i]);
+    }
+    return good;
+}
+
+static struct shape *scene_shape_of(struct draft *draft, const struct keys_map *map, bool wanted,
+                                    const struct keys_value **ret_value);
+
+static bool scene_shape_parts(struct draft *draft, struct shape *shape, const struct keys_value *value)
+{
+    bool list = value->key->many == KEYS_LIST, good = true;
+    unsigned count = list ? value->count : 1;
+    const struct keys_value *which;
+    shape->parts = mem_new(count + 1, sizeof *shape->parts);
+    for (unsigned i = 0; i < count; i++) {
+        struct shape *part = scene_shape_of(draft, list ? value->list[i].map : value->map, true, &which);
+        if (part) shape->parts[shape->n++] = part;
+        good &= part != NULL;
+    }
+    if (list && count == 0) keys_error(&draft->keys, value, "at least one shape is needed");
+    return good && count > 0;
+}
+
+static bool scene_shape_fill(struct draft *draft, struct shape *shape, const struct keys_value *value)
+{
+    switch (shape->type) {
+    case SHAPE_EVERYWHERE:
+        if (value->given && !value->integer) keys_error(&draft->keys, value, "only 'everywhere: true' makes sense");
+        return value->given;
+    case SHAPE_BOX: return scene_shape_corners(draft, shape, value->map);
+    case SHAPE_HALF_SPACE: return scene_shape_plane(draft, shape, value->map);
+    case SHAPE_SPHERE:
+    case SHAPE_RING: return scene_shape_ball(draft, shape, value->map);
+    case SHAPE_CYLINDER: return scene_shape_rod(draft, shape, value->map);
+    case SHAPE_ELLIPSOID:
+        return scene_domain_vector(draft, keys_at(value->map, "center"), shape->a) &
+               scene_domain_vector(draft, keys_at(value->map, "semi-axes"), shape->b);
+    case SHAPE_POLYGON: return scene_shape_outline(draft, shape, value->map);
+    default: return scene_shape_parts(draft, shape, value);
+    }
+}
+
+static struct shape *scene_shape_of(struct draft *draft, const struct keys_map *map, bool wanted,
+                                    const struct keys_value **ret_value)
+{
+    const struct keys_value *found = NULL;
+    int type = 0;
+    for (int i = 0; map && scene_shape_names[i]; i++) {
+        const struct keys_value *value = keys_at(map, scene_shape_names[i]);
+        if (value->node && found) {
+            keys_error(&draft->keys, value, "one shape is enough: '%s' is already given", found->key->name);
+            diag_help(draft->keys.diag, "'union' and 'intersection' combine shapes");
+            return NULL;
+        }
+        if (!value->node) continue;
+        found = value;
+        type = i;
+    }
+    if (!found) {
+        if (!map || !wanted) return NULL;
+        diag_error(draft->keys.diag, &map->node->mark, "%s: a shape is missing", map->path);
+        diag_help(draft->keys.diag, "one of everywhere, box, half-space, sphere, cylinder, ellipsoid, ring, polygon, complement, union, intersection");
+        return NULL;
+    }
+    *ret_value = found;
+    struct shape *shape = mem_new(1, sizeof *shape);
+    shape->type = (enum shape_type)type;
+    if (scene_shape_fill(draft, shape, found)) return shape;
+    shape_free(shape);
+    return NULL;
+}
+
+struct shape *scene_shape(struct draft *draft, const struct keys_map *map, bool wanted,
+                          const struct keys_value **ret_value)
+{
+    *ret_value = NULL;
+    return scene_shape_of(draft, map, wanted, ret_value);
+}

@@ -1,0 +1,120 @@
+/* scene_state.c - a state of matter as a case writes it: of layers of paint and of inflows. */
+#include "case/scene_draft.h"
+
+#include "base/mem.h"
+
+#include <math.h>
+
+const struct key scene_state_rows[] = {
+    {.name = "material", .type = KEYS_TEXT, .doc = "The only material here."},
+    {.name = "fractions", .type = KEYS_NUMBER, .many = KEYS_NAMED, .unit = "1", .min = 0, .max = 1,
+     .doc = "Volume fractions by material; they add up to 1."},
+    {.name = "density", .type = KEYS_VALUE, .many = KEYS_ONE_OR_NAMED, .unit = "kg/m3", .min = KEYS_POSITIVE,
+     .max = KEYS_MOST, .doc = "Density of the material, or a map of densities by material."},
+    {.name = "temperature", .type = KEYS_VALUE, .unit = "K", .min = KEYS_POSITIVE, .max = KEYS_MOST,
+     .doc = "Temperature, instead of densities."},
+    {.name = "pressure", .type = KEYS_VALUE, .unit = "Pa", .doc = "Pressure."},
+    {.name = "velocity", .type = KEYS_VALUE, .many = KEYS_LIST, .unit = "m/s",
+     .doc = "Velocity, one component per axis."},
+    {.name = "stretch", .type = KEYS_TREE, .doc = "Initial stretch of a solid.",
+     .later = "this version computes fluids only; a stretch is for solids"},
+    {0},
+};
+
+struct scene_value scene_state_value(const struct keys_value *value)
+{
+    return (struct scene_value){value->given, value->number, value->script};
+}
+
+static double *scene_state_shares(struct draft *draft, const struct keys_value *fractions)
+{
+    double *shares = mem_new(draft->scene->n_material + 1, sizeof *shares), sum = 0.0;
+    bool good = fractions->given;
+    for (unsigned i = 0; i < fractions->count; i++) {
+        int material = scene_material_index(draft, &fractions->list[i]);
+        good &= material >= 0;
+        if (material >= 0) shares[material] = fractions->list[i].number;
+        sum += fractions->list[i].number;
+    }
+    if (good && fabs(sum - 1.0) > 1e-9) {
+        keys_error(&draft->keys, fractions, "the volume fractions add up to %.10g, not to 1", sum);
+        good = false;
+    }
+    if (good) return shares;
+    mem_free(shares);
+    return NULL;
+}
+
+double *scene_state_fractions(struct draft *draft, const struct keys_map *map)
+{
+    const struct keys_value *name = keys_at(map, "material"), *fractions = keys_at(map, "fractions");
+    if (name->node && fractions->node) {
+        keys_error(&draft->keys, fractions, "either 'material' or 'fractions', not both");
+        return NULL;
+    }
+    if (fractions->node) return scene_state_shares(draft, fractions);
+    int material = name->node ? scene_material_index(draft, name) : -1;
+    if (material < 0) return NULL;
+    double *shares = mem_new(draft->scene->n_material, sizeof *shares);
+    shares[material] = 1.0;
+    return shares;
+}
+
+/* The material that a single density belongs to, or -1. */
+static int scene_state_single(const struct scene *scene, const double *fractions)
+{
+    int found = -1;
+    if (!fractions) return scene->n_material == 1 ? 0 : -1;
+    for (unsigned i = 0; i < scene->n_material; i++) {
+        if (fractions[i] <= 0.0) continue;
+        if (found >= 0) return -1;
+        found = (int)i;
+    }
+    return found;
+}
+
+static void scene_state_single_density(struct draft *draft, const struct keys_value *density, const double *fractions,
+                                       struct scene_value *ret)
+{
+    int material = scene_state_single(draft->scene, fractions);
+    if (material >= 0) {
+        ret[material] = scene_state_value(density);
+        return;
+    }
+    keys_error(&draft->keys, density, "which material has this density? A map is needed");
+    diag_help(draft->keys.diag, "write 'density: {%s: ..., %s: ...}'", draft->scene->material[0].name,
+              draft->scene->material[1].name);
+}
+
+struct scene_value *scene_state_density(struct draft *draft, const struct keys_map *map, const double *fractions)
+{
+    const struct keys_value *density = keys_at(map, "density");
+    const struct scene *scene = draft->scene;
+    struct scene_value *values = mem_new(scene->n_material + 1, sizeof *values);
+    bool described = keys_at(map, "material")->node || keys_at(map, "fractions")->node;
+    if (density->given && density->node->kind != TREE_MAP) {
+        if (fractions || !described) scene_state_single_density(draft, density, fractions, values);
+        return values;
+    }
+    for (unsigned i = 0; i < density->count; i++) {
+        int material = scene_material_index(draft, &density->list[i]);
+        if (material >= 0) values[material] = scene_state_value(&density->list[i]);
+    }
+    for (unsigned i = 0; density->given && fractions && i < scene->n_material; i++)
+        if (fractions[i] > 0.0 && !values[i].given)
+            keys_error(&draft->keys, density, "the density of '%s' is missing", scene->material[i].name);
+    return values;
+}
+
+void scene_state_velocity(struct draft *draft, const struct keys_map *map, struct scene_value ret[SCENE_AXES])
+{
+    const struct keys_value *velocity = keys_at(map, "velocity");
+    int dim = draft->scene->dim;
+    if (!velocity->given || dim == 0) return;
+    if (velocity->count != (unsigned)dim) {
+        keys_error(&draft->keys, velocity, "%d component%s needed, one per axis, not %u", dim, dim == 1 ? " is" : "s are",
+                   velocity->count);
+        return;
+    }
+    for (int axis = 0; axis < dim; axis++) ret[axis] = scene_state_value(&velocity->list[axis]);
+}
