@@ -245,8 +245,7 @@ static void diag_print_entry(const struct diag_entry *entry, FILE *to)
     const char *kind = entry->error ? "error" : "warning";
     if (!mark->source) fprintf(to, "%s: %s\n", kind, entry->message.at);
     else if (!mark->source->is_file) fprintf(to, "%s: %s: %s\n", mark->source->name, kind, entry->message.at);
-    else
-        fprintf(to, "%s:%d:%d: %s: %s\n", mark->source->name, mark->line, mark->column, kind, entry->message.at);
+    else fprintf(to, "%s:%d:%d: %s: %s\n", mark->source->name, mark->line, mark->column, kind, entry->message.at);
     if (mark->source && mark->source->is_file) diag_excerpt(to, mark);
     const char *help = entry->help.at ? entry->help.at : "";
     while (*help) {

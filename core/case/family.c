@@ -24,7 +24,7 @@ static struct key family_key(struct forest *forest, const struct bulla_module *m
     struct key key = {.name = param->name, .doc = param->doc};
     if (param->type == BULLA_NUMBER) {
         key.type = KEYS_NUMBER;
-        key.unit = param->unit;
+        key.unit = param->unit ? param->unit : "1";
         key.min = isfinite(param->min) ? param->min : -KEYS_MOST;
         key.max = isfinite(param->max) ? param->max : KEYS_MOST;
         key.required = isnan(param->fallback);
@@ -53,7 +53,8 @@ static const struct keys_section *family_of_module(struct forest *forest, const 
     unsigned count = instance_param_count(module), at = 0;
     struct key *keys = tree_take(forest, (count + 2) * sizeof *keys);
     if (module->presets && module->presets->name)
-        keys[at++] = (struct key){.name = "preset", .type = KEYS_CHOICE,
+        keys[at++] = (struct key){.name = "preset",
+                                  .type = KEYS_CHOICE,
                                   .choices = family_preset_names(forest, module->presets),
                                   .doc = "A named set of values; keys given beside it win."};
     for (unsigned i = 0; i < count; i++) keys[at++] = family_key(forest, module, &module->params[i]);
@@ -90,13 +91,13 @@ const char *const *family_names(struct forest *forest, const struct keys_section
     return names;
 }
 
-const char *family_preset(struct forest *forest, const struct bulla_module *module, const char *preset,
-                          const char *key)
+const char *family_preset(struct forest *forest, const struct bulla_module *module, const char *preset, const char *key)
 {
     int row = instance_param_find(module, key);
     const struct bulla_preset *at = module->presets;
     if (row < 0 || !at) return NULL;
     for (; at->name; at++)
-        if (strcmp(at->name, preset) == 0) return isnan(at->values[row]) ? NULL : family_number(forest, at->values[row]);
+        if (strcmp(at->name, preset) == 0)
+            return isnan(at->values[row]) ? NULL : family_number(forest, at->values[row]);
     return NULL;
 }

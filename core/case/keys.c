@@ -81,6 +81,19 @@ static void keys_rows_choose(struct keys *keys, struct keys_rows *rows, const st
     }
 }
 
+/* Keys with free names become rows of their own. */
+static void keys_rows_others(struct keys *keys, struct keys_rows *rows, const struct keys_section *section,
+                             const struct node *map)
+{
+    for (unsigned i = 0; section->others && i < map->count && rows->count < KEYS_ROWS; i++) {
+        if (keys_rows_find(rows, map->keys[i]->text) >= 0) continue;
+        struct key *key = tree_take(keys->forest, sizeof *key);
+        *key = *section->others;
+        key->name = map->keys[i]->text;
+        rows->at[rows->count++] = key;
+    }
+}
+
 /* Finds the section below `section` that has a key; writes its path. */
 static bool keys_home(const struct keys_section *section, const char *name, unsigned depth, struct text *path)
 {
@@ -106,6 +119,10 @@ static void keys_unknown_help(struct keys *keys, const struct keys_rows *rows, c
         diag_help(keys->diag, "a blank is needed after the colon: '%s: %s'", head, name + colon + 1);
         return;
     }
+    if (strpbrk(name, "()*")) {
+        diag_help(keys->diag, "inside { } a comma ends a value: quote the expression before it, \"= ...\"");
+        return;
+    }
     if (nearest) {
         diag_help(keys->diag, "did you mean '%s'?", nearest);
         return;
@@ -113,9 +130,9 @@ static void keys_unknown_help(struct keys *keys, const struct keys_rows *rows, c
     struct text path = {0};
     for (unsigned depth = 0; depth < KEYS_HOME_DEPTH; depth++) {
         if (!keys_home(keys->root, name, depth, &path)) continue;
-        if (path.length) diag_help(keys->diag, "'%s' belongs in '%.*s': is the indentation right?", name, (int)path.length, path.at);
-        else
-            diag_help(keys->diag, "'%s' belongs at the left margin, outside of every section", name);
+        if (path.length)
+            diag_help(keys->diag, "'%s' belongs in '%.*s': is the indentation right?", name, (int)path.length, path.at);
+        else diag_help(keys->diag, "'%s' belongs at the left margin, outside of every section", name);
         text_done(&path);
         return;
     }
@@ -135,8 +152,9 @@ static void keys_unknown(struct keys *keys, const struct keys_map *map, struct k
         if (keys_rows_find(rows, key->text) >= 0) continue;
         const char *nearest = text_nearest(key->text, names);
         const char *in = map->chosen ? map->chosen->name : map->section->name;
-        diag_error(keys->diag, &key->mark, "unknown key '%s' in %s%s%s%s", key->text, *map->path ? map->path : "the case",
-                   map->chosen ? " (" : "", map->chosen ? in : "", map->chosen ? ")" : "");
+        diag_error(keys->diag, &key->mark, "unknown key '%s' in %s%s%s%s", key->text,
+                   *map->path ? map->path : "the case", map->chosen ? " (" : "", map->chosen ? in : "",
+                   map->chosen ? ")" : "");
         keys_unknown_help(keys, rows, key->text, nearest);
         for (unsigned i = 0; i < rows->count; i++) rows->meant[i] |= nearest == names[i];
     }
@@ -149,8 +167,8 @@ static void keys_entry(struct keys *keys, struct keys_value *value, struct keys_
     bool named = value->node->kind == TREE_MAP;
     *entry = (struct keys_value){.key = value->key, .node = value->node->items[i]};
     if (named) entry->name = value->node->keys[i]->text;
-    entry->path = named ? keys_join(keys, value->path, entry->name)
-                        : tree_print(keys->forest, "%s[%u]", value->path, i);
+    entry->path =
+        named ? keys_join(keys, value->path, entry->name) : tree_print(keys->forest, "%s[%u]", value->path, i);
     keys_read_value(keys, entry, NULL);
 }
 
@@ -185,13 +203,11 @@ static void keys_read_value(struct keys *keys, struct keys_value *value, const c
         keys_refuse_many(keys, value, "a map with names as keys", "it is written as '%s: {NAME: %s}'");
     else if (!entry && key->many != KEYS_ONE && (is_list || is_map) && !(key->many == KEYS_ONE_OR_NAMED && is_list))
         keys_read_many(keys, value);
-    else if (key->type == KEYS_PARAMETER)
-        value->given = value->node->kind == TREE_SCALAR;
+    else if (key->type == KEYS_PARAMETER) value->given = value->node->kind == TREE_SCALAR;
     else if (key->type == KEYS_SECTION) {
         value->map = keys_read(keys, value->node, key->section, value->path);
         value->given = value->map != NULL;
-    } else
-        scalar_read(keys, value, choices);
+    } else scalar_read(keys, value, choices);
 }
 
 /* A scalar may stand for a map with only its selector. */
@@ -221,7 +237,8 @@ static struct node *keys_fallback(struct keys *keys, const struct keys_map *map,
 
 static void keys_missing(struct keys *keys, const struct keys_map *map, const struct key *key)
 {
-    diag_error(keys->diag, &map->node->mark, "key '%s' is missing in %s", key->name, *map->path ? map->path : "the case");
+    diag_error(keys->diag, &map->node->mark, "key '%s' is missing in %s", key->name,
+               *map->path ? map->path : "the case");
     diag_help(keys->diag, "%s: %s", key->name, key->doc);
 }
 
@@ -269,8 +286,10 @@ struct keys_map *keys_read(struct keys *keys, struct node *node, const struct ke
     struct keys_rows rows = {0};
     keys_rows_add(&rows, section);
     keys_rows_choose(keys, &rows, section, node);
+    keys_rows_others(keys, &rows, section, node);
     struct keys_map *map = tree_take(keys->forest, sizeof *map);
-    *map = (struct keys_map){.section = section, .chosen = rows.chosen, .node = node, .path = path, .count = rows.count};
+    *map =
+        (struct keys_map){.section = section, .chosen = rows.chosen, .node = node, .path = path, .count = rows.count};
     map->values = tree_take(keys->forest, rows.count * sizeof *map->values);
     if (!rows.open) keys_unknown(keys, map, &rows);
     for (unsigned i = 0; i < rows.count; i++) keys_read_row(keys, map, &rows, i);

@@ -40,13 +40,13 @@ struct key {
     enum keys_type type;
     enum keys_many many;
     bool required;
-    const char *unit;     /* of numbers: "Pa", "1"; fixes the dimension */
+    const char *unit;     /* of numbers: "Pa", "1"; fixes the dimension. NULL: any (integers: none) */
     double min, max;      /* both ends included; both 0: no bounds */
     const char *fallback; /* default, as it would stand in the file; NULL: none */
     const char *choices;  /* "a|b|c" */
     const struct keys_section *section;
-    const char *later;    /* this version cannot do it: the sentence that says so ... */
-    const char *refused;  /* ... of this word of a choice alone, if given */
+    const char *later;   /* this version cannot do it: the sentence that says so ... */
+    const char *refused; /* ... of this word of a choice alone, if given */
     const char *doc;
 };
 
@@ -55,6 +55,7 @@ struct keys_section {
     const char *doc;
     const struct keys_section *base;         /* its keys come first, or NULL */
     const struct key *keys;                  /* ends with name NULL; may be NULL */
+    const struct key *others;                /* the row of all keys that are not in a table (their names are free) */
     const char *selector;                    /* the key that chooses a case, or NULL; its value may stand for the map */
     const struct keys_section *const *cases; /* ends with NULL */
     const char *kind;                        /* the cases are the modules of this kind */
@@ -64,16 +65,16 @@ struct keys_section {
 /* What was read for one key. */
 struct keys_value {
     const struct key *key;
-    struct node *node;       /* NULL: absent, no default */
-    const char *path;        /* "domain.cells[1]", for messages */
-    bool given;              /* present or defaulted, and right */
-    double number;           /* numbers, values; of `every` when it is a time */
-    long integer;            /* integers; steps of `every`; flags 0, 1; index of a choice in `choices` */
-    const char *text;        /* texts, names, choices */
-    const char *name;        /* of an entry of a named map */
+    struct node *node;           /* NULL: absent, no default */
+    const char *path;            /* "domain.cells[1]", for messages */
+    bool given;                  /* present or defaulted, and right */
+    double number;               /* numbers, values; of `every` when it is a time */
+    long integer;                /* integers; steps of `every`; flags 0, 1; index of a choice in `choices` */
+    const char *text;            /* texts, names, choices */
+    const char *name;            /* of an entry of a named map */
     const struct script *script; /* of a value that is a field expression; then no number */
-    struct keys_map *map;    /* sections */
-    struct keys_value *list; /* entries of a list or named map */
+    struct keys_map *map;        /* sections */
+    struct keys_value *list;     /* entries of a list or named map */
     unsigned count;
 };
 

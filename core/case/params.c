@@ -131,6 +131,11 @@ static bool params_use(struct params *params, const char *text, bool live)
     return good;
 }
 
+void params_keep(struct params *params, const char *text)
+{
+    params_use(params, text, true);
+}
+
 static bool params_listed(const char *name, const char *names)
 {
     size_t length = strlen(name);
@@ -149,9 +154,9 @@ bool params_mentions(const char *text, const char *names)
 
 static bool params_known(const char *name, const char *arguments)
 {
-    static const char *const words[] = {"and", "or", "not", "true", "false", "nil", "function", "return", "end", "if",
-                                        "then", "else", "elseif", "local", "for", "while", "do", "in", "repeat",
-                                        "until", "break", "goto", NULL};
+    static const char *const words[] = {"and", "or", "not",    "true",  "false",  "nil",   "function", "return",
+                                        "end", "if", "then",   "else",  "elseif", "local", "for",      "while",
+                                        "do",  "in", "repeat", "until", "break",  "goto",  NULL};
     for (unsigned i = 0; words[i]; i++)
         if (strcmp(words[i], name) == 0) return true;
     return params_listed(name, arguments);
@@ -254,7 +259,8 @@ static bool params_number(struct params *params, struct param *param)
     const struct node *node = param->node;
     if (node->kind == TREE_SCALAR) fault = unit_quantity(node->text, &param->value, &unit, bad);
     if (fault == UNIT_FINE && isfinite(param->value)) return true;
-    if (fault == UNIT_FINE) diag_error(params->diag, &node->mark, "parameters.%s: %s is too large", param->name, node->text);
+    if (fault == UNIT_FINE)
+        diag_error(params->diag, &node->mark, "parameters.%s: %s is too large", param->name, node->text);
     else if (fault == UNIT_UNKNOWN)
         diag_error(params->diag, &node->mark, "parameters.%s: '%s' is no unit that is known", param->name, bad);
     else
@@ -288,8 +294,9 @@ static bool params_name_is_good(struct params *params, const struct node *key)
     bool good = text_is_identifier(key->text) && strlen(key->text) < PARAMS_WORD;
     bool taken = good && (params_known(key->text, PARAMS_FIELD) || params_global(params, key->text));
     if (good && !taken) return true;
-    diag_error(params->diag, &key->mark, taken ? "parameters: '%s' already means something in expressions"
-                                               : "parameters: '%s' is no identifier (letters, digits and _)",
+    diag_error(params->diag, &key->mark,
+               taken ? "parameters: '%s' already means something in expressions"
+                     : "parameters: '%s' is no identifier (letters, digits and _)",
                key->text);
     return false;
 }

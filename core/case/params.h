@@ -37,6 +37,9 @@ bool params_compile(struct params *params, const struct node *node, const char *
 bool params_compile_chunk(struct params *params, const struct mark *where, const char *path, const char *text,
                           const struct script **ret_script);
 
+/* Notes the parameters that a text evaluated elsewhere uses. */
+void params_keep(struct params *params, const char *text);
+
 /* Is it the name of a parameter? */
 bool params_has(const struct params *params, const char *name);
 

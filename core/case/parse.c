@@ -47,8 +47,7 @@ static struct mark parse_mark_of_byte(const struct parse *parse, size_t offset)
         if (byte == '\n') {
             mark.line++;
             mark.column = 1;
-        } else if (((unsigned char)byte & 0xc0) != 0x80)
-            mark.column++;
+        } else if (((unsigned char)byte & 0xc0) != 0x80) mark.column++;
     }
     return mark;
 }
@@ -76,8 +75,11 @@ static void parse_hint(struct parse *parse, const struct mark *mark)
         diag_help(parse->diag, "is the indentation right? A text that contains ': ' must be quoted");
     else if (strstr(problem, "could not find expected ':'"))
         diag_help(parse->diag, "a key needs a colon and a blank after it, as in 'gamma: 1.4'");
+    else if (strstr(context, "block mapping") && mark->column > (int)blanks + 1)
+        diag_help(parse->diag, "the value before this place is complete already: are the quotes and brackets right?");
     else if (strstr(context, "block mapping") || strstr(context, "block collection"))
-        diag_help(parse->diag, "this line's indentation fits nothing above it; the block that is open began in line %zu",
+        diag_help(parse->diag,
+                  "this line's indentation fits nothing above it; the block that is open began in line %zu",
                   parse->yaml.context_mark.line + 1);
     else if (strstr(context, "flow"))
         diag_help(parse->diag, "the bracket opened in line %zu is not closed, or a comma is missing",
@@ -129,16 +131,14 @@ static void parse_count(struct parse *parse, const yaml_event_t *event, unsigned
     if (parse->n_node > PARSE_NODES) parse_stop(parse, event, "the text has too many values", PARSE_NODES);
 }
 
-static void parse_anchor_add(struct parse *parse, const yaml_event_t *event, const yaml_char_t *name,
-                             struct node *node)
+static void parse_anchor_add(struct parse *parse, const yaml_event_t *event, const yaml_char_t *name, struct node *node)
 {
     if (!name || parse->ended) return;
     if (parse->n_anchor == PARSE_ALIASES) {
         parse_stop(parse, event, "too many anchors", PARSE_ALIASES);
         return;
     }
-    parse->anchors[parse->n_anchor++] =
-        (struct parse_anchor){mem_text((const char *)name), node, parse_size(node)};
+    parse->anchors[parse->n_anchor++] = (struct parse_anchor){mem_text((const char *)name), node, parse_size(node)};
 }
 
 static struct node *parse_alias(struct parse *parse, const yaml_event_t *event)
@@ -193,7 +193,8 @@ static void parse_key(struct parse *parse, const struct node *map, const struct 
     }
     int before = tree_find(map, key->text);
     if (before < 0) return;
-    diag_error(parse->diag, &key->mark, "key '%s' is already given in line %d", key->text, map->keys[before]->mark.line);
+    diag_error(parse->diag, &key->mark, "key '%s' is already given in line %d", key->text,
+               map->keys[before]->mark.line);
 }
 
 static void parse_map(struct parse *parse, struct node *map, int depth)

@@ -25,9 +25,11 @@ const char *scalar_number(struct forest *forest, double value)
     struct text text = {0};
     text_double(&text, value);
     const char *exponent = strchr(text.at, 'e');
-    bool bare = exponent && !strchr(text.at, '.'); /* 1e-05 is a text to YAML 1.1 readers, 1.0e-05 a number to all */
-    const char *kept = bare ? tree_print(forest, "%.*s.0%s", (int)(exponent - text.at), text.at, exponent)
-                            : tree_print(forest, "%s", text.at);
+    const char *kept;
+    if (exponent && fabs(value) >= 1 && fabs(value) < 1e7) kept = tree_print(forest, "%.0f", value);
+    else if (exponent && !strchr(text.at, '.')) /* 1e-05 is a text to YAML 1.1 readers, 1.0e-05 a number to all */
+        kept = tree_print(forest, "%.*s.0%s", (int)(exponent - text.at), text.at, exponent);
+    else kept = tree_print(forest, "%s", text.at);
     text_done(&text);
     return kept;
 }
@@ -48,7 +50,7 @@ const char *scalar_wanted(struct forest *forest, const struct key *key)
     switch (key->type) {
     case KEYS_NUMBER:
     case KEYS_PARAMETER:
-    case KEYS_VALUE: return tree_print(forest, "%s", unit_kind(&unit, words, sizeof words));
+    case KEYS_VALUE: return key->unit ? tree_print(forest, "%s", unit_kind(&unit, words, sizeof words)) : "a number";
     case KEYS_INTEGER: return "an integer";
     case KEYS_FLAG: return "true or false";
     case KEYS_NAME: return "an identifier (letters, digits and _)";
@@ -62,9 +64,9 @@ const char *scalar_wanted(struct forest *forest, const struct key *key)
 static void scalar_refuse(struct keys *keys, const struct keys_value *value)
 {
     const struct node *node = value->node;
-    if (tree_is_null(node)) keys_error(keys, value, "the value is missing; %s is needed", scalar_wanted(keys->forest, value->key));
-    else
-        keys_error(keys, value, "%s is needed, not %s", scalar_wanted(keys->forest, value->key), tree_describe(node));
+    if (tree_is_null(node))
+        keys_error(keys, value, "the value is missing; %s is needed", scalar_wanted(keys->forest, value->key));
+    else keys_error(keys, value, "%s is needed, not %s", scalar_wanted(keys->forest, value->key), tree_describe(node));
 }
 
 /* Why a text is no quantity. */
@@ -109,12 +111,11 @@ static bool scalar_quantity(struct keys *keys, const struct keys_value *value, d
     bool bare = fault == UNIT_FINE && text[text_number(text, &plain)] == '\0';
     if (fault == UNIT_UNKNOWN) scalar_unit_unknown(keys, value, &wanted, bad);
     else if (fault != UNIT_FINE) scalar_malformed(keys, value);
-    else if (!bare && !unit_same(&unit, &wanted)) {
+    else if (!bare && (value->key->unit || value->key->type == KEYS_INTEGER) && !unit_same(&unit, &wanted)) {
         keys_error(keys, value, "'%s' is %s, but %s is needed", text, unit_kind(&unit, words, sizeof words),
                    unit_kind(&wanted, words_wanted, sizeof words_wanted));
         if (unit_examples(&wanted)) diag_help(keys->diag, "units that would do: %s", unit_examples(&wanted));
-    } else
-        return true;
+    } else return true;
     return false;
 }
 
@@ -168,8 +169,7 @@ static void scalar_read_integer(struct keys *keys, struct keys_value *value)
     value->integer = fabs(value->number) < 9e15 ? (long)value->number : 0;
     value->given = (double)value->integer == value->number;
     if (value->given) scalar_rewrite(keys, value, tree_print(keys->forest, "%ld", value->integer));
-    else
-        keys_error(keys, value, "an integer is needed, not %s", scalar_number(keys->forest, value->number));
+    else keys_error(keys, value, "an integer is needed, not %s", scalar_number(keys->forest, value->number));
 }
 
 /* An expression that uses none of x, y, z, r, t is a number at once. */
@@ -177,8 +177,7 @@ static void scalar_read_value(struct keys *keys, struct keys_value *value)
 {
     if (params_is_expression(value->node) && params_mentions(value->node->text, PARAMS_FIELD))
         value->given = params_compile(keys->params, value->node, value->path, PARAMS_FIELD, &value->script);
-    else
-        scalar_read_number(keys, value);
+    else scalar_read_number(keys, value);
 }
 
 static void scalar_read_every(struct keys *keys, struct keys_value *value)
@@ -195,7 +194,8 @@ static void scalar_read_every(struct keys *keys, struct keys_value *value)
     value->given = (double)value->integer == number;
     if (!value->given) keys_error(keys, value, "'%s' is no number of steps: 1 or more, and whole", text);
     else
-        scalar_rewrite(keys, value, tree_print(keys->forest, "%ld step%s", value->integer, value->integer == 1 ? "" : "s"));
+        scalar_rewrite(keys, value,
+                       tree_print(keys->forest, "%ld step%s", value->integer, value->integer == 1 ? "" : "s"));
 }
 
 static void scalar_read_choice(struct keys *keys, struct keys_value *value, const char *const *choices)
@@ -214,8 +214,7 @@ static void scalar_read_choice(struct keys *keys, struct keys_value *value, cons
     }
     keys_error(keys, value, "there is no '%s' here", value->text);
     if (choices[0]) diag_suggest(keys->diag, value->text, choices);
-    else
-        diag_help(keys->diag, "no modules of this kind were found: look at BULLA_MODULE_PATH and 'bulla modules'");
+    else diag_help(keys->diag, "no modules of this kind were found: look at BULLA_MODULE_PATH and 'bulla modules'");
 }
 
 static void scalar_read_flag(struct keys *keys, struct keys_value *value)
@@ -223,8 +222,7 @@ static void scalar_read_flag(struct keys *keys, struct keys_value *value)
     bool flag;
     value->given = tree_flag(value->node, &flag);
     if (value->given) value->integer = flag;
-    else
-        scalar_refuse(keys, value);
+    else scalar_refuse(keys, value);
 }
 
 static void scalar_read_text(struct keys *keys, struct keys_value *value)
@@ -243,7 +241,8 @@ void scalar_read(struct keys *keys, struct keys_value *value, const char *const 
         return;
     }
     if (words && value->node->style == TREE_PLAIN && params_is_expression(value->node)) {
-        keys_error(keys, value, "an expression gives a number, but %s is needed", scalar_wanted(keys->forest, value->key));
+        keys_error(keys, value, "an expression gives a number, but %s is needed",
+                   scalar_wanted(keys->forest, value->key));
         return;
     }
     switch (value->key->type) {

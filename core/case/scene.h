@@ -135,20 +135,12 @@ struct scene_expect {
     char *reference;  /* path, resolved against the case file */
     char *norm;       /* "L1", "L2", "Linf" */
     char *field;      /* a field of the final state (profile along x), or a history/probe column */
-    bool of_history;  /* it is a column */
     char *column;     /* column of the CSV */
     char *coordinate; /* column of the CSV that holds x or t */
     double scale;     /* the norm is divided by it; 1 by default */
     double order;     /* least order of convergence of a norm that `bulla verify` accepts; 0: none */
     char *label;      /* how the report calls it */
     int line;
-};
-
-/* One axis of `matrix:`: a path as --set takes it, and the values to set, as text. */
-struct scene_sweep {
-    char *path;
-    char **values;
-    unsigned n_value;
 };
 
 struct scene {
@@ -184,8 +176,6 @@ struct scene {
     struct script_host *host; /* the Lua state all scripts live in */
     unsigned n_variant;
     char **variants; /* names that --variant takes, "quick" among them if the case has it */
-    unsigned n_sweep;
-    struct scene_sweep *sweeps; /* `matrix:`, in the order of the file */
 };
 
 /* What the command line adds to a case. */

@@ -2,81 +2,119 @@
 #include "case/scene_draft.h"
 
 #include "base/mem.h"
-#include "base/status.h"
 #include "base/text.h"
-#include "case/series.h"
 
 #include <string.h>
 
-#define AMPLITUDE \
-    {.name = "amplitude", .type = KEYS_NUMBER, .unit = "Pa", .min = -KEYS_MOST, .max = KEYS_MOST, .required = true, \
-     .doc = "Peak gauge pressure."}
+#define AMPLITUDE                                                                                                      \
+    {                                                                                                                  \
+        .name = "amplitude", .type = KEYS_NUMBER, .unit = "Pa", .min = -KEYS_MOST, .max = KEYS_MOST, .required = true, \
+        .doc = "Peak gauge pressure."                                                                                  \
+    }
 
 static const struct key scene_boundary_lithotripter[] = {
     AMPLITUDE,
-    {.name = "frequency", .type = KEYS_NUMBER, .unit = "Hz", .min = KEYS_POSITIVE, .max = KEYS_MOST,
-     .fallback = "83.3 kHz", .doc = "Frequency of the oscillation."},
-    {.name = "decay", .type = KEYS_NUMBER, .unit = "1/s", .min = 0, .max = KEYS_MOST, .fallback = "9.1e5",
+    {.name = "frequency",
+     .type = KEYS_NUMBER,
+     .unit = "Hz",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .fallback = "83.3 kHz",
+     .doc = "Frequency of the oscillation."},
+    {.name = "decay",
+     .type = KEYS_NUMBER,
+     .unit = "1/s",
+     .min = 0,
+     .max = KEYS_MOST,
+     .fallback = "9.1e5",
      .doc = "Rate of the exponential decay."},
     {0},
 };
 
 static const struct key scene_boundary_sine[] = {
     AMPLITUDE,
-    {.name = "frequency", .type = KEYS_NUMBER, .unit = "Hz", .min = KEYS_POSITIVE, .max = KEYS_MOST, .required = true,
+    {.name = "frequency",
+     .type = KEYS_NUMBER,
+     .unit = "Hz",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .required = true,
      .doc = "Frequency of the wave."},
-    {.name = "cycles", .type = KEYS_NUMBER, .unit = "1", .min = 0, .max = KEYS_MOST, .fallback = "0",
+    {.name = "cycles",
+     .type = KEYS_NUMBER,
+     .unit = "1",
+     .min = 0,
+     .max = KEYS_MOST,
+     .fallback = "0",
      .doc = "Number of periods; 0: for ever."},
     {0},
 };
 
 static const struct key scene_boundary_gaussian[] = {
     AMPLITUDE,
-    {.name = "center", .type = KEYS_NUMBER, .unit = "s", .min = -KEYS_MOST, .max = KEYS_MOST, .required = true,
+    {.name = "center",
+     .type = KEYS_NUMBER,
+     .unit = "s",
+     .min = -KEYS_MOST,
+     .max = KEYS_MOST,
+     .required = true,
      .doc = "Time of the peak at the boundary."},
-    {.name = "width", .type = KEYS_NUMBER, .unit = "s", .min = KEYS_POSITIVE, .max = KEYS_MOST, .required = true,
+    {.name = "width",
+     .type = KEYS_NUMBER,
+     .unit = "s",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .required = true,
      .doc = "Time from the peak to 1/e of it."},
     {0},
 };
 
-static const struct key scene_boundary_series[] = {
-    {.name = "file", .type = KEYS_TEXT, .required = true,
-     .doc = "CSV file with two columns, time [s] (ascending) and gauge pressure [Pa], relative to this file."},
-    {0},
-};
-
 static const struct key scene_boundary_lua[] = {
-    {.name = "lua", .type = KEYS_TEXT, .required = true,
+    {.name = "lua",
+     .type = KEYS_TEXT,
+     .required = true,
      .doc = "File or block: function(t, x, y, z) that returns the gauge pressure [Pa]."},
     {0},
 };
 
 static const struct keys_section scene_boundary_pulses[] = {
-    {.name = "lithotripter", .keys = scene_boundary_lithotripter,
+    {.name = "lithotripter",
+     .keys = scene_boundary_lithotripter,
      .doc = "Shock-wave lithotripter: 2 amplitude exp(-decay t) cos(2 pi frequency t + pi/3)."},
     {.name = "sine", .keys = scene_boundary_sine, .doc = "amplitude sin(2 pi frequency t)."},
     {.name = "gaussian", .keys = scene_boundary_gaussian, .doc = "amplitude exp(-((t - center)/width)^2)."},
-    {.name = "series", .keys = scene_boundary_series, .doc = "Measured pulse, interpolated linearly."},
     {.name = "lua", .keys = scene_boundary_lua, .doc = "Gauge pressure from a Lua function."},
 };
 
-static const struct keys_section *const scene_boundary_pulse_cases[] = {
-    &scene_boundary_pulses[0], &scene_boundary_pulses[1], &scene_boundary_pulses[2], &scene_boundary_pulses[3],
-    &scene_boundary_pulses[4], NULL};
+static const struct keys_section *const scene_boundary_pulse_cases[] = {&scene_boundary_pulses[0],
+                                                                        &scene_boundary_pulses[1],
+                                                                        &scene_boundary_pulses[2],
+                                                                        &scene_boundary_pulses[3], NULL};
 
 static const struct key scene_boundary_wave[] = {
     {.name = "pulse", .type = KEYS_CHOICE, .required = true, .doc = "The form of the wave in time."},
-    {.name = "pressure", .type = KEYS_VALUE, .unit = "Pa",
+    {.name = "pressure",
+     .type = KEYS_VALUE,
+     .unit = "Pa",
      .doc = "Far-field pressure to which the pulse adds; the initial pressure at the boundary if not given."},
-    {.name = "delay", .type = KEYS_NUMBER, .unit = "s", .min = -KEYS_MOST, .max = KEYS_MOST, .fallback = "0",
+    {.name = "delay",
+     .type = KEYS_NUMBER,
+     .unit = "s",
+     .min = -KEYS_MOST,
+     .max = KEYS_MOST,
+     .fallback = "0",
      .doc = "Time by which the pulse comes later."},
-    {.name = "compressive-only", .type = KEYS_FLAG, .fallback = "false",
+    {.name = "compressive-only",
+     .type = KEYS_FLAG,
+     .fallback = "false",
      .doc = "Keep only the first compressive phase, up to the first zero."},
     {0},
 };
 
 static const struct key scene_boundary_far[] = {
-    {.name = "pressure", .type = KEYS_VALUE, .unit = "Pa",
+    {.name = "pressure",
+     .type = KEYS_VALUE,
+     .unit = "Pa",
      .doc = "Far-field pressure; the initial pressure at the boundary if not given."},
     {0},
 };
@@ -90,14 +128,18 @@ static const struct keys_section scene_boundary_types[] = {
     {.name = "non-reflecting", .keys = scene_boundary_far, .doc = "Outgoing waves leave, none comes in."},
     {.name = "periodic", .doc = "What leaves here enters at the opposite face."},
     {.name = "inflow", .keys = scene_state_rows, .doc = "A fixed state flows in."},
-    {.name = "incoming-wave", .keys = scene_boundary_wave, .selector = "pulse", .cases = scene_boundary_pulse_cases,
+    {.name = "incoming-wave",
+     .keys = scene_boundary_wave,
+     .selector = "pulse",
+     .cases = scene_boundary_pulse_cases,
      .doc = "A pressure wave comes in; outgoing waves leave."},
 };
 
-static const struct keys_section *const scene_boundary_cases[] = {
-    &scene_boundary_types[0], &scene_boundary_types[1], &scene_boundary_types[2],
-    &scene_boundary_types[3], &scene_boundary_types[4], &scene_boundary_types[5],
-    &scene_boundary_types[6], &scene_boundary_types[7], &scene_boundary_types[8], NULL};
+static const struct keys_section *const scene_boundary_cases[] = {&scene_boundary_types[0], &scene_boundary_types[1],
+                                                                  &scene_boundary_types[2], &scene_boundary_types[3],
+                                                                  &scene_boundary_types[4], &scene_boundary_types[5],
+                                                                  &scene_boundary_types[6], &scene_boundary_types[7],
+                                                                  &scene_boundary_types[8], NULL};
 
 static const struct key scene_boundary_rows[] = {
     {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "What lies behind this face."},
@@ -110,18 +152,11 @@ const struct keys_section scene_boundary_keys = {.name = "boundary",
                                                  .selector = "type",
                                                  .cases = scene_boundary_cases};
 
-static void scene_boundary_read_series(struct draft *draft, struct scene_boundary *boundary,
-                                       const struct keys_value *value)
-{
-    const char *path = value->given ? scene_file(draft, value) : NULL;
-    if (path && series_read(path, &boundary->series_t, &boundary->series_p, &boundary->n_series))
-        keys_error(&draft->keys, value, "%s", status_text());
-}
-
 static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     boundary->pressure = scene_state_value(keys_at(map, "pressure"));
     boundary->pulse = (enum scene_pulse)keys_at(map, "pulse")->integer;
+    if (keys_at(map, "lua")->given) boundary->pulse = SCENE_PULSE_SCRIPT;
     boundary->amplitude = keys_at(map, "amplitude")->number;
     boundary->frequency = keys_at(map, "frequency")->number;
     boundary->decay = keys_at(map, "decay")->number;
@@ -130,12 +165,10 @@ static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary 
     boundary->width = keys_at(map, "width")->number;
     boundary->delay = keys_at(map, "delay")->number;
     boundary->compressive_only = keys_at(map, "compressive-only")->integer != 0;
-    if (keys_at(map, "file")->given) scene_boundary_read_series(draft, boundary, keys_at(map, "file"));
     if (keys_at(map, "lua")->given) boundary->script = scene_file_lua(draft, keys_at(map, "lua"));
 }
 
-static void scene_boundary_read_inflow(struct draft *draft, struct scene_boundary *boundary,
-                                       const struct keys_map *map)
+static void scene_boundary_read_inflow(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     struct keys_value here = {.node = map->node, .path = map->path};
     boundary->pressure = scene_state_value(keys_at(map, "pressure"));
@@ -166,10 +199,12 @@ static void scene_boundary_place(struct draft *draft, int axis, int side, const 
     const struct keys_value *type = keys_at(map, "type");
     if (!type->given) return;
     enum scene_boundary_type here = scene->boundary[axis][side].type;
-    bool radial = scene->geometry != SCENE_CARTESIAN && axis == 0, centre = radial && side == 0 && scene->lower[0] == 0.0;
+    bool radial = scene->geometry != SCENE_CARTESIAN && axis == 0,
+         centre = radial && side == 0 && scene->lower[0] == 0.0;
     if (here == SCENE_AXIS && !centre)
-        keys_error(&draft->keys, type, radial && side == 0 ? "the axis is at r = 0, but the domain begins elsewhere"
-                                                           : "only 'x-' of axisymmetric or spherical domains is an axis");
+        keys_error(&draft->keys, type,
+                   radial && side == 0 ? "the axis is at r = 0, but the domain begins elsewhere"
+                                       : "only 'x-' of axisymmetric or spherical domains is an axis");
     if (centre && here != SCENE_AXIS && here != SCENE_SYMMETRY) {
         keys_error(&draft->keys, type, "at r = 0 there is the axis or a symmetry, not '%s'", type->text);
         diag_help(draft->keys.diag, "write 'x-: axis'");
@@ -220,8 +255,7 @@ void scene_boundary(struct draft *draft)
             if (pair[side]->node && axis >= draft->scene->dim)
                 keys_error(&draft->keys, pair[side], "the domain has only %d ax%s", draft->scene->dim,
                            draft->scene->dim == 1 ? "is" : "es");
-            else if (pair[side]->node)
-                scene_boundary_read(draft, boundary, pair[side]->map);
+            else if (pair[side]->node) scene_boundary_read(draft, boundary, pair[side]->map);
             else if (axis < draft->scene->dim && !scene_boundary_default(draft, axis, side, boundaries))
                 text_add(&missing, "%s%s", missing.length ? ", " : "", names[axis][side]);
             scene_boundary_place(draft, axis, side, pair[side]->map);
@@ -229,7 +263,8 @@ void scene_boundary(struct draft *draft)
         scene_boundary_pair(draft, axis, pair);
     }
     if (missing.length) {
-        diag_error(draft->keys.diag, &boundaries->node->mark, "domain.boundaries: nothing is said about %s", missing.at);
+        diag_error(draft->keys.diag, &boundaries->node->mark, "domain.boundaries: nothing is said about %s",
+                   missing.at);
         diag_help(draft->keys.diag, "every face of the domain needs a boundary, as in '%.2s: outflow'", missing.at);
     }
     text_done(&missing);

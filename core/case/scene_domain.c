@@ -13,51 +13,87 @@ static const struct key scene_domain_boundaries[] = {
     {0},
 };
 
-static const struct keys_section scene_domain_boundaries_keys = {
-    .name = "boundaries", .doc = "What lies behind each face of the domain.", .keys = scene_domain_boundaries};
+static const struct keys_section scene_domain_boundaries_keys = {.name = "boundaries",
+                                                                 .doc = "What lies behind each face of the domain.",
+                                                                 .keys = scene_domain_boundaries};
 
 static const struct key scene_domain_rows[] = {
-    {.name = "geometry", .type = KEYS_CHOICE, .choices = "cartesian|axisymmetric|spherical", .fallback = "cartesian",
+    {.name = "geometry",
+     .type = KEYS_CHOICE,
+     .choices = "cartesian|axisymmetric|spherical",
+     .fallback = "cartesian",
      .doc = "Coordinates: x, y, z; or r, z; or r."},
-    {.name = "lower", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = true,
+    {.name = "lower",
+     .type = KEYS_NUMBER,
+     .many = KEYS_LIST,
+     .unit = "m",
+     .required = true,
      .doc = "Lower corner; its length is the dimension: [x], [x, y], [x, y, z], axisymmetric [r, z]."},
     {.name = "upper", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = true, .doc = "Upper corner."},
-    {.name = "cells", .type = KEYS_INTEGER, .many = KEYS_LIST, .min = 1, .max = 1 << 24, .required = true,
+    {.name = "cells",
+     .type = KEYS_INTEGER,
+     .many = KEYS_LIST,
+     .min = 1,
+     .max = 1 << 24,
+     .required = true,
      .doc = "Cells of the coarsest level along each axis."},
-    {.name = "boundaries", .type = KEYS_SECTION, .section = &scene_domain_boundaries_keys, .required = true,
+    {.name = "boundaries",
+     .type = KEYS_SECTION,
+     .section = &scene_domain_boundaries_keys,
+     .required = true,
      .doc = "What lies behind each face of the domain: x-, x+, y-, ..."},
     {0},
 };
 
-const struct keys_section scene_domain_keys = {
-    .name = "domain", .doc = "The region, its cells and its boundaries.", .keys = scene_domain_rows};
+const struct keys_section scene_domain_keys = {.name = "domain",
+                                               .doc = "The region, its cells and its boundaries.",
+                                               .keys = scene_domain_rows};
 
 static const struct key scene_domain_refine_rows[] = {
     {.name = "gradient", .type = KEYS_TEXT, .doc = "Field whose relative jump between cells asks for refinement."},
-    {.name = "above", .type = KEYS_NUMBER, .unit = "1", .min = 0, .max = KEYS_MOST,
+    {.name = "above",
+     .type = KEYS_NUMBER,
+     .unit = "1",
+     .min = 0,
+     .max = KEYS_MOST,
      .doc = "Jump from which on cells are refined."},
     {.name = "interface", .type = KEYS_TEXT, .doc = "Material whose surface is refined."},
     {0},
 };
 
-static const struct keys_section scene_domain_refine = {
-    .name = "refine", .doc = "A criterion of refinement.", .keys = scene_domain_refine_rows};
+static const struct keys_section scene_domain_refine = {.name = "refine",
+                                                        .doc = "A criterion of refinement.",
+                                                        .keys = scene_domain_refine_rows};
 
 static const struct key scene_domain_mesh[] = {
-    {.name = "levels", .type = KEYS_INTEGER, .min = 0, .max = 15, .fallback = "0",
+    {.name = "levels",
+     .type = KEYS_INTEGER,
+     .min = 0,
+     .max = 15,
+     .fallback = "0",
      .doc = "Levels of refinement above the coarsest; each halves the cell size."},
-    {.name = "tile", .type = KEYS_INTEGER, .min = 4, .max = 256,
+    {.name = "tile",
+     .type = KEYS_INTEGER,
+     .min = 4,
+     .max = 256,
      .doc = "Cells of a tile along each axis; chosen by the program if not given."},
-    {.name = "regrid-every", .type = KEYS_INTEGER, .min = 1, .max = 1000000,
+    {.name = "regrid-every",
+     .type = KEYS_INTEGER,
+     .min = 1,
+     .max = 1000000,
      .doc = "Steps of a level between two regriddings."},
     {.name = "buffer", .type = KEYS_INTEGER, .min = 0, .max = 64, .doc = "Cells refined around a tagged cell."},
-    {.name = "refine", .type = KEYS_SECTION, .many = KEYS_LIST, .section = &scene_domain_refine,
+    {.name = "refine",
+     .type = KEYS_SECTION,
+     .many = KEYS_LIST,
+     .section = &scene_domain_refine,
      .doc = "Where to refine: gradients of fields, interfaces of materials."},
     {0},
 };
 
-const struct keys_section scene_domain_mesh_keys = {
-    .name = "mesh", .doc = "Tiles and refinement.", .keys = scene_domain_mesh};
+const struct keys_section scene_domain_mesh_keys = {.name = "mesh",
+                                                    .doc = "Tiles and refinement.",
+                                                    .keys = scene_domain_mesh};
 
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES])
 {
@@ -129,7 +165,8 @@ static void scene_domain_mesh_read(struct draft *draft)
     draft->scene->levels = (int)levels->integer;
     draft->scene->tile = (int)keys_at(mesh, "tile")->integer;
     if (levels->integer > 0)
-        keys_error(&draft->keys, levels, "this version computes on the coarsest level only: use 'levels: 0' and more cells");
+        keys_error(&draft->keys, levels,
+                   "this version computes on the coarsest level only: use 'levels: 0' and more cells");
     for (unsigned i = 0; i < refine->count; i++) {
         const struct keys_map *map = refine->list[i].map;
         bool gradient = keys_at(map, "gradient")->given, interface = keys_at(map, "interface")->given;

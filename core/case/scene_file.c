@@ -51,8 +51,7 @@ const struct script *scene_file_lua(struct draft *draft, const struct keys_value
         text = source->text;
         value->node->text = text;
         value->node->style = TREE_BLOCK;
-    } else if (value->node->style == TREE_BLOCK)
-        where.line++; /* the text begins below the `|` */
+    } else if (value->node->style == TREE_BLOCK) where.line++; /* the text begins below the `|` */
     params_compile_chunk(draft->keys.params, &where, value->path, text, &script);
     return script;
 }

@@ -5,10 +5,13 @@
 
 #include <string.h>
 
-static const struct keys_section scene_initial_state = {.name = "state", .base = &scene_shape_keys, .keys = scene_state_rows};
+static const struct keys_section scene_initial_state = {.name = "state",
+                                                        .base = &scene_shape_keys,
+                                                        .keys = scene_state_rows};
 
 static const struct key scene_initial_rows[] = {
-    {.name = "lua", .type = KEYS_TEXT,
+    {.name = "lua",
+     .type = KEYS_TEXT,
      .doc = "File or block: function(x, y, z) that returns a table of named fields, {pressure = ..., alpha = {...}}."},
     {0},
 };
@@ -67,7 +70,8 @@ static void scene_initial_lua(struct draft *draft, struct scene_layer *layer, co
     layer->script = scene_file_lua(draft, keys_at(map, "lua"));
     for (const struct key *row = scene_state_rows; row->name; row++)
         if (keys_at(map, row->name)->node)
-            keys_error(&draft->keys, keys_at(map, row->name), "a layer that is made by 'lua' has no '%s' of its own", row->name);
+            keys_error(&draft->keys, keys_at(map, row->name), "a layer that is made by 'lua' has no '%s' of its own",
+                       row->name);
 }
 
 static void scene_initial_layer(struct draft *draft, struct scene_layer *layer, const struct keys_map *map)
@@ -101,14 +105,15 @@ static void scene_initial_cover(struct draft *draft, const struct keys_value *in
         const struct scene_layer *layer = &scene->layers[i];
         bool whole = layer->has_material || layer->script;
         if (whole && layer->shape && layer->shape->type != SHAPE_EVERYWHERE) all.parts[all.n++] = layer->shape;
-        else if (whole)
-            all.type = SHAPE_EVERYWHERE;
+        else if (whole) all.type = SHAPE_EVERYWHERE;
     }
     double covered = 1.0;
-    if (all.type == SHAPE_UNION) covered = all.n ? shape_fraction(&all, scene->lower, scene->upper, scene->dim, 0) : 0.0;
+    if (all.type == SHAPE_UNION)
+        covered = all.n ? shape_fraction(&all, scene->lower, scene->upper, scene->dim, 0) : 0.0;
     if (covered < 0.999) {
         keys_error(&draft->keys, initial, "%.3g %% of the domain get no state", 100.0 * (1.0 - covered));
-        diag_help(draft->keys.diag, "begin with a layer '{everywhere: true, material: ..., density: ..., pressure: ...}'");
+        diag_help(draft->keys.diag,
+                  "begin with a layer '{everywhere: true, material: ..., density: ..., pressure: ...}'");
     }
     mem_free(all.parts);
 }
@@ -121,5 +126,6 @@ void scene_initial(struct draft *draft)
     scene->layers = mem_new(initial->count + 1, sizeof *scene->layers);
     scene->n_layer = initial->count;
     for (unsigned i = 0; i < initial->count; i++) scene_initial_layer(draft, &scene->layers[i], initial->list[i].map);
-    if (initial->given && scene->dim > 0 && diag_errors(draft->keys.diag) == before) scene_initial_cover(draft, initial);
+    if (initial->given && scene->dim > 0 && diag_errors(draft->keys.diag) == before)
+        scene_initial_cover(draft, initial);
 }

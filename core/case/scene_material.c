@@ -19,9 +19,13 @@ static const struct keys_section scene_material_eos = {.name = "eos",
                                                        .kind = "eos"};
 
 static const struct key scene_material_rows[] = {
-    {.name = "eos", .type = KEYS_SECTION, .section = &scene_material_eos, .required = true,
+    {.name = "eos",
+     .type = KEYS_SECTION,
+     .section = &scene_material_eos,
+     .required = true,
      .doc = "The equation of state."},
-    {.name = "constitutive", .type = KEYS_TREE,
+    {.name = "constitutive",
+     .type = KEYS_TREE,
      .later = "this version computes fluids only; a constitutive law (a solid) is not possible yet",
      .doc = "The elastic law of a solid."},
     {0},
@@ -86,7 +90,8 @@ void scene_material(struct draft *draft)
         snprintf(material->name, SCENE_NAME, "%s", entry->name);
         if (!text_is_identifier(entry->name) || strlen(entry->name) > SCENE_NAME / 2)
             diag_error(draft->keys.diag, &materials->node->keys[i]->mark,
-                       "materials: '%s' is no identifier (letters, digits and _, at most %d)", entry->name, SCENE_NAME / 2);
+                       "materials: '%s' is no identifier (letters, digits and _, at most %d)", entry->name,
+                       SCENE_NAME / 2);
         scene_material_open(draft, keys_at(entry->map, "eos"), &material->eos);
     }
 }

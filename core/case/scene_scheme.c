@@ -1,13 +1,13 @@
 /* scene_scheme.c - the numerical method. */
 #include "case/scene_draft.h"
 
-#define MODULE_SECTION(kind_name, what, word, why)                                                                     \
-    static const struct key scene_scheme_##kind_name##_type[] = {                                                      \
-        {.name = "type", .type = KEYS_CHOICE, .required = true, .refused = word, .later = why, .doc = what}, {0}};     \
-    static const struct keys_section scene_scheme_##kind_name = {.name = #kind_name,                                   \
-                                                                 .doc = what,                                          \
-                                                                 .keys = scene_scheme_##kind_name##_type,              \
-                                                                 .selector = "type",                                   \
+#define MODULE_SECTION(kind_name, what, word, why)                                                                 \
+    static const struct key scene_scheme_##kind_name##_type[] = {                                                  \
+        {.name = "type", .type = KEYS_CHOICE, .required = true, .refused = word, .later = why, .doc = what}, {0}}; \
+    static const struct keys_section scene_scheme_##kind_name = {.name = #kind_name,                               \
+                                                                 .doc = what,                                      \
+                                                                 .keys = scene_scheme_##kind_name##_type,          \
+                                                                 .selector = "type",                               \
                                                                  .kind = #kind_name};
 
 MODULE_SECTION(riemann, "The Riemann solver.", "hlld",
@@ -15,25 +15,50 @@ MODULE_SECTION(riemann, "The Riemann solver.", "hlld",
 MODULE_SECTION(limiter, "The slope limiter.", NULL, NULL)
 
 static const struct key scene_scheme_rows[] = {
-    {.name = "closure", .type = KEYS_CHOICE, .choices = "kapila|allaire", .fallback = "kapila",
+    {.name = "closure",
+     .type = KEYS_CHOICE,
+     .choices = "kapila|allaire",
+     .fallback = "kapila",
      .doc = "Volume fractions: kapila compresses each material by its own stiffness, allaire only advects."},
-    {.name = "riemann", .type = KEYS_SECTION, .section = &scene_scheme_riemann, .fallback = "hllc",
+    {.name = "riemann",
+     .type = KEYS_SECTION,
+     .section = &scene_scheme_riemann,
+     .fallback = "hllc",
      .doc = "The Riemann solver: a name, or {type: NAME, ...} with its keys."},
-    {.name = "limiter", .type = KEYS_SECTION, .section = &scene_scheme_limiter, .fallback = "mc",
+    {.name = "limiter",
+     .type = KEYS_SECTION,
+     .section = &scene_scheme_limiter,
+     .fallback = "mc",
      .doc = "The slope limiter: a name, or {type: NAME, ...} with its keys."},
-    {.name = "integrator", .type = KEYS_CHOICE, .choices = "midpoint", .fallback = "midpoint",
+    {.name = "integrator",
+     .type = KEYS_CHOICE,
+     .choices = "midpoint",
+     .fallback = "midpoint",
      .doc = "The time integrator: the midpoint rule, second order."},
-    {.name = "cfl", .type = KEYS_NUMBER, .unit = "1", .min = KEYS_POSITIVE, .max = 1, .fallback = "0.4",
+    {.name = "cfl",
+     .type = KEYS_NUMBER,
+     .unit = "1",
+     .min = KEYS_POSITIVE,
+     .max = 1,
+     .fallback = "0.4",
      .doc = "Courant number of the time step."},
-    {.name = "dt", .type = KEYS_NUMBER, .unit = "s", .min = KEYS_POSITIVE, .max = KEYS_MOST,
+    {.name = "dt",
+     .type = KEYS_NUMBER,
+     .unit = "s",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
      .doc = "A fixed time step instead of one from the Courant number."},
-    {.name = "guard", .type = KEYS_CHOICE, .choices = "normal|strict", .fallback = "normal",
+    {.name = "guard",
+     .type = KEYS_CHOICE,
+     .choices = "normal|strict",
+     .fallback = "normal",
      .doc = "normal: troubled cells are redone at first order and counted; strict: that is an error."},
     {0},
 };
 
-const struct keys_section scene_scheme_keys = {
-    .name = "scheme", .doc = "The numerical method.", .keys = scene_scheme_rows};
+const struct keys_section scene_scheme_keys = {.name = "scheme",
+                                               .doc = "The numerical method.",
+                                               .keys = scene_scheme_rows};
 
 void scene_scheme(struct draft *draft)
 {

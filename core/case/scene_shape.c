@@ -6,32 +6,52 @@
 #include <math.h>
 #include <string.h>
 
-#define POINT(word, text) \
-    {.name = word, .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = true, .doc = text}
-#define LENGTH(word, text) \
-    {.name = word, .type = KEYS_NUMBER, .unit = "m", .min = KEYS_POSITIVE, .max = KEYS_MOST, .required = true, .doc = text}
+#define POINT(word, text)                                                                                \
+    {                                                                                                    \
+        .name = word, .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = true, .doc = text \
+    }
+#define LENGTH(word, text)                                                                                        \
+    {                                                                                                             \
+        .name = word, .type = KEYS_NUMBER, .unit = "m", .min = KEYS_POSITIVE, .max = KEYS_MOST, .required = true, \
+        .doc = text                                                                                               \
+    }
 
 static const struct key scene_shape_box[] = {POINT("lower", "Lower corner."), POINT("upper", "Upper corner."), {0}};
-static const struct key scene_shape_half_space[] = {
-    POINT("point", "A point of the plane."),
-    {.name = "normal", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "1", .required = true,
-     .doc = "Direction that points into the region; any length."},
-    {0}};
+static const struct key scene_shape_half_space[] = {POINT("point", "A point of the plane."),
+                                                    {.name = "normal",
+                                                     .type = KEYS_NUMBER,
+                                                     .many = KEYS_LIST,
+                                                     .unit = "1",
+                                                     .required = true,
+                                                     .doc = "Direction that points into the region; any length."},
+                                                    {0}};
 static const struct key scene_shape_sphere[] = {POINT("center", "Centre."), LENGTH("radius", "Radius."), {0}};
-static const struct key scene_shape_cylinder[] = {POINT("from", "Centre of one end."), POINT("to", "Centre of the other end."),
-                                                  LENGTH("radius", "Radius."), {0}};
-static const struct key scene_shape_ellipsoid[] = {
-    POINT("center", "Centre."),
-    {.name = "semi-axes", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .min = KEYS_POSITIVE, .max = KEYS_MOST,
-     .required = true, .doc = "Half-lengths along the axes."},
-    {0}};
-static const struct key scene_shape_ring[] = {POINT("center", "Centre."), LENGTH("outer", "Outer radius."),
-                                              LENGTH("inner", "Inner radius."), {0}};
+static const struct key scene_shape_cylinder[] = {POINT("from", "Centre of one end."),
+                                                  POINT("to", "Centre of the other end."),
+                                                  LENGTH("radius", "Radius."),
+                                                  {0}};
+static const struct key scene_shape_ellipsoid[] = {POINT("center", "Centre."),
+                                                   {.name = "semi-axes",
+                                                    .type = KEYS_NUMBER,
+                                                    .many = KEYS_LIST,
+                                                    .unit = "m",
+                                                    .min = KEYS_POSITIVE,
+                                                    .max = KEYS_MOST,
+                                                    .required = true,
+                                                    .doc = "Half-lengths along the axes."},
+                                                   {0}};
+static const struct key scene_shape_ring[] = {POINT("center", "Centre."),
+                                              LENGTH("outer", "Outer radius."),
+                                              LENGTH("inner", "Inner radius."),
+                                              {0}};
 static const struct key scene_shape_polygon[] = {
-    {.name = "vertices", .type = KEYS_TREE, .required = true, .doc = "List of [x, y], in order around the region."}, {0}};
+    {.name = "vertices", .type = KEYS_TREE, .required = true, .doc = "List of [x, y], in order around the region."},
+    {0}};
 
-#define SHAPE(variable, word, text) \
-    static const struct keys_section scene_shape_##variable##_keys = {.name = word, .doc = text, .keys = scene_shape_##variable};
+#define SHAPE(variable, word, text)                                                 \
+    static const struct keys_section scene_shape_##variable##_keys = {.name = word, \
+                                                                      .doc = text,  \
+                                                                      .keys = scene_shape_##variable};
 
 SHAPE(box, "box", "A box along the axes.")
 SHAPE(half_space, "half-space", "All on one side of a plane.")
@@ -45,28 +65,43 @@ SHAPE(polygon, "polygon", "A polygon in the plane of the first two axes.")
 static const struct key scene_shape_rows[] = {
     {.name = "everywhere", .type = KEYS_FLAG, .doc = "The whole domain: `everywhere: true`."},
     {.name = "box", .type = KEYS_SECTION, .section = &scene_shape_box_keys, .doc = "A box along the axes."},
-    {.name = "half-space", .type = KEYS_SECTION, .section = &scene_shape_half_space_keys,
+    {.name = "half-space",
+     .type = KEYS_SECTION,
+     .section = &scene_shape_half_space_keys,
      .doc = "All on one side of a plane."},
-    {.name = "sphere", .type = KEYS_SECTION, .section = &scene_shape_sphere_keys,
+    {.name = "sphere",
+     .type = KEYS_SECTION,
+     .section = &scene_shape_sphere_keys,
      .doc = "A sphere; in 2D cartesian geometry a disc, in 1D an interval."},
     {.name = "cylinder", .type = KEYS_SECTION, .section = &scene_shape_cylinder_keys, .doc = "A cylinder, in 3D."},
-    {.name = "ellipsoid", .type = KEYS_SECTION, .section = &scene_shape_ellipsoid_keys,
+    {.name = "ellipsoid",
+     .type = KEYS_SECTION,
+     .section = &scene_shape_ellipsoid_keys,
      .doc = "An ellipsoid along the axes."},
     {.name = "ring", .type = KEYS_SECTION, .section = &scene_shape_ring_keys, .doc = "A ring or spherical shell."},
-    {.name = "polygon", .type = KEYS_SECTION, .section = &scene_shape_polygon_keys,
+    {.name = "polygon",
+     .type = KEYS_SECTION,
+     .section = &scene_shape_polygon_keys,
      .doc = "A polygon in the plane of the first two axes."},
     {.name = "complement", .type = KEYS_SECTION, .section = &scene_shape_keys, .doc = "All outside of a shape."},
-    {.name = "union", .type = KEYS_SECTION, .many = KEYS_LIST, .section = &scene_shape_keys,
+    {.name = "union",
+     .type = KEYS_SECTION,
+     .many = KEYS_LIST,
+     .section = &scene_shape_keys,
      .doc = "All that is in one of several shapes."},
-    {.name = "intersection", .type = KEYS_SECTION, .many = KEYS_LIST, .section = &scene_shape_keys,
+    {.name = "intersection",
+     .type = KEYS_SECTION,
+     .many = KEYS_LIST,
+     .section = &scene_shape_keys,
      .doc = "All that is in each of several shapes."},
     {0},
 };
 
 const struct keys_section scene_shape_keys = {.name = "shape", .doc = "A region.", .keys = scene_shape_rows};
 
-static const char *const scene_shape_names[] = {"everywhere", "box",     "half-space", "sphere", "cylinder",     "ellipsoid",
-                                                "ring",       "polygon", "complement", "union",  "intersection", NULL};
+static const char *const scene_shape_names[] = {"everywhere", "box",       "half-space",   "sphere",
+                                                "cylinder",   "ellipsoid", "ring",         "polygon",
+                                                "complement", "union",     "intersection", NULL};
 
 static bool scene_shape_corners(struct draft *draft, struct shape *shape, const struct keys_map *map)
 {
@@ -132,7 +167,8 @@ static bool scene_shape_vertex(struct draft *draft, struct node *node, const cha
     struct node *map = tree_map(draft->keys.forest, &node->mark);
     tree_set(draft->keys.forest, map, "vertex", node);
     const struct keys_value *value = keys_at(keys_read(&draft->keys, map, &section, path), "vertex");
-    if (value->given && value->count != 2) keys_error(&draft->keys, value, "two numbers are needed, not %u", value->count);
+    if (value->given && value->count != 2)
+        keys_error(&draft->keys, value, "two numbers are needed, not %u", value->count);
     if (!value->given || value->count != 2) return false;
     for (int i = 0; i < 2; i++) ret[i] = value->list[i].number;
     return true;
@@ -143,8 +179,8 @@ static bool scene_shape_outline(struct draft *draft, struct shape *shape, const 
     const struct keys_value *vertices = keys_at(map, "vertices");
     if (!vertices->given || draft->scene->dim == 0) return false;
     if (draft->scene->dim < 2 || vertices->node->kind != TREE_LIST || vertices->node->count < 3) {
-        keys_error(&draft->keys, vertices, draft->scene->dim < 2 ? "a polygon needs two axes"
-                                                                 : "a list of at least three [x, y] is needed");
+        keys_error(&draft->keys, vertices,
+                   draft->scene->dim < 2 ? "a polygon needs two axes" : "a list of at least three [x, y] is needed");
         return false;
     }
     bool good = true;
@@ -213,7 +249,8 @@ static struct shape *scene_shape_of(struct draft *draft, const struct keys_map *
     if (!found) {
         if (!map || !wanted) return NULL;
         diag_error(draft->keys.diag, &map->node->mark, "%s: a shape is missing", map->path);
-        diag_help(draft->keys.diag, "one of everywhere, box, half-space, sphere, cylinder, ellipsoid, ring, polygon, complement, union, intersection");
+        diag_help(draft->keys.diag, "one of everywhere, box, half-space, sphere, cylinder, ellipsoid, ring, polygon, "
+                                    "complement, union, intersection");
         return NULL;
     }
     *ret_value = found;

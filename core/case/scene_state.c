@@ -7,16 +7,35 @@
 
 const struct key scene_state_rows[] = {
     {.name = "material", .type = KEYS_TEXT, .doc = "The only material here."},
-    {.name = "fractions", .type = KEYS_NUMBER, .many = KEYS_NAMED, .unit = "1", .min = 0, .max = 1,
+    {.name = "fractions",
+     .type = KEYS_NUMBER,
+     .many = KEYS_NAMED,
+     .unit = "1",
+     .min = 0,
+     .max = 1,
      .doc = "Volume fractions by material; they add up to 1."},
-    {.name = "density", .type = KEYS_VALUE, .many = KEYS_ONE_OR_NAMED, .unit = "kg/m3", .min = KEYS_POSITIVE,
-     .max = KEYS_MOST, .doc = "Density of the material, or a map of densities by material."},
-    {.name = "temperature", .type = KEYS_VALUE, .unit = "K", .min = KEYS_POSITIVE, .max = KEYS_MOST,
+    {.name = "density",
+     .type = KEYS_VALUE,
+     .many = KEYS_ONE_OR_NAMED,
+     .unit = "kg/m3",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .doc = "Density of the material, or a map of densities by material."},
+    {.name = "temperature",
+     .type = KEYS_VALUE,
+     .unit = "K",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
      .doc = "Temperature, instead of densities."},
     {.name = "pressure", .type = KEYS_VALUE, .unit = "Pa", .doc = "Pressure."},
-    {.name = "velocity", .type = KEYS_VALUE, .many = KEYS_LIST, .unit = "m/s",
+    {.name = "velocity",
+     .type = KEYS_VALUE,
+     .many = KEYS_LIST,
+     .unit = "m/s",
      .doc = "Velocity, one component per axis."},
-    {.name = "stretch", .type = KEYS_TREE, .doc = "Initial stretch of a solid.",
+    {.name = "stretch",
+     .type = KEYS_TREE,
+     .doc = "Initial stretch of a solid.",
      .later = "this version computes fluids only; a stretch is for solids"},
     {0},
 };
@@ -112,8 +131,8 @@ void scene_state_velocity(struct draft *draft, const struct keys_map *map, struc
     int dim = draft->scene->dim;
     if (!velocity->given || dim == 0) return;
     if (velocity->count != (unsigned)dim) {
-        keys_error(&draft->keys, velocity, "%d component%s needed, one per axis, not %u", dim, dim == 1 ? " is" : "s are",
-                   velocity->count);
+        keys_error(&draft->keys, velocity, "%d component%s needed, one per axis, not %u", dim,
+                   dim == 1 ? " is" : "s are", velocity->count);
         return;
     }
     for (int axis = 0; axis < dim; axis++) ret[axis] = scene_state_value(&velocity->list[axis]);

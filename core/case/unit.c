@@ -96,7 +96,8 @@ static bool unit_lookup(const char *from, size_t length, struct unit *ret)
         for (int i = 0; i < UNIT_SYMBOLS; i++) {
             const struct unit_symbol *symbol = &unit_symbols[i];
             if (prefix && !symbol->prefixed) continue;
-            if (strlen(symbol->name) != length - head || strncmp(from + head, symbol->name, length - head) != 0) continue;
+            if (strlen(symbol->name) != length - head || strncmp(from + head, symbol->name, length - head) != 0)
+                continue;
             *ret = (struct unit){.factor = symbol->factor, .decimal = symbol->decimal + (prefix ? prefix->decimal : 0)};
             memcpy(ret->power, symbol->power, sizeof ret->power);
             return true;
@@ -181,7 +182,8 @@ bool unit_parse(const char *text, struct unit *ret_unit, char bad[static 32])
     *ret_unit = (struct unit){.factor = 1};
     text += strspn(text, " ");
     if (!*text) return true;
-    if (strcmp(text, "degC") == 0 || strcmp(text, "\xc2\xb0" "C") == 0) {
+    if (strcmp(text, "degC") == 0 || strcmp(text, "\xc2\xb0"
+                                                  "C") == 0) {
         *ret_unit = (struct unit){.factor = 1, .offset = 273.15, .power = {0, 0, 0, 1, 0}};
         return true;
     }
@@ -237,7 +239,8 @@ const char *unit_kind(const struct unit *unit, char *words, size_t size)
     size_t at = (size_t)snprintf(words, size, "a quantity in");
     for (int i = 0; i < UNIT_BASES; i++)
         if (unit->power[i] && at < size)
-            at += (size_t)snprintf(words + at, size - at, unit->power[i] == 1 ? " %s" : " %s%d", bases[i], unit->power[i]);
+            at += (size_t)snprintf(words + at, size - at, unit->power[i] == 1 ? " %s" : " %s%d", bases[i],
+                                   unit->power[i]);
     return words;
 }
 
@@ -264,7 +267,8 @@ void unit_guess(const char *bad, const struct unit *wanted, char ret_symbol[stat
         for (int pass = 0; pass <= UNIT_PREFIXES; pass++) {
             if (pass && !unit_symbols[i].prefixed) break;
             char candidate[32];
-            snprintf(candidate, sizeof candidate, "%s%s", pass ? unit_prefixes[pass - 1].name : "", unit_symbols[i].name);
+            snprintf(candidate, sizeof candidate, "%s%s", pass ? unit_prefixes[pass - 1].name : "",
+                     unit_symbols[i].name);
             unsigned distance = unit_distance(bad, candidate, same);
             if (distance >= least) continue;
             least = distance;

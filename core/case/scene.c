@@ -1,0 +1,195 @@
+/* scene.c - from a case file to a scene: merge, modules, parameters, keys, sections, in this
+ * order; what each section means is in scene_*.c. */
+#include "case/scene.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+#include "case/merge.h"
+#include "case/scene_draft.h"
+#include "case/show.h"
+#include "plug/registry.h"
+
+#include <string.h>
+
+/* Loads what `modules:` lists; the names become absolute. */
+static void scene_load_modules(struct draft *draft, const struct node *modules)
+{
+    for (unsigned i = 0; modules && modules->kind == TREE_LIST && i < modules->count; i++) {
+        struct node *item = modules->items[i];
+        if (item->kind != TREE_SCALAR) continue; /* reported with the other keys */
+        item->text = scene_file_beside(draft->keys.forest, item->mark.source, item->text);
+        if (registry_load(item->text)) diag_error(draft->keys.diag, &item->mark, "modules[%u]: %s", i, status_text());
+    }
+}
+
+static char *scene_text(const struct keys_map *root, const char *name)
+{
+    const struct keys_value *value = keys_at(root, name);
+    return value->given ? mem_text(value->text) : NULL;
+}
+
+/* "dir/name.yaml" -> "name" */
+static char *scene_base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *start = slash ? slash + 1 : path, *dot = strrchr(start, '.');
+    return mem_text_n(start, dot && dot > start ? (size_t)(dot - start) : strlen(start));
+}
+
+static void scene_list_variants(struct scene *scene, const struct node *root)
+{
+    const struct node *variants = tree_get(root, "variants");
+    unsigned most = variants ? variants->count + 1 : 1;
+    scene->variants = mem_new(most + 1, sizeof *scene->variants);
+    for (unsigned i = 0; i + 1 < most && variants->kind == TREE_MAP; i++)
+        scene->variants[scene->n_variant++] = mem_text(variants->keys[i]->text);
+    if (tree_get(root, "quick") && !tree_get(variants, "quick"))
+        scene->variants[scene->n_variant++] = mem_text("quick");
+}
+
+static void scene_fill(struct draft *draft)
+{
+    struct scene *scene = draft->scene;
+    scene->title = scene_text(draft->root, "title");
+    scene->about = scene_text(draft->root, "about");
+    scene->cite = scene_text(draft->root, "cite");
+    scene_material(draft);
+    scene_domain(draft);
+    scene_scheme(draft);
+    scene_boundary(draft);
+    scene_initial(draft);
+    scene_output(draft);
+    scene_history(draft);
+    scene_expect(draft);
+}
+
+/* The resolved case: what has been used up is left out. */
+static void scene_resolve(struct draft *draft, struct node *root)
+{
+    static const char *const used_up[] = {"extends", "variants", "quick", "matrix", NULL};
+    struct text text = {0};
+    int at;
+    for (unsigned i = 0; used_up[i]; i++)
+        if ((at = tree_find(root, used_up[i])) >= 0) tree_remove(root, (unsigned)at);
+    params_prune(draft->keys.params, tree_get(root, "parameters"));
+    if ((at = tree_find(root, "parameters")) >= 0 && root->items[at]->count == 0) tree_remove(root, (unsigned)at);
+    text_add(&text, "# Resolved case: overlays, parameters, units and defaults are applied; all numbers are SI.\n");
+    show_tree(root, &text);
+    draft->scene->resolved = text.at;
+}
+
+/* Everything after the tree is there. */
+static void scene_build(struct draft *draft, struct node *root)
+{
+    scene_load_modules(draft, tree_get(root, "modules"));
+    scene_list_variants(draft->scene, root);
+    params_read(draft->keys.params, tree_get(root, "parameters"));
+    draft->root = keys_read(&draft->keys, root, &scene_root_keys, "");
+    if (draft->root) scene_fill(draft);
+    if (diag_errors(draft->keys.diag)) return;
+    params_warn_unused(draft->keys.params);
+    scene_resolve(draft, root);
+}
+
+static int scene_make(const char *path, const struct scene_options *options, struct diag *diag, struct scene *scene)
+{
+    struct forest *forest = tree_forest_new();
+    scene->path = mem_text(path);
+    scene->name = scene_base_name(path);
+    scene->directory = mem_text(options->directory);
+    scene->host = script_host_new();
+    struct params *params = params_new(forest, diag, scene->host);
+    struct draft draft = {{forest, diag, params, &scene_root_keys}, scene, NULL};
+    struct merge_options merge = {options->sets, options->variant};
+    struct node *root = merge_case(forest, diag, path, &merge);
+    if (root) scene_build(&draft, root);
+    params_free(params);
+    tree_forest_free(forest);
+    return diag_errors(diag) ? STATUS_CASE : STATUS_OK;
+}
+
+int scene_read(const char *path, const struct scene_options *options, struct scene **ret_scene)
+{
+    static const struct scene_options none;
+    if (!options) options = &none;
+    TRY(registry_init());
+    if (registry_count() == 0)
+        return status_fail(STATUS_CASE, "no modules were found: without them there are no equations of state; look at "
+                                        "BULLA_MODULE_PATH and the folder lib/bulla/modules of the installation");
+    struct diag *diag = diag_new();
+    struct scene *scene = mem_new(1, sizeof *scene);
+    int code = scene_make(path, options, diag, scene);
+    if (comm_rank() == 0) diag_print(diag, options->messages ? options->messages : stderr, options->json);
+    unsigned errors = diag_errors(diag);
+    diag_free(diag);
+    if (code) {
+        scene_free(scene);
+        return status_fail(code, "%s: %u error%s; nothing was run", path, errors, errors == 1 ? "" : "s");
+    }
+    *ret_scene = scene;
+    return STATUS_OK;
+}
+
+int scene_value_at(const struct scene_value *value, const double x[SCENE_AXES], double r, double t, double *ret)
+{
+    if (!value->script) {
+        *ret = value->number;
+        return STATUS_OK;
+    }
+    double in[] = {x[0], x[1], x[2], r, t};
+    return script_call(value->script, in, 5, ret, 1);
+}
+
+static void scene_free_boundaries(struct scene *scene)
+{
+    for (int face = 0; face < 2 * SCENE_AXES; face++) {
+        struct scene_boundary *boundary = &scene->boundary[face / 2][face % 2];
+        mem_free(boundary->series_t);
+        mem_free(boundary->series_p);
+        mem_free(boundary->fractions);
+        mem_free(boundary->density);
+    }
+}
+
+static void scene_free_output(struct scene *scene)
+{
+    for (unsigned i = 0; i < scene->n_column; i++) {
+        shape_free(scene->columns[i].where);
+        mem_free(scene->columns[i].uses);
+    }
+    for (unsigned i = 0; i < scene->n_probe; i++) mem_free(scene->probes[i].fields);
+    for (unsigned i = 0; i < scene->n_expect; i++) {
+        struct scene_expect *expect = &scene->expects[i];
+        char *texts[] = {expect->value,  expect->reference,  expect->norm, expect->field,
+                         expect->column, expect->coordinate, expect->label};
+        for (unsigned k = 0; k < sizeof texts / sizeof *texts; k++) mem_free(texts[k]);
+    }
+    mem_free(scene->snapshot_fields);
+    mem_free(scene->columns);
+    mem_free(scene->probes);
+    mem_free(scene->expects);
+}
+
+void scene_free(struct scene *scene)
+{
+    if (!scene) return;
+    scene_free_boundaries(scene);
+    scene_free_output(scene);
+    for (unsigned i = 0; i < scene->n_layer; i++) {
+        shape_free(scene->layers[i].shape);
+        mem_free(scene->layers[i].fractions);
+        mem_free(scene->layers[i].density);
+    }
+    mem_free(scene->layers);
+    for (unsigned i = 0; i < scene->n_material; i++) instance_done(&scene->material[i].eos);
+    instance_done(&scene->riemann);
+    instance_done(&scene->limiter);
+    for (unsigned i = 0; i < scene->n_variant; i++) mem_free(scene->variants[i]);
+    mem_free(scene->variants);
+    char *texts[] = {scene->path, scene->name,     scene->title,    scene->about,
+                     scene->cite, scene->resolved, scene->directory};
+    for (unsigned i = 0; i < sizeof texts / sizeof *texts; i++) mem_free(texts[i]);
+    script_host_free(scene->host);
+    mem_free(scene);
+}

@@ -1,0 +1,164 @@
+/* scene_expect.c - what a case says its result must satisfy. */
+#include "case/scene_draft.h"
+
+#include "base/mem.h"
+
+#include <errno.h>
+#include <string.h>
+
+static const struct key scene_expect_rows[] = {
+    {.name = "value",
+     .type = KEYS_TREE,
+     .doc = "Expression over history and probe columns: `min(V)/first(V)`, `max(wall.pressure)`."},
+    {.name = "norm", .type = KEYS_CHOICE, .choices = "L1|L2|Linf", .doc = "Norm of a difference to a reference."},
+    {.name = "at-most", .type = KEYS_NUMBER, .doc = "Largest value that passes."},
+    {.name = "at-least", .type = KEYS_NUMBER, .doc = "Least value that passes."},
+    {.name = "equals", .type = KEYS_NUMBER, .doc = "Value within tolerance + relative |equals|."},
+    {.name = "tolerance", .type = KEYS_NUMBER, .min = 0, .max = KEYS_MOST, .doc = "Absolute tolerance of `equals`."},
+    {.name = "relative",
+     .type = KEYS_NUMBER,
+     .unit = "1",
+     .min = 0,
+     .max = KEYS_MOST,
+     .doc = "Relative tolerance of `equals`."},
+    {.name = "field",
+     .type = KEYS_TEXT,
+     .doc = "What is compared: a field of the last snapshot, or a history or probe column over time."},
+    {.name = "reference",
+     .type = KEYS_TEXT,
+     .doc = "CSV file, relative to this file; or `exact-riemann`, or `initial`."},
+    {.name = "column", .type = KEYS_TEXT, .doc = "Column of the CSV; the name of the field if not given."},
+    {.name = "coordinate",
+     .type = KEYS_TEXT,
+     .doc = "Column of the CSV that holds x or t; x for a field, t for a column if not given."},
+    {.name = "scale",
+     .type = KEYS_NUMBER,
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .doc = "The norm is divided by this."},
+    {.name = "order",
+     .type = KEYS_NUMBER,
+     .unit = "1",
+     .min = 0,
+     .max = 10,
+     .doc = "Least order of convergence that `bulla verify` accepts."},
+    {.name = "label", .type = KEYS_TEXT, .doc = "What reports call it."},
+    {0},
+};
+
+const struct keys_section scene_expect_keys = {.name = "expectation",
+                                               .doc = "A bound on a value or on the distance to a reference.",
+                                               .keys = scene_expect_rows};
+
+static char *scene_expect_text(const struct keys_value *value)
+{
+    return value->given ? mem_text(value->text) : NULL;
+}
+
+/* Parameters that the expression uses stay in the resolved case. */
+static void scene_expect_value(struct draft *draft, struct scene_expect *expect, const struct keys_value *value)
+{
+    if (value->node->kind != TREE_SCALAR || tree_is_null(value->node)) {
+        keys_error(&draft->keys, value, "an expression is needed, not %s", tree_describe(value->node));
+        return;
+    }
+    const char *text = value->node->text;
+    text += strspn(text, " ");
+    expect->value = mem_text(*text == '=' ? text + 1 : text);
+    params_keep(draft->keys.params, expect->value);
+}
+
+static bool scene_expect_word(const char *name)
+{
+    return strcmp(name, "exact-riemann") == 0 || strcmp(name, "initial") == 0;
+}
+
+/* Is it a column of the history ("V") or of the probes ("wall.pressure")? */
+static bool scene_expect_is_column(const struct scene *scene, const char *name)
+{
+    for (unsigned i = 0; i < scene->n_column; i++)
+        if (strcmp(scene->columns[i].name, name) == 0) return true;
+    const char *dot = strchr(name, '.');
+    for (unsigned i = 0; dot && i < scene->n_probe; i++)
+        if (strlen(scene->probes[i].name) == (size_t)(dot - name) &&
+            strncmp(scene->probes[i].name, name, (size_t)(dot - name)) == 0)
+            return true;
+    return false;
+}
+
+static void scene_expect_reference(struct draft *draft, struct scene_expect *expect, const struct keys_value *reference)
+{
+    bool word = scene_expect_word(reference->text);
+    expect->reference = mem_text(word ? reference->text : scene_file(draft, reference));
+    FILE *file = word ? NULL : fopen(expect->reference, "r");
+    if (!word && !file)
+        keys_error(&draft->keys, reference, "'%s' cannot be read: %s", expect->reference, strerror(errno));
+    if (file) fclose(file);
+}
+
+static void scene_expect_norm(struct draft *draft, struct scene_expect *expect, const struct keys_map *map)
+{
+    const struct keys_value *norm = keys_at(map, "norm"), *field = keys_at(map, "field"),
+                            *reference = keys_at(map, "reference"), *column = keys_at(map, "column");
+    if (!field->node) keys_error(&draft->keys, norm, "'field' is missing: what is compared with the reference");
+    if (!reference->node)
+        keys_error(&draft->keys, norm, "'reference' is missing: a CSV file, 'exact-riemann' or 'initial'");
+    if (!field->given || !reference->given) return;
+    char name[SCENE_NAME];
+    bool over_time = scene_expect_is_column(draft->scene, field->text);
+    if (!over_time) scene_field(draft, field, name);
+    expect->norm = scene_expect_text(norm);
+    expect->field = mem_text(field->text);
+    expect->column = mem_text(column->given ? column->text : field->text);
+    expect->coordinate = scene_expect_text(keys_at(map, "coordinate"));
+    if (!expect->coordinate) expect->coordinate = mem_text(over_time ? "t" : "x");
+    scene_expect_reference(draft, expect, reference);
+}
+
+static void scene_expect_bounds(struct draft *draft, struct scene_expect *expect, const struct keys_map *map)
+{
+    const struct keys_value *equals = keys_at(map, "equals");
+    expect->has_at_most = keys_at(map, "at-most")->given;
+    expect->has_at_least = keys_at(map, "at-least")->given;
+    expect->has_equals = equals->given;
+    expect->at_most = keys_at(map, "at-most")->number;
+    expect->at_least = keys_at(map, "at-least")->number;
+    expect->equals = equals->number;
+    expect->tolerance = keys_at(map, "tolerance")->number;
+    expect->relative = keys_at(map, "relative")->number;
+    bool bound =
+        equals->node || keys_at(map, "at-most")->node || keys_at(map, "at-least")->node || keys_at(map, "order")->node;
+    if (!bound) {
+        diag_error(draft->keys.diag, &map->node->mark, "%s: nothing is demanded", map->path);
+        diag_help(draft->keys.diag, "give 'at-most', 'at-least' or 'equals' with 'tolerance' or 'relative'");
+    }
+    if (equals->given && !keys_at(map, "tolerance")->node && !keys_at(map, "relative")->node)
+        keys_error(&draft->keys, equals, "a 'tolerance' or 'relative' one is needed beside 'equals'");
+}
+
+static void scene_expect_read(struct draft *draft, struct scene_expect *expect, const struct keys_map *map)
+{
+    if (!map) return;
+    const struct keys_value *value = keys_at(map, "value"), *norm = keys_at(map, "norm"),
+                            *scale = keys_at(map, "scale");
+    expect->line = map->node->mark.line;
+    expect->label = scene_expect_text(keys_at(map, "label"));
+    expect->scale = scale->given ? scale->number : 1.0;
+    expect->order = keys_at(map, "order")->number;
+    if (!value->node == !norm->node) {
+        diag_error(draft->keys.diag, &map->node->mark, "%s: one of 'value' and 'norm' is needed", map->path);
+        return;
+    }
+    if (value->node) scene_expect_value(draft, expect, value);
+    if (norm->given) scene_expect_norm(draft, expect, map);
+    scene_expect_bounds(draft, expect, map);
+}
+
+void scene_expect(struct draft *draft)
+{
+    const struct keys_value *list = keys_at(draft->root, "expect");
+    struct scene *scene = draft->scene;
+    scene->expects = mem_new(list->count + 1, sizeof *scene->expects);
+    for (unsigned i = 0; i < list->count; i++)
+        scene_expect_read(draft, &scene->expects[scene->n_expect++], list->list[i].map);
+}

@@ -1,0 +1,170 @@
+/* scene_history.c - the columns of history.csv. */
+#include "case/scene_draft.h"
+
+#include "base/mem.h"
+#include "base/text.h"
+
+#include <string.h>
+
+static const struct key scene_history_rows[] = {
+    {.name = "volume", .type = KEYS_TEXT, .doc = "Volume of a material."},
+    {.name = "mass", .type = KEYS_TEXT, .doc = "Mass of a material."},
+    {.name = "centroid", .type = KEYS_TEXT, .doc = "Position of a material's centre of volume, `along` an axis."},
+    {.name = "min", .type = KEYS_TEXT, .doc = "Least value of a field."},
+    {.name = "max", .type = KEYS_TEXT, .doc = "Largest value of a field."},
+    {.name = "mean", .type = KEYS_TEXT, .doc = "Mean of a field over the volume."},
+    {.name = "integral", .type = KEYS_TEXT, .doc = "Integral of a field over the volume."},
+    {.name = "total",
+     .type = KEYS_CHOICE,
+     .choices = "mass|momentum_x|momentum_y|momentum_z|energy",
+     .doc = "Total of a conserved quantity."},
+    {.name = "penetration",
+     .type = KEYS_TEXT,
+     .doc = "How far a material's surface on the axis has moved, `along` an axis."},
+    {.name = "equivalent-radius", .type = KEYS_TEXT, .doc = "Radius of the sphere (disc) of a material's volume."},
+    {.name = "jet-speed", .type = KEYS_TEXT, .doc = "Largest speed towards a material's far side, `along` an axis."},
+    {.name = "isosurface-mean", .type = KEYS_TEXT, .doc = "Mean of a field over the surface of the material `in`."},
+    {.name = "value", .type = KEYS_TREE, .doc = "An expression of t, columns further up, and parameters."},
+    {.name = "in", .type = KEYS_TEXT, .doc = "Only in this material."},
+    {.name = "where", .type = KEYS_SECTION, .section = &scene_shape_keys, .doc = "Only in this region."},
+    {.name = "along",
+     .type = KEYS_CHOICE,
+     .choices = "x|y|z|r|axis",
+     .doc = "An axis; in axisymmetric geometry r is x and axis is y."},
+    {0},
+};
+
+const struct keys_section scene_history_column_keys = {.name = "column",
+                                                       .doc = "One measure per column.",
+                                                       .keys = scene_history_rows};
+
+/* In the order of enum scene_measure, which is that of the rows. */
+enum { SCENE_HISTORY_MEASURES = SCENE_VALUE + 1 };
+
+static bool scene_history_of_material(enum scene_measure measure)
+{
+    return measure == SCENE_VOLUME || measure == SCENE_MASS || measure == SCENE_CENTROID ||
+           measure == SCENE_PENETRATION || measure == SCENE_EQUIVALENT_RADIUS || measure == SCENE_JET_SPEED;
+}
+
+static bool scene_history_directed(enum scene_measure measure)
+{
+    return measure == SCENE_CENTROID || measure == SCENE_PENETRATION || measure == SCENE_JET_SPEED;
+}
+
+/* Axis 0..2 of `along:`, or -1. */
+static int scene_history_axis(struct draft *draft, const struct keys_value *along)
+{
+    const struct scene *scene = draft->scene;
+    if (!along->given || scene->dim == 0) return -1;
+    bool axial = along->integer > 2;
+    int axis = along->integer == 3 ? 0 : along->integer == 4 ? 1 : (int)along->integer;
+    if (axial && scene->geometry == SCENE_CARTESIAN)
+        keys_error(&draft->keys, along, "cartesian domains have no '%s': use x, y or z", along->text);
+    else if (axis >= scene->dim)
+        keys_error(&draft->keys, along, "the domain has only %d ax%s", scene->dim, scene->dim == 1 ? "is" : "es");
+    return axis;
+}
+
+/* The arguments of a value expression: t and the columns further up that it mentions. */
+static const char *scene_history_uses(struct draft *draft, struct scene_column *column, const struct keys_value *value)
+{
+    const struct scene *scene = draft->scene;
+    const char *text = value->node->text, *list = "";
+    column->uses = mem_new(SCRIPT_ARGUMENTS, sizeof *column->uses);
+    for (long i = -1; i < column - scene->columns; i++) {
+        const char *name = i < 0 ? "t" : scene->columns[i].name;
+        if (!params_mentions(text, name)) continue;
+        if (column->n_use == SCRIPT_ARGUMENTS) {
+            keys_error(&draft->keys, value, "more than %d columns in one expression", SCRIPT_ARGUMENTS);
+            return NULL;
+        }
+        snprintf(column->uses[column->n_use++], SCENE_NAME, "%s", name);
+        list = tree_print(draft->keys.forest, "%s%s%s", list, *list ? "," : "", name);
+    }
+    return list;
+}
+
+static void scene_history_value(struct draft *draft, struct scene_column *column, const struct keys_value *value)
+{
+    if (value->node->kind != TREE_SCALAR || tree_is_null(value->node)) {
+        keys_error(&draft->keys, value, "an expression is needed, not %s", tree_describe(value->node));
+        return;
+    }
+    const char *arguments = scene_history_uses(draft, column, value);
+    if (arguments) params_compile(draft->keys.params, value->node, value->path, arguments, &column->script);
+}
+
+static void scene_history_measure(struct draft *draft, struct scene_column *column, const struct keys_value *value)
+{
+    if (scene_history_of_material(column->measure)) column->material = scene_material_index(draft, value);
+    else if (column->measure == SCENE_TOTAL) snprintf(column->field, SCENE_NAME, "%s", value->given ? value->text : "");
+    else if (column->measure == SCENE_VALUE) scene_history_value(draft, column, value);
+    else scene_field(draft, value, column->field);
+}
+
+/* The one measure of a column; NULL after a recorded error. */
+static const struct keys_value *scene_history_chosen(struct draft *draft, const struct keys_map *map,
+                                                     struct scene_column *column)
+{
+    const struct keys_value *chosen = NULL;
+    for (int i = 0; i < SCENE_HISTORY_MEASURES; i++) {
+        const struct keys_value *value = keys_at(map, scene_history_rows[i].name);
+        if (!value->node) continue;
+        if (chosen) {
+            keys_error(&draft->keys, value, "one measure per column: '%s' is already given", chosen->key->name);
+            return NULL;
+        }
+        chosen = value;
+        column->measure = (enum scene_measure)i;
+    }
+    if (chosen) return chosen;
+    diag_error(draft->keys.diag, &map->node->mark, "%s: nothing is measured", map->path);
+    diag_help(draft->keys.diag, "one of volume, mass, centroid, min, max, mean, integral, total, penetration, "
+                                "equivalent-radius, jet-speed, isosurface-mean, value");
+    return NULL;
+}
+
+static void scene_history_along(struct draft *draft, struct scene_column *column, const struct keys_value *measure,
+                                const struct keys_map *map)
+{
+    const struct scene *scene = draft->scene;
+    column->along = scene_history_axis(draft, keys_at(map, "along"));
+    if (column->along >= 0 || !scene_history_directed(column->measure) || keys_at(map, "along")->node) return;
+    if (scene->dim == 1) column->along = 0;
+    else if (scene->geometry == SCENE_AXISYMMETRIC) column->along = 1;
+    else if (scene->dim > 1)
+        keys_error(&draft->keys, measure, "'along' is missing: the axis x, y or z along which to measure");
+}
+
+static void scene_history_column(struct draft *draft, struct scene_column *column, const struct keys_value *entry)
+{
+    static const char *const taken[] = {"step", "t", "dt"};
+    const struct keys_map *map = entry->map;
+    const struct keys_value *in = keys_at(map, "in"), *which = NULL, *where = keys_at(map, "where");
+    column->material = column->in = column->along = -1;
+    snprintf(column->name, SCENE_NAME, "%s", entry->name);
+    if (!text_is_identifier(entry->name) || strlen(entry->name) >= SCENE_NAME)
+        keys_error(&draft->keys, entry, "the name of a column is an identifier (letters, digits and _)");
+    for (unsigned i = 0; i < 3; i++)
+        if (strcmp(taken[i], entry->name) == 0)
+            keys_error(&draft->keys, entry, "every history has a column '%s' already", taken[i]);
+    const struct keys_value *measure = map ? scene_history_chosen(draft, map, column) : NULL;
+    if (!measure) return;
+    if (in->given) column->in = scene_material_index(draft, in);
+    if (where->given) column->where = scene_shape(draft, where->map, true, &which);
+    scene_history_measure(draft, column, measure);
+    scene_history_along(draft, column, measure, map);
+    if (column->measure == SCENE_ISOSURFACE_MEAN && !in->node)
+        keys_error(&draft->keys, measure, "'in' is missing: the material whose surface it is");
+}
+
+void scene_history(struct draft *draft)
+{
+    const struct keys_map *output = keys_at(draft->root, "output")->map;
+    const struct keys_value *columns = keys_at(keys_at(output, "history")->map, "columns");
+    struct scene *scene = draft->scene;
+    scene->columns = mem_new(columns->count + 1, sizeof *scene->columns);
+    for (unsigned i = 0; i < columns->count; i++)
+        scene_history_column(draft, &scene->columns[scene->n_column++], &columns->list[i]);
+}

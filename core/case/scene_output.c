@@ -1,0 +1,177 @@
+/* scene_output.c - where results go: directory, snapshots, probes, checkpoints. */
+#include "case/scene_draft.h"
+
+#include "base/mem.h"
+#include "base/text.h"
+
+#include <string.h>
+
+static const struct key scene_output_snapshot_rows[] = {
+    {.name = "every",
+     .type = KEYS_EVERY,
+     .unit = "s",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .required = true,
+     .doc = "Time, or `N steps`, between two snapshots."},
+    {.name = "fields",
+     .type = KEYS_TEXT,
+     .many = KEYS_LIST,
+     .fallback = "[density, velocity, pressure]",
+     .doc = "The fields to write."},
+    {.name = "precision",
+     .type = KEYS_CHOICE,
+     .choices = "single|double",
+     .fallback = "single",
+     .doc = "Bits of the numbers: single halves the files."},
+    {0},
+};
+
+static const struct key scene_output_history_rows[] = {
+    {.name = "every",
+     .type = KEYS_EVERY,
+     .unit = "s",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .fallback = "1 step",
+     .doc = "Time, or `N steps`, between two rows of history.csv."},
+    {.name = "columns",
+     .type = KEYS_SECTION,
+     .many = KEYS_NAMED,
+     .section = &scene_history_column_keys,
+     .fallback = "{}",
+     .doc = "What is measured, by column name."},
+    {0},
+};
+
+static const struct key scene_output_probe_rows[] = {
+    {.name = "at", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = true, .doc = "Where."},
+    {.name = "fields", .type = KEYS_TEXT, .many = KEYS_LIST, .required = true, .doc = "The fields to record there."},
+    {0},
+};
+
+static const struct keys_section scene_output_probe = {.name = "probe",
+                                                       .doc = "Fields at a point, over time.",
+                                                       .keys = scene_output_probe_rows};
+
+static const struct key scene_output_probes_rows[] = {
+    {.name = "every",
+     .type = KEYS_EVERY,
+     .unit = "s",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .fallback = "1 step",
+     .doc = "Time, or `N steps`, between two rows of probes.csv."},
+    {0},
+};
+
+static const struct key scene_output_probe_row = {.name = "NAME",
+                                                  .type = KEYS_SECTION,
+                                                  .section = &scene_output_probe,
+                                                  .doc = "A probe."};
+
+static const struct key scene_output_checkpoint_rows[] = {
+    {.name = "every",
+     .type = KEYS_EVERY,
+     .unit = "s",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .required = true,
+     .doc = "Time, or `N steps`, between two checkpoints."},
+    {.name = "keep", .type = KEYS_INTEGER, .min = 1, .max = 1000, .fallback = "2", .doc = "How many to keep."},
+    {0},
+};
+
+static const struct keys_section scene_output_snapshots = {.name = "snapshots",
+                                                           .doc = "Fields for ParaView, yt and pictures.",
+                                                           .keys = scene_output_snapshot_rows};
+static const struct keys_section scene_output_history = {.name = "history",
+                                                         .doc = "Scalars over time: history.csv.",
+                                                         .keys = scene_output_history_rows};
+static const struct keys_section scene_output_probes = {.name = "probes",
+                                                        .doc = "Fields at points over time: probes.csv.",
+                                                        .keys = scene_output_probes_rows,
+                                                        .others = &scene_output_probe_row};
+static const struct keys_section scene_output_checkpoints = {.name = "checkpoints",
+                                                             .doc = "Exact states to go on from.",
+                                                             .keys = scene_output_checkpoint_rows};
+
+static const struct key scene_output_rows[] = {
+    {.name = "directory", .type = KEYS_TEXT, .doc = "Output directory; out/CASE if not given; -o wins."},
+    {.name = "snapshots",
+     .type = KEYS_SECTION,
+     .section = &scene_output_snapshots,
+     .doc = "Fields for ParaView and yt."},
+    {.name = "history",
+     .type = KEYS_SECTION,
+     .section = &scene_output_history,
+     .fallback = "{}",
+     .doc = "Scalars over time."},
+    {.name = "probes", .type = KEYS_SECTION, .section = &scene_output_probes, .doc = "Fields at points over time."},
+    {.name = "checkpoints",
+     .type = KEYS_SECTION,
+     .section = &scene_output_checkpoints,
+     .doc = "Exact states to go on from."},
+    {0},
+};
+
+const struct keys_section scene_output_keys = {.name = "output",
+                                               .doc = "What is written, where and how often.",
+                                               .keys = scene_output_rows};
+
+struct scene_every scene_output_every(const struct keys_value *value)
+{
+    return (struct scene_every){value->integer ? 0.0 : value->number, value->integer};
+}
+
+static void scene_output_folder(struct draft *draft, const struct keys_map *output)
+{
+    struct scene *scene = draft->scene;
+    const struct keys_value *directory = keys_at(output, "directory");
+    if (!scene->directory)
+        scene->directory = directory->given ? mem_text(directory->text) : mem_print("out/%s", scene->name);
+    if (!output) return;
+    tree_set(draft->keys.forest, output->node, "directory",
+             tree_scalar(draft->keys.forest, &output->node->mark, TREE_QUOTED, scene->directory));
+}
+
+static void scene_output_probe_read(struct draft *draft, struct scene_probe *probe, const struct keys_value *value)
+{
+    const struct scene *scene = draft->scene;
+    const struct keys_value *at = keys_at(value->map, "at");
+    snprintf(probe->name, SCENE_NAME, "%s", value->key->name);
+    if (!text_is_identifier(value->key->name) || strlen(value->key->name) >= SCENE_NAME)
+        keys_error(&draft->keys, value, "the name of a probe is an identifier (letters, digits and _)");
+    scene_field_list(draft, keys_at(value->map, "fields"), &probe->fields, &probe->n_field);
+    if (!scene_domain_vector(draft, at, probe->at)) return;
+    for (int axis = 0; axis < scene->dim; axis++)
+        if (probe->at[axis] < scene->lower[axis] || probe->at[axis] > scene->upper[axis])
+            keys_error(&draft->keys, &at->list[axis], "%g m is outside of the domain, %g to %g m", probe->at[axis],
+                       scene->lower[axis], scene->upper[axis]);
+}
+
+static void scene_output_probes_read(struct draft *draft, const struct keys_map *probes)
+{
+    struct scene *scene = draft->scene;
+    scene->probes_every = scene_output_every(keys_at(probes, "every"));
+    scene->probes = mem_new(probes ? probes->count + 1 : 1, sizeof *scene->probes);
+    for (unsigned i = 0; probes && i < probes->count; i++)
+        if (probes->values[i].key->section == &scene_output_probe)
+            scene_output_probe_read(draft, &scene->probes[scene->n_probe++], &probes->values[i]);
+}
+
+void scene_output(struct draft *draft)
+{
+    const struct keys_map *output = keys_at(draft->root, "output")->map;
+    const struct keys_map *snapshots = keys_at(output, "snapshots")->map;
+    const struct keys_map *checkpoints = keys_at(output, "checkpoints")->map;
+    struct scene *scene = draft->scene;
+    scene_output_folder(draft, output);
+    scene->snapshots = scene_output_every(keys_at(snapshots, "every"));
+    scene_field_list(draft, keys_at(snapshots, "fields"), &scene->snapshot_fields, &scene->n_snapshot_field);
+    scene->snapshot_double = keys_at(snapshots, "precision")->integer == 1;
+    scene->history = scene_output_every(keys_at(keys_at(output, "history")->map, "every"));
+    scene_output_probes_read(draft, keys_at(output, "probes")->map);
+    scene->checkpoints = scene_output_every(keys_at(checkpoints, "every"));
+    scene->checkpoints_keep = (int)keys_at(checkpoints, "keep")->integer;
+}

@@ -1,0 +1,11 @@
+/* show.h - a tree as YAML text: the resolved case, which reads back as the same tree. */
+#ifndef SHOW_H
+#define SHOW_H
+
+#include "base/text.h"
+#include "case/tree.h"
+
+/* Appends the map `root` as a YAML document. */
+void show_tree(const struct node *root, struct text *text);
+
+#endif
