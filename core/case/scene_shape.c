@@ -142,6 +142,13 @@ static bool scene_shape_ball(struct draft *draft, struct shape *shape, const str
     return good;
 }
 
+static bool scene_shape_oval(struct draft *draft, struct shape *shape, const struct keys_map *map)
+{
+    bool good = scene_domain_vector(draft, keys_at(map, "center"), shape->a);
+    good &= scene_domain_vector(draft, keys_at(map, "semi-axes"), shape->b);
+    return good;
+}
+
 static bool scene_shape_rod(struct draft *draft, struct shape *shape, const struct keys_map *map)
 {
     bool good = scene_domain_vector(draft, keys_at(map, "from"), shape->a);
@@ -222,9 +229,7 @@ static bool scene_shape_fill(struct draft *draft, struct shape *shape, const str
     case SHAPE_SPHERE:
     case SHAPE_RING: return scene_shape_ball(draft, shape, value->map);
     case SHAPE_CYLINDER: return scene_shape_rod(draft, shape, value->map);
-    case SHAPE_ELLIPSOID:
-        return scene_domain_vector(draft, keys_at(value->map, "center"), shape->a) &
-               scene_domain_vector(draft, keys_at(value->map, "semi-axes"), shape->b);
+    case SHAPE_ELLIPSOID: return scene_shape_oval(draft, shape, value->map);
     case SHAPE_POLYGON: return scene_shape_outline(draft, shape, value->map);
     default: return scene_shape_parts(draft, shape, value);
     }
