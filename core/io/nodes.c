@@ -115,7 +115,6 @@ struct nodes *nodes_new(const struct mesh *mesh)
         nodes->n_point *= (size_t)nodes->n[axis];
     }
     nodes->number = mem_new(nodes->n_point, sizeof *nodes->number);
-    nodes->number = mem_new(nodes->n_point, sizeof *nodes->number);
     for (int level = 0; level < mesh->n_level; level++) nodes_count(nodes, mesh, level);
     return nodes;
 }
@@ -124,7 +123,6 @@ void nodes_free(struct nodes *nodes)
 {
     if (!nodes) return;
     for (int level = 0; level < MESH_LEVELS; level++) mem_free(nodes->first[level]);
-    mem_free(nodes->number);
     mem_free(nodes->number);
     mem_free(nodes);
 }

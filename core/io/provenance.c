@@ -154,7 +154,9 @@ static json_t *provenance_conservation(const struct provenance *provenance, cons
         json_t *entry = json_object();
         json_object_set_new(entry, "initial", provenance_number(initial));
         json_object_set_new(entry, "final", provenance_number(final));
-        json_object_set_new(entry, "relative_change", provenance_number((final - initial) / fabs(initial)));
+        json_object_set_new(entry, "change", provenance_number(final - initial));
+        if (strncmp(name, "momentum", strlen("momentum"))) /* a momentum has no scale of its own: it may be zero */
+            json_object_set_new(entry, "relative_change", provenance_number((final - initial) / fabs(initial)));
         json_object_set_new(conservation, name, entry);
     }
     return conservation;
@@ -181,7 +183,7 @@ static json_t *provenance_work(const struct provenance *provenance, const struct
     json_t *work = json_object();
     double cells = 0.0;
     for (int l = 0; l < mesh->n_level; l++) cells += (double)mesh->levels[l].n_tile * (double)mesh->n_cell;
-    json_object_set_new(work, "cells", json_real(cells));
+    json_object_set_new(work, "cells", json_integer((json_int_t)cells));
     json_object_set_new(work, "steps", json_integer(state->step));
     json_object_set_new(work, "steps_of_this_run", json_integer(state->step - provenance->step_0));
     json_object_set_new(work, "time", json_real(state->t));
@@ -190,7 +192,7 @@ static json_t *provenance_work(const struct provenance *provenance, const struct
     json_object_set_new(work, "cells_updated", json_integer(state->counts.cells));
     json_object_set_new(work, "cpu_ns_per_cell_stage",
                         provenance_number(1e9 * cost->cpu_run / (double)state->counts.cells));
-    json_object_set_new(work, "peak_memory_bytes", json_real(cost->memory));
+    json_object_set_new(work, "peak_memory_bytes", json_integer((json_int_t)cost->memory));
     json_object_set_new(work, "bytes_per_cell", json_real(cost->memory / cells));
     return work;
 }
