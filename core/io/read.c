@@ -97,6 +97,8 @@ static int read_cells(struct h5 *file, struct snapshot *snapshot)
     unsigned columns = 0;
     double *corners = NULL, *x = NULL;
     TRY(h5in_shape(file, "/VTKHDF/Types", &snapshot->n_cell, &columns));
+    TRY(h5in_shape(file, "/bulla/blocks", &snapshot->n_tile, &columns));
+    if (!snapshot->n_tile || snapshot->n_cell % snapshot->n_tile) return read_broken(file, "/bulla/blocks");
     TRY(h5in_shape(file, "/VTKHDF/Points", &points, &columns));
     TRY(read_table(file, "/VTKHDF/Points", points, 3, &x));
     int code = read_table(file, "/VTKHDF/Connectivity", snapshot->n_cell << snapshot->dim, 0, &corners);

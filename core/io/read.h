@@ -29,6 +29,7 @@ struct snapshot {
     int beta;            /* 0 cartesian, 1 axisymmetric (x = r, y = z), 2 spherical (x = r) */
     double domain[2][3]; /* [0] lower, [1] upper corner [m]; 0 beyond dim */
     size_t n_cell;
+    size_t n_tile;      /* tiles of the mesh; each has n_cell / n_tile cells, one tile after the other */
     double (*lower)[3]; /* [n_cell] corners of each cell [m]; 0 beyond dim */
     double (*upper)[3];
     unsigned n_material;
