@@ -4,6 +4,9 @@
 #include "app/command.h"
 
 #include "app/cli.h"
+#include "app/plot.h"
+#include "app/plot_option.h"
+#include "app/report.h"
 #include "base/comm.h"
 #include "base/log.h"
 #include "base/status.h"
@@ -17,6 +20,9 @@ static int command_help(const struct cli_given *given);
 static int command_version(const struct cli_given *given);
 
 static const struct cli_command command_table[] = {
+    {"plot", "DIR FIELD|history", "PNG pictures of snapshots and histories.", plot_option_table, 1, -1, plot_command,
+     NULL},
+    {"report", "DIR", "One HTML page about a run, pictures inside.", report_option_table, 1, 1, report_command, NULL},
     {"version", "", "Version of the program.", NULL, 0, 0, command_version, NULL},
     {"help", "[COMMAND]", "This list, or the help of one command.", NULL, 0, 1, command_help, NULL},
 };

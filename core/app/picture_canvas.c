@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const double canvas_resolution = 3.0; /* pixels per point: 216 dpi */
 
@@ -45,8 +46,19 @@ int picture_canvas_draw(const struct picture_canvas *canvas, int width, cairo_su
                        cairo_status_to_string(status));
 }
 
+/* Makes the folder of a file if its own parent is there; if that fails, so will writing, with a better reason. */
+static void canvas_make_folder(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    if (!slash || slash == path) return;
+    char *folder = mem_text_n(path, (size_t)(slash - path));
+    mkdir(folder, 0777);
+    mem_free(folder);
+}
+
 int picture_canvas_write(cairo_surface_t *image, const char *path)
 {
+    canvas_make_folder(path);
     char *temporary = mem_print("%s.tmp", path);
     cairo_status_t status = cairo_surface_write_to_png(image, temporary);
     int code = STATUS_OK;

@@ -17,7 +17,7 @@ struct picture_canvas {
  * STATUS_RUN if the image is too large. */
 int picture_canvas_draw(const struct picture_canvas *canvas, int width, cairo_surface_t **ret_image);
 
-/* Writes an image as PNG, by way of a temporary name. STATUS_RUN with the reason if that fails. */
+/* Writes an image as PNG, by way of a temporary name; makes the folder if only that is missing. STATUS_RUN with the reason if that fails. */
 int picture_canvas_write(cairo_surface_t *image, const char *path);
 
 #endif

@@ -9,7 +9,6 @@
 #include "base/status.h"
 #include "io/read.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -148,26 +147,13 @@ static int plot_snapshots(const char *directory, const char *fields, const struc
 {
     struct plot_picture picture = {.option = option};
     struct snapshot_series series;
-    TRY(read_series(directory, &series));
+    if (read_series(directory, &series)) return status_fail(STATUS_CASE, "%s", status_text());
     char *list = option->left ? mem_print("%s,%s", option->left, option->right) : mem_text(fields);
     int code = plot_split(list, &picture);
     if (!code && !series.n) code = status_fail(STATUS_CASE, "no snapshots in %s/fields", directory);
     if (!code) code = plot_series(directory, &series, &picture);
     mem_free(list);
     read_series_done(&series);
-    return code;
-}
-
-static int plot_prepare(const char *directory, const struct plot_option *option)
-{
-    if (!plot_is_directory(directory))
-        return status_fail(STATUS_CASE, "no directory %s: plot wants the output directory of a run", directory);
-    if (option->output) return STATUS_OK;
-    char *plots = mem_print("%s/plots", directory);
-    int code = STATUS_OK;
-    if (mkdir(plots, 0777) != 0 && errno != EEXIST)
-        code = status_fail(STATUS_RUN, "cannot make %s: %s", plots, strerror(errno));
-    mem_free(plots);
     return code;
 }
 
@@ -185,7 +171,8 @@ static int plot_run(const struct cli_given *given)
                            given->words[2], what, given->words[2]);
     if (option.left && what)
         return status_fail(STATUS_CASE, "--left and --right name the fields; '%s' is one too many", what);
-    TRY(plot_prepare(directory, &option));
+    if (!plot_is_directory(directory))
+        return status_fail(STATUS_CASE, "no directory %s: plot wants the output directory of a run", directory);
     if (history) return plot_history_write(directory, given->words + 2, (unsigned)(given->n_word - 2), &option);
     return plot_snapshots(directory, what, &option);
 }

@@ -38,7 +38,7 @@ static const struct snapshot_field *plot_field_lookup(const struct snapshot *sna
     size_t stem = plot_field_stem(name, ret_component);
     for (unsigned i = 0; stem && i < snapshot->n_field; i++) {
         const struct snapshot_field *field = &snapshot->fields[i];
-        if (strlen(field->name) == stem && strncmp(field->name, name, stem) == 0 &&
+        if (strlen(field->name) == stem && strncmp(field->name, name, stem) == 0 && field->components > 1 &&
             *ret_component < (int)field->components)
             return field;
     }

@@ -111,6 +111,8 @@ static int picture_plane(const struct plot_view *view, const struct plot_picture
     struct picture drawn = {.title = view->snapshot->title, .note = note, .n_layer = picture->option->left ? 2 : 1};
     struct plot_interfaces interfaces = {0};
     double *values[PICTURE_LAYERS] = {NULL};
+    struct raster_cell *tiles = picture->option->tiles ? plot_view_tiles(view, &drawn.n_tile) : NULL;
+    drawn.tiles = tiles;
     picture_axes(view, window, &drawn);
     int code = STATUS_OK;
     for (unsigned i = 0; !code && i < drawn.n_layer; i++)
@@ -122,6 +124,7 @@ static int picture_plane(const struct plot_view *view, const struct plot_picture
         drawn.lines[i] = (struct picture_lines){&interfaces.contours[i], interfaces.names[i]};
     if (!code) code = picture_draw(&drawn, picture->option->width, ret_image);
     plot_interface_done(&interfaces);
+    mem_free(tiles);
     for (unsigned i = 0; i < drawn.n_layer; i++) mem_free(values[i]);
     return code;
 }

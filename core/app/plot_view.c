@@ -148,6 +148,25 @@ double *plot_view_values(const struct plot_view *view, const struct plot_field *
     return values;
 }
 
+struct raster_cell *plot_view_tiles(const struct plot_view *view, size_t *ret_n)
+{
+    size_t tiles = view->snapshot->n_tile, per_tile = view->snapshot->n_cell / tiles, n = 0;
+    struct raster_cell *boxes = mem_new(2 * tiles, sizeof *boxes); /* mirror images apart */
+    for (size_t c = 0; c < view->n; c++) {
+        const struct raster_cell *cell = &view->cells[c];
+        struct raster_cell *box = &boxes[view->source[c] / per_tile + (c < view->n_plain ? 0 : tiles)];
+        bool first = box->at[0][0] >= box->at[0][1];
+        for (int axis = 0; axis < 2; axis++) {
+            if (first || cell->at[axis][0] < box->at[axis][0]) box->at[axis][0] = cell->at[axis][0];
+            if (first || cell->at[axis][1] > box->at[axis][1]) box->at[axis][1] = cell->at[axis][1];
+        }
+    }
+    for (size_t b = 0; b < 2 * tiles; b++)
+        if (boxes[b].at[0][0] < boxes[b].at[0][1]) boxes[n++] = boxes[b];
+    *ret_n = n;
+    return boxes;
+}
+
 void plot_view_range(const struct plot_view *view, const double *values, const double window[2][2], bool log,
                      double extremes[2])
 {

@@ -26,7 +26,10 @@ void plot_view_done(struct plot_view *view);
 /* Values of a field in the cells of the view: new memory for the caller to free with mem_free. */
 double *plot_view_values(const struct plot_view *view, const struct plot_field *field);
 
-/* Widens [*lo, *hi] by the finite values in cells that touch the window [shown axis][2]; with `log` by those
+/* Outlines of the mesh tiles that the view cuts; new memory for the caller to free with mem_free. */
+struct raster_cell *plot_view_tiles(const struct plot_view *view, size_t *ret_n);
+
+/* Widens `extremes` by the finite values in cells that touch the window [shown axis][2]; with `log` by those
  * above 0 only. */
 void plot_view_range(const struct plot_view *view, const double *values, const double window[2][2], bool log,
                      double extremes[2]);

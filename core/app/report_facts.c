@@ -1,0 +1,207 @@
+/* report_facts.c - see report_facts.h. */
+#include "app/report_facts.h"
+
+#include "app/picture_scale.h"
+#include "app/report_html.h"
+#include "base/mem.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <yaml.h>
+
+static json_t *facts_json(const char *directory, const char *name)
+{
+    char *path = mem_print("%s/%s", directory, name);
+    json_t *root = json_load_file(path, 0, NULL);
+    mem_free(path);
+    return root;
+}
+
+static FILE *facts_open(const char *directory, const char *name)
+{
+    char *path = mem_print("%s/%s", directory, name);
+    FILE *file = fopen(path, "r");
+    mem_free(path);
+    return file;
+}
+
+/* The value of a key of the top mapping, in new memory, or NULL. */
+static char *facts_of_document(yaml_document_t *document, const char *key)
+{
+    yaml_node_t *root = yaml_document_get_root_node(document);
+    if (!root || root->type != YAML_MAPPING_NODE) return NULL;
+    for (yaml_node_pair_t *pair = root->data.mapping.pairs.start; pair < root->data.mapping.pairs.top; pair++) {
+        yaml_node_t *name = yaml_document_get_node(document, pair->key);
+        yaml_node_t *value = yaml_document_get_node(document, pair->value);
+        if (!name || !value || name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE) continue;
+        if (strcmp((const char *)name->data.scalar.value, key) == 0)
+            return mem_text((const char *)value->data.scalar.value);
+    }
+    return NULL;
+}
+
+char *report_facts_scalar(const char *directory, const char *key)
+{
+    FILE *file = facts_open(directory, "case.yaml");
+    char *value = NULL;
+    yaml_parser_t parser;
+    yaml_document_t document;
+    if (!file) return NULL;
+    if (yaml_parser_initialize(&parser)) {
+        yaml_parser_set_input_file(&parser, file);
+        if (yaml_parser_load(&parser, &document)) {
+            value = facts_of_document(&document, key);
+            yaml_document_delete(&document);
+        }
+        yaml_parser_delete(&parser);
+    }
+    fclose(file);
+    return value;
+}
+
+void report_facts_head(struct text *page, const char *directory, const char *fallback)
+{
+    char *title = report_facts_scalar(directory, "title"), *about = report_facts_scalar(directory, "about");
+    char *cite = report_facts_scalar(directory, "cite");
+    text_add(page, "<h1>");
+    report_html_text(page, title ? title : fallback);
+    text_add(page, "</h1>\n");
+    if (about) {
+        text_add(page, "<p class=\"about\">");
+        report_html_text(page, about);
+        text_add(page, "</p>\n");
+    }
+    if (cite) {
+        text_add(page, "<p class=\"cite\">");
+        report_html_text(page, cite);
+        text_add(page, "</p>\n");
+    }
+    mem_free(title);
+    mem_free(about);
+    mem_free(cite);
+}
+
+struct facts_row {
+    const char *key, *label, *unit; /* unit NULL: as it is; "" a count */
+};
+
+static void facts_value(const json_t *value, const char *unit, char *ret_words, size_t size)
+{
+    double number = json_number_value(value);
+    char shown[PICTURE_SCALE_LABEL];
+    if (json_is_string(value)) snprintf(ret_words, size, "%s", json_string_value(value));
+    else if (json_is_integer(value)) snprintf(ret_words, size, "%lld", (long long)json_integer_value(value));
+    else if (unit && strcmp(unit, "B") == 0) snprintf(ret_words, size, "%.1f MB", 1e-6 * number);
+    else if (unit && strcmp(unit, "wall") == 0) snprintf(ret_words, size, "%.1f s", number);
+    else if (unit && *unit) {
+        picture_scale_quantity(number, number, unit, shown);
+        snprintf(ret_words, size, "%s", shown);
+    } else snprintf(ret_words, size, "%.6g", number);
+}
+
+static void facts_add(struct text *page, const char *label, const char *words)
+{
+    text_add(page, "<div><span>%s</span>", label);
+    report_html_text(page, words);
+    text_add(page, "</div>\n");
+}
+
+/* The largest relative change of a conserved total, as the run noted it. */
+static void facts_drift(struct text *page, json_t *conservation)
+{
+    const char *name;
+    json_t *entry;
+    json_object_foreach(conservation, name, entry)
+    {
+        const json_t *change = json_object_get(entry, "relative_change");
+        char label[160], words[64];
+        if (!json_is_number(change)) continue;
+        snprintf(label, sizeof label, "change of %.100s", name);
+        snprintf(words, sizeof words, "%.2e", json_number_value(change));
+        facts_add(page, label, words);
+    }
+}
+
+static void facts_guard(struct text *page, json_t *guard)
+{
+    const char *name;
+    json_t *count;
+    json_object_foreach(guard, name, count)
+    {
+        char label[160], words[64];
+        snprintf(label, sizeof label, "guard: %.100s", name);
+        snprintf(words, sizeof words, "%lld", (long long)json_integer_value(count));
+        facts_add(page, label, words);
+    }
+}
+
+void report_facts_run(struct text *page, const char *directory)
+{
+    static const struct facts_row rows[] = {
+        {"exit_reason", "ended", NULL},
+        {"time", "simulated time", "s"},
+        {"steps", "steps", ""},
+        {"cells", "cells", ""},
+        {"ranks", "ranks", ""},
+        {"wall_s", "wall time", "wall"},
+        {"cpu_s", "CPU time", "wall"},
+        {"cpu_ns_per_cell_stage", "CPU per cell and stage [ns]", ""},
+        {"peak_memory_bytes", "peak memory", "B"},
+        {"started", "started", NULL},
+        {"version", "version", NULL},
+        {"commit", "commit", NULL},
+    };
+    json_t *root = facts_json(directory, "provenance.json");
+    if (!root) return;
+    text_add(page, "<h2>Run</h2>\n<div class=\"facts\">\n");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const json_t *value = json_object_get(root, rows[i].key);
+        char words[256];
+        if (!json_is_string(value) && !json_is_number(value)) continue;
+        facts_value(value, rows[i].unit, words, sizeof words);
+        facts_add(page, rows[i].label, words);
+    }
+    facts_drift(page, json_object_get(root, "conservation"));
+    facts_guard(page, json_object_get(root, "guard"));
+    text_add(page, "</div>\n");
+    json_decref(root);
+}
+
+void report_facts_expect(struct text *page, const char *directory)
+{
+    json_t *root = facts_json(directory, "expect.json"), *item;
+    const json_t *list = json_object_get(root, "expectations");
+    size_t i;
+    if (json_array_size(list)) {
+        text_add(page,
+                 "<h2>Expectations</h2>\n<table>\n<tr><th>what</th><th>value</th><th>allowed</th><th></th></tr>\n");
+        json_array_foreach(list, i, item)
+        {
+            const char *what = json_string_value(json_object_get(item, "what"));
+            const char *bound = json_string_value(json_object_get(item, "bound"));
+            const json_t *value = json_object_get(item, "value");
+            bool passed = json_is_true(json_object_get(item, "passed"));
+            text_add(page, "<tr><td>");
+            report_html_text(page, what ? what : "");
+            if (json_is_number(value)) text_add(page, "</td><td>%.6g</td><td>", json_number_value(value));
+            else text_add(page, "</td><td>not finite</td><td>");
+            report_html_text(page, bound ? bound : "");
+            text_add(page, "</td><td class=\"%s\">%s</td></tr>\n", passed ? "pass" : "fail", passed ? "pass" : "FAIL");
+        }
+        text_add(page, "</table>\n");
+    }
+    json_decref(root);
+}
+
+void report_facts_case(struct text *page, const char *directory)
+{
+    FILE *file = facts_open(directory, "case.yaml");
+    if (!file) return;
+    text_add(page, "<h2>Case</h2>\n<details><summary>The resolved case file</summary>\n<pre>");
+    char line[1024];
+    while (fgets(line, sizeof line, file)) report_html_text(page, line);
+    text_add(page, "</pre></details>\n");
+    fclose(file);
+}

@@ -1,0 +1,19 @@
+/* report_html.h - pieces of a page: escaped text, embedded pictures, the frame around all. */
+#ifndef REPORT_HTML_H
+#define REPORT_HTML_H
+
+#include "base/text.h"
+
+#include <cairo.h>
+
+/* Opening of the page with its style sheet, up to the first section; and its end. */
+void report_html_begin(struct text *page, const char *title);
+void report_html_end(struct text *page);
+
+/* Text with <, >, &, " escaped. */
+void report_html_text(struct text *page, const char *words);
+
+/* <figure> with the picture as base64 PNG; a caption of NULL is none. STATUS_RUN if cairo cannot encode it. */
+int report_html_figure(struct text *page, cairo_surface_t *image, const char *caption);
+
+#endif
