@@ -110,6 +110,20 @@ static bool keys_home(const struct keys_section *section, const char *name, unsi
     return false;
 }
 
+/* Another case of the same section that has this key: `cycles` of a sine beside a lithotripter. */
+static const char *keys_other_case(struct keys *keys, const struct keys_rows *rows, const char *name)
+{
+    for (unsigned i = 0; i < rows->count; i++) {
+        const char *const *cases = rows->selects[i] ? family_names(keys->forest, rows->selects[i]) : NULL;
+        for (; cases && *cases; cases++) {
+            struct keys_rows other = {0};
+            keys_rows_add(&other, family_find(keys->forest, rows->selects[i], *cases));
+            if (keys_rows_find(&other, name) >= 0) return tree_print(keys->forest, "%s: %s", rows->at[i]->name, *cases);
+        }
+    }
+    return NULL;
+}
+
 static void keys_unknown_help(struct keys *keys, const struct keys_rows *rows, const char *name, const char *nearest)
 {
     size_t colon = strcspn(name, ":");
@@ -125,6 +139,11 @@ static void keys_unknown_help(struct keys *keys, const struct keys_rows *rows, c
     }
     if (nearest) {
         diag_help(keys->diag, "did you mean '%s'?", nearest);
+        return;
+    }
+    const char *other = keys_other_case(keys, rows, name);
+    if (other) {
+        diag_help(keys->diag, "'%s' is a key of '%s'", name, other);
         return;
     }
     struct text path = {0};
@@ -251,7 +270,8 @@ static void keys_read_row(struct keys *keys, struct keys_map *map, const struct 
     int at = tree_find(map->node, key->name);
     value->node = at >= 0 ? map->node->items[at] : keys_fallback(keys, map, key);
     if (!value->node) {
-        if (key->required && !rows->meant[i]) keys_missing(keys, map, key);
+        bool preset = map->chosen && map->chosen->module && tree_get(map->node, "preset"); /* wrong, and told so */
+        if (key->required && !rows->meant[i] && !preset) keys_missing(keys, map, key);
         return;
     }
     if (at >= 0 && key->later && !key->refused) {

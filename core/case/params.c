@@ -182,7 +182,13 @@ static bool params_check_names(struct params *params, const struct node *node, c
         if (params_find(params, name) || params_known(name, arguments) || params_global(params, name)) continue;
         diag_error(params->diag, &node->mark, "%s: '%s' is neither a parameter nor known to expressions", path, name);
         const char *nearest = text_nearest(name, names);
-        if (nearest) diag_help(params->diag, "did you mean '%s'?", nearest);
+        struct unit unit;
+        char bad[32];
+        if (unit_parse(name, &unit, bad))
+            diag_help(params->diag,
+                      "no units inside expressions: give a number with its unit a name, 'parameters: {d: 10 %s}'",
+                      name);
+        else if (nearest) diag_help(params->diag, "did you mean '%s'?", nearest);
         else if (*arguments) diag_help(params->diag, "known here: %s, the case's parameters, math", arguments);
         else diag_help(params->diag, "give it under 'parameters:'");
         return false;

@@ -69,6 +69,11 @@ static void scalar_refuse(struct keys *keys, const struct keys_value *value)
     else keys_error(keys, value, "%s is needed, not %s", scalar_wanted(keys->forest, value->key), tree_describe(node));
 }
 
+static void scalar_comma(struct keys *keys)
+{
+    diag_help(keys->diag, "the decimal sign is a point, and there are no separators of thousands");
+}
+
 /* Why a text is no quantity. */
 static void scalar_malformed(struct keys *keys, const struct keys_value *value)
 {
@@ -80,8 +85,7 @@ static void scalar_malformed(struct keys *keys, const struct keys_value *value)
     if (params_has(keys->params, text)) diag_help(keys->diag, "an expression begins with '=': write '= %s'", text);
     else if (text[strspn(text, "+-")] == '0' && text_number(text, &number) == 0)
         diag_help(keys->diag, "a number has no leading zeros");
-    else if (strchr(text, ','))
-        diag_help(keys->diag, "the decimal sign is a point, and there are no separators of thousands");
+    else if (strchr(text, ',')) scalar_comma(keys);
     else if (strpbrk(text, "+*/()") && unit_quantity(text, &number, &unit, bad) == UNIT_NO_NUMBER)
         diag_help(keys->diag, "an expression begins with '=': write '= %s'", text);
     else if (strpbrk(text, "+*/("))
@@ -95,7 +99,8 @@ static void scalar_unit_unknown(struct keys *keys, const struct keys_value *valu
     const char *text = value->node->text;
     unit_guess(bad, wanted, guess);
     keys_error(keys, value, "'%s' in '%s' is no unit that is known", bad, text);
-    if (guess[0]) diag_help(keys->diag, "did you mean '%s'?", guess);
+    if (strchr(text, ',')) scalar_comma(keys);
+    else if (guess[0]) diag_help(keys->diag, "did you mean '%s'?", guess);
     else if (params_has(keys->params, bad)) diag_help(keys->diag, "an expression begins with '=': write '= %s'", text);
     else if (unit_examples(wanted)) diag_help(keys->diag, "units that would do: %s", unit_examples(wanted));
 }
@@ -127,7 +132,9 @@ static bool scalar_in_range(struct keys *keys, const struct keys_value *value, d
     bool bounded = key->min != 0 || key->max != 0;
     if (isfinite(number) && (!bounded || (number >= key->min && number <= key->max))) return true;
     const char *given = scalar_number(keys->forest, number);
-    if (!isfinite(number)) keys_error(keys, value, "the number is too large");
+    if (key->min == key->max)
+        keys_error(keys, value, "%s is not possible, only %s", given, scalar_number(keys->forest, key->min));
+    else if (!isfinite(number)) keys_error(keys, value, "the number is too large");
     else if (number < key->min && key->min == KEYS_POSITIVE)
         keys_error(keys, value, "%s%s%s is not above 0", given, gap, unit);
     else if (key->max == KEYS_MOST)

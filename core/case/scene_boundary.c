@@ -2,7 +2,9 @@
 #include "case/scene_draft.h"
 
 #include "base/mem.h"
+#include "base/status.h"
 #include "base/text.h"
+#include "case/series.h"
 
 #include <string.h>
 
@@ -69,6 +71,19 @@ static const struct key scene_boundary_gaussian[] = {
     {0},
 };
 
+static const struct key scene_boundary_series[] = {
+    {.name = "file",
+     .type = KEYS_TEXT,
+     .required = true,
+     .doc = "CSV file with a time [s] (ascending) and a gauge pressure [Pa], relative to this file."},
+    {.name = "columns",
+     .type = KEYS_TEXT,
+     .many = KEYS_LIST,
+     .fallback = "[1, 2]",
+     .doc = "Names or numbers of the columns of time and pressure."},
+    {0},
+};
+
 static const struct key scene_boundary_lua[] = {
     {.name = "lua",
      .type = KEYS_TEXT,
@@ -83,13 +98,13 @@ static const struct keys_section scene_boundary_pulses[] = {
      .doc = "Shock-wave lithotripter: 2 amplitude exp(-decay t) cos(2 pi frequency t + pi/3)."},
     {.name = "sine", .keys = scene_boundary_sine, .doc = "amplitude sin(2 pi frequency t)."},
     {.name = "gaussian", .keys = scene_boundary_gaussian, .doc = "amplitude exp(-((t - center)/width)^2)."},
+    {.name = "series", .keys = scene_boundary_series, .doc = "Measured pulse, interpolated linearly."},
     {.name = "lua", .keys = scene_boundary_lua, .doc = "Gauge pressure from a Lua function."},
 };
 
-static const struct keys_section *const scene_boundary_pulse_cases[] = {&scene_boundary_pulses[0],
-                                                                        &scene_boundary_pulses[1],
-                                                                        &scene_boundary_pulses[2],
-                                                                        &scene_boundary_pulses[3], NULL};
+static const struct keys_section *const scene_boundary_pulse_cases[] = {
+    &scene_boundary_pulses[0], &scene_boundary_pulses[1], &scene_boundary_pulses[2],
+    &scene_boundary_pulses[3], &scene_boundary_pulses[4], NULL};
 
 static const struct key scene_boundary_wave[] = {
     {.name = "pulse", .type = KEYS_CHOICE, .required = true, .doc = "The form of the wave in time."},
@@ -152,11 +167,46 @@ const struct keys_section scene_boundary_keys = {.name = "boundary",
                                                  .selector = "type",
                                                  .cases = scene_boundary_cases};
 
+static double *scene_boundary_copy(const double *numbers, unsigned count)
+{
+    double *copy = mem_new(count, sizeof *copy);
+    memcpy(copy, numbers, count * sizeof *copy);
+    return copy;
+}
+
+static int scene_boundary_series_take(struct scene_boundary *boundary, const struct series *series, const char *time,
+                                      const char *pressure)
+{
+    const double *t, *p;
+    TRY(series_column(series, time, &t));
+    TRY(series_column(series, pressure, &p));
+    TRY(series_ascending(series, time));
+    boundary->n_series = (unsigned)series->n_row;
+    boundary->series_t = scene_boundary_copy(t, boundary->n_series);
+    boundary->series_p = scene_boundary_copy(p, boundary->n_series);
+    return STATUS_OK;
+}
+
+static void scene_boundary_read_series(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+{
+    const struct keys_value *file = keys_at(map, "file"), *columns = keys_at(map, "columns");
+    if (!file->given || !columns->given) return;
+    if (columns->count != 2) {
+        keys_error(&draft->keys, columns, "two columns are needed, time and pressure, not %u", columns->count);
+        return;
+    }
+    struct series series = {0};
+    int code = series_read(scene_file(draft, file), &series);
+    if (!code) code = scene_boundary_series_take(boundary, &series, columns->list[0].text, columns->list[1].text);
+    if (code) keys_error(&draft->keys, file, "%s", status_text());
+    series_done(&series);
+}
+
 static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     boundary->pressure = scene_state_value(keys_at(map, "pressure"));
+    if (!keys_at(map, "pulse")->given) return;
     boundary->pulse = (enum scene_pulse)keys_at(map, "pulse")->integer;
-    if (keys_at(map, "lua")->given) boundary->pulse = SCENE_PULSE_SCRIPT;
     boundary->amplitude = keys_at(map, "amplitude")->number;
     boundary->frequency = keys_at(map, "frequency")->number;
     boundary->decay = keys_at(map, "decay")->number;
@@ -165,6 +215,7 @@ static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary 
     boundary->width = keys_at(map, "width")->number;
     boundary->delay = keys_at(map, "delay")->number;
     boundary->compressive_only = keys_at(map, "compressive-only")->integer != 0;
+    if (boundary->pulse == SCENE_PULSE_SERIES) scene_boundary_read_series(draft, boundary, map);
     if (keys_at(map, "lua")->given) boundary->script = scene_file_lua(draft, keys_at(map, "lua"));
 }
 
@@ -234,11 +285,8 @@ static bool scene_boundary_default(struct draft *draft, int axis, int side, cons
     tree_set(draft->keys.forest, map, "type",
              tree_scalar(draft->keys.forest, &map->mark, TREE_PLAIN, sphere ? "symmetry" : "axis"));
     draft->scene->boundary[0][0].type = sphere ? SCENE_SYMMETRY : SCENE_AXIS;
-    struct node *rest = tree_map(draft->keys.forest, &map->mark);
-    tree_set(draft->keys.forest, rest, "x-", map);
-    for (unsigned i = 0; i < boundaries->node->count; i++)
-        tree_add(draft->keys.forest, rest, boundaries->node->keys[i], boundaries->node->items[i]);
-    *boundaries->node = *rest;
+    tree_set(draft->keys.forest, boundaries->node, "x-", map);
+    tree_first(boundaries->node, boundaries->node->count - 1);
     return true;
 }
 

@@ -123,6 +123,7 @@ static void scene_domain_geometry(struct draft *draft, const struct keys_map *do
     struct scene *scene = draft->scene;
     const struct keys_value *geometry = keys_at(domain, "geometry"), *lower = keys_at(domain, "lower");
     scene->geometry = (enum scene_geometry)geometry->integer;
+    if (!geometry->given) scene->dim = 0; /* what depends on it is not judged */
     if (scene->geometry == SCENE_CARTESIAN || scene->dim == 0) return;
     int most = scene->geometry == SCENE_SPHERICAL ? 1 : 2;
     if (scene->dim > most)

@@ -92,7 +92,11 @@ static void scene_history_value(struct draft *draft, struct scene_column *column
         return;
     }
     const char *arguments = scene_history_uses(draft, column, value);
-    if (arguments) params_compile(draft->keys.params, value->node, value->path, arguments, &column->script);
+    if (!arguments || params_compile(draft->keys.params, value->node, value->path, arguments, &column->script)) return;
+    const char *above = "";
+    for (const struct scene_column *at = draft->scene->columns; at < column; at++)
+        above = tree_print(draft->keys.forest, "%s, %s", above, at->name);
+    diag_help(draft->keys.diag, "columns that stand further up can be used: t%s", above);
 }
 
 static void scene_history_measure(struct draft *draft, struct scene_column *column, const struct keys_value *value)

@@ -131,8 +131,10 @@ static void scene_output_folder(struct draft *draft, const struct keys_map *outp
     if (!scene->directory)
         scene->directory = directory->given ? mem_text(directory->text) : mem_print("out/%s", scene->name);
     if (!output) return;
+    bool first = !directory->node;
     tree_set(draft->keys.forest, output->node, "directory",
              tree_scalar(draft->keys.forest, &output->node->mark, TREE_QUOTED, scene->directory));
+    if (first) tree_first(output->node, output->node->count - 1);
 }
 
 static void scene_output_probe_read(struct draft *draft, struct scene_probe *probe, const struct keys_value *value)

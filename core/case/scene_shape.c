@@ -135,6 +135,7 @@ static bool scene_shape_ball(struct draft *draft, struct shape *shape, const str
     bool ring = shape->type == SHAPE_RING, good = scene_domain_vector(draft, keys_at(map, "center"), shape->a);
     shape->radius = keys_at(map, ring ? "outer" : "radius")->number;
     shape->inner = inner->number;
+    good &= shape->radius > 0.0;
     if (ring && inner->given && shape->inner >= shape->radius) {
         keys_error(&draft->keys, inner, "the inner radius is not less than the outer one");
         good = false;
@@ -154,6 +155,7 @@ static bool scene_shape_rod(struct draft *draft, struct shape *shape, const stru
     bool good = scene_domain_vector(draft, keys_at(map, "from"), shape->a);
     good &= scene_domain_vector(draft, keys_at(map, "to"), shape->b);
     shape->radius = keys_at(map, "radius")->number;
+    good &= shape->radius > 0.0;
     const struct keys_value here = {.node = map->node, .path = map->path};
     if (draft->scene->dim != 3) {
         keys_error(&draft->keys, &here, "a cylinder needs three axes; in fewer use a box or a sphere (a disc in 2D)");

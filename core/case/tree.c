@@ -126,6 +126,15 @@ void tree_set(struct forest *forest, struct node *map, const char *key, struct n
     else tree_add(forest, map, tree_scalar(forest, &item->mark, TREE_PLAIN, key), item);
 }
 
+void tree_first(struct node *map, unsigned index)
+{
+    struct node *key = map->keys[index], *item = map->items[index];
+    memmove(map->keys + 1, map->keys, index * sizeof(struct node *));
+    memmove(map->items + 1, map->items, index * sizeof(struct node *));
+    map->keys[0] = key;
+    map->items[0] = item;
+}
+
 void tree_remove(struct node *node, unsigned index)
 {
     size_t rest = (node->count - index - 1) * sizeof(struct node *);

@@ -41,6 +41,9 @@ void tree_append(struct forest *forest, struct node *list, struct node *item);
 void tree_add(struct forest *forest, struct node *map, struct node *key, struct node *item);
 void tree_set(struct forest *forest, struct node *map, const char *key, struct node *item);
 
+/* Makes an entry the first one of a map. */
+void tree_first(struct node *map, unsigned index);
+
 /* Takes entry `index` out of a list or map. */
 void tree_remove(struct node *node, unsigned index);
 

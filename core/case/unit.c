@@ -250,12 +250,25 @@ const char *unit_examples(const struct unit *unit)
     return family ? family->examples : NULL;
 }
 
-/* How far a candidate is from what was written: a wrong case is nearest, then typing errors;
- * a wrong dimension counts as one more. 9: not at all. */
-static unsigned unit_distance(const char *bad, const char *candidate, bool wanted)
+/* Is it one of the units that people use for the dimension? */
+static bool unit_is_example(const char *symbol, const struct unit *wanted)
 {
-    unsigned edits = strcasecmp(bad, candidate) == 0 ? 1 : 2 * text_distance(bad, candidate);
-    return edits > 2 ? 9 : edits + !wanted;
+    const char *at = wanted ? unit_examples(wanted) : NULL;
+    for (size_t length; at && *at; at += length + strspn(at + length, ", ")) {
+        length = strcspn(at, ",");
+        if (strlen(symbol) == length && strncmp(symbol, at, length) == 0) return true;
+    }
+    return false;
+}
+
+/* How far a candidate is from what was written: a wrong case is nearest, then typing errors;
+ * among equals, units that people use for the wanted dimension. 9: not at all. */
+static unsigned unit_distance(const char *bad, const char *candidate, bool example, bool same)
+{
+    unsigned edits = text_distance(bad, candidate);
+    if (strcasecmp(bad, candidate) == 0) return example ? 0 : 1;
+    if (edits > 1 || strlen(bad) < 2) return 9;
+    return 4U - (same ? 2U : 0U) - (example ? 1U : 0U);
 }
 
 void unit_guess(const char *bad, const struct unit *wanted, char ret_symbol[static 32])
@@ -269,7 +282,7 @@ void unit_guess(const char *bad, const struct unit *wanted, char ret_symbol[stat
             char candidate[32];
             snprintf(candidate, sizeof candidate, "%s%s", pass ? unit_prefixes[pass - 1].name : "",
                      unit_symbols[i].name);
-            unsigned distance = unit_distance(bad, candidate, same);
+            unsigned distance = unit_distance(bad, candidate, unit_is_example(candidate, wanted), same);
             if (distance >= least) continue;
             least = distance;
             memcpy(ret_symbol, candidate, sizeof candidate);

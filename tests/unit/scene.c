@@ -1,0 +1,323 @@
+/* Cases as files. Every file of tests/data/case/bad ends with what must be said about it: one
+ * line `# expect: LINE:COLUMN: words` per error (or `# expect: --set ...: words`), none more,
+ * and `# help: words`. Every file of good is read without an error, and what `bulla show` makes of it
+ * reads back to the same text. `# set:` and `# variant:` lines are command-line options. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "base/status.h"
+#include "case/scene.h"
+#include "case/tree.h"
+
+#include <glob.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { LINES = 32, LINE = 512 };
+
+/* The `# WORD: ` lines of a file. */
+struct notes {
+    char line[LINES][LINE];
+    unsigned count;
+};
+
+static struct notes notes_of(const char *path, const char *word)
+{
+    struct notes notes = {.count = 0};
+    char line[4096], head[64];
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    int length = snprintf(head, sizeof head, "# %s: ", word);
+    while (fgets(line, sizeof line, file)) {
+        line[strcspn(line, "\r\n")] = '\0';
+        if (strncmp(line, head, (size_t)length) != 0) continue;
+        assert_true(notes.count < LINES);
+        snprintf(notes.line[notes.count++], LINE, "%.*s", LINE - 1, line + length);
+    }
+    fclose(file);
+    return notes;
+}
+
+/* Reads a case with the options it notes; what was printed comes back in `ret_said`. */
+static int read_case(const char *path, struct scene **ret_scene, char **ret_said)
+{
+    struct notes sets = notes_of(path, "set"), variant = notes_of(path, "variant");
+    const char *list[LINES + 1] = {NULL};
+    size_t length;
+    for (unsigned i = 0; i < sets.count; i++) list[i] = sets.line[i];
+    struct scene_options options = {.sets = list, .variant = variant.count ? variant.line[0] : NULL};
+    options.messages = open_memstream(ret_said, &length);
+    int code = scene_read(path, &options, ret_scene);
+    fclose(options.messages);
+    return code;
+}
+
+static unsigned count_of(const char *text, const char *word)
+{
+    unsigned count = 0;
+    for (; (text = strstr(text, word)) != NULL; text += strlen(word)) count++;
+    return count;
+}
+
+/* Is there a line that begins with "PATH:12:3: error: " (or "--set ...: error: ") and goes on with the words? */
+static int says(const char *said, const char *path, const char *expected)
+{
+    char head[2 * LINE];
+    const char *words = strstr(expected, ": ");
+    assert_non_null(words);
+    int place = (int)(words - expected);
+    if (expected[0] == '-') snprintf(head, sizeof head, "%.*s: error: ", place, expected);
+    else snprintf(head, sizeof head, "%s:%.*s: error: ", path, place, expected);
+    for (const char *line = said; *line; line += strcspn(line, "\n"), line += *line == '\n') {
+        if (strncmp(line, head, strlen(head)) != 0) continue;
+        char rest[LINE];
+        snprintf(rest, sizeof rest, "%.*s", (int)strcspn(line, "\n"), line);
+        if (strstr(rest, words + 2)) return 1;
+    }
+    return 0;
+}
+
+static void check_bad(const char *path)
+{
+    struct notes expected = notes_of(path, "expect"), helps = notes_of(path, "help");
+    struct scene *scene = NULL;
+    char *said = NULL;
+    int code = read_case(path, &scene, &said);
+    int good = code == STATUS_CASE && scene == NULL && expected.count > 0;
+    good = good && count_of(said, ": error: ") == expected.count;
+    for (unsigned i = 0; i < expected.count; i++) good = good && says(said, path, expected.line[i]);
+    for (unsigned i = 0; i < helps.count; i++) good = good && strstr(said, helps.line[i]) != NULL;
+    if (!good) fail_msg("%s: code %d, said:\n%s", path, code, said);
+    free(said);
+}
+
+static void for_files(const char *pattern, unsigned least, void (*check)(const char *path))
+{
+    glob_t found;
+    assert_int_equal(glob(pattern, 0, NULL, &found), 0);
+    assert_true(found.gl_pathc >= least);
+    for (size_t i = 0; i < found.gl_pathc; i++) check(found.gl_pathv[i]);
+    globfree(&found);
+}
+
+static void in_folder(const char *folder, void (*run)(void))
+{
+    char here[4096];
+    assert_non_null(getcwd(here, sizeof here));
+    assert_int_equal(chdir(folder), 0);
+    run();
+    assert_int_equal(chdir(here), 0);
+}
+
+static void run_bad(void)
+{
+    for_files("*.yaml", 70, check_bad);
+}
+
+static void bad_cases_are_refused_with_their_message(void **state)
+{
+    (void)state;
+    in_folder("tests/data/case/bad", run_bad);
+}
+
+/* The resolved text again, through a file: resolves to itself, with nothing to say. */
+static void check_again(const char *name, const char *text)
+{
+    char folder[] = "/tmp/bulla-XXXXXX", path[4096], *said = NULL;
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    struct scene *scene = NULL;
+    if (read_case(path, &scene, &said)) fail_msg("%s resolved is refused:\n%s\n%s", name, said, text);
+    assert_string_equal(said, "");
+    assert_string_equal(scene->resolved, text);
+    scene_free(scene);
+    free(said);
+    unlink(path);
+    rmdir(folder);
+}
+
+static void check_good(const char *path)
+{
+    struct scene *scene = NULL;
+    char *said = NULL;
+    if (read_case(path, &scene, &said)) fail_msg("%s is refused:\n%s", path, said);
+    check_again(path, scene->resolved);
+    scene_free(scene);
+    free(said);
+}
+
+static void run_good(void)
+{
+    for_files("*.yaml", 14, check_good);
+}
+
+static void good_cases_resolve_to_a_fixed_point(void **state)
+{
+    (void)state;
+    in_folder("tests/data/case/good", run_good);
+}
+
+static struct scene *good(const char *name)
+{
+    char path[256], *said = NULL;
+    struct scene *scene = NULL;
+    snprintf(path, sizeof path, "tests/data/case/good/%s.yaml", name);
+    if (read_case(path, &scene, &said)) fail_msg("%s is refused:\n%s", path, said);
+    free(said);
+    return scene;
+}
+
+static void the_least_case_has_all_defaults(void **state)
+{
+    (void)state;
+    struct scene *scene = good("minimal");
+    assert_string_equal(scene->name, "minimal");
+    assert_int_equal(scene->dim, 1);
+    assert_int_equal(scene->geometry, SCENE_CARTESIAN);
+    assert_int_equal(scene->cells[0], 10);
+    assert_int_equal(scene->cells[1], 1);
+    assert_int_equal(scene->levels, 0);
+    assert_int_equal(scene->closure, SCENE_KAPILA);
+    assert_string_equal(scene->riemann.module->name, "hllc");
+    assert_string_equal(scene->limiter.module->name, "mc");
+    assert_true(scene->cfl == 0.4);
+    assert_true(scene->dt_fixed == 0.0);
+    assert_int_equal(scene->guard, SCENE_GUARD_NORMAL);
+    assert_int_equal(scene->max_steps, 0);
+    assert_string_equal(scene->directory, "out/minimal");
+    assert_int_equal(scene->history.steps, 1);
+    assert_int_equal(scene->snapshots.steps, 0);
+    assert_true(scene->snapshots.time == 0.0);
+    assert_int_equal(scene->n_column, 0);
+    scene_free(scene);
+}
+
+static void the_design_case_is_understood(void **state)
+{
+    (void)state;
+    struct scene *scene = good("design");
+    assert_int_equal(scene->geometry, SCENE_AXISYMMETRIC);
+    assert_true(scene->lower[1] == -0.25e-3 && scene->upper[0] == 0.25e-3);
+    const struct scene_boundary *top = &scene->boundary[1][1];
+    assert_int_equal(top->type, SCENE_INCOMING_WAVE);
+    assert_int_equal(top->pulse, SCENE_PULSE_LITHOTRIPTER);
+    assert_true(top->amplitude == 30e6 && top->frequency == 83.3e3 && top->decay == 9.1e5);
+    assert_false(top->pressure.given);
+    assert_int_equal(scene->tile, 16);
+    assert_int_equal(scene->n_material, 3);
+    assert_true(scene->material[2].eos.values[instance_param_find(scene->material[2].eos.module, "p-inf")].number ==
+                616576970.0);
+    assert_int_equal(scene->n_layer, 3);
+    const struct scene_layer *bubble = &scene->layers[2];
+    assert_int_equal(bubble->shape->type, SHAPE_SPHERE);
+    assert_true(bubble->shape->a[1] == 1.1 * 10e-6 && bubble->centre[1] == 1.1 * 10e-6);
+    assert_true(bubble->shape->radius == 10e-6);
+    assert_true(bubble->fractions[1] == 1.0 && bubble->fractions[0] == 0.0);
+    assert_true(bubble->density[1].number == 1.225);
+    assert_false(bubble->density[0].given);
+    assert_true(scene->snapshots.time == 20e-9);
+    assert_int_equal(scene->n_snapshot_field, 4);
+    assert_int_equal(scene->columns[1].in, 2);
+    assert_int_equal(scene->columns[2].along, 1);
+    assert_int_equal(scene->checkpoints_keep, 2);
+    assert_string_equal(scene->probes[0].fields[0], "pressure");
+    assert_string_equal(scene->expects[0].value, "min(V)/first(V)");
+    scene_free(scene);
+}
+
+static void expressions_become_numbers_or_scripts(void **state)
+{
+    (void)state;
+    struct scene *scene = good("expressions");
+    const double x[SCENE_AXES] = {2e-3, 0.0, 0.0};
+    double value;
+    assert_int_equal(scene->cells[0], 64);
+    assert_true(scene->until == 1.5 * (0.915 * 1e-3 * sqrt(998.2 / (20 * 101325.0))));
+    assert_int_equal(scene->boundary[0][0].type, SCENE_SYMMETRY);
+    assert_non_null(scene->layers[0].pressure.script);
+    assert_int_equal(scene_value_at(&scene->layers[0].pressure, x, 2e-3, 0.0, &value), STATUS_OK);
+    assert_true(fabs(value - (20 * 101325.0 + 0.5 * (101325.0 - 20 * 101325.0))) < 1e-6);
+    assert_null(scene->layers[1].pressure.script);
+    assert_int_equal(scene_value_at(&scene->layers[1].pressure, x, 0.0, 0.0, &value), STATUS_OK);
+    assert_true(value == 101325.0);
+    const struct scene_column *twice = &scene->columns[2];
+    assert_int_equal(twice->n_use, 2);
+    assert_string_equal(twice->uses[0], "t");
+    assert_string_equal(twice->uses[1], "R_over_R0");
+    assert_true(scene->expects[0].relative == 0.015);
+    scene_free(scene);
+}
+
+static void overlays_are_laid_in_order(void **state)
+{
+    (void)state;
+    struct scene *scene = good("extends");
+    assert_int_equal(scene->cells[0], 32);
+    assert_int_equal(scene->n_material, 2);
+    assert_string_equal(scene->material[1].eos.module->name, "nasg");
+    assert_true(scene->layers[1].shape->radius == 20e-6);
+    assert_int_equal(scene->n_column, 2);
+    assert_string_equal(scene->columns[1].name, "p");
+    assert_string_equal(scene->limiter.module->name, "minmod");
+    assert_int_equal(scene->n_variant, 2);
+    assert_string_equal(scene->variants[1], "quick");
+    scene_free(scene);
+}
+
+static void one_number_in_many_units(void **state)
+{
+    (void)state;
+    struct scene *scene = good("units");
+    assert_true(scene->upper[0] == 1.0);
+    assert_true(scene->material[0].eos.values[instance_param_find(scene->material[0].eos.module, "gamma")].number ==
+                1.4);
+    assert_true(scene->material[1].eos.values[instance_param_find(scene->material[1].eos.module, "p-inf")].number ==
+                4049 * 101325.0);
+    assert_true(scene->layers[0].density[0].number == 998.2);
+    assert_true(fabs(scene->layers[0].velocity[0].number - 1.0) < 1e-15);
+    assert_true(scene->layers[1].temperature.number == 310.15);
+    assert_true(scene->until == 120.0);
+    scene_free(scene);
+}
+
+static void waves_and_inflows_keep_their_numbers(void **state)
+{
+    (void)state;
+    struct scene *scene = good("boundaries");
+    const struct scene_boundary *in = &scene->boundary[0][0], *series = &scene->boundary[0][1];
+    assert_int_equal(in->type, SCENE_INFLOW);
+    assert_true(in->fractions[0] == 1.0 && in->density[0].number == 1000.0 && in->velocity[0].number == 1.0);
+    assert_int_equal(series->n_series, 3);
+    assert_true(series->series_t[1] == 1e-6 && series->series_p[1] == 1e6);
+    assert_true(series->compressive_only && series->delay == 1e-6 && series->pressure.number == 1e5);
+    assert_int_equal(scene->boundary[1][0].pulse, SCENE_PULSE_GAUSSIAN);
+    assert_non_null(scene->boundary[1][1].script);
+    assert_true(scene->layers[0].temperature.number == 300.0);
+    scene_free(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_cases_are_refused_with_their_message),
+        cmocka_unit_test(good_cases_resolve_to_a_fixed_point),
+        cmocka_unit_test(the_least_case_has_all_defaults),
+        cmocka_unit_test(the_design_case_is_understood),
+        cmocka_unit_test(expressions_become_numbers_or_scripts),
+        cmocka_unit_test(overlays_are_laid_in_order),
+        cmocka_unit_test(one_number_in_many_units),
+        cmocka_unit_test(waves_and_inflows_keep_their_numbers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
