@@ -7,6 +7,7 @@
 #include "app/plot.h"
 #include "app/plot_option.h"
 #include "app/report.h"
+#include "app/verify.h"
 #include "base/comm.h"
 #include "base/log.h"
 #include "base/status.h"
@@ -23,6 +24,8 @@ static const struct cli_command command_table[] = {
     {"plot", "DIR FIELD|history", "PNG pictures of snapshots and histories.", plot_option_table, 1, -1, plot_command,
      NULL},
     {"report", "DIR", "One HTML page about a run, pictures inside.", report_option_table, 1, 1, report_command, NULL},
+    {"verify", "[ID...]", "Errors, orders and cost of the verification scenes (r09: r09a, r09b, ...; none: all).",
+     verify_option_table, 0, -1, verify_command, NULL},
     {"version", "", "Version of the program.", NULL, 0, 0, command_version, NULL},
     {"help", "[COMMAND]", "This list, or the help of one command.", NULL, 0, 1, command_help, NULL},
 };

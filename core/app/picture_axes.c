@@ -80,11 +80,20 @@ static void axes_level(cairo_t *cr, const struct picture_scale *scale, struct pi
     }
 }
 
+/* Labels longer than what they stand beside are set smaller. */
+static struct picture_text axes_label_font(cairo_t *cr, const char *label, double length)
+{
+    struct picture_text font = axes_labels;
+    double natural = picture_text_width(cr, font, label);
+    if (natural > length) font.size *= length / natural > 0.7 ? length / natural : 0.7;
+    return font;
+}
+
 static void axes_label_below(cairo_t *cr, const struct picture_scale *scale, struct picture_rect run)
 {
     double down = AXES_TICK + AXES_PAD + AXES_GAP + PICTURE_TEXT_HEIGHT * (axes_numbers.size + axes_labels.size);
     double at[2] = {run.x + 0.5 * run.w, run.y + run.h + down};
-    picture_text_draw(cr, axes_labels, at, 0.5, scale->label);
+    picture_text_draw(cr, axes_label_font(cr, scale->label, run.w), at, 0.5, scale->label);
 }
 
 static void axes_pen(cairo_t *cr)
@@ -105,7 +114,8 @@ void picture_axes_draw(cairo_t *cr, struct picture_rect box, const struct pictur
     axes_level(cr, x, box, axes.below);
     if (axes.below) axes_label_below(cr, x, box);
     double out = (axes.room > 0.0 ? axes.room : picture_axes_room(cr, y, true)) - axes_labels.size;
-    picture_text_draw_up(cr, axes_labels, (const double[2]){box.x - out, box.y + 0.5 * box.h}, y->label);
+    picture_text_draw_up(cr, axes_label_font(cr, y->label, box.h + 12.0),
+                         (const double[2]){box.x - out, box.y + 0.5 * box.h}, y->label);
 }
 
 /* The body of a bar without its pointed ends. */
@@ -171,5 +181,6 @@ void picture_axes_bar(cairo_t *cr, struct picture_rect box, const struct picture
     double x = box.x + box.w;
     axes_upright(cr, bar->scale, x, body, 1.0);
     double out = AXES_TICK + AXES_PAD + axes_widest(cr, bar->scale) + AXES_GAP + PICTURE_TEXT_HEIGHT * axes_labels.size;
-    picture_text_draw_up(cr, axes_labels, (const double[2]){x + out, box.y + 0.5 * box.h}, bar->scale->label);
+    picture_text_draw_up(cr, axes_label_font(cr, bar->scale->label, box.h + 12.0),
+                         (const double[2]){x + out, box.y + 0.5 * box.h}, bar->scale->label);
 }

@@ -1,27 +1,30 @@
-/* plot_history.c - see plot_history.h. Each column gets a panel; histories carry no units, so their scales
- * show plain numbers or powers of ten. Columns of probes are fields and have the unit of their field. */
+/* plot_history.c - see plot_history.h. Columns of one unit that follow each other share a panel. */
 #include "app/plot_history.h"
 
 #include "app/chart.h"
 #include "app/picture_canvas.h"
 #include "app/picture_text.h"
+#include "app/plot_case.h"
 #include "app/plot_profile.h"
+#include "app/plot_unit.h"
 #include "app/table.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
-#include "io/read.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { HISTORY_TABLES = 2 };
+enum { HISTORY_TABLES = 2, HISTORY_LABEL = 128 };
 
 struct history {
     struct table tables[HISTORY_TABLES]; /* history.csv, probes.csv */
     char *title;
+    char labels[CHART_PANELS * CHART_SERIES][HISTORY_LABEL];
+    unsigned n_label;
+    struct scene *scene; /* or NULL */
 };
 
 static int history_read(const char *directory, const char *name, struct table *table)
@@ -33,24 +36,6 @@ static int history_read(const char *directory, const char *name, struct table *t
     return code;
 }
 
-/* The title of the case as the last snapshot has it; without snapshots the name of the directory. */
-static char *history_title(const char *directory)
-{
-    struct snapshot_series series = {0};
-    struct snapshot *snapshot = NULL;
-    const char *const nothing[] = {NULL};
-    char *title = NULL;
-    if (read_series(directory, &series) == STATUS_OK) {
-        if (series.n && read_snapshot(series.paths[series.n - 1], nothing, &snapshot) == STATUS_OK)
-            title = mem_text(snapshot->title);
-        read_free(snapshot);
-        read_series_done(&series);
-    }
-    if (title) return title;
-    const char *slash = strrchr(directory, '/');
-    return mem_text(slash && slash[1] ? slash + 1 : directory);
-}
-
 static int history_open(const char *directory, struct history *history)
 {
     *history = (struct history){0};
@@ -58,7 +43,8 @@ static int history_open(const char *directory, struct history *history)
     TRY(history_read(directory, "probes.csv", &history->tables[1]));
     if (!history->tables[0].n_column && !history->tables[1].n_column)
         return status_fail(STATUS_CASE, "no history.csv and no probes.csv in %s", directory);
-    history->title = history_title(directory);
+    history->title = plot_case_title(directory);
+    history->scene = plot_unit_scene(directory);
     return STATUS_OK;
 }
 
@@ -66,6 +52,7 @@ static void history_done(struct history *history)
 {
     for (int i = 0; i < HISTORY_TABLES; i++) table_done(&history->tables[i]);
     mem_free(history->title);
+    scene_free(history->scene);
 }
 
 static int history_unknown(const struct history *history, const char *column)
@@ -88,42 +75,46 @@ static int history_unknown(const struct history *history, const char *column)
     return code;
 }
 
-/* The unit of a column, as far as its name tells: probes are named <probe>.<field>. */
-static const char *history_unit(const char *column)
+/* "wall.pressure" is the pressure at wall; columns of the case keep their names. */
+static const char *history_label(struct history *history, const char *column)
 {
-    static const char *const units[][2] = {
-        {"pressure", "Pa"}, {"density", "kg/m3"}, {"velocity", "m/s"},    {"temperature", "K"},
-        {"stress", "Pa"},   {"sigma", "Pa"},      {"sound_speed", "m/s"},
-    };
+    char *label = history->labels[history->n_label++ % (CHART_PANELS * CHART_SERIES)];
     const char *dot = strchr(column, '.');
-    if (strcmp(column, "dt") == 0) return "s";
-    for (size_t i = 0; dot && i < sizeof units / sizeof *units; i++)
-        if (strncmp(dot + 1, units[i][0], strlen(units[i][0])) == 0) return units[i][1];
-    return "";
+    if (!dot) return column;
+    snprintf(label, HISTORY_LABEL, "%s at %.*s", dot + 1, (int)(dot - column), column);
+    for (char *c = label; *c && *c != ' '; c++)
+        if (*c == '_') *c = ' ';
+    return label;
 }
 
-static int history_add(const struct history *history, const char *column, struct chart *chart, const char **units)
+static int history_add(struct history *history, const char *column, struct chart *chart, const char **units)
 {
     for (int i = 0; i < HISTORY_TABLES; i++) {
         const struct table *table = &history->tables[i];
         const double *y = table_column(table, column), *t = table_column(table, "t");
         if (!y || !t) continue;
-        struct chart_series series = {.name = column, .n = table->n_row, .x = t, .y = y};
-        return plot_profile_add(chart, units, series, history_unit(column));
+        struct chart_series series = {.name = history_label(history, column), .n = table->n_row, .x = t, .y = y};
+        return plot_profile_add(chart, units, series, plot_unit_of(history->scene, column));
     }
     return history_unknown(history, column);
 }
 
-static int history_fill(const struct history *history, const char *const *columns, unsigned n, struct chart *chart,
+/* Worth a panel without being asked for: what the case measures, and what the guard did if it did anything. */
+static bool history_is_telling(const struct table *table, unsigned c)
+{
+    const char *name = table->names[c];
+    if (strcmp(name, "t") == 0 || strcmp(name, "step") == 0 || strcmp(name, "dt") == 0) return false;
+    if (strncmp(name, "guard_", 6) != 0) return true;
+    return table->n_row && table->columns[c][table->n_row - 1] > 0.0;
+}
+
+static int history_fill(struct history *history, const char *const *columns, unsigned n, struct chart *chart,
                         const char **units)
 {
     for (unsigned i = 0; i < n; i++) TRY(history_add(history, columns[i], chart, units));
     const struct table *table = &history->tables[0];
-    for (unsigned c = 0; n == 0 && c < table->n_column && chart->n_panel < CHART_PANELS; c++) {
-        const char *name = table->names[c];
-        if (strcmp(name, "t") && strcmp(name, "step") && strcmp(name, "dt"))
-            TRY(history_add(history, name, chart, units));
-    }
+    for (unsigned c = 0; n == 0 && c < table->n_column && chart->n_panel < CHART_PANELS; c++)
+        if (history_is_telling(table, c)) TRY(history_add(history, table->names[c], chart, units));
     if (!chart->n_panel)
         return status_fail(STATUS_CASE,
                            "history.csv has no columns of its own; name one: dt, or a column of probes.csv");
@@ -146,7 +137,7 @@ static void history_window(const struct chart *chart, const struct plot_option *
     }
 }
 
-static int history_draw(const struct history *history, const char *const *columns, unsigned n,
+static int history_draw(struct history *history, const char *const *columns, unsigned n,
                         const struct plot_option *option, cairo_surface_t **ret_image)
 {
     struct chart chart = {.title = history->title, .note = ""};

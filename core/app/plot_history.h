@@ -6,7 +6,8 @@
 
 #include <cairo.h>
 
-/* Draws the named columns ("V", "pmax", "wall.pressure"; none: all of history.csv but step and dt) of a run's
+/* Draws the named columns ("V", "pmax", "wall.pressure"; none: what history.csv
+ * measures) of a run's
  * directory. An unknown column is STATUS_CASE with those that are there. The caller destroys the image. */
 int plot_history_draw(const char *directory, const char *const *columns, unsigned n, const struct plot_option *option,
                       cairo_surface_t **ret_image);

@@ -2,7 +2,7 @@
 #include "app/plot_option.h"
 
 #include "base/status.h"
-#include "base/text.h"
+#include "case/unit.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,14 +35,23 @@ const struct cli_option *const plot_option_table[] = {
     &option_left,   &option_right, &option_contour, &option_tiles, &option_width, NULL,
 };
 
-/* A number at the start of `text`, which ends at `stop`. */
-static int option_number(const char *name, const char *whole, const char *text, size_t length, double *ret)
+/* What a number must be a quantity of: nothing in particular, a length, a time. */
+enum option_kind { OPTION_ANY, OPTION_LENGTH, OPTION_TIME };
+
+/* The first `length` bytes of `text`: a number in SI or with a unit of the kind. */
+static int option_number(const char *name, const char *text, size_t length, enum option_kind kind, double *ret)
 {
-    char word[64];
+    static const struct unit wanted[] = {[OPTION_LENGTH] = {.power = {1}}, [OPTION_TIME] = {.power = {0, 0, 1}}};
+    char word[64], bad[32], words[64];
+    struct unit unit;
     snprintf(word, sizeof word, "%.*s", (int)length, text);
-    size_t used = text_number(word, ret);
-    if (used && !word[used]) return STATUS_OK;
-    return status_fail(STATUS_CASE, "%s %s: '%s' is no number", name, whole, word);
+    enum unit_fault fault = unit_quantity(word, ret, &unit, bad);
+    if (fault == UNIT_UNKNOWN) return status_fail(STATUS_CASE, "%s: there is no unit '%s' in '%s'", name, bad, word);
+    if (fault != UNIT_FINE) return status_fail(STATUS_CASE, "%s: '%s' is no number", name, word);
+    bool plain = unit_same(&unit, &(struct unit){0});
+    if (kind == OPTION_ANY || plain || unit_same(&unit, &wanted[kind])) return STATUS_OK;
+    return status_fail(STATUS_CASE, "%s: '%s' is %s; %s is needed", name, word, unit_kind(&unit, words, sizeof words),
+                       kind == OPTION_TIME ? "a time" : "a length");
 }
 
 static int option_span(const struct cli_given *given, const char *name, struct plot_option_span *ret)
@@ -51,8 +60,8 @@ static int option_span(const struct cli_given *given, const char *name, struct p
     if (!text) return STATUS_OK;
     const char *comma = strchr(text, ',');
     if (!comma) return status_fail(STATUS_CASE, "%s %s: two numbers with a comma are needed: %s 0,1", name, text, name);
-    TRY(option_number(name, text, text, (size_t)(comma - text), &ret->lo));
-    TRY(option_number(name, text, comma + 1, strlen(comma + 1), &ret->hi));
+    TRY(option_number(name, text, (size_t)(comma - text), OPTION_ANY, &ret->lo));
+    TRY(option_number(name, comma + 1, strlen(comma + 1), OPTION_ANY, &ret->hi));
     if (!(ret->lo < ret->hi))
         return status_fail(STATUS_CASE, "%s %s: the first number must be less than the second", name, text);
     ret->given = true;
@@ -67,7 +76,7 @@ static int option_slices(const struct cli_given *given, struct plot_option *opti
         int axis = text[0] == 'r' ? 0 : text[0] - 'x';
         if (axis < 0 || axis > 2 || text[1] != '=')
             return status_fail(STATUS_CASE, "--slice %s: say which axis and where: --slice z=0", text);
-        TRY(option_number("--slice", text, text + 2, strlen(text + 2), &option->slice[axis]));
+        TRY(option_number("--slice", text + 2, strlen(text + 2), OPTION_LENGTH, &option->slice[axis]));
         option->sliced[axis] = true;
     }
     return STATUS_OK;
@@ -85,7 +94,7 @@ static int option_when(const struct cli_given *given, struct plot_option *option
     }
     TRY(cli_count(given, "--step", 0, &option->step));
     const char *time = cli_value(given, "--time");
-    return time ? option_number("--time", time, time, strlen(time), &option->time) : STATUS_OK;
+    return time ? option_number("--time", time, strlen(time), OPTION_TIME, &option->time) : STATUS_OK;
 }
 
 int plot_option_read(const struct cli_given *given, struct plot_option *ret_option)

@@ -35,7 +35,8 @@ static void profile_name(const struct chart_panel *panel, char *ret_name, size_t
         ret_name[word] = '\0';
     }
     size_t length = strlen(ret_name);
-    if (panel->n_series > 1 && length > 3 && strcmp(ret_name + length - 3, " of") == 0) ret_name[length - 3] = '\0';
+    const char *tail = length > 3 ? ret_name + length - 3 : "";
+    if (panel->n_series > 1 && (strcmp(tail, " of") == 0 || strcmp(tail, " at") == 0)) ret_name[length - 3] = '\0';
 }
 
 static int profile_panel_range(const struct chart_panel *panel, const double window[2],

@@ -1,6 +1,7 @@
 /* report.c - see report.h. Pictures are those of `bulla plot` with its defaults. */
 #include "app/report.h"
 
+#include "app/plot_case.h"
 #include "app/plot_history.h"
 #include "app/plot_picture.h"
 #include "app/report_facts.h"
@@ -17,7 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { REPORT_WIDTH = 900, REPORT_FRAMES = 4 };
+enum { REPORT_WIDTH = 900, REPORT_FRAMES = 4, REPORT_COLUMNS = 12 };
 
 static const struct cli_option report_output = {"--output", "-o", "FILE.html", "Where to write (DIR/report.html)."};
 const struct cli_option *const report_option_table[] = {&report_output, NULL};
@@ -95,7 +96,6 @@ static int report_snapshots(struct text *page, const char *directory)
     return code;
 }
 
-/* Charts of history.csv, or of the columns of probes.csv. */
 static int report_columns(struct text *page, const char *directory, const char *title, const char *const *columns,
                           unsigned n)
 {
@@ -108,16 +108,19 @@ static int report_columns(struct text *page, const char *directory, const char *
     return code;
 }
 
+/* A chart of the columns of history.csv or probes.csv but t, step, dt and the counts of the guard. */
 static int report_table(struct text *page, const char *directory, const char *name, const char *title)
 {
     struct table table = {0};
-    const char *columns[12];
+    const char *columns[REPORT_COLUMNS];
     unsigned n = 0;
     char *path = mem_print("%s/%s", directory, name);
     int code = access(path, F_OK) == 0 ? table_read(path, &table) : STATUS_OK;
-    for (unsigned c = 0; c < table.n_column && n < sizeof columns / sizeof *columns; c++)
-        if (strcmp(table.names[c], "t") && strcmp(table.names[c], "step") && strcmp(table.names[c], "dt"))
-            columns[n++] = table.names[c];
+    for (unsigned c = 0; c < table.n_column && n < REPORT_COLUMNS; c++) {
+        const char *column = table.names[c];
+        if (strcmp(column, "t") && strcmp(column, "step") && strcmp(column, "dt") && strncmp(column, "guard_", 6))
+            columns[n++] = column;
+    }
     if (!code && n && table.n_row) code = report_columns(page, directory, title, columns, n);
     table_done(&table);
     mem_free(path);
@@ -136,10 +139,10 @@ static int report_save(const struct text *page, const char *path)
 
 static int report_compose(struct text *page, const char *directory)
 {
-    char *title = report_facts_scalar(directory, "title");
-    report_html_begin(page, title ? title : directory);
+    char *title = plot_case_title(directory);
+    report_html_begin(page, title);
     mem_free(title);
-    report_facts_head(page, directory, directory);
+    report_facts_head(page, directory);
     report_facts_run(page, directory);
     report_facts_expect(page, directory);
     TRY(report_table(page, directory, "history.csv", "History"));

@@ -2,6 +2,7 @@
 #include "app/report_facts.h"
 
 #include "app/picture_scale.h"
+#include "app/plot_case.h"
 #include "app/report_html.h"
 #include "base/mem.h"
 
@@ -9,7 +10,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <yaml.h>
 
 static json_t *facts_json(const char *directory, const char *name)
 {
@@ -27,46 +27,12 @@ static FILE *facts_open(const char *directory, const char *name)
     return file;
 }
 
-/* The value of a key of the top mapping, in new memory, or NULL. */
-static char *facts_of_document(yaml_document_t *document, const char *key)
+void report_facts_head(struct text *page, const char *directory)
 {
-    yaml_node_t *root = yaml_document_get_root_node(document);
-    if (!root || root->type != YAML_MAPPING_NODE) return NULL;
-    for (yaml_node_pair_t *pair = root->data.mapping.pairs.start; pair < root->data.mapping.pairs.top; pair++) {
-        yaml_node_t *name = yaml_document_get_node(document, pair->key);
-        yaml_node_t *value = yaml_document_get_node(document, pair->value);
-        if (!name || !value || name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE) continue;
-        if (strcmp((const char *)name->data.scalar.value, key) == 0)
-            return mem_text((const char *)value->data.scalar.value);
-    }
-    return NULL;
-}
-
-char *report_facts_scalar(const char *directory, const char *key)
-{
-    FILE *file = facts_open(directory, "case.yaml");
-    char *value = NULL;
-    yaml_parser_t parser;
-    yaml_document_t document;
-    if (!file) return NULL;
-    if (yaml_parser_initialize(&parser)) {
-        yaml_parser_set_input_file(&parser, file);
-        if (yaml_parser_load(&parser, &document)) {
-            value = facts_of_document(&document, key);
-            yaml_document_delete(&document);
-        }
-        yaml_parser_delete(&parser);
-    }
-    fclose(file);
-    return value;
-}
-
-void report_facts_head(struct text *page, const char *directory, const char *fallback)
-{
-    char *title = report_facts_scalar(directory, "title"), *about = report_facts_scalar(directory, "about");
-    char *cite = report_facts_scalar(directory, "cite");
+    char *title = plot_case_title(directory), *about = plot_case_scalar(directory, "about");
+    char *cite = plot_case_scalar(directory, "cite");
     text_add(page, "<h1>");
-    report_html_text(page, title ? title : fallback);
+    report_html_text(page, title);
     text_add(page, "</h1>\n");
     if (about) {
         text_add(page, "<p class=\"about\">");

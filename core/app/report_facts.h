@@ -5,8 +5,8 @@
 
 #include "base/text.h"
 
-/* Title, about and cite of DIR/case.yaml; `fallback` is the title of a run without one. */
-void report_facts_head(struct text *page, const char *directory, const char *fallback);
+/* Title, about and cite of DIR/case.yaml. */
+void report_facts_head(struct text *page, const char *directory);
 
 /* Key figures of DIR/provenance.json. */
 void report_facts_run(struct text *page, const char *directory);
@@ -16,8 +16,5 @@ void report_facts_expect(struct text *page, const char *directory);
 
 /* The whole of DIR/case.yaml, folded. */
 void report_facts_case(struct text *page, const char *directory);
-
-/* A top-level scalar of DIR/case.yaml ("title") in new memory, or NULL. */
-char *report_facts_scalar(const char *directory, const char *key);
 
 #endif

@@ -9,9 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 
-enum { MEM_ALIGN = 64 };
+enum { MEM_ALIGN = 64, MEM_LARGE = 2 << 20 };
 
 static void mem_give_up(size_t count, size_t size)
 {
@@ -19,15 +20,25 @@ static void mem_give_up(size_t count, size_t size)
     comm_abort(STATUS_RUN);
 }
 
-void *mem_new(size_t count, size_t size)
+static void *mem_new_aligned(size_t count, size_t size, size_t align)
 {
-    if (size && count > (SIZE_MAX - MEM_ALIGN) / size) mem_give_up(count, size);
-    size_t bytes = count * size;
-    bytes = (bytes / MEM_ALIGN + 1) * MEM_ALIGN;
-    void *block = aligned_alloc(MEM_ALIGN, bytes);
+    if (size && count > (SIZE_MAX - align) / size) mem_give_up(count, size);
+    size_t bytes = (count * size / align + 1) * align;
+    void *block = aligned_alloc(align, bytes);
     if (!block) mem_give_up(count, size);
+    if (align > MEM_ALIGN) madvise(block, bytes, MADV_HUGEPAGE); /* a wish: refusal does no harm */
     memset(block, 0, bytes);
     return block;
+}
+
+void *mem_new(size_t count, size_t size)
+{
+    return mem_new_aligned(count, size, MEM_ALIGN);
+}
+
+void *mem_new_large(size_t count, size_t size)
+{
+    return mem_new_aligned(count, size, size && count < MEM_LARGE / size ? MEM_ALIGN : MEM_LARGE);
 }
 
 void *mem_grow(void *block, size_t old_count, size_t new_count, size_t size)

@@ -12,6 +12,9 @@
 /* Zeroed, 64-byte aligned memory for `count` items of `size` bytes; free with mem_free. */
 void *mem_new(size_t count, size_t size);
 
+/* The same for large arrays that live long: asks the system for large pages. */
+void *mem_new_large(size_t count, size_t size);
+
 /* Resizes a block made by mem_new or mem_grow (NULL: makes one), keeping the first
  * `old_count` items; new items are zeroed. */
 void *mem_grow(void *block, size_t old_count, size_t new_count, size_t size);

@@ -2,7 +2,7 @@
  *
  * The columns are those of the case (measure.h); after them stand guard_fallback, guard_relaxed,
  * guard_clipped, guard_retries: totals since the start (state.h). `value` columns are scripts of
- * the others. Rows are the same on any number of ranks. */
+ * t and columns before them. Rows are the same on any number of ranks. */
 #ifndef HISTORY_H
 #define HISTORY_H
 

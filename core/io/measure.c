@@ -289,7 +289,7 @@ static double measure_result(struct measures *measures, const struct measure_col
     case SCENE_JET_SPEED: return empty ? NAN : extremes[0] >= extremes[1] ? extremes[0] : -extremes[1];
     case SCENE_PENETRATION: return line_crossing(state, (unsigned)from->material, column->axis) - column->origin;
     case SCENE_ISOSURFACE_MEAN:
-        return surface_mean(state, (unsigned)from->material, &measures->fields[column->field], column->where);
+        return surface_mean(state, (unsigned)from->in, &measures->fields[column->field], column->where);
     case SCENE_VALUE: return NAN;
     default: return sums[0];
     }

@@ -13,7 +13,7 @@
  *   penetration         line_crossing along `along`, less its value when the measures were made
  *   jet-speed           velocity along `along` of largest magnitude, with its sign, over the cells
  *                       with a >= 0.5 (b, f likewise)
- *   isosurface-mean     surface_mean of q on a = 0.5
+ *   isosurface-mean     surface_mean of q on b = 0.5
  * q of a vector field is its magnitude. `along` that is not given is the last axis. An empty set
  * gives NaN. Sums are the same on any number of ranks (tally.h). */
 #ifndef MEASURE_H

@@ -39,6 +39,23 @@ static int snapshot_find_fields(struct snapshots *snapshots, const struct state 
     return STATUS_OK;
 }
 
+/* For a case that names no fields: the primitives of the mixture, and where each material is. */
+static int snapshot_choose_fields(struct snapshots *snapshots, const struct state *state)
+{
+    static const char *const names[] = {"density", "velocity", "pressure"};
+    const struct scene *scene = state->scene;
+    snapshots->fields = mem_new(3u + scene->n_material, sizeof *snapshots->fields);
+    for (; snapshots->n_field < 3; snapshots->n_field++)
+        TRY(derive_find(state->model, names[snapshots->n_field], &snapshots->fields[snapshots->n_field]));
+    for (unsigned l = 0; l < state->model->n_alpha; l++) {
+        char *name = mem_print("alpha_%s", scene->material[l].name);
+        int code = derive_find(state->model, name, &snapshots->fields[snapshots->n_field++]);
+        mem_free(name);
+        TRY(code);
+    }
+    return STATUS_OK;
+}
+
 /* The files of the run that is being taken up again, as far as they lie in its past. */
 static void snapshot_recall(struct snapshots *snapshots, const struct state *state)
 {
@@ -54,7 +71,8 @@ int snapshot_new(const struct state *state, struct snapshots **ret_snapshots)
     snapshots->last = -1;
     snapshots->folder = mem_print("%s/fields", state->scene->directory);
     snapshots->list_path = mem_print("%s/%s.hdf.series", snapshots->folder, state->scene->name);
-    int code = snapshot_find_fields(snapshots, state);
+    int code = state->scene->n_snapshot_field ? snapshot_find_fields(snapshots, state)
+                                              : snapshot_choose_fields(snapshots, state);
     if (!code) code = place_folder(snapshots->folder);
     if (!code) snapshot_recall(snapshots, state);
     if (code) snapshot_free(snapshots);

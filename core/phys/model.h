@@ -29,8 +29,9 @@ struct model {
     const void *limiter_self;
     const struct bulla_riemann *riemann;
     const void *riemann_self;
-    char **names;       /* derived field names, NULL-terminated (derive.h) */
-    char **field_names; /* names of the evolved fields, for messages and ledgers */
+    const struct bulla_riemann *robust; /* rusanov: faces of troubled cells (solve/guard.h) */
+    char **names;                       /* derived field names, NULL-terminated (derive.h) */
+    char **field_names;                 /* names of the evolved fields, for messages and ledgers */
 };
 
 struct model *model_new(const struct scene *scene);

@@ -6,7 +6,7 @@
 #include "mesh/mesh.h"
 #include "phys/model.h"
 
-/* Everything the guard did, and the work done; totals over all ranks. */
+/* Everything the guard did, and the work done, on this rank; state_counts_total sums the ranks. */
 struct state_counts {
     long long cells;    /* cell-stages computed */
     long long fallback; /* cell-steps redone with first-order fluxes */
@@ -15,6 +15,8 @@ struct state_counts {
     long long retries;  /* steps repeated with half the time step */
 };
 
+struct stage;
+
 struct state {
     const struct scene *scene;
     struct mesh *mesh;
@@ -22,11 +24,16 @@ struct state {
     double t, dt; /* time reached and the last step's size [s] */
     long step;    /* steps done */
     struct state_counts counts;
-    double dt_shrink; /* 1, or the factor that retries left on the time step */
+    double dt_shrink;    /* 1, or the factor that retries left on the time step */
+    double signal;       /* largest sum over axes of (|u_a| + c) / h_a in the present state [1/s] */
+    struct stage *stage; /* work space of this rank (stage.h) */
 };
 
 /* Builds model and mesh of a scene and paints the initial state. Collective. */
 int state_new(const struct scene *scene, struct state **ret_state);
 void state_free(struct state *state);
+
+/* Sums of all ranks. Collective. */
+struct state_counts state_counts_total(const struct state *state);
 
 #endif

@@ -59,10 +59,10 @@ static inline double family_rest(const struct family *par, struct family_room ro
     return par->p_inf * (room.w * par->inverse + room.free) + par->q * rho;
 }
 
-/* c^2 = (p + p_inf)(gamma - 1 + w')/(rho rho w) */
-static inline double family_c2(const struct family *par, struct family_room room, double rho, double p)
+/* rho c^2 = (p + p_inf)(gamma - 1 + w')/(rho w) */
+static inline double family_stiffness(const struct family *par, struct family_room room, double p)
 {
-    return (p + par->p_inf) * (par->gamma - (1.0 - room.slope)) / (rho * room.w);
+    return (p + par->p_inf) * (par->gamma - (1.0 - room.slope)) / room.w;
 }
 
 /* d(rho e)/drho at constant p, with d(rho w)/drho = (rho w - w')/rho, which is -b up to the edge. */

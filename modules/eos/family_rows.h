@@ -12,7 +12,7 @@
 
 BULLA_KERNEL static void family_rows_state(const void *self, size_t n, const double *BULLA_RESTRICT rho,
                                            const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e,
-                                           double *BULLA_RESTRICT c2)
+                                           double *BULLA_RESTRICT rho_c2)
 {
     const struct family par = *(const struct family *)self;
 #pragma omp simd
@@ -20,7 +20,7 @@ BULLA_KERNEL static void family_rows_state(const void *self, size_t n, const dou
         double density = rho[i], pressure = p[i];
         struct family_room room = FAMILY_ROOM(&par, density);
         rho_e[i] = family_slope(&par, room) * pressure + family_rest(&par, room, density);
-        c2[i] = family_c2(&par, room, density, pressure);
+        rho_c2[i] = family_stiffness(&par, room, pressure);
     }
 }
 

@@ -11,21 +11,38 @@
 
 #include <math.h>
 
+static inline double pair_limit(double a, double b)
+{
+    double less = fabs(a) < fabs(b) ? a : b, more = fabs(a) < fabs(b) ? b : a;
+    int rising = (a > 0.0) & (b > 0.0), falling = (a < 0.0) & (b < 0.0);
+    double value = LIMITER_SLOPE(less, more);
+    return rising | falling ? value : 0.0;
+}
+
 BULLA_KERNEL static void pair_slope(const void *self, size_t n, const double *BULLA_RESTRICT d_minus,
                                     const double *BULLA_RESTRICT d_plus, double *BULLA_RESTRICT slope)
 {
     (void)self;
 #pragma omp simd
+    for (size_t i = 0; i < n; i++) slope[i] = pair_limit(d_minus[i], d_plus[i]);
+}
+
+BULLA_KERNEL static void pair_edges(const void *self, size_t n, size_t step, const double *w,
+                                    double *BULLA_RESTRICT lower, double *BULLA_RESTRICT upper)
+{
+    const double *before = w - step, *after = w + step;
+    (void)self;
+#pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = d_minus[i], b = d_plus[i];
-        double less = fabs(a) < fabs(b) ? a : b, more = fabs(a) < fabs(b) ? b : a;
-        int rising = (a > 0.0) & (b > 0.0), falling = (a < 0.0) & (b < 0.0);
-        double value = LIMITER_SLOPE(less, more);
-        slope[i] = rising | falling ? value : 0.0;
+        double here = w[i], half = 0.5 * pair_limit(here - before[i], after[i] - here);
+        lower[i] = here - half;
+        upper[i] = here + half;
     }
 }
 
-static const struct bulla_limiter pair_table = {.size = sizeof(struct bulla_limiter), .slope = pair_slope};
+static const struct bulla_limiter pair_table = {.size = sizeof(struct bulla_limiter),
+                                                .slope = pair_slope,
+                                                .edges = pair_edges};
 
 #define PAIR_MODULE(name_, doc_, cite_)                                                                 \
     {                                                                                                   \

@@ -280,8 +280,8 @@ static int parse(struct plot_option *option, int argc, char **argv)
 static void options_are_read(void **state)
 {
     (void)state;
-    char *argv[] = {"bulla",   "plot",   "dir",     "p",      "--step",  "12",  "--slice", "z=-0.5",
-                    "--slice", "x=2e-3", "--range", "-1,3e6", "--width", "640", "--ylim",  "0,1"};
+    char *argv[] = {"bulla",   "plot",   "dir",     "p",       "--step",  "12",  "--slice", "z=-0.5",
+                    "--slice", "x=2e-3", "--range", "-1,3MPa", "--width", "640", "--ylim",  "0,1"};
     struct plot_option option;
     assert_int_equal(parse(&option, sizeof argv / sizeof *argv, argv), 0);
     assert_int_equal(option.when, PLOT_STEP);
@@ -301,11 +301,12 @@ static void bad_options_are_refused(void **state)
     static const struct {
         char *option, *value, *message;
     } rows[] = {
-        {"--range", "3", "two numbers"},        {"--range", "5,2", "first number must be less"},
-        {"--range", "a,2", "'a' is no number"}, {"--slice", "0.5", "which axis"},
-        {"--slice", "z=here", "no number"},     {"--width", "3", "at least 100"},
-        {"--width", "999999", "at most"},       {"--time", "soon", "no number"},
-        {"--step", "1.5", "whole number"},      {"--left", "pressure", "go together"},
+        {"--range", "3", "two numbers"},         {"--range", "5,2", "first number must be less"},
+        {"--range", "a,2", "'a' is no number"},  {"--slice", "0.5", "which axis"},
+        {"--slice", "z=here", "no number"},      {"--width", "3", "at least 100"},
+        {"--width", "999999", "at most"},        {"--time", "soon", "no number"},
+        {"--step", "1.5", "whole number"},       {"--time", "3 mm", "a time is needed"},
+        {"--range", "0,3 Pax", "no unit 'Pax'"}, {"--left", "pressure", "go together"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char *argv[] = {"bulla", "plot", "dir", "p", rows[i].option, rows[i].value};

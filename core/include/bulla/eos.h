@@ -6,9 +6,9 @@
  * The value at a point must not depend on its place in the row or on n.
  *
  * Well-posed means, for every rho > 0 and p > p_min(rho) that a solver can produce:
- * d(rho_e)/dp > 0, c2 > 0, T > 0, nothing infinite. Outside its stated range a module
+ * d(rho_e)/dp > 0, rho c^2 > 0, T > 0, nothing infinite. Outside its stated range a module
  * continues its formulas so that this still holds; a state at or below p_min shows in the
- * value (c2 <= 0), never by a trap.
+ * value (rho c^2 <= 0), never by a trap.
  */
 #ifndef BULLA_EOS_H
 #define BULLA_EOS_H
@@ -29,9 +29,10 @@ struct bulla_eos_range {
 struct bulla_eos {
     uint32_t size; /* sizeof(struct bulla_eos) */
 
-    /* The hot call: energy per volume rho e [J/m3] and squared sound speed c^2 [m2/s2]. */
+    /* The hot call: energy per volume rho e [J/m3] and stiffness rho c^2 [Pa], the adiabatic bulk
+     * modulus: it is what Wood's formula, the closure and the frozen speed are made of. */
     void (*state)(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
-                  double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT c2);
+                  double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT rho_c2);
 
     /* Derivatives of the energy per volume: d(rho e)/dp at constant rho [1], d(rho e)/drho at constant p [J/kg]. */
     void (*derivatives)(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,

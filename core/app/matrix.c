@@ -1,0 +1,153 @@
+/* matrix.c - see matrix.h. Works on the text tree, before anything is resolved: what a list
+ * holds is handed to --set as it stands, which checks it like any other value. */
+#include "app/matrix.h"
+
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+#include "case/parse.h"
+
+#include <string.h>
+
+enum { MATRIX_PARENTS = 8, MATRIX_ROWS = 10000 };
+
+/* The case and the files it extends, nearest first. */
+struct matrix_files {
+    struct node *roots[MATRIX_PARENTS];
+    unsigned count;
+};
+
+static struct node *matrix_get(const struct matrix_files *files, const char *section, const char *key)
+{
+    for (unsigned i = 0; i < files->count; i++) {
+        struct node *node = tree_get(files->roots[i], section);
+        if (node && key) node = tree_get(node, key);
+        if (node) return node;
+    }
+    return NULL;
+}
+
+static char *matrix_sibling(const char *path, const char *name)
+{
+    const char *slash = strrchr(path, '/');
+    if (*name == '/' || !slash) return mem_text(name);
+    return mem_print("%.*s/%s", (int)(slash - path), path, name);
+}
+
+static int matrix_open(const char *path, struct forest *forest, struct diag *diag, struct matrix_files *files)
+{
+    char *name = mem_text(path);
+    while (name && files->count < MATRIX_PARENTS) {
+        const struct source *source = diag_file(diag, name, PARSE_BYTES, &(struct mark){0});
+        struct node *root = source ? parse_source(forest, diag, source) : NULL;
+        struct node *parent = root ? tree_get(root, "extends") : NULL;
+        if (root) files->roots[files->count++] = root;
+        char *next = parent && parent->kind == TREE_SCALAR ? matrix_sibling(name, parent->text) : NULL;
+        mem_free(name);
+        name = next;
+    }
+    mem_free(name);
+    return diag_errors(diag) ? status_fail(STATUS_CASE, "%s cannot be read", path) : STATUS_OK;
+}
+
+/* A node as flow text: [64, 64]. */
+static void matrix_print(struct text *text, const struct node *node)
+{
+    if (node->kind == TREE_SCALAR) {
+        const char *quote = node->style == TREE_PLAIN ? "" : "\"";
+        text_add(text, "%s%s%s", quote, node->text, quote);
+        return;
+    }
+    text_add(text, node->kind == TREE_LIST ? "[" : "{");
+    for (unsigned i = 0; i < node->count; i++) {
+        if (i) text_add(text, ", ");
+        if (node->kind == TREE_MAP) text_add(text, "%s: ", node->keys[i]->text);
+        matrix_print(text, node->items[i]);
+    }
+    text_add(text, node->kind == TREE_LIST ? "]" : "}");
+}
+
+/* Product of a list of numbers, and "64 x 64"; 0 if it is none. */
+static double matrix_cells(const struct node *node, char **ret_text)
+{
+    struct text text = {0};
+    double count = 1, value;
+    for (unsigned i = 0; node && node->kind == TREE_LIST && i < node->count; i++) {
+        const struct node *item = node->items[i];
+        if (item->kind != TREE_SCALAR || text_number(item->text, &value) == 0) count = value = 0;
+        count *= value;
+        text_add(&text, "%s%s", i ? " x " : "", item->kind == TREE_SCALAR ? item->text : "?");
+    }
+    if (ret_text) *ret_text = mem_text(text.at ? text.at : "?");
+    if (!text.at) count = 0;
+    text_done(&text);
+    return count;
+}
+
+static void matrix_fill(const struct node *lists, const struct node *own_cells, unsigned index, struct matrix_row *row)
+{
+    unsigned n = lists ? lists->count : 0;
+    const struct node *cells = own_cells;
+    row->sets = mem_new(n + 1, sizeof *row->sets);
+    for (unsigned k = n; k-- > 0;) {
+        const struct node *list = lists->items[k], *value = list->items[index % list->count];
+        struct text text = {0};
+        index /= list->count;
+        text_add(&text, "%s=", lists->keys[k]->text);
+        matrix_print(&text, value);
+        row->sets[k] = mem_text(text.at);
+        text_done(&text);
+        if (strcmp(lists->keys[k]->text, "domain.cells") == 0) cells = value;
+    }
+    row->count = matrix_cells(cells, &row->cells);
+    row->dim = cells && cells->count ? cells->count : 1;
+}
+
+static int matrix_build(const struct matrix_files *files, struct matrix *matrix)
+{
+    const struct node *lists = matrix_get(files, "matrix", NULL), *title = matrix_get(files, "title", NULL);
+    const struct node *own_cells = matrix_get(files, "domain", "cells");
+    unsigned rows = 1;
+    if (lists && lists->kind != TREE_MAP) return status_fail(STATUS_CASE, "matrix: a map of lists is needed");
+    for (unsigned k = 0; lists && k < lists->count; k++) {
+        if (lists->items[k]->kind != TREE_LIST || lists->items[k]->count == 0)
+            return status_fail(STATUS_CASE, "matrix: %s: a list of values is needed", lists->keys[k]->text);
+        rows *= lists->items[k]->count;
+        if (rows > MATRIX_ROWS) return status_fail(STATUS_CASE, "matrix: more than %d combinations", MATRIX_ROWS);
+    }
+    matrix->title = mem_text(title && title->kind == TREE_SCALAR ? title->text : "");
+    matrix->count = matrix_cells(own_cells, NULL);
+    matrix->n_set = lists ? lists->count : 0;
+    matrix->n_row = rows;
+    matrix->rows = mem_new(rows, sizeof *matrix->rows);
+    for (unsigned i = 0; i < rows; i++) matrix_fill(lists, own_cells, i, &matrix->rows[i]);
+    return STATUS_OK;
+}
+
+int matrix_read(const char *path, struct matrix *ret_matrix)
+{
+    struct forest *forest = tree_forest_new();
+    struct diag *diag = diag_new();
+    struct matrix_files files = {0};
+    struct matrix matrix = {0};
+    int code = matrix_open(path, forest, diag, &files);
+    if (code) diag_print(diag, stderr, false);
+    if (!code) code = matrix_build(&files, &matrix);
+    if (!code) *ret_matrix = matrix;
+    else status_wrap(code, "%s: ", path);
+    diag_free(diag);
+    tree_forest_free(forest);
+    return code;
+}
+
+void matrix_done(struct matrix *matrix)
+{
+    for (unsigned i = 0; i < matrix->n_row; i++) {
+        for (unsigned k = 0; k < matrix->n_set; k++) mem_free(matrix->rows[i].sets[k]);
+        mem_free(matrix->rows[i].sets);
+        mem_free(matrix->rows[i].cells);
+    }
+    mem_free(matrix->rows);
+    mem_free(matrix->title);
+    *matrix = (struct matrix){0};
+}

@@ -1,0 +1,11 @@
+/* plot_case.h - single entries of the resolved case that a run leaves beside its output. */
+#ifndef PLOT_CASE_H
+#define PLOT_CASE_H
+
+/* A scalar of the top mapping of DIR/case.yaml ("title", "about") in new memory, or NULL. */
+char *plot_case_scalar(const char *directory, const char *key);
+
+/* The title of the case, or else the last part of the directory's name, in new memory. */
+char *plot_case_title(const char *directory);
+
+#endif

@@ -1,0 +1,52 @@
+/* study.h - one verification scene, run once per row of its matrix by this program itself.
+ *
+ * Every run is a process of its own: a crash ends a row, not the study, and its CPU time is
+ * what the system counted. */
+#ifndef STUDY_H
+#define STUDY_H
+
+#include "app/matrix.h"
+
+#include <stdbool.h>
+
+/* One expectation as a run judged it (expect.json). */
+struct study_value {
+    char *what, *bound; /* "L1(density)", "<= 0.5" */
+    double value;       /* NaN if it was not finite */
+    double order;       /* of a norm: least order of convergence wanted, or 0 */
+    bool passed, is_norm;
+};
+
+struct study_row {
+    int code;    /* exit code of the run: 0, 1, or a failure */
+    double cpu;  /* user time of the run and its ranks [s] */
+    bool judged; /* as fine as the case itself or finer: its bounds hold here */
+    unsigned n_value;
+    struct study_value *values;
+};
+
+struct study {
+    char *id, *path; /* file name without .yaml; the case file */
+    struct matrix matrix;
+    struct study_row *rows; /* [matrix.n_row] */
+};
+
+struct study_options {
+    const char *directory; /* outputs go to DIRECTORY/id/ROW */
+    const char *ranks;     /* for -n, or NULL */
+};
+
+/* Reads the matrix of a case; no row has run yet. */
+int study_new(const char *path, struct study *ret_study);
+void study_done(struct study *study);
+
+/* Runs row `index`. A run that fails is noted in the row, not an error; STATUS_RUN: it could not be started. */
+int study_run(struct study *study, unsigned index, const struct study_options *options);
+
+/* Observed order of value `v` from row index-1 to row index, which must be finer; NaN if there is none. */
+double study_order(const struct study *study, unsigned index, unsigned v);
+
+/* Did everything hold: all runs finished, bounds of judged rows, orders between the last two rows? */
+bool study_passed(const struct study *study);
+
+#endif

@@ -1,0 +1,180 @@
+/* surface.c - see surface.h.
+ *
+ * The surface passes between two neighbouring cells wherever alpha - 1/2 changes sign. At each
+ * such place the field is interpolated to alpha = 1/2, and the place counts with the area of the
+ * face times |n_a|, n the normal of the surface from the gradient of alpha and a the axis of the
+ * pair: a plane of area S is crossed |n_a| S / A times along axis a, so these weights add up to
+ * S sum n_a^2 = S whatever its direction. Pairs across tiles and ranks belong to the lower tile. */
+#include "io/surface.h"
+
+#include "base/mem.h"
+#include "io/tally.h"
+#include "mesh/halo.h"
+#include "mesh/metric.h"
+#include "phys/bound.h"
+#include "phys/frame.h"
+
+#include <math.h>
+
+/* Components of the work arrays: alpha, the field, how much `where` covers, the gradient of alpha. */
+enum { SURFACE_ALPHA, SURFACE_FIELD, SURFACE_COVER, SURFACE_SLOPE };
+
+struct surface {
+    const struct state *state;
+    const struct mesh *mesh;
+    const struct level *level;
+    int l;
+    unsigned n; /* components */
+    double **arrays;
+    struct halo *halo;
+    double *frame; /* [n][FRAME_CELLS] */
+};
+
+static void surface_fill(struct surface *surface, unsigned local, unsigned material, const struct derive *field,
+                         const struct region *where)
+{
+    const struct model *model = surface->state->model;
+    size_t n = surface->mesh->n_cell;
+    double *to = surface->arrays[local], *values = mem_new(3 * n, sizeof *values);
+    const double *alpha = surface->level->u_old[local] + (model->i_alpha + material) * n, *fractions = NULL;
+    enum region_cover cover = where ? region_tile(where, surface->l, local, &fractions) : REGION_ALL;
+    derive_tile(model, surface->mesh, surface->l, local, surface->state->t, field, values);
+    for (size_t i = 0; i < n; i++) {
+        double x = values[i], y = values[n + i], z = values[2 * n + i];
+        to[SURFACE_ALPHA * n + i] = alpha[i];
+        to[SURFACE_FIELD * n + i] = field->components == 3 ? sqrt(x * x + y * y + z * z) : x;
+        to[SURFACE_COVER * n + i] = cover == REGION_PART ? fractions[i] : cover == REGION_ALL;
+    }
+    mem_free(values);
+}
+
+static void surface_boundary(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w)
+{
+    const struct surface *surface = data;
+    for (unsigned q = 0; q < surface->n; q++) bound_copy(NULL, local, frame, side, pitch, w + q * pitch);
+}
+
+/* Calls `visit` with every frame of a tile. */
+static void surface_sweep(struct surface *surface, unsigned local,
+                          void (*visit)(struct surface *, unsigned, const struct frame *, double *), double *data)
+{
+    const struct frame_source source = {.mesh = surface->mesh,
+                                        .level = surface->level,
+                                        .arrays = surface->arrays,
+                                        .halo = surface->halo,
+                                        .n_field = surface->n,
+                                        .boundary = surface_boundary,
+                                        .data = surface};
+    for (int axis = 0; axis < surface->mesh->dim; axis++)
+        for (size_t piece = 0; piece < frame_pieces(surface->mesh, axis); piece++) {
+            struct frame frame = frame_piece(surface->mesh, axis, piece);
+            frame_gather(&source, local, &frame, FRAME_CELLS, surface->frame);
+            visit(surface, local, &frame, data);
+        }
+}
+
+/* Central differences of alpha along the frame's axis, into the tile's own arrays. */
+static void surface_slope(struct surface *surface, unsigned local, const struct frame *frame, double *data)
+{
+    const double *alpha = surface->frame + SURFACE_ALPHA * FRAME_CELLS;
+    unsigned component = SURFACE_SLOPE + (unsigned)frame->axis;
+    double *slope = surface->arrays[local] + component * surface->mesh->n_cell;
+    (void)data;
+    for (size_t o = 0; o < frame->outer; o++)
+        for (size_t i = 0; i < frame->n; i++)
+            for (size_t j = 0; j < frame->inner; j++) {
+                size_t at = frame_at(frame, o, (int)i) + j;
+                slope[frame_tile_at(frame, o, i) + j] =
+                    (alpha[at + frame->inner] - alpha[at - frame->inner]) / (2.0 * surface->level->h[frame->axis]);
+            }
+}
+
+/* |n_a| between frame cells `at` and the next, from the mean of their gradients. */
+static double surface_normal(const struct surface *surface, const struct frame *frame, size_t at)
+{
+    double sum = 0.0, along = 0.0;
+    for (int axis = 0; axis < surface->mesh->dim; axis++) {
+        const double *slope = surface->frame + (size_t)(SURFACE_SLOPE + axis) * FRAME_CELLS;
+        double mean = 0.5 * (slope[at] + slope[at + frame->inner]);
+        sum += mean * mean;
+        if (axis == frame->axis) along = fabs(mean);
+    }
+    return sum > 0.0 ? along / sqrt(sum) : 1.0;
+}
+
+/* Whole area of the upper face, along the frame's axis, of a tile's cell. */
+static double surface_area(const struct surface *surface, const struct metric *metric, const struct frame *frame,
+                           size_t cell)
+{
+    const struct mesh *mesh = surface->mesh;
+    size_t i = cell % (size_t)mesh->n[0];
+    double area = metric_full(mesh->beta) * (frame->axis == 0 ? metric->area[i + 1] : metric->volume[i]);
+    for (int axis = 1; axis < mesh->dim; axis++)
+        if (axis != frame->axis) area *= surface->level->h[axis];
+    return area;
+}
+
+/* Adds area times field, and area, of the crossings of a frame to data[0], data[1]. */
+static void surface_cross(struct surface *surface, unsigned local, const struct frame *frame, double *data)
+{
+    const double *alpha = surface->frame, *field = alpha + SURFACE_FIELD * FRAME_CELLS;
+    const double *cover = alpha + SURFACE_COVER * FRAME_CELLS;
+    struct metric metric;
+    metric_of_tile(surface->mesh, surface->level, &surface->level->tiles[surface->level->first + local], &metric);
+    for (size_t o = 0; o < frame->outer; o++)
+        for (size_t i = 0; i < frame->n; i++)
+            for (size_t j = 0; j < frame->inner; j++) {
+                size_t at = frame_at(frame, o, (int)i) + j, next = at + frame->inner;
+                if ((alpha[at] >= 0.5) == (alpha[next] >= 0.5)) continue;
+                double share = (0.5 - alpha[at]) / (alpha[next] - alpha[at]);
+                if (cover[at] + share * (cover[next] - cover[at]) < 0.5) continue;
+                double area = surface_area(surface, &metric, frame, frame_tile_at(frame, o, i) + j) *
+                              surface_normal(surface, frame, at);
+                data[0] += area * (field[at] + share * (field[next] - field[at]));
+                data[1] += area;
+            }
+}
+
+static void surface_exchange(struct surface *surface)
+{
+    halo_start(surface->halo, surface->arrays);
+    halo_finish(surface->halo);
+}
+
+/* Sums of one level, two per local tile. */
+static void surface_of_level(struct surface *surface, unsigned material, const struct derive *field,
+                             const struct region *where, double *sums)
+{
+    unsigned n_local = surface->level->n_local;
+    surface->arrays = mem_new(n_local, sizeof *surface->arrays);
+    surface->halo = halo_new(surface->mesh, surface->level, surface->n);
+    for (unsigned i = 0; i < n_local; i++) {
+        surface->arrays[i] = mem_new(surface->n * surface->mesh->n_cell, sizeof(double));
+        surface_fill(surface, i, material, field, where);
+    }
+    surface_exchange(surface);
+    for (unsigned i = 0; i < n_local; i++) surface_sweep(surface, i, surface_slope, NULL);
+    surface_exchange(surface); /* now with the slopes */
+    for (unsigned i = 0; i < n_local; i++) surface_sweep(surface, i, surface_cross, sums + 2 * (size_t)i);
+    for (unsigned i = 0; i < n_local; i++) mem_free(surface->arrays[i]);
+    halo_free(surface->halo);
+    mem_free(surface->arrays);
+}
+
+double surface_mean(const struct state *state, unsigned material, const struct derive *field,
+                    const struct region *where)
+{
+    struct surface surface = {.state = state, .mesh = state->mesh, .n = SURFACE_SLOPE + (unsigned)state->mesh->dim};
+    if (!state->model->n_alpha) return NAN;
+    double *sums = mem_new(2 * (tally_tiles(state->mesh) + 1), sizeof *sums), *at = sums, totals[2];
+    surface.frame = mem_new((size_t)surface.n * FRAME_CELLS, sizeof *surface.frame);
+    for (surface.l = 0; surface.l < state->mesh->n_level; surface.l++) {
+        surface.level = &state->mesh->levels[surface.l];
+        surface_of_level(&surface, material, field, where, at);
+        at += 2 * (size_t)surface.level->n_local;
+    }
+    tally_add(state->mesh, 2, sums, totals);
+    mem_free(surface.frame);
+    mem_free(sums);
+    return totals[0] / totals[1];
+}

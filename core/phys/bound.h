@@ -1,0 +1,33 @@
+/* bound.h - the states behind the domain's boundaries (model.md 8).
+ *
+ * Every boundary gives the two layers next to a face from the primitives inside, the time and,
+ * for non-reflecting and incoming-wave boundaries, the pressure and normal velocity that stood
+ * there at the start (kept here per boundary cell). */
+#ifndef BOUND_H
+#define BOUND_H
+
+#include "mesh/mesh.h"
+#include "phys/frame.h"
+#include "phys/model.h"
+
+struct bound {
+    const struct model *model;
+    const struct mesh *mesh;
+    const struct level *level;
+    double t;           /* [s] at which time-dependent values are taken; set before each stage */
+    double **reference; /* [n_local * MESH_FACES]: p then u_n of the boundary cells, or NULL */
+    int status;         /* first failure of a script since bound_new; the message is in status.h */
+};
+
+/* For one level; takes the reference from the level's primitives w (so after the first
+ * conversion of the initial state). */
+struct bound *bound_new(const struct model *model, const struct mesh *mesh, const struct level *level);
+void bound_free(struct bound *bound);
+
+/* Callback for frame_source: primitives of all fields. `data` is a struct bound. */
+void bound_fill(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);
+
+/* Callback for fields that only need a neighbour of the same value (masks): copies. */
+void bound_copy(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);
+
+#endif

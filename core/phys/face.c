@@ -1,0 +1,309 @@
+/* face.c - see face.h; MUSCL on primitives (van Leer 1979, Toro 2009 ch. 14).
+ *
+ * Both edges of all cells of a component lie behind each other in one row, so that one call of an
+ * equation of state serves both sides of the faces. Slopes of the limiter contract keep face values
+ * between neighbouring cells, hence alpha in [0, 1] and densities positive; with three or more
+ * materials the limited fractions are scaled to sum 1. Because alpha_l and rho_l are limited
+ * (not m_l), a contact at uniform p, u and rho_l has face energies linear in alpha: p and u stay
+ * uniform to round-off for every law. */
+#include "phys/face.h"
+
+#include "base/mem.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Both edges of the cells of a row lie behind each other, upper then lower, n_cell each: face i
+ * has upper edge i on its left and lower edge i + step on its right. */
+struct face_own {
+    double *difference, *slope;   /* only for limiters without fused edges */
+    double *state;                /* primitives at the edges: [n_field][2 FACE_ROOM] */
+    double *m, *rho, *energy, *c; /* completed: [n_material], then one each, of 2 FACE_ROOM */
+    double *term, *stiffness;     /* one material's rho e and rho c^2 */
+    double *zero;                 /* stands in for the velocities of unused axes */
+    double *robust;               /* fluxes of the robust solver, same order as the block behind face_work.alpha */
+    const double *side_u[2][3], *side_m[2][SCENE_MATERIALS], *side_alpha[2][SCENE_MATERIALS];
+    double *flux_m[SCENE_MATERIALS], *flux_u[3], *flux_alpha[SCENE_MATERIALS];
+    double *robust_m[SCENE_MATERIALS], *robust_u[3], *robust_alpha[SCENE_MATERIALS];
+    unsigned n_flux;
+};
+
+static double *face_row(size_t components)
+{
+    return mem_new(components * FACE_ROOM, sizeof(double));
+}
+
+/* A block of flux components in the order alpha, m, momentum, energy, u. */
+static void face_split(const struct model *model, double *block, double **alpha, double **m, double **momentum)
+{
+    for (unsigned l = 0; l < model->n_alpha; l++) alpha[l] = block + l * FACE_ROOM;
+    for (unsigned l = 0; l < model->n_material; l++) m[l] = block + (model->n_alpha + l) * FACE_ROOM;
+    for (int d = 0; d < model->dim; d++)
+        momentum[d] = block + (model->n_alpha + model->n_material + (unsigned)d) * FACE_ROOM;
+}
+
+struct face_work *face_new(const struct model *model)
+{
+    struct face_work *work = mem_new(1, sizeof *work);
+    struct face_own *own = work->own = mem_new(1, sizeof *own);
+    unsigned n = model->n_material;
+    work->model = model;
+    own->n_flux = model->n_field + 1;
+    work->frame = face_row(model->n_field);
+    work->mask = face_row(1);
+    own->difference = face_row(1);
+    own->slope = face_row(1);
+    own->state = face_row(2 * model->n_field);
+    own->m = face_row(2 * n);
+    own->rho = face_row(2);
+    own->energy = face_row(2);
+    own->c = face_row(2);
+    own->term = face_row(2);
+    own->stiffness = face_row(2);
+    own->zero = face_row(2);
+    own->robust = face_row(own->n_flux);
+    work->alpha = face_row(own->n_flux);
+    work->m = work->alpha + model->n_alpha * FACE_ROOM;
+    work->momentum = work->m + n * FACE_ROOM;
+    work->energy = work->momentum + model->dim * FACE_ROOM;
+    work->u = work->energy + FACE_ROOM;
+    face_split(model, work->alpha, own->flux_alpha, own->flux_m, own->flux_u);
+    face_split(model, own->robust, own->robust_alpha, own->robust_m, own->robust_u);
+    for (int i = 0; i < 4; i++) work->faces.work[i] = face_row(1);
+    return work;
+}
+
+void face_free(struct face_work *work)
+{
+    if (!work) return;
+    struct face_own *own = work->own;
+    double *rows[] = {own->difference,
+                      own->slope,
+                      own->state,
+                      own->m,
+                      own->rho,
+                      own->energy,
+                      own->c,
+                      own->term,
+                      own->stiffness,
+                      own->zero,
+                      own->robust,
+                      work->alpha,
+                      work->frame,
+                      work->mask,
+                      work->faces.work[0],
+                      work->faces.work[1],
+                      work->faces.work[2],
+                      work->faces.work[3]};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) mem_free(rows[i]);
+    mem_free(own);
+    mem_free(work);
+}
+
+static BULLA_KERNEL void face_differ(size_t n, const double *restrict a, const double *restrict b, double *restrict d)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) d[i] = b[i] - a[i];
+}
+
+static BULLA_KERNEL void face_edges(size_t n, const double *restrict w, const double *restrict slope,
+                                    double *restrict lower, double *restrict upper)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double here = w[i], half = 0.5 * slope[i];
+        lower[i] = here - half;
+        upper[i] = here + half;
+    }
+}
+
+/* Edge values of `cells` cells from `w`, by the limiter. */
+static void face_limit(const struct face_work *work, size_t cells, size_t step, const double *w, double *lower,
+                       double *upper)
+{
+    const struct model *model = work->model;
+    const struct face_own *own = work->own;
+    if (model->limiter->edges) {
+        model->limiter->edges(model->limiter_self, cells, step, w, lower, upper);
+        return;
+    }
+    face_differ(cells + step, w - step, w, own->difference);
+    model->limiter->slope(model->limiter_self, cells, own->difference, own->difference + step, own->slope);
+    face_edges(cells, w, own->slope, lower, upper);
+}
+
+/* First-order states at the faces of troubled cells. */
+static void face_flatten(size_t n, size_t step, const double *w, const double *mask, double *left, double *right)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (mask[i] + mask[i + step] == 0.0) continue;
+        left[i] = w[i];
+        right[i] = w[i + step];
+    }
+}
+
+/* Edges of all cells that have two neighbours in the row. */
+static void face_reconstruct(struct face_work *work, const struct frame *frame, size_t cells, bool masked)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    size_t step = frame->inner;
+    for (unsigned q = 0; q < model->n_field; q++) {
+        const double *w = work->frame + q * FACE_ROOM + step;
+        double *upper = own->state + 2 * q * FACE_ROOM, *lower = upper + cells;
+        face_limit(work, cells, step, w, lower, upper);
+        if (masked) face_flatten(cells - step, step, w, work->mask + step, upper, lower + step);
+    }
+}
+
+static BULLA_KERNEL void face_sum(size_t n, const double *restrict a, double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) sum[i] += a[i];
+}
+
+static BULLA_KERNEL void face_divide(size_t n, const double *restrict sum, double *restrict a)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) a[i] /= sum[i];
+}
+
+/* Limited fractions of three or more materials need not sum to 1 (of two they do: limiters are odd). */
+static void face_normalise(struct face_work *work, size_t n)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    if (model->n_alpha < 3) return;
+    memset(own->term, 0, n * sizeof *own->term);
+    for (unsigned l = 0; l < model->n_alpha; l++) face_sum(n, own->state + 2 * l * FACE_ROOM, own->term);
+    for (unsigned l = 0; l < model->n_alpha; l++) face_divide(n, own->term, own->state + 2 * l * FACE_ROOM);
+}
+
+/* One material's share: m = alpha rho, and its parts of rho, rho e and rho c_f^2; the first
+ * material starts the sums. */
+static BULLA_KERNEL void face_first_material(size_t n, const double *restrict alpha, const double *restrict rho_l,
+                                             const double *restrict e, const double *restrict rho_c2,
+                                             double *restrict m, double *restrict rho, double *restrict energy,
+                                             double *restrict sum_c2)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], mass = a * rho_l[i], share = a * e[i], stiff = a * rho_c2[i];
+        m[i] = mass;
+        rho[i] = mass;
+        energy[i] = share;
+        sum_c2[i] = stiff;
+    }
+}
+
+static BULLA_KERNEL void face_add_material(size_t n, const double *restrict alpha, const double *restrict rho_l,
+                                           const double *restrict e, const double *restrict rho_c2, double *restrict m,
+                                           double *restrict rho, double *restrict energy, double *restrict sum_c2)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], mass = a * rho_l[i], share = a * e[i], stiff = a * rho_c2[i];
+        double r = rho[i], sum_e = energy[i], sum_c = sum_c2[i];
+        m[i] = mass;
+        rho[i] = r + mass;
+        energy[i] = sum_e + share;
+        sum_c2[i] = sum_c + stiff;
+    }
+}
+
+/* Kinetic energy, and c from rho c^2. */
+static BULLA_KERNEL void face_finish(size_t n, const double *restrict rho, const double *restrict u,
+                                     const double *restrict v, const double *restrict w, double *restrict energy,
+                                     double *restrict c)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double r = rho[i], a = u[i], b = v[i], d = w[i], e = energy[i], s = c[i];
+        energy[i] = e + 0.5 * r * (a * a + b * b + d * d);
+        c[i] = sqrt(s / r);
+    }
+}
+
+/* Partial densities, total energy and frozen speed of n edges. */
+static void face_complete(struct face_work *work, size_t n)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    const double *p = own->state + 2 * model->i_E * FACE_ROOM, *u[3] = {own->zero, own->zero, own->zero};
+    for (int d = 0; d < model->dim; d++) u[d] = own->state + 2 * (model->i_u + (unsigned)d) * FACE_ROOM;
+    if (!model->n_alpha) {
+        memcpy(own->rho, own->state + 2 * model->i_m * FACE_ROOM, n * sizeof *own->rho);
+        memcpy(own->m, own->rho, n * sizeof *own->m);
+        model->eos[0].law->state(model->eos[0].self, n, own->rho, p, own->energy, own->c);
+    }
+    for (unsigned l = 0; l < model->n_alpha; l++) {
+        const double *rho_l = own->state + 2 * (model->i_m + l) * FACE_ROOM, *alpha = own->state + 2 * l * FACE_ROOM;
+        double *m = own->m + 2 * l * FACE_ROOM;
+        model->eos[l].law->state(model->eos[l].self, n, rho_l, p, own->term, own->stiffness);
+        if (l == 0) face_first_material(n, alpha, rho_l, own->term, own->stiffness, m, own->rho, own->energy, own->c);
+        else face_add_material(n, alpha, rho_l, own->term, own->stiffness, m, own->rho, own->energy, own->c);
+    }
+    face_finish(n, own->rho, u[0], u[1], u[2], own->energy, own->c);
+}
+
+/* Component d of the solver's frame (0 normal) is this axis of space. */
+static unsigned face_axis(int axis, unsigned d)
+{
+    return d == 0 ? (unsigned)axis : d <= (unsigned)axis ? d - 1 : d;
+}
+
+static void face_point(struct face_work *work, const struct frame *frame, size_t cells)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    struct bulla_faces *faces = &work->faces;
+    faces->n = cells - frame->inner;
+    faces->n_material = model->n_material;
+    faces->n_alpha = model->n_alpha;
+    faces->n_velocity = (unsigned)model->dim;
+    for (unsigned side = 0; side < 2; side++) {
+        size_t from = side ? cells + frame->inner : 0; /* right: the lower edge of the cell behind the face */
+        for (unsigned d = 0; d < (unsigned)model->dim; d++)
+            own->side_u[side][d] = own->state + 2 * (model->i_u + face_axis(frame->axis, d)) * FACE_ROOM + from;
+        for (unsigned l = 0; l < model->n_material; l++) own->side_m[side][l] = own->m + 2 * l * FACE_ROOM + from;
+        for (unsigned l = 0; l < model->n_alpha; l++) own->side_alpha[side][l] = own->state + 2 * l * FACE_ROOM + from;
+        struct bulla_side *states = side ? &faces->right : &faces->left;
+        *states = (struct bulla_side){.rho = own->rho + from,
+                                      .p = own->state + 2 * model->i_E * FACE_ROOM + from,
+                                      .rho_E = own->energy + from,
+                                      .c = own->c + from,
+                                      .u = own->side_u[side],
+                                      .m = own->side_m[side],
+                                      .alpha = own->side_alpha[side]};
+    }
+    faces->flux = (struct bulla_flux){
+        .m = own->flux_m, .momentum = own->flux_u, .rho_E = work->energy, .u = work->u, .alpha = own->flux_alpha};
+}
+
+/* The robust solver at all faces of the row, taken over at those of troubled cells. */
+static void face_solve_robust(struct face_work *work, const struct frame *frame, size_t n)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    double *energy = own->robust + (own->n_flux - 2) * FACE_ROOM, *u = energy + FACE_ROOM;
+    work->faces.flux = (struct bulla_flux){
+        .m = own->robust_m, .momentum = own->robust_u, .rho_E = energy, .u = u, .alpha = own->robust_alpha};
+    model->robust->solve(NULL, &work->faces);
+    const double *mask = work->mask + frame->inner;
+    for (size_t i = 0; i < n; i++) {
+        if (mask[i] + mask[i + frame->inner] == 0.0) continue;
+        for (unsigned q = 0; q < own->n_flux; q++) work->alpha[q * FACE_ROOM + i] = own->robust[q * FACE_ROOM + i];
+    }
+}
+
+void face_solve(struct face_work *work, const struct frame *frame, bool masked)
+{
+    const struct model *model = work->model;
+    size_t cells = frame->count - 2 * frame->inner;
+    face_reconstruct(work, frame, cells, masked);
+    face_normalise(work, 2 * cells);
+    face_complete(work, 2 * cells);
+    face_point(work, frame, cells);
+    model->riemann->solve(model->riemann_self, &work->faces);
+    if (masked) face_solve_robust(work, frame, work->faces.n);
+}

@@ -1,0 +1,89 @@
+/* frame.c - gathering, see frame.h. */
+#include "phys/frame.h"
+
+#include <string.h>
+
+static struct frame frame_whole(const struct mesh *mesh, int axis)
+{
+    struct frame frame = {.axis = axis, .n = (size_t)mesh->n[axis], .tile_inner = 1};
+    for (int d = 0; d < axis; d++) frame.tile_inner *= (size_t)mesh->n[d];
+    frame.tile_outer = mesh->n_cell / frame.n / frame.tile_inner;
+    size_t length = frame.n + 2 * MESH_GHOST;
+    frame.inner = frame.tile_inner;
+    while (frame.inner * length > FRAME_CELLS) frame.inner = (frame.inner + 1) / 2;
+    frame.outer = FRAME_CELLS / (length * frame.inner);
+    if (frame.outer < 1) frame.outer = 1;
+    if (frame.outer > frame.tile_outer) frame.outer = frame.tile_outer;
+    return frame;
+}
+
+static size_t frame_cut(size_t whole, size_t piece)
+{
+    return (whole + piece - 1) / piece;
+}
+
+size_t frame_pieces(const struct mesh *mesh, int axis)
+{
+    struct frame frame = frame_whole(mesh, axis);
+    return frame_cut(frame.tile_outer, frame.outer) * frame_cut(frame.tile_inner, frame.inner);
+}
+
+struct frame frame_piece(const struct mesh *mesh, int axis, size_t index)
+{
+    struct frame frame = frame_whole(mesh, axis);
+    size_t across = frame_cut(frame.tile_inner, frame.inner);
+    frame.outer_from = index / across * frame.outer;
+    frame.inner_from = index % across * frame.inner;
+    if (frame.outer > frame.tile_outer - frame.outer_from) frame.outer = frame.tile_outer - frame.outer_from;
+    if (frame.inner > frame.tile_inner - frame.inner_from) frame.inner = frame.tile_inner - frame.inner_from;
+    frame.count = frame.outer * (frame.n + 2 * MESH_GHOST) * frame.inner;
+    return frame;
+}
+
+/* Copies a row; short rows, the usual case, without a call. */
+static inline void frame_row(size_t n, const double *restrict source, double *restrict target)
+{
+    size_t i = 0;
+    for (; i + 4 <= n; i += 4) memcpy(target + i, source + i, 4 * sizeof *target);
+    for (; i < n; i++) target[i] = source[i];
+}
+
+/* `layers` layers of every outer slice, from a block whose slices have `depth` layers, starting
+ * at layer `from`, to frame layer `to`. */
+static void frame_copy(const struct frame *frame, const double *block, size_t depth, size_t from, int to, size_t layers,
+                       double *w)
+{
+    bool whole = frame->inner == frame->tile_inner; /* then the layers of a slice follow each other */
+    size_t rows = whole ? 1 : layers, length = whole ? layers * frame->inner : frame->inner;
+    const double *source = block + (frame->outer_from * depth + from) * frame->tile_inner + frame->inner_from;
+    double *target = w + frame_at(frame, 0, to);
+    size_t source_slice = depth * frame->tile_inner, slice = (frame->n + 2 * MESH_GHOST) * frame->inner;
+    for (size_t o = 0; o < frame->outer; o++, source += source_slice, target += slice)
+        for (size_t row = 0; row < rows; row++)
+            frame_row(length, source + row * frame->tile_inner, target + row * frame->inner);
+}
+
+static void frame_side(const struct frame_source *source, unsigned local, const struct frame *frame, int side,
+                       size_t pitch, double *w)
+{
+    const struct neighbour *neighbour = &source->level->neighbours[local][2 * frame->axis + side];
+    if (neighbour->kind == NEIGHBOUR_BOUNDARY) {
+        source->boundary(source->data, local, frame, side, pitch, w);
+        return;
+    }
+    bool remote = neighbour->kind == NEIGHBOUR_REMOTE;
+    size_t depth = remote ? MESH_GHOST : frame->n, from = remote || side ? 0 : frame->n - MESH_GHOST;
+    size_t block = remote ? frame->tile_outer * MESH_GHOST * frame->tile_inner : source->mesh->n_cell;
+    const double *data = remote ? halo_slab(source->halo, neighbour->index) : source->arrays[neighbour->index];
+    int to = side ? (int)frame->n : -MESH_GHOST;
+    for (unsigned q = 0; q < source->n_field; q++)
+        frame_copy(frame, data + q * block, depth, from, to, MESH_GHOST, w + q * pitch);
+}
+
+void frame_gather(const struct frame_source *source, unsigned local, const struct frame *frame, size_t pitch, double *w)
+{
+    const double *own = source->arrays[local];
+    for (unsigned q = 0; q < source->n_field; q++)
+        frame_copy(frame, own + q * source->mesh->n_cell, frame->n, 0, 0, frame->n, w + q * pitch);
+    for (int side = 0; side < 2; side++) frame_side(source, local, frame, side, pitch, w);
+}

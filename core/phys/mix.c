@@ -1,0 +1,331 @@
+/* mix.c - the mixture of N materials at one pressure and velocity, see mix.h.
+ *
+ * Batches of MIX_BATCH points keep the scratch arrays in L1. Loops run over points inside and
+ * materials outside; each is a function of its own so that it is built for several instruction
+ * sets. Densities of absent materials are the fill value: every law can then be called on every
+ * point, and its weight alpha_l = 0 removes it. */
+#include "phys/mix.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MIX_BATCH = 512 };
+
+struct mix_row {
+    double value[MIX_BATCH];
+};
+
+/* alpha_l' = alpha_l where present, else 0; and the sum of them. */
+static BULLA_KERNEL void mix_keep_present(size_t n, const double *restrict alpha, const double *restrict m,
+                                          double *restrict kept, double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], mass = m[i], s = sum[i];
+        double keep = a > MIX_ABSENT ? a : 0.0;
+        keep = mass > 0.0 ? keep : 0.0;
+        kept[i] = keep;
+        sum[i] = s + keep;
+    }
+}
+
+static BULLA_KERNEL void mix_invert(size_t n, double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) sum[i] = 1.0 / sum[i];
+}
+
+/* rho_l = m_l / alpha_l, alpha normalised to sum 1. */
+static BULLA_KERNEL void mix_densities(size_t n, const double *restrict m, const double *restrict per_sum, double fill,
+                                       double *restrict alpha, double *restrict rho)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i] * per_sum[i], mass = m[i];
+        double divisor = a > 0.0 ? a : 1.0, density = mass / divisor;
+        alpha[i] = a;
+        rho[i] = a > 0.0 ? density : fill;
+    }
+}
+
+static BULLA_KERNEL void mix_add(size_t n, const double *restrict a, double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) sum[i] += a[i];
+}
+
+static BULLA_KERNEL void mix_add_product(size_t n, const double *restrict a, const double *restrict b,
+                                         double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) sum[i] += a[i] * b[i];
+}
+
+/* u = momentum / rho, and twice the kinetic energy. */
+static BULLA_KERNEL void mix_velocity(size_t n, const double *restrict momentum, const double *restrict rho,
+                                      double *restrict u, double *restrict twice)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double q = momentum[i], v = q / rho[i];
+        u[i] = v;
+        twice[i] += q * v;
+    }
+}
+
+/* p = (rho E - rho |u|^2/2 - b) / a. */
+static BULLA_KERNEL void mix_pressure(size_t n, const double *restrict energy, const double *restrict twice,
+                                      const double *restrict a, const double *restrict b, double *restrict p)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) p[i] = ((energy[i] - 0.5 * twice[i]) - b[i]) / a[i];
+}
+
+static void mix_close_linear(const struct model *model, size_t n, size_t stride, const double *energy,
+                             const double *twice, double *w)
+{
+    struct mix_row a, b, sum_a = {{0}}, sum_b = {{0}};
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const double *alpha = w + (model->i_alpha + l) * stride, *rho = w + (model->i_m + l) * stride;
+        model->eos[l].law->linear(model->eos[l].self, n, rho, a.value, b.value);
+        if (model->n_alpha) {
+            mix_add_product(n, alpha, a.value, sum_a.value);
+            mix_add_product(n, alpha, b.value, sum_b.value);
+        } else {
+            sum_a = a;
+            sum_b = b;
+        }
+    }
+    mix_pressure(n, energy, twice, sum_a.value, sum_b.value, w + model->i_E * stride);
+}
+
+/* F(p) = sum alpha_l rho_l e_l - rho e and F'(p) at the trial pressures. */
+static void mix_residual(const struct model *model, size_t n, size_t stride, const double *w, const double *p,
+                         struct mix_row *ret_f, struct mix_row *ret_slope)
+{
+    struct mix_row e, c2, de_dp, de_drho;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const struct model_eos *eos = &model->eos[l];
+        const double *rho = w + (model->i_m + l) * stride;
+        eos->law->state(eos->self, n, rho, p, e.value, c2.value);
+        eos->law->derivatives(eos->self, n, rho, p, de_dp.value, de_drho.value);
+        for (size_t i = 0; i < n; i++) {
+            double alpha = model->n_alpha ? w[(model->i_alpha + l) * stride + i] : 1.0;
+            ret_f->value[i] += alpha * e.value[i];
+            ret_slope->value[i] += alpha * de_dp.value[i];
+        }
+    }
+}
+
+/* Lowest pressure at which all present materials are well-posed. */
+static void mix_floor(const struct model *model, size_t n, size_t stride, const double *w, struct mix_row *ret_low)
+{
+    struct mix_row low;
+    for (size_t i = 0; i < n; i++) ret_low->value[i] = -HUGE_VAL;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        model->eos[l].law->p_min(model->eos[l].self, n, w + (model->i_m + l) * stride, low.value);
+        for (size_t i = 0; i < n; i++) {
+            bool present = !model->n_alpha || w[(model->i_alpha + l) * stride + i] > 0.0;
+            if (present && low.value[i] > ret_low->value[i]) ret_low->value[i] = low.value[i];
+        }
+    }
+}
+
+/* Newton with a bracket (eos.md 9): F grows with p, so the sign of F moves one end of [low, high];
+ * a step that leaves the bracket is replaced by bisection, or doubling while there is no upper
+ * end. Every point keeps iterating until all have converged, so a result does not depend on its
+ * neighbours: a converged point no longer moves. */
+static void mix_close_newton(const struct model *model, size_t n, size_t stride, const double *energy,
+                             const double *twice, double *w)
+{
+    enum { ROUNDS = 60 };
+    struct mix_row low, high, f, slope;
+    double *p = w + model->i_E * stride;
+    bool done[MIX_BATCH] = {false}, all = false;
+    mix_floor(model, n, stride, w, &low);
+    for (size_t i = 0; i < n; i++) {
+        high.value[i] = HUGE_VAL;
+        if (!(p[i] > low.value[i]) || !isfinite(p[i])) p[i] = low.value[i] < 0.0 ? 1e5 : 2.0 * low.value[i] + 1e5;
+    }
+    for (int round = 0; round < ROUNDS && !all; round++) {
+        all = true;
+        f = slope = (struct mix_row){{0}};
+        mix_residual(model, n, stride, w, p, &f, &slope);
+        for (size_t i = 0; i < n; i++) {
+            if (done[i]) continue;
+            double e = energy[i] - 0.5 * twice[i], excess = f.value[i] - e, old = p[i];
+            if (excess > 0) high.value[i] = old;
+            else low.value[i] = old;
+            double next = old - excess / slope.value[i];
+            if (!(next > low.value[i] && next < high.value[i]))
+                next = isfinite(high.value[i]) ? 0.5 * (low.value[i] + high.value[i]) : 2.0 * fabs(old) + 1e5;
+            double floor_error = 4.0 * 2.2e-16 * (fabs(e) + fabs(f.value[i])) / slope.value[i];
+            double tolerance = 1e-13 * fabs(old) > floor_error ? 1e-13 * fabs(old) : floor_error;
+            p[i] = next;
+            done[i] = fabs(next - old) <= tolerance;
+            all = all && done[i];
+        }
+    }
+    for (size_t i = 0; i < n; i++)
+        if (!done[i]) p[i] = NAN; /* guard finds it */
+}
+
+static void mix_primitives_batch(const struct model *model, size_t n, size_t stride, const double *u, double *w)
+{
+    struct mix_row sum = {{0}}, rho = {{0}}, twice = {{0}};
+    unsigned i_m = model->i_m;
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        mix_keep_present(n, u + (model->i_alpha + l) * stride, u + (i_m + l) * stride,
+                         w + (model->i_alpha + l) * stride, sum.value);
+    mix_invert(model->n_alpha ? n : 0, sum.value);
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const double *m = u + (i_m + l) * stride;
+        mix_add(n, m, rho.value);
+        if (model->n_alpha)
+            mix_densities(n, m, sum.value, model->eos[l].rho_fill, w + (model->i_alpha + l) * stride,
+                          w + (i_m + l) * stride);
+        else memcpy(w + i_m * stride, m, n * sizeof *w);
+    }
+    for (int d = 0; d < model->dim; d++) {
+        unsigned q = model->i_u + (unsigned)d;
+        mix_velocity(n, u + q * stride, rho.value, w + q * stride, twice.value);
+    }
+    const double *energy = u + model->i_E * stride;
+    if (model->linear) mix_close_linear(model, n, stride, energy, twice.value, w);
+    else mix_close_newton(model, n, stride, energy, twice.value, w);
+}
+
+void mix_primitives(const struct model *model, size_t n, size_t stride, const double *u, double *w)
+{
+    for (size_t i = 0; i < n; i += MIX_BATCH)
+        mix_primitives_batch(model, n - i < MIX_BATCH ? n - i : MIX_BATCH, stride, u + i, w + i);
+}
+
+static void mix_conserved_batch(const struct model *model, size_t n, size_t stride, const double *w, double *u)
+{
+    struct mix_row rho = {{0}}, energy = {{0}}, e, c2;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const double *density = w + (model->i_m + l) * stride;
+        double *m = u + (model->i_m + l) * stride;
+        model->eos[l].law->state(model->eos[l].self, n, density, w + model->i_E * stride, e.value, c2.value);
+        for (size_t i = 0; i < n; i++) {
+            double alpha = model->n_alpha ? w[(model->i_alpha + l) * stride + i] : 1.0;
+            if (model->n_alpha) u[(model->i_alpha + l) * stride + i] = alpha;
+            m[i] = alpha * density[i];
+            rho.value[i] += m[i];
+            energy.value[i] += alpha * e.value[i];
+        }
+    }
+    for (int d = 0; d < model->dim; d++) {
+        unsigned q = model->i_u + (unsigned)d;
+        for (size_t i = 0; i < n; i++) {
+            double v = w[q * stride + i];
+            u[q * stride + i] = rho.value[i] * v;
+            energy.value[i] += 0.5 * rho.value[i] * v * v;
+        }
+    }
+    memcpy(u + model->i_E * stride, energy.value, n * sizeof *u);
+}
+
+void mix_conserved(const struct model *model, size_t n, size_t stride, const double *w, double *u)
+{
+    for (size_t i = 0; i < n; i += MIX_BATCH)
+        mix_conserved_batch(model, n - i < MIX_BATCH ? n - i : MIX_BATCH, stride, w + i, u + i);
+}
+
+/* A material's part of rho and of rho c_f^2. */
+static BULLA_KERNEL void mix_stiffen(size_t n, const double *restrict alpha, const double *restrict rho_l,
+                                     const double *restrict rho_c2, double *restrict rho, double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], r = rho[i], s = sum[i];
+        rho[i] = r + a * rho_l[i];
+        sum[i] = s + a * rho_c2[i];
+    }
+}
+
+static BULLA_KERNEL void mix_divide(size_t n, const double *restrict a, const double *restrict b,
+                                    double *restrict ratio)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) ratio[i] = a[i] / b[i];
+}
+
+void mix_stiffness(const struct model *model, size_t n, size_t stride, const double *w, double *rho_c2)
+{
+    const double *p = w + model->i_E * stride;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const double *rho = w + (model->i_m + l) * stride;
+        for (size_t i = 0; i < n; i += MIX_BATCH) {
+            struct mix_row e;
+            size_t count = n - i < MIX_BATCH ? n - i : MIX_BATCH;
+            model->eos[l].law->state(model->eos[l].self, count, rho + i, p + i, e.value, rho_c2 + l * stride + i);
+        }
+    }
+}
+
+static void mix_speed2_batch(const struct model *model, size_t n, size_t stride, const double *w, const double *rho_c2,
+                             double *c2)
+{
+    struct mix_row rho = {{0}}, sum = {{0}};
+    if (!model->n_alpha) {
+        mix_divide(n, rho_c2, w + model->i_m * stride, c2);
+        return;
+    }
+    for (unsigned l = 0; l < model->n_material; l++)
+        mix_stiffen(n, w + (model->i_alpha + l) * stride, w + (model->i_m + l) * stride, rho_c2 + l * stride, rho.value,
+                    sum.value);
+    mix_divide(n, sum.value, rho.value, c2);
+}
+
+void mix_speed2(const struct model *model, size_t n, size_t stride, const double *w, const double *rho_c2, double *c2)
+{
+    for (size_t i = 0; i < n; i += MIX_BATCH)
+        mix_speed2_batch(model, n - i < MIX_BATCH ? n - i : MIX_BATCH, stride, w + i, rho_c2 + i, c2 + i);
+}
+
+/* A trace of a material in a state of no stiffness (guard judges the others) takes no part: its
+ * volume stays as transport left it. */
+static BULLA_KERNEL void mix_compliance(size_t n, const double *restrict alpha, const double *restrict rho_c2,
+                                        double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double s = rho_c2[i], share = alpha[i] / s, old = sum[i];
+        sum[i] = old + (s > 0.0 ? share : 0.0);
+    }
+}
+
+static BULLA_KERNEL void mix_k(size_t n, const double *restrict alpha, const double *restrict rho_c2,
+                               const double *restrict sum, double *restrict K)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double s = rho_c2[i], a = alpha[i], k = a * (1.0 / (sum[i] * s) - 1.0);
+        K[i] = s > 0.0 ? k : 0.0;
+    }
+}
+
+void mix_closure(const struct model *model, size_t n, size_t stride, const double *w, const double *rho_c2, double *K)
+{
+    for (size_t i = 0; i < n; i += MIX_BATCH) {
+        size_t count = n - i < MIX_BATCH ? n - i : MIX_BATCH;
+        struct mix_row sum = {{0}};
+        for (unsigned l = 0; l < model->n_alpha; l++)
+            mix_compliance(count, w + (model->i_alpha + l) * stride + i, rho_c2 + l * stride + i, sum.value);
+        for (unsigned l = 0; l < model->n_alpha; l++)
+            mix_k(count, w + (model->i_alpha + l) * stride + i, rho_c2 + l * stride + i, sum.value, K + l * stride + i);
+    }
+}
+
+void mix_temperatures(const struct model *model, size_t n, size_t stride, const double *w, double *T)
+{
+    for (unsigned l = 0; l < model->n_material; l++) {
+        double *own = T + l * stride;
+        model->eos[l].law->temperature(model->eos[l].self, n, w + (model->i_m + l) * stride, w + model->i_E * stride,
+                                       own);
+        for (size_t i = 0; model->n_alpha && i < n; i++)
+            if (w[(model->i_alpha + l) * stride + i] <= 0.0) own[i] = 0.0;
+    }
+}

@@ -1,0 +1,180 @@
+/* relax.c - see relax.h. Scalar code: it runs in a handful of cells. */
+#include "phys/relax.h"
+
+#include "phys/mix.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { RELAX_FIELDS = 2 * SCENE_MATERIALS + 4, RELAX_ROUNDS = 80, RELAX_NEWTON = 30 };
+
+/* A material that was a trace in a liquid under tension starts just above its least pressure: this
+ * share of its distance from the old pressure. */
+#define RELAX_NEAR 1e-6
+
+struct relax {
+    const struct model *model;
+    double u[RELAX_FIELDS], w[RELAX_FIELDS]; /* the cell now */
+    bool present[SCENE_MATERIALS];
+    double m[SCENE_MATERIALS], v0[SCENE_MATERIALS], e0[SCENE_MATERIALS], v[SCENE_MATERIALS];
+    double p0, floor; /* pressure at the start, and the least one that all present materials bear */
+    double stiffest;  /* largest rho_l c_l^2 at the start */
+};
+
+/* A volume fraction below RELAX_TRACE with less than RELAX_VOID of the cell's mass is an empty trace: it gives way. */
+#define RELAX_TRACE 1e-3
+#define RELAX_VOID 1e-13
+
+/* Least distance of p* from the floor, relative to the largest rho_l c_l^2: what the closure can resolve. */
+#define RELAX_RESOLVED 1e-11
+
+static double relax_energy(const struct model_eos *eos, double rho, double p, double *ret_slope)
+{
+    double rho_e, rho_c2, de_dp, de_drho;
+    eos->law->state(eos->self, 1, &rho, &p, &rho_e, &rho_c2);
+    eos->law->derivatives(eos->self, 1, &rho, &p, &de_dp, &de_drho);
+    *ret_slope = de_drho;
+    return rho_e;
+}
+
+/* Start states: the material's own where most of it was here before, else the density it arrived with. */
+static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
+{
+    const struct model *model = relax->model;
+    double old[RELAX_FIELDS], before[RELAX_FIELDS] = {0};
+    for (unsigned q = 0; q < model->n_field; q++) old[q] = u_old[q * stride];
+    mix_primitives(model, 1, 1, old, before);
+    double rho_all = 0.0;
+    for (unsigned l = 0; l < model->n_material; l++) rho_all += relax->u[model->i_m + l];
+    relax->p0 = before[model->i_E];
+    relax->floor = -HUGE_VAL;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const struct model_eos *eos = &model->eos[l];
+        double m = relax->u[model->i_m + l], alpha = relax->u[l], rho, least, slope, rho_e, rho_c2;
+        relax->m[l] = m;
+        relax->present[l] = alpha > MIX_ABSENT && m > (alpha < RELAX_TRACE ? RELAX_VOID * rho_all : 0.0);
+        if (!relax->present[l]) continue;
+        bool own = before[l] > 0.0 && old[model->i_m + l] > 0.5 * m && old[model->i_m + l] < 2.0 * m;
+        rho = own ? before[model->i_m + l] : m / alpha;
+        eos->law->p_min(eos->self, 1, &rho, &least);
+        if (least > relax->floor) relax->floor = least;
+        double low = least + RELAX_NEAR * fabs(relax->p0 - least), start = relax->p0 > low ? relax->p0 : low;
+        relax->v0[l] = 1.0 / rho;
+        relax->e0[l] = relax_energy(eos, rho, start, &slope) / rho;
+        eos->law->state(eos->self, 1, &rho, &start, &rho_e, &rho_c2);
+        if (rho_c2 > relax->stiffest) relax->stiffest = rho_c2;
+    }
+    return isfinite(relax->floor);
+}
+
+/* v_l(p): Newton on e(v, p) + p v = e0 + p v0, which is linear in v for the stiffened-gas family. */
+static double relax_volume(const struct relax *relax, unsigned l, double p)
+{
+    double target = relax->e0[l] + p * relax->v0[l], v = relax->v0[l];
+    for (int i = 0; i < RELAX_NEWTON; i++) {
+        double de_drho, rho_e = relax_energy(&relax->model->eos[l], 1.0 / v, p, &de_drho);
+        double next = v - (v * rho_e + p * v - target) / (rho_e + p - de_drho / v);
+        if (!(next > 0.0)) next = 0.5 * v;
+        bool done = fabs(next - v) <= 1e-14 * v;
+        v = next;
+        if (done) break;
+    }
+    return v;
+}
+
+/* Volume of all masses at p, less the cell's; falls with p. */
+static double relax_excess(struct relax *relax, double p)
+{
+    double sum = -1.0;
+    for (unsigned l = 0; l < relax->model->n_material; l++) {
+        if (!relax->present[l]) continue;
+        relax->v[l] = relax_volume(relax, l, p);
+        sum += relax->m[l] * relax->v[l];
+    }
+    return sum;
+}
+
+/* p*, by doubling and halving of p - floor, then bisection of its logarithm; NaN if there is none. */
+static double relax_pressure(struct relax *relax)
+{
+    double floor = relax->floor, least = RELAX_NEAR * fabs(relax->p0 - floor), above = relax->p0 - floor;
+    double low = above > least ? above : least, high = low;
+    bool rising = relax_excess(relax, floor + low) > 0.0;
+    for (int i = 0; i < RELAX_ROUNDS; i++) {
+        double next = rising ? 2.0 * high : 0.5 * low;
+        bool crossed = (relax_excess(relax, floor + next) > 0.0) != rising;
+        if (rising) low = high, high = next;
+        else high = low, low = next;
+        if (crossed) break;
+        if (i == RELAX_ROUNDS - 1) return NAN;
+    }
+    for (int i = 0; i < RELAX_ROUNDS && high > low * (1.0 + 1e-13); i++) {
+        double middle = sqrt(low * high);
+        if (relax_excess(relax, floor + middle) > 0.0) low = middle;
+        else high = middle;
+    }
+    return floor + high;
+}
+
+/* Mixture pressure that the conserved energy gives with the present fractions. */
+static double relax_close(struct relax *relax)
+{
+    mix_primitives(relax->model, 1, 1, relax->u, relax->w);
+    return relax->w[relax->model->i_E];
+}
+
+/* Moves volume between the two materials of highest and lowest energy density until the energy
+ * held at p* is the conserved one. */
+static void relax_shift(struct relax *relax, double p)
+{
+    const struct model *model = relax->model;
+    double kinetic = 0.0, rho = 0.0;
+    for (unsigned l = 0; l < model->n_material; l++) rho += relax->u[model->i_m + l];
+    for (int d = 0; d < model->dim; d++) {
+        double q = relax->u[model->i_u + (unsigned)d];
+        kinetic += 0.5 * q * q / rho;
+    }
+    for (int i = 0; i < RELAX_NEWTON; i++) {
+        double held = 0.0, most = -HUGE_VAL, least = HUGE_VAL, slope;
+        unsigned from = 0, to = 0;
+        for (unsigned l = 0; l < model->n_material; l++) {
+            if (!relax->present[l]) continue;
+            double rho_e = relax_energy(&model->eos[l], relax->m[l] / relax->u[l], p, &slope);
+            held += relax->u[l] * rho_e;
+            if (rho_e > most) most = rho_e, from = l;
+            if (rho_e < least) least = rho_e, to = l;
+        }
+        double shift = (held - (relax->u[model->i_E] - kinetic)) / (most - least);
+        if (!(most > least) || !isfinite(shift)) return;
+        if (shift > 0.5 * relax->u[from]) shift = 0.5 * relax->u[from];
+        if (shift < -0.5 * relax->u[to]) shift = -0.5 * relax->u[to];
+        relax->u[from] -= shift;
+        relax->u[to] += shift;
+        if (fabs(shift) < 1e-15) return;
+    }
+}
+
+bool relax_cell(const struct model *model, size_t stride, const double *u_old, double *u, double *w)
+{
+    struct relax relax = {.model = model};
+    if (!model->n_alpha) return false;
+    for (unsigned q = 0; q < model->n_field; q++) {
+        relax.u[q] = u[q * stride];
+        if (!isfinite(relax.u[q])) return false;
+    }
+    if (!relax_begin(&relax, stride, u_old)) return false;
+    double p = relax_pressure(&relax);
+    if (!isfinite(p)) return false;
+    double resolved = relax.floor + RELAX_RESOLVED * relax.stiffest;
+    p = p > resolved ? p : resolved;
+    for (unsigned l = 0; l < model->n_alpha; l++) relax.u[l] = relax.present[l] ? relax.m[l] * relax.v[l] : 0.0;
+    if (!(relax_close(&relax) - relax.floor > 0.5 * (p - relax.floor))) {
+        relax_shift(&relax, p);
+        relax_close(&relax);
+    }
+    for (unsigned q = 0; q < model->n_field; q++) {
+        u[q * stride] = relax.u[q];
+        w[q * stride] = relax.w[q];
+    }
+    return true;
+}

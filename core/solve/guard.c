@@ -1,0 +1,176 @@
+/* guard.c - see guard.h. The fast pass only counts; places and causes are worked out in the
+ * rare tile that has a bad cell. */
+#include "solve/guard.h"
+
+#include "base/mem.h"
+#include "mesh/halo.h"
+#include "phys/mix.h"
+#include "phys/relax.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A partial density this far below zero, relative to rho, is what two stages leave behind a front
+ * of traces (the midpoint rule keeps no sign); the material counts as absent there. */
+#define GUARD_ROUND_OFF 1e-8
+
+enum { GUARD_BATCH = 512 };
+
+struct guard *guard_new(const struct model *model, const struct mesh *mesh, const struct level *level)
+{
+    struct guard *guard = mem_new(1, sizeof *guard);
+    *guard = (struct guard){.model = model, .mesh = mesh, .level = level};
+    guard->repair = model->kapila && model->scene->guard != SCENE_GUARD_STRICT;
+    guard->mask = mem_new(level->n_local, sizeof *guard->mask);
+    for (unsigned t = 0; t < level->n_local; t++) guard->mask[t] = mem_new(mesh->n_cell, sizeof **guard->mask);
+    guard->halo = halo_new(mesh, level, 1);
+    return guard;
+}
+
+void guard_free(struct guard *guard)
+{
+    if (!guard) return;
+    for (unsigned t = 0; t < guard->level->n_local; t++) mem_free(guard->mask[t]);
+    mem_free(guard->mask);
+    halo_free(guard->halo);
+    mem_free(guard);
+}
+
+void guard_clear(struct guard *guard)
+{
+    for (unsigned t = 0; t < guard->level->n_local; t++)
+        memset(guard->mask[t], 0, guard->mesh->n_cell * sizeof **guard->mask);
+    guard->masked = false;
+}
+
+void guard_attempt(struct guard *guard)
+{
+    guard->bad[0] = guard->bad[1] = guard->relaxed = 0;
+    guard->cause[0] = '\0';
+}
+
+/* 1 where a cell is bad; written so that a NaN counts as bad. */
+static BULLA_KERNEL void guard_mixture(size_t n, const double *restrict energy, const double *restrict p,
+                                       const double *restrict c2, double *restrict bad)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double e = energy[i] - energy[i], q = p[i] - p[i], c = c2[i] - c2[i], s = c2[i];
+        double good = e == 0.0 ? 1.0 : 0.0;
+        good = q == 0.0 ? good : 0.0;
+        good = c == 0.0 ? good : 0.0;
+        good = s > 0.0 ? good : 0.0;
+        bad[i] = 1.0 - good;
+    }
+}
+
+static BULLA_KERNEL void guard_material(size_t n, const double *restrict m, const double *restrict alpha,
+                                        const double *restrict rho_c2, const double *restrict rho, double *restrict bad)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double mass = m[i], a = alpha[i], s = rho_c2[i], r = rho[i], b = bad[i];
+        double good = mass >= -GUARD_ROUND_OFF * r ? 1.0 : 0.0;
+        double stiff = s > 0.0 ? 1.0 : 0.0;
+        stiff = a > GUARD_PRESENT ? stiff : 1.0;
+        bad[i] = b + (1.0 - good * stiff);
+    }
+}
+
+static BULLA_KERNEL void guard_single(size_t n, const double *restrict rho, double *restrict bad)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double r = rho[i], b = bad[i];
+        bad[i] = b + (r > 0.0 ? 0.0 : 1.0);
+    }
+}
+
+static void guard_density(const struct model *model, size_t n, size_t stride, const double *u, double *rho)
+{
+    for (unsigned l = 0; l < model->n_material; l++)
+        for (size_t i = 0; i < n; i++) rho[i] = (l ? rho[i] : 0.0) + u[(model->i_m + l) * stride + i];
+}
+
+/* Which field of a cell is wrong, and its value. */
+static void guard_name(const struct guard *guard, const struct guard_tile *tile, size_t cell, char *what, size_t room)
+{
+    const struct model *model = guard->model;
+    size_t n_cell = guard->mesh->n_cell;
+    double p = tile->w[model->i_E * n_cell + cell];
+    snprintf(what, room, "pressure = %.6g Pa in the mixture", p);
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const char *name = model->scene->material[l].name;
+        double m = tile->u[(model->i_m + l) * n_cell + cell], alpha = model->n_alpha ? tile->w[l * n_cell + cell] : 1.0;
+        if (!(m >= 0.0) || (!model->n_alpha && !(m > 0.0))) {
+            snprintf(what, room, "partial_density_%s = %.6g kg/m3", name, m);
+            return;
+        }
+        if (alpha <= GUARD_PRESENT || tile->rho_c2[l * n_cell + cell] > 0.0) continue;
+        snprintf(what, room, "pressure = %.6g Pa, below what material '%s' (volume fraction %.3g) can bear", p, name,
+                 alpha);
+        return;
+    }
+}
+
+static void guard_describe(struct guard *guard, const struct guard_tile *tile, size_t cell)
+{
+    const struct mesh *mesh = guard->mesh;
+    const struct level *level = guard->level;
+    double x[3];
+    char what[160];
+    mesh_corner(mesh, level, &level->tiles[level->first + tile->local], x);
+    for (size_t d = 0, rest = cell; d < 3; rest /= (size_t)mesh->n[d], d++)
+        x[d] = (int)d < mesh->dim ? x[d] + ((double)(rest % (size_t)mesh->n[d]) + 0.5) * level->h[d] : 0.0;
+    guard_name(guard, tile, cell, what, sizeof what);
+    snprintf(guard->cause, sizeof guard->cause, "%s, in the cell at (%.9g, %.9g, %.9g) m of level 0, after stage %d",
+             what, x[0], x[1], x[2], tile->stage + 1);
+}
+
+/* The checks on n cells from `from`; bad[i] > 0 where one fails. Returns their sum. */
+static double guard_judge(const struct guard *guard, const struct guard_tile *tile, size_t from, size_t n, double *bad)
+{
+    const struct model *model = guard->model;
+    size_t n_cell = guard->mesh->n_cell;
+    double rho[GUARD_BATCH], count = 0.0;
+    guard_mixture(n, tile->u + model->i_E * n_cell + from, tile->w + model->i_E * n_cell + from, tile->c2 + from, bad);
+    if (model->n_alpha) guard_density(model, n, n_cell, tile->u + from, rho);
+    else guard_single(n, tile->u + model->i_m * n_cell + from, bad);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        guard_material(n, tile->u + (model->i_m + l) * n_cell + from, tile->w + l * n_cell + from,
+                       tile->rho_c2 + l * n_cell + from, rho, bad);
+    for (size_t i = 0; i < n; i++) count += bad[i];
+    return count;
+}
+
+/* Relaxation of one cell; true if it is admissible afterwards. */
+static bool guard_repair(struct guard *guard, const struct guard_tile *tile, size_t cell)
+{
+    size_t n_cell = guard->mesh->n_cell;
+    double bad;
+    if (!guard->repair || !relax_cell(guard->model, n_cell, tile->u_old + cell, tile->u + cell, tile->w + cell))
+        return false;
+    mix_stiffness(guard->model, 1, n_cell, tile->w + cell, tile->rho_c2 + cell);
+    mix_speed2(guard->model, 1, n_cell, tile->w + cell, tile->rho_c2 + cell, tile->c2 + cell);
+    if (guard_judge(guard, tile, cell, 1, &bad) > 0.0) return false;
+    guard->relaxed++;
+    return true;
+}
+
+void guard_check(struct guard *guard, const struct guard_tile *tile)
+{
+    size_t n_cell = guard->mesh->n_cell;
+    if (tile->stage && guard->bad[0]) return;
+    for (size_t from = 0; from < n_cell; from += GUARD_BATCH) {
+        size_t n = n_cell - from < GUARD_BATCH ? n_cell - from : GUARD_BATCH;
+        double bad[GUARD_BATCH];
+        if (guard_judge(guard, tile, from, n, bad) == 0.0) continue;
+        for (size_t i = 0; i < n; i++) {
+            if (bad[i] == 0.0 || guard_repair(guard, tile, from + i)) continue;
+            if (!guard->cause[0]) guard_describe(guard, tile, from + i);
+            guard->bad[tile->stage]++;
+            guard->mask[tile->local][from + i] = 1.0;
+        }
+    }
+}

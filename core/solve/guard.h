@@ -1,0 +1,55 @@
+/* guard.h - is a state admissible, and what is done when it is not.
+ *
+ * Admissible: everything finite, rho > 0, no partial density below round-off, every present
+ * material well-posed at the mixture pressure (c_l^2 > 0). A mixed cell that fails gets its volume
+ * fractions from pressure relaxation (phys/relax.h). The ladder for a step that still leaves
+ * an inadmissible cell: redo the step with first-order states and the robust solver at the faces
+ * of the troubled cells (conservative: both sides see the same flux), at most GUARD_ROUNDS times;
+ * then halve the time step, at most GUARD_RETRIES times; then stop with the place and the cause.
+ * Nothing is floored. (MOOD: Clain, Diot & Loubere 2011; retry as in Castro.) */
+#ifndef GUARD_H
+#define GUARD_H
+
+#include "mesh/mesh.h"
+#include "phys/model.h"
+
+enum { GUARD_ROUNDS = 3, GUARD_RETRIES = 6 };
+
+/* Present enough that its state matters: below it a material rides along. */
+#define GUARD_PRESENT 1e-6
+
+struct guard {
+    const struct model *model;
+    const struct mesh *mesh;
+    const struct level *level;
+    double **mask;     /* [n_local][n_cell]: 1 in troubled cells of this step */
+    struct halo *halo; /* exchange of the masks */
+    bool masked;       /* some cell of some rank is marked */
+    bool repair;       /* relaxation is allowed (Kapila closure, guard not strict) */
+    long long relaxed; /* cells repaired in the present attempt */
+    long long bad[2];  /* inadmissible cells found after each stage of the present attempt */
+    char cause[512];   /* the first of them, in words (rank-local) */
+};
+
+struct guard *guard_new(const struct model *model, const struct mesh *mesh, const struct level *level);
+void guard_free(struct guard *guard);
+
+/* Forgets marks (a new step or a smaller time step). */
+void guard_clear(struct guard *guard);
+
+/* Starts an attempt: forgets what was found, keeps the marks. */
+void guard_attempt(struct guard *guard);
+
+/* A tile that has been closed: blocks of n_cell. u_old is the state at the start of the step. */
+struct guard_tile {
+    unsigned local;
+    int stage; /* 0 or 1 */
+    const double *u_old;
+    double *u, *w;       /* conserved and primitives now; the fractions of repaired cells change */
+    double *rho_c2, *c2; /* rho_l c_l^2 and frozen c^2 (mix_stiffness), likewise */
+};
+
+/* Checks a tile; repairs, notes and marks bad cells; after a bad first stage the second is not judged. */
+void guard_check(struct guard *guard, const struct guard_tile *tile);
+
+#endif

@@ -1,0 +1,58 @@
+/* plan.c - see plan.h. */
+#include "solve/plan.h"
+
+const struct plan_stage *plan_stages(void)
+{
+    static const struct plan_stage stages[] = {
+        {"exchange", "send layers of primitives to neighbouring ranks", stage_exchange},
+        {"half",
+         "u* = u + dt/2 L(w): gather, slopes (%L), states (%E), fluxes (%R), divergence, closure (%C);\n"
+         "              w = primitives of u* at the mixture pressure, admissibility",
+         stage_half},
+        {"exchange", "send layers of primitives to neighbouring ranks", stage_exchange},
+        {"full", "u = u + dt L(w): gather, slopes (%L), states (%E), fluxes (%R), divergence, closure (%C)",
+         stage_full},
+        {"close", "w = primitives of u, admissibility, signal speed for the next dt", stage_close},
+        {NULL, NULL, NULL},
+    };
+    return stages;
+}
+
+static void plan_laws(const struct scene *scene, struct text *text)
+{
+    for (unsigned l = 0; l < scene->n_material; l++)
+        text_add(text, "%s%s: %s", l ? ", " : "", scene->material[l].name, scene->material[l].eos.module->name);
+}
+
+static void plan_line(const struct scene *scene, const char *doc, struct text *text)
+{
+    for (; *doc; doc++) {
+        if (*doc != '%') {
+            text_add_n(text, doc, 1);
+            continue;
+        }
+        doc++;
+        if (*doc == 'L') text_add(text, "%s", scene->limiter.module->name);
+        if (*doc == 'R') text_add(text, "%s", scene->riemann.module->name);
+        if (*doc == 'C')
+            text_add(text, "%s",
+                     scene->n_material < 2            ? "none: one material"
+                     : scene->closure == SCENE_KAPILA ? "kapila"
+                                                      : "allaire");
+        if (*doc == 'E') plan_laws(scene, text);
+    }
+}
+
+void plan_text(const struct scene *scene, struct text *ret_text)
+{
+    const struct plan_stage *stages = plan_stages();
+    text_add(ret_text, "one step of level 0 (explicit midpoint rule):\n");
+    for (int i = 0; stages[i].name; i++) {
+        text_add(ret_text, "  %d  %-8s  ", i + 1, stages[i].name);
+        plan_line(scene, stages[i].doc, ret_text);
+        text_add(ret_text, "\n");
+    }
+    text_add(ret_text,
+             "then: an inadmissible cell makes the step run again with first-order states and rusanov fluxes at its\n"
+             "faces (3 rounds), then with half the time step (6 times), then the run stops with the place and cause\n");
+}
