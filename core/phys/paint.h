@@ -1,0 +1,16 @@
+/* paint.h - the initial state: layers of paint on the cells of a tile. */
+#ifndef PAINT_H
+#define PAINT_H
+
+#include "mesh/mesh.h"
+#include "phys/model.h"
+
+/* Fills the conserved fields of a tile, u[n_field][n_cell] (cells x fastest, order as in model.h), with the cell
+ * averages of the scene's layers. A layer covers the fraction f of a cell that lies in its shape: mass, momentum,
+ * energy and volume fractions become (1 - f) before + f layer. Values that vary in space are averaged over the cell,
+ * or over its part inside the shape, by four Gauss points per axis. STATUS_CASE: a state that no material can have, or
+ * a script that fails; the message names layer, place, field and value. */
+int paint_tile(const struct model *model, const struct mesh *mesh, const struct level *level, const struct tile *tile,
+               double *u);
+
+#endif
