@@ -1,10 +1,9 @@
 /* mc.c - the mean of the two differences, at most twice the smaller one. */
-#include <math.h>
 
 static inline double mc(double less, double more)
 {
     double mean = 0.5 * (less + more), twice = 2.0 * less;
-    return fabs(mean) < fabs(twice) ? mean : twice;
+    return mean < twice ? mean : twice;
 }
 
 #define LIMITER_SLOPE mc

@@ -1,9 +1,9 @@
 /* pair.h - what all limiters share: the two differences ordered by size.
  *
- * Of two differences of the same sign, `less` is the one nearer to zero. Each limiter is then a
- * function of (less, more) that is called at one place, symmetric in its arguments and odd
- * under a change of sign by construction. With r = less/more in [0, 1] nothing overflows.
- * The including module defines LIMITER_SLOPE(less, more), a value between 0 and 2 less. */
+ * Of two differences of the same sign, `less` is the smaller magnitude and `more` the larger. Each
+ * limiter is then a function of (less, more) that is called at one place, symmetric in its
+ * arguments and odd under a change of sign by construction. With r = less/more in [0, 1] nothing
+ * overflows. The including module defines LIMITER_SLOPE(less, more), from 0 to 2 less. */
 #ifndef PAIR_H
 #define PAIR_H
 
@@ -13,10 +13,11 @@
 
 static inline double pair_limit(double a, double b)
 {
-    double less = fabs(a) < fabs(b) ? a : b, more = fabs(a) < fabs(b) ? b : a;
-    int rising = (a > 0.0) & (b > 0.0), falling = (a < 0.0) & (b < 0.0);
+    double size_a = fabs(a), size_b = fabs(b);
+    double less = size_a < size_b ? size_a : size_b, more = size_a < size_b ? size_b : size_a;
     double value = LIMITER_SLOPE(less, more);
-    return rising | falling ? value : 0.0;
+    int one_way = ((a > 0.0) == (b > 0.0)) & (less > 0.0);
+    return copysign(one_way ? value : 0.0, a);
 }
 
 BULLA_KERNEL static void pair_slope(const void *self, size_t n, const double *BULLA_RESTRICT d_minus,

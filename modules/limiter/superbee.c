@@ -4,7 +4,7 @@
 static inline double superbee(double less, double more)
 {
     double twice = 2.0 * less;
-    return fabs(twice) < fabs(more) ? twice : more;
+    return twice < more ? twice : more;
 }
 
 #define LIMITER_SLOPE superbee
