@@ -222,8 +222,8 @@ static void picture_paint_tiles(cairo_t *cr, const struct picture_plan *plan)
             picture_point(plan, (const double[2]){tile->at[0][side], tile->at[1][side]}, &x[side], &y[side]);
         cairo_rectangle(cr, x[0], y[1], x[1] - x[0], y[0] - y[1]);
     }
-    cairo_set_source_rgba(cr, 0.0, 0.0, 0.0, 0.45);
-    cairo_set_line_width(cr, 0.35);
+    cairo_set_source_rgba(cr, 0.55, 0.55, 0.55, 0.8); /* seen on dark and on light */
+    cairo_set_line_width(cr, 0.4);
     cairo_stroke(cr);
     cairo_restore(cr);
 }
