@@ -173,6 +173,20 @@ static void chart_zero(cairo_t *cr, const struct chart_frame *frame)
     cairo_stroke(cr);
 }
 
+static void chart_marks(cairo_t *cr, const struct chart_frame *frame, const struct chart *chart)
+{
+    cairo_set_source_rgb(cr, 0.55, 0.55, 0.55);
+    cairo_set_line_width(cr, 0.6);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
+    cairo_set_dash(cr, (const double[2]){1.2, 1.8}, 2, 0.0);
+    for (size_t i = 0; i < chart->n_mark; i++) {
+        cairo_move_to(cr, chart_x(frame, chart->marks[i]), frame->box.y);
+        cairo_rel_line_to(cr, 0.0, frame->box.h);
+    }
+    cairo_stroke(cr);
+    cairo_set_dash(cr, NULL, 0, 0.0);
+}
+
 static void chart_paint(cairo_t *cr, void *data, double scale)
 {
     (void)scale;
@@ -184,6 +198,7 @@ static void chart_paint(cairo_t *cr, void *data, double scale)
         cairo_rectangle(cr, frame.box.x, frame.box.y, frame.box.w, frame.box.h);
         cairo_clip(cr);
         chart_zero(cr, &frame);
+        chart_marks(cr, &frame, &plan->chart);
         for (unsigned i = 0; i < panel->n_series; i++) {
             chart_ink(cr, i);
             chart_line(cr, &frame, &panel->series[i]);

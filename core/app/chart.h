@@ -25,6 +25,8 @@ struct chart_panel {
 struct chart {
     const char *title, *note;
     struct picture_scale x;
+    size_t n_mark;
+    const double *marks; /* x of dotted lines through all panels: interfaces */
     unsigned n_panel;
     struct chart_panel panel[CHART_PANELS];
 };

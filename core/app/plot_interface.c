@@ -29,8 +29,8 @@ static unsigned interface_background(const struct plot_view *view)
         known++;
         for (size_t c = 0; c < view->n; c++) {
             const struct raster_cell *cell = &view->cells[c];
-            area +=
-                alpha->data[view->source[c]] * (cell->at[0][1] - cell->at[0][0]) * (cell->at[1][1] - cell->at[1][0]);
+            double height = view->n_axis > 1 ? cell->at[1][1] - cell->at[1][0] : 1.0;
+            area += alpha->data[view->source[c]] * (cell->at[0][1] - cell->at[0][0]) * height;
         }
         if (area > most) {
             most = area;
@@ -92,22 +92,47 @@ static void interface_add(const struct plot_view *view, unsigned material, struc
     mem_free(values);
 }
 
+/* Which materials' interfaces are asked for: wanted[n_material]. */
+static int interface_wanted(const struct plot_view *view, const char *contours, bool *wanted)
+{
+    const struct snapshot *snapshot = view->snapshot;
+    if (contours) return strcmp(contours, "none") == 0 ? STATUS_OK : interface_chosen(snapshot, contours, wanted);
+    unsigned background = interface_background(view);
+    for (unsigned m = 0; m < snapshot->n_material; m++) wanted[m] = m != background;
+    return STATUS_OK;
+}
+
 int plot_interface_find(const struct plot_view *view, const char *contours, struct plot_interfaces *ret_interfaces)
 {
+    unsigned count = view->snapshot->n_material;
+    bool *wanted = mem_new(count, sizeof *wanted);
     *ret_interfaces = (struct plot_interfaces){0};
-    if (contours && strcmp(contours, "none") == 0) return STATUS_OK;
-    const struct snapshot *snapshot = view->snapshot;
-    bool *wanted = mem_new(snapshot->n_material, sizeof *wanted);
-    int code = STATUS_OK;
-    if (contours) {
-        code = interface_chosen(snapshot, contours, wanted);
-    } else {
-        unsigned background = interface_background(view);
-        for (unsigned m = 0; m < snapshot->n_material; m++) wanted[m] = m != background;
-    }
-    for (unsigned m = 0; !code && m < snapshot->n_material; m++)
+    int code = interface_wanted(view, contours, wanted);
+    for (unsigned m = 0; !code && m < count; m++)
         if (wanted[m]) interface_add(view, m, ret_interfaces);
     mem_free(wanted);
+    return code;
+}
+
+int plot_interface_places(const struct plot_view *view, const char *contours, double **ret_places, size_t *ret_n)
+{
+    unsigned count = view->snapshot->n_material;
+    bool *wanted = mem_new(count, sizeof *wanted);
+    double *places = mem_new(count * view->n, sizeof *places);
+    size_t n = 0;
+    int code = interface_wanted(view, contours, wanted);
+    for (unsigned m = 0; !code && m < count; m++) {
+        const struct snapshot_field *alpha = interface_alpha(view->snapshot, m);
+        for (size_t c = 1; wanted[m] && alpha && c < view->n; c++) {
+            double a = alpha->data[view->source[c - 1]] - 0.5, b = alpha->data[view->source[c]] - 0.5;
+            const double *left = view->cells[c - 1].at[0], *right = view->cells[c].at[0];
+            if ((a >= 0.0) == (b >= 0.0)) continue;
+            places[n++] = (0.5 * (left[0] + left[1]) * b - 0.5 * (right[0] + right[1]) * a) / (b - a);
+        }
+    }
+    mem_free(wanted);
+    *ret_places = places;
+    *ret_n = n;
     return code;
 }
 

@@ -16,6 +16,10 @@ struct plot_interfaces {
  * one that fills most of the view: its lines are those of the others. A name that is no material, or whose
  * alpha was not saved, is STATUS_CASE. */
 int plot_interface_find(const struct plot_view *view, const char *contours, struct plot_interfaces *ret_interfaces);
+
+/* The same in a view with one axis: positions, ascending per material, in new memory (mem_free). */
+int plot_interface_places(const struct plot_view *view, const char *contours, double **ret_places, size_t *ret_n);
+
 void plot_interface_done(struct plot_interfaces *interfaces);
 
 #endif

@@ -1,6 +1,7 @@
 /* plot_profile.c - see plot_profile.h. Used for profiles in space and for histories. */
 #include "app/plot_profile.h"
 
+#include "app/plot_interface.h"
 #include "base/mem.h"
 #include "base/status.h"
 
@@ -101,16 +102,20 @@ int plot_profile_draw(const struct plot_view *view, const struct plot_picture *p
     struct chart chart = {.title = view->snapshot->title, .note = note};
     struct plot_field *fields = mem_new(picture->n_field, sizeof *fields);
     double *values[PLOT_PICTURE_FIELDS] = {0}, *x = mem_new(view->n, sizeof *x);
+    double *marks = NULL;
     const char *units[CHART_PANELS];
     for (size_t c = 0; c < view->n; c++) x[c] = 0.5 * (view->cells[c].at[0][0] + view->cells[c].at[0][1]);
     picture_scale_init(&chart.x, &(struct picture_scale_inp){.name = plot_field_axis(view->snapshot, view->axis[0]),
                                                              .unit = "m",
                                                              .lo = window[0],
                                                              .hi = window[1]});
-    int code = profile_fill(view, picture, x, fields, values, &chart, units);
+    int code = plot_interface_places(view, picture->option->contours, &marks, &chart.n_mark);
+    chart.marks = marks;
+    if (!code) code = profile_fill(view, picture, x, fields, values, &chart, units);
     if (!code) code = plot_profile_scale(&chart, units, window, picture->option);
     if (!code) code = chart_draw(&chart, picture->option->width, ret_image);
     for (unsigned i = 0; i < picture->n_field; i++) mem_free(values[i]);
+    mem_free(marks);
     mem_free(fields);
     mem_free(x);
     return code;

@@ -211,6 +211,24 @@ static void interfaces_are_where_alpha_is_a_half(void **state)
     read_free(snapshot);
 }
 
+static void interfaces_of_a_line_are_places(void **state)
+{
+    (void)state;
+    struct snapshot *snapshot = snapshot_new(1, 2);
+    struct plot_option option = {0};
+    struct plot_view view;
+    double *places;
+    size_t n;
+    assert_int_equal(plot_view_make(snapshot, &option, &view), 0);
+    snapshot->fields[2].data[M / 2 - 1] = 0.75; /* 0.75 -> 0: a half is a third of a cell behind the centre */
+    assert_int_equal(plot_interface_places(&view, NULL, &places, &n), 0);
+    assert_int_equal(n, 1);
+    assert_close(places[0], (M / 2 - 0.5 + 1.0 / 3.0) / M, 1e-14);
+    mem_free(places);
+    plot_view_done(&view);
+    read_free(snapshot);
+}
+
 static int draw(const struct snapshot *snapshot, const struct plot_option *option, const char *name)
 {
     struct plot_picture picture = {.option = option, .n_field = 1, .fields = {name}};
@@ -330,6 +348,7 @@ int main(void)
         cmocka_unit_test(mirror_images_need_an_axis),
         cmocka_unit_test(fields_are_found_by_name_and_component),
         cmocka_unit_test(interfaces_are_where_alpha_is_a_half),
+        cmocka_unit_test(interfaces_of_a_line_are_places),
         cmocka_unit_test(every_dimension_and_geometry_is_drawn),
         cmocka_unit_test(what_cannot_be_drawn_is_said),
         cmocka_unit_test(a_pair_fills_the_two_halves),
