@@ -1,4 +1,4 @@
-/* eos.c - the contract of kind "eos" on every loaded law, and the closed-form family against
+/* eos.c - the contract of kind "eos" on every built-in law and on the plugin of tests/plugin, and the closed-form family against
  * reference points computed with 50 digits (tests/data/eos). */
 #include "support.h"
 
@@ -11,21 +11,23 @@ struct law {
     const char *module, *preset;
     struct instance instance;
     const struct bulla_eos *eos;
-    double rho[2], p_most;
+    double rho[2], p_least, p_most; /* p_least: -INFINITY, or where its temperature ends */
 };
 
 static struct law laws[LAWS];
 static size_t n_law;
 
-/* Every preset of every built-in law. Liquids up to twice the density where the co-volume ends. */
-static void add_law(const char *module, const char *preset, double rho_low, double rho_high, double p_most)
+static struct law *add_law(const char *module, const char *preset, double rho_low, double rho_high, double p_most)
 {
     struct law *law = &laws[n_law++];
-    *law = (struct law){.module = module, .preset = preset, .rho = {rho_low, rho_high}, .p_most = p_most};
+    *law = (struct law){
+        .module = module, .preset = preset, .rho = {rho_low, rho_high}, .p_least = -INFINITY, .p_most = p_most};
     law->instance = support_open_preset(support_module("eos", module), preset);
     law->eos = law->instance.module->table;
+    return law;
 }
 
+/* Every preset of every built-in law; liquids up to twice the density where the co-volume ends. */
 static int start(void **state)
 {
     if (support_start(state)) return 1;
@@ -35,6 +37,10 @@ static int start(void **state)
     for (const char *const *name = waters; *name; name++) add_law("stiffened-gas", *name, 1.0, 3000.0, 1e11);
     add_law("nasg", "water", 1.0, 2800.0, 1e11);
     add_law("mnasg", "water", 1.0, 2800.0, 1e11);
+    char path[4096];
+    snprintf(path, sizeof path, "%s/tests/plugin/eos-tait-murnaghan.so", getenv("BULLA_BUILD"));
+    if (registry_load(path)) return 1;
+    add_law("tait-murnaghan", "water", 960.0, 1010.0, 1e9)->p_least = 3e7;
     return 0;
 }
 
@@ -69,7 +75,7 @@ static void draw(const struct law *law, uint64_t *seed, double *ret_rho, double 
     law->eos->p_min(law->instance.self, 1, &rho, &p_min);
     double above = exp(support_random(seed, log(1e-3 * fabs(p_min) + 100.0), log(law->p_most)));
     *ret_rho = rho;
-    *ret_p = p_min + above;
+    *ret_p = fmax(p_min, law->p_least) + above;
 }
 
 struct reference {
@@ -186,7 +192,7 @@ static void test_below_p_min(void **state)
     (void)state;
     for (size_t i = 0; i < n_law; i++) {
         double p_min = at(&laws[i], 900.0, 0.0).p_min;
-        assert_true(at(&laws[i], 900.0, p_min).c2 <= 0.0);
+        assert_true(at(&laws[i], 900.0, p_min).c2 <= 1e-12 * at(&laws[i], 900.0, 1e5).c2);
         assert_true(at(&laws[i], 900.0, p_min - 1e8).c2 < 0.0);
     }
 }
@@ -195,9 +201,9 @@ static void test_below_p_min(void **state)
 static void test_edge_is_smooth(void **state)
 {
     (void)state;
-    static const double covolumes[] = {6.61e-4, 6.7212e-4};
-    for (size_t i = n_law - 2; i < n_law; i++) {
-        double edge = 0.98 / covolumes[i - (n_law - 2)], h = 1e-9 * edge;
+    for (size_t i = 0; i < n_law; i++) {
+        if (!strstr(laws[i].module, "nasg")) continue;
+        double edge = 0.98 / laws[i].instance.values[2].number, h = 1e-9 * edge;
         for (double p = 1e5; p < 1e11; p *= 100.0) {
             struct point below = at(&laws[i], edge - h, p), above = at(&laws[i], edge + h, p);
             support_near("rho_e", above.rho_e, below.rho_e, 1e-6, fabs(below.rho_e));
@@ -316,7 +322,7 @@ static void test_ranges(void **state)
         struct bulla_eos_range range = {0};
         laws[i].eos->range(laws[i].instance.self, &range);
         assert_true(range.rho_min < range.rho_max && range.p_min < range.p_max && range.T_min < range.T_max);
-        assert_true(range.p_min == at(&laws[i], 1000.0, 0.0).p_min);
+        assert_true(range.p_min >= at(&laws[i], range.rho_max, 0.0).p_min);
     }
 }
 

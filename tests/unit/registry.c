@@ -1,5 +1,5 @@
 /* registry.c - finding, vetting and opening modules: built-in ones, a good foreign one, and one
- * hostile module per flaw (tests/plugin/hostile.c), each refused with one line that says why. */
+ * hostile module per flaw (tests/hostile/hostile.c), each refused with one line that says why. */
 #include "plug/registry.h"
 
 #include "base/mem.h"

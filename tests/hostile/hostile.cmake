@@ -3,7 +3,7 @@ set(hostile_flaws none bad_magic old_abi new_abi short_size no_table short_table
     param_twice param_upper param_reserved param_range param_fallback param_unit param_choices preset_range duplicate
     no_symbol small_symbol missing_function flush_to_zero fast_math open_fails)
 foreach(flaw ${hostile_flaws})
-  add_library(hostile-${flaw} MODULE plugin/hostile.c)
+  add_library(hostile-${flaw} MODULE hostile/hostile.c)
   set_target_properties(hostile-${flaw} PROPERTIES PREFIX "" OUTPUT_NAME ${flaw}
                         LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests/hostile)
   target_compile_definitions(hostile-${flaw} PRIVATE FLAW=${flaw})
