@@ -141,12 +141,34 @@ static void test_rows(void **state)
     }
 }
 
+/* The values at both edges of cells, along rows and across them: bitwise what the slope gives. */
+static void test_edges(void **state)
+{
+    (void)state;
+    enum { PITCH = 9 };
+    for (const char *const *name = names; *name; name++)
+        for (size_t step = 1; step <= PITCH; step += PITCH - 1) {
+            uint64_t seed = 6;
+            double w[ROW + 2 * PITCH], lower[ROW], upper[ROW];
+            for (int i = 0; i < ROW + 2 * PITCH; i++) w[i] = draw(&seed);
+            assert_non_null(limiter(*name)->edges);
+            for (size_t n = ROW; n > ROW - 9; n--) {
+                limiter(*name)->edges(NULL, n, step, w + PITCH, lower, upper);
+                for (size_t i = 0; i < n; i++) {
+                    const double *here = w + PITCH + i;
+                    double half = 0.5 * slope(*name, *here - *(here - step), *(here + step) - *here);
+                    assert_true(lower[i] == *here - half && upper[i] == *here + half);
+                }
+            }
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_textbook),    cmocka_unit_test(test_contract), cmocka_unit_test(test_symmetry),
         cmocka_unit_test(test_linear_data), cmocka_unit_test(test_extremes), cmocka_unit_test(test_no_new_extreme),
-        cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_rows),        cmocka_unit_test(test_edges),
     };
     return cmocka_run_group_tests(tests, support_start, support_stop);
 }

@@ -100,13 +100,13 @@ BULLA_KERNEL static void complete_two(size_t from, size_t n, struct side *side)
     for (size_t i = 0; i < n; i++) {
         double share0 = a0[i], share1 = a1[i], x = u[i], y = v[i], pressure = p[i];
         double mass0 = share0 * r0[i], mass1 = share1 * r1[i], rho = mass0 + mass1;
-        double c0 = law_stiffness(0, pressure) / r0[i], c1 = law_stiffness(1, pressure) / r1[i];
+        double stiffness = share0 * law_stiffness(0, pressure) + share1 * law_stiffness(1, pressure);
         double inner = share0 * law_energy(0, pressure) + share1 * law_energy(1, pressure);
         m0[i] = mass0;
         m1[i] = mass1;
         r[i] = rho;
         E[i] = inner + 0.5 * rho * (x * x + y * y);
-        c[i] = sqrt((mass0 * c0 + mass1 * c1) / rho);
+        c[i] = sqrt(stiffness / rho);
     }
 }
 

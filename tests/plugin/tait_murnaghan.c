@@ -41,13 +41,13 @@ static double temperature_at(const struct tait *par, double rho, double p)
 }
 
 static void tait_state(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
-                       double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT c2)
+                       double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT rho_c2)
 {
     const struct tait *par = self;
     for (size_t i = 0; i < n; i++) {
         struct curve curve = curve_at(par, rho[i]);
         rho_e[i] = 1.0 / par->G * p[i] + rest(par, curve, rho[i]);
-        c2[i] = curve.c2 + (p[i] - curve.p) * (1.0 + par->G) / rho[i];
+        rho_c2[i] = rho[i] * curve.c2 + (p[i] - curve.p) * (1.0 + par->G);
     }
 }
 

@@ -104,7 +104,7 @@ static const struct refusal refusals[] = {
     {"new_abi", "a newer module interface 2; this program has 1"},
     {"short_size", "descriptor of 40 bytes"},
     {"no_table", "no table of functions"},
-    {"short_table", "table of functions of size 4; kind limiter needs 16"},
+    {"short_table", "table of functions of size 4; kind limiter needs"},
     {"null_slot", "has no function 'slope', which kind limiter needs"},
     {"unknown_kind", "unknown kind 'weather'; kinds are eos, limiter, riemann"},
     {"bad_name", "'Bad_Name'; names are lower case with hyphens"},
