@@ -6,14 +6,16 @@
 
 enum { PAINT_VALUES_FIELDS = 2 * SCENE_MATERIALS + SCENE_AXES + 1 }; /* most fields of a model */
 
+struct script_table;
+
 /* A layer of the scene, ready to be asked. */
 struct paint_values {
     const struct model *model;
     const struct scene_layer *layer;
-    unsigned number;   /* of the layer, from 1, for messages */
-    const void *names; /* fields of a Lua table */
-    unsigned varying;  /* 1: values depend on the place */
-    unsigned whole;    /* 1: needs no state below it */
+    unsigned number;                  /* of the layer, from 1, for messages */
+    const struct script_table *names; /* fields of a Lua table; NULL for a layer in YAML */
+    bool varying;                     /* values depend on the place */
+    bool whole;                       /* needs no state below it */
 };
 
 /* Looks at layer `index` of the scene. */
