@@ -100,7 +100,7 @@ static bool keys_home(const struct keys_section *section, const char *name, unsi
     for (const struct key *key = section->keys; key && key->name && depth == 0; key++)
         if (strcmp(key->name, name) == 0) return true;
     for (const struct key *key = section->keys; key && key->name && depth > 0; key++) {
-        if (!key->section) continue;
+        if (!key->section || key->type == KEYS_TREE) continue;
         size_t before = path->length;
         bool named = key->many == KEYS_NAMED;
         text_add(path, "%s%s%s", before ? "." : "", key->name, named ? ".NAME" : key->many == KEYS_LIST ? "[..]" : "");

@@ -27,7 +27,7 @@ enum keys_type {
     KEYS_EVERY,     /* a time, or "N steps" */
     KEYS_SECTION,   /* a map described by `section` */
     KEYS_PARAMETER, /* a quantity of any dimension; params.h has read it */
-    KEYS_TREE,      /* anything; checked where it is used */
+    KEYS_TREE,      /* anything; checked where it is used. With a section: a part of one, laid over it */
 };
 
 /* How many: one, a list of them, a map NAME: one, or one or such a map. */
