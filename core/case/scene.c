@@ -185,6 +185,7 @@ void scene_free(struct scene *scene)
     for (unsigned i = 0; i < scene->n_material; i++) instance_done(&scene->material[i].eos);
     instance_done(&scene->riemann);
     instance_done(&scene->limiter);
+    instance_done(&scene->interface_limiter);
     for (unsigned i = 0; i < scene->n_variant; i++) mem_free(scene->variants[i]);
     mem_free(scene->variants);
     char *texts[] = {scene->path, scene->name,     scene->title,    scene->about,

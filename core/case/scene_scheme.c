@@ -30,6 +30,11 @@ static const struct key scene_scheme_rows[] = {
      .section = &scene_scheme_limiter,
      .fallback = "mc",
      .doc = "The slope limiter: a name, or {type: NAME, ...} with its keys."},
+    {.name = "interface-limiter",
+     .type = KEYS_SECTION,
+     .section = &scene_scheme_limiter,
+     .doc = "The limiter of the volume fractions, if another than `limiter`: superbee keeps material interfaces "
+            "within two cells."},
     {.name = "integrator",
      .type = KEYS_CHOICE,
      .choices = "midpoint",
@@ -70,6 +75,7 @@ void scene_scheme(struct draft *draft)
     scene->dt_fixed = keys_at(scheme, "dt")->number;
     scene_material_open(draft, keys_at(scheme, "riemann"), &scene->riemann);
     scene_material_open(draft, keys_at(scheme, "limiter"), &scene->limiter);
+    scene_material_open(draft, keys_at(scheme, "interface-limiter"), &scene->interface_limiter);
     scene->until = keys_at(run, "until")->number;
     scene->max_steps = keys_at(run, "max-steps")->integer;
 }

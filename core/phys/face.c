@@ -117,18 +117,20 @@ static BULLA_KERNEL void face_edges(size_t n, const double *restrict w, const do
     }
 }
 
-/* Edge values of `cells` cells from `w`, by the limiter. */
-static void face_limit(const struct face_work *work, size_t cells, size_t step, const double *w, double *lower,
+/* Edge values of `cells` cells of component q from `w`, by the limiter. */
+static void face_limit(const struct face_work *work, unsigned q, size_t cells, size_t step, const double *w,
                        double *upper)
 {
     const struct model *model = work->model;
     const struct face_own *own = work->own;
-    if (model->limiter->edges) {
-        model->limiter->edges(model->limiter_self, cells, step, w, lower, upper);
+    const struct model_limiter *limiter = q < model->n_alpha ? &model->limiter_alpha : &model->limiter;
+    double *lower = upper + cells;
+    if (limiter->law->edges) {
+        limiter->law->edges(limiter->self, cells, step, w, lower, upper);
         return;
     }
     face_differ(cells + step, w - step, w, own->difference);
-    model->limiter->slope(model->limiter_self, cells, own->difference, own->difference + step, own->slope);
+    limiter->law->slope(limiter->self, cells, own->difference, own->difference + step, own->slope);
     face_edges(cells, w, own->slope, lower, upper);
 }
 
@@ -150,9 +152,9 @@ static void face_reconstruct(struct face_work *work, const struct frame *frame, 
     size_t step = frame->inner;
     for (unsigned q = 0; q < model->n_field; q++) {
         const double *w = work->frame + q * FACE_ROOM + step;
-        double *upper = own->state + 2 * q * FACE_ROOM, *lower = upper + cells;
-        face_limit(work, cells, step, w, lower, upper);
-        if (masked) face_flatten(cells - step, step, w, work->mask + step, upper, lower + step);
+        double *upper = own->state + 2 * q * FACE_ROOM;
+        face_limit(work, q, cells, step, w, upper);
+        if (masked) face_flatten(cells - step, step, w, work->mask + step, upper, upper + cells + step);
     }
 }
 

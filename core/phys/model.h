@@ -25,8 +25,10 @@ struct model {
     unsigned i_alpha, i_m, i_u, i_E; /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
     bool kapila, linear;             /* linear: every law is linear in p, closed-form mixture pressure */
     struct model_eos eos[SCENE_MATERIALS];
-    const struct bulla_limiter *limiter;
-    const void *limiter_self;
+    struct model_limiter {
+        const struct bulla_limiter *law;
+        const void *self;
+    } limiter, limiter_alpha; /* of the primitives, and of the volume fractions */
     const struct bulla_riemann *riemann;
     const void *riemann_self;
     const struct bulla_riemann *robust; /* rusanov: faces of troubled cells (solve/guard.h) */
