@@ -171,9 +171,11 @@ static json_t *provenance_origin(const struct provenance *provenance, const stru
                      "modules", provenance_modules(scene), "hosts", provenance_hosts(provenance), "ranks", comm_size());
 }
 
-/* What it cost. */
+/* What it cost and how much there is, of all ranks. */
 struct provenance_cost {
     double wall, cpu, cpu_run, memory; /* s, s, s since the run began, bytes; sums over ranks but wall */
+    struct state_counts counts;
+    struct ledger now;
 };
 
 static json_t *provenance_work(const struct provenance *provenance, const struct state *state,
@@ -189,9 +191,9 @@ static json_t *provenance_work(const struct provenance *provenance, const struct
     json_object_set_new(work, "time", json_real(state->t));
     json_object_set_new(work, "wall_s", json_real(cost->wall));
     json_object_set_new(work, "cpu_s", json_real(cost->cpu));
-    json_object_set_new(work, "cells_updated", json_integer(state->counts.cells));
+    json_object_set_new(work, "cells_updated", json_integer(cost->counts.cells));
     json_object_set_new(work, "cpu_ns_per_cell_stage",
-                        provenance_number(1e9 * cost->cpu_run / (double)state->counts.cells));
+                        provenance_number(1e9 * cost->cpu_run / (double)cost->counts.cells));
     json_object_set_new(work, "peak_memory_bytes", json_integer((json_int_t)cost->memory));
     json_object_set_new(work, "bytes_per_cell", json_real(cost->memory / cells));
     return work;
@@ -205,8 +207,7 @@ static json_t *provenance_guard(const struct state_counts *counts)
 }
 
 static char *provenance_compose(const struct provenance *provenance, const struct state *state,
-                                const struct provenance_cost *cost, const struct ledger *now, const char *reason,
-                                int exit_code)
+                                const struct provenance_cost *cost, const char *reason, int exit_code)
 {
     char time_text[32];
     provenance_now(time_text, sizeof time_text);
@@ -215,8 +216,8 @@ static char *provenance_compose(const struct provenance *provenance, const struc
     json_object_set_new(root, strcmp(reason, "running") ? "ended" : "written", json_string(time_text));
     json_object_update(root, work);
     json_decref(work);
-    json_object_set_new(root, "conservation", provenance_conservation(provenance, state, now));
-    json_object_set_new(root, "guard", provenance_guard(&state->counts));
+    json_object_set_new(root, "conservation", provenance_conservation(provenance, state, &cost->now));
+    json_object_set_new(root, "guard", provenance_guard(&cost->counts));
     json_object_set_new(root, "exit_reason", json_string(reason));
     json_object_set_new(root, "exit_code", strcmp(reason, "running") ? json_integer(exit_code) : json_null());
     char *json = json_dumps(root, JSON_INDENT(2)), *text = mem_print("%s\n", json ? json : "{}");
@@ -238,11 +239,13 @@ static char *provenance_share(char *text)
 int provenance_write(struct provenance *provenance, const struct state *state, const char *reason, int exit_code)
 {
     double cpu = provenance_cpu();
-    struct provenance_cost cost = {provenance_wall() - provenance->wall_0, provenance_sum(cpu),
-                                   provenance_sum(cpu - provenance->cpu_0), provenance_sum(mem_peak())};
-    struct ledger now;
-    ledger_take(state, &now);
-    char *text = comm_rank() == 0 ? provenance_compose(provenance, state, &cost, &now, reason, exit_code) : NULL;
+    struct provenance_cost cost = {.wall = provenance_wall() - provenance->wall_0,
+                                   .cpu = provenance_sum(cpu),
+                                   .cpu_run = provenance_sum(cpu - provenance->cpu_0),
+                                   .memory = provenance_sum(mem_peak()),
+                                   .counts = state_counts_total(state)};
+    ledger_take(state, &cost.now);
+    char *text = comm_rank() == 0 ? provenance_compose(provenance, state, &cost, reason, exit_code) : NULL;
     mem_free(provenance->text);
     provenance->text = provenance_share(text);
     return place_text(provenance->path, provenance->text);

@@ -1,0 +1,125 @@
+/* provenance.c - what made these results: the keys of provenance.json and what they say. */
+#include "io/provenance.h"
+
+#include "io/ledger.h"
+#include "small.h"
+
+#include <jansson.h>
+#include <math.h>
+
+static json_t *load(const struct small *small)
+{
+    json_error_t error;
+    char *path = small_path(small, "provenance.json");
+    json_t *root = json_load_file(path, 0, &error);
+    if (!root) print_error("%s\n", error.text);
+    assert_non_null(root);
+    mem_free(path);
+    return root;
+}
+
+static const char *text_of(json_t *root, const char *key)
+{
+    const char *text = json_string_value(json_object_get(root, key));
+    if (!text) fail_msg("no text %s", key);
+    return text;
+}
+
+static void test_running(void **state)
+{
+    (void)state;
+    struct small small;
+    struct provenance *provenance;
+    char program[] = "bulla", word[] = "run", file[] = "tiny.yaml", *argv[] = {program, word, file, NULL};
+    small_start(&small, SMALL_AXISYMMETRIC);
+    assert_int_equal(provenance_new(small.state, 3, argv, &provenance), 0);
+    json_t *root = load(&small);
+    assert_string_equal(text_of(root, "exit_reason"), "running");
+    assert_true(json_is_null(json_object_get(root, "exit_code")));
+    assert_string_equal(text_of(root, "version"), BULLA_VERSION);
+    assert_true(strlen(text_of(root, "commit")) >= 7);
+    assert_string_equal(text_of(root, "title"), "A bubble, half of it");
+    assert_int_equal(json_array_size(json_object_get(root, "command")), 3);
+    assert_int_equal(json_integer_value(json_object_get(root, "ranks")), 1);
+    assert_int_equal(json_object_size(json_object_get(root, "hosts")), 1);
+    json_t *modules = json_object_get(root, "modules"), *module = json_array_get(modules, 0);
+    assert_int_equal(json_array_size(modules), 4); /* two equations of state, limiter, Riemann solver */
+    assert_string_equal(text_of(module, "name"), "stiffened-gas");
+    assert_int_equal(strlen(text_of(module, "xxh64")), 16);
+    assert_int_equal(*text_of(module, "path"), '/');
+    char *text = small_text(&small, "provenance.json");
+    assert_string_equal(provenance_text(provenance), text);
+    mem_free(text);
+    json_decref(root);
+    provenance_free(provenance);
+    small_stop(&small);
+}
+
+static void test_end(void **state)
+{
+    (void)state;
+    struct small small;
+    struct provenance *provenance;
+    char program[] = "bulla", *argv[] = {program, NULL};
+    small_start(&small, SMALL_AXISYMMETRIC);
+    assert_int_equal(provenance_new(small.state, 1, argv, &provenance), 0);
+    small_skip(&small, 1e-7);
+    small.state->counts.cells += 4096;
+    small.state->counts.clipped = 3;
+    size_t m_air = (small.state->model->i_m + 1) * small.state->mesh->n_cell; /* double the air of every tile */
+    for (unsigned i = 0; i < small.state->mesh->levels[0].n_local; i++)
+        for (size_t c = 0; c < small.state->mesh->n_cell; c++) small.state->mesh->levels[0].u_old[i][m_air + c] *= 2.0;
+    assert_int_equal(provenance_write(provenance, small.state, "end time", 0), 0);
+    json_t *root = load(&small), *conservation = json_object_get(root, "conservation");
+    assert_string_equal(text_of(root, "exit_reason"), "end time");
+    assert_int_equal(json_integer_value(json_object_get(root, "exit_code")), 0);
+    assert_true(strlen(text_of(root, "started")) == 20 && strlen(text_of(root, "ended")) == 20);
+    assert_int_equal(json_integer_value(json_object_get(root, "steps")), 1);
+    assert_int_equal(json_integer_value(json_object_get(root, "cells")), 2048);
+    assert_true(json_integer_value(json_object_get(root, "cells_updated")) >= 4096);
+    assert_true(json_integer_value(json_object_get(root, "peak_memory_bytes")) > 2048 * 7 * 8);
+    assert_true(json_number_value(json_object_get(root, "cpu_s")) > 0);
+    assert_true(json_number_value(json_object_get(root, "bytes_per_cell")) > 0);
+    assert_int_equal(json_integer_value(json_object_get(json_object_get(root, "guard"), "clipped")), 3);
+    json_t *air = json_object_get(conservation, "mass_air"), *water = json_object_get(conservation, "mass_water");
+    assert_true(fabs(json_number_value(json_object_get(air, "relative_change")) - 1.0) < 1e-12);
+    assert_true(json_number_value(json_object_get(water, "relative_change")) == 0.0);
+    assert_non_null(json_object_get(conservation, "momentum_x"));
+    assert_non_null(json_object_get(conservation, "energy"));
+    json_decref(root);
+    provenance_free(provenance);
+    small_stop(&small);
+}
+
+/* Stock is what the case has painted: masses of a ball and of what surrounds it. */
+static void test_ledger(void **state)
+{
+    (void)state;
+    struct small small;
+    struct ledger ledger;
+    char name[64];
+    double ball = 4.0 / 3.0 * M_PI * 0.125e-9, water = M_PI * 2e-9 - ball;
+    const double expected[2] = {1000 * water, 1.2 * ball};
+    small_start(&small, SMALL_AXISYMMETRIC);
+    ledger_take(small.state, &ledger);
+    assert_int_equal(ledger.n, 5);
+    for (int l = 0; l < 2; l++) assert_true(fabs(ledger.total[l] / expected[l] - 1.0) < 1e-6);
+    ledger_name(small.state->model, 1, name, sizeof name);
+    assert_string_equal(name, "mass_air");
+    ledger_name(small.state->model, 3, name, sizeof name);
+    assert_string_equal(name, "momentum_y");
+    ledger_name(small.state->model, 4, name, sizeof name);
+    assert_string_equal(name, "energy");
+    small_stop(&small);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_running),
+        cmocka_unit_test(test_end),
+        cmocka_unit_test(test_ledger),
+    };
+    if (registry_init()) return 1;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
