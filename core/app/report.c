@@ -24,12 +24,19 @@ static const struct cli_option report_output = {"--output", "-o", "FILE.html", "
 const struct cli_option *const report_option_table[] = {&report_output, NULL};
 
 static const struct plot_option report_plain = {.width = REPORT_WIDTH};
+static const struct plot_option report_mirrored = {.width = REPORT_WIDTH, .mirror = true};
+
+/* Axisymmetric planes show both halves. */
+static const struct plot_option *report_option(const struct snapshot *snapshot)
+{
+    return snapshot->beta == 1 && snapshot->dim == 2 ? &report_mirrored : &report_plain;
+}
 
 static int report_picture(struct text *page, const struct snapshot *snapshot, const struct plot_picture *picture)
 {
     cairo_surface_t *image;
     TRY(plot_picture_draw(snapshot, picture, &image));
-    int code = report_html_figure(page, image, NULL);
+    int code = report_html_figure(page, image, picture->fields[0]);
     cairo_surface_destroy(image);
     return code;
 }
@@ -37,11 +44,12 @@ static int report_picture(struct text *page, const struct snapshot *snapshot, co
 /* All fields of a snapshot: a plane each, or one chart of a line. */
 static int report_fields(struct text *page, const struct snapshot *snapshot, double time_like)
 {
-    struct plot_picture all = {.option = &report_plain, .time_like = time_like};
-    bool plane = plot_picture_shape(snapshot, &report_plain) == 2;
+    const struct plot_option *option = report_option(snapshot);
+    struct plot_picture all = {.option = option, .time_like = time_like};
+    bool plane = plot_picture_shape(snapshot, option) == 2;
     unsigned most = plane ? PLOT_PICTURE_FIELDS : 8;
     for (unsigned i = 0; i < snapshot->n_field && i < most; i++) {
-        struct plot_picture one = {.option = &report_plain, .time_like = time_like, .n_field = 1};
+        struct plot_picture one = {.option = option, .time_like = time_like, .n_field = 1};
         one.fields[0] = all.fields[all.n_field++] = snapshot->fields[i].name;
         if (plane) TRY(report_picture(page, snapshot, &one));
     }
@@ -74,6 +82,7 @@ static int report_frames(struct text *page, const struct snapshot_series *series
         size_t index = frames > 1 ? i * (series->n - 1) / (frames - 1) : 0;
         code = read_snapshot(series->paths[index], NULL, &shown[i]);
         if (code || !shown[i]->n_field) break;
+        picture.option = report_option(shown[i]);
         picture.fields[0] = read_field(shown[i], "pressure") ? "pressure" : shown[0]->fields[0].name;
         code = plot_picture_extremes(shown[i], &picture);
     }
@@ -102,7 +111,7 @@ static int report_columns(struct text *page, const char *directory, const char *
     cairo_surface_t *image;
     TRY(plot_history_draw(directory, columns, n, &report_plain, &image));
     text_add(page, "<h2>%s</h2>\n<div class=\"figures\">\n", title);
-    int code = report_html_figure(page, image, NULL);
+    int code = report_html_figure(page, image, title);
     text_add(page, "</div>\n");
     cairo_surface_destroy(image);
     return code;

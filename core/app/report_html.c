@@ -18,8 +18,9 @@ static const char html_style[] =
     ".facts{columns:2;column-gap:3rem}.facts div{display:flex;justify-content:space-between;gap:1rem;"
     "border-bottom:1px solid #e6e6e6;padding:.2rem 0;font-size:.9rem;break-inside:avoid}"
     ".facts span{color:#666}.pass{color:#17692f}.fail{color:#a3151b;font-weight:600}"
-    ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(400px,1fr));gap:1.2rem;align-items:start}"
-    "figure{margin:0}img{width:100%;height:auto;display:block}figcaption{font-size:.85rem;color:#666}"
+    ".figures{display:grid;grid-template-columns:1fr 1fr;gap:1.2rem;align-items:start}"
+    "@media(max-width:820px){.figures{grid-template-columns:1fr}.facts{columns:1}}"
+    "figure{margin:0}img{width:100%;height:auto;display:block}"
     "pre{font:.8rem/1.45 'DejaVu Sans Mono',monospace;background:#f6f6f6;padding:1rem;overflow-x:auto}"
     "summary{cursor:pointer}";
 
@@ -69,20 +70,16 @@ static void html_base64(struct text *page, const unsigned char *bytes, size_t le
     }
 }
 
-int report_html_figure(struct text *page, cairo_surface_t *image, const char *caption)
+int report_html_figure(struct text *page, cairo_surface_t *image, const char *what)
 {
     struct text png = {0};
     cairo_status_t status = cairo_surface_write_to_png_stream(image, html_collect, &png);
     if (status == CAIRO_STATUS_SUCCESS) {
         text_add(page, "<figure><img alt=\"");
-        report_html_text(page, caption ? caption : "");
+        report_html_text(page, what);
         text_add(page, "\" src=\"data:image/png;base64,");
         html_base64(page, (const unsigned char *)png.at, png.length);
-        text_add(page, "\">");
-        if (caption) text_add(page, "<figcaption>");
-        if (caption) report_html_text(page, caption);
-        if (caption) text_add(page, "</figcaption>");
-        text_add(page, "</figure>\n");
+        text_add(page, "\"></figure>\n");
     }
     text_done(&png);
     if (status == CAIRO_STATUS_SUCCESS) return STATUS_OK;

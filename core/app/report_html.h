@@ -13,7 +13,7 @@ void report_html_end(struct text *page);
 /* Text with <, >, &, " escaped. */
 void report_html_text(struct text *page, const char *words);
 
-/* <figure> with the picture as base64 PNG; a caption of NULL is none. STATUS_RUN if cairo cannot encode it. */
-int report_html_figure(struct text *page, cairo_surface_t *image, const char *caption);
+/* <figure> with the picture as base64 PNG; `what` is for those who cannot see it. STATUS_RUN if cairo cannot encode it. */
+int report_html_figure(struct text *page, cairo_surface_t *image, const char *what);
 
 #endif
