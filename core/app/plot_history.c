@@ -150,7 +150,7 @@ static int history_draw(struct history *history, const char *const *columns, uns
                                                              .unit = "s",
                                                              .lo = window[0],
                                                              .hi = window[1]});
-    TRY(plot_profile_scale(&chart, units, window, option));
+    TRY(plot_profile_scale(&chart, units, window, option, NULL));
     return chart_draw(&chart, option->width, ret_image);
 }
 

@@ -40,58 +40,74 @@ static void profile_name(const struct chart_panel *panel, char *ret_name, size_t
     if (panel->n_series > 1 && (strcmp(tail, " of") == 0 || strcmp(tail, " at") == 0)) ret_name[length - 3] = '\0';
 }
 
-static int profile_panel_range(const struct chart_panel *panel, const double window[2],
-                               const struct plot_option *option, double extremes[2])
+/* The range that a panel shows of data that reach from range[0] to range[1]. */
+static int profile_range(const char *name, const struct plot_option *option, double range[2])
 {
-    extremes[0] = INFINITY;
-    extremes[1] = -INFINITY;
-    for (unsigned i = 0; i < panel->n_series; i++) chart_range(&panel->series[i], window, &extremes[0], &extremes[1]);
     if (option->range.given) {
-        extremes[0] = option->range.lo;
-        extremes[1] = option->range.hi;
-    } else if (extremes[0] > extremes[1]) {
-        extremes[0] = extremes[1] = option->log;
-    } else if (option->log && extremes[0] <= 0.0) {
-        return status_fail(STATUS_CASE, "--log: %s reaches %g; give --range LO,HI with LO > 0", panel->series[0].name,
-                           extremes[0]);
+        range[0] = option->range.lo;
+        range[1] = option->range.hi;
+    } else if (range[0] > range[1]) {
+        range[0] = range[1] = option->log;
+    } else if (option->log && range[0] <= 0.0) {
+        return status_fail(STATUS_CASE, "--log: %s reaches %g; give --range LO,HI with LO > 0", name, range[0]);
     } else if (option->log) {
-        double air = pow(extremes[1] / extremes[0], 0.05);
-        extremes[0] /= air;
-        extremes[1] *= air;
+        double air = pow(range[1] / range[0], 0.05);
+        range[0] /= air;
+        range[1] *= air;
     } else {
-        double air = 0.05 * (extremes[1] - extremes[0]);
-        extremes[0] -= air;
-        extremes[1] += air;
+        double air = 0.05 * (range[1] - range[0]);
+        range[0] -= air;
+        range[1] += air;
     }
     return STATUS_OK;
 }
 
 int plot_profile_scale(struct chart *chart, const char *const units[CHART_PANELS], const double window[2],
-                       const struct plot_option *option)
+                       const struct plot_option *option, const double (*extremes)[2])
 {
     for (unsigned p = 0; p < chart->n_panel; p++) {
         struct chart_panel *panel = &chart->panel[p];
-        double extremes[2];
+        double range[2] = {INFINITY, -INFINITY};
         char name[PICTURE_SCALE_LABEL];
-        TRY(profile_panel_range(panel, window, option, extremes));
+        if (extremes) memcpy(range, extremes[p], sizeof range);
+        for (unsigned i = 0; !extremes && i < panel->n_series; i++)
+            chart_range(&panel->series[i], window, &range[0], &range[1]);
+        TRY(profile_range(panel->series[0].name, option, range));
         profile_name(panel, name, sizeof name);
-        picture_scale_init(&panel->y, &(struct picture_scale_inp){.name = name,
-                                                                  .unit = units[p],
-                                                                  .lo = extremes[0],
-                                                                  .hi = extremes[1],
-                                                                  .log = option->log});
+        picture_scale_init(&panel->y,
+                           &(struct picture_scale_inp){
+                               .name = name, .unit = units[p], .lo = range[0], .hi = range[1], .log = option->log});
     }
     return STATUS_OK;
 }
 
+struct profile_data {
+    struct plot_field fields[PLOT_PICTURE_FIELDS];
+    double *values[PLOT_PICTURE_FIELDS];
+    const char *units[CHART_PANELS];
+    double extremes[CHART_PANELS][2]; /* of all snapshots, when the picture has them */
+};
+
+/* Widens the extremes of the panel that a field went to. */
+static void profile_widen(double panel[2], const double field[2])
+{
+    if (field[0] < panel[0]) panel[0] = field[0];
+    if (field[1] > panel[1]) panel[1] = field[1];
+}
+
 static int profile_fill(const struct plot_view *view, const struct plot_picture *picture, const double *x,
-                        struct plot_field *fields, double **values, struct chart *chart, const char **units)
+                        struct profile_data *data, struct chart *chart)
 {
     for (unsigned i = 0; i < picture->n_field; i++) {
-        TRY(plot_field_find(view->snapshot, picture->fields[i], &fields[i]));
-        values[i] = plot_view_values(view, &fields[i]);
-        struct chart_series series = {.name = fields[i].label, .n = view->n, .x = x, .y = values[i]};
-        TRY(plot_profile_add(chart, units, series, fields[i].field->unit));
+        struct plot_field *field = &data->fields[i];
+        TRY(plot_field_find(view->snapshot, picture->fields[i], field));
+        data->values[i] = plot_view_values(view, field);
+        struct chart_series series = {.name = field->label, .n = view->n, .x = x, .y = data->values[i]};
+        unsigned before = chart->n_panel;
+        TRY(plot_profile_add(chart, data->units, series, field->field->unit));
+        double *extremes = data->extremes[chart->n_panel - 1];
+        if (chart->n_panel > before) memcpy(extremes, picture->extremes[i], sizeof data->extremes[0]);
+        else profile_widen(extremes, picture->extremes[i]);
     }
     return STATUS_OK;
 }
@@ -100,10 +116,8 @@ int plot_profile_draw(const struct plot_view *view, const struct plot_picture *p
                       const char *note, cairo_surface_t **ret_image)
 {
     struct chart chart = {.title = view->snapshot->title, .note = note};
-    struct plot_field *fields = mem_new(picture->n_field, sizeof *fields);
-    double *values[PLOT_PICTURE_FIELDS] = {0}, *x = mem_new(view->n, sizeof *x);
-    double *marks = NULL;
-    const char *units[CHART_PANELS];
+    struct profile_data *data = mem_new(1, sizeof *data);
+    double *x = mem_new(view->n, sizeof *x), *marks = NULL;
     for (size_t c = 0; c < view->n; c++) x[c] = 0.5 * (view->cells[c].at[0][0] + view->cells[c].at[0][1]);
     picture_scale_init(&chart.x, &(struct picture_scale_inp){.name = plot_field_axis(view->snapshot, view->axis[0]),
                                                              .unit = "m",
@@ -111,12 +125,13 @@ int plot_profile_draw(const struct plot_view *view, const struct plot_picture *p
                                                              .hi = window[1]});
     int code = plot_interface_places(view, picture->option->contours, &marks, &chart.n_mark);
     chart.marks = marks;
-    if (!code) code = profile_fill(view, picture, x, fields, values, &chart, units);
-    if (!code) code = plot_profile_scale(&chart, units, window, picture->option);
+    if (!code) code = profile_fill(view, picture, x, data, &chart);
+    const double(*extremes)[2] = picture->common ? (const double(*)[2])data->extremes : NULL;
+    if (!code) code = plot_profile_scale(&chart, data->units, window, picture->option, extremes);
     if (!code) code = chart_draw(&chart, picture->option->width, ret_image);
-    for (unsigned i = 0; i < picture->n_field; i++) mem_free(values[i]);
+    for (unsigned i = 0; i < picture->n_field; i++) mem_free(data->values[i]);
+    mem_free(data);
     mem_free(marks);
-    mem_free(fields);
     mem_free(x);
     return code;
 }

@@ -15,8 +15,9 @@ int plot_profile_draw(const struct plot_view *view, const struct plot_picture *p
 int plot_profile_add(struct chart *chart, const char *units[CHART_PANELS], struct chart_series series,
                      const char *unit);
 
-/* Sets the scale of every panel from its series within the window of x, or from --range. */
+/* Sets the scale of every panel: from --range, or from the panel's `extremes` (NULL: from its series within the
+ * window of x), with a little air. */
 int plot_profile_scale(struct chart *chart, const char *const units[CHART_PANELS], const double window[2],
-                       const struct plot_option *option);
+                       const struct plot_option *option, const double (*extremes)[2]);
 
 #endif
