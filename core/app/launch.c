@@ -22,7 +22,7 @@
 static volatile sig_atomic_t launch_signals;
 static volatile pid_t launch_child;
 
-char **launch_arguments(long ranks, int root, const char *program, char **argv)
+char **launch_arguments(long ranks, bool root, const char *program, char **argv)
 {
     /* Oversubscription is allowed, so ranks must not be bound nor spin; the copy through
      * another process's memory is off because containers forbid it. */
@@ -144,7 +144,7 @@ int launch_report(int code)
     return fclose(file) ? code : 0;
 }
 
-int launch_terminal(void)
+bool launch_terminal(void)
 {
     return isatty(STDERR_FILENO) || getenv(LAUNCH_TERMINAL) != NULL;
 }

@@ -7,9 +7,11 @@
 #ifndef LAUNCH_H
 #define LAUNCH_H
 
+#include <stdbool.h>
+
 /* The command line for mpirun: NULL-terminated, free with launch_free_arguments. `argv` is the
  * program's own command line, `program` its path. */
-char **launch_arguments(long ranks, int root, const char *program, char **argv);
+char **launch_arguments(long ranks, bool root, const char *program, char **argv);
 void launch_free_arguments(char **arguments);
 
 /* Runs the same command line on `ranks` ranks and returns its exit code. */
@@ -19,7 +21,7 @@ int launch_run(long ranks, char **argv);
  * itself should return. */
 int launch_report(int code);
 
-/* True when the parent's terminal shows what this rank writes to stderr. */
-int launch_terminal(void);
+/* Does a terminal show what this process writes to stderr (through the parent, if there is one)? */
+bool launch_terminal(void);
 
 #endif

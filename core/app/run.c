@@ -21,6 +21,7 @@
 #include "solve/advance.h"
 
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -47,6 +48,7 @@ static int run_options(struct run *run, const struct cli_given *given)
     if (walltime && human_read_duration(walltime, &run->walltime)) return status_wrap(STATUS_CASE, "--walltime: ");
     run->shortened = cli_value(given, "--until") != NULL;
     log_set_quiet(run->quiet || run->json);
+    run->progress.mode = progress_choose(run->json, run->quiet, launch_terminal());
     return 0;
 }
 
@@ -59,7 +61,7 @@ static int run_interruption(struct run *run)
     comm_max(&wish, 1);
     if (wish == RUN_GO) return 0;
     if (wish == RUN_CLOCK) snprintf(run->reason, sizeof run->reason, "walltime");
-    else snprintf(run->reason, sizeof run->reason, "signal %s", sigabbrev_np((int)wish - RUN_SIGNAL));
+    else snprintf(run->reason, sizeof run->reason, "SIG%s", sigabbrev_np((int)wish - RUN_SIGNAL));
     return STATUS_STOPPED;
 }
 
