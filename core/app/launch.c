@@ -2,7 +2,6 @@
 #include "app/launch.h"
 
 #include "base/comm.h"
-#include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
 
@@ -14,13 +13,11 @@
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #define LAUNCH_STATUS "BULLA_STATUS_FILE"
 #define LAUNCH_TERMINAL "BULLA_TERMINAL"
-
-static volatile sig_atomic_t launch_signals;
-static volatile pid_t launch_child;
 
 char **launch_arguments(long ranks, bool root, const char *program, char **argv)
 {
@@ -55,25 +52,11 @@ void launch_free_arguments(char **arguments)
     mem_free(arguments);
 }
 
-static void launch_forward(int number)
-{
-    (void)number;
-    launch_signals++;
-    if (launch_child > 0) kill(launch_child, launch_signals == 1 ? SIGUSR1 : SIGTERM);
-}
-
-static void launch_catch(void (*handler)(int))
-{
-    static const int numbers[] = {SIGINT, SIGTERM, SIGUSR1, SIGHUP};
-    struct sigaction action = {.sa_handler = handler};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) sigaction(numbers[i], &action, NULL);
-}
-
 /* The child: its own process group, so that the terminal's Ctrl-C reaches the parent alone;
  * it ends when the parent is killed. */
-static void launch_become(char **arguments)
+static void launch_become(char **arguments, const sigset_t *mask)
 {
-    launch_catch(SIG_DFL);
+    sigprocmask(SIG_SETMASK, mask, NULL);
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     int null = open("/dev/null", O_RDONLY);
@@ -83,27 +66,68 @@ static void launch_become(char **arguments)
     _exit(127);
 }
 
-static int launch_wait(pid_t child, int *ret_raw)
-{
-    while (waitpid(child, ret_raw, 0) < 0)
-        if (errno != EINTR) return status_fail(STATUS_RUN, "lost sight of mpirun: %s", strerror(errno));
-    return 0;
-}
-
-/* The code that rank 0 wrote, or what mpirun's own end means. */
-static int launch_outcome(const char *path, int raw)
+/* What rank 0 has written: its process and, at its end, the exit code; 0 and -1 before. */
+static void launch_read(const char *path, long *ret_pid, int *ret_code)
 {
     FILE *file = fopen(path, "r");
-    int code = -1;
-    if (file) {
-        if (fscanf(file, "%d", &code) != 1) code = -1;
-        fclose(file);
+    *ret_pid = 0;
+    *ret_code = -1;
+    if (!file) return;
+    if (fscanf(file, "%ld %d", ret_pid, ret_code) < 1) *ret_pid = 0;
+    fclose(file);
+}
+
+/* The first signal goes to rank 0 once there is one (true then), and it tells the others; a
+ * second one ends rank 0 at once, and mpirun. */
+static bool launch_forward(const char *path, pid_t child, int count)
+{
+    long pid;
+    int code;
+    launch_read(path, &pid, &code);
+    if (count > 1) kill(child, SIGTERM);
+    return pid > 0 && (code >= 0 || !kill((pid_t)pid, SIGUSR1));
+}
+
+/* Waits for the end of mpirun, handing signals on. Returns their number. */
+static int launch_wait(const char *path, pid_t child, const sigset_t *wanted, int *ret_raw)
+{
+    static const struct timespec soon = {.tv_nsec = 50000000};
+    bool passed_on = true;
+    for (int count = 0;;) {
+        int number = passed_on ? sigwaitinfo(wanted, NULL) : sigtimedwait(wanted, NULL, &soon);
+        if (number == SIGCHLD && waitpid(child, ret_raw, WNOHANG) == child) return count;
+        if (number > 0 && number != SIGCHLD) count++;
+        if (number != SIGCHLD && count) passed_on = launch_forward(path, child, count);
     }
-    if (code >= 0) return code;
-    if (launch_signals) return STATUS_STOPPED;
-    if (WIFEXITED(raw) && WEXITSTATUS(raw) <= STATUS_STOPPED) return WEXITSTATUS(raw);
-    if (!(WIFEXITED(raw) && WEXITSTATUS(raw) == 127)) log_error("a rank ended without finishing the run");
-    return STATUS_RUN;
+}
+
+/* The code that rank 0 wrote, unless mpirun says that another rank did not end well. */
+static int launch_outcome(const char *path, int raw, int signals)
+{
+    long pid;
+    int code, end = WIFEXITED(raw) ? WEXITSTATUS(raw) : -1;
+    launch_read(path, &pid, &code);
+    if (code >= 0 && end == 0) return code;
+    if (signals) return STATUS_STOPPED;
+    if (end == 127) return status_fail(STATUS_RUN, "mpirun did not start");
+    return status_fail(STATUS_RUN, "a rank ended without finishing the run");
+}
+
+/* Starts mpirun and stays until it ends. */
+static int launch_supervise(char **arguments, const char *path)
+{
+    sigset_t wanted, before;
+    sigemptyset(&wanted);
+    static const int numbers[] = {SIGINT, SIGTERM, SIGUSR1, SIGHUP, SIGCHLD};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) sigaddset(&wanted, numbers[i]);
+    sigprocmask(SIG_BLOCK, &wanted, &before);
+    pid_t child = fork();
+    if (child == 0) launch_become(arguments, &before);
+    int raw = 0, signals = 0;
+    if (child > 0) signals = launch_wait(path, child, &wanted, &raw);
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    if (child < 0) return status_fail(STATUS_RUN, "cannot start a process: %s", strerror(errno));
+    return launch_outcome(path, raw, signals);
 }
 
 int launch_run(long ranks, char **argv)
@@ -113,35 +137,43 @@ int launch_run(long ranks, char **argv)
         return status_fail(STATUS_RUN, "cannot find the program's own path: %s", strerror(errno));
     const char *folder = getenv("TMPDIR");
     char *path = mem_print("%s/bulla-status-XXXXXX", folder && *folder ? folder : "/tmp");
-    int file = mkstemp(path);
-    if (file < 0) return status_fail(STATUS_RUN, "cannot write %s: %s", path, strerror(errno));
+    int file = mkstemp(path), code;
+    if (file < 0) {
+        code = status_fail(STATUS_RUN, "cannot write %s: %s", path, strerror(errno));
+        mem_free(path);
+        return code;
+    }
     close(file);
     setenv(LAUNCH_STATUS, path, 1);
     if (isatty(STDERR_FILENO)) setenv(LAUNCH_TERMINAL, "1", 1);
     char **arguments = launch_arguments(ranks, geteuid() == 0, program, argv);
-    launch_catch(launch_forward);
-    pid_t child = fork();
-    if (child == 0) launch_become(arguments);
-    launch_child = child;
-    if (launch_signals) launch_forward(0);
-    int raw = 0, code = child < 0 ? status_fail(STATUS_RUN, "cannot start a process: %s", strerror(errno)) : 0;
-    if (!code) code = launch_wait(child, &raw);
-    if (!code) code = launch_outcome(path, raw);
+    code = launch_supervise(arguments, path);
     unlink(path);
     mem_free(path);
     launch_free_arguments(arguments);
     return code;
 }
 
-int launch_report(int code)
+/* Adds a number to the parent's file, if there is a parent; false if that failed. */
+static bool launch_write(long number)
 {
     const char *path = getenv(LAUNCH_STATUS);
-    if (!path || !comm_active()) return code;
-    if (comm_rank() != 0) return 0;
     FILE *file = fopen(path, "r+");
-    if (!file) return code;
-    fprintf(file, "%d\n", code);
-    return fclose(file) ? code : 0;
+    if (!file) return false;
+    bool good = !fseek(file, 0, SEEK_END) && fprintf(file, "%ld\n", number) > 0;
+    return fclose(file) == 0 && good;
+}
+
+void launch_announce(void)
+{
+    if (getenv(LAUNCH_STATUS) && comm_active() && comm_rank() == 0) launch_write((long)getpid());
+}
+
+int launch_report(int code)
+{
+    if (!getenv(LAUNCH_STATUS) || !comm_active()) return code;
+    if (comm_rank() != 0) return 0;
+    return launch_write(code) ? 0 : code;
 }
 
 bool launch_terminal(void)

@@ -1,9 +1,9 @@
 /* launch.h - `-n RANKS`: the program starts itself again under mpirun.
  *
  * The parent stays: mpirun changes exit codes and ends a job that gets SIGINT or SIGTERM within
- * a second, so the parent turns the first of those into SIGUSR1, which mpirun hands on and which
- * lets the ranks finish their step and save; a second signal ends the job at once. The exit
- * code comes back through a small file named by BULLA_STATUS_FILE. */
+ * a second, so the parent hands the first of those to rank 0 alone as SIGUSR1, which lets the
+ * ranks finish their step and save; a second signal ends the job at once. Rank 0's process id
+ * and exit code reach the parent through a small file named by BULLA_STATUS_FILE. */
 #ifndef LAUNCH_H
 #define LAUNCH_H
 
@@ -14,8 +14,12 @@
 char **launch_arguments(long ranks, bool root, const char *program, char **argv);
 void launch_free_arguments(char **arguments);
 
-/* Runs the same command line on `ranks` ranks and returns its exit code. */
+/* Runs the same command line on `ranks` ranks and returns its exit code. What the ranks could
+ * not say themselves is recorded (status.h). */
 int launch_run(long ranks, char **argv);
+
+/* In a rank that is ready for signals: tells the parent, if there is one. */
+void launch_announce(void);
 
 /* In a rank: hands the exit code to the parent, if there is one; returns what the process
  * itself should return. */

@@ -188,7 +188,7 @@ static int run_ranks(const struct cli_given *given, bool *ret_started, int *ret_
             return status_fail(STATUS_CASE, "-n %ld, but an MPI launcher has started %d ranks", ranks, comm_size());
     } else if (ranks > 1) {
         *ret_started = true;
-        *ret_code = launch_run(ranks, given->argv);
+        *ret_code = cli_failed(launch_run(ranks, given->argv));
     }
     return 0;
 }
@@ -202,6 +202,7 @@ int run_command(const struct cli_given *given)
     if (code) return cli_failed(code);
     if (started) return outcome;
     stop_catch();
+    launch_announce();
     code = comm_agree(scenes_read(given, given->words[0], &run.scene));
     if (code) return code;
     run.shortened = run.shortened || cli_value(given, "--max-steps");
