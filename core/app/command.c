@@ -3,10 +3,13 @@
  * What an option means is said here, what it does in the command's own file. */
 #include "app/command.h"
 
+#include "app/check.h"
 #include "app/cli.h"
+#include "app/inspect.h"
 #include "app/plot.h"
 #include "app/plot_option.h"
 #include "app/report.h"
+#include "app/run.h"
 #include "app/verify.h"
 #include "base/comm.h"
 #include "base/log.h"
@@ -20,7 +23,38 @@
 static int command_help(const struct cli_given *given);
 static int command_version(const struct cli_given *given);
 
+static const struct cli_option
+    command_output = {"--output", "-o", "DIR", "Output directory, instead of the case's."},
+    command_ranks = {"--ranks", "-n", "RANKS", "MPI ranks; the numbers do not depend on them."},
+    command_set = {"--set", NULL, "PATH=VALUE", "Changes a setting, e.g. 'run.until=2 us'; may be repeated."},
+    command_variant = {"--variant", NULL, "NAME", "Applies a variant that the case defines."},
+    command_until = {"--until", NULL, "T", "Ends at this time, e.g. '2 us'."},
+    command_steps = {"--max-steps", NULL, "N", "Ends after so many steps."},
+    command_walltime = {"--walltime", NULL, "HH:MM:SS", "Saves and stops when this much time has passed."},
+    command_quiet = {"--quiet", NULL, NULL, "Says nothing but warnings and errors."},
+    command_json = {"--json", NULL, NULL, "Progress and errors on stdout, one JSON object per line."},
+    command_overwrite = {"--overwrite", NULL, NULL, "Replaces the run that is in the output directory."},
+    command_restart = {"--restart", NULL, NULL, NULL};
+
+static const struct cli_option *const command_run_options[] = {&command_output,    &command_ranks,   &command_set,
+                                                               &command_variant,   &command_until,   &command_steps,
+                                                               &command_walltime,  &command_quiet,   &command_json,
+                                                               &command_overwrite, &command_restart, NULL};
+static const struct cli_option *const command_case_options[] = {&command_set,   &command_variant, &command_until,
+                                                                &command_steps, &command_output,  NULL};
+static const struct cli_option *const command_check_options[] = {
+    &command_set, &command_variant, &command_until, &command_steps, &command_output, &command_json, NULL};
+
 static const struct cli_command command_table[] = {
+    {"run", "CASE.yaml", "Runs a case.", command_run_options, 1, 1, run_command, NULL},
+    {"check", "CASE.yaml...", "Finds every mistake of a case and tells what it needs.", command_check_options, 1, -1,
+     check_command, NULL},
+    {"plan", "CASE.yaml", "The stages that will run, in order.", command_case_options, 1, 1, inspect_plan, NULL},
+    {"show", "CASE.yaml", "The resolved case: parameters, defaults and units applied.", command_case_options, 1, 1,
+     inspect_show, NULL},
+    {"modules", "[NAME...]", "The laws there are; of one: parameters, units, ranges, defaults.", NULL, 0, -1,
+     inspect_modules, NULL},
+    {"info", "FILE...", "What is inside a snapshot.", NULL, 1, -1, inspect_info, NULL},
     {"plot", "DIR FIELD|history", "PNG pictures of snapshots and histories.", plot_option_table, 1, -1, plot_command,
      NULL},
     {"report", "DIR", "One HTML page about a run, pictures inside.", report_option_table, 1, 1, report_command, NULL},

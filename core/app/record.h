@@ -6,19 +6,23 @@
 
 struct record;
 
-/* Opens the files in the scene's directory, which exists. Collective, as all calls here. */
-int record_open(const struct state *state, struct record **ret_record);
+/* Opens the files in the scene's directory, which exists; `argv` must outlive the record.
+ * Collective, as all calls here. */
+int record_open(const struct state *state, int argc, char *const *argv, struct record **ret_record);
 
 /* The next time at which something must be written, or `until`. */
 double record_target(const struct record *record, double t, double until);
 
-/* Writes what is due at this state. */
+/* To be called with the initial state and after every step: writes what is due. */
 int record_due(struct record *record, const struct state *state);
 
 /* Writes whatever this state lacks: the end of a run, whatever ended it. */
 int record_last(struct record *record, const struct state *state);
 
-/* Closes the files and writes provenance.json with the reason why the run ended. NULL is fine. */
-int record_close(struct record *record, const struct state *state, const char *reason);
+/* Writes provenance.json with the reason why the run ended and its exit code. */
+int record_conclude(struct record *record, const struct state *state, const char *reason, int exit_code);
+
+/* Closes the files; NULL is fine. */
+void record_close(struct record *record);
 
 #endif

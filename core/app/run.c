@@ -30,10 +30,11 @@ struct run {
     struct state *state;
     struct record *record;
     struct progress progress;
-    bool shortened; /* the command line ends the run before the case does */
+    bool limited;   /* the command line gives the step limit */
+    bool shortened; /* the command line ended the run before the case does */
     bool quiet, json;
-    double walltime;  /* seconds, or infinity */
-    char reason[256]; /* why the run ended */
+    double walltime;   /* seconds, or infinity */
+    char reason[1024]; /* why the run ended */
 };
 
 enum { RUN_GO = 0, RUN_CLOCK = 1, RUN_SIGNAL = 2 }; /* what ranks agree on; RUN_SIGNAL + number */
@@ -52,6 +53,11 @@ static int run_options(struct run *run, const struct cli_given *given)
     return 0;
 }
 
+static void run_because(struct run *run, const char *format, const char *what)
+{
+    snprintf(run->reason, sizeof run->reason, format, what);
+}
+
 /* Reasons to end before the next step, agreed on by all ranks. */
 static int run_interruption(struct run *run)
 {
@@ -60,23 +66,19 @@ static int run_interruption(struct run *run)
     if (stop_signal()) wish = RUN_SIGNAL + stop_signal();
     comm_max(&wish, 1);
     if (wish == RUN_GO) return 0;
-    if (wish == RUN_CLOCK) snprintf(run->reason, sizeof run->reason, "walltime");
-    else snprintf(run->reason, sizeof run->reason, "SIG%s", sigabbrev_np((int)wish - RUN_SIGNAL));
+    if (wish == RUN_CLOCK) run_because(run, "interrupted by %s", "walltime");
+    else run_because(run, "interrupted by SIG%s", sigabbrev_np((int)wish - RUN_SIGNAL));
     return STATUS_STOPPED;
 }
 
 static bool run_is_over(struct run *run)
 {
     const struct state *state = run->state;
-    if (state->t >= run->scene->until) {
-        snprintf(run->reason, sizeof run->reason, "end time");
-        return true;
-    }
-    if (run->scene->max_steps > 0 && state->step >= run->scene->max_steps) {
-        snprintf(run->reason, sizeof run->reason, "step limit");
-        return true;
-    }
-    return false;
+    bool at_end = state->t >= run->scene->until;
+    bool at_limit = run->scene->max_steps > 0 && state->step >= run->scene->max_steps;
+    if (at_end || at_limit) run_because(run, "finished%s", at_end ? "" : " at the step limit");
+    run->shortened = run->shortened || (at_limit && !at_end && run->limited);
+    return at_end || at_limit;
 }
 
 /* One step that ends at a target at the latest, and exactly on it. */
@@ -94,86 +96,94 @@ static int run_step(struct run *run)
     return 0;
 }
 
+/* Any failure from here on is that of a run: a script that fails now has not refused a case. */
 static int run_loop(struct run *run)
 {
-    TRY(record_due(run->record, run->state));
-    while (!run_is_over(run)) {
-        TRY(run_interruption(run));
-        int code = run_step(run);
-        if (code) { /* a script that fails now has stopped a run, not refused a case */
-            snprintf(run->reason, sizeof run->reason, "failure");
-            return STATUS_RUN;
-        }
-        TRY(record_due(run->record, run->state));
+    int code = record_due(run->record, run->state);
+    while (!code && !run_is_over(run)) {
+        code = run_interruption(run);
+        if (!code) code = run_step(run);
+        if (!code) code = record_due(run->record, run->state);
     }
-    return 0;
+    return code && code != STATUS_STOPPED ? STATUS_RUN : code;
 }
 
-static void run_say_end(struct run *run, int code)
+static void run_say_end(const struct run *run, int code)
 {
     char time[HUMAN_ROOM], wall[HUMAN_ROOM], rate[HUMAN_ROOM];
     const struct state *state = run->state;
-    double passed = progress_clock() - run->progress.start;
+    double passed = progress_clock() - run->progress.start, work = run->progress.cells * (double)state->step;
     const char *directory = run->scene->directory;
     human_si(state->t, "s", time);
-    if (code == 0) {
-        double work = run->progress.cells * (double)state->step;
-        log_note("done (%s): t = %s, %ld steps, %s wall, %s/s; output in %s", run->reason, time, state->step,
+    if (code == 0)
+        log_note("%s: t = %s, %ld steps, %s wall, %s/s; output in %s", run->reason, time, state->step,
                  human_duration(passed, wall), human_si(passed > 0 ? work / passed : 0, "updates", rate), directory);
-    } else if (code == STATUS_STOPPED) {
-        log_warn("interrupted (%s) at t = %s, step %ld: snapshot, history and probes up to here are in %s; "
-                 "version " BULLA_VERSION " cannot continue from them",
+    else if (code == STATUS_STOPPED)
+        log_warn("%s at t = %s, step %ld: snapshot, history and probes up to here are in %s (version " BULLA_VERSION
+                 " cannot continue from them)",
                  run->reason, time, state->step, directory);
-    } else {
-        log_error("the last good state (t = %s, step %ld) is saved in %s", time, state->step, directory);
-    }
+    else log_error("the last good state (t = %s, step %ld) is saved in %s", time, state->step, directory);
 }
 
-/* From the first output to the last; the outputs that end a run are written however it ends. */
-static int run_recorded(struct run *run)
+/* The loop, and the outputs that end a run however it ends. */
+static int run_until_end(struct run *run)
 {
-    struct scene *scene = run->scene;
-    int code = record_open(run->state, &run->record);
-    if (code) return cli_failed(code);
-    run->progress.until = scene->until;
-    run->progress.most_steps = scene->max_steps;
-    run->progress.cells = scenes_cells(scene);
-    progress_begin(&run->progress, scene->name, scene->directory);
-    code = run_loop(run);
+    progress_begin(&run->progress, run->scene->name, run->scene->directory);
+    int code = run_loop(run);
     progress_clear(&run->progress);
-    if (code == STATUS_RUN) cli_failed(code);
-    if (!*run->reason) snprintf(run->reason, sizeof run->reason, "failure");
-    int last = record_last(run->record, run->state);
-    int closed = record_close(run->record, run->state, run->reason);
-    if (last || closed) {
-        cli_failed(STATUS_RUN);
-        if (code < STATUS_RUN) code = STATUS_RUN;
+    if (code == STATUS_RUN) {
+        run_because(run, "%s", status_text());
+        cli_failed(code);
+    }
+    if (record_last(run->record, run->state)) {
+        code = cli_failed(STATUS_RUN);
+        run_because(run, "%s", status_text());
     }
     run_say_end(run, code);
     return code;
 }
 
-/* With a state in memory: the directory, the files, the loop, the expectations. */
-static int run_in_directory(struct run *run)
+static int run_judge(struct run *run)
 {
-    const struct scene *scene = run->scene;
-    const char *directory = scene->directory;
-    int code = outdir_prepare(directory);
-    if (!code) code = outdir_write(directory, "case.yaml", scene->resolved);
-    if (code) return cli_failed(code);
-    char *log = mem_print("%s/log.txt", directory);
-    code = comm_agree(log_open(log, false));
-    mem_free(log);
-    if (code) return cli_failed(code);
-    log_file("bulla " BULLA_VERSION ", case %s, %d ranks, %.0f cells", scene->path, comm_size(), scenes_cells(scene));
-    code = run_recorded(run);
-    if (!code && scene->n_expect && run->shortened)
+    if (!run->scene->n_expect) return 0;
+    if (run->shortened) {
         log_note("expectations are not judged: the command line shortened the run");
-    else if (!code) {
-        code = expect_judge(scene, directory, run->quiet || run->json);
-        if (code > STATUS_EXPECT) cli_failed(code);
+        return 0;
     }
-    progress_end(&run->progress, run->state->t, run->state->step, code, run->reason);
+    int code = expect_judge(run->scene, run->scene->directory, run->quiet || run->json);
+    return code > STATUS_EXPECT ? cli_failed(code) : code;
+}
+
+static int run_files(struct run *run, const struct cli_given *given)
+{
+    const char *directory = run->scene->directory;
+    TRY(outdir_prepare(directory));
+    TRY(outdir_write(directory, "case.yaml", run->scene->resolved));
+    char *log = mem_print("%s/log.txt", directory);
+    int code = comm_agree(log_open(log, false));
+    mem_free(log);
+    TRY(code);
+    log_file("bulla " BULLA_VERSION ", case %s, %d ranks, %.0f cells", run->scene->path, comm_size(),
+             run->progress.cells);
+    return record_open(run->state, given->argc, given->argv, &run->record);
+}
+
+/* With a state in memory: the directory, the files, the loop, the expectations. */
+static int run_in_directory(struct run *run, const struct cli_given *given)
+{
+    run->progress.until = run->scene->until;
+    run->progress.most_steps = run->scene->max_steps;
+    run->progress.cells = scenes_cells(run->scene);
+    int code = run_files(run, given);
+    if (code) {
+        cli_failed(code);
+    } else {
+        code = run_until_end(run);
+        if (!code) code = run_judge(run);
+        if (record_conclude(run->record, run->state, run->reason, code)) code = cli_failed(STATUS_RUN);
+        progress_end(&run->progress, run->state->t, run->state->step, code, run->reason);
+    }
+    record_close(run->record);
     log_close();
     return code;
 }
@@ -205,11 +215,11 @@ int run_command(const struct cli_given *given)
     launch_announce();
     code = comm_agree(scenes_read(given, given->words[0], &run.scene));
     if (code) return code;
-    run.shortened = run.shortened || cli_value(given, "--max-steps");
+    run.limited = cli_value(given, "--max-steps") != NULL;
     code = outdir_check(run.scene->directory, cli_value(given, "--overwrite") != NULL);
     if (!code) code = state_new(run.scene, &run.state);
     if (code) cli_failed(code);
-    else code = run_in_directory(&run);
+    else code = run_in_directory(&run, given);
     state_free(run.state);
     scene_free(run.scene);
     return code;

@@ -3,7 +3,6 @@
 
 #include "base/mem.h"
 #include "base/status.h"
-#include "plug/registry.h"
 
 #include <string.h>
 
@@ -21,8 +20,6 @@ static char *scenes_setting(const char *option, const char *value)
 
 int scenes_read(const struct cli_given *given, const char *path, struct scene **ret_scene)
 {
-    int code = registry_init();
-    if (code) return cli_failed(code);
     char **sets = mem_new((size_t)given->n_option + 1, sizeof *sets);
     int n = 0;
     for (int i = 0; i < given->n_option; i++) {
@@ -31,11 +28,13 @@ int scenes_read(const struct cli_given *given, const char *path, struct scene **
     }
     struct scene_options options = {.sets = (const char *const *)sets,
                                     .variant = cli_value(given, "--variant"),
-                                    .directory = cli_value(given, "--output")};
-    code = scene_read(path, &options, ret_scene);
+                                    .directory = cli_value(given, "--output"),
+                                    .json = cli_value(given, "--json") != NULL};
+    if (options.json) options.messages = stdout;
+    int code = scene_read(path, &options, ret_scene);
     for (int i = 0; i < n; i++) mem_free(sets[i]);
     mem_free(sets);
-    return code;
+    return options.json ? code : cli_failed(code);
 }
 
 double scenes_cells(const struct scene *scene)
