@@ -1,9 +1,9 @@
 /* check.c - see check.h.
  *
- * Steps and time are measured, not guessed: the scene is painted on a coarse copy of its mesh
- * (which also finds scripts that fail), whose time step, scaled by the cell size, gives the number
- * of steps, and whose first steps give the cost per cell on this machine. Both hold for the
- * initial state: what happens later may need smaller steps. */
+ * Steps and time are measured, not guessed: the scene runs for a moment on a coarse copy of its
+ * mesh (which also finds scripts that fail). The last time step there, scaled by the cell size,
+ * gives the number of steps, and the time of a step the cost per cell on this machine. What
+ * happens later in the run may need smaller steps. */
 #include "app/check.h"
 
 #include "app/human.h"
@@ -16,10 +16,12 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { CHECK_COARSE = 32, CHECK_STEPS = 4 }; /* cells along an axis of the coarse copy; steps that are timed */
+enum { CHECK_COARSE = 32, CHECK_STEPS = 500 }; /* most cells along an axis of the coarse copy; most steps there */
+static const double check_moment = 0.2;        /* most seconds spent on them */
 
 struct check_cost {
     double steps, seconds;
+    long coarse_steps; /* what they were measured on */
 };
 
 static const char *const check_geometry[] = {"cartesian", "axisymmetric", "spherical"};
@@ -71,16 +73,18 @@ static struct scene check_coarsen(const struct scene *scene, double *ret_ratio)
 
 static int check_measure(struct state *coarse, double ratio, const struct scene *scene, struct check_cost *ret)
 {
-    double dt = advance_dt(coarse) / (scene->dt_fixed > 0 ? 1 : ratio), begin = progress_clock();
-    int steps = 0;
-    for (; steps < CHECK_STEPS && coarse->t < scene->until; steps++) {
-        double left = scene->until - coarse->t, take = advance_dt(coarse);
-        TRY(advance_step(coarse, take < left ? take : left));
+    double begin = progress_clock(), spent = 0, dt = advance_dt(coarse);
+    while (coarse->step < CHECK_STEPS && coarse->t < scene->until && spent < check_moment) {
+        dt = advance_dt(coarse);
+        TRY(advance_step(coarse, scene->until - coarse->t));
+        spent = progress_clock() - begin;
+        comm_max(&spent, 1);
     }
-    double spent = (progress_clock() - begin) / (steps ? steps : 1);
+    if (scene->dt_fixed <= 0) dt /= ratio;
+    ret->coarse_steps = coarse->step;
     ret->steps = ceil(scene->until / dt);
     if (scene->max_steps > 0 && ret->steps > (double)scene->max_steps) ret->steps = (double)scene->max_steps;
-    ret->seconds = ret->steps * spent * scenes_cells(scene) / scenes_cells(coarse->scene);
+    ret->seconds = ret->steps * spent / (double)coarse->step * scenes_cells(scene) / scenes_cells(coarse->scene);
     return 0;
 }
 
@@ -91,10 +95,11 @@ static void check_print(const struct scene *scene, const struct state *coarse, c
     if (scene->title) printf("  %-12s %s\n", "title", scene->title);
     printf("  %-12s %dD %s, %d", "domain", scene->dim, check_geometry[scene->geometry], scene->cells[0]);
     for (int axis = 1; axis < scene->dim; axis++) printf(" x %d", scene->cells[axis]);
+    if (scene->dim > 1) printf(" = %.0f", scenes_cells(scene));
     int tile = mesh_tile_size(scene);
     double tiles = 1;
     for (int axis = 0; axis < scene->dim; axis++) tiles *= scene->cells[axis] / (double)tile;
-    printf(" = %.0f cells in %.0f tiles of %d\n", scenes_cells(scene), tiles, tile);
+    printf(" cells in %.0f tiles of %d\n", tiles, tile);
     check_print_fields(coarse->model);
     for (unsigned i = 0; i < scene->n_material; i++)
         check_print_module(scene->material[i].name, &scene->material[i].eos);
@@ -102,10 +107,9 @@ static void check_print(const struct scene *scene, const struct state *coarse, c
     check_print_module("riemann", &scene->riemann);
     check_print_module("limiter", &scene->limiter);
     printf("  %-12s about %s\n", "memory", human_bytes(check_memory(scene, coarse->model->n_field), text));
-    printf("  %-12s until %s, about %.0f steps (from the initial state)\n", "run", human_si(scene->until, "s", text),
-           cost->steps);
-    printf("  %-12s about %s on one core (from %d steps on a coarse copy)\n", "time",
-           human_duration(cost->seconds, text), CHECK_STEPS);
+    printf("  %-12s until %s, about %.0f steps\n", "run", human_si(scene->until, "s", text), cost->steps);
+    printf("  %-12s about %s on one core (from %ld steps on a coarse copy)\n", "time",
+           human_duration(cost->seconds, text), cost->coarse_steps);
     printf("  %-12s %s\n", "output", scene->directory);
 }
 
@@ -117,7 +121,7 @@ static int check_one(const struct cli_given *given, const char *path)
     double ratio;
     struct scene coarse_scene = check_coarsen(scene, &ratio);
     struct state *coarse = NULL;
-    struct check_cost cost = {0, 0};
+    struct check_cost cost = {0};
     if (!mesh_tile_size(scene)) code = STATUS_CASE;
     if (!code) code = state_new(&coarse_scene, &coarse);
     if (!code) code = check_measure(coarse, ratio, scene, &cost);

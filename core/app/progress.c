@@ -44,8 +44,8 @@ void progress_begin(struct progress *progress, const char *name, const char *dir
     progress->color = progress->mode == PROGRESS_LIVE && !(plain && *plain);
     progress->start = progress->shown = progress_clock();
     if (progress->mode == PROGRESS_JSON)
-        progress_print(json_pack("{ss ss ss sf sf si}", "event", "start", "case", name, "directory", directory, "until",
-                                 progress->until, "cells", progress->cells, "ranks", comm_size()));
+        progress_print(json_pack("{ss ss ss sf sI si}", "event", "start", "case", name, "directory", directory, "until",
+                                 progress->until, "cells", (json_int_t)progress->cells, "ranks", comm_size()));
 }
 
 static double progress_share(const struct progress *progress, double t, long step)
@@ -87,8 +87,8 @@ void progress_step(struct progress *progress, double t, double dt, long step)
         progress_show(progress, t, dt, step, rate, eta);
         return;
     }
-    json_t *object = json_pack("{ss sf sf sI sf sf sf}", "event", "progress", "percent", 100 * share, "t", t, "step",
-                               (json_int_t)step, "dt", dt, "cells", progress->cells, "updates_per_s", rate);
+    json_t *object = json_pack("{ss sf sf sI sf sI sf}", "event", "progress", "percent", 100 * share, "t", t, "step",
+                               (json_int_t)step, "dt", dt, "cells", (json_int_t)progress->cells, "updates_per_s", rate);
     json_object_set_new(object, "eta_s", isfinite(eta) ? json_real(eta) : json_null());
     progress_print(object);
 }
