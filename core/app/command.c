@@ -60,6 +60,7 @@ static const struct cli_command command_table[] = {
     {"report", "DIR", "One HTML page about a run, pictures inside.", report_option_table, 1, 1, report_command, NULL},
     {"verify", "[ID...]", "Errors, orders and cost of the verification scenes (r09: r09a, r09b, ...; none: all).",
      verify_option_table, 0, -1, verify_command, NULL},
+    {"schema", "", "The JSON Schema of case files, with all loaded modules.", NULL, 0, 0, inspect_schema, NULL},
     {"version", "", "Version of the program.", NULL, 0, 0, command_version, NULL},
     {"help", "[COMMAND]", "This list, or the help of one command.", NULL, 0, 1, command_help, NULL},
 };

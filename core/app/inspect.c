@@ -3,7 +3,9 @@
 
 #include "app/scenes.h"
 #include "base/comm.h"
+#include "base/mem.h"
 #include "base/text.h"
+#include "case/schema.h"
 #include "io/info.h"
 #include "plug/describe.h"
 #include "plug/registry.h"
@@ -55,4 +57,15 @@ int inspect_info(const struct cli_given *given)
     int code = 0;
     for (int i = 0; i < given->n_word && !code && comm_rank() == 0; i++) code = info_print(stdout, given->words[i]);
     return cli_failed(code);
+}
+
+int inspect_schema(const struct cli_given *given)
+{
+    (void)given;
+    int code = registry_init();
+    if (code) return cli_failed(code);
+    char *text = schema_text();
+    if (comm_rank() == 0) fputs(text, stdout);
+    mem_free(text);
+    return 0;
 }

@@ -21,13 +21,20 @@ for file in "$BULLA_SOURCE"/modules/*/*.c "$BULLA_SOURCE"/core/phys/*.c; do
                 if (part[1] == file && /loop vectorized/) done[part[2]] = 1
                 next
             }
-            /#pragma omp simd/ { marked = FNR }
+            # gcc names a line of the loop or of its body: look from the `for` to the brace that ends it.
+            /#pragma omp simd/ { marked = 1; next }
             marked && /^[ \t]*for[ \t]*\(/ {
-                if (!done[FNR] && !done[FNR + 1]) { # gcc names the loop or its first statement
-                    print file ":" FNR ": gcc left this loop scalar"
-                    bad = 1
-                }
-                marked = 0
+                marked = found = 0
+                first = FNR
+                match($0, /^[ \t]*/)
+                end = substr($0, 1, RLENGTH) "}"
+                braced = /{[^}]*$/
+            }
+            first {
+                if (FNR in done) found = 1
+                if (braced ? index($0, end) != 1 : !/;[ \t]*(\/\*.*)?$/) next
+                if (!found) { print file ":" first ": gcc left this loop scalar"; bad = 1 }
+                first = 0
             }
             END { exit bad }' vectorised "$source" || status=1
     done
