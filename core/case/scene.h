@@ -160,7 +160,7 @@ struct scene {
     enum scene_closure closure;
     struct instance riemann, limiter;
     struct instance interface_limiter; /* of the volume fractions; module NULL: as the others */
-    double cfl, dt_fixed; /* dt_fixed 0: from cfl */
+    double cfl, dt_fixed;              /* dt_fixed 0: from cfl */
     enum scene_guard guard;
     double until;    /* s */
     long max_steps;  /* 0: no limit */

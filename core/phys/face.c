@@ -248,12 +248,6 @@ static void face_complete(struct face_work *work, size_t n)
     face_finish(n, own->rho, u[0], u[1], u[2], own->energy, own->c);
 }
 
-/* Component d of the solver's frame (0 normal) is this axis of space. */
-static unsigned face_axis(int axis, unsigned d)
-{
-    return d == 0 ? (unsigned)axis : d <= (unsigned)axis ? d - 1 : d;
-}
-
 static void face_point(struct face_work *work, const struct frame *frame, size_t cells)
 {
     const struct model *model = work->model;
@@ -266,7 +260,7 @@ static void face_point(struct face_work *work, const struct frame *frame, size_t
     for (unsigned side = 0; side < 2; side++) {
         size_t from = side ? cells + frame->inner : 0; /* right: the lower edge of the cell behind the face */
         for (unsigned d = 0; d < (unsigned)model->dim; d++)
-            own->side_u[side][d] = own->state + 2 * (model->i_u + face_axis(frame->axis, d)) * FACE_ROOM + from;
+            own->side_u[side][d] = own->state + 2 * (model->i_u + frame_component(frame->axis, d)) * FACE_ROOM + from;
         for (unsigned l = 0; l < model->n_material; l++) own->side_m[side][l] = own->m + 2 * l * FACE_ROOM + from;
         for (unsigned l = 0; l < model->n_alpha; l++) own->side_alpha[side][l] = own->state + 2 * l * FACE_ROOM + from;
         struct bulla_side *states = side ? &faces->right : &faces->left;

@@ -56,4 +56,10 @@ static inline size_t frame_tile_at(const struct frame *frame, size_t o, size_t i
     return ((frame->outer_from + o) * frame->n + i) * frame->tile_inner + frame->inner_from;
 }
 
+/* Axis of space that component d of vectors in the frame of a face stands for; component 0 is normal. */
+static inline unsigned frame_component(int axis, unsigned d)
+{
+    return d == 0 ? (unsigned)axis : d <= (unsigned)axis ? d - 1 : d;
+}
+
 #endif

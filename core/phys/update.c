@@ -27,16 +27,27 @@ static BULLA_KERNEL void update_row_product(size_t n, double a, const double *re
 }
 
 /* A row of cells of one tile along axis 0 in curved coordinates: rate -= (A+ (F+ - q) - A- (F- - q)) / V;
- * q is the cell's pressure for the radial momentum, else 0. */
-static void update_curved(size_t n, const struct metric *metric, const double *flux, const double *factor,
-                          const double *q, double *rate)
+ * q is the cell's pressure for the radial momentum, else a row of zeros. */
+static BULLA_KERNEL void update_curved(size_t n, const double *restrict area, const double *restrict volume,
+                                       const double *restrict flux, const double *restrict q, double *restrict rate)
 {
+#pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double low = factor ? flux[i] * factor[i] : flux[i], up = factor ? flux[i + 1] * factor[i + 1] : flux[i + 1];
-        double inside = q ? q[i] : 0.0;
-        rate[i] -= (metric->area[i + 1] * (up - inside) - metric->area[i] * (low - inside)) / metric->volume[i];
+        double low = flux[i], up = flux[i + 1], inside = q[i], old = rate[i];
+        rate[i] = old - (area[i + 1] * (up - inside) - area[i] * (low - inside)) / volume[i];
     }
 }
+
+/* alpha* u* of a row of faces, for which the curved row has no form of its own. */
+static BULLA_KERNEL void update_product(size_t n, const double *restrict a, const double *restrict b,
+                                        double *restrict product)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) product[i] = a[i] * b[i];
+}
+
+/* For components that no cell value is taken off. */
+static const double update_zero[METRIC_CELLS];
 
 /* One row of consecutive cells: where its faces start and where its cells lie in the tile. */
 struct update_span {
@@ -59,8 +70,10 @@ static void update_component(const struct update_target *target, const struct up
                              unsigned q, const double *balance)
 {
     double *rate = target->rates + q * target->n_cell + span->cell;
+    const struct metric *metric = target->metric;
     if (target->curved)
-        update_curved(span->n, target->metric, flux + span->face, NULL, balance ? balance + span->cell : NULL, rate);
+        update_curved(span->n, metric->area, metric->volume, flux + span->face,
+                      balance ? balance + span->cell : update_zero, rate);
     else update_row(span->n, target->a, flux + span->face, flux + span->face + span->step, rate);
 }
 
@@ -68,13 +81,12 @@ static void update_fraction(const struct update_target *target, const struct upd
 {
     const double *alpha = target->work->alpha + l * FACE_ROOM + span->face, *u = target->work->u + span->face;
     double *rate = target->rates + l * target->n_cell + span->cell;
-    if (target->curved) update_curved(span->n, target->metric, alpha, u, NULL, rate);
-    else update_row_product(span->n, target->a, alpha, alpha + span->step, u, u + span->step, rate);
-}
-
-static unsigned update_axis(int axis, unsigned d)
-{
-    return d == 0 ? (unsigned)axis : d <= (unsigned)axis ? d - 1 : d;
+    const struct metric *metric = target->metric;
+    if (target->curved) {
+        double product[METRIC_CELLS + 1];
+        update_product(span->n + 1, alpha, u, product);
+        update_curved(span->n, metric->area, metric->volume, product, update_zero, rate);
+    } else update_row_product(span->n, target->a, alpha, alpha + span->step, u, u + span->step, rate);
 }
 
 static void update_span_add(const struct update_target *target, const struct update_span *span)
@@ -86,7 +98,7 @@ static void update_span_add(const struct update_target *target, const struct upd
     for (unsigned l = 0; l < model->n_material; l++)
         update_component(target, span, work->m + l * FACE_ROOM, model->i_m + l, NULL);
     for (unsigned d = 0; d < (unsigned)model->dim; d++)
-        update_component(target, span, work->momentum + d * FACE_ROOM, model->i_u + update_axis(target->axis, d),
+        update_component(target, span, work->momentum + d * FACE_ROOM, model->i_u + frame_component(target->axis, d),
                          d == 0 ? pressure : NULL);
     update_component(target, span, work->energy, model->i_E, NULL);
     if (model->n_alpha) update_component(target, span, work->u, model->n_field, NULL);
@@ -132,15 +144,18 @@ static BULLA_KERNEL void update_alpha(size_t n, double dt, const double *restric
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         /* rates hold -div(alpha u) and, in `div`, -div u */
-        double spread = -div[i], moved = old[i] + dt * (rate[i] + alpha[i] * spread), total = sum[i], count = cut[i];
+        double before = old[i], a = alpha[i], change = rate[i], spread = -div[i], k = K[i], total = sum[i],
+               count = cut[i];
+        double moved = before + dt * (change + a * spread);
         double bounded = moved > 0.0 ? moved : 0.0;
         bounded = bounded < 1.0 ? bounded : 1.0;
         double least = bounded < UPDATE_LEAST ? bounded : UPDATE_LEAST;
-        double wanted = bounded + dt * K[i] * spread, next = wanted > least ? wanted : least;
+        double wanted = bounded + dt * (k * spread), next = wanted > least ? wanted : least;
         next = next < 1.0 ? next : 1.0;
+        double acted = next != wanted ? 1.0 : 0.0;
         now[i] = next;
         sum[i] = total + next;
-        cut[i] = count + (next != wanted ? 1.0 : 0.0);
+        cut[i] = count + acted;
     }
 }
 

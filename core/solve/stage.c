@@ -166,24 +166,17 @@ void stage_full(struct stage *stage)
     stage_tiles(stage, stage->t + 0.5 * stage->dt, stage_full_tile);
 }
 
-/* Adds |u_a| / h_a + c / h_a of every axis; the largest sum sets the time step. */
-static BULLA_KERNEL double stage_signal(size_t n, const double *restrict c2, const double *const *restrict u,
-                                        const double *restrict per_h, int dim)
+/* Sum over axes of (|u_a| + c) / h_a; the largest sets the time step. */
+static BULLA_KERNEL void stage_signal(size_t n, const double *restrict c2, const double *const *restrict u,
+                                      const double *restrict per_h, double *restrict signal)
 {
-    double most = 0.0, scale = 0.0;
-    for (int d = 0; d < dim; d++) scale += per_h[d];
-    const double *u0 = u[0], *u1 = u[1], *u2 = u[2];
-    double h0 = per_h[0], h1 = per_h[1], h2 = per_h[2];
-#pragma omp simd reduction(max : most)
+    const double *restrict u0 = u[0], *restrict u1 = u[1], *restrict u2 = u[2];
+    double h0 = per_h[0], h1 = per_h[1], h2 = per_h[2], all = h0 + h1 + h2;
+#pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = u0[i], b = u1[i], e = u2[i], s = c2[i];
-        a = a > 0.0 ? a : -a;
-        b = b > 0.0 ? b : -b;
-        e = e > 0.0 ? e : -e;
-        double value = scale * sqrt(s) + h0 * a + h1 * b + h2 * e;
-        most = value > most ? value : most;
+        double a = fabs(u0[i]), b = fabs(u1[i]), d = fabs(u2[i]), s = c2[i];
+        signal[i] = all * sqrt(s) + h0 * a + h1 * b + h2 * d;
     }
-    return most;
 }
 
 static void stage_measure(struct stage *stage, const double *w)
@@ -197,8 +190,10 @@ static void stage_measure(struct stage *stage, const double *w)
         u[d] = w + (model->i_u + (used ? (unsigned)d : 0)) * mesh->n_cell;
         per_h[d] = used ? 1.0 / stage->level->h[d] : 0.0;
     }
-    double most = stage_signal(mesh->n_cell, stage->c2, u, per_h, mesh->dim);
-    if (most > stage->signal) stage->signal = most;
+    double *signal = stage->rates; /* free between stages */
+    stage_signal(mesh->n_cell, stage->c2, u, per_h, signal);
+    for (size_t i = 0; i < mesh->n_cell; i++)
+        if (signal[i] > stage->signal) stage->signal = signal[i];
 }
 
 void stage_close(struct stage *stage)
