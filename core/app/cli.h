@@ -23,7 +23,6 @@ struct cli_command {
     const struct cli_option *const *options; /* NULL-terminated; NULL: none */
     int least, most;                         /* how many words it takes; most < 0: any number */
     int (*run)(const struct cli_given *given);
-    int (*own)(int argc, char **argv); /* instead of `run`: reads its arguments itself */
 };
 
 /* A parsed command line; strings belong to argv. Free with cli_done. */

@@ -46,23 +46,22 @@ static const struct cli_option *const command_check_options[] = {
     &command_set, &command_variant, &command_until, &command_steps, &command_output, &command_json, NULL};
 
 static const struct cli_command command_table[] = {
-    {"run", "CASE.yaml", "Runs a case.", command_run_options, 1, 1, run_command, NULL},
+    {"run", "CASE.yaml", "Runs a case.", command_run_options, 1, 1, run_command},
     {"check", "CASE.yaml...", "Finds every mistake of a case and tells what it needs.", command_check_options, 1, -1,
-     check_command, NULL},
-    {"plan", "CASE.yaml", "The stages that will run, in order.", command_case_options, 1, 1, inspect_plan, NULL},
+     check_command},
+    {"plan", "CASE.yaml", "The stages that will run, in order.", command_case_options, 1, 1, inspect_plan},
     {"show", "CASE.yaml", "The resolved case: parameters, defaults and units applied.", command_case_options, 1, 1,
-     inspect_show, NULL},
+     inspect_show},
     {"modules", "[NAME...]", "The laws there are; of one: parameters, units, ranges, defaults.", NULL, 0, -1,
-     inspect_modules, NULL},
-    {"info", "FILE...", "What is inside a snapshot.", NULL, 1, -1, inspect_info, NULL},
-    {"plot", "DIR FIELD|history", "PNG pictures of snapshots and histories.", plot_option_table, 1, -1, plot_command,
-     NULL},
-    {"report", "DIR", "One HTML page about a run, pictures inside.", report_option_table, 1, 1, report_command, NULL},
+     inspect_modules},
+    {"info", "FILE...", "What is inside a snapshot.", NULL, 1, -1, inspect_info},
+    {"plot", "DIR FIELD|history", "PNG pictures of snapshots and histories.", plot_option_table, 1, -1, plot_command},
+    {"report", "DIR", "One HTML page about a run, pictures inside.", report_option_table, 1, 1, report_command},
     {"verify", "[ID...]", "Errors, orders and cost of the verification scenes (r09: r09a, r09b, ...; none: all).",
-     verify_option_table, 0, -1, verify_command, NULL},
-    {"schema", "", "The JSON Schema of case files, with all loaded modules.", NULL, 0, 0, inspect_schema, NULL},
-    {"version", "", "Version of the program.", NULL, 0, 0, command_version, NULL},
-    {"help", "[COMMAND]", "This list, or the help of one command.", NULL, 0, 1, command_help, NULL},
+     verify_option_table, 0, -1, verify_command},
+    {"schema", "", "The JSON Schema of case files, with all loaded modules.", NULL, 0, 0, inspect_schema},
+    {"version", "", "Version of the program.", NULL, 0, 0, command_version},
+    {"help", "[COMMAND]", "This list, or the help of one command.", NULL, 0, 1, command_help},
 };
 
 enum { COMMANDS = sizeof command_table / sizeof *command_table };
@@ -160,7 +159,6 @@ int command_main(int argc, char **argv)
         if (comm_rank() == 0) cli_help(stdout, command);
         return 0;
     }
-    if (command->own) return command->own(argc - 1, argv + 1);
     struct cli_given given;
     int code = cli_parse(command, argc, argv, &given);
     if (code) return cli_failed(code);

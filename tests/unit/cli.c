@@ -14,7 +14,7 @@
 static const struct cli_option until = {"--until", NULL, "T", "end"}, output = {"--output", "-o", "DIR", "folder"},
                                quiet = {"--quiet", NULL, NULL, "silent"};
 static const struct cli_option *const options[] = {&until, &output, &quiet, NULL};
-static const struct cli_command command = {"run", "CASE.yaml", "Runs.", options, 1, 1, NULL, NULL};
+static const struct cli_command command = {"run", "CASE.yaml", "Runs.", options, 1, 1, NULL};
 
 static int parse(struct cli_given *given, char **words)
 {

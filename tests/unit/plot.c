@@ -286,7 +286,7 @@ static void a_pair_fills_the_two_halves(void **state)
 /* A command line of `bulla plot`, read. */
 static int parse(struct plot_option *option, int argc, char **argv)
 {
-    static const struct cli_command command = {"plot", "DIR FIELD", "", plot_option_table, 1, -1, NULL, NULL};
+    static const struct cli_command command = {"plot", "DIR FIELD", "", plot_option_table, 1, -1, NULL};
     struct cli_given given;
     int code = cli_parse(&command, argc, argv, &given);
     if (code) return code;
