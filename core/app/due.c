@@ -1,6 +1,8 @@
 /* due.c - see due.h. */
 #include "app/due.h"
 
+#include "solve/advance.h"
+
 #include <math.h>
 
 static const double due_same = 1e-9; /* of the interval */
@@ -39,7 +41,7 @@ double due_target(const struct due *const *dues, int n, double t, double until)
 
 double due_step(double dt, double remaining)
 {
-    if (remaining <= 1.0001 * dt) return remaining;
+    if (remaining <= ADVANCE_STRETCH * dt) return remaining;
     if (remaining < 2 * dt) return remaining / 2;
     return dt;
 }

@@ -74,7 +74,7 @@ int advance_step(struct state *state, double dt_most)
 {
     struct stage *stage = state->stage;
     double dt = advance_dt(state);
-    if (dt_most < dt) dt = dt_most;
+    if (dt_most <= ADVANCE_STRETCH * dt) dt = dt_most;
     for (int retry = 0; retry <= GUARD_RETRIES; retry++) {
         double signal = 0.0;
         stage->t = state->t;

@@ -24,6 +24,10 @@ head -n 1 out/tube/probes.csv | grep -qx 't,middle.pressure'
 grep -qE '"time" *: *0\.05(0000|,|$)' out/tube/fields/tube.hdf.series
 awk -F, '$2 == 0.05 { half = 1 } END { exit !(half && $2 == 0.1) }' out/tube/history.csv
 
+# A fixed step that divides the output times makes that many steps, and no slivers.
+run 0 '100 steps' tube.yaml --set scheme.dt=1e-3 -o fixed
+awk -F, 'NR > 2 && $3 < 0.9e-3 { exit 1 }' fixed/history.csv
+
 # 2: the directory holds a run; the refusal lists it; --overwrite replaces it.
 run 2 'holds a run: .*history.csv.*--overwrite' tube.yaml
 echo mine >out/tube/notes.txt
