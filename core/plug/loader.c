@@ -85,18 +85,15 @@ static int loader_map(const char *path, void **ret_handle)
 {
     unsigned mode = loader_fp_mode();
     void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-    int changed = loader_fp_mode() != mode;
-    if (changed) loader_fp_restore(mode);
-    if (!handle) return status_fail(STATUS_CASE, "%s cannot be loaded: %s", path, dlerror());
-    if (changed) {
-        dlclose(handle);
-        loader_fp_restore(mode);
-        return status_fail(STATUS_CASE,
-                           "%s changes the floating-point mode (flush to zero?): link it without fast-math options",
-                           path);
+    if (!handle) status_fail(STATUS_CASE, "%s cannot be loaded: %s", path, dlerror());
+    if (loader_fp_mode() == mode) {
+        *ret_handle = handle;
+        return handle ? STATUS_OK : STATUS_CASE;
     }
-    *ret_handle = handle;
-    return STATUS_OK;
+    if (handle) dlclose(handle);
+    loader_fp_restore(mode);
+    return status_fail(STATUS_CASE,
+                       "%s changes the floating-point mode (flush to zero?): link it without fast-math options", path);
 }
 
 /* The descriptor, and how many bytes the object file gives it (0: unknown). */
