@@ -66,10 +66,10 @@ BULLA_KERNEL static void faces(size_t n, size_t step, const double *restrict w, 
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double before = w[i - step], here = w[i], after = w[i + step];
-        double a = here - before, b = after - here, mean = 0.5 * (a + b);
-        double twice = 2.0 * (fabs(a) < fabs(b) ? a : b);
-        double slope = fabs(mean) < fabs(twice) ? mean : twice;
-        double half = a * b > 0.0 ? 0.5 * slope : 0.0;
+        double a = here - before, b = after - here, size_a = fabs(a), size_b = fabs(b);
+        double mean = 0.5 * (size_a + size_b), twice = 2.0 * (size_a < size_b ? size_a : size_b);
+        int one_way = (a > 0.0) == (b > 0.0);
+        double half = copysign(one_way ? 0.5 * (mean < twice ? mean : twice) : 0.0, a);
         low[i] = here - half;
         high[i] = here + half;
     }
