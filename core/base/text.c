@@ -114,7 +114,8 @@ unsigned text_distance(const char *a, const char *b)
 const char *text_nearest(const char *word, const char *const *names)
 {
     const char *best = NULL;
-    unsigned least = (unsigned)strlen(word) / 3 + 2;
+    unsigned length = (unsigned)strlen(word), least = length / 3 + 2;
+    if (least > length) least = length; /* nothing of the word would be left */
     for (; *names; names++) {
         unsigned distance = text_distance(word, *names);
         if (distance < least) {

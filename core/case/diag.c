@@ -19,12 +19,15 @@ struct diag_entry {
     unsigned order;
     struct mark mark;
     struct text message, help; /* help: lines, each ended by a newline */
+    char *context;             /* a last line of help, or NULL */
 };
 
 struct diag {
     struct source **sources;
     struct diag_entry *entries;
     unsigned n_source, n_entry, n_error;
+    char *context;
+    bool dropped; /* the last message was not kept: nor is its help */
 };
 
 struct diag *diag_new(void)
@@ -43,9 +46,11 @@ void diag_free(struct diag *diag)
     for (unsigned i = 0; i < diag->n_entry; i++) {
         text_done(&diag->entries[i].message);
         text_done(&diag->entries[i].help);
+        mem_free(diag->entries[i].context);
     }
     mem_free(diag->sources);
     mem_free(diag->entries);
+    mem_free(diag->context);
     mem_free(diag);
 }
 
@@ -107,6 +112,12 @@ const struct source *diag_file(struct diag *diag, const char *path, size_t most,
     return source;
 }
 
+void diag_context(struct diag *diag, const char *context)
+{
+    mem_free(diag->context);
+    diag->context = mem_text(context);
+}
+
 static void diag_add(struct diag *diag, bool error, const struct mark *mark, const char *format, va_list args)
 {
     diag->entries = diag_larger(diag->entries, diag->n_entry, sizeof *diag->entries);
@@ -122,6 +133,8 @@ static void diag_add(struct diag *diag, bool error, const struct mark *mark, con
     text_add_n(&entry->message, message, (size_t)length);
     mem_free(message);
     diag->n_error += error;
+    diag->dropped = false;
+    entry->context = mem_text(diag->context);
 }
 
 void diag_error(struct diag *diag, const struct mark *mark, const char *format, ...)
@@ -134,6 +147,8 @@ void diag_error(struct diag *diag, const struct mark *mark, const char *format, 
 
 void diag_warn(struct diag *diag, const struct mark *mark, const char *format, ...)
 {
+    diag->dropped = diag->context != NULL;
+    if (diag->dropped) return;
     va_list args;
     va_start(args, format);
     diag_add(diag, false, mark, format, args);
@@ -144,6 +159,7 @@ void diag_help(struct diag *diag, const char *format, ...)
 {
     char line[2048];
     va_list args;
+    if (diag->dropped || diag->n_entry == 0) return;
     va_start(args, format);
     vsnprintf(line, sizeof line, format, args);
     va_end(args);
@@ -253,6 +269,7 @@ static void diag_print_entry(const struct diag_entry *entry, FILE *to)
         fprintf(to, "  help: %.*s\n", length, help);
         help += length + 1;
     }
+    if (entry->context) fprintf(to, "  help: %s\n", entry->context);
 }
 
 static void diag_print_json(const struct diag_entry *entry, FILE *to)
@@ -265,7 +282,9 @@ static void diag_print_json(const struct diag_entry *entry, FILE *to)
         json_object_set_new(object, "column", json_integer(entry->mark.column));
     }
     json_object_set_new(object, "message", json_string(entry->message.at));
-    if (entry->help.length) json_object_set_new(object, "help", json_stringn(entry->help.at, entry->help.length - 1));
+    const char *context = entry->context ? entry->context : "";
+    if (entry->help.length || *context)
+        json_object_set_new(object, "help", json_sprintf("%s%s", entry->help.at ? entry->help.at : "", context));
     json_dumpf(object, to, JSON_COMPACT);
     fputc('\n', to);
     json_decref(object);

@@ -46,6 +46,10 @@ void diag_help(struct diag *diag, const char *format, ...) __attribute__((format
 /* help: "did you mean 'x'?" if one of the names is close to `word`, else "allowed: a, b, c". */
 void diag_suggest(struct diag *diag, const char *word, const char *const *names);
 
+/* Until the next call every error gets this line of help and warnings are dropped: for readings of the
+ * same files in another way. NULL ends it. */
+void diag_context(struct diag *diag, const char *context);
+
 unsigned diag_errors(const struct diag *diag);
 
 /* Prints all messages in the order of their places; `json`: one object per line. */

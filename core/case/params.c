@@ -10,9 +10,10 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { PARAMS_MOST = 1000, PARAMS_WORD = 64 };
+enum { PARAMS_MOST = 1000 };
 
 struct param {
     const char *name;
@@ -89,9 +90,7 @@ static const char *params_skip(const char *at)
     return at;
 }
 
-/* The next free name in a Lua text (no field of a table, no string); false at the end. `at`
- * moves on. */
-static bool params_name(const char **at, char ret_name[static PARAMS_WORD])
+bool params_next(const char **at, char ret_name[static PARAMS_WORD])
 {
     char before = ' ';
     while (**at) {
@@ -121,7 +120,7 @@ static bool params_use(struct params *params, const char *text, bool live)
 {
     char name[PARAMS_WORD];
     bool good = true;
-    while (params_name(&text, name)) {
+    while (params_next(&text, name)) {
         struct param *param = params_find(params, name);
         if (!param) continue;
         param->used = true;
@@ -147,7 +146,7 @@ static bool params_listed(const char *name, const char *names)
 bool params_mentions(const char *text, const char *names)
 {
     char name[PARAMS_WORD];
-    while (params_name(&text, name))
+    while (params_next(&text, name))
         if (params_listed(name, names)) return true;
     return false;
 }
@@ -178,7 +177,7 @@ static bool params_check_names(struct params *params, const struct node *node, c
     char name[PARAMS_WORD];
     for (unsigned i = 0; i < params->count; i++) names[i] = params->list[i].name;
     names[params->count] = NULL;
-    while (params_name(&text, name)) {
+    while (params_next(&text, name)) {
         if (params_find(params, name) || params_known(name, arguments) || params_global(params, name)) continue;
         diag_error(params->diag, &node->mark, "%s: '%s' is neither a parameter nor known to expressions", path, name);
         const char *nearest = text_nearest(name, names);
@@ -201,10 +200,14 @@ static void params_complain(struct params *params, const struct mark *mark, cons
 {
     const char *said = status_text();
     size_t name = strlen(mark->source->name);
-    if (strncmp(said, mark->source->name, name) == 0 && said[name] == ':')
+    struct mark place = *mark;
+    if (strncmp(said, mark->source->name, name) == 0 && said[name] == ':') {
+        int line = atoi(said + name + 1);
+        if (line != place.line) place = (struct mark){mark->source, line, 1, 1};
         said += name + 1 + strspn(said + name + 1, "0123456789:");
+    }
     said += strspn(said, " ");
-    diag_error(params->diag, mark, "%s: %s", path, said);
+    diag_error(params->diag, &place, "%s: %s", path, said);
     unsigned open = 0, closed = 0;
     for (const char *at = text; *at; at++) {
         open += *at == '(';
@@ -295,7 +298,7 @@ static bool params_resolve(struct params *params, struct param *param)
     return good;
 }
 
-static bool params_name_is_good(struct params *params, const struct node *key)
+static bool params_is_free(struct params *params, const struct node *key)
 {
     bool good = text_is_identifier(key->text) && strlen(key->text) < PARAMS_WORD;
     bool taken = good && (params_known(key->text, PARAMS_FIELD) || params_global(params, key->text));
@@ -316,7 +319,7 @@ void params_read(struct params *params, struct node *map)
     }
     params->list = mem_new(map->count, sizeof *params->list);
     for (unsigned i = 0; i < map->count; i++) {
-        if (!params_name_is_good(params, map->keys[i])) continue;
+        if (!params_is_free(params, map->keys[i])) continue;
         params->list[params->count++] =
             (struct param){.name = map->keys[i]->text, .key = map->keys[i], .node = map->items[i]};
     }

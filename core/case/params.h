@@ -10,6 +10,8 @@
 
 #define PARAMS_FIELD "x,y,z,r,t" /* what an expression for a field may use */
 
+enum { PARAMS_WORD = 64 };
+
 struct params;
 
 struct params *params_new(struct forest *forest, struct diag *diag, struct script_host *host);
@@ -21,6 +23,9 @@ void params_read(struct params *params, struct node *map);
 
 /* Is it a scalar that begins with "=" ? */
 bool params_is_expression(const struct node *node);
+
+/* The next free name in a Lua text (no field of a table, no string); false at the end. `at` moves on. */
+bool params_next(const char **at, char ret_name[static PARAMS_WORD]);
 
 /* Does a Lua text mention one of the names "x,y,z" as a free name? */
 bool params_mentions(const char *text, const char *names);

@@ -48,6 +48,28 @@ static void scene_list_variants(struct scene *scene, const struct node *root)
         scene->variants[scene->n_variant++] = mem_text("quick");
 }
 
+/* `matrix:` as settings, one per value of each list. */
+static void scene_list_settings(struct draft *draft, const struct node *root)
+{
+    const struct node *matrix = tree_get(root, "matrix");
+    struct scene *scene = draft->scene;
+    if (!matrix || matrix->kind != TREE_MAP) return; /* reported with the other keys */
+    scene->settings = mem_new(SCENE_SETTINGS, sizeof *scene->settings);
+    for (unsigned i = 0; i < matrix->count; i++) {
+        const struct node *list = matrix->items[i];
+        const char *path = matrix->keys[i]->text;
+        if (list->kind != TREE_LIST || list->count == 0)
+            diag_error(draft->keys.diag, &list->mark, "matrix.%s: a list of values is needed, not %s", path,
+                       tree_describe(list));
+        for (unsigned k = 0; list->kind == TREE_LIST && k < list->count && scene->n_setting < SCENE_SETTINGS; k++) {
+            struct text set = {0};
+            text_add(&set, "%s=", path);
+            show_value(list->items[k], &set);
+            scene->settings[scene->n_setting++] = set.at;
+        }
+    }
+}
+
 static void scene_fill(struct draft *draft)
 {
     struct scene *scene = draft->scene;
@@ -84,6 +106,7 @@ static void scene_build(struct draft *draft, struct node *root)
 {
     scene_load_modules(draft, tree_get(root, "modules"));
     scene_list_variants(draft->scene, root);
+    scene_list_settings(draft, root);
     params_read(draft->keys.params, tree_get(root, "parameters"));
     draft->root = keys_read(&draft->keys, root, &scene_root_keys, "");
     if (draft->root) scene_fill(draft);
@@ -109,6 +132,32 @@ static int scene_make(const char *path, const struct scene_options *options, str
     return diag_errors(diag) ? STATUS_CASE : STATUS_OK;
 }
 
+/* Reads the case in another way, for its errors alone. */
+static void scene_try(const char *path, const struct scene_options *options, struct diag *diag, const char *context)
+{
+    struct scene *scene = mem_new(1, sizeof *scene);
+    diag_context(diag, context);
+    scene_make(path, options, diag, scene);
+    diag_context(diag, NULL);
+    scene_free(scene);
+}
+
+/* A case that is right by itself may still have a variant or a row of its matrix that is not. */
+static void scene_try_overlays(const struct scene *scene, struct diag *diag)
+{
+    for (unsigned i = 0; i < scene->n_variant; i++) {
+        struct scene_options options = {.variant = scene->variants[i]};
+        char *context = mem_print("this is read with --variant %s", scene->variants[i]);
+        scene_try(scene->path, &options, diag, context);
+        mem_free(context);
+    }
+    for (unsigned i = 0; i < scene->n_setting; i++) {
+        const char *sets[] = {scene->settings[i], NULL};
+        struct scene_options options = {.sets = sets};
+        scene_try(scene->path, &options, diag, "this is one of the values under 'matrix:'");
+    }
+}
+
 int scene_read(const char *path, const struct scene_options *options, struct scene **ret_scene)
 {
     static const struct scene_options none;
@@ -119,13 +168,15 @@ int scene_read(const char *path, const struct scene_options *options, struct sce
                                         "BULLA_MODULE_PATH and the folder lib/bulla/modules of the installation");
     struct diag *diag = diag_new();
     struct scene *scene = mem_new(1, sizeof *scene);
+    bool plain = !options->variant && !(options->sets && options->sets[0]);
     int code = scene_make(path, options, diag, scene);
+    if (!code && plain) scene_try_overlays(scene, diag);
     if (comm_rank() == 0) diag_print(diag, options->messages ? options->messages : stderr, options->json);
     unsigned errors = diag_errors(diag);
     diag_free(diag);
-    if (code) {
+    if (errors) {
         scene_free(scene);
-        return status_fail(code, "%s: %u error%s; nothing was run", path, errors, errors == 1 ? "" : "s");
+        return status_fail(STATUS_CASE, "%s: %u error%s; nothing was run", path, errors, errors == 1 ? "" : "s");
     }
     *ret_scene = scene;
     return STATUS_OK;
@@ -188,6 +239,8 @@ void scene_free(struct scene *scene)
     instance_done(&scene->interface_limiter);
     for (unsigned i = 0; i < scene->n_variant; i++) mem_free(scene->variants[i]);
     mem_free(scene->variants);
+    for (unsigned i = 0; i < scene->n_setting; i++) mem_free(scene->settings[i]);
+    mem_free(scene->settings);
     char *texts[] = {scene->path, scene->name,     scene->title,    scene->about,
                      scene->cite, scene->resolved, scene->directory};
     for (unsigned i = 0; i < sizeof texts / sizeof *texts; i++) mem_free(texts[i]);

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { SCENE_AXES = 3, SCENE_MATERIALS = 16, SCENE_NAME = 64 };
+enum { SCENE_AXES = 3, SCENE_MATERIALS = 16, SCENE_NAME = 64, SCENE_SETTINGS = 64 };
 
 enum scene_geometry { SCENE_CARTESIAN = 0, SCENE_AXISYMMETRIC = 1, SCENE_SPHERICAL = 2 }; /* value = beta */
 
@@ -175,8 +175,9 @@ struct scene {
     struct scene_probe *probes;
     struct scene_expect *expects;
     struct script_host *host; /* the Lua state all scripts live in */
-    unsigned n_variant;
+    unsigned n_variant, n_setting;
     char **variants; /* names that --variant takes, "quick" among them if the case has it */
+    char **settings; /* of `matrix:`, "path=value", one by one; at most SCENE_SETTINGS */
 };
 
 /* What the command line adds to a case. */

@@ -55,6 +55,38 @@ static char *scene_expect_text(const struct keys_value *value)
     return value->given ? mem_text(value->text) : NULL;
 }
 
+/* Names an expression over a run may use: columns, probes, parameters, a few of every run. NULL-terminated. */
+static const char *const *scene_expect_names(struct draft *draft)
+{
+    static const char *const always[] = {
+        "t", "step", "dt", "guard_fallback", "guard_relaxed", "guard_clipped", "guard_retries", "pi"};
+    const struct scene *scene = draft->scene;
+    const struct node *parameters = tree_get(draft->root->node, "parameters");
+    unsigned count = sizeof always / sizeof *always, n_param = parameters ? parameters->count : 0;
+    const char **names =
+        tree_take(draft->keys.forest, (count + scene->n_column + scene->n_probe + n_param + 1) * sizeof *names);
+    memcpy(names, always, sizeof always);
+    for (unsigned i = 0; i < scene->n_column; i++) names[count++] = scene->columns[i].name;
+    for (unsigned i = 0; i < scene->n_probe; i++) names[count++] = scene->probes[i].name;
+    for (unsigned i = 0; i < n_param; i++) names[count++] = parameters->keys[i]->text;
+    return names;
+}
+
+/* A mistyped column would be found only after the run. Words before a bracket are functions, which the evaluator knows. */
+static void scene_expect_check(struct draft *draft, const char *text, const struct keys_value *value)
+{
+    const char *const *names = scene_expect_names(draft);
+    char name[PARAMS_WORD];
+    while (params_next(&text, name)) {
+        bool known = text[strspn(text, " ")] == '(';
+        for (const char *const *at = names; *at && !known; at++) known = strcmp(*at, name) == 0;
+        if (known) continue;
+        keys_error(&draft->keys, value, "there is no column, probe or parameter '%s'", name);
+        diag_suggest(draft->keys.diag, name, names);
+        return;
+    }
+}
+
 /* Parameters that the expression uses stay in the resolved case. */
 static void scene_expect_value(struct draft *draft, struct scene_expect *expect, const struct keys_value *value)
 {
@@ -65,6 +97,7 @@ static void scene_expect_value(struct draft *draft, struct scene_expect *expect,
     const char *text = value->node->text;
     text += strspn(text, " ");
     expect->value = mem_text(*text == '=' ? text + 1 : text);
+    scene_expect_check(draft, expect->value, value);
     params_keep(draft->keys.params, expect->value);
 }
 

@@ -143,14 +143,15 @@ static void scene_history_along(struct draft *draft, struct scene_column *column
 
 static void scene_history_column(struct draft *draft, struct scene_column *column, const struct keys_value *entry)
 {
-    static const char *const taken[] = {"step", "t", "dt"};
+    static const char *const taken[] = {"step",         "t", "dt", "guard_fallback", "guard_relaxed", "guard_clipped",
+                                        "guard_retries"};
     const struct keys_map *map = entry->map;
     const struct keys_value *in = keys_at(map, "in"), *which = NULL, *where = keys_at(map, "where");
     column->material = column->in = column->along = -1;
     snprintf(column->name, SCENE_NAME, "%s", entry->name);
     if (!text_is_identifier(entry->name) || strlen(entry->name) >= SCENE_NAME)
         keys_error(&draft->keys, entry, "the name of a column is an identifier (letters, digits and _)");
-    for (unsigned i = 0; i < 3; i++)
+    for (unsigned i = 0; i < sizeof taken / sizeof *taken; i++)
         if (strcmp(taken[i], entry->name) == 0)
             keys_error(&draft->keys, entry, "every history has a column '%s' already", taken[i]);
     const struct keys_value *measure = map ? scene_history_chosen(draft, map, column) : NULL;

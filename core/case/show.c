@@ -91,7 +91,7 @@ static bool show_has_block_text(const struct node *node)
     return false;
 }
 
-static void show_flow(struct text *text, const struct node *node)
+void show_value(const struct node *node, struct text *text)
 {
     if (node->kind == TREE_SCALAR) {
         show_scalar(text, node);
@@ -104,7 +104,7 @@ static void show_flow(struct text *text, const struct node *node)
             show_scalar(text, node->keys[i]);
             text_add(text, ": ");
         }
-        show_flow(text, node->items[i]);
+        show_value(node->items[i], text);
     }
     text_add(text, node->kind == TREE_MAP ? "}" : "]");
 }
@@ -115,7 +115,7 @@ static bool show_fits(struct text *text, const struct node *node, int column)
     if (node->kind == TREE_SCALAR && show_is_block_text(node)) return false;
     if (node->kind != TREE_SCALAR && show_has_block_text(node)) return false;
     size_t before = text->length;
-    show_flow(text, node);
+    show_value(node, text);
     if (node->kind == TREE_SCALAR || node->count == 0 || text->length - before + (size_t)column <= SHOW_WIDTH)
         return true;
     text->length = before;

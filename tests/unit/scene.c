@@ -118,7 +118,7 @@ static void in_folder(const char *folder, void (*run)(void))
 
 static void run_bad(void)
 {
-    for_files("*.yaml", 70, check_bad);
+    for_files("*.yaml", 90, check_bad);
 }
 
 static void bad_cases_are_refused_with_their_message(void **state)
