@@ -164,14 +164,16 @@ static void measure_positions(const struct measures *measures, int axis, double 
     const struct mesh *mesh = measures->state->mesh;
     double corner[3], h = measures->level->h[axis];
     mesh_corner(mesh, measures->level, &measures->level->tiles[measures->level->first + measures->local], corner);
-    size_t step = 1, n = (size_t)mesh->n[axis];
-    for (int before = 0; before < axis; before++) step *= (size_t)mesh->n[before];
-    for (size_t i = 0; i < mesh->n_cell; i++) {
-        double x = corner[axis] + ((double)(i / step % n) + 0.5) * h;
-        if (axis == 0 && mesh->beta == 1) x += h * h / (12.0 * x);
-        if (axis == 0 && mesh->beta == 2) x *= 3.0 * (4.0 * x * x + h * h) / (12.0 * x * x + h * h);
-        ret_x[i] = x;
-    }
+    size_t cell = 0;
+    int at[3];
+    for (at[2] = 0; at[2] < mesh->n[2]; at[2]++)
+        for (at[1] = 0; at[1] < mesh->n[1]; at[1]++)
+            for (at[0] = 0; at[0] < mesh->n[0]; at[0]++) {
+                double x = corner[axis] + (at[axis] + 0.5) * h;
+                if (axis == 0 && mesh->beta == 1) x += h * h / (12.0 * x);
+                if (axis == 0 && mesh->beta == 2) x *= 3.0 * (4.0 * x * x + h * h) / (12.0 * x * x + h * h);
+                ret_x[cell++] = x;
+            }
 }
 
 /* The density whose integral `total` and `mass` are; NULL: sum over materials, in `work`. */
@@ -248,11 +250,7 @@ static void measure_extreme(struct measures *measures, const struct measure_colu
     if (!cover) return;
     const double *alpha = measure_alpha(measures, jet ? from->material : -1);
     const double *values = jet ? measure_velocity(measures, column->axis) : measure_field(measures, column->field);
-    for (size_t i = 0; i < measures->state->mesh->n_cell; i++) {
-        if (cover[i] < 0.5 || alpha[i] < 0.5) continue;
-        if (values[i] > extremes[0]) extremes[0] = values[i];
-        if (-values[i] > extremes[1]) extremes[1] = -values[i];
-    }
+    tally_extremes(measures->state->mesh->n_cell, values, cover, alpha, extremes);
 }
 
 static void measure_tile(struct measures *measures, double *sums)

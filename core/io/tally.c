@@ -18,6 +18,23 @@ double tally_row(size_t n, const double *a, const double *b)
     return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
 }
 
+void tally_extremes(size_t n, const double *values, const double *a, const double *b, double ret_extremes[2])
+{
+    double most[TALLY_LANES], least[TALLY_LANES];
+    for (size_t j = 0; j < TALLY_LANES; j++) most[j] = least[j] = -INFINITY;
+    for (size_t i = 0; i < n; i += TALLY_LANES)
+        for (size_t j = 0; j < TALLY_LANES && i + j < n; j++) {
+            bool counts = (a[i + j] >= 0.5) & (b[i + j] >= 0.5);
+            double up = counts ? values[i + j] : -INFINITY, down = counts ? -values[i + j] : -INFINITY;
+            most[j] = up > most[j] ? up : most[j];
+            least[j] = down > least[j] ? down : least[j];
+        }
+    for (size_t j = 0; j < TALLY_LANES; j++) {
+        if (most[j] > ret_extremes[0]) ret_extremes[0] = most[j];
+        if (least[j] > ret_extremes[1]) ret_extremes[1] = least[j];
+    }
+}
+
 size_t tally_tiles(const struct mesh *mesh)
 {
     size_t tiles = 0;

@@ -10,6 +10,10 @@
 /* Sum of a[i] b[i] over a row, in an order that depends on n alone (eight interleaved sums). */
 double tally_row(size_t n, const double *a, const double *b);
 
+/* Raises ret_extremes[0] to the largest of the values, [1] to the largest of their negatives, where both
+ * weights are at least 1/2. NaN values do not count. */
+void tally_extremes(size_t n, const double *values, const double *a, const double *b, double ret_extremes[2]);
+
 /* Adds per-tile values up: `local` is [local tiles of level 0, then of level 1, ...][n_value]; the
  * totals of each value, with compensated summation (Neumaier 1974), are the same on all ranks.
  * Collective. */
