@@ -39,7 +39,8 @@ void metric_volumes(const struct mesh *mesh, const struct level *level, const st
     double depth = metric_full(mesh->beta);
     for (int d = 1; d < mesh->dim; d++) depth *= level->h[d];
     size_t n0 = (size_t)mesh->n[0];
-    for (size_t c = 0; c < mesh->n_cell; c++) ret_volume[c] = metric.volume[c % n0] * depth;
+    for (size_t row = 0; row < mesh->n_cell; row += n0)
+        for (size_t i = 0; i < n0; i++) ret_volume[row + i] = metric.volume[i] * depth;
 }
 
 double metric_full(int beta)
