@@ -2,6 +2,7 @@
 #include "app/plot.h"
 
 #include "app/picture_canvas.h"
+#include "app/plot_case.h"
 #include "app/plot_history.h"
 #include "app/plot_picture.h"
 #include "base/comm.h"
@@ -157,11 +158,11 @@ static int plot_snapshots(const char *directory, const char *fields, const struc
     return code;
 }
 
-static int plot_run(const struct cli_given *given)
+static int plot_run(const struct cli_given *given, const char *directory)
 {
     struct plot_option option;
     TRY(plot_option_read(given, &option));
-    const char *directory = given->words[0], *what = given->n_word > 1 ? given->words[1] : NULL;
+    const char *what = given->n_word > 1 ? given->words[1] : NULL;
     if (!what && !option.left)
         return status_fail(STATUS_CASE,
                            "which field? bulla plot %s pressure, or history; `bulla info` lists the fields", directory);
@@ -179,5 +180,9 @@ static int plot_run(const struct cli_given *given)
 
 int plot_command(const struct cli_given *given)
 {
-    return comm_rank() == 0 ? cli_failed(plot_run(given)) : STATUS_OK;
+    if (comm_rank() != 0) return STATUS_OK;
+    char *directory = plot_case_directory(given->words[0]);
+    int code = plot_run(given, directory);
+    mem_free(directory);
+    return cli_failed(code);
 }

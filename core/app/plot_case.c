@@ -44,13 +44,20 @@ char *plot_case_scalar(const char *directory, const char *key)
     return value;
 }
 
+char *plot_case_directory(const char *directory)
+{
+    size_t length = strlen(directory);
+    while (length > 1 && directory[length - 1] == '/') length--;
+    return mem_text_n(directory, length);
+}
+
 char *plot_case_title(const char *directory)
 {
     char *title = plot_case_scalar(directory, "title");
     if (title) return title;
-    size_t length = strlen(directory);
-    while (length > 1 && directory[length - 1] == '/') length--;
-    size_t start = length;
-    while (start > 0 && directory[start - 1] != '/') start--;
-    return mem_text_n(directory + start, length - start);
+    char *bare = plot_case_directory(directory);
+    const char *slash = strrchr(bare, '/');
+    title = mem_text(slash && slash[1] ? slash + 1 : bare);
+    mem_free(bare);
+    return title;
 }

@@ -8,4 +8,7 @@ char *plot_case_scalar(const char *directory, const char *key);
 /* The title of the case, or else the last part of the directory's name, in new memory. */
 char *plot_case_title(const char *directory);
 
+/* The directory without slashes at its end, in new memory: "out/" is "out". */
+char *plot_case_directory(const char *directory);
+
 #endif

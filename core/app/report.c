@@ -162,9 +162,8 @@ static int report_compose(struct text *page, const char *directory)
     return STATUS_OK;
 }
 
-static int report_run(const struct cli_given *given)
+static int report_run(const char *directory, const char *output)
 {
-    const char *directory = given->words[0], *output = cli_value(given, "--output");
     struct stat entry;
     if (stat(directory, &entry) != 0 || !S_ISDIR(entry.st_mode))
         return status_fail(STATUS_CASE, "no directory %s: report wants the output directory of a run", directory);
@@ -184,5 +183,9 @@ static int report_run(const struct cli_given *given)
 
 int report_command(const struct cli_given *given)
 {
-    return comm_rank() == 0 ? cli_failed(report_run(given)) : STATUS_OK;
+    if (comm_rank() != 0) return STATUS_OK;
+    char *directory = plot_case_directory(given->words[0]);
+    int code = report_run(directory, cli_value(given, "--output"));
+    mem_free(directory);
+    return cli_failed(code);
 }

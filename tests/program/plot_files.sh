@@ -40,7 +40,7 @@ refused "'deep' is no number" "$BULLA" plot dir pressure --slice z=deep
 refused "no provenance.json" "$BULLA" report empty
 [ ! -e empty/plots ] # nothing is left behind
 
-[ "$("$BULLA" report dir)" = dir/report.html ]
+[ "$("$BULLA" report dir/)" = dir/report.html ]
 grep -q '<title>A &lt;case&gt; &amp; more</title>' dir/report.html
 grep -q 'class="fail">FAIL' dir/report.html
 [ "$(grep -c 'src="data:image/png;base64,iVBORw0KGgo' dir/report.html)" = 2 ] # history and probes
