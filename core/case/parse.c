@@ -207,6 +207,7 @@ static void parse_map(struct parse *parse, struct node *map, int depth)
             return;
         }
         struct node *node = parse_node(parse, &event, depth);
+        if (map->count == PARSE_KEYS) parse_stop(parse, &event, "a map has too many keys", PARSE_KEYS);
         yaml_event_delete(&event);
         if (!key) {
             parse_key(parse, map, node);

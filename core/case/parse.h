@@ -7,7 +7,7 @@
 
 #include "case/tree.h"
 
-enum { PARSE_DEPTH = 32, PARSE_NODES = 100000, PARSE_ALIASES = 64, PARSE_BYTES = 1 << 20 };
+enum { PARSE_DEPTH = 32, PARSE_NODES = 100000, PARSE_KEYS = 2000, PARSE_ALIASES = 64, PARSE_BYTES = 1 << 20 };
 
 /* Parses a source; NULL after recorded errors. An empty text is an empty map. */
 struct node *parse_source(struct forest *forest, struct diag *diag, const struct source *source);

@@ -226,6 +226,7 @@ static void scene_boundary_read_inflow(struct draft *draft, struct scene_boundar
     boundary->fractions = scene_state_fractions(draft, map);
     boundary->density = scene_state_density(draft, map, boundary->fractions);
     scene_state_velocity(draft, map, boundary->velocity);
+    scene_state_check(draft, map, boundary->fractions, boundary->density);
     if (keys_at(map, "temperature")->given)
         keys_error(&draft->keys, keys_at(map, "temperature"), "an inflow is given by its density");
     bool named = keys_at(map, "material")->node || keys_at(map, "fractions")->node;

@@ -62,6 +62,10 @@ double *scene_state_fractions(struct draft *draft, const struct keys_map *map);
 /* density: of a state, by material (never NULL); `fractions` NULL: of an overlay. */
 struct scene_value *scene_state_density(struct draft *draft, const struct keys_map *map, const double *fractions);
 
+/* Records an error if the state, as far as it is constant, is none that the materials' laws know. */
+void scene_state_check(struct draft *draft, const struct keys_map *map, const double *fractions,
+                       const struct scene_value *density);
+
 void scene_state_velocity(struct draft *draft, const struct keys_map *map, struct scene_value ret[SCENE_AXES]);
 
 /* The shape that a map names by its key (`ret_value`); NULL if it names none (an error if one is

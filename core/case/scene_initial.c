@@ -93,6 +93,7 @@ static void scene_initial_layer(struct draft *draft, struct scene_layer *layer, 
     layer->pressure = scene_state_value(keys_at(map, "pressure"));
     scene_state_velocity(draft, map, layer->velocity);
     scene_initial_complete(draft, layer, map);
+    scene_state_check(draft, map, layer->fractions, layer->density);
 }
 
 /* Every cell needs a state: the layers that give a whole one must cover the domain. */

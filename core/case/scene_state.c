@@ -2,6 +2,7 @@
 #include "case/scene_draft.h"
 
 #include "base/mem.h"
+#include "bulla/eos.h"
 
 #include <math.h>
 
@@ -136,4 +137,35 @@ void scene_state_velocity(struct draft *draft, const struct keys_map *map, struc
         return;
     }
     for (int axis = 0; axis < dim; axis++) ret[axis] = scene_state_value(&velocity->list[axis]);
+}
+
+/* Is the state of one material one that its law knows? A forgotten sign or prefix shows here. */
+static void scene_state_check_one(struct draft *draft, unsigned material, double rho, double p,
+                                  const struct keys_value *pressure)
+{
+    const struct instance *eos = &draft->scene->material[material].eos;
+    const char *name = draft->scene->material[material].name;
+    if (!eos->module) return;
+    const struct bulla_eos *law = eos->module->table;
+    double rho_e, c2, least;
+    law->p_min(eos->self, 1, &rho, &least);
+    law->state(eos->self, 1, &rho, &p, &rho_e, &c2);
+    if (p > least && c2 > 0.0 && isfinite(c2) && isfinite(rho_e)) return;
+    keys_error(&draft->keys, pressure, "%.6g Pa at %.6g kg/m3 is no state of '%s'", p, rho, name);
+    diag_help(draft->keys.diag, "the pressure of '%s' is above %.6g Pa there", name, least + 0.0);
+}
+
+void scene_state_check(struct draft *draft, const struct keys_map *map, const double *fractions,
+                       const struct scene_value *density)
+{
+    const struct keys_value *pressure = keys_at(map, "pressure"), *temperature = keys_at(map, "temperature");
+    if (!pressure->given || pressure->script || !fractions) return;
+    for (unsigned i = 0; i < draft->scene->n_material; i++) {
+        const struct instance *eos = &draft->scene->material[i].eos;
+        double rho = density[i].number, p = pressure->number;
+        bool warm = temperature->given && !temperature->script && eos->module;
+        if (fractions[i] <= 0.0 || density[i].script || !(density[i].given || warm)) continue;
+        if (warm) ((const struct bulla_eos *)eos->module->table)->density(eos->self, 1, &p, &temperature->number, &rho);
+        scene_state_check_one(draft, i, rho, p, pressure);
+    }
 }

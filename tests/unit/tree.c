@@ -84,7 +84,7 @@ static void aliases_are_copies(void **state)
 static void hostile_texts_are_refused(void **state)
 {
     (void)state;
-    struct text bomb = {0}, deep = {0}, many = {0}, anchors = {0};
+    struct text bomb = {0}, deep = {0}, many = {0}, anchors = {0}, keys = {0};
     text_add(&bomb, "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n");
     for (int i = 1; i < 9; i++) {
         text_add(&bomb, "a%d: &a%d [", i, i);
@@ -96,10 +96,12 @@ static void hostile_texts_are_refused(void **state)
     for (int i = 0; i < PARSE_NODES; i++) text_add(&many, "1,");
     text_add(&many, "]");
     for (int i = 0; i <= PARSE_ALIASES; i++) text_add(&anchors, "k%d: &a%d 1\n", i, i);
+    for (int i = 0; i <= PARSE_KEYS; i++) text_add(&keys, "k%d: 1\n", i);
     refuses(bomb.at, "too many");
     refuses(deep.at, "nested too deeply");
     refuses(many.at, "too many values");
     refuses(anchors.at, "too many anchors");
+    refuses(keys.at, "too many keys");
     refuses("a: &a [*a]", "no anchor '&a'");
     refuses("a: 1\na: 2\n", "already given in line 1");
     refuses("<<: {a: 1}\n", "merge keys");
@@ -113,6 +115,7 @@ static void hostile_texts_are_refused(void **state)
     text_done(&deep);
     text_done(&many);
     text_done(&anchors);
+    text_done(&keys);
 }
 
 /* A tree written as text reads back as the same tree, and is then written the same. */
