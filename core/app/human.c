@@ -19,6 +19,13 @@ const char *human_si(double value, const char *unit, char text[HUMAN_ROOM])
     return text;
 }
 
+const char *human_count(double value, char text[HUMAN_ROOM])
+{
+    if (value < 1e5) snprintf(text, HUMAN_ROOM, "%.0f", value);
+    else human_si(value, "", text);
+    return text;
+}
+
 const char *human_duration(double seconds, char text[HUMAN_ROOM])
 {
     if (!isfinite(seconds) || seconds < 0 || seconds > 1e10) {

@@ -7,6 +7,9 @@ enum { HUMAN_ROOM = 32 };
 /* "432.1 ns", "1.5 us", "0 s": four digits, SI prefix; returns `text`, room for HUMAN_ROOM bytes. */
 const char *human_si(double value, const char *unit, char text[HUMAN_ROOM]);
 
+/* A number of things: "16384", "1.049 M", "2.66 G"; plain digits below 100 000. */
+const char *human_count(double value, char text[HUMAN_ROOM]);
+
 /* "0:42", "1:02:03", "3 d 04:05:06"; "-" if not finite. */
 const char *human_duration(double seconds, char text[HUMAN_ROOM]);
 

@@ -62,11 +62,11 @@ static void progress_show(struct progress *progress, double t, double dt, long s
 {
     char time[HUMAN_ROOM], end[HUMAN_ROOM], size[HUMAN_ROOM], cells[HUMAN_ROOM], speed[HUMAN_ROOM], left[HUMAN_ROOM];
     bool live = progress->mode == PROGRESS_LIVE;
-    fprintf(stderr, "%s%s%3.0f%%%s  t %s of %s  step %ld  dt %s  %s  %s/s  ETA %s%s", live ? "\r\033[K" : "",
-            progress->color ? "\033[1;32m" : "", floor(100 * progress->share), progress->color ? "\033[0m" : "",
-            human_si(t, "s", time), human_si(progress->until, "s", end), step, human_si(dt, "s", size),
-            human_si(progress->cells, "cells", cells), human_si(rate, "updates", speed), human_duration(eta, left),
-            live ? "" : "\n");
+    fprintf(stderr, "%s%s%3.0f%%%s  t %s of %s  step %ld  dt %s  %s cells  %s updates/s  ETA %s%s",
+            live ? "\r\033[K" : "", progress->color ? "\033[1;32m" : "", floor(100 * progress->share),
+            progress->color ? "\033[0m" : "", human_si(t, "s", time), human_si(progress->until, "s", end), step,
+            human_si(dt, "s", size), human_count(progress->cells, cells), human_count(rate, speed),
+            human_duration(eta, left), live ? "" : "\n");
     fflush(stderr);
     progress->line_open = live;
 }

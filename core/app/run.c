@@ -116,8 +116,9 @@ static void run_say_end(const struct run *run, int code)
     const char *directory = run->scene->directory;
     human_si(state->t, "s", time);
     if (code == 0)
-        log_note("%s: t = %s, %ld steps, %s wall, %s/s; output in %s", run->reason, time, state->step,
-                 human_duration(passed, wall), human_si(passed > 0 ? work / passed : 0, "updates", rate), directory);
+        log_note("%s: t = %s, %ld steps, %s wall, %s cell updates/s; output in %s", run->reason, time, state->step,
+                 passed < 60 ? human_si(passed, "s", wall) : human_duration(passed, wall),
+                 human_count(passed > 0 ? work / passed : 0, rate), directory);
     else if (code == STATUS_STOPPED)
         log_warn("%s at t = %s, step %ld: snapshot, history and probes up to here are in %s (version " BULLA_VERSION
                  " cannot continue from them)",

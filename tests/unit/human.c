@@ -23,6 +23,14 @@ static void prefixes(void **state)
     assert_string_equal(human_si(1000, "m", text), "1 km");
 }
 
+static void counts(void **state)
+{
+    (void)state;
+    char text[HUMAN_ROOM];
+    assert_string_equal(human_count(16384, text), "16384");
+    assert_string_equal(human_count(2.66e6, text), "2.66 M");
+}
+
 static void durations(void **state)
 {
     (void)state;
@@ -54,6 +62,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(prefixes),
+        cmocka_unit_test(counts),
         cmocka_unit_test(durations),
         cmocka_unit_test(bytes),
     };
