@@ -106,6 +106,7 @@ static void check_print(const struct scene *scene, const struct state *coarse, c
     printf("  %-12s %s\n", "closure", scene->closure == SCENE_KAPILA ? "kapila" : "allaire");
     check_print_module("riemann", &scene->riemann);
     check_print_module("limiter", &scene->limiter);
+    if (scene->n_material > 1) check_print_module("interface", &scene->interface_limiter);
     printf("  %-12s about %s\n", "memory", human_bytes(check_memory(scene, coarse->model->n_field), text));
     printf("  %-12s until %s, about %.0f steps\n", "run", human_si(scene->until, "s", text), cost->steps);
     printf("  %-12s about %s on one core (from %ld steps on a coarse copy)\n", "time",

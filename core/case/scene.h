@@ -159,7 +159,7 @@ struct scene {
     struct scene_layer *layers;
     enum scene_closure closure;
     struct instance riemann, limiter;
-    struct instance interface_limiter; /* of the volume fractions; module NULL: as the others */
+    struct instance interface_limiter; /* of the volume fractions */
     double cfl, dt_fixed;              /* dt_fixed 0: from cfl */
     enum scene_guard guard;
     double until;    /* s */

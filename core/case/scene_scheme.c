@@ -33,8 +33,9 @@ static const struct key scene_scheme_rows[] = {
     {.name = "interface-limiter",
      .type = KEYS_SECTION,
      .section = &scene_scheme_limiter,
-     .doc = "The limiter of the volume fractions, if another than `limiter`: superbee keeps material interfaces "
-            "within two cells."},
+     .fallback = "superbee",
+     .doc = "The limiter of the volume fractions: superbee keeps material interfaces within two or three cells; give "
+            "the same as `limiter` for one limiter throughout."},
     {.name = "integrator",
      .type = KEYS_CHOICE,
      .choices = "midpoint",

@@ -77,9 +77,9 @@ struct model *model_new(const struct scene *scene)
         eos->rho_fill = model_fill_density(scene, l, eos);
         if (!eos->law->linear) model->linear = false;
     }
-    const struct instance *interface = scene->interface_limiter.module ? &scene->interface_limiter : &scene->limiter;
     model->limiter = (struct model_limiter){scene->limiter.module->table, scene->limiter.self};
-    model->limiter_alpha = (struct model_limiter){interface->module->table, interface->self};
+    model->limiter_alpha =
+        (struct model_limiter){scene->interface_limiter.module->table, scene->interface_limiter.self};
     model->riemann = scene->riemann.module->table;
     model->riemann_self = scene->riemann.self;
     const struct registry_entry *robust = registry_find("riemann", "rusanov");

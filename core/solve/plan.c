@@ -33,6 +33,7 @@ static void plan_line(const struct scene *scene, const char *doc, struct text *t
         }
         doc++;
         if (*doc == 'L') text_add(text, "%s", scene->limiter.module->name);
+        if (*doc == 'L' && scene->n_material > 1) text_add(text, "; alpha: %s", scene->interface_limiter.module->name);
         if (*doc == 'R') text_add(text, "%s", scene->riemann.module->name);
         if (*doc == 'C')
             text_add(text, "%s",
