@@ -45,6 +45,9 @@ static const struct cli_option *const command_case_options[] = {&command_set,   
 static const struct cli_option *const command_check_options[] = {
     &command_set, &command_variant, &command_until, &command_steps, &command_output, &command_json, NULL};
 
+static const struct cli_option command_markdown = {"--markdown", NULL, NULL, "A page to read instead of a schema."};
+static const struct cli_option *const command_schema_options[] = {&command_markdown, NULL};
+
 static const struct cli_command command_table[] = {
     {"run", "CASE.yaml", "Runs a case.", command_run_options, 1, 1, run_command},
     {"check", "CASE.yaml...", "Finds every mistake of a case and tells what it needs.", command_check_options, 1, -1,
@@ -59,7 +62,8 @@ static const struct cli_command command_table[] = {
     {"report", "DIR", "One HTML page about a run, pictures inside.", report_option_table, 1, 1, report_command},
     {"verify", "[ID...]", "Errors, orders and cost of the verification scenes (r09: r09a, r09b, ...; none: all).",
      verify_option_table, 0, -1, verify_command},
-    {"schema", "", "The JSON Schema of case files, with all loaded modules.", NULL, 0, 0, inspect_schema},
+    {"schema", "", "The JSON Schema of case files, with all loaded modules.", command_schema_options, 0, 0,
+     inspect_schema},
     {"version", "", "Version of the program.", NULL, 0, 0, command_version},
     {"help", "[COMMAND]", "This list, or the help of one command.", NULL, 0, 1, command_help},
 };

@@ -5,6 +5,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/text.h"
+#include "case/guide.h"
 #include "case/schema.h"
 #include "io/info.h"
 #include "plug/describe.h"
@@ -61,10 +62,9 @@ int inspect_info(const struct cli_given *given)
 
 int inspect_schema(const struct cli_given *given)
 {
-    (void)given;
     int code = registry_init();
     if (code) return cli_failed(code);
-    char *text = schema_text();
+    char *text = cli_value(given, "--markdown") ? guide_text() : schema_text();
     if (comm_rank() == 0) fputs(text, stdout);
     mem_free(text);
     return 0;

@@ -13,4 +13,6 @@ grep -q 'p_f + R0 / math.max(r, R0)' once.yaml # varies in space: stays
 "$BULLA" check once.yaml >/dev/null
 
 "$BULLA" schema >schema.json
-cmp schema.json "$BULLA_SOURCE/schemas/case.schema.json"
+cmp schema.json "$BULLA_SOURCE/schemas/case.schema.json" # bulla schema >schemas/case.schema.json
+"$BULLA" schema --markdown >keys.md
+cmp keys.md "$BULLA_SOURCE/docs/keys.md" # bulla schema --markdown >docs/keys.md
