@@ -264,6 +264,29 @@ static void test_open_fails(void **state)
     mem_free(path);
 }
 
+/* Folders are searched in order and the first file with a name keeps it; a folder that is not there,
+ * and files that are refused, cost a warning. The program's own folder comes last. */
+static void test_search_order(void **state)
+{
+    (void)state;
+    char *before = mem_text(getenv("BULLA_MODULE_PATH"));
+    char *path = mem_print("/nonexistent::%s/tests/hostile", getenv("BULLA_BUILD")), *first = hostile_path("duplicate");
+    registry_done();
+    setenv("BULLA_MODULE_PATH", path, 1);
+    assert_int_equal(registry_init(), 0);
+    assert_non_null(registry_find("limiter", "hostile"));
+    assert_string_equal(registry_find("limiter", "minmod")->path, first);
+    assert_non_null(strstr(registry_find("limiter", "mc")->path, "/lib/bulla/modules/"));
+    assert_int_equal(registry_count(), 13);
+    setenv("BULLA_MODULE_PATH", before, 1);
+    registry_done();
+    assert_int_equal(registry_init(), 0);
+    assert_int_equal(registry_count(), 12);
+    mem_free(before);
+    mem_free(path);
+    mem_free(first);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -272,7 +295,7 @@ int main(void)
         cmocka_unit_test(test_hostile),    cmocka_unit_test(test_duplicate_names_both),
         cmocka_unit_test(test_fast_math),  cmocka_unit_test(test_truncated),
         cmocka_unit_test(test_no_file),    cmocka_unit_test(test_good),
-        cmocka_unit_test(test_open_fails),
+        cmocka_unit_test(test_open_fails), cmocka_unit_test(test_search_order),
     };
     return cmocka_run_group_tests(tests, start, stop);
 }
