@@ -110,7 +110,8 @@ static void check_print(const struct scene *scene, const struct state *coarse, c
     printf("  %-12s about %s\n", "memory", human_bytes(check_memory(scene, coarse->model->n_field), text));
     printf("  %-12s until %s, about %.0f steps\n", "run", human_si(scene->until, "s", text), cost->steps);
     printf("  %-12s about %s on one core (from %ld steps on a coarse copy)\n", "time",
-           human_duration(cost->seconds, text), cost->coarse_steps);
+           cost->seconds < 60 ? human_si(cost->seconds, "s", text) : human_duration(cost->seconds, text),
+           cost->coarse_steps);
     printf("  %-12s %s\n", "output", scene->directory);
 }
 
