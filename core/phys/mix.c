@@ -15,18 +15,35 @@ struct mix_row {
     double value[MIX_BATCH];
 };
 
-/* alpha_l' = alpha_l where present, else 0; and the sum of them. */
-static BULLA_KERNEL void mix_keep_present(size_t n, const double *restrict alpha, const double *restrict m,
-                                          double *restrict kept, double *restrict sum)
+/* Below this a volume fraction is noise: it counts as 0 even where energies are added up. */
+#define MIX_NOTHING 1e-20
+
+/* alpha_l' = alpha_l above `least`, else 0 (and also 0 where mass is asked for and there is none); the sum of them. */
+static BULLA_KERNEL void mix_keep(size_t n, double least, double least_mass, const double *restrict alpha,
+                                  const double *restrict m, double *restrict kept, double *restrict sum)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a = alpha[i], mass = m[i], s = sum[i];
-        double keep = a > MIX_ABSENT ? a : 0.0;
-        keep = mass > 0.0 ? keep : 0.0;
+        double keep = a > least ? a : 0.0;
+        keep = mass > least_mass ? keep : 0.0;
         kept[i] = keep;
         sum[i] = s + keep;
     }
+}
+
+/* Number of points at which what energies see and what fluxes see of a material differs. */
+static BULLA_KERNEL double mix_count_traces(size_t n, const double *restrict alpha, const double *restrict m)
+{
+    double count = 0.0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], mass = m[i];
+        double trace = a <= MIX_ABSENT ? 1.0 : 0.0;
+        trace = mass > 0.0 ? trace : 1.0;
+        count += a > MIX_NOTHING ? trace : 0.0;
+    }
+    return count;
 }
 
 static BULLA_KERNEL void mix_invert(size_t n, double *restrict sum)
@@ -35,7 +52,7 @@ static BULLA_KERNEL void mix_invert(size_t n, double *restrict sum)
     for (size_t i = 0; i < n; i++) sum[i] = 1.0 / sum[i];
 }
 
-/* rho_l = m_l / alpha_l, alpha normalised to sum 1. */
+/* rho_l = m_l / alpha_l, alpha normalised to sum 1; the fill density where there is no material or no mass. */
 static BULLA_KERNEL void mix_densities(size_t n, const double *restrict m, const double *restrict per_sum, double fill,
                                        double *restrict alpha, double *restrict rho)
 {
@@ -43,8 +60,9 @@ static BULLA_KERNEL void mix_densities(size_t n, const double *restrict m, const
     for (size_t i = 0; i < n; i++) {
         double a = alpha[i] * per_sum[i], mass = m[i];
         double divisor = a > 0.0 ? a : 1.0, density = mass / divisor;
+        density = a > 0.0 ? density : fill;
         alpha[i] = a;
-        rho[i] = a > 0.0 ? density : fill;
+        rho[i] = mass > 0.0 ? density : fill;
     }
 }
 
@@ -125,7 +143,7 @@ static void mix_floor(const struct model *model, size_t n, size_t stride, const 
     for (unsigned l = 0; l < model->n_material; l++) {
         model->eos[l].law->p_min(model->eos[l].self, n, w + (model->i_m + l) * stride, low.value);
         for (size_t i = 0; i < n; i++) {
-            bool present = !model->n_alpha || w[(model->i_alpha + l) * stride + i] > 0.0;
+            bool present = !model->n_alpha || w[(model->i_alpha + l) * stride + i] > MIX_ABSENT;
             if (present && low.value[i] > ret_low->value[i]) ret_low->value[i] = low.value[i];
         }
     }
@@ -170,22 +188,30 @@ static void mix_close_newton(const struct model *model, size_t n, size_t stride,
         if (!done[i]) p[i] = NAN; /* guard finds it */
 }
 
+/* Fractions above `least` with more than `least_mass`, at sum 1, and the densities that follow. */
+static void mix_fractions(const struct model *model, size_t n, size_t stride, const double *u, double least,
+                          double least_mass, double *w)
+{
+    struct mix_row sum = {{0}};
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        mix_keep(n, least, least_mass, u + (model->i_alpha + l) * stride, u + (model->i_m + l) * stride,
+                 w + (model->i_alpha + l) * stride, sum.value);
+    mix_invert(n, sum.value);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        mix_densities(n, u + (model->i_m + l) * stride, sum.value, model->eos[l].rho_fill,
+                      w + (model->i_alpha + l) * stride, w + (model->i_m + l) * stride);
+}
+
+/* The pressure is closed with all there is of every material, since the conserved energy holds it: a trace
+ * of 1e-12 of water weighs 1e-3 J/m3. Only then traces are dropped from what fluxes will see. */
 static void mix_primitives_batch(const struct model *model, size_t n, size_t stride, const double *u, double *w)
 {
-    struct mix_row sum = {{0}}, rho = {{0}}, twice = {{0}};
+    struct mix_row rho = {{0}}, twice = {{0}};
     unsigned i_m = model->i_m;
-    for (unsigned l = 0; l < model->n_alpha; l++)
-        mix_keep_present(n, u + (model->i_alpha + l) * stride, u + (i_m + l) * stride,
-                         w + (model->i_alpha + l) * stride, sum.value);
-    mix_invert(model->n_alpha ? n : 0, sum.value);
-    for (unsigned l = 0; l < model->n_material; l++) {
-        const double *m = u + (i_m + l) * stride;
-        mix_add(n, m, rho.value);
-        if (model->n_alpha)
-            mix_densities(n, m, sum.value, model->eos[l].rho_fill, w + (model->i_alpha + l) * stride,
-                          w + (i_m + l) * stride);
-        else memcpy(w + i_m * stride, m, n * sizeof *w);
-    }
+    double traces = 0.0;
+    for (unsigned l = 0; l < model->n_material; l++) mix_add(n, u + (i_m + l) * stride, rho.value);
+    if (model->n_alpha) mix_fractions(model, n, stride, u, MIX_NOTHING, -HUGE_VAL, w);
+    else memcpy(w + i_m * stride, u + i_m * stride, n * sizeof *w);
     for (int d = 0; d < model->dim; d++) {
         unsigned q = model->i_u + (unsigned)d;
         mix_velocity(n, u + q * stride, rho.value, w + q * stride, twice.value);
@@ -193,6 +219,9 @@ static void mix_primitives_batch(const struct model *model, size_t n, size_t str
     const double *energy = u + model->i_E * stride;
     if (model->linear) mix_close_linear(model, n, stride, energy, twice.value, w);
     else mix_close_newton(model, n, stride, energy, twice.value, w);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        traces += mix_count_traces(n, u + (model->i_alpha + l) * stride, u + (i_m + l) * stride);
+    if (traces > 0.0) mix_fractions(model, n, stride, u, MIX_ABSENT, 0.0, w);
 }
 
 void mix_primitives(const struct model *model, size_t n, size_t stride, const double *u, double *w)
