@@ -213,6 +213,7 @@ static void keys_refuse_many(struct keys *keys, const struct keys_value *value, 
 static void keys_read_value(struct keys *keys, struct keys_value *value, const char *const *choices)
 {
     const struct key *key = value->key;
+    if (value->node->broken && value->node->count == 0) return;
     bool entry = value->name != NULL || value->path[strlen(value->path) - 1] == ']';
     bool is_map = value->node->kind == TREE_MAP, is_list = value->node->kind == TREE_LIST;
     if (key->type == KEYS_TREE) value->given = true;
@@ -271,7 +272,7 @@ static void keys_read_row(struct keys *keys, struct keys_map *map, const struct 
     value->node = at >= 0 ? map->node->items[at] : keys_fallback(keys, map, key);
     if (!value->node) {
         bool preset = map->chosen && map->chosen->module && tree_get(map->node, "preset"); /* wrong, and told so */
-        if (key->required && !rows->meant[i] && !preset) keys_missing(keys, map, key);
+        if (key->required && !rows->meant[i] && !preset && !map->node->broken) keys_missing(keys, map, key);
         return;
     }
     if (at >= 0 && key->later && !key->refused) {

@@ -14,7 +14,7 @@ struct merge_options {
 };
 
 /* The tree of a case file with the files it extends, the variant and the settings laid over
- * it; NULL after recorded errors. `extends` is used up; `variants`, `quick`, `matrix` stay. */
+ * it. Mistakes are recorded; NULL if there is no tree. `extends` is used up; `variants`, `quick`, `matrix` stay. */
 struct node *merge_case(struct forest *forest, struct diag *diag, const char *path,
                         const struct merge_options *options);
 

@@ -152,7 +152,9 @@ static struct node *parse_alias(struct parse *parse, const yaml_event_t *event)
         return parse->ended ? tree_map(parse->forest, &mark) : tree_copy(parse->forest, parse->anchors[i].node);
     }
     diag_error(parse->diag, &mark, "there is no anchor '&%s' above this line", name);
-    return tree_map(parse->forest, &mark);
+    struct node *nothing = tree_map(parse->forest, &mark);
+    nothing->broken = true;
+    return nothing;
 }
 
 static struct node *parse_scalar(struct parse *parse, const yaml_event_t *event)
@@ -213,7 +215,9 @@ static void parse_map(struct parse *parse, struct node *map, int depth)
             parse_key(parse, map, node);
             key = node->kind == TREE_SCALAR ? node : tree_scalar(parse->forest, &node->mark, TREE_QUOTED, "");
         } else {
-            if (tree_find(map, key->text) < 0) tree_add(parse->forest, map, key, node);
+            bool merges = strcmp(key->text, "<<") == 0;
+            map->broken |= merges;
+            if (tree_find(map, key->text) < 0 && !merges) tree_add(parse->forest, map, key, node);
             key = NULL;
         }
     }
@@ -275,7 +279,6 @@ static struct node *parse_stream(struct parse *parse)
 
 struct node *parse_source(struct forest *forest, struct diag *diag, const struct source *source)
 {
-    unsigned before = diag_errors(diag);
     struct parse parse = {.forest = forest, .diag = diag, .source = source};
     if (!yaml_parser_initialize(&parse.yaml)) {
         diag_error(diag, NULL, "out of memory while reading '%s'", source->name);
@@ -286,5 +289,5 @@ struct node *parse_source(struct forest *forest, struct diag *diag, const struct
     struct node *root = parse_stream(&parse);
     for (unsigned i = 0; i < parse.n_anchor; i++) mem_free(parse.anchors[i].name);
     yaml_parser_delete(&parse.yaml);
-    return diag_errors(diag) > before ? NULL : root;
+    return parse.ended ? NULL : root;
 }

@@ -9,7 +9,7 @@
 
 enum { PARSE_DEPTH = 32, PARSE_NODES = 100000, PARSE_KEYS = 2000, PARSE_ALIASES = 64, PARSE_BYTES = 1 << 20 };
 
-/* Parses a source; NULL after recorded errors. An empty text is an empty map. */
+/* Parses a source. Mistakes are recorded; NULL if one of them ended the reading. An empty text is an empty map. */
 struct node *parse_source(struct forest *forest, struct diag *diag, const struct source *source);
 
 #endif

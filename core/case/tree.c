@@ -147,6 +147,7 @@ struct node *tree_copy(struct forest *forest, const struct node *node)
 {
     if (node->kind == TREE_SCALAR) return tree_scalar(forest, &node->mark, node->style, node->text);
     struct node *copy = tree_new(forest, &node->mark, node->kind);
+    copy->broken = node->broken;
     for (unsigned i = 0; i < node->count; i++) {
         struct node *item = tree_copy(forest, node->items[i]);
         if (node->kind == TREE_MAP) tree_add(forest, copy, node->keys[i], item);

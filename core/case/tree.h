@@ -14,6 +14,7 @@ enum tree_style { TREE_PLAIN, TREE_QUOTED, TREE_BLOCK };
 struct node {
     enum tree_kind kind;
     enum tree_style style; /* of a scalar */
+    bool broken;           /* a mistake in it is recorded already: what is missing or odd is no news */
     struct mark mark;
     const char *text;    /* of a scalar; terminated */
     unsigned count;      /* entries of a list or map */
