@@ -6,11 +6,11 @@
 
 #include <string.h>
 
-static const char *const scene_field_plain[] = {"density",     "pressure",        "velocity",     "velocity_x",
-                                                "velocity_y",  "velocity_z",      "temperature",  "sound_speed",
-                                                "mach",        "vorticity",       "vorticity_x",  "vorticity_y",
-                                                "vorticity_z", "schlieren",       "level",        "rank",
-                                                "cost",        "internal_energy", "total_energy", NULL};
+static const char *const scene_field_plain[] = {"density",    "pressure",        "velocity",     "velocity_x",
+                                                "velocity_y", "velocity_z",      "temperature",  "sound_speed",
+                                                "mach",       "internal_energy", "total_energy", "vorticity",
+                                                "schlieren",  "level",           "rank",         "cost",
+                                                NULL};
 
 static const char *const scene_field_by_material[] = {"alpha", "density", "temperature", "partial_density", NULL};
 
