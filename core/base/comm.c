@@ -1,5 +1,5 @@
 /* comm.c - see comm.h. Outside this file MPI is called by mesh/halo.c (exchange) and the
- * writers in io (file access) only. */
+ * writer of data sets (io/h5out.c) only. */
 #include "base/comm.h"
 
 #include "base/mem.h"

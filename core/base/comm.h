@@ -15,7 +15,7 @@
 void comm_init(int *argc, char ***argv);
 void comm_done(void);
 
-/* True when MPI is initialised (HDF5 then opens files through MPI-IO). */
+/* True when MPI is initialised. */
 bool comm_active(void);
 int comm_rank(void);
 int comm_size(void);

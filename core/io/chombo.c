@@ -2,7 +2,6 @@
 #include "io/chombo.h"
 
 #include "base/mem.h"
-#include "base/status.h"
 #include "io/h5out.h"
 
 #include <math.h>
@@ -40,19 +39,19 @@ static unsigned chombo_columns(const struct vtkhdf_fields *fields, char (**ret_n
     return n;
 }
 
-static int chombo_root(struct h5 *file, const struct mesh *mesh, unsigned n, char (*names)[2 * SCENE_NAME])
+static void chombo_root(struct h5 *file, const struct mesh *mesh, unsigned n, char (*names)[2 * SCENE_NAME])
 {
     int32_t levels = mesh->n_level, finest = levels - 1, components = (int32_t)n, dim = mesh->dim;
-    TRY(h5_attribute(file, "/", "num_levels", H5_I32, 0, &levels));
-    TRY(h5_attribute(file, "/", "max_level", H5_I32, 0, &finest));
-    TRY(h5_attribute(file, "/", "num_components", H5_I32, 0, &components));
+    h5_attribute(file, "/", "num_levels", H5_I32, 0, &levels);
+    h5_attribute(file, "/", "max_level", H5_I32, 0, &finest);
+    h5_attribute(file, "/", "num_components", H5_I32, 0, &components);
     for (unsigned q = 0; q < n; q++) {
         char name[CHOMBO_PATH];
         snprintf(name, sizeof name, "component_%u", q);
-        TRY(h5_attribute_text(file, "/", name, names[q]));
+        h5_attribute_text(file, "/", name, names[q]);
     }
-    TRY(h5_group(file, "/Chombo_global"));
-    return h5_attribute(file, "/Chombo_global", "SpaceDim", H5_I32, 0, &dim);
+    h5_group(file, "/Chombo_global");
+    h5_attribute(file, "/Chombo_global", "SpaceDim", H5_I32, 0, &dim);
 }
 
 /* Box of `count` tiles from tile coordinates `at` on, in cells of the level, both ends included. */
@@ -66,7 +65,7 @@ static void chombo_cells(const struct mesh *mesh, const struct level *level, con
     }
 }
 
-static int chombo_boxes(struct h5 *file, const struct mesh *mesh, const struct level *level, const char *group)
+static void chombo_boxes(struct h5 *file, const struct mesh *mesh, const struct level *level, const char *group)
 {
     char path[CHOMBO_PATH];
     unsigned width = 2 * (unsigned)mesh->dim;
@@ -74,66 +73,64 @@ static int chombo_boxes(struct h5 *file, const struct mesh *mesh, const struct l
     for (unsigned tile = 0; tile < level->n_tile; tile++)
         chombo_cells(mesh, level, level->tiles[tile].at, (const int[]){1, 1, 1}, boxes + (size_t)tile * width);
     snprintf(path, sizeof path, "%s/boxes", group);
-    int code = h5out_records(file, path, chombo_box(mesh->dim), width, level->n_tile, boxes);
+    h5out_records(file, path, chombo_box(mesh->dim), width, level->n_tile, boxes);
     mem_free(boxes);
-    return code;
 }
 
-static int chombo_offsets(struct h5 *file, const struct mesh *mesh, const struct level *level, const char *group,
-                          unsigned n)
+static void chombo_offsets(struct h5 *file, const struct mesh *mesh, const struct level *level, const char *group,
+                           unsigned n)
 {
     char path[CHOMBO_PATH];
     int64_t *offsets = mem_new((size_t)level->n_tile + 1, sizeof *offsets);
     for (unsigned tile = 0; tile <= level->n_tile; tile++) offsets[tile] = (int64_t)(tile * n * mesh->n_cell);
     snprintf(path, sizeof path, "%s/data:offsets=0", group);
-    int code = h5out_array(file, path, H5_I64, (size_t)level->n_tile + 1, 0, offsets);
+    h5out_array(file, path, H5_I64, (size_t)level->n_tile + 1, 0, offsets);
     mem_free(offsets);
-    return code;
 }
 
-static int chombo_level_attributes(struct h5 *file, const struct state *state, int l, const char *group)
+static void chombo_level_attributes(struct h5 *file, const struct state *state, int l, const char *group)
 {
     const struct mesh *mesh = state->mesh;
     const struct level *level = &mesh->levels[l];
     int32_t refine = CHOMBO_REFINE, domain[6];
     chombo_cells(mesh, level, (const int[]){0, 0, 0}, level->extent, domain);
-    TRY(h5_group(file, group));
-    TRY(h5_attribute(file, group, "dx", H5_F64, 0, &level->h[0]));
-    TRY(h5_attribute(file, group, "dt", H5_F64, 0, &state->dt));
-    TRY(h5_attribute(file, group, "time", H5_F64, 0, &state->t));
-    TRY(h5_attribute(file, group, "ref_ratio", H5_I32, 0, &refine));
-    return h5_attribute_record(file, group, "prob_domain", chombo_box(mesh->dim), 2 * (unsigned)mesh->dim, domain);
+    h5_group(file, group);
+    h5_attribute(file, group, "dx", H5_F64, 0, &level->h[0]);
+    h5_attribute(file, group, "dt", H5_F64, 0, &state->dt);
+    h5_attribute(file, group, "time", H5_F64, 0, &state->t);
+    h5_attribute(file, group, "ref_ratio", H5_I32, 0, &refine);
+    h5_attribute_record(file, group, "prob_domain", chombo_box(mesh->dim), 2 * (unsigned)mesh->dim, domain);
 }
 
-static int chombo_data_attributes(struct h5 *file, int dim, const char *group, unsigned n)
+static void chombo_data_attributes(struct h5 *file, int dim, const char *group, unsigned n)
 {
     char path[CHOMBO_PATH];
     const int32_t components = (int32_t)n, none[3] = {0};
     snprintf(path, sizeof path, "%s/data_attributes", group);
-    TRY(h5_group(file, path));
-    TRY(h5_attribute(file, path, "comps", H5_I32, 0, &components));
-    TRY(h5_attribute_text(file, path, "objectType", "FArrayBox"));
-    TRY(h5_attribute_record(file, path, "ghost", chombo_vector, (unsigned)dim, none));
-    return h5_attribute_record(file, path, "outputGhost", chombo_vector, (unsigned)dim, none);
+    h5_group(file, path);
+    h5_attribute(file, path, "comps", H5_I32, 0, &components);
+    h5_attribute_text(file, path, "objectType", "FArrayBox");
+    h5_attribute_record(file, path, "ghost", chombo_vector, (unsigned)dim, none);
+    h5_attribute_record(file, path, "outputGhost", chombo_vector, (unsigned)dim, none);
 }
 
-static int chombo_level(struct h5 *file, const struct state *state, int l, struct h5out_view *view)
+static void chombo_level(struct h5 *file, const struct state *state, int l, struct h5out_view *view)
 {
     const struct mesh *mesh = state->mesh;
     const struct level *level = &mesh->levels[l];
     char group[CHOMBO_PATH / 2], path[CHOMBO_PATH];
     snprintf(group, sizeof group, "/level_%d", l);
-    TRY(chombo_level_attributes(file, state, l, group));
-    TRY(chombo_boxes(file, mesh, level, group));
-    TRY(chombo_offsets(file, mesh, level, group, view->n_column));
-    TRY(chombo_data_attributes(file, mesh->dim, group, view->n_column));
+    chombo_level_attributes(file, state, l, group);
+    chombo_boxes(file, mesh, level, group);
+    chombo_offsets(file, mesh, level, group, view->n_column);
+    chombo_data_attributes(file, mesh->dim, group, view->n_column);
     view->first = vtkhdf_first_cell(mesh, l, 0);
     view->n_group = level->n_tile;
     snprintf(path, sizeof path, "%s/data:datatype=0", group);
-    return h5out_interleave(file, path, view);
+    h5out_interleave(file, path, view);
 }
 
-int chombo_write(struct h5 *file, const struct state *state, const struct vtkhdf_fields *fields)
+void chombo_write(struct h5 *file, const struct state *state, const struct vtkhdf_fields *fields)
 {
     const struct mesh *mesh = state->mesh;
     char(*names)[2 * SCENE_NAME];
@@ -144,9 +141,8 @@ int chombo_write(struct h5 *file, const struct state *state, const struct vtkhdf
                               .columns = columns,
                               .total = vtkhdf_first_cell(mesh, mesh->n_level, 0),
                               .group = mesh->n_cell};
-    int code = chombo_root(file, mesh, n, names);
-    for (int l = 0; !code && l < mesh->n_level; l++) code = chombo_level(file, state, l, &view);
+    chombo_root(file, mesh, n, names);
+    for (int l = 0; l < mesh->n_level; l++) chombo_level(file, state, l, &view);
     mem_free(columns);
     mem_free(names);
-    return code;
 }

@@ -8,6 +8,6 @@
 #include "io/vtkhdf.h"
 
 /* Writes the view of fields that vtkhdf_write has written. 2D and 3D only. Collective. */
-int chombo_write(struct h5 *file, const struct state *state, const struct vtkhdf_fields *fields);
+void chombo_write(struct h5 *file, const struct state *state, const struct vtkhdf_fields *fields);
 
 #endif

@@ -1,8 +1,9 @@
 /* h5.c - see h5.h.
  *
- * A rank that fails goes on with invalid handles, which HDF5 refuses at once: so the order of
- * the collective calls is the same on all ranks until h5_outcome compares notes. HDF5 drops its
- * error stack at the next call, therefore h5_check reads it on the spot and keeps the first. */
+ * One rank writes: under MPI-IO a full disk shows on some ranks in the middle of a collective
+ * call, and the others wait for ever (seen with HDF5 1.10.8 on Open MPI 4.1.4 and 3 ranks).
+ * HDF5 drops its error stack at the next call, therefore h5_check reads it on the spot and
+ * keeps the first; calls on handles that came of a failure are refused by HDF5 at once. */
 #include "io/h5.h"
 
 #include "base/comm.h"
@@ -22,6 +23,11 @@ static herr_t h5_collect(unsigned depth, const H5E_error2_t *entry, void *contex
 {
     char *reason = context;
     if (depth == 0 && entry->desc) snprintf(reason, H5_REASON, "%s", entry->desc);
+    char *system = strstr(reason, "error message = '"), *end = system ? strchr(system += 17, '\'') : NULL;
+    if (end) { /* "file write failed: time = ..., errno = 28, error message = 'No space ...', buf = ..." */
+        memmove(reason, system, (size_t)(end - system));
+        reason[end - system] = '\0';
+    }
     return 0;
 }
 
@@ -53,14 +59,9 @@ int64_t h5_check(struct h5 *file, int64_t id, const char *what)
     char reason[H5_REASON] = "unknown reason", space[2 * H5_REASON];
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, h5_collect, reason);
     h5_space(file->path, reason, space, sizeof space);
-    file->code = status_fail(STATUS_RUN, "%s: cannot %s: %s%s", file->path, what, reason, space);
+    file->code = status_fail(STATUS_RUN, "%s: cannot %s%s: %s%s", file->path, *what == '/' ? "access " : "", what,
+                             reason, space);
     return id;
-}
-
-int h5_outcome(struct h5 *file)
-{
-    if (file->shared) file->code = comm_agree(file->code);
-    return file->code;
 }
 
 int64_t h5_type_id(enum h5_type type)
@@ -116,28 +117,26 @@ void h5_abandon(struct h5 *file)
     mem_free(file);
 }
 
-/* Access of a file to be written: format versions that know virtual data sets, all handles end
- * with the file, and with MPI the small data (metadata) in one request for all ranks. */
+/* Access of a file to be written: format versions that know virtual data sets, and all handles
+ * end with the file. */
 static hid_t h5_access(struct h5 *file)
 {
     hid_t access = h5_check(file, H5Pcreate(H5P_FILE_ACCESS), "prepare");
     h5_check(file, H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST), "set the file version");
     h5_check(file, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "prepare");
-    if (!file->shared) return access;
-    h5_check(file, H5Pset_fapl_mpio(access, comm_world(), MPI_INFO_NULL), "choose MPI-IO");
-    h5_check(file, H5Pset_all_coll_metadata_ops(access, true), "choose MPI-IO");
-    h5_check(file, H5Pset_coll_metadata_write(access, true), "choose MPI-IO");
     return access;
 }
 
 int h5_create(const char *path, struct h5 **ret_file)
 {
     struct h5 *file = h5_handle(path);
-    file->shared = comm_active();
-    hid_t access = h5_access(file);
-    file->id = h5_check(file, H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access), "create it");
-    H5Pclose(access);
-    int code = h5_outcome(file);
+    file->idle = comm_rank() != 0;
+    if (!file->idle) {
+        hid_t access = h5_access(file);
+        file->id = h5_check(file, H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access), "create it");
+        H5Pclose(access);
+    }
+    int code = comm_agree(file->code);
     if (code) h5_abandon(file);
     else *ret_file = file;
     return code;
@@ -162,25 +161,25 @@ int h5_open(const char *path, struct h5 **ret_file)
 
 int h5_close(struct h5 *file)
 {
-    h5_check(file, H5Fclose(file->id), "finish it");
+    if (!file->idle) h5_check(file, H5Fclose(file->id), "finish it");
     file->id = -1;
-    int code = h5_outcome(file);
+    int code = comm_agree(file->code);
     h5_abandon(file);
     return code;
 }
 
-int h5_group(struct h5 *file, const char *path)
+void h5_group(struct h5 *file, const char *path)
 {
+    if (file->idle) return;
     hid_t options = h5_check(file, H5Pcreate(H5P_GROUP_CREATE), "prepare a group");
     h5_check(file, H5Pset_obj_track_times(options, false), "prepare a group"); /* equal runs give equal files */
     hid_t group = h5_check(file, H5Gcreate2(file->id, path, H5P_DEFAULT, options, H5P_DEFAULT), "make a group");
     if (group >= 0) H5Gclose(group);
     if (options >= 0) H5Pclose(options);
-    return h5_outcome(file);
 }
 
 /* Makes and writes one attribute of type id[0] and space id[1]; closes the space. */
-static int h5_put(struct h5 *file, const char *object, const char *name, const hid_t id[2], const void *values)
+static void h5_put(struct h5 *file, const char *object, const char *name, const hid_t id[2], const void *values)
 {
     hid_t put =
         h5_check(file, H5Acreate_by_name(file->id, object, name, id[0], id[1], H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
@@ -188,31 +187,31 @@ static int h5_put(struct h5 *file, const char *object, const char *name, const h
     h5_check(file, put < 0 ? -1 : H5Awrite(put, id[0], values), name);
     if (put >= 0) H5Aclose(put);
     if (id[1] >= 0) H5Sclose(id[1]);
-    return h5_outcome(file);
 }
 
-int h5_attribute(struct h5 *file, const char *object, const char *name, enum h5_type type, unsigned n, const void *in)
+void h5_attribute(struct h5 *file, const char *object, const char *name, enum h5_type type, unsigned n, const void *in)
 {
+    if (file->idle) return;
     hsize_t extent = n;
     hid_t space = n ? H5Screate_simple(1, &extent, NULL) : H5Screate(H5S_SCALAR);
-    return h5_put(file, object, name, (hid_t[2]){h5_type_id(type), h5_check(file, space, "make an attribute")}, in);
+    h5_put(file, object, name, (hid_t[2]){h5_type_id(type), h5_check(file, space, "make an attribute")}, in);
 }
 
-int h5_attribute_text(struct h5 *file, const char *object, const char *name, const char *text)
+void h5_attribute_text(struct h5 *file, const char *object, const char *name, const char *text)
 {
+    if (file->idle) return;
     hid_t type = h5_string_type(file, text, strlen(text));
     hid_t space = h5_check(file, H5Screate(H5S_SCALAR), "make an attribute");
-    int code = h5_put(file, object, name, (hid_t[2]){type, space}, text);
+    h5_put(file, object, name, (hid_t[2]){type, space}, text);
     if (type >= 0) H5Tclose(type);
-    return code;
 }
 
-int h5_attribute_record(struct h5 *file, const char *object, const char *name, const char *const *members, unsigned n,
-                        const int32_t *values)
+void h5_attribute_record(struct h5 *file, const char *object, const char *name, const char *const *members, unsigned n,
+                         const int32_t *values)
 {
+    if (file->idle) return;
     hid_t type = h5_record_type(file, members, n);
     hid_t space = h5_check(file, H5Screate(H5S_SCALAR), "make an attribute");
-    int code = h5_put(file, object, name, (hid_t[2]){type, space}, values);
+    h5_put(file, object, name, (hid_t[2]){type, space}, values);
     if (type >= 0) H5Tclose(type);
-    return code;
 }

@@ -3,9 +3,10 @@
  * HDF5 is called by h5.c, h5out.c (data sets out) and h5in.c (back in) only. Every call is
  * checked; a failure becomes one status message (STATUS_RUN) with the file, what was being
  * done, the innermost reason that HDF5 gives and, when the disk is full, the free space.
- * Files being written are shared by all ranks (MPI-IO) when MPI is active: every rank makes
- * the same calls in the same order, and a failure on one is a failure on all. Files being
- * read are read by this process alone. */
+ * A file being written is written by rank 0; all ranks make the same calls in the same order,
+ * the others taking part where their data are needed (h5out.h). What fails is known to rank 0
+ * alone until h5out_write or h5_close tell all, so the other calls return nothing. Files being read
+ * are read by this process alone. */
 #ifndef H5_H
 #define H5_H
 
@@ -19,8 +20,8 @@ enum h5_type { H5_F32, H5_F64, H5_I32, H5_I64, H5_U8 };
 struct h5 {
     int64_t id; /* HDF5's handle of the file */
     char *path;
-    bool shared; /* written through MPI-IO */
-    int code;    /* the first failure on this rank; later calls keep its message */
+    bool idle; /* being written by another rank */
+    int code;  /* the first failure; later calls keep its message */
 };
 
 /* Creates (replaces) a file for writing. Collective. */
@@ -36,22 +37,19 @@ int h5_close(struct h5 *file);
 void h5_abandon(struct h5 *file);
 
 /* Makes a group. Collective. */
-int h5_group(struct h5 *file, const char *path);
+void h5_group(struct h5 *file, const char *path);
 
 /* Attributes of the object `object` ("/": the file). Numbers: n values, n = 0: one scalar. Text: a
  * null-padded string of exactly its length, ASCII where it is. Record: one compound of n named i32.
  * Collective: every rank gives the same values. */
-int h5_attribute(struct h5 *file, const char *object, const char *name, enum h5_type type, unsigned n, const void *in);
-int h5_attribute_text(struct h5 *file, const char *object, const char *name, const char *text);
-int h5_attribute_record(struct h5 *file, const char *object, const char *name, const char *const *members, unsigned n,
-                        const int32_t *values);
+void h5_attribute(struct h5 *file, const char *object, const char *name, enum h5_type type, unsigned n, const void *in);
+void h5_attribute_text(struct h5 *file, const char *object, const char *name, const char *text);
+void h5_attribute_record(struct h5 *file, const char *object, const char *name, const char *const *members, unsigned n,
+                         const int32_t *values);
 
 /* For h5out.c and h5in.c: notes a failed HDF5 call (a negative `id`) and returns `id`; HDF5's
  * reason is only known right after the call. `what` completes "cannot write FILE: ...". */
 int64_t h5_check(struct h5 *file, int64_t id, const char *what);
-
-/* For h5out.c and h5in.c: the outcome so far, the same on all ranks for files being written. */
-int h5_outcome(struct h5 *file);
 
 /* For h5out.c and h5in.c: HDF5's handle of a type, and its size in bytes. */
 int64_t h5_type_id(enum h5_type type);

@@ -1,19 +1,37 @@
 /* h5out.c - see h5out.h.
  *
- * Compressed data sets under MPI-IO (HDF5 1.10) have rules of their own: all ranks join every
- * write, also with nothing to write; the type in memory is the type in the file; and nothing
- * is filled in beforehand (a half-written chunk would be read back as if compressed). A chunk
- * is therefore written by one call, and a rank alone in the world may cut its rows into runs
- * of whole chunks, which bounds the memory that writing takes. */
+ * The compressed path: a data set is cut into chunks; whoever holds all rows of a chunk packs it and
+ * sends it to rank 0, which files it as it is; pieces of a chunk that several ranks hold travel as
+ * plain rows, and rank 0 packs it. So packing runs on all ranks at once, nobody holds more than his
+ * own data set packed, and the bytes in the file do not depend on the ranks. All ranks know all
+ * ranges, therefore who sends what, and rank 0 takes every message even after a failure. */
 #include "io/h5out.h"
 
 #include "base/comm.h"
 #include "base/mem.h"
+#include "base/status.h"
+#include "io/chunk.h"
 
 #include <hdf5.h>
+#include <mpi.h>
 #include <string.h>
 
-enum { H5OUT_RUN = 4 << 20 }; /* bytes of a run, about */
+enum { H5OUT_TAG = 77, H5OUT_HEAD = 8 }; /* bytes before a packed chunk: which filters were left out */
+
+/* A data set while it is written. */
+struct h5out {
+    const struct h5out_rows *rows;
+    size_t row, chunk;    /* bytes of a row, rows of a chunk */
+    unsigned n_range;     /* of all ranks */
+    double (*ranges)[2];  /* first, count; the ranges of rank r are r * rows->n_range ... */
+    char *plain, *packed; /* one chunk; packed: with its head */
+};
+
+/* What one rank holds of a chunk. */
+struct h5out_piece {
+    int rank;
+    size_t first, count;
+};
 
 static hid_t h5out_layout(struct h5 *file, const struct h5out_rows *rows)
 {
@@ -34,157 +52,190 @@ static hid_t h5out_space(struct h5 *file, size_t rows, unsigned columns)
     return h5_check(file, H5Screate_simple(columns ? 2 : 1, extent, NULL), "shape a data set");
 }
 
-static hid_t h5out_transfer(struct h5 *file)
+static void h5out_begin(struct h5out *out, const struct h5out_rows *rows)
 {
-    hid_t transfer = h5_check(file, H5Pcreate(H5P_DATASET_XFER), "prepare a transfer");
-    if (file->shared) h5_check(file, H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "prepare a collective transfer");
-    return transfer;
-}
-
-/* Selects the rows of some ranges; returns how many. */
-static size_t h5out_select(struct h5 *file, hid_t space, const struct h5out_range *ranges, unsigned n, unsigned columns)
-{
-    size_t rows = 0;
-    h5_check(file, H5Sselect_none(space), "address rows");
-    for (unsigned i = 0; i < n; i++) {
-        if (!ranges[i].count) continue;
-        hsize_t start[2] = {ranges[i].first, 0}, extent[2] = {ranges[i].count, columns};
-        H5S_seloper_t how = rows ? H5S_SELECT_OR : H5S_SELECT_SET;
-        h5_check(file, H5Sselect_hyperslab(space, how, start, NULL, extent, NULL), "address rows");
-        rows += ranges[i].count;
-    }
-    return rows;
-}
-
-/* Writes the rows of some ranges, lying one after the other in `in`, to an open data set. */
-static void h5out_put(struct h5 *file, hid_t set, const struct h5out_rows *rows, const struct h5out_range *ranges,
-                      unsigned n, const void *in)
-{
-    hid_t where = h5_check(file, H5Dget_space(set), "address a data set");
-    size_t count = h5out_select(file, where, ranges, n, rows->columns);
-    hid_t memory = h5out_space(file, count ? count : 1, rows->columns), transfer = h5out_transfer(file);
-    if (!count) h5_check(file, H5Sselect_none(memory), "address rows");
-    h5_check(file, H5Dwrite(set, h5_type_id(rows->type), memory, where, transfer, in), "write data");
-    H5Pclose(transfer);
-    H5Sclose(memory);
-    H5Sclose(where);
-}
-
-/* Bytes of a row. */
-static size_t h5out_row(const struct h5out_rows *rows)
-{
-    return h5_type_size(rows->type) * (rows->columns ? rows->columns : 1);
-}
-
-/* All rows of this rank in one collective write. */
-static void h5out_fill_shared(struct h5 *file, hid_t set, const struct h5out_rows *rows)
-{
-    size_t count = 0, row = h5out_row(rows);
-    for (unsigned i = 0; i < rows->n_range; i++) count += rows->ranges[i].count;
-    char *buffer = mem_new(count + 1, row), *at = buffer;
+    *out = (struct h5out){.rows = rows, .row = h5_type_size(rows->type) * (rows->columns ? rows->columns : 1)};
+    out->chunk = rows->chunk < rows->total ? rows->chunk : rows->total;
+    out->n_range = rows->n_range * (unsigned)comm_size();
+    out->ranges = mem_new(out->n_range, sizeof *out->ranges);
+    out->plain = mem_new(out->chunk, out->row);
+    out->packed = mem_new(out->chunk * out->row + H5OUT_HEAD, 1);
+    double(*own)[2] = mem_new(rows->n_range, sizeof *own);
     for (unsigned i = 0; i < rows->n_range; i++) {
-        if (rows->ranges[i].count) rows->fill(rows->context, rows->ranges[i].first, rows->ranges[i].count, at);
-        at += rows->ranges[i].count * row;
+        own[i][0] = (double)rows->ranges[i].first;
+        own[i][1] = (double)rows->ranges[i].count;
     }
-    h5out_put(file, set, rows, rows->ranges, rows->n_range, buffer);
-    mem_free(buffer);
+    comm_join(*own, 2 * (int)rows->n_range, *out->ranges);
+    mem_free(own);
 }
 
-/* Run by run of whole chunks. */
-static void h5out_fill_alone(struct h5 *file, hid_t set, const struct h5out_rows *rows)
+static void h5out_end(struct h5out *out)
 {
-    size_t row = h5out_row(rows), chunk = rows->chunk ? rows->chunk : 1, chunks = H5OUT_RUN / (chunk * row);
-    size_t most = chunk * (chunks ? chunks : 1);
-    if (most > rows->total) most = rows->total;
-    char *buffer = mem_new(most, row);
-    for (unsigned i = 0; i < rows->n_range; i++) {
-        size_t end = rows->ranges[i].first + rows->ranges[i].count;
-        for (size_t first = rows->ranges[i].first; first < end && !file->code;) {
-            size_t stop = first + most - first % chunk; /* runs end where a chunk ends */
-            struct h5out_range run = {first, (stop < end ? stop : end) - first};
-            if (run.count > most) run.count = most;
-            rows->fill(rows->context, run.first, run.count, buffer);
-            h5out_put(file, set, rows, &run, 1, buffer);
-            first += run.count;
+    mem_free(out->ranges);
+    mem_free(out->plain);
+    mem_free(out->packed);
+}
+
+/* Rows of a chunk; fewer in the last one. */
+static size_t h5out_count(const struct h5out *out, size_t first)
+{
+    return out->rows->total - first < out->chunk ? out->rows->total - first : out->chunk;
+}
+
+/* The part of range `i` that lies in the chunk from row `first` on; count 0: none. */
+static struct h5out_piece h5out_piece(const struct h5out *out, size_t first, unsigned i)
+{
+    size_t from = (size_t)out->ranges[i][0], to = from + (size_t)out->ranges[i][1];
+    size_t end = first + h5out_count(out, first);
+    from = from > first ? from : first;
+    to = to < end ? to : end;
+    return (struct h5out_piece){(int)(i / out->rows->n_range), from, to > from ? to - from : 0};
+}
+
+/* Packs the chunk in `plain`, with rows [0, count) in use, behind a head; returns the size of both. */
+static size_t h5out_pack(struct h5out *out, size_t count)
+{
+    uint32_t skipped;
+    memset(out->plain + count * out->row, 0, (out->chunk - count) * out->row);
+    size_t size = chunk_pack(out->plain, out->chunk * out->row, h5_type_size(out->rows->type), out->packed + H5OUT_HEAD,
+                             &skipped);
+    memset(out->packed, 0, H5OUT_HEAD);
+    memcpy(out->packed, &skipped, sizeof skipped);
+    return size + H5OUT_HEAD;
+}
+
+/* Messages on their way to rank 0. */
+struct h5out_mail {
+    unsigned n;
+    MPI_Request *requests;
+    char **letters;
+};
+
+static void h5out_post(struct h5out_mail *mail, const char *bytes, size_t size)
+{
+    mail->requests = mem_grow(mail->requests, mail->n, mail->n + 1u, sizeof *mail->requests);
+    mail->letters = mem_grow(mail->letters, mail->n, mail->n + 1u, sizeof *mail->letters);
+    mail->letters[mail->n] = mem_new(size, 1);
+    memcpy(mail->letters[mail->n], bytes, size);
+    MPI_Isend(mail->letters[mail->n], (int)size, MPI_BYTE, 0, H5OUT_TAG, comm_world(), &mail->requests[mail->n]);
+    mail->n++;
+}
+
+/* The part of a rank other than 0. */
+static void h5out_send(struct h5out *out)
+{
+    struct h5out_mail mail = {0};
+    for (size_t first = 0; first < out->rows->total; first += out->chunk)
+        for (unsigned i = 0; i < out->n_range; i++) {
+            struct h5out_piece piece = h5out_piece(out, first, i);
+            if (!piece.count || piece.rank != comm_rank()) continue;
+            out->rows->fill(out->rows->context, piece.first, piece.count, out->plain);
+            bool whole = piece.count == h5out_count(out, first);
+            size_t size = whole ? h5out_pack(out, piece.count) : piece.count * out->row;
+            h5out_post(&mail, whole ? out->packed : out->plain, size);
         }
+    MPI_Waitall((int)mail.n, mail.requests, MPI_STATUSES_IGNORE);
+    for (unsigned i = 0; i < mail.n; i++) mem_free(mail.letters[i]);
+    mem_free(mail.letters);
+    mem_free(mail.requests);
+}
+
+/* Receives from a rank into `to`, which has room; returns the size. */
+static size_t h5out_receive(int rank, void *to, size_t room)
+{
+    MPI_Status status;
+    int size = 0;
+    MPI_Recv(to, (int)room, MPI_BYTE, rank, H5OUT_TAG, comm_world(), &status);
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    return (size_t)size;
+}
+
+/* Brings a chunk together on rank 0, packed; returns its size with head. */
+static size_t h5out_gather(struct h5out *out, size_t first)
+{
+    size_t count = h5out_count(out, first);
+    for (unsigned i = 0; i < out->n_range; i++) {
+        struct h5out_piece piece = h5out_piece(out, first, i);
+        if (!piece.count) continue;
+        char *to = out->plain + (piece.first - first) * out->row;
+        if (piece.rank == 0) out->rows->fill(out->rows->context, piece.first, piece.count, to);
+        else if (piece.count < count) h5out_receive(piece.rank, to, piece.count * out->row);
+        else return h5out_receive(piece.rank, out->packed, out->chunk * out->row + H5OUT_HEAD);
     }
-    mem_free(buffer);
+    return h5out_pack(out, count);
+}
+
+/* The part of rank 0. */
+static void h5out_store(struct h5 *file, hid_t set, struct h5out *out, const char *path)
+{
+    for (size_t first = 0; first < out->rows->total; first += out->chunk) {
+        uint32_t skipped;
+        hsize_t at[2] = {first, 0};
+        size_t size = h5out_gather(out, first) - H5OUT_HEAD;
+        memcpy(&skipped, out->packed, sizeof skipped);
+        if (file->code) continue; /* the others go on sending */
+        h5_check(file, H5Dwrite_chunk(set, H5P_DEFAULT, skipped, at, size, out->packed + H5OUT_HEAD), path);
+    }
 }
 
 int h5out_write(struct h5 *file, const char *path, const struct h5out_rows *rows)
 {
-    hid_t layout = h5out_layout(file, rows), space = h5out_space(file, rows->total, rows->columns);
-    hid_t set =
-        h5_check(file, H5Dcreate2(file->id, path, h5_type_id(rows->type), space, H5P_DEFAULT, layout, H5P_DEFAULT),
-                 path);
-    int code = h5_outcome(file);
-    if (!code && file->shared) h5out_fill_shared(file, set, rows);
-    if (!code && !file->shared) h5out_fill_alone(file, set, rows);
-    if (set >= 0) h5_check(file, H5Dclose(set), path);
-    if (space >= 0) H5Sclose(space);
-    if (layout >= 0) H5Pclose(layout);
-    return h5_outcome(file);
+    struct h5out out;
+    TRY(comm_agree(file->code));
+    h5out_begin(&out, rows);
+    if (file->idle) {
+        h5out_send(&out);
+    } else {
+        hid_t layout = h5out_layout(file, rows), space = h5out_space(file, rows->total, rows->columns);
+        hid_t set =
+            h5_check(file, H5Dcreate2(file->id, path, h5_type_id(rows->type), space, H5P_DEFAULT, layout, H5P_DEFAULT),
+                     path);
+        h5out_store(file, set, &out, path);
+        if (set >= 0) h5_check(file, H5Dclose(set), path);
+        if (space >= 0) H5Sclose(space);
+        if (layout >= 0) H5Pclose(layout);
+    }
+    h5out_end(&out);
+    return STATUS_OK;
 }
 
-struct h5out_copy {
-    const char *from;
-    size_t row; /* bytes */
-};
-
-static void h5out_copy(void *context, size_t first, size_t count, void *out)
-{
-    const struct h5out_copy *copy = context;
-    memcpy(out, copy->from + first * copy->row, count * copy->row);
-}
-
-int h5out_array(struct h5 *file, const char *path, enum h5_type type, size_t n, unsigned columns, const void *values)
-{
-    struct h5out_copy copy = {values, h5_type_size(type) * (columns ? columns : 1)};
-    struct h5out_range all = {0, n};
-    struct h5out_rows rows = {.type = type,
-                              .columns = columns,
-                              .total = n,
-                              .n_range = comm_rank() == 0,
-                              .ranges = &all,
-                              .fill = h5out_copy,
-                              .context = &copy};
-    return h5out_write(file, path, &rows);
-}
-
-/* Writes a data set of a type of its own from rank 0 and closes type and space. */
-static int h5out_whole(struct h5 *file, const char *path, const hid_t id[2], const void *values)
+/* Writes a whole data set of type id[0] and space id[1]; closes the space. */
+static void h5out_whole(struct h5 *file, const char *path, const hid_t id[2], const void *values)
 {
     hid_t layout = h5out_layout(file, &(struct h5out_rows){0});
     hid_t set = h5_check(file, H5Dcreate2(file->id, path, id[0], id[1], H5P_DEFAULT, layout, H5P_DEFAULT), path);
-    int code = h5_outcome(file);
-    hid_t memory = h5_check(file, H5Scopy(id[1]), path), transfer = h5out_transfer(file);
-    if (comm_rank() != 0) h5_check(file, H5Sselect_none(memory), path);
-    if (!code) h5_check(file, H5Dwrite(set, id[0], memory, memory, transfer, values), path);
+    h5_check(file, H5Dwrite(set, id[0], H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
     if (set >= 0) h5_check(file, H5Dclose(set), path);
-    H5Pclose(transfer);
-    H5Sclose(memory);
-    H5Pclose(layout);
-    H5Sclose(id[1]);
-    H5Tclose(id[0]);
-    return h5_outcome(file);
+    if (layout >= 0) H5Pclose(layout);
+    if (id[1] >= 0) H5Sclose(id[1]);
 }
 
-int h5out_records(struct h5 *file, const char *path, const char *const *members, unsigned n, size_t n_row,
-                  const int32_t *values)
+void h5out_array(struct h5 *file, const char *path, enum h5_type type, size_t n, unsigned columns, const void *values)
 {
+    if (file->idle) return;
+    h5out_whole(file, path, (hid_t[2]){h5_type_id(type), h5out_space(file, n, columns)}, values);
+}
+
+void h5out_records(struct h5 *file, const char *path, const char *const *members, unsigned n, size_t n_row,
+                   const int32_t *values)
+{
+    if (file->idle) return;
     hid_t type = h5_record_type(file, members, n);
-    return h5out_whole(file, path, (hid_t[2]){type, h5out_space(file, n_row, 0)}, values);
+    h5out_whole(file, path, (hid_t[2]){type, h5out_space(file, n_row, 0)}, values);
+    if (type >= 0) H5Tclose(type);
 }
 
-int h5out_text(struct h5 *file, const char *path, const char *text)
+void h5out_text(struct h5 *file, const char *path, const char *text)
 {
+    if (file->idle) return;
     hid_t type = h5_string_type(file, text, strlen(text));
-    return h5out_whole(file, path, (hid_t[2]){type, h5_check(file, H5Screate(H5S_SCALAR), path)}, text);
+    h5out_whole(file, path, (hid_t[2]){type, h5_check(file, H5Screate(H5S_SCALAR), path)}, text);
+    if (type >= 0) H5Tclose(type);
 }
 
-int h5out_unit(struct h5 *file, const char *path, const char *unit)
+void h5out_unit(struct h5 *file, const char *path, const char *unit)
 {
-    return h5_attribute_text(file, path, "units", unit);
+    h5_attribute_text(file, path, "units", unit);
 }
 
 /* Column q of a view with Q columns: block q of every group of Q blocks <- a run of the source. */
@@ -200,8 +251,9 @@ static void h5out_map(struct h5 *file, hid_t layout, hid_t space, const struct h
     if (source >= 0) H5Sclose(source);
 }
 
-int h5out_interleave(struct h5 *file, const char *path, const struct h5out_view *view)
+void h5out_interleave(struct h5 *file, const char *path, const struct h5out_view *view)
 {
+    if (file->idle) return;
     hid_t layout = h5_check(file, H5Pcreate(H5P_DATASET_CREATE), "prepare a view");
     hid_t space = h5out_space(file, view->n_group * view->group * view->n_column, 0);
     for (unsigned q = 0; q < view->n_column; q++) h5out_map(file, layout, space, view, q);
@@ -211,5 +263,4 @@ int h5out_interleave(struct h5 *file, const char *path, const struct h5out_view 
     if (set >= 0) H5Dclose(set);
     if (space >= 0) H5Sclose(space);
     if (layout >= 0) H5Pclose(layout);
-    return h5_outcome(file);
 }

@@ -1,5 +1,5 @@
-/* h5out.h - data sets of a file being written: rows shared by the ranks, small tables, texts,
- * and views that interleave other data sets. All calls are collective. */
+/* h5out.h - data sets of a file being written: rows that the ranks hold, small tables, texts, and
+ * views that interleave other data sets. All calls are collective. */
 #ifndef H5OUT_H
 #define H5OUT_H
 
@@ -10,33 +10,34 @@ struct h5out_range {
 };
 
 /* A data set of `total` rows, of which this rank writes some ranges (ascending, apart); together
- * the ranks write each row once. `fill` is asked for runs of these rows, ascending, each inside a
- * range, and writes them to `out` as `type`: conversions while writing do not work with compression. */
+ * the ranks write each row once, each rank with the same n_range. `fill` is asked for runs of these
+ * rows, ascending, each inside a range and a chunk, and writes them to `out` as `type`. */
 struct h5out_rows {
     enum h5_type type;
     unsigned columns; /* 0: shape [total], else [total, columns] */
     size_t total;
-    size_t chunk; /* rows that are compressed together (shuffle + deflate 1); 0: not compressed */
+    size_t chunk; /* rows that are compressed together (shuffle + deflate 1) */
     unsigned n_range;
     const struct h5out_range *ranges;
     void (*fill)(void *context, size_t first, size_t count, void *out);
     void *context;
 };
 
+/* Returns what has failed so far on any rank, this data set not included. */
 int h5out_write(struct h5 *file, const char *path, const struct h5out_rows *rows);
 
 /* A small array that every rank knows; rank 0 writes it. Shape as above. */
-int h5out_array(struct h5 *file, const char *path, enum h5_type type, size_t n, unsigned columns, const void *values);
+void h5out_array(struct h5 *file, const char *path, enum h5_type type, size_t n, unsigned columns, const void *values);
 
 /* A table of `n_row` records of n named i32, that every rank knows. */
-int h5out_records(struct h5 *file, const char *path, const char *const *members, unsigned n, size_t n_row,
-                  const int32_t *values);
+void h5out_records(struct h5 *file, const char *path, const char *const *members, unsigned n, size_t n_row,
+                   const int32_t *values);
 
 /* One text that every rank knows. */
-int h5out_text(struct h5 *file, const char *path, const char *text);
+void h5out_text(struct h5 *file, const char *path, const char *text);
 
 /* Names the unit of a data set (attribute `units`). */
-int h5out_unit(struct h5 *file, const char *path, const char *unit);
+void h5out_unit(struct h5 *file, const char *path, const char *unit);
 
 /* A column of a data set written before: what a view is made of. */
 struct h5out_column {
@@ -54,6 +55,6 @@ struct h5out_view {
     size_t first, group, n_group;
 };
 
-int h5out_interleave(struct h5 *file, const char *path, const struct h5out_view *view);
+void h5out_interleave(struct h5 *file, const char *path, const struct h5out_view *view);
 
 #endif

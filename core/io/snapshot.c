@@ -91,7 +91,7 @@ void snapshot_free(struct snapshots *snapshots)
 }
 
 /* Level, tile coordinates and rank of every tile. */
-static int snapshot_write_blocks(struct h5 *file, const struct mesh *mesh)
+static void snapshot_write_blocks(struct h5 *file, const struct mesh *mesh)
 {
     size_t n = vtkhdf_first_cell(mesh, mesh->n_level, 0) / mesh->n_cell, at = 0;
     int32_t *blocks = mem_new(n * SNAPSHOT_BLOCK, sizeof *blocks);
@@ -101,52 +101,51 @@ static int snapshot_write_blocks(struct h5 *file, const struct mesh *mesh)
             const int32_t block[SNAPSHOT_BLOCK] = {l, tile->at[0], tile->at[1], tile->at[2], tile->rank};
             for (int q = 0; q < SNAPSHOT_BLOCK; q++) blocks[at++] = block[q];
         }
-    int code = h5out_array(file, "/bulla/blocks", H5_I32, n, SNAPSHOT_BLOCK, blocks);
+    h5out_array(file, "/bulla/blocks", H5_I32, n, SNAPSHOT_BLOCK, blocks);
     mem_free(blocks);
-    return code;
 }
 
 /* Who wrote it: format, program, case. */
-static int snapshot_write_origin(struct h5 *file, const struct scene *scene)
+static void snapshot_write_origin(struct h5 *file, const struct scene *scene)
 {
     int32_t format = SNAPSHOT_FORMAT;
     struct text materials = {0};
     for (unsigned l = 0; l < scene->n_material; l++)
         text_add(&materials, "%s%s", l ? "," : "", scene->material[l].name);
-    TRY(h5_group(file, "/bulla"));
-    TRY(h5_attribute(file, "/bulla", "format", H5_I32, 0, &format));
-    TRY(h5_attribute_text(file, "/bulla", "version", BULLA_VERSION));
-    TRY(h5_attribute_text(file, "/bulla", "git", version_commit()));
-    TRY(h5_attribute_text(file, "/bulla", "case", scene->name));
-    TRY(h5_attribute_text(file, "/bulla", "title", scene->title ? scene->title : ""));
-    int code = h5_attribute_text(file, "/bulla", "materials", materials.at ? materials.at : "");
+    h5_group(file, "/bulla");
+    h5_attribute(file, "/bulla", "format", H5_I32, 0, &format);
+    h5_attribute_text(file, "/bulla", "version", BULLA_VERSION);
+    h5_attribute_text(file, "/bulla", "git", version_commit());
+    h5_attribute_text(file, "/bulla", "case", scene->name);
+    h5_attribute_text(file, "/bulla", "title", scene->title ? scene->title : "");
+    h5_attribute_text(file, "/bulla", "materials", materials.at ? materials.at : "");
     text_done(&materials);
-    return code;
 }
 
-static int snapshot_write_bulla(struct h5 *file, const struct state *state, const char *provenance)
+static void snapshot_write_bulla(struct h5 *file, const struct state *state, const char *provenance)
 {
     const struct mesh *mesh = state->mesh;
     int32_t dim = mesh->dim, beta = mesh->beta;
-    TRY(snapshot_write_origin(file, state->scene));
-    TRY(h5_attribute(file, "/bulla", "dim", H5_I32, 0, &dim));
-    TRY(h5_attribute(file, "/bulla", "beta", H5_I32, 0, &beta));
-    TRY(h5_attribute(file, "/bulla", "lower", H5_F64, 3, mesh->lower));
-    TRY(h5_attribute(file, "/bulla", "upper", H5_F64, 3, mesh->upper));
-    TRY(h5out_text(file, "/bulla/case.yaml", state->scene->resolved ? state->scene->resolved : ""));
-    TRY(h5out_text(file, "/bulla/provenance.json", provenance));
-    return snapshot_write_blocks(file, mesh);
+    snapshot_write_origin(file, state->scene);
+    h5_attribute(file, "/bulla", "dim", H5_I32, 0, &dim);
+    h5_attribute(file, "/bulla", "beta", H5_I32, 0, &beta);
+    h5_attribute(file, "/bulla", "lower", H5_F64, 3, mesh->lower);
+    h5_attribute(file, "/bulla", "upper", H5_F64, 3, mesh->upper);
+    h5out_text(file, "/bulla/case.yaml", state->scene->resolved ? state->scene->resolved : "");
+    h5out_text(file, "/bulla/provenance.json", provenance);
+    snapshot_write_blocks(file, mesh);
 }
 
 static int snapshot_fill(struct h5 *file, const struct state *state, const struct vtkhdf_fields *fields,
                          const char *provenance)
 {
     int32_t step = (int32_t)state->step;
-    TRY(h5_attribute(file, "/", "time", H5_F64, 0, &state->t));
-    TRY(h5_attribute(file, "/", "iteration", H5_I32, 0, &step));
+    h5_attribute(file, "/", "time", H5_F64, 0, &state->t);
+    h5_attribute(file, "/", "iteration", H5_I32, 0, &step);
     TRY(vtkhdf_write(file, state, fields));
-    if (state->mesh->dim > 1) TRY(chombo_write(file, state, fields));
-    return snapshot_write_bulla(file, state, provenance);
+    if (state->mesh->dim > 1) chombo_write(file, state, fields);
+    snapshot_write_bulla(file, state, provenance);
+    return STATUS_OK;
 }
 
 /* Writes the draft of a file. */

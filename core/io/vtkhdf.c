@@ -216,9 +216,10 @@ static int vtkhdf_write_counts(struct vtkhdf *part)
     if (ids > INT32_MAX || points > INT32_MAX)
         return status_fail(STATUS_RUN, "%s: %lld cells are more than a plot file can hold (%d)", part->file->path,
                            (long long)cells, INT32_MAX / part->corners);
-    TRY(h5out_array(part->file, "/VTKHDF/NumberOfPoints", H5_I64, 1, 0, &points));
-    TRY(h5out_array(part->file, "/VTKHDF/NumberOfCells", H5_I64, 1, 0, &cells));
-    return h5out_array(part->file, "/VTKHDF/NumberOfConnectivityIds", H5_I64, 1, 0, &ids);
+    h5out_array(part->file, "/VTKHDF/NumberOfPoints", H5_I64, 1, 0, &points);
+    h5out_array(part->file, "/VTKHDF/NumberOfCells", H5_I64, 1, 0, &cells);
+    h5out_array(part->file, "/VTKHDF/NumberOfConnectivityIds", H5_I64, 1, 0, &ids);
+    return STATUS_OK;
 }
 
 static int vtkhdf_write_field(struct vtkhdf *part, const struct derive *field)
@@ -235,24 +236,25 @@ static int vtkhdf_write_field(struct vtkhdf *part, const struct derive *field)
                               .fill = vtkhdf_fill_field,
                               .context = part};
     TRY(h5out_write(part->file, path, &rows));
-    return h5out_unit(part->file, path, field->unit);
+    h5out_unit(part->file, path, field->unit);
+    return STATUS_OK;
 }
 
-static int vtkhdf_write_frame(struct vtkhdf *part)
+static void vtkhdf_write_frame(struct vtkhdf *part)
 {
     static const char *const groups[] = {"/VTKHDF", "/VTKHDF/CellData", "/VTKHDF/PointData", "/VTKHDF/FieldData"};
-    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++) TRY(h5_group(part->file, groups[i]));
-    TRY(h5_attribute(part->file, "/VTKHDF", "Version", H5_I64, 2, (int64_t[]){1, 0}));
-    TRY(h5_attribute_text(part->file, "/VTKHDF", "Type", "UnstructuredGrid"));
-    return h5out_array(part->file, "/VTKHDF/FieldData/TimeValue", H5_F64, 1, 0, &part->state->t);
+    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++) h5_group(part->file, groups[i]);
+    h5_attribute(part->file, "/VTKHDF", "Version", H5_I64, 2, (int64_t[]){1, 0});
+    h5_attribute_text(part->file, "/VTKHDF", "Type", "UnstructuredGrid");
+    h5out_array(part->file, "/VTKHDF/FieldData/TimeValue", H5_F64, 1, 0, &part->state->t);
 }
 
 int vtkhdf_write(struct h5 *file, const struct state *state, const struct vtkhdf_fields *fields)
 {
     struct vtkhdf part = {.file = file, .state = state, .mesh = state->mesh, .type = fields->type};
     vtkhdf_begin(&part);
-    int code = vtkhdf_write_frame(&part);
-    if (!code) code = vtkhdf_write_counts(&part);
+    vtkhdf_write_frame(&part);
+    int code = vtkhdf_write_counts(&part);
     if (!code) code = vtkhdf_write_points(&part);
     if (!code) code = vtkhdf_write_cells(&part);
     for (unsigned i = 0; !code && i < fields->n; i++) code = vtkhdf_write_field(&part, &fields->at[i]);

@@ -58,9 +58,9 @@ static void test_rows(void **state)
                                .fill = fill,
                                .context = &calls};
     assert_int_equal(h5_create(path, &file), 0);
-    assert_int_equal(h5_group(file, "/part"), 0);
+    h5_group(file, "/part");
     assert_int_equal(h5out_write(file, "/part/table", &table), 0);
-    assert_int_equal(h5out_unit(file, "/part/table", "m/s"), 0);
+    h5out_unit(file, "/part/table", "m/s");
     assert_int_equal(h5_close(file), 0);
     assert_true(calls > 1); /* in runs, not at once */
     double *values = mem_new(3 * n, sizeof *values);
@@ -91,12 +91,12 @@ static void test_attributes(void **state)
     const double time = 1.25e-7;
     const int32_t step = 17;
     assert_int_equal(h5_create(path, &file), 0);
-    assert_int_equal(h5_attribute(file, "/", "Version", H5_I64, 2, version), 0);
-    assert_int_equal(h5_attribute(file, "/", "time", H5_F64, 0, &time), 0);
-    assert_int_equal(h5_attribute(file, "/", "step", H5_I32, 0, &step), 0);
-    assert_int_equal(h5_attribute_text(file, "/", "title", "10 \xc2\xb5m"), 0);
-    assert_int_equal(h5_attribute_text(file, "/", "empty", ""), 0);
-    assert_int_equal(h5out_text(file, "/case.yaml", "bulla: 1\n"), 0);
+    h5_attribute(file, "/", "Version", H5_I64, 2, version);
+    h5_attribute(file, "/", "time", H5_F64, 0, &time);
+    h5_attribute(file, "/", "step", H5_I32, 0, &step);
+    h5_attribute_text(file, "/", "title", "10 \xc2\xb5m");
+    h5_attribute_text(file, "/", "empty", "");
+    h5out_text(file, "/case.yaml", "bulla: 1\n");
     assert_int_equal(h5_close(file), 0);
     double numbers[2];
     char *text;
@@ -130,9 +130,9 @@ static void test_interleave(void **state)
     const double expected[8] = {0, 1, 10, 11, 2, 3, 12, 13};
     double values[8];
     assert_int_equal(h5_create(path, &file), 0);
-    assert_int_equal(h5out_array(file, "/a", H5_F32, 4, 0, a), 0);
-    assert_int_equal(h5out_array(file, "/b", H5_F32, 4, 3, b), 0);
-    assert_int_equal(h5out_interleave(file, "/view", &view), 0);
+    h5out_array(file, "/a", H5_F32, 4, 0, a);
+    h5out_array(file, "/b", H5_F32, 4, 3, b);
+    h5out_interleave(file, "/view", &view);
     assert_int_equal(h5_close(file), 0);
     assert_int_equal(h5_open(path, &file), 0);
     assert_int_equal(h5in_read(file, "/view", values), 0);
@@ -152,9 +152,10 @@ static void test_failures(void **state)
     assert_int_equal(h5_open("CMakeLists.txt", &file), STATUS_RUN);
     assert_string_equal(status_text(), "CMakeLists.txt: not an HDF5 file");
     assert_int_equal(h5_create(path, &file), 0);
-    assert_int_equal(h5_group(file, "/no/such/parent"), STATUS_RUN);
+    h5_group(file, "/no/such/parent");
+    h5_group(file, "/fine");
+    assert_int_equal(h5_close(file), STATUS_RUN);
     assert_non_null(strstr(status_text(), "cannot make a group"));
-    h5_abandon(file);
 }
 
 /* A full disk: the message names the reason and what is free. */
