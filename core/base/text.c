@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { TEXT_WORD = 64 };
 
@@ -117,6 +118,7 @@ const char *text_nearest(const char *word, const char *const *names)
     unsigned length = (unsigned)strlen(word), least = length / 3 + 2;
     if (least > length) least = length; /* nothing of the word would be left */
     for (; *names; names++) {
+        if (strcasecmp(word, *names) == 0) return *names;
         unsigned distance = text_distance(word, *names);
         if (distance < least) {
             least = distance;

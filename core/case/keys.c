@@ -94,19 +94,28 @@ static void keys_rows_others(struct keys *keys, struct keys_rows *rows, const st
     }
 }
 
-/* Finds the section below `section` that has a key; writes its path. */
+static bool keys_home(const struct keys_section *section, const char *name, unsigned depth, struct text *path);
+
+/* The same below one key. */
+static bool keys_home_below(const struct key *key, const char *name, unsigned depth, struct text *path)
+{
+    if (!key->section || key->type == KEYS_TREE) return false;
+    size_t before = path->length;
+    const char *entry = key->many == KEYS_NAMED ? ".NAME" : key->many == KEYS_LIST ? "[..]" : "";
+    text_add(path, "%s%s%s", before ? "." : "", key->name, entry);
+    if (keys_home(key->section, name, depth, path)) return true;
+    path->length = before;
+    return false;
+}
+
+/* Finds a section `depth` levels below this one that has a key; writes its path. */
 static bool keys_home(const struct keys_section *section, const char *name, unsigned depth, struct text *path)
 {
-    for (const struct key *key = section->keys; key && key->name && depth == 0; key++)
-        if (strcmp(key->name, name) == 0) return true;
-    for (const struct key *key = section->keys; key && key->name && depth > 0; key++) {
-        if (!key->section || key->type == KEYS_TREE) continue;
-        size_t before = path->length;
-        bool named = key->many == KEYS_NAMED;
-        text_add(path, "%s%s%s", before ? "." : "", key->name, named ? ".NAME" : key->many == KEYS_LIST ? "[..]" : "");
-        if (keys_home(key->section, name, depth - 1, path)) return true;
-        path->length = before;
-    }
+    for (; section; section = section->base)
+        for (const struct key *key = section->keys; key && key->name; key++) {
+            if (depth == 0 && strcmp(key->name, name) == 0) return true;
+            if (depth > 0 && keys_home_below(key, name, depth - 1, path)) return true;
+        }
     return false;
 }
 
@@ -267,7 +276,7 @@ static void keys_read_row(struct keys *keys, struct keys_map *map, const struct 
 {
     struct keys_value *value = &map->values[i];
     const struct key *key = rows->at[i];
-    *value = (struct keys_value){.key = key, .path = keys_join(keys, map->path, key->name)};
+    *value = (struct keys_value){.key = key, .path = keys_join(keys, map->path, key->name), .meant = rows->meant[i]};
     int at = tree_find(map->node, key->name);
     value->node = at >= 0 ? map->node->items[at] : keys_fallback(keys, map, key);
     if (!value->node) {
@@ -302,6 +311,7 @@ struct keys_map *keys_read(struct keys *keys, struct node *node, const struct ke
 {
     if (node->kind != TREE_MAP && !keys_shorthand(keys, node, section)) {
         diag_error(keys->diag, &node->mark, "%s: a map of keys is needed, not %s", path, tree_describe(node));
+        if (tree_is_null(node)) diag_help(keys->diag, "keys that belong to it are indented deeper than it is");
         return NULL;
     }
     struct keys_rows rows = {0};

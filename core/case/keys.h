@@ -68,6 +68,7 @@ struct keys_value {
     struct node *node;           /* NULL: absent, no default */
     const char *path;            /* "domain.cells[1]", for messages */
     bool given;                  /* present or defaulted, and right */
+    bool meant;                  /* an unknown key, which is recorded, was probably meant to be this one */
     double number;               /* numbers, values; of `every` when it is a time */
     long integer;                /* integers; steps of `every`; flags 0, 1; index of a choice in `choices` */
     const char *text;            /* texts, names, choices */

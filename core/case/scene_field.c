@@ -27,6 +27,17 @@ static bool scene_field_in(const char *name, const char *const *names)
     return false;
 }
 
+/* What people write on paper. */
+static const char *scene_field_of_symbol(const char *symbol)
+{
+    static const char *const symbols[][2] = {{"p", "pressure"},    {"P", "pressure"}, {"rho", "density"},
+                                             {"u", "velocity"},    {"v", "velocity"}, {"T", "temperature"},
+                                             {"c", "sound_speed"}, {"M", "mach"},     {"omega", "vorticity"}};
+    for (size_t i = 0; i < sizeof symbols / sizeof *symbols; i++)
+        if (strcmp(symbol, symbols[i][0]) == 0) return symbols[i][1];
+    return NULL;
+}
+
 /* All names this scene has; NULL-terminated, in the forest. */
 static const char *const *scene_field_names(struct draft *draft)
 {
@@ -56,7 +67,9 @@ bool scene_field(struct draft *draft, const struct keys_value *value, char ret_n
         return false;
     }
     keys_error(&draft->keys, value, "there is no field '%s'", value->text);
-    diag_suggest(draft->keys.diag, value->text, names);
+    const char *name = scene_field_of_symbol(value->text);
+    if (name) diag_help(draft->keys.diag, "did you mean '%s'?", name);
+    else diag_suggest(draft->keys.diag, value->text, names);
     return false;
 }
 

@@ -52,16 +52,22 @@ static void scene_initial_need(struct draft *draft, const struct keys_map *map, 
     diag_help(draft->keys.diag, "%s", help);
 }
 
+/* Is the key there, or a misspelt one that is reported already? */
+static bool scene_initial_says(const struct keys_map *map, const char *name)
+{
+    return keys_at(map, name)->node || keys_at(map, name)->meant;
+}
+
 /* What a layer with a material must say: everything that makes a state. */
 static void scene_initial_complete(struct draft *draft, struct scene_layer *layer, const struct keys_map *map)
 {
-    bool density = keys_at(map, "density")->node, temperature = keys_at(map, "temperature")->node;
-    if (density && temperature)
+    bool density = scene_initial_says(map, "density"), temperature = scene_initial_says(map, "temperature");
+    if (keys_at(map, "density")->node && keys_at(map, "temperature")->node)
         keys_error(&draft->keys, keys_at(map, "temperature"), "either 'density' or 'temperature', not both");
     if (!layer->has_material) return;
     if (!density && !temperature)
         scene_initial_need(draft, map, "the density is missing", "give 'density: 998.2 kg/m3' or 'temperature: 300 K'");
-    if (!keys_at(map, "pressure")->node)
+    if (!scene_initial_says(map, "pressure"))
         scene_initial_need(draft, map, "the pressure is missing", "give 'pressure: 101325 Pa'");
 }
 
