@@ -79,6 +79,17 @@ static void study_read(const char *directory, struct study_row *row)
     mem_free(path);
 }
 
+/* CPU time as the run counted it, without start and judgement; `fallback` if it could not write that. */
+static double study_cpu(const char *directory, double fallback)
+{
+    char *path = mem_print("%s/provenance.json", directory);
+    json_t *root = json_load_file(path, 0, NULL);
+    double cpu = study_number(root, "cpu_s", fallback);
+    json_decref(root);
+    mem_free(path);
+    return cpu;
+}
+
 /* In the child: becomes `bulla run ...`, its terminal output in DIRECTORY.txt. */
 static void study_become(const struct study *study, unsigned index, const struct study_options *options,
                          const char *directory)
@@ -128,7 +139,7 @@ int study_run(struct study *study, unsigned index, const struct study_options *o
         return status_fail(STATUS_RUN, "cannot start a run: %s", strerror(errno));
     }
     row->code = WIFEXITED(state) ? WEXITSTATUS(state) : STATUS_RUN;
-    row->cpu = study_user_time() - before;
+    row->cpu = study_cpu(directory, study_user_time() - before);
     row->judged = study->matrix.rows[index].count >= study->matrix.count;
     if (row->code <= STATUS_EXPECT) study_read(directory, row);
     mem_free(directory);

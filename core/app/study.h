@@ -1,7 +1,6 @@
 /* study.h - one verification scene, run once per row of its matrix by this program itself.
  *
- * Every run is a process of its own: a crash ends a row, not the study, and its CPU time is
- * what the system counted. */
+ * Every run is a process of its own: a crash ends a row, not the study. */
 #ifndef STUDY_H
 #define STUDY_H
 
@@ -19,7 +18,7 @@ struct study_value {
 
 struct study_row {
     int code;    /* exit code of the run: 0, 1, or a failure */
-    double cpu;  /* user time of the run and its ranks [s] */
+    double cpu;  /* CPU time of the run, all ranks [s] */
     bool judged; /* as fine as the case itself or finer: its bounds hold here */
     unsigned n_value;
     struct study_value *values;
