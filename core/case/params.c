@@ -334,6 +334,17 @@ void params_read(struct params *params, struct node *map)
     }
 }
 
+void params_spare(struct params *params, const struct node *node)
+{
+    char name[PARAMS_WORD];
+    if (!node) return;
+    for (unsigned i = 0; i < node->count; i++) params_spare(params, node->items[i]);
+    for (const char *text = node->kind == TREE_SCALAR ? node->text : ""; params_next(&text, name);) {
+        struct param *param = params_find(params, name);
+        if (param) param->used = true;
+    }
+}
+
 void params_warn_unused(struct params *params)
 {
     for (unsigned i = 0; i < params->count; i++)

@@ -48,6 +48,9 @@ void params_keep(struct params *params, const char *text);
 /* Is it the name of a parameter? */
 bool params_has(const struct params *params, const char *name);
 
+/* Notes the parameters that any scalar below a node mentions: overlays that are not applied now. */
+void params_spare(struct params *params, const struct node *node);
+
 /* Warns about parameters that nothing used. */
 void params_warn_unused(struct params *params);
 

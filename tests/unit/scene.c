@@ -11,7 +11,9 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "case/scene.h"
-#include "case/tree.h"
+#include "base/text.h"
+#include "phys/derive.h"
+#include "phys/model.h"
 
 #include <glob.h>
 #include <math.h>
@@ -307,6 +309,46 @@ static void waves_and_inflows_keep_their_numbers(void **state)
     scene_free(scene);
 }
 
+static int read_with_fields(const char *fields, struct scene **ret_scene, char **ret_said)
+{
+    char *set = mem_print("output.snapshots.fields=[%s]", fields);
+    const char *sets[] = {set, NULL};
+    struct scene_options options = {.sets = sets};
+    size_t length;
+    options.messages = open_memstream(ret_said, &length);
+    int code = scene_read("tests/data/case/good/design.yaml", &options, ret_scene);
+    fclose(options.messages);
+    mem_free(set);
+    return code;
+}
+
+/* Cases may name exactly what can be derived. */
+static void fields_of_cases_are_those_that_can_be_derived(void **state)
+{
+    (void)state;
+    struct scene *scene = good("design"), *all = NULL;
+    struct model *model = model_new(scene);
+    struct text list = {0};
+    struct derive field;
+    char *said = NULL;
+    unsigned count = 0;
+    for (const char *const *name = derive_names(model); *name; name++)
+        text_add(&list, "%s%s", list.length ? ", " : "", *name);
+    if (read_with_fields(list.at, &all, &said)) fail_msg("%s", said);
+    free(said);
+    assert_int_equal(read_with_fields("qqqqqqqqqqqqqqqq", &all, &said), STATUS_CASE);
+    char *allowed = strstr(said, "allowed: ");
+    assert_non_null(allowed);
+    for (char *name = strtok(allowed + 9, ", \n"); name; name = strtok(NULL, ", \n"), count++)
+        if (derive_find(model, name, &field)) fail_msg("%s", status_text());
+    assert_true(count >= 16 + 4 * 3);
+    free(said);
+    text_done(&list);
+    scene_free(all);
+    model_free(model);
+    scene_free(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -318,6 +360,7 @@ int main(void)
         cmocka_unit_test(overlays_are_laid_in_order),
         cmocka_unit_test(one_number_in_many_units),
         cmocka_unit_test(waves_and_inflows_keep_their_numbers),
+        cmocka_unit_test(fields_of_cases_are_those_that_can_be_derived),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
