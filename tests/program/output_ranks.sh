@@ -44,7 +44,10 @@ END
 run()
 {
     mkdir -p "$1"
-    (cd "$1" && cp ../bubble.yaml . && "$BULLA" run bubble.yaml -o out -n "$2" --quiet --overwrite)
+    # Open MPI leaks by itself: the leak checker of a sanitized build would only see that
+    (cd "$1" && cp ../bubble.yaml . &&
+        ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" \
+            "$BULLA" run bubble.yaml -o out -n "$2" --quiet --overwrite)
 }
 rm -rf alone one two three
 mkdir -p alone
