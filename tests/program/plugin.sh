@@ -1,7 +1,7 @@
 # A plugin from outside the tree: built as its author would, found through BULLA_MODULE_PATH and
 # through `modules:` in a case, its keys read, checked and documented like those of a built-in law.
 set -eu
-cmake -S "$BULLA_SOURCE/tests/plugin" -B plugin -Dbulla_DIR="$BULLA_SOURCE/core/include/bulla" >log 2>&1 &&
+cmake -G Ninja -S "$BULLA_SOURCE/tests/plugin" -B plugin -Dbulla_DIR="$BULLA_SOURCE/core/include/bulla" >log 2>&1 &&
     cmake --build plugin >>log 2>&1 || { cat log; exit 1; }
 object=plugin/eos-tait-murnaghan.so
 [ "$(nm -D --defined-only "$object" | awk '{print $3}')" = bulla_module ] || { echo "it exports more than its name"; exit 1; }
