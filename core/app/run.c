@@ -137,8 +137,9 @@ static int run_until_end(struct run *run)
         cli_failed(code);
     }
     if (record_last(run->record, run->state)) {
-        code = cli_failed(STATUS_RUN);
-        run_because(run, "%s", status_text());
+        log_error("the last state could not be saved: %s", status_text());
+        if (code != STATUS_RUN) run_because(run, "%s", status_text());
+        return STATUS_RUN;
     }
     run_say_end(run, code);
     return code;

@@ -56,9 +56,20 @@ run 2 'exclude each other' tube.yaml --quiet --json -o never
 run 2 'not part of version' tube.yaml --restart
 [ ! -e never ]
 
-# 3: the directory cannot be made.
+# 3: the directory cannot be made, nor a folder in it.
 echo >file
 run 3 'cannot make the output directory' tube.yaml -o file/below
+mkdir taken
+echo >taken/fields
+run 3 'taken/fields' tube.yaml -o taken
+
+# 3: the gas is torn apart; the last good state and the reason are kept.
+sed 's/pressure: 1}/pressure: 1, velocity: [-50]}/; s/pressure: 0.1}/pressure: 0.1, velocity: [50]}/' tube.yaml >torn.yaml
+run 3 'error: step [0-9]+ at t = .* cannot be completed: .*air.*cell' torn.yaml -o torn --set scheme.guard=strict
+grep -q 'last good state' said
+[ "$(ls torn/fields | grep -c '\.hdf$')" = 2 ]
+grep -q '"exit_code": 3' torn/provenance.json
+grep -q '"exit_reason": "step .* cannot be completed' torn/provenance.json
 
 # From another directory; --until with a unit; --quiet is silent.
 mkdir there
