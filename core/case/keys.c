@@ -14,13 +14,18 @@
 #include <stdarg.h>
 #include <string.h>
 
-enum { KEYS_ROWS = 128, KEYS_HOME_DEPTH = 4 };
+enum { KEYS_HOME_DEPTH = 4 };
+
+struct keys_row {
+    const struct key *key;
+    const struct keys_section *selects; /* the section whose selector this row is, or NULL */
+    bool meant;                         /* an unknown key probably meant this one: it is not missing */
+};
 
 /* The rows that apply to one map, while it is read. */
 struct keys_rows {
-    const struct key *at[KEYS_ROWS];
-    const struct keys_section *selects[KEYS_ROWS]; /* the section whose selector this row is, or NULL */
-    bool meant[KEYS_ROWS];                         /* an unknown key probably meant this one: it is not missing */
+    struct forest *forest;
+    struct keys_row *list;
     unsigned count;
     const struct keys_section *chosen;
     bool open; /* a case was not recognised: which keys are allowed is not known */
@@ -50,17 +55,27 @@ static const char *keys_join(struct keys *keys, const char *path, const char *na
     return *path ? tree_print(keys->forest, "%s.%s", path, name) : tree_print(keys->forest, "%s", name);
 }
 
+static void keys_rows_push(struct keys_rows *rows, const struct key *key)
+{
+    unsigned count = rows->count;
+    if ((count & (count - 1)) == 0) { /* full at every power of two */
+        struct keys_row *larger = tree_take(rows->forest, (count ? 2 * (size_t)count : 1) * sizeof *larger);
+        if (count) memcpy(larger, rows->list, count * sizeof *larger);
+        rows->list = larger;
+    }
+    rows->list[rows->count++] = (struct keys_row){.key = key};
+}
+
 static void keys_rows_add(struct keys_rows *rows, const struct keys_section *section)
 {
     if (section->base) keys_rows_add(rows, section->base);
-    for (const struct key *key = section->keys; key && key->name && rows->count < KEYS_ROWS; key++)
-        rows->at[rows->count++] = key;
+    for (const struct key *key = section->keys; key && key->name; key++) keys_rows_push(rows, key);
 }
 
 static int keys_rows_find(const struct keys_rows *rows, const char *name)
 {
     for (unsigned i = 0; i < rows->count; i++)
-        if (strcmp(rows->at[i]->name, name) == 0) return (int)i;
+        if (strcmp(rows->list[i].key->name, name) == 0) return (int)i;
     return -1;
 }
 
@@ -71,8 +86,8 @@ static void keys_rows_choose(struct keys *keys, struct keys_rows *rows, const st
     while (section && section->selector) {
         int row = keys_rows_find(rows, section->selector);
         const struct node *node = tree_get(map, section->selector);
-        const char *name = node && node->kind == TREE_SCALAR ? node->text : node ? "" : rows->at[row]->fallback;
-        rows->selects[row] = section;
+        const char *name = node && node->kind == TREE_SCALAR ? node->text : node ? "" : rows->list[row].key->fallback;
+        rows->list[row].selects = section;
         section = name ? family_find(keys->forest, section, name) : NULL;
         rows->open = !section;
         if (!section) return;
@@ -85,12 +100,12 @@ static void keys_rows_choose(struct keys *keys, struct keys_rows *rows, const st
 static void keys_rows_others(struct keys *keys, struct keys_rows *rows, const struct keys_section *section,
                              const struct node *map)
 {
-    for (unsigned i = 0; section->others && i < map->count && rows->count < KEYS_ROWS; i++) {
+    for (unsigned i = 0; section->others && i < map->count; i++) {
         if (keys_rows_find(rows, map->keys[i]->text) >= 0) continue;
         struct key *key = tree_take(keys->forest, sizeof *key);
         *key = *section->others;
         key->name = map->keys[i]->text;
-        rows->at[rows->count++] = key;
+        keys_rows_push(rows, key);
     }
 }
 
@@ -123,11 +138,12 @@ static bool keys_home(const struct keys_section *section, const char *name, unsi
 static const char *keys_other_case(struct keys *keys, const struct keys_rows *rows, const char *name)
 {
     for (unsigned i = 0; i < rows->count; i++) {
-        const char *const *cases = rows->selects[i] ? family_names(keys->forest, rows->selects[i]) : NULL;
+        const char *const *cases = rows->list[i].selects ? family_names(keys->forest, rows->list[i].selects) : NULL;
         for (; cases && *cases; cases++) {
-            struct keys_rows other = {0};
-            keys_rows_add(&other, family_find(keys->forest, rows->selects[i], *cases));
-            if (keys_rows_find(&other, name) >= 0) return tree_print(keys->forest, "%s: %s", rows->at[i]->name, *cases);
+            struct keys_rows other = {.forest = keys->forest};
+            keys_rows_add(&other, family_find(keys->forest, rows->list[i].selects, *cases));
+            if (keys_rows_find(&other, name) >= 0)
+                return tree_print(keys->forest, "%s: %s", rows->list[i].key->name, *cases);
         }
     }
     return NULL;
@@ -164,7 +180,7 @@ static void keys_unknown_help(struct keys *keys, const struct keys_rows *rows, c
         text_done(&path);
         return;
     }
-    for (unsigned i = 0; i < rows->count; i++) text_add(&path, "%s%s", i ? ", " : "", rows->at[i]->name);
+    for (unsigned i = 0; i < rows->count; i++) text_add(&path, "%s%s", i ? ", " : "", rows->list[i].key->name);
     diag_help(keys->diag, "allowed: %s", path.length ? path.at : "no keys at all");
     text_done(&path);
 }
@@ -172,8 +188,8 @@ static void keys_unknown_help(struct keys *keys, const struct keys_rows *rows, c
 /* Records keys that are in no row. */
 static void keys_unknown(struct keys *keys, const struct keys_map *map, struct keys_rows *rows)
 {
-    const char *names[KEYS_ROWS + 1];
-    for (unsigned i = 0; i < rows->count; i++) names[i] = rows->at[i]->name;
+    const char **names = tree_take(keys->forest, (rows->count + 1) * sizeof *names);
+    for (unsigned i = 0; i < rows->count; i++) names[i] = rows->list[i].key->name;
     names[rows->count] = NULL;
     for (unsigned k = 0; k < map->node->count; k++) {
         const struct node *key = map->node->keys[k];
@@ -184,7 +200,7 @@ static void keys_unknown(struct keys *keys, const struct keys_map *map, struct k
                    *map->path ? map->path : "the case", map->chosen ? " (" : "", map->chosen ? in : "",
                    map->chosen ? ")" : "");
         keys_unknown_help(keys, rows, key->text, nearest);
-        for (unsigned i = 0; i < rows->count; i++) rows->meant[i] |= nearest == names[i];
+        for (unsigned i = 0; i < rows->count; i++) rows->list[i].meant |= nearest == names[i];
     }
 }
 
@@ -275,13 +291,14 @@ static void keys_missing(struct keys *keys, const struct keys_map *map, const st
 static void keys_read_row(struct keys *keys, struct keys_map *map, const struct keys_rows *rows, unsigned i)
 {
     struct keys_value *value = &map->values[i];
-    const struct key *key = rows->at[i];
-    *value = (struct keys_value){.key = key, .path = keys_join(keys, map->path, key->name), .meant = rows->meant[i]};
+    const struct key *key = rows->list[i].key;
+    *value =
+        (struct keys_value){.key = key, .path = keys_join(keys, map->path, key->name), .meant = rows->list[i].meant};
     int at = tree_find(map->node, key->name);
     value->node = at >= 0 ? map->node->items[at] : keys_fallback(keys, map, key);
     if (!value->node) {
         bool preset = map->chosen && map->chosen->module && tree_get(map->node, "preset"); /* wrong, and told so */
-        if (key->required && !rows->meant[i] && !preset && !map->node->broken) keys_missing(keys, map, key);
+        if (key->required && !rows->list[i].meant && !preset && !map->node->broken) keys_missing(keys, map, key);
         return;
     }
     if (at >= 0 && key->later && !key->refused) {
@@ -289,7 +306,7 @@ static void keys_read_row(struct keys *keys, struct keys_map *map, const struct 
         return;
     }
     if (at < 0) tree_set(keys->forest, map->node, key->name, value->node);
-    keys_read_value(keys, value, rows->selects[i] ? family_names(keys->forest, rows->selects[i]) : NULL);
+    keys_read_value(keys, value, rows->list[i].selects ? family_names(keys->forest, rows->list[i].selects) : NULL);
 }
 
 /* Rows first, in their order; keys that are not known last. */
@@ -297,7 +314,7 @@ static void keys_sort(struct node *map, const struct keys_rows *rows)
 {
     unsigned done = 0;
     for (unsigned i = 0; i < rows->count; i++) {
-        int at = tree_find(map, rows->at[i]->name);
+        int at = tree_find(map, rows->list[i].key->name);
         if (at < 0) continue;
         struct node *key = map->keys[at], *item = map->items[at];
         memmove(map->keys + done + 1, map->keys + done, ((unsigned)at - done) * sizeof(struct node *));
@@ -314,7 +331,7 @@ struct keys_map *keys_read(struct keys *keys, struct node *node, const struct ke
         if (tree_is_null(node)) diag_help(keys->diag, "keys that belong to it are indented deeper than it is");
         return NULL;
     }
-    struct keys_rows rows = {0};
+    struct keys_rows rows = {.forest = keys->forest};
     keys_rows_add(&rows, section);
     keys_rows_choose(keys, &rows, section, node);
     keys_rows_others(keys, &rows, section, node);

@@ -36,7 +36,6 @@ bool scene_domain_vector(struct draft *draft, const struct keys_value *value, do
 
 /* Index of a material, or -1 after a recorded error with a suggestion. */
 int scene_material_index(struct draft *draft, const struct keys_value *value);
-int scene_material_find(const struct scene *scene, const char *name);
 
 /* Opens the module that a section names; nothing happens if the section is wrong. */
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);
@@ -77,7 +76,5 @@ struct shape *scene_shape(struct draft *draft, const struct keys_map *map, bool 
 bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME]);
 bool scene_field_list(struct draft *draft, const struct keys_value *list, char (**ret_names)[SCENE_NAME],
                       unsigned *ret_count);
-
-struct scene_every scene_output_every(const struct keys_value *value);
 
 #endif

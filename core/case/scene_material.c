@@ -33,7 +33,7 @@ static const struct key scene_material_rows[] = {
 
 const struct keys_section scene_material_keys = {.name = "material", .doc = "A material.", .keys = scene_material_rows};
 
-int scene_material_find(const struct scene *scene, const char *name)
+static int scene_material_find(const struct scene *scene, const char *name)
 {
     for (unsigned i = 0; i < scene->n_material; i++)
         if (strcmp(scene->material[i].name, name) == 0) return (int)i;

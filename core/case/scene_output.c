@@ -119,7 +119,7 @@ const struct keys_section scene_output_keys = {.name = "output",
                                                .doc = "What is written, where and how often.",
                                                .keys = scene_output_rows};
 
-struct scene_every scene_output_every(const struct keys_value *value)
+static struct scene_every scene_output_every(const struct keys_value *value)
 {
     return (struct scene_every){value->integer ? 0.0 : value->number, value->integer};
 }
