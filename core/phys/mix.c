@@ -172,15 +172,15 @@ static void mix_close_newton(const struct model *model, size_t n, size_t stride,
         for (size_t i = 0; i < n; i++) {
             if (done[i]) continue;
             double e = energy[i] - 0.5 * twice[i], excess = f.value[i] - e, old = p[i];
-            if (excess > 0) high.value[i] = old;
-            else low.value[i] = old;
-            double next = old - excess / slope.value[i];
-            if (!(next > low.value[i] && next < high.value[i]))
-                next = isfinite(high.value[i]) ? 0.5 * (low.value[i] + high.value[i]) : 2.0 * fabs(old) + 1e5;
+            double newton = excess / slope.value[i], next = old - newton;
             double floor_error = 4.0 * 2.2e-16 * (fabs(e) + fabs(f.value[i])) / slope.value[i];
             double tolerance = 1e-13 * fabs(old) > floor_error ? 1e-13 * fabs(old) : floor_error;
+            done[i] = fabs(newton) <= tolerance; /* a bracket that shrinks onto its lower end is no root */
+            if (excess > 0) high.value[i] = old;
+            else low.value[i] = old;
+            if (!done[i] && !(next > low.value[i] && next < high.value[i]))
+                next = isfinite(high.value[i]) ? 0.5 * (low.value[i] + high.value[i]) : 2.0 * fabs(old) + 1e5;
             p[i] = next;
-            done[i] = fabs(next - old) <= tolerance;
             all = all && done[i];
         }
     }
