@@ -116,6 +116,14 @@ static double relax_pressure(struct relax *relax)
     return floor + high;
 }
 
+/* Sum 1, to round-off; none above 1. */
+static void relax_normalise(struct relax *relax)
+{
+    double sum = 0.0;
+    for (unsigned l = 0; l < relax->model->n_alpha; l++) sum += relax->u[l];
+    for (unsigned l = 0; l < relax->model->n_alpha; l++) relax->u[l] /= sum;
+}
+
 /* Mixture pressure that the conserved energy gives with the present fractions. */
 static double relax_close(struct relax *relax)
 {
@@ -168,8 +176,10 @@ bool relax_cell(const struct model *model, size_t stride, const double *u_old, d
     double resolved = relax.floor + RELAX_RESOLVED * relax.stiffest;
     p = p > resolved ? p : resolved;
     for (unsigned l = 0; l < model->n_alpha; l++) relax.u[l] = relax.present[l] ? relax.m[l] * relax.v[l] : 0.0;
+    relax_normalise(&relax);
     if (!(relax_close(&relax) - relax.floor > 0.5 * (p - relax.floor))) {
         relax_shift(&relax, p);
+        relax_normalise(&relax);
         relax_close(&relax);
     }
     for (unsigned q = 0; q < model->n_field; q++) {

@@ -24,6 +24,7 @@ static double advance_attempt(struct stage *stage, double *ret_signal)
     double found[3] = {(double)stage->guard->bad[0], (double)stage->guard->bad[1], stage->signal};
     comm_max(found, 3);
     *ret_signal = found[2];
+    if (found[0] > 0.0 || found[1] > 0.0) guard_settle(stage->guard, found[0] > 0.0);
     return found[0] > 0.0 ? found[0] : found[1];
 }
 
@@ -36,8 +37,7 @@ static double advance_rounds(struct state *state, double *ret_signal)
     for (int round = 0;; round++) {
         double bad = advance_attempt(stage, ret_signal);
         if (bad == 0.0 || strict || round == GUARD_ROUNDS) return bad;
-        long long marked = stage->guard->bad[0] ? stage->guard->bad[0] : stage->guard->bad[1];
-        state->counts.fallback += marked;
+        state->counts.fallback += stage->guard->bad[0] + stage->guard->bad[1];
         stage->guard->masked = true;
         stage_reset(stage);
     }
@@ -81,7 +81,9 @@ int advance_step(struct state *state, double dt_most)
         stage->dt = dt;
         stage->cells = stage->clipped = 0;
         double bad = advance_rounds(state, &signal);
-        TRY(comm_agree(stage->bound->status));
+        int status = comm_agree(stage->bound->status);
+        if (status) stage_reset(stage);
+        TRY(status);
         if (bad == 0.0) {
             advance_accept(state, signal);
             return STATUS_OK;

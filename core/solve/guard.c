@@ -17,6 +17,9 @@
 
 enum { GUARD_BATCH = 512 };
 
+/* A mark of the second stage until it is known whether the first was clean everywhere. */
+static const double GUARD_PENDING = 2.0;
+
 struct guard *guard_new(const struct model *model, const struct mesh *mesh, const struct level *level)
 {
     struct guard *guard = mem_new(1, sizeof *guard);
@@ -158,6 +161,16 @@ static bool guard_repair(struct guard *guard, const struct guard_tile *tile, siz
     return true;
 }
 
+void guard_settle(struct guard *guard, bool first)
+{
+    for (unsigned t = 0; t < guard->level->n_local; t++)
+        for (size_t c = 0; c < guard->mesh->n_cell; c++)
+            if (guard->mask[t][c] == GUARD_PENDING) guard->mask[t][c] = first ? 0.0 : 1.0;
+    if (!first) return;
+    guard->bad[1] = 0;
+    if (!guard->bad[0]) guard->cause[0] = '\0';
+}
+
 void guard_check(struct guard *guard, const struct guard_tile *tile)
 {
     size_t n_cell = guard->mesh->n_cell;
@@ -170,7 +183,8 @@ void guard_check(struct guard *guard, const struct guard_tile *tile)
             if (bad[i] == 0.0 || guard_repair(guard, tile, from + i)) continue;
             if (!guard->cause[0]) guard_describe(guard, tile, from + i);
             guard->bad[tile->stage]++;
-            guard->mask[tile->local][from + i] = 1.0;
+            double *mark = &guard->mask[tile->local][from + i];
+            if (*mark == 0.0) *mark = tile->stage ? GUARD_PENDING : 1.0;
         }
     }
 }

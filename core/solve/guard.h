@@ -52,4 +52,8 @@ struct guard_tile {
 /* Checks a tile; repairs, notes and marks bad cells; after a bad first stage the second is not judged. */
 void guard_check(struct guard *guard, const struct guard_tile *tile);
 
+/* After an attempt with bad cells: if any rank found one in the `first` stage, what the others found in the second
+ * is forgotten, so that marks do not depend on the ranks. */
+void guard_settle(struct guard *guard, bool first);
+
 #endif
