@@ -94,8 +94,8 @@ static void derive_sound_speed(const struct derive_tile *tile, double *out)
     for (size_t i = 0; i < tile->n; i++) {
         double compliance = 0.0;
         for (unsigned l = 0; l < model->n_material; l++) {
-            double alpha = derive_alpha(tile, l, i);
-            if (alpha > 0.0) compliance += alpha / rho_c2[l * tile->n + i];
+            double alpha = derive_alpha(tile, l, i), stiff = rho_c2[l * tile->n + i];
+            if (alpha > 0.0 && stiff > 0.0) compliance += alpha / stiff; /* as in mix_closure */
         }
         out[i] = sqrt(1.0 / (rho[i] * compliance));
     }

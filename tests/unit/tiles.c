@@ -1,0 +1,111 @@
+/* How the domain is cut into tiles, and a tile into frames, changes no bit of a result. */
+#include "flow.h"
+
+enum { STEPS = 25 };
+
+static const char *const DOMAINS[] = {
+    "{lower: [0], upper: [1], cells: [256], boundaries: {x-: non-reflecting, x+: reflecting}}",
+    "{geometry: spherical, lower: [0], upper: [1], cells: [256], boundaries: {x-: axis, x+: outflow}}",
+    "{lower: [0, 0], upper: [1, 1], cells: [64, 64], boundaries: {x-: periodic, x+: periodic, y-: no-slip, "
+    "y+: non-reflecting}}",
+    "{geometry: axisymmetric, lower: [0, 0], upper: [1, 1], cells: [64, 64], boundaries: {x-: axis, "
+    "x+: {type: incoming-wave, pulse: sine, amplitude: 1 MPa, frequency: 10 kHz}, y-: outflow, y+: non-reflecting}}",
+    "{lower: [0, 0, 0], upper: [1, 1, 1], cells: [32, 32, 32], boundaries: {x-: periodic, x+: periodic, "
+    "y-: non-reflecting, y+: reflecting, z-: outflow, z+: {type: incoming-wave, pulse: sine, amplitude: 1 MPa, "
+    "frequency: 10 kHz}}}",
+};
+
+/* Skew pressures and velocities, a bubble that tile borders cut. */
+static void set_state(const struct model *model, const double x[3], double *w)
+{
+    double bubble = hypot(hypot(x[0] - 0.52, x[1] - 0.47), x[2] - 0.3) < 0.33 ? 1.0 : 0.0;
+    w[1] = 0.9 * bubble + 0.1 * x[0] * x[0];
+    w[0] = 1.0 - w[1];
+    for (int d = 0; d < model->dim; d++) w[model->i_u + (unsigned)d] = 40.0 * cos(3.0 * x[0] + 2.0 * x[1] + (double)d);
+    w[model->i_E] = x[0] + 0.5 * x[1] - x[2] > 0.6 ? 1e8 : 2e5;
+}
+
+static void run(struct flow *flow, const char *domain, int tile, const char *extra)
+{
+    flow_start(flow, mem_print("bulla: 1\ntitle: tiles\ndomain: %s\nmesh: {tile: %d}\nmaterials:\n" FLOW_WATER FLOW_AIR
+                               "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: 1e5}\n"
+                               "scheme: %s\nrun: {until: 1}\n",
+                               domain, tile, extra));
+    flow_set(flow, set_state);
+    flow_steps(flow, flow->scene->dim == 3 ? STEPS / 3 : STEPS);
+}
+
+static void check(const char *domain, const int *tiles, int count, const char *extra)
+{
+    struct flow first, other;
+    run(&first, domain, tiles[0], extra);
+    for (int i = 1; i < count; i++) {
+        run(&other, domain, tiles[i], extra);
+        if (!flow_equal(&first, &other)) fail_msg("tiles of %d and %d differ: %s", tiles[0], tiles[i], domain);
+        assert_true(first.state->t == other.state->t);
+        flow_stop(&other);
+    }
+    flow_stop(&first);
+}
+
+static void test_line(void **state)
+{
+    (void)state;
+    const int tiles[] = {8, 4, 16, 32, 128, 256};
+    check(DOMAINS[0], tiles, 6, "{limiter: mc}");
+    check(DOMAINS[1], tiles, 6, "{limiter: superbee}");
+}
+
+static void test_plane(void **state)
+{
+    (void)state;
+    const int tiles[] = {8, 16, 32, 64};
+    check(DOMAINS[2], tiles, 4, "{limiter: mc}");
+    check(DOMAINS[3], tiles, 4, "{limiter: van-leer, riemann: rusanov}");
+}
+
+static void test_space(void **state)
+{
+    (void)state;
+    const int tiles[] = {8, 16, 32};
+    check(DOMAINS[4], tiles, 3, "{limiter: mc}");
+}
+
+/* Frames stay within their room and cover every cell once, whatever the tile. */
+static void test_frames(void **state)
+{
+    (void)state;
+    const struct {
+        int dim, n;
+    } tiles[] = {{1, 4}, {1, 256}, {2, 8}, {2, 37}, {2, 64}, {2, 256}, {3, 4}, {3, 16}, {3, 32}, {3, 64}};
+    for (size_t i = 0; i < sizeof tiles / sizeof *tiles; i++) {
+        struct mesh mesh = {.dim = tiles[i].dim, .n = {1, 1, 1}, .n_cell = 1};
+        for (int d = 0; d < mesh.dim; d++) {
+            mesh.n[d] = tiles[i].n;
+            mesh.n_cell *= (size_t)tiles[i].n;
+        }
+        for (int axis = 0; axis < mesh.dim; axis++) {
+            unsigned char *seen = mem_new(mesh.n_cell, 1);
+            for (size_t piece = 0; piece < frame_pieces(&mesh, axis); piece++) {
+                struct frame frame = frame_piece(&mesh, axis, piece);
+                assert_true(frame.count > 0 && frame.count <= FRAME_CELLS);
+                for (size_t o = 0; o < frame.outer; o++)
+                    for (size_t a = 0; a < frame.n; a++)
+                        for (size_t k = 0; k < frame.inner; k++) seen[frame_tile_at(&frame, o, a) + k]++;
+            }
+            for (size_t c = 0; c < mesh.n_cell; c++) assert_int_equal(seen[c], 1);
+            mem_free(seen);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_frames),
+        cmocka_unit_test(test_line),
+        cmocka_unit_test(test_plane),
+        cmocka_unit_test(test_space),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
