@@ -51,24 +51,25 @@ static double check_memory(const struct scene *scene, unsigned n_field)
     return scenes_cells(scene) * 3 * 8 * n_field * 1.1;
 }
 
-/* The scene with every axis halved until it is coarse. */
+/* The scene on fewer cells: every axis by about the same factor, in multiples of 8 that tiles
+ * can fill. *ret_ratio: how much smaller the time step of the full mesh is. */
 static struct scene check_coarsen(const struct scene *scene, double *ret_ratio)
 {
     struct scene coarse = *scene;
-    int most = 1;
-    for (int axis = 0; axis < scene->dim; axis++)
-        if (scene->cells[axis] > most) most = scene->cells[axis];
-    int limit = scene->dim == 1 ? 8 * CHECK_COARSE : CHECK_COARSE, factor = 1;
-    while (most / factor > limit) {
-        bool even = true;
-        for (int axis = 0; axis < scene->dim; axis++) even = even && scene->cells[axis] / factor % 8 == 0;
-        if (!even) break;
-        factor *= 2;
+    int most = 1, limit = scene->dim == 1 ? 8 * CHECK_COARSE : CHECK_COARSE;
+    for (int axis = 0; axis < scene->dim; axis++) most = scene->cells[axis] > most ? scene->cells[axis] : most;
+    int factor = (most + limit - 1) / limit;
+    *ret_ratio = 1;
+    for (int axis = 0; axis < scene->dim && factor > 1; axis++) {
+        int cells = scene->cells[axis] / factor / 8 * 8;
+        if (scene->cells[axis] > 8) coarse.cells[axis] = cells > 8 ? cells : 8;
+        double ratio = (double)scene->cells[axis] / coarse.cells[axis];
+        if (ratio > *ret_ratio) *ret_ratio = ratio;
     }
-    for (int axis = 0; axis < scene->dim; axis++) coarse.cells[axis] = scene->cells[axis] / factor;
-    coarse.tile = factor == 1 ? scene->tile : 0;
-    *ret_ratio = factor;
-    return coarse;
+    if (factor > 1) coarse.tile = 0;
+    if (mesh_tile_size(&coarse)) return coarse;
+    *ret_ratio = 1;
+    return *scene;
 }
 
 static int check_measure(struct state *coarse, double ratio, const struct scene *scene, struct check_cost *ret)
