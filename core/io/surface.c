@@ -4,7 +4,8 @@
  * such place the field is interpolated to alpha = 1/2, and the place counts with the area of the
  * face times |n_a|, n the normal of the surface from the gradient of alpha and a the axis of the
  * pair: a plane of area S is crossed |n_a| S / A times along axis a, so these weights add up to
- * S sum n_a^2 = S whatever its direction. Pairs across tiles and ranks belong to the lower tile. */
+ * S sum n_a^2 = S whatever its direction. Pairs across tiles and ranks belong to the lower tile.
+ * Tiles away from the surface only lend their alpha. */
 #include "io/surface.h"
 
 #include "base/mem.h"
@@ -15,6 +16,7 @@
 #include "phys/frame.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Components of the work arrays: alpha, the field, how much `where` covers, the gradient of alpha. */
 enum { SURFACE_ALPHA, SURFACE_FIELD, SURFACE_COVER, SURFACE_SLOPE };
@@ -26,22 +28,43 @@ struct surface {
     int l;
     unsigned n; /* components */
     double **arrays;
+    int *side; /* of each local tile: all below 1/2 (-1), all above (1), both (0) */
     struct halo *halo;
     double *frame; /* [n][FRAME_CELLS] */
 };
 
-static void surface_fill(struct surface *surface, unsigned local, unsigned material, const struct derive *field,
+/* Copies alpha; which side of 1/2 the tile lies on: -1, 1, or 0 for both. */
+static int surface_take(const struct surface *surface, unsigned local, unsigned material)
+{
+    size_t n = surface->mesh->n_cell, above = 0;
+    const double *alpha = surface->level->u_old[local] + (surface->state->model->i_alpha + material) * n;
+    memcpy(surface->arrays[local] + SURFACE_ALPHA * n, alpha, n * sizeof *alpha);
+    for (size_t i = 0; i < n; i++) above += alpha[i] >= 0.5;
+    return above == n ? 1 : above == 0 ? -1 : 0;
+}
+
+/* Can the surface cross a pair of cells that this tile is part of? */
+static bool surface_is_near(const struct surface *surface, unsigned local)
+{
+    if (surface->side[local] == 0) return true;
+    for (int face = 0; face < 2 * surface->mesh->dim; face++) {
+        const struct neighbour *other = &surface->level->neighbours[local][face];
+        if (other->kind == NEIGHBOUR_REMOTE) return true;
+        if (other->kind == NEIGHBOUR_LOCAL && surface->side[other->index] != surface->side[local]) return true;
+    }
+    return false;
+}
+
+static void surface_fill(struct surface *surface, unsigned local, const struct derive *field,
                          const struct region *where)
 {
-    const struct model *model = surface->state->model;
     size_t n = surface->mesh->n_cell;
     double *to = surface->arrays[local], *values = mem_new(3 * n, sizeof *values);
-    const double *alpha = surface->level->u_old[local] + (model->i_alpha + material) * n, *fractions = NULL;
+    const double *fractions = NULL;
     enum region_cover cover = where ? region_tile(where, surface->l, local, &fractions) : REGION_ALL;
-    derive_tile(model, surface->mesh, surface->l, local, surface->state->t, field, values);
+    derive_tile(surface->state->model, surface->mesh, surface->l, local, surface->state->t, field, values);
     for (size_t i = 0; i < n; i++) {
         double x = values[i], y = values[n + i], z = values[2 * n + i];
-        to[SURFACE_ALPHA * n + i] = alpha[i];
         to[SURFACE_FIELD * n + i] = field->components == 3 ? sqrt(x * x + y * y + z * z) : x;
         to[SURFACE_COVER * n + i] = cover == REGION_PART ? fractions[i] : cover == REGION_ALL;
     }
@@ -147,17 +170,23 @@ static void surface_of_level(struct surface *surface, unsigned material, const s
 {
     unsigned n_local = surface->level->n_local;
     surface->arrays = mem_new(n_local, sizeof *surface->arrays);
+    surface->side = mem_new(n_local, sizeof *surface->side);
     surface->halo = halo_new(surface->mesh, surface->level, surface->n);
     for (unsigned i = 0; i < n_local; i++) {
         surface->arrays[i] = mem_new(surface->n * surface->mesh->n_cell, sizeof(double));
-        surface_fill(surface, i, material, field, where);
+        surface->side[i] = surface_take(surface, i, material);
     }
+    for (unsigned i = 0; i < n_local; i++)
+        if (surface_is_near(surface, i)) surface_fill(surface, i, field, where);
     surface_exchange(surface);
-    for (unsigned i = 0; i < n_local; i++) surface_sweep(surface, i, surface_slope, NULL);
+    for (unsigned i = 0; i < n_local; i++)
+        if (surface_is_near(surface, i)) surface_sweep(surface, i, surface_slope, NULL);
     surface_exchange(surface); /* now with the slopes */
-    for (unsigned i = 0; i < n_local; i++) surface_sweep(surface, i, surface_cross, sums + 2 * (size_t)i);
+    for (unsigned i = 0; i < n_local; i++)
+        if (surface_is_near(surface, i)) surface_sweep(surface, i, surface_cross, sums + 2 * (size_t)i);
     for (unsigned i = 0; i < n_local; i++) mem_free(surface->arrays[i]);
     halo_free(surface->halo);
+    mem_free(surface->side);
     mem_free(surface->arrays);
 }
 
