@@ -132,7 +132,10 @@ static json_t *provenance_modules(const struct scene *scene)
     json_t *modules = json_array();
     for (unsigned l = 0; l < scene->n_material; l++) provenance_add_module(modules, scene->material[l].eos.module);
     provenance_add_module(modules, scene->limiter.module);
+    provenance_add_module(modules, scene->interface_limiter.module);
     provenance_add_module(modules, scene->riemann.module);
+    const struct registry_entry *robust = registry_find("riemann", "rusanov"); /* for troubled cells */
+    if (robust) provenance_add_module(modules, robust->module);
     return modules;
 }
 
