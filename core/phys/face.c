@@ -20,6 +20,7 @@ struct face_own {
     double *state;                /* primitives at the edges: [n_field][2 FACE_ROOM] */
     double *m, *rho, *energy, *c; /* completed: [n_material], then one each, of 2 FACE_ROOM */
     double *term, *stiffness;     /* one material's rho e and rho c^2 */
+    double *origin, *strain;      /* of the face state: pressure of the side it comes from, compression since */
     double *zero;                 /* stands in for the velocities of unused axes */
     double *robust;               /* fluxes of the robust solver, same order as the block behind face_work.alpha */
     const double *side_u[2][3], *side_m[2][SCENE_MATERIALS], *side_alpha[2][SCENE_MATERIALS];
@@ -60,6 +61,8 @@ struct face_work *face_new(const struct model *model)
     own->c = face_row(2);
     own->term = face_row(2);
     own->stiffness = face_row(2);
+    own->origin = face_row(1);
+    own->strain = face_row(1);
     own->zero = face_row(2);
     own->robust = face_row(own->n_flux);
     work->alpha = face_row(own->n_flux);
@@ -67,6 +70,8 @@ struct face_work *face_new(const struct model *model)
     work->momentum = work->m + n * FACE_ROOM;
     work->energy = work->momentum + model->dim * FACE_ROOM;
     work->u = work->energy + FACE_ROOM;
+    work->carried = face_row(2 * model->n_alpha);
+    work->strained = work->carried + model->n_alpha * FACE_ROOM;
     face_split(model, work->alpha, own->flux_alpha, own->flux_m, own->flux_u);
     face_split(model, own->robust, own->robust_alpha, own->robust_m, own->robust_u);
     for (int i = 0; i < 4; i++) work->faces.work[i] = face_row(1);
@@ -94,7 +99,10 @@ void face_free(struct face_work *work)
                       work->faces.work[0],
                       work->faces.work[1],
                       work->faces.work[2],
-                      work->faces.work[3]};
+                      work->faces.work[3],
+                      work->carried,
+                      own->origin,
+                      own->strain};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) mem_free(rows[i]);
     mem_free(own);
     mem_free(work);
@@ -240,10 +248,10 @@ static void face_complete(struct face_work *work, size_t n)
     }
     for (unsigned l = 0; l < model->n_alpha; l++) {
         const double *rho_l = own->state + 2 * (model->i_m + l) * FACE_ROOM, *alpha = own->state + 2 * l * FACE_ROOM;
-        double *m = own->m + 2 * l * FACE_ROOM;
-        model->eos[l].law->state(model->eos[l].self, n, rho_l, p, own->term, own->stiffness);
-        if (l == 0) face_first_material(n, alpha, rho_l, own->term, own->stiffness, m, own->rho, own->energy, own->c);
-        else face_add_material(n, alpha, rho_l, own->term, own->stiffness, m, own->rho, own->energy, own->c);
+        double *m = own->m + 2 * l * FACE_ROOM, *stiffness = own->stiffness;
+        model->eos[l].law->state(model->eos[l].self, n, rho_l, p, own->term, stiffness);
+        if (l == 0) face_first_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
+        else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
     }
     face_finish(n, own->rho, u[0], u[1], u[2], own->energy, own->c);
 }
@@ -292,6 +300,48 @@ static void face_solve_robust(struct face_work *work, const struct frame *frame,
     }
 }
 
+/* The fluid at a face came from the side that u* points away from, and was compressed on the way
+ * by (u_L - u*)/c_L or (u* - u_R)/c_R. */
+static BULLA_KERNEL void face_trace(size_t n, const double *restrict u, const struct bulla_side *left,
+                                    const struct bulla_side *right, double *restrict origin, double *restrict strain)
+{
+    const double *restrict p_left = left->p, *restrict p_right = right->p, *restrict c_left = left->c,
+                           *restrict c_right = right->c, *restrict u_left = left->u[0], *restrict u_right = right->u[0];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double v = u[i], pl = p_left[i], pr = p_right[i], cl = c_left[i], cr = c_right[i];
+        double dl = u_left[i] - v, dr = v - u_right[i];
+        origin[i] = v >= 0.0 ? pl : pr;
+        strain[i] = (v >= 0.0 ? dl : dr) / (v >= 0.0 ? cl : cr);
+    }
+}
+
+/* alpha* becomes the volume flux alpha* u*; it carries a pressure and a strain along. */
+static BULLA_KERNEL void face_carry(size_t n, const double *restrict u, const double *restrict origin,
+                                    const double *restrict strain, double *restrict alpha, double *restrict carried,
+                                    double *restrict strained)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double volume = alpha[i] * u[i];
+        alpha[i] = volume;
+        carried[i] = volume * origin[i];
+        strained[i] = volume * strain[i];
+    }
+}
+
+/* Volume fluxes and what they carry. */
+static void face_transport(struct face_work *work)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    if (!model->n_alpha) return;
+    face_trace(work->faces.n, work->u, &work->faces.left, &work->faces.right, own->origin, own->strain);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        face_carry(work->faces.n, work->u, own->origin, own->strain, work->alpha + l * FACE_ROOM,
+                   work->carried + l * FACE_ROOM, work->strained + l * FACE_ROOM);
+}
+
 void face_solve(struct face_work *work, const struct frame *frame, bool masked)
 {
     const struct model *model = work->model;
@@ -302,4 +352,5 @@ void face_solve(struct face_work *work, const struct frame *frame, bool masked)
     face_point(work, frame, cells);
     model->riemann->solve(model->riemann_self, &work->faces);
     if (masked) face_solve_robust(work, frame, work->faces.n);
+    face_transport(work);
 }

@@ -16,7 +16,10 @@ struct face_work {
     double *frame;                             /* [n_field] primitives of the gathered frame, pitch FACE_ROOM */
     double *mask;                              /* troubled cells of the frame: 0 or 1; one component */
     struct bulla_faces faces;                  /* what the Riemann solver got and gave; n faces */
-    double *alpha, *m, *momentum, *energy, *u; /* the fluxes: blocks with pitch FACE_ROOM; momentum[0] normal */
+    double *alpha, *m, *momentum, *energy, *u; /* the fluxes: blocks with pitch FACE_ROOM; momentum[0] normal,
+                                                  alpha: alpha* u*, u: u* */
+    double *carried;                           /* [n_alpha] alpha* u* times the pressure of the side it comes from */
+    double *strained;                          /* [n_alpha] alpha* u* times the compression on the way to the face */
     void *own;                                 /* scratch of face.c */
 };
 

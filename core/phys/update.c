@@ -1,6 +1,8 @@
 /* update.c - see update.h. */
 #include "phys/update.h"
 
+enum { UPDATE_BATCH = 512 };
+
 #include <string.h>
 
 /* rate -= a (upper - lower) */
@@ -10,18 +12,6 @@ static BULLA_KERNEL void update_row(size_t n, double a, const double *restrict l
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double low = lower[i], up = upper[i], old = rate[i];
-        rate[i] = old - a * (up - low);
-    }
-}
-
-/* The same for alpha* u*. */
-static BULLA_KERNEL void update_row_product(size_t n, double a, const double *restrict lower,
-                                            const double *restrict upper, const double *restrict u_lower,
-                                            const double *restrict u_upper, double *restrict rate)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double low = lower[i] * u_lower[i], up = upper[i] * u_upper[i], old = rate[i];
         rate[i] = old - a * (up - low);
     }
 }
@@ -36,14 +26,6 @@ static BULLA_KERNEL void update_curved(size_t n, const double *restrict area, co
         double low = flux[i], up = flux[i + 1], inside = q[i], old = rate[i];
         rate[i] = old - (area[i + 1] * (up - inside) - area[i] * (low - inside)) / volume[i];
     }
-}
-
-/* alpha* u* of a row of faces, for which the curved row has no form of its own. */
-static BULLA_KERNEL void update_product(size_t n, const double *restrict a, const double *restrict b,
-                                        double *restrict product)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) product[i] = a[i] * b[i];
 }
 
 /* For components that no cell value is taken off. */
@@ -77,24 +59,17 @@ static void update_component(const struct update_target *target, const struct up
     else update_row(span->n, target->a, flux + span->face, flux + span->face + span->step, rate);
 }
 
-static void update_fraction(const struct update_target *target, const struct update_span *span, unsigned l)
-{
-    const double *alpha = target->work->alpha + l * FACE_ROOM + span->face, *u = target->work->u + span->face;
-    double *rate = target->rates + l * target->n_cell + span->cell;
-    const struct metric *metric = target->metric;
-    if (target->curved) {
-        double product[METRIC_CELLS + 1];
-        update_product(span->n + 1, alpha, u, product);
-        update_curved(span->n, metric->area, metric->volume, product, update_zero, rate);
-    } else update_row_product(span->n, target->a, alpha, alpha + span->step, u, u + span->step, rate);
-}
-
 static void update_span_add(const struct update_target *target, const struct update_span *span)
 {
     const struct model *model = target->model;
     const struct face_work *work = target->work;
     const double *pressure = target->w + model->i_E * target->n_cell;
-    for (unsigned l = 0; l < model->n_alpha; l++) update_fraction(target, span, l);
+    for (unsigned l = 0; l < model->n_alpha; l++) {
+        update_component(target, span, work->alpha + l * FACE_ROOM, l, NULL);
+        if (!model->kapila) continue;
+        update_component(target, span, work->carried + l * FACE_ROOM, model->n_field + 1 + l, NULL);
+        update_component(target, span, work->strained + l * FACE_ROOM, model->n_field + 1 + model->n_alpha + l, NULL);
+    }
     for (unsigned l = 0; l < model->n_material; l++)
         update_component(target, span, work->m + l * FACE_ROOM, model->i_m + l, NULL);
     for (unsigned d = 0; d < (unsigned)model->dim; d++)
@@ -135,28 +110,101 @@ static BULLA_KERNEL void update_step(size_t n, double dt, const double *restrict
     for (size_t i = 0; i < n; i++) now[i] = old[i] + dt * rate[i];
 }
 
-/* alpha after transport (bounded by 0 and 1), then after K: a step below the least value, or
- * below what transport left if that is less, is cut. Adds to the sum over materials. */
-static BULLA_KERNEL void update_alpha(size_t n, double dt, const double *restrict old, const double *restrict alpha,
-                                      const double *restrict rate, const double *restrict div, const double *restrict K,
-                                      double *restrict now, double *restrict sum, double *restrict cut)
+/* alpha after transport, bounded by 0 and 1. Rates hold -div(alpha u) and, in `div`, -div u. */
+static BULLA_KERNEL void update_transport(size_t n, double dt, const double *restrict old, const double *restrict alpha,
+                                          const double *restrict rate, const double *restrict div, double *restrict now)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        /* rates hold -div(alpha u) and, in `div`, -div u */
-        double before = old[i], a = alpha[i], change = rate[i], spread = -div[i], k = K[i], total = sum[i],
-               count = cut[i];
-        double moved = before + dt * (change + a * spread);
-        double bounded = moved > 0.0 ? moved : 0.0;
-        bounded = bounded < 1.0 ? bounded : 1.0;
-        double least = bounded < UPDATE_LEAST ? bounded : UPDATE_LEAST;
-        double wanted = bounded + dt * (k * spread), next = wanted > least ? wanted : least;
+        double moved = old[i] + dt * (rate[i] - alpha[i] * div[i]);
+        moved = moved > 0.0 ? moved : 0.0;
+        now[i] = moved < 1.0 ? moved : 1.0;
+    }
+}
+
+/* Arrays of one batch in update_relax: what transport left behind. */
+struct update_misfit {
+    double own[SCENE_MATERIALS]
+              [UPDATE_BATCH]; /* volume that a material would give or take: alpha (p_l - p)/(rho_l c_l^2) */
+    double sum[UPDATE_BATCH], compliance[UPDATE_BATCH]; /* over materials: of the above, of alpha/(rho_l c_l^2) */
+    double rho[UPDATE_BATCH], stiffness[UPDATE_BATCH];  /* of the mixture: sum alpha rho_l, sum alpha rho_l c_l^2 */
+    double speed2[UPDATE_BATCH], share[UPDATE_BATCH];   /* |u|^2; how much of the exchange is made */
+};
+
+/* One material's misfit: from the pressure and from the strain that its volume carried. */
+static BULLA_KERNEL void update_own_misfit(size_t n, double dt, const double *restrict carried,
+                                           const double *restrict strained, const double *restrict rate,
+                                           const double *restrict p, const double *restrict rho_c2,
+                                           double *restrict own, double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double s = rho_c2[i], q = dt * (carried[i] - p[i] * rate[i]), strain = dt * strained[i], m = sum[i];
+        double volume = s > 0.0 ? q / s + strain : 0.0;
+        own[i] = volume;
+        sum[i] = m + volume;
+    }
+}
+
+/* One material's part of the mixture's density and stiffnesses. */
+static BULLA_KERNEL void update_mixture(size_t n, const double *restrict alpha, const double *restrict rho_l,
+                                        const double *restrict rho_c2, double *restrict rho, double *restrict stiffness,
+                                        double *restrict compliance)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], s = rho_c2[i], r = rho[i], stiff = stiffness[i], soft = compliance[i], d = rho_l[i];
+        double part = a / s;
+        rho[i] = r + a * d;
+        stiffness[i] = stiff + a * s;
+        compliance[i] = soft + (s > 0.0 ? part : 0.0);
+    }
+}
+
+static BULLA_KERNEL void update_speed2(size_t n, const double *restrict u, double *restrict speed2)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) speed2[i] += u[i] * u[i];
+}
+
+/* r^2/(r^2 + k^2) with r = |u| c_f/c_w^2, c_f^2 = sum alpha rho_l c_l^2/rho, 1/(rho c_w^2) = sum alpha/(rho_l c_l^2). */
+static BULLA_KERNEL void update_share(size_t n, const double *restrict speed2, const double *restrict rho,
+                                      const double *restrict stiffness, const double *restrict compliance,
+                                      double *restrict share)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double c = compliance[i], r2 = speed2[i] * rho[i] * stiffness[i] * (c * c);
+        r2 = r2 > 0.0 ? r2 : 0.0;
+        share[i] = r2 / (r2 + UPDATE_FAST * UPDATE_FAST);
+    }
+}
+
+/* alpha after the closure: K div u, and the exchange of volume that brings the materials back to one
+ * pressure. A step below the least value, or below what transport left if that is less, is cut. */
+static BULLA_KERNEL void update_close(size_t n, double dt, const double *restrict K, const double *restrict div,
+                                      const double *restrict rho_c2, const struct update_misfit *misfit,
+                                      const double *restrict own, double *restrict alpha, double *restrict cut)
+{
+    const double *restrict sum = misfit->sum, *restrict compliance = misfit->compliance,
+                           *restrict share = misfit->share;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], s = rho_c2[i], c = compliance[i], count = cut[i], push = -dt * (K[i] * div[i]);
+        double part = a / (s * c), all = sum[i], exchange = share[i] * (own[i] - (s > 0.0 ? part : 0.0) * all);
+        double least = a < UPDATE_LEAST ? a : UPDATE_LEAST;
+        double wanted = a + (push + exchange), next = wanted > least ? wanted : least;
         next = next < 1.0 ? next : 1.0;
         double acted = next != wanted ? 1.0 : 0.0;
-        now[i] = next;
-        sum[i] = total + next;
+        alpha[i] = next;
         cut[i] = count + acted;
     }
+}
+
+static BULLA_KERNEL void update_sum(size_t n, const double *restrict alpha, double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) sum[i] += alpha[i];
 }
 
 static BULLA_KERNEL void update_normalise(size_t n, const double *restrict sum, double *restrict alpha)
@@ -165,21 +213,46 @@ static BULLA_KERNEL void update_normalise(size_t n, const double *restrict sum, 
     for (size_t i = 0; i < n; i++) alpha[i] /= sum[i];
 }
 
+/* The closure's part of the fractions of n cells from `from`; returns in how many a bound acted. */
+static size_t update_relax(const struct model *model, size_t n_cell, size_t from, size_t n, double dt,
+                           const struct update_input *in, double *u_new)
+{
+    struct update_misfit misfit = {.sum = {0}};
+    double cut[UPDATE_BATCH] = {0};
+    const double *w = in->w + from, *rho_c2 = in->rho_c2 + from, *rates = in->rates + from;
+    const double *carried = rates + (model->n_field + 1) * n_cell, *strained = carried + model->n_alpha * n_cell;
+    size_t clipped = 0;
+    u_new += from;
+    for (int d = 0; d < model->dim; d++) update_speed2(n, w + (model->i_u + (unsigned)d) * n_cell, misfit.speed2);
+    for (unsigned l = 0; l < model->n_alpha; l++) {
+        update_own_misfit(n, dt, carried + l * n_cell, strained + l * n_cell, rates + l * n_cell,
+                          w + model->i_E * n_cell, rho_c2 + l * n_cell, misfit.own[l], misfit.sum);
+        update_mixture(n, u_new + l * n_cell, w + (model->i_m + l) * n_cell, rho_c2 + l * n_cell, misfit.rho,
+                       misfit.stiffness, misfit.compliance);
+    }
+    update_share(n, misfit.speed2, misfit.rho, misfit.stiffness, misfit.compliance, misfit.share);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        update_close(n, dt, in->K + l * n_cell + from, rates + model->n_field * n_cell, rho_c2 + l * n_cell, &misfit,
+                     misfit.own[l], u_new + l * n_cell, cut);
+    for (size_t i = 0; i < n; i++) clipped += cut[i] > 0.0;
+    return clipped;
+}
+
 size_t update_apply(const struct model *model, size_t n_cell, double dt, const struct update_input *in, double *u_new)
 {
-    enum { BATCH = 512 };
     size_t clipped = 0;
     for (unsigned q = model->n_alpha; q < model->n_field; q++)
         update_step(n_cell, dt, in->u_old + q * n_cell, in->rates + q * n_cell, u_new + q * n_cell);
-    for (size_t from = 0; model->n_alpha && from < n_cell; from += BATCH) {
-        size_t n = n_cell - from < BATCH ? n_cell - from : BATCH;
-        double sum[BATCH] = {0}, cut[BATCH] = {0};
+    for (size_t from = 0; model->n_alpha && from < n_cell; from += UPDATE_BATCH) {
+        size_t n = n_cell - from < UPDATE_BATCH ? n_cell - from : UPDATE_BATCH;
+        double sum[UPDATE_BATCH] = {0};
         const double *div = in->rates + model->n_field * n_cell + from;
         for (unsigned l = 0; l < model->n_alpha; l++)
-            update_alpha(n, dt, in->u_old + l * n_cell + from, in->w + l * n_cell + from, in->rates + l * n_cell + from,
-                         div, in->K + l * n_cell + from, u_new + l * n_cell + from, sum, cut);
+            update_transport(n, dt, in->u_old + l * n_cell + from, in->w + l * n_cell + from,
+                             in->rates + l * n_cell + from, div, u_new + l * n_cell + from);
+        if (model->kapila) clipped += update_relax(model, n_cell, from, n, dt, in, u_new);
+        for (unsigned l = 0; l < model->n_alpha; l++) update_sum(n, u_new + l * n_cell + from, sum);
         for (unsigned l = 0; l < model->n_alpha; l++) update_normalise(n, sum, u_new + l * n_cell + from);
-        for (size_t i = 0; i < n; i++) clipped += cut[i] > 0.0;
     }
     return clipped;
 }

@@ -1,6 +1,7 @@
 /* update.h - from fluxes to the rate of change of a tile, and from rates to a new state.
  *
- * Rates are blocks of n_field components of n_cell, then one more: div u. Geometry enters here
+ * Rates are blocks of components of n_cell: n_field for the evolved fields, one for div u, and, for the
+ * Kapila closure, n_alpha for the pressure that volume brings along (update_rates in all). Geometry enters here
  * alone (model.md 4): exact areas and volumes of metric.h; the radial momentum sees p relative to
  * the cell's own pressure, so that the hoop term beta p / r is balanced and a state at rest
  * stays at rest to round-off. */
@@ -10,6 +11,12 @@
 #include "mesh/metric.h"
 #include "phys/face.h"
 
+/* Components of the rates of a model. */
+static inline unsigned update_rates(const struct model *model)
+{
+    return model->n_field + 1 + (model->kapila ? 2 * model->n_alpha : 0);
+}
+
 /* Adds the divergence of the fluxes of one piece to the rates of its cells. w: the tile's primitives. */
 void update_add(const struct model *model, const struct level *level, const struct metric *metric,
                 const struct frame *frame, const struct face_work *work, size_t n_cell, const double *w, double *rates);
@@ -17,16 +24,30 @@ void update_add(const struct model *model, const struct level *level, const stru
 /* Blocks of a tile that a stage combines. */
 struct update_input {
     const double *u_old;
-    const double *w; /* primitives at which the rates were taken */
-    const double *K; /* K_l of mix_closure, blocks of n_alpha; zeros for the Allaire closure */
+    const double *w;      /* primitives at which the rates were taken */
+    const double *K;      /* K_l of mix_closure, blocks of n_alpha (Kapila closure only) */
+    const double *rho_c2; /* rho_l c_l^2 of mix_stiffness, likewise */
     const double *rates;
 };
 
 /* u_new = u_old + dt * rates, the non-conservative terms of alpha included (model.md 2). Volume
- * fractions are kept in [0, 1] and at sum 1; K may not push one below UPDATE_LEAST. Returns
- * the number of cells in which a bound acted. */
+ * fractions are kept in [0, 1] and at sum 1; the closure may not push one below UPDATE_LEAST.
+ *
+ * K div u keeps the materials at one pressure while a cell is compressed. Two more things drive their
+ * pressures apart, both at the faces that fluid enters through: it comes from a cell of another
+ * pressure, and it was compressed on the way to the face with its fractions frozen (that is what
+ * the frozen speed in the Riemann solver means). Linearised relaxation, as in K, brings them together,
+ *   d alpha_l = e_l - s_l/S sum_k e_k,   s_l = alpha_l/(rho_l c_l^2),   S = sum s_l,
+ *   e_l = dt/V sum_faces A (alpha* u*) [ (p_K - p)/(rho_l c_l^2) + strain_K ],
+ * with K the side upwind. Without it the linearised scheme is unstable in a mixture that moves fast
+ * against Wood's speed, |u| c_f > 4 c_w^2 (1 - q)/q^2 with q = c_A^2/c_f^2 and rho c_A^2 = (rho e + p)/
+ * (d rho e/dp): round-off grows in a gas-liquid front at uniform p and u (docs/decisions). In slower
+ * flow it only adds dissipation, so it is made with the weight r^2/(r^2 + UPDATE_FAST^2), r = |u| c_f/c_w^2.
+ *
+ * Returns the number of cells in which a bound acted. */
 size_t update_apply(const struct model *model, size_t n_cell, double dt, const struct update_input *in, double *u_new);
 
 #define UPDATE_LEAST 1e-9
+#define UPDATE_FAST 25.0
 
 #endif

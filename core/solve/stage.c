@@ -21,7 +21,7 @@ struct stage *stage_new(const struct model *model, struct mesh *mesh, struct lev
     stage->level = level;
     stage->guard = guard_new(model, mesh, level);
     stage->faces = face_new(model);
-    stage->rates = mem_new((model->n_field + 1) * mesh->n_cell, sizeof(double));
+    stage->rates = mem_new(update_rates(model) * mesh->n_cell, sizeof(double));
     stage->K = mem_new(model->n_material * mesh->n_cell, sizeof(double));
     stage->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
     stage->c2 = mem_new(mesh->n_cell, sizeof(double));
@@ -94,7 +94,7 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double dt, d
     size_t n_cell = mesh->n_cell;
     struct metric metric;
     metric_of_tile(mesh, level, &level->tiles[level->first + local], &metric);
-    memset(stage->rates, 0, (model->n_field + 1) * n_cell * sizeof *stage->rates);
+    memset(stage->rates, 0, update_rates(model) * n_cell * sizeof *stage->rates);
     for (int axis = 0; axis < mesh->dim; axis++) stage_sweep(stage, local, axis, &metric);
     if (model->kapila) {
         mix_stiffness(model, n_cell, n_cell, level->w[local], stage->rho_c2);
@@ -103,6 +103,7 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double dt, d
     struct update_input input = {.u_old = level->u_old[local],
                                  .w = level->w[local],
                                  .K = stage->K,
+                                 .rho_c2 = stage->rho_c2,
                                  .rates = stage->rates};
     stage->clipped += (long long)update_apply(model, n_cell, dt, &input, u);
     stage->cells += (long long)n_cell;
