@@ -83,6 +83,44 @@ static void test_rows(void **state)
     mem_free(values);
 }
 
+/* Bits without any order: deflate would make them longer and is left out. */
+static double noise(size_t i)
+{
+    uint64_t x = (i + 1) * 0x9e3779b97f4a7c15u;
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+    x = (x ^ x >> 31) & ~(1ull << 62); /* no infinities */
+    double value;
+    memcpy(&value, &x, sizeof value);
+    return value;
+}
+
+static void fill_noise(void *context, size_t first, size_t count, void *out)
+{
+    double *values = out;
+    (void)context;
+    for (size_t i = 0; i < count; i++) values[i] = noise(first + i);
+}
+
+static void test_noise(void **state)
+{
+    (void)state;
+    struct h5 *file;
+    size_t n = 10000;
+    const struct h5out_range all = {0, n};
+    struct h5out_rows table = {
+        .type = H5_F64, .total = n, .chunk = 4096, .n_range = 1, .ranges = &all, .fill = fill_noise};
+    double *values = mem_new(n, sizeof *values);
+    assert_int_equal(h5_create(path, &file), 0);
+    assert_int_equal(h5out_write(file, "/noise", &table), 0);
+    assert_int_equal(h5_close(file), 0);
+    assert_int_equal(h5_open(path, &file), 0);
+    assert_int_equal(h5in_read(file, "/noise", values), 0);
+    for (size_t i = 0; i < n; i++) assert_true(values[i] == noise(i));
+    h5_abandon(file);
+    mem_free(values);
+}
+
 static void test_attributes(void **state)
 {
     (void)state;
@@ -177,6 +215,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_rows, start, stop),
+        cmocka_unit_test_setup_teardown(test_noise, start, stop),
         cmocka_unit_test_setup_teardown(test_attributes, start, stop),
         cmocka_unit_test_setup_teardown(test_interleave, start, stop),
         cmocka_unit_test_setup_teardown(test_failures, start, stop),
