@@ -1,0 +1,193 @@
+/* The guard: what is not admissible is said with place and cause, a failed step leaves the last good state to the
+ * bit, strict allows no repair, and the relaxation of one cell keeps what is conserved. */
+#include "phys/relax.h"
+
+#include "flow.h"
+
+/* Water that parts at `speed`, a slab of air in the middle if there is air. */
+static char *parting(const char *materials, double speed, const char *scheme)
+{
+    bool air = strstr(materials, "air") != NULL;
+    return mem_print("bulla: 1\ntitle: parting\ndomain: {lower: [-1], upper: [1], cells: [128], boundaries: {x-: "
+                     "periodic, x+: periodic}}\nmaterials:\n%sinitial:\n"
+                     "  - {everywhere: true, material: water, density: 1000, pressure: 1e5, velocity: "
+                     "['= x > 0 and %g or -%g']}\n%sscheme: %s\nrun: {until: 1}\n",
+                     materials, speed, speed,
+                     air ? "  - {box: {lower: [-0.05], upper: [0.11]}, material: air, density: 1, pressure: 1e5}\n"
+                         : "",
+                     scheme);
+}
+
+/* The words that a failure must hold. */
+static void check_says(const char *const *words)
+{
+    for (; *words; words++)
+        if (!strstr(status_text(), *words)) fail_msg("'%s' is not in: %s", *words, status_text());
+}
+
+static void test_initial(void **state)
+{
+    (void)state;
+    struct flow flow;
+    int code =
+        flow_open(&flow, mem_print("bulla: 1\ntitle: bad\ndomain: {lower: [0], upper: [1], cells: [64], boundaries: "
+                                   "{x-: outflow, x+: outflow}}\nmaterials:\n" FLOW_WATER FLOW_AIR
+                                   "initial:\n  - {everywhere: true, fractions: {water: 0.5, air: 0.5}, "
+                                   "density: {water: 1000, air: 1}, pressure: '= x > 0.5 and -1e5 or 1e5'}\n"
+                                   "run: {until: 1}\n"));
+    assert_int_equal(code, STATUS_CASE);
+    check_says((const char *const[]){"air", "0.5", "Pa", NULL});
+    scene_free(flow.scene);
+}
+
+static double *snapshot(const struct flow *flow)
+{
+    unsigned n_field = flow->state->model->n_field;
+    double *all = mem_new(n_field * flow->n_cell, sizeof *all);
+    for (unsigned q = 0; q < n_field; q++) {
+        double *u = flow_conserved(flow, q);
+        memcpy(all + q * flow->n_cell, u, flow->n_cell * sizeof *u);
+        mem_free(u);
+    }
+    return all;
+}
+
+/* Steps until one fails; the code, with the state before and after it compared. */
+static int run_to_failure(struct flow *flow, int most)
+{
+    for (int i = 0; i < most; i++) {
+        double *before = snapshot(flow), t = flow->state->t, *w = flow_primitive(flow, flow->state->model->i_E);
+        long step = flow->state->step;
+        int code = advance_step(flow->state, HUGE_VAL);
+        if (code) {
+            double *after = snapshot(flow), *now = flow_primitive(flow, flow->state->model->i_E);
+            assert_memory_equal(before, after, flow->state->model->n_field * flow->n_cell * sizeof *after);
+            for (size_t c = 0; c < flow->n_cell; c++) assert_true(w[c] == now[c]);
+            assert_true(flow->state->t == t && flow->state->step == step);
+            mem_free(after);
+            mem_free(now);
+        }
+        mem_free(before);
+        mem_free(w);
+        if (code) return code;
+    }
+    return STATUS_OK;
+}
+
+static void test_strict(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow, parting(FLOW_WATER FLOW_AIR, 300.0, "{limiter: superbee, cfl: 0.9, guard: strict}"));
+    assert_int_equal(run_to_failure(&flow, 100), STATUS_RUN);
+    check_says((const char *const[]){"strict", "air", "stage", "cell at (", "pressure", NULL});
+    assert_int_equal(flow.state->counts.retries, 0);
+    assert_int_equal(flow.state->counts.relaxed, 0);
+    flow_stop(&flow);
+}
+
+/* A fixed step so long that not even its sixty-fourth part is stable. */
+static void test_impossible(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow, parting(FLOW_WATER, 500.0, "{limiter: mc, dt: 1 ms}"));
+    assert_int_equal(run_to_failure(&flow, 5), STATUS_RUN);
+    check_says((const char *const[]){"water", "stage", "cell at (", NULL});
+    assert_true(flow.state->counts.retries > 0);
+    assert_true(flow.state->counts.fallback > 0);
+    flow_stop(&flow);
+}
+
+/* The same without `strict` goes on; what was done is counted. */
+static void test_repairs(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow, parting(FLOW_WATER FLOW_AIR, 300.0, "{limiter: superbee, cfl: 0.9}"));
+    flow_steps(&flow, 100);
+    struct state_counts counts = state_counts_total(flow.state);
+    assert_true(counts.relaxed > 0);
+    assert_int_equal(counts.cells, 100 * 2 * 128);
+    flow_stop(&flow);
+}
+
+/* Without repair nothing is counted. */
+static void test_idle(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow, parting(FLOW_WATER FLOW_AIR, 0.0, "{limiter: mc}"));
+    flow_steps(&flow, 5);
+    assert_int_equal(flow.state->counts.relaxed + flow.state->counts.fallback + flow.state->counts.retries, 0);
+    assert_int_equal(flow.state->counts.clipped, 0);
+    flow_stop(&flow);
+}
+
+/* Random cells of a pair or a triple whose energy lies below what their fractions can hold: expanded too fast. */
+static void check_relax(const struct model *model, uint64_t *seed, int *ret_done)
+{
+    double w[FLOW_FIELDS] = {0}, old[FLOW_FIELDS], u[FLOW_FIELDS], now[FLOW_FIELDS], sum = 0.0, floor = -HUGE_VAL;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        w[l] = 0.02 + flow_random(seed);
+        sum += w[l];
+        w[model->i_m + l] = model->eos[l].rho_fill * (0.9 + 0.2 * flow_random(seed));
+    }
+    for (unsigned l = 0; l < model->n_material; l++) w[l] /= sum;
+    w[model->i_u] = 100.0 * (flow_random(seed) - 0.5);
+    w[model->i_E] = 1e5 * pow(100.0, flow_random(seed));
+    mix_conserved(model, 1, 1, w, old);
+    memcpy(u, old, sizeof u);
+    double loss = 0.02 * flow_random(seed); /* part of everything that left the cell; the fractions stayed */
+    for (unsigned q = model->i_m; q < model->n_field; q++) u[q] *= 1.0 - loss;
+    memcpy(now, u, sizeof now);
+    double got[FLOW_FIELDS];
+    memcpy(got, w, sizeof got);
+    if (!relax_cell(model, 1, old, now, got)) return;
+    (*ret_done)++;
+    for (unsigned q = model->i_m; q < model->n_field; q++) assert_true(now[q] == u[q]);
+    sum = 0.0;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        double least, rho = got[model->i_m + l];
+        assert_true(now[l] >= 0.0 && now[l] <= 1.0);
+        sum += now[l];
+        model->eos[l].law->p_min(model->eos[l].self, 1, &rho, &least);
+        if (now[l] > MIX_ABSENT) floor = fmax(floor, least);
+    }
+    assert_true(fabs(sum - 1.0) <= 1e-14);
+    if (!(got[model->i_E] > floor)) fail_msg("p = %g, least %g", got[model->i_E], floor);
+    double again[FLOW_FIELDS];
+    memcpy(again, got, sizeof again);
+    mix_primitives(model, 1, 1, now, again);
+    assert_true(fabs(again[model->i_E] - got[model->i_E]) <= 1e-6 * (fabs(got[model->i_E]) + 1.0));
+}
+
+static void test_relax_cell(void **state)
+{
+    (void)state;
+    static const char *const materials[] = {FLOW_WATER FLOW_AIR, FLOW_WATER FLOW_AIR FLOW_HELIUM,
+                                            "  water: {eos: {type: mnasg}}\n" FLOW_AIR};
+    for (int i = 0; i < 3; i++) {
+        struct flow flow;
+        uint64_t seed = 99;
+        int done = 0;
+        flow_start(&flow,
+                   mem_print("bulla: 1\ntitle: relax\ndomain: {lower: [0], upper: [1], cells: [8], boundaries: {x-: "
+                             "outflow, x+: outflow}}\nmaterials:\n%sinitial:\n  - {everywhere: true, material: "
+                             "air, density: 1.2, pressure: 1e5}\nrun: {until: 1}\n",
+                             materials[i]));
+        for (int k = 0; k < 2000; k++) check_relax(flow.state->model, &seed, &done);
+        print_message("relaxed %d of 2000 cells\n", done);
+        assert_true(done > 1900);
+        flow_stop(&flow);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_initial), cmocka_unit_test(test_strict), cmocka_unit_test(test_impossible),
+        cmocka_unit_test(test_repairs), cmocka_unit_test(test_idle),   cmocka_unit_test(test_relax_cell),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
