@@ -22,10 +22,10 @@ static int mesh_gcd(int a, int b)
     return b ? mesh_gcd(b, a % b) : a;
 }
 
-/* Largest tile side by dimension: long rows in 1D, else a frame that stays in L2. */
+/* Largest tile side by dimension: long rows in 1D; else small enough that most tiles hold one material. */
 static int mesh_tile_most(int dim)
 {
-    return dim == 1 ? 128 : dim == 2 ? 32 : 16;
+    return dim == 1 ? 128 : 16;
 }
 
 static int mesh_refuse(const struct scene *scene, int common)

@@ -104,7 +104,8 @@ void bound_copy(void *data, unsigned local, const struct frame *frame, int side,
 static void bound_mirror(const struct model *model, const struct frame *frame, int side, bool no_slip, size_t pitch,
                          double *w)
 {
-    for (unsigned q = 0; q < model->n_field; q++) {
+    for (unsigned i = 0; i < model->n_active; i++) {
+        unsigned q = model->active[i];
         bool velocity = q >= model->i_u && q < model->i_E;
         bool reversed = velocity && (no_slip || q == model->i_u + (unsigned)frame->axis);
         bound_layers(frame, side, true, reversed ? -1.0 : 1.0, w + q * pitch);
@@ -120,8 +121,8 @@ struct bound_row {
 static void bound_take(const struct model *model, const struct frame *frame, int side, size_t pitch, const double *w,
                        struct bound_row *row)
 {
-    for (unsigned q = 0; q < model->n_field; q++)
-        for (size_t o = 0; o < frame->outer; o++)
+    for (unsigned a = 0; a < model->n_active; a++)
+        for (size_t q = model->active[a], o = 0; o < frame->outer; o++)
             memcpy(row->w + q * row->stride + o * frame->inner,
                    w + q * pitch + frame_at(frame, o, bound_inside(frame, side, 0)), frame->inner * sizeof *w);
 }
@@ -129,11 +130,11 @@ static void bound_take(const struct model *model, const struct frame *frame, int
 static void bound_put(const struct model *model, const struct frame *frame, int side, size_t pitch,
                       const struct bound_row *row, double *w)
 {
-    for (unsigned q = 0; q < model->n_field; q++)
+    for (unsigned a = 0; a < model->n_active; a++)
         for (int ghost = 0; ghost < MESH_GHOST; ghost++)
             for (size_t o = 0; o < frame->outer; o++)
-                memcpy(w + q * pitch + frame_at(frame, o, bound_layer(frame, side, ghost)),
-                       row->w + q * row->stride + o * frame->inner, frame->inner * sizeof *w);
+                memcpy(w + model->active[a] * pitch + frame_at(frame, o, bound_layer(frame, side, ghost)),
+                       row->w + model->active[a] * row->stride + o * frame->inner, frame->inner * sizeof *w);
 }
 
 /* Centre of the boundary face of point c of a row. */
@@ -260,7 +261,8 @@ void bound_fill(void *data, unsigned local, const struct frame *frame, int side,
     case SCENE_NO_SLIP: bound_mirror(model, frame, side, true, pitch, w); return;
     case SCENE_PERIODIC: /* has neighbours, never a boundary */
     case SCENE_OUTFLOW:
-        for (unsigned q = 0; q < model->n_field; q++) bound_layers(frame, side, false, 1.0, w + q * pitch);
+        for (unsigned i = 0; i < model->n_active; i++)
+            bound_layers(frame, side, false, 1.0, w + model->active[i] * pitch);
         return;
     case SCENE_NONREFLECTING:
     case SCENE_INCOMING_WAVE:

@@ -201,7 +201,8 @@ static void derive_gradient(const struct derive_tile *tile, int axis,
                                         .level = tile->level,
                                         .arrays = tile->level->w,
                                         .halo = tile->level->halo,
-                                        .n_field = model->n_field,
+                                        .n_field = model->n_active,
+                                        .fields = model->active,
                                         .boundary = bound_fill,
                                         .data = bound};
     double *w = mem_new((size_t)model->n_field * FRAME_CELLS, sizeof *w);

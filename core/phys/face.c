@@ -49,7 +49,7 @@ struct face_work *face_new(const struct model *model)
     struct face_own *own = work->own = mem_new(1, sizeof *own);
     unsigned n = model->n_material;
     work->model = model;
-    own->n_flux = model->n_field + 1;
+    own->n_flux = model->n_alpha + n + (unsigned)model->dim + 2;
     work->frame = face_row(model->n_field);
     work->mask = face_row(1);
     own->difference = face_row(1);
@@ -158,7 +158,8 @@ static void face_reconstruct(struct face_work *work, const struct frame *frame, 
     const struct model *model = work->model;
     struct face_own *own = work->own;
     size_t step = frame->inner;
-    for (unsigned q = 0; q < model->n_field; q++) {
+    for (unsigned i = 0; i < model->n_active; i++) {
+        unsigned q = model->active[i];
         const double *w = work->frame + q * FACE_ROOM + step;
         double *upper = own->state + 2 * q * FACE_ROOM;
         face_limit(work, q, cells, step, w, upper);
@@ -265,6 +266,7 @@ static void face_point(struct face_work *work, const struct frame *frame, size_t
     faces->n_material = model->n_material;
     faces->n_alpha = model->n_alpha;
     faces->n_velocity = (unsigned)model->dim;
+    faces->mixed = model->mixed;
     for (unsigned side = 0; side < 2; side++) {
         size_t from = side ? cells + frame->inner : 0; /* right: the lower edge of the cell behind the face */
         for (unsigned d = 0; d < (unsigned)model->dim; d++)

@@ -63,6 +63,11 @@ static void frame_copy(const struct frame *frame, const double *block, size_t de
             frame_row(length, source + row * frame->tile_inner, target + row * frame->inner);
 }
 
+static unsigned frame_field(const struct frame_source *source, unsigned i)
+{
+    return source->fields ? source->fields[i] : i;
+}
+
 static void frame_side(const struct frame_source *source, unsigned local, const struct frame *frame, int side,
                        size_t pitch, double *w)
 {
@@ -76,14 +81,18 @@ static void frame_side(const struct frame_source *source, unsigned local, const 
     size_t block = remote ? frame->tile_outer * MESH_GHOST * frame->tile_inner : source->mesh->n_cell;
     const double *data = remote ? halo_slab(source->halo, neighbour->index) : source->arrays[neighbour->index];
     int to = side ? (int)frame->n : -MESH_GHOST;
-    for (unsigned q = 0; q < source->n_field; q++)
+    for (unsigned i = 0; i < source->n_field; i++) {
+        unsigned q = frame_field(source, i);
         frame_copy(frame, data + q * block, depth, from, to, MESH_GHOST, w + q * pitch);
+    }
 }
 
 void frame_gather(const struct frame_source *source, unsigned local, const struct frame *frame, size_t pitch, double *w)
 {
     const double *own = source->arrays[local];
-    for (unsigned q = 0; q < source->n_field; q++)
+    for (unsigned i = 0; i < source->n_field; i++) {
+        unsigned q = frame_field(source, i);
         frame_copy(frame, own + q * source->mesh->n_cell, frame->n, 0, 0, frame->n, w + q * pitch);
+    }
     for (int side = 0; side < 2; side++) frame_side(source, local, frame, side, pitch, w);
 }

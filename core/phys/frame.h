@@ -30,6 +30,8 @@ struct frame_source {
     double *const *arrays;   /* [n_local] blocks of n_field components */
     const struct halo *halo; /* finished exchange of the same arrays */
     unsigned n_field;
+    const unsigned
+        *fields; /* [n_field] components to gather, each keeps its number in the frame; NULL: the first n_field */
     /* Fills the two layers of all fields behind boundary face `side`; `data` is its own. */
     void (*boundary)(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);
     void *data;

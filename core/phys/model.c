@@ -54,6 +54,25 @@ static void model_name_derived(struct model *model)
     }
 }
 
+/* The model of a region that holds nothing but material l: works on the same blocks, leaves the
+ * fractions and the other materials' components alone, and gives bitwise what the full model would. */
+static struct model *model_purify(const struct model *model, unsigned l)
+{
+    struct model *pure = mem_new(1, sizeof *pure);
+    *pure = *model;
+    pure->n_material = 1;
+    pure->n_alpha = 0;
+    pure->first = l;
+    pure->i_m = model->i_m + l;
+    pure->kapila = false;
+    pure->eos[0] = model->eos[l];
+    pure->linear = model->eos[l].law->linear != NULL;
+    pure->n_active = 0;
+    pure->active[pure->n_active++] = pure->i_m;
+    for (unsigned q = model->i_u; q < model->n_field; q++) pure->active[pure->n_active++] = q;
+    return pure;
+}
+
 struct model *model_new(const struct scene *scene)
 {
     struct model *model = mem_new(1, sizeof *model);
@@ -84,6 +103,9 @@ struct model *model_new(const struct scene *scene)
     model->riemann_self = scene->riemann.self;
     const struct registry_entry *robust = registry_find("riemann", "rusanov");
     model->robust = robust ? robust->module->table : model->riemann;
+    model->mixed = model->n_alpha > 0;
+    for (unsigned q = 0; q < model->n_field; q++) model->active[model->n_active++] = q;
+    for (unsigned l = 0; l < model->n_alpha; l++) model->pure[l] = model_purify(model, l);
     model_name_fields(model);
     model_name_derived(model);
     return model;
@@ -98,6 +120,7 @@ static void model_free_names(char **names)
 void model_free(struct model *model)
 {
     if (!model) return;
+    for (unsigned l = 0; l < model->n_alpha; l++) mem_free(model->pure[l]);
     model_free_names(model->names);
     model_free_names(model->field_names);
     mem_free(model);

@@ -23,7 +23,12 @@ struct model {
     int dim, beta;
     unsigned n_material, n_alpha, n_field;
     unsigned i_alpha, i_m, i_u, i_E; /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
-    bool kapila, linear;             /* linear: every law is linear in p, closed-form mixture pressure */
+    unsigned n_active, active[2 * SCENE_MATERIALS + 4]; /* components that evolve; all, but in a pure model */
+    unsigned first;                      /* material of the scene that eos[0] is: 0, but in a pure model */
+    bool mixed;                          /* the scene has several materials */
+    struct model *pure[SCENE_MATERIALS]; /* the same scene where only material l is present (NULL for N = 1): one
+                                            material, no fractions, indices into the same storage */
+    bool kapila, linear;                 /* linear: every law is linear in p, closed-form mixture pressure */
     struct model_eos eos[SCENE_MATERIALS];
     struct model_limiter {
         const struct bulla_limiter *law;

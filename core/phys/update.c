@@ -241,8 +241,10 @@ static size_t update_relax(const struct model *model, size_t n_cell, size_t from
 size_t update_apply(const struct model *model, size_t n_cell, double dt, const struct update_input *in, double *u_new)
 {
     size_t clipped = 0;
-    for (unsigned q = model->n_alpha; q < model->n_field; q++)
-        update_step(n_cell, dt, in->u_old + q * n_cell, in->rates + q * n_cell, u_new + q * n_cell);
+    for (unsigned i = model->n_alpha; i < model->n_active; i++) {
+        size_t at = model->active[i] * n_cell;
+        update_step(n_cell, dt, in->u_old + at, in->rates + at, u_new + at);
+    }
     for (size_t from = 0; model->n_alpha && from < n_cell; from += UPDATE_BATCH) {
         size_t n = n_cell - from < UPDATE_BATCH ? n_cell - from : UPDATE_BATCH;
         double sum[UPDATE_BATCH] = {0};

@@ -99,12 +99,12 @@ static void guard_density(const struct model *model, size_t n, size_t stride, co
 /* Which field of a cell is wrong, and its value. */
 static void guard_name(const struct guard *guard, const struct guard_tile *tile, size_t cell, char *what, size_t room)
 {
-    const struct model *model = guard->model;
+    const struct model *model = tile->model;
     size_t n_cell = guard->mesh->n_cell;
     double p = tile->w[model->i_E * n_cell + cell];
     snprintf(what, room, "pressure = %.6g Pa in the mixture", p);
     for (unsigned l = 0; l < model->n_material; l++) {
-        const char *name = model->scene->material[l].name;
+        const char *name = model->scene->material[model->first + l].name;
         double m = tile->u[(model->i_m + l) * n_cell + cell], alpha = model->n_alpha ? tile->w[l * n_cell + cell] : 1.0;
         if (!(m >= 0.0) || (!model->n_alpha && !(m > 0.0))) {
             snprintf(what, room, "partial_density_%s = %.6g kg/m3", name, m);
@@ -134,7 +134,7 @@ static void guard_describe(struct guard *guard, const struct guard_tile *tile, s
 /* The checks on n cells from `from`; bad[i] > 0 where one fails. Returns their sum. */
 static double guard_judge(const struct guard *guard, const struct guard_tile *tile, size_t from, size_t n, double *bad)
 {
-    const struct model *model = guard->model;
+    const struct model *model = tile->model;
     size_t n_cell = guard->mesh->n_cell;
     double rho[GUARD_BATCH], count = 0.0;
     guard_mixture(n, tile->u + model->i_E * n_cell + from, tile->w + model->i_E * n_cell + from, tile->c2 + from, bad);
@@ -152,10 +152,10 @@ static bool guard_repair(struct guard *guard, const struct guard_tile *tile, siz
 {
     size_t n_cell = guard->mesh->n_cell;
     double bad;
-    if (!guard->repair || !relax_cell(guard->model, n_cell, tile->u_old + cell, tile->u + cell, tile->w + cell))
+    if (!guard->repair || !relax_cell(tile->model, n_cell, tile->u_old + cell, tile->u + cell, tile->w + cell))
         return false;
-    mix_stiffness(guard->model, 1, n_cell, tile->w + cell, tile->rho_c2 + cell);
-    mix_speed2(guard->model, 1, n_cell, tile->w + cell, tile->rho_c2 + cell, tile->c2 + cell);
+    mix_stiffness(tile->model, 1, n_cell, tile->w + cell, tile->rho_c2 + cell);
+    mix_speed2(tile->model, 1, n_cell, tile->w + cell, tile->rho_c2 + cell, tile->c2 + cell);
     if (guard_judge(guard, tile, cell, 1, &bad) > 0.0) return false;
     guard->relaxed++;
     return true;

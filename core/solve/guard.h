@@ -42,6 +42,7 @@ void guard_attempt(struct guard *guard);
 
 /* A tile that has been closed: blocks of n_cell. u_old is the state at the start of the step. */
 struct guard_tile {
+    const struct model *model; /* the guard's, or the pure model the tile was advanced with */
     unsigned local;
     int stage; /* 0 or 1 */
     const double *u_old;

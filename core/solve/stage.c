@@ -21,6 +21,10 @@ struct stage *stage_new(const struct model *model, struct mesh *mesh, struct lev
     stage->level = level;
     stage->guard = guard_new(model, mesh, level);
     stage->faces = face_new(model);
+    if (model->mixed) stage->faces_pure = face_new(model->pure[0]);
+    stage->present = mem_new(level->n_local, sizeof *stage->present);
+    stage->present_next = mem_new(level->n_local, sizeof *stage->present_next);
+    stage->path = mem_new(level->n_local, sizeof *stage->path);
     stage->rates = mem_new(update_rates(model) * mesh->n_cell, sizeof(double));
     stage->K = mem_new(model->n_material * mesh->n_cell, sizeof(double));
     stage->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
@@ -34,6 +38,10 @@ void stage_free(struct stage *stage)
     if (!stage) return;
     guard_free(stage->guard);
     face_free(stage->faces);
+    face_free(stage->faces_pure);
+    mem_free(stage->present);
+    mem_free(stage->present_next);
+    mem_free(stage->path);
     bound_free(stage->bound);
     mem_free(stage->rates);
     mem_free(stage->K);
@@ -61,41 +69,97 @@ static void stage_finish_exchange(struct stage *stage)
     if (stage->guard->masked) halo_finish(stage->guard->halo);
 }
 
+/* Bits of the materials that a tile's conserved block holds anything of. */
+static unsigned stage_materials(const struct model *model, size_t n_cell, const double *u)
+{
+    unsigned present = 0;
+    for (unsigned l = 0; l < model->n_alpha; l++) {
+        const double *alpha = u + (model->i_alpha + l) * n_cell, *m = u + (model->i_m + l) * n_cell;
+        for (size_t i = 0; i < n_cell; i++)
+            if ((alpha[i] != 0.0) | (m[i] != 0.0)) {
+                present |= 1u << l;
+                break;
+            }
+    }
+    return present;
+}
+
+/* Does what lies behind a face hold the same materials? Of other ranks that is not known here. */
+static bool stage_alike(const struct stage *stage, unsigned local, int face)
+{
+    const struct neighbour *neighbour = &stage->level->neighbours[local][face];
+    if (neighbour->kind == NEIGHBOUR_LOCAL) return stage->present[neighbour->index] == stage->present[local];
+    return neighbour->kind == NEIGHBOUR_BOUNDARY &&
+           stage->model->scene->boundary[face / 2][face % 2].type != SCENE_INFLOW;
+}
+
+/* The model that suffices for a tile. */
+static const struct model *stage_choose(const struct stage *stage, unsigned local)
+{
+    const struct model *model = stage->model;
+    unsigned present = stage->present[local], l = 0;
+    if (!model->mixed || !present || (present & (present - 1))) return model;
+    for (int face = 0; face < 2 * model->dim; face++)
+        if (!stage_alike(stage, local, face)) return model;
+    while (present >> (l + 1)) l++;
+    return model->pure[l];
+}
+
+/* Copies the components that a pure model leaves alone. */
+static void stage_keep(const struct stage *stage, const struct model *model, const double *from, double *to)
+{
+    size_t n_cell = stage->mesh->n_cell;
+    for (unsigned q = 0; q < stage->model->i_u; q++)
+        if (q != model->i_m) memcpy(to + q * n_cell, from + q * n_cell, n_cell * sizeof *to);
+}
+
 /* One axis of one tile: gather, reconstruct, solve, add the divergence. */
-static void stage_sweep(struct stage *stage, unsigned local, int axis, const struct metric *metric)
+static void stage_sweep(struct stage *stage, const struct model *model, unsigned local, int axis,
+                        const struct metric *metric)
 {
     const struct mesh *mesh = stage->mesh;
     const struct level *level = stage->level;
     const struct guard *guard = stage->guard;
+    struct face_work *faces = model == stage->model ? stage->faces : stage->faces_pure;
     const struct frame_source fields = {.mesh = mesh,
                                         .level = level,
                                         .arrays = level->w,
                                         .halo = level->halo,
-                                        .n_field = stage->model->n_field,
+                                        .n_field = model->n_active,
+                                        .fields = model->active,
                                         .boundary = bound_fill,
                                         .data = stage->bound};
     const struct frame_source marks = {
         .mesh = mesh, .level = level, .arrays = guard->mask, .halo = guard->halo, .n_field = 1, .boundary = bound_copy};
+    faces->model = stage->bound->model = model;
     for (size_t piece = 0; piece < frame_pieces(mesh, axis); piece++) {
         struct frame frame = frame_piece(mesh, axis, piece);
-        frame_gather(&fields, local, &frame, FACE_ROOM, stage->faces->frame);
-        if (guard->masked) frame_gather(&marks, local, &frame, FACE_ROOM, stage->faces->mask);
-        face_solve(stage->faces, &frame, guard->masked);
-        update_add(stage->model, level, metric, &frame, stage->faces, mesh->n_cell, level->w[local], stage->rates);
+        frame_gather(&fields, local, &frame, FACE_ROOM, faces->frame);
+        if (guard->masked) frame_gather(&marks, local, &frame, FACE_ROOM, faces->mask);
+        face_solve(faces, &frame, guard->masked);
+        update_add(model, level, metric, &frame, faces, mesh->n_cell, level->w[local], stage->rates);
     }
 }
 
-/* u = u_old + dt L(w) of one tile. */
+static void stage_clear_rates(struct stage *stage, const struct model *model)
+{
+    size_t n_cell = stage->mesh->n_cell, more = update_rates(model) - model->n_field;
+    for (unsigned i = 0; i < model->n_active; i++)
+        memset(stage->rates + model->active[i] * n_cell, 0, n_cell * sizeof *stage->rates);
+    if (model->n_alpha) memset(stage->rates + model->n_field * n_cell, 0, more * n_cell * sizeof *stage->rates);
+}
+
+/* u = u_old + dt L(w) of one tile; of a pure tile the active components only. */
 static void stage_advance_tile(struct stage *stage, unsigned local, double dt, double *u)
 {
-    const struct model *model = stage->model;
+    const struct model *model = stage->path[local] = stage_choose(stage, local);
     const struct mesh *mesh = stage->mesh;
     struct level *level = stage->level;
     size_t n_cell = mesh->n_cell;
     struct metric metric;
     metric_of_tile(mesh, level, &level->tiles[level->first + local], &metric);
-    memset(stage->rates, 0, update_rates(model) * n_cell * sizeof *stage->rates);
-    for (int axis = 0; axis < mesh->dim; axis++) stage_sweep(stage, local, axis, &metric);
+    stage_clear_rates(stage, model);
+    for (int axis = 0; axis < mesh->dim; axis++) stage_sweep(stage, model, local, axis, &metric);
     if (model->kapila) {
         mix_stiffness(model, n_cell, n_cell, level->w[local], stage->rho_c2);
         mix_closure(model, n_cell, n_cell, level->w[local], stage->rho_c2, stage->K);
@@ -112,12 +176,13 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double dt, d
 /* Primitives of u, into w, and the guard's judgement. */
 static void stage_judge(struct stage *stage, unsigned local, int judged, double *u, double *w)
 {
-    const struct model *model = stage->model;
+    const struct model *model = stage->path[local];
     size_t n_cell = stage->mesh->n_cell;
     mix_primitives(model, n_cell, n_cell, u, w);
     mix_stiffness(model, n_cell, n_cell, w, stage->rho_c2);
     mix_speed2(model, n_cell, n_cell, w, stage->rho_c2, stage->c2);
-    struct guard_tile tile = {.local = local,
+    struct guard_tile tile = {.model = model,
+                              .local = local,
                               .stage = judged,
                               .u_old = stage->level->u_old[local],
                               .u = u,
@@ -125,20 +190,33 @@ static void stage_judge(struct stage *stage, unsigned local, int judged, double 
                               .rho_c2 = stage->rho_c2,
                               .c2 = stage->c2};
     guard_check(stage->guard, &tile);
+    stage->present_next[local] = model == stage->model ? stage_materials(model, n_cell, u) : stage->present[local];
 }
 
 static void stage_half_tile(struct stage *stage, unsigned local)
 {
     const struct level *level = stage->level;
     size_t n_cell = stage->mesh->n_cell, p = stage->model->i_E * n_cell;
+    double *w = level->w[local], *w_star = level->u_new[local];
     stage_advance_tile(stage, local, 0.5 * stage->dt, stage->u_star);
-    memcpy(level->u_new[local] + p, level->w[local] + p, n_cell * sizeof(double)); /* where an iteration starts */
-    stage_judge(stage, local, 0, stage->u_star, level->u_new[local]);
+    if (stage->path[local] != stage->model) stage_keep(stage, stage->path[local], w, w_star);
+    memcpy(w_star + p, w + p, n_cell * sizeof *w); /* where an iteration starts */
+    stage_judge(stage, local, 0, stage->u_star, w_star);
 }
 
 static void stage_full_tile(struct stage *stage, unsigned local)
 {
-    stage_advance_tile(stage, local, stage->dt, stage->level->u_new[local]);
+    const struct level *level = stage->level;
+    stage_advance_tile(stage, local, stage->dt, level->u_new[local]);
+    if (stage->path[local] != stage->model)
+        stage_keep(stage, stage->path[local], level->u_old[local], level->u_new[local]);
+}
+
+static void stage_swap_present(struct stage *stage)
+{
+    unsigned *keep = stage->present;
+    stage->present = stage->present_next;
+    stage->present_next = keep;
 }
 
 /* All tiles, those without remote neighbours while the exchange is under way. */
@@ -160,6 +238,7 @@ void stage_half(struct stage *stage)
     double **w_star = level->u_new;
     level->u_new = level->w;
     level->w = w_star;
+    stage_swap_present(stage);
 }
 
 void stage_full(struct stage *stage)
@@ -205,12 +284,16 @@ void stage_close(struct stage *stage)
         stage_judge(stage, tile, 1, level->u_new[tile], level->w[tile]);
         stage_measure(stage, level->w[tile]);
     }
+    stage_swap_present(stage);
 }
 
 void stage_reset(struct stage *stage)
 {
     const struct level *level = stage->level;
     size_t n_cell = stage->mesh->n_cell;
-    for (unsigned tile = 0; tile < level->n_local; tile++)
+    for (unsigned tile = 0; tile < level->n_local; tile++) {
         mix_primitives(stage->model, n_cell, n_cell, level->u_old[tile], level->w[tile]);
+        stage->present[tile] = stage_materials(stage->model, n_cell, level->u_old[tile]);
+        stage->path[tile] = stage->model;
+    }
 }

@@ -20,6 +20,11 @@ struct stage {
     struct bound *bound;
     struct guard *guard;
     struct face_work *faces;
+    /* Tiles that hold one material only, with neighbours that hold the same, are advanced without the others:
+     * half the work or less, bitwise the same result. */
+    struct face_work *faces_pure;             /* NULL for one material */
+    unsigned *present, *present_next;         /* [n_local] bit l: material l is in the tile now; after this stage */
+    const struct model **path;                /* [n_local] the model each tile was last advanced with */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
     double t, dt;                             /* of the step under way */
     double signal;            /* largest sum over axes of (|u_a| + c) / h_a [1/s], rank-local, of the last close */

@@ -22,6 +22,7 @@ static int state_begin(struct state *state)
 {
     struct stage *stage = state->stage;
     guard_attempt(stage->guard);
+    stage_reset(stage);
     mesh_swap(stage->level); /* the painted state closes like that of a step */
     stage_close(stage);
     mesh_swap(stage->level);

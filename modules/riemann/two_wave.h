@@ -87,7 +87,7 @@ BULLA_KERNEL static void two_wave_tangential(const struct bulla_faces *faces, un
 static void two_wave_solve(const void *self, const struct bulla_faces *faces)
 {
     (void)self;
-    if (faces->n_alpha > 0) {
+    if (faces->mixed | faces->n_alpha) {
         contact_solve(faces);
         return;
     }

@@ -49,6 +49,8 @@ struct bulla_faces {
     struct bulla_side left, right;
     struct bulla_flux flux;
     double *work[4]; /* scratch of n doubles each */
+    unsigned mixed;  /* the scene has several materials. Where only one is present on both sides core may list it
+                        alone (n_material = 1, n_alpha = 0); the fluxes must be those of the full list, bitwise */
 };
 
 struct bulla_riemann {
