@@ -1,0 +1,83 @@
+# The bits of a 3D run, and of runs whose steps the guard redoes, halves and relaxes, are the same on 1, 2, 3 and 4 ranks.
+set -eu
+same="$BULLA_BUILD/tests/test-unit-snapshot"
+# Open MPI leaks by itself: the leak checker of a sanitized build would only see that
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+
+cat >space.yaml <<'END'
+bulla: 1
+title: A wave meets a bubble in 3D
+domain:
+  lower: [-1 mm, -1 mm, -1 mm]
+  upper: [1 mm, 1 mm, 1 mm]
+  cells: [24, 24, 24]
+  boundaries:
+    x-: {type: incoming-wave, pulse: sine, amplitude: 20 MPa, frequency: 1 MHz}
+    x+: non-reflecting
+    y-: periodic
+    y+: periodic
+    z-: reflecting
+    z+: outflow
+mesh: {tile: 8}
+materials:
+  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
+  air: {eos: {type: ideal-gas, gamma: 1.4}}
+initial:
+  - {everywhere: true, material: water, density: 1000, pressure: 1 bar, velocity: [0, 10, 0]}
+  - {sphere: {center: [0, 0.1 mm, -0.2 mm], radius: 0.6 mm}, material: air, density: 1.2, pressure: 1 bar}
+run: {until: 1 us, max-steps: 12}
+output:
+  snapshots: {every: 12 steps, fields: [density, velocity, pressure, alpha_air, schlieren, vorticity], precision: double}
+  history:
+    columns: {V: {volume: air}, m: {mass: air}, z: {centroid: air, along: z}, pmax: {max: pressure}, E: {total: energy}}
+  probes: {every: 1 steps, in: {at: [0.1 mm, 0, 0], fields: [pressure, velocity]}}
+END
+
+cat >parting.yaml <<'END'
+bulla: 1
+title: Streams that part too fast for an explicit step
+domain:
+  lower: [-1, -1]
+  upper: [1, 1]
+  cells: [32, 32]
+  boundaries: {x-: periodic, x+: periodic, y-: periodic, y+: periodic}
+mesh: {tile: 8}
+materials:
+  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
+  air: {eos: {type: ideal-gas, gamma: 1.4}}
+initial:
+  - everywhere: true
+    material: water
+    density: 1000
+    pressure: 1 bar
+    velocity: ['= x > 0 and 600 or -600', '= y > 0 and 600 or -600']
+  - {sphere: {center: [0.1, 0.1], radius: 0.3}, material: air, density: 1, pressure: 1 bar, velocity: [0, 0]}
+scheme: {closure: allaire, limiter: mc, cfl: 0.9}
+run: {until: 1, max-steps: 25}
+output:
+  snapshots: {every: 25 steps, fields: [density, velocity, pressure, alpha_air], precision: double}
+  history: {columns: {m: {mass: air}, E: {total: energy}, pmin: {min: pressure}}}
+  probes: {every: 1 steps, in: {at: [0.1, 0], fields: [pressure, velocity]}}
+END
+
+sed 's/closure: allaire/closure: kapila/' parting.yaml >relaxing.yaml
+
+# Same names in folders of their own: a snapshot holds the case, and this the name of its output.
+for name in space parting relaxing; do
+    last=$(sed -n 's/.*max-steps: \([0-9]*\).*/\1/p' $name.yaml)
+    snapshot=out/fields/${name}_$(printf %06d "$last").hdf
+    for ranks in 1 2 3 4; do
+        rm -rf $name-$ranks
+        mkdir $name-$ranks
+        (cd $name-$ranks && cp ../$name.yaml . && "$BULLA" run $name.yaml -o out -n $ranks --quiet)
+        cmp $name-1/out/history.csv $name-$ranks/out/history.csv
+        cmp $name-1/out/probes.csv $name-$ranks/out/probes.csv
+        "$same" $name-1/$snapshot $name-$ranks/$snapshot
+        sed -n '/"guard"/,/}/p' $name-$ranks/out/provenance.json >$name-$ranks/guard
+        cmp $name-1/guard $name-$ranks/guard
+    done
+done
+# the last two are about repairs: all kinds of them must have happened
+grep -q '"fallback": *[1-9]' parting-1/guard
+grep -q '"retries": *[1-9]' parting-1/guard
+grep -q '"relaxed": *[1-9]' relaxing-1/guard
