@@ -255,7 +255,7 @@ static BULLA_KERNEL void stage_signal(size_t n, const double *restrict c2, const
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a = fabs(u0[i]), b = fabs(u1[i]), d = fabs(u2[i]), s = c2[i];
-        signal[i] = all * sqrt(s) + h0 * a + h1 * b + h2 * d;
+        signal[i] = all * sqrt(s) + ((h0 * a + h1 * b) + h2 * d); /* x and y may change places */
     }
 }
 
