@@ -146,29 +146,36 @@ int study_run(struct study *study, unsigned index, const struct study_options *o
     return STATUS_OK;
 }
 
-double study_order(const struct study *study, unsigned index, unsigned v)
+double study_order(const struct study *study, unsigned from, unsigned to, unsigned v)
 {
-    if (index == 0) return NAN;
-    const struct matrix_row *coarse = &study->matrix.rows[index - 1], *fine = &study->matrix.rows[index];
-    const struct study_row *before = &study->rows[index - 1], *after = &study->rows[index];
+    const struct matrix_row *coarse = &study->matrix.rows[from], *fine = &study->matrix.rows[to];
+    const struct study_row *before = &study->rows[from], *after = &study->rows[to];
     if (!(coarse->count > 0) || !(fine->count > coarse->count) || v >= before->n_value || v >= after->n_value)
         return NAN;
     double ratio = pow(fine->count / coarse->count, 1.0 / fine->dim);
     return log(before->values[v].value / after->values[v].value) / log(ratio);
 }
 
-static bool study_row_passed(const struct study *study, unsigned index)
+static bool study_row_passed(const struct study_row *row)
 {
-    const struct study_row *row = &study->rows[index];
-    if (row->code != STATUS_OK && (row->judged || row->code != STATUS_EXPECT)) return false;
-    for (unsigned v = 0; v < row->n_value && index > 0 && index + 1 == study->matrix.n_row; v++)
-        if (row->values[v].order > 0 && !(study_order(study, index, v) >= row->values[v].order)) return false;
+    return row->code == STATUS_OK || (row->code == STATUS_EXPECT && !row->judged);
+}
+
+static bool study_orders_passed(const struct study *study)
+{
+    unsigned last = study->matrix.n_row - 1;
+    for (unsigned v = 0; v < study->rows[last].n_value; v++) {
+        double wanted = study->rows[last].values[v].order;
+        if (last == 0 || !(wanted > 0)) continue;
+        if (!(study_order(study, last - 1, last, v) >= wanted) && !(study_order(study, 0, last, v) >= wanted))
+            return false;
+    }
     return true;
 }
 
 bool study_passed(const struct study *study)
 {
     for (unsigned i = 0; i < study->matrix.n_row; i++)
-        if (!study_row_passed(study, i)) return false;
-    return true;
+        if (!study_row_passed(&study->rows[i])) return false;
+    return study_orders_passed(study);
 }

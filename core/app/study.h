@@ -42,10 +42,12 @@ void study_done(struct study *study);
 /* Runs row `index`. A run that fails is noted in the row, not an error; STATUS_RUN: it could not be started. */
 int study_run(struct study *study, unsigned index, const struct study_options *options);
 
-/* Observed order of value `v` from row index-1 to row index, which must be finer; NaN if there is none. */
-double study_order(const struct study *study, unsigned index, unsigned v);
+/* Observed order of value `v` from row `from` to row `to`, which must be finer; NaN if there is none. */
+double study_order(const struct study *study, unsigned from, unsigned to, unsigned v);
 
-/* Did everything hold: all runs finished, bounds of judged rows, orders between the last two rows? */
+/* Did everything hold: all runs finished, the bounds of judged rows, and orders? An order is kept when the
+ * last two rows or the first and the last show it: with shocks single pairs scatter with the place
+ * of the jumps in their cells, with smooth waves coarse rows are not asymptotic yet. */
 bool study_passed(const struct study *study);
 
 #endif

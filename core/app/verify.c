@@ -164,10 +164,26 @@ static void verify_row(struct text *out, const struct study *study, unsigned ind
     if (row->code > STATUS_EXPECT) text_add(out, " **run failed (exit code %d)** |", row->code);
     for (unsigned v = 0; v < row->n_value && v < columns->n_value; v++) {
         const struct study_value *value = &row->values[v];
-        double order = study_order(study, index, v);
+        double order = index > 0 ? study_order(study, index - 1, index, v) : NAN;
         text_add(out, " %.4g%s |", value->value, row->judged && !value->passed ? " **fails**" : "");
         if (value->is_norm && isfinite(order)) text_add(out, " %.2f |", order);
         else if (value->is_norm) text_add(out, " |");
+    }
+    text_add(out, "\n");
+}
+
+/* The orders from the first row to the last. */
+static void verify_overall(struct text *out, const struct study *study, const struct study_row *columns)
+{
+    unsigned last = study->matrix.n_row - 1;
+    bool any = false;
+    for (unsigned v = 0; v < columns->n_value; v++)
+        any = any || (columns->values[v].is_norm && isfinite(study_order(study, 0, last, v)));
+    if (last < 2 || !any) return;
+    text_add(out, "| all | |");
+    for (unsigned v = 0; v < columns->n_value; v++) {
+        if (columns->values[v].is_norm) text_add(out, " | %.2f |", study_order(study, 0, last, v));
+        else text_add(out, " |");
     }
     text_add(out, "\n");
 }
@@ -190,6 +206,7 @@ static void verify_table(struct text *out, const struct study *study)
     const struct study_row *columns = verify_columns(study);
     verify_head(out, columns);
     for (unsigned i = 0; i < study->matrix.n_row; i++) verify_row(out, study, i, columns);
+    verify_overall(out, study, columns);
     verify_bounds(out, study, columns);
 }
 

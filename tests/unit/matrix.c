@@ -107,15 +107,18 @@ static void test_orders(void **state)
                                     {.value = 0.005, .order = 1.9, .is_norm = true, .passed = true}};
     for (unsigned i = 0; i < 3; i++)
         study.rows[i] = (struct study_row){.judged = i > 0, .n_value = 1, .values = &values[i]};
-    assert_true(isnan(study_order(&study, 0, 0)));
-    assert_true(fabs(study_order(&study, 1, 0) - 2) < 1e-12);
+    assert_true(isnan(study_order(&study, 1, 0, 0)));
+    assert_true(fabs(study_order(&study, 0, 1, 0) - 2) < 1e-12);
     study.rows[0].code = STATUS_EXPECT; /* too coarse to be judged */
     assert_true(study_passed(&study));
     study.rows[1].code = STATUS_EXPECT;
     assert_false(study_passed(&study));
     study.rows[1].code = STATUS_OK;
-    values[2].value = 0.01; /* order 1 */
+    values[2].value = 0.01; /* order 1 at last, 1.5 over all */
     assert_false(study_passed(&study));
+    values[0].value = 1; /* 3.3 over all */
+    assert_true(study_passed(&study));
+    values[0].value = 0.08;
     values[2].value = NAN;
     assert_false(study_passed(&study));
     values[2].value = 0.005;
