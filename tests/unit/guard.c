@@ -165,8 +165,8 @@ static void check_relax(const struct model *model, uint64_t *seed, int *ret_done
 static void test_relax_cell(void **state)
 {
     (void)state;
-    static const char *const materials[] = {FLOW_WATER FLOW_AIR, FLOW_WATER FLOW_AIR FLOW_HELIUM,
-                                            "  water: {eos: {type: mnasg}}\n" FLOW_AIR};
+    static const char *const materials[] = {(FLOW_WATER FLOW_AIR), (FLOW_WATER FLOW_AIR FLOW_HELIUM),
+                                            ("  water: {eos: {type: mnasg}}\n" FLOW_AIR)};
     for (int i = 0; i < 3; i++) {
         struct flow flow;
         uint64_t seed = 99;
