@@ -180,14 +180,17 @@ double table_interpolate(size_t n, const double *xs, const double *ys, double x)
     return ys[after - 1] + weight * (ys[after] - ys[after - 1]);
 }
 
+/* At a vertical step on an edge the limit from inside counts. */
 double table_average(size_t n, const double *xs, const double *ys, double lower, double upper)
 {
     double sum = 0, x = lower, y = table_interpolate(n, xs, ys, lower);
-    for (size_t i = table_below(n, xs, lower); i < n && xs[i] < upper; i++) {
+    size_t i = table_below(n, xs, lower);
+    for (; i < n && xs[i] < upper; i++) {
         sum += (xs[i] - x) * (y + ys[i]) / 2;
         x = xs[i];
         y = ys[i];
     }
-    sum += (upper - x) * (y + table_interpolate(n, xs, ys, upper)) / 2;
-    return sum / (upper - lower);
+    double last = y;
+    if (i > 0 && i < n) last += (ys[i] - y) * (upper - x) / (xs[i] - x);
+    return (sum + (upper - x) * (y + last) / 2) / (upper - lower);
 }

@@ -184,6 +184,9 @@ static void test_interpolation(void **state)
     assert_true(fabs(table_average(4, x, y, 0, 3) - 5.0 / 3) < 1e-15);
     assert_true(fabs(table_average(4, x, y, 0.5, 2) - (0.75 + 3) / 1.5) < 1e-15);
     assert_true(fabs(table_average(4, x, y, 1.5, 2) - 2.5) < 1e-15);
+    assert_true(fabs(table_average(4, x, y, 0.5, 1) - 1.5) < 1e-15); /* the jump lies on an edge */
+    assert_true(fabs(table_average(4, x, y, 1, 2) - 3) < 1e-15);
+    assert_true(table_average(4, x, y, -2, -1) == 0 && table_average(4, x, y, 4, 5) == 0);
 }
 
 int main(void)
