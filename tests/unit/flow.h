@@ -105,6 +105,7 @@ static inline void flow_close(struct flow *flow)
     struct stage *stage = flow->state->stage;
     struct level *level = &flow->state->mesh->levels[0];
     guard_attempt(stage->guard);
+    stage_reset(stage);
     mesh_swap(level);
     stage_close(stage);
     mesh_swap(level);
