@@ -14,6 +14,7 @@ static const char *const PAIRS[] = {
     FLOW_WATER "  oil: {eos: {type: mnasg}}\n" FLOW_AIR,
 };
 static const char LINE[] = "{lower: [0], upper: [1], cells: [64], boundaries: {x-: periodic, x+: periodic}}";
+static const char *const CLOSURES[] = {"kapila", "allaire"};
 static const char PLANE[] = "{lower: [0, 0], upper: [1, 1], cells: [32, 32], boundaries: {x-: periodic, x+: periodic, "
                             "y-: periodic, y+: periodic}}";
 
@@ -69,7 +70,8 @@ static void check_all(const char *domain, const char *velocity, const char *shap
     for (int pair = 0; pair < N_PAIR; pair++) {
         for (int s = 0; s < N_SOLVER; s++)
             for (int l = 0; l < N_LIMITER; l++) {
-                char *scheme = mem_print("{riemann: %s, limiter: %s, cfl: 0.5}", SOLVERS[s], LIMITERS[l]);
+                char *scheme = mem_print("{riemann: %s, limiter: %s, closure: %s, cfl: 0.5}", SOLVERS[s], LIMITERS[l],
+                                         CLOSURES[(l + s + pair) % 2]);
                 check_run(contact_case(domain, PAIRS[pair], velocity, shape, scheme), u0, scheme, &worst[pair]);
                 mem_free(scheme);
             }
