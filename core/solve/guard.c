@@ -26,7 +26,6 @@ struct guard *guard_new(const struct model *model, const struct mesh *mesh, cons
     *guard = (struct guard){.model = model, .mesh = mesh, .level = level};
     guard->repair = model->kapila && model->scene->guard != SCENE_GUARD_STRICT;
     guard->mask = mem_new(level->n_local, sizeof *guard->mask);
-    for (unsigned t = 0; t < level->n_local; t++) guard->mask[t] = mem_new(mesh->n_cell, sizeof **guard->mask);
     guard->halo = halo_new(mesh, level, 1);
     return guard;
 }
@@ -40,11 +39,20 @@ void guard_free(struct guard *guard)
     mem_free(guard);
 }
 
+/* Most runs never mark a cell: masks get memory with the first one. */
+static void guard_allow_marks(struct guard *guard)
+{
+    if (guard->marked) return;
+    for (unsigned t = 0; t < guard->level->n_local; t++)
+        if (!guard->mask[t]) guard->mask[t] = mem_new(guard->mesh->n_cell, sizeof **guard->mask);
+    guard->marked = true;
+}
+
 void guard_clear(struct guard *guard)
 {
-    for (unsigned t = 0; t < guard->level->n_local; t++)
+    for (unsigned t = 0; guard->marked && t < guard->level->n_local; t++)
         memset(guard->mask[t], 0, guard->mesh->n_cell * sizeof **guard->mask);
-    guard->masked = false;
+    guard->marked = guard->masked = false;
 }
 
 void guard_attempt(struct guard *guard)
@@ -163,6 +171,7 @@ static bool guard_repair(struct guard *guard, const struct guard_tile *tile, siz
 
 void guard_settle(struct guard *guard, bool first)
 {
+    guard_allow_marks(guard);
     for (unsigned t = 0; t < guard->level->n_local; t++)
         for (size_t c = 0; c < guard->mesh->n_cell; c++)
             if (guard->mask[t][c] == GUARD_PENDING) guard->mask[t][c] = first ? 0.0 : 1.0;
@@ -183,6 +192,7 @@ void guard_check(struct guard *guard, const struct guard_tile *tile)
             if (bad[i] == 0.0 || guard_repair(guard, tile, from + i)) continue;
             if (!guard->cause[0]) guard_describe(guard, tile, from + i);
             guard->bad[tile->stage]++;
+            guard_allow_marks(guard);
             double *mark = &guard->mask[tile->local][from + i];
             if (*mark == 0.0) *mark = tile->stage ? GUARD_PENDING : 1.0;
         }

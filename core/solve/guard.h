@@ -22,7 +22,8 @@ struct guard {
     const struct model *model;
     const struct mesh *mesh;
     const struct level *level;
-    double **mask;     /* [n_local][n_cell]: 1 in troubled cells of this step */
+    double **mask;     /* [n_local][n_cell]: 1 in troubled cells of this step; NULL until a run has had one */
+    bool marked;       /* masks are there and may hold marks */
     struct halo *halo; /* exchange of the masks */
     bool masked;       /* some cell of some rank is marked */
     bool repair;       /* relaxation is allowed (Kapila closure, guard not strict) */
@@ -53,7 +54,7 @@ struct guard_tile {
 /* Checks a tile; repairs, notes and marks bad cells; after a bad first stage the second is not judged. */
 void guard_check(struct guard *guard, const struct guard_tile *tile);
 
-/* After an attempt with bad cells: if any rank found one in the `first` stage, what the others found in the second
+/* After an attempt with bad cells, on all ranks: if any rank found one in the `first` stage, what the others found in the second
  * is forgotten, so that marks do not depend on the ranks. */
 void guard_settle(struct guard *guard, bool first);
 
