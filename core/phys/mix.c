@@ -15,6 +15,12 @@ struct mix_row {
     double value[MIX_BATCH];
 };
 
+/* Sums start here: only the points in use are cleared. */
+static void mix_zero(size_t n, struct mix_row *row)
+{
+    memset(row->value, 0, n * sizeof *row->value);
+}
+
 /* Below this a volume fraction is noise: it counts as 0 even where energies are added up. */
 #define MIX_NOTHING 1e-20
 
@@ -109,7 +115,9 @@ struct mix_budget {
 static void mix_close_linear(const struct model *model, size_t n, size_t stride, const struct mix_budget *budget,
                              double *w)
 {
-    struct mix_row a, b, sum_a = {{0}}, sum_b = {{0}};
+    struct mix_row a, b, sum_a, sum_b;
+    mix_zero(n, &sum_a);
+    mix_zero(n, &sum_b);
     for (unsigned l = 0; l < model->n_material; l++) {
         const double *alpha = budget->alpha + l * stride, *rho = w + (model->i_m + l) * stride;
         model->eos[l].law->linear(model->eos[l].self, n, rho, a.value, b.value);
@@ -117,8 +125,8 @@ static void mix_close_linear(const struct model *model, size_t n, size_t stride,
             mix_add_product(n, alpha, a.value, sum_a.value);
             mix_add_product(n, alpha, b.value, sum_b.value);
         } else {
-            sum_a = a;
-            sum_b = b;
+            memcpy(sum_a.value, a.value, n * sizeof *a.value);
+            memcpy(sum_b.value, b.value, n * sizeof *b.value);
         }
     }
     mix_pressure(n, budget->energy, budget->twice, sum_a.value, sum_b.value, w + model->i_E * stride);
@@ -174,7 +182,8 @@ static void mix_close_newton(const struct model *model, size_t n, size_t stride,
     }
     for (int round = 0; round < ROUNDS && !all; round++) {
         all = true;
-        f = slope = (struct mix_row){{0}};
+        mix_zero(n, &f);
+        mix_zero(n, &slope);
         mix_residual(model, n, stride, budget->alpha, w, p, &f, &slope);
         for (size_t i = 0; i < n; i++) {
             if (done[i]) continue;
@@ -199,7 +208,8 @@ static void mix_close_newton(const struct model *model, size_t n, size_t stride,
 static void mix_fractions(const struct model *model, size_t n, size_t stride, const double *u, double least,
                           double least_mass, double *w)
 {
-    struct mix_row sum = {{0}};
+    struct mix_row sum;
+    mix_zero(n, &sum);
     for (unsigned l = 0; l < model->n_alpha; l++)
         mix_keep(n, least, least_mass, u + (model->i_alpha + l) * stride, u + (model->i_m + l) * stride,
                  w + (model->i_alpha + l) * stride, sum.value);
@@ -213,7 +223,9 @@ static void mix_fractions(const struct model *model, size_t n, size_t stride, co
  * of 1e-12 of water weighs 1e-3 J/m3. Only then traces are dropped from what fluxes will see. */
 static void mix_primitives_batch(const struct model *model, size_t n, size_t stride, const double *u, double *w)
 {
-    struct mix_row rho = {{0}}, twice = {{0}};
+    struct mix_row rho, twice;
+    mix_zero(n, &rho);
+    mix_zero(n, &twice);
     unsigned i_m = model->i_m;
     double traces = 0.0;
     for (unsigned l = 0; l < model->n_material; l++) mix_add(n, u + (i_m + l) * stride, rho.value);
@@ -239,7 +251,9 @@ void mix_primitives(const struct model *model, size_t n, size_t stride, const do
 
 static void mix_conserved_batch(const struct model *model, size_t n, size_t stride, const double *w, double *u)
 {
-    struct mix_row rho = {{0}}, energy = {{0}}, e, c2;
+    struct mix_row rho, energy, e, c2;
+    mix_zero(n, &rho);
+    mix_zero(n, &energy);
     for (unsigned l = 0; l < model->n_material; l++) {
         const double *density = w + (model->i_m + l) * stride;
         double *m = u + (model->i_m + l) * stride;
@@ -304,11 +318,13 @@ void mix_stiffness(const struct model *model, size_t n, size_t stride, const dou
 static void mix_speed2_batch(const struct model *model, size_t n, size_t stride, const double *w, const double *rho_c2,
                              double *c2)
 {
-    struct mix_row rho = {{0}}, sum = {{0}};
+    struct mix_row rho, sum;
     if (!model->n_alpha) {
         mix_divide(n, rho_c2, w + model->i_m * stride, c2);
         return;
     }
+    mix_zero(n, &rho);
+    mix_zero(n, &sum);
     for (unsigned l = 0; l < model->n_material; l++)
         mix_stiffen(n, w + (model->i_alpha + l) * stride, w + (model->i_m + l) * stride, rho_c2 + l * stride, rho.value,
                     sum.value);
@@ -347,7 +363,8 @@ void mix_closure(const struct model *model, size_t n, size_t stride, const doubl
 {
     for (size_t i = 0; i < n; i += MIX_BATCH) {
         size_t count = n - i < MIX_BATCH ? n - i : MIX_BATCH;
-        struct mix_row sum = {{0}};
+        struct mix_row sum;
+        mix_zero(count, &sum);
         for (unsigned l = 0; l < model->n_alpha; l++)
             mix_compliance(count, w + (model->i_alpha + l) * stride + i, rho_c2 + l * stride + i, sum.value);
         for (unsigned l = 0; l < model->n_alpha; l++)

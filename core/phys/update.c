@@ -217,11 +217,13 @@ static BULLA_KERNEL void update_normalise(size_t n, const double *restrict sum, 
 static size_t update_relax(const struct model *model, size_t n_cell, size_t from, size_t n, double dt,
                            const struct update_input *in, double *u_new)
 {
-    struct update_misfit misfit = {.sum = {0}};
-    double cut[UPDATE_BATCH] = {0};
+    struct update_misfit misfit;
+    double cut[UPDATE_BATCH],
+        *sums[] = {misfit.sum, misfit.compliance, misfit.rho, misfit.stiffness, misfit.speed2, cut};
     const double *w = in->w + from, *rho_c2 = in->rho_c2 + from, *rates = in->rates + from;
     const double *carried = rates + (model->n_field + 1) * n_cell, *strained = carried + model->n_alpha * n_cell;
     size_t clipped = 0;
+    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) memset(sums[i], 0, n * sizeof *cut);
     u_new += from;
     for (int d = 0; d < model->dim; d++) update_speed2(n, w + (model->i_u + (unsigned)d) * n_cell, misfit.speed2);
     for (unsigned l = 0; l < model->n_alpha; l++) {
@@ -247,11 +249,12 @@ size_t update_apply(const struct model *model, size_t n_cell, double dt, const s
     }
     for (size_t from = 0; model->n_alpha && from < n_cell; from += UPDATE_BATCH) {
         size_t n = n_cell - from < UPDATE_BATCH ? n_cell - from : UPDATE_BATCH;
-        double sum[UPDATE_BATCH] = {0};
+        double sum[UPDATE_BATCH];
         const double *div = in->rates + model->n_field * n_cell + from;
         for (unsigned l = 0; l < model->n_alpha; l++)
             update_transport(n, dt, in->u_old + l * n_cell + from, in->w + l * n_cell + from,
                              in->rates + l * n_cell + from, div, u_new + l * n_cell + from);
+        memset(sum, 0, n * sizeof *sum);
         if (model->kapila) clipped += update_relax(model, n_cell, from, n, dt, in, u_new);
         for (unsigned l = 0; l < model->n_alpha; l++) update_sum(n, u_new + l * n_cell + from, sum);
         for (unsigned l = 0; l < model->n_alpha; l++) update_normalise(n, sum, u_new + l * n_cell + from);

@@ -157,7 +157,7 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double dt, d
     struct level *level = stage->level;
     size_t n_cell = mesh->n_cell;
     struct metric metric;
-    metric_of_tile(mesh, level, &level->tiles[level->first + local], &metric);
+    if (mesh->beta) metric_of_tile(mesh, level, &level->tiles[level->first + local], &metric);
     stage_clear_rates(stage, model);
     for (int axis = 0; axis < mesh->dim; axis++) stage_sweep(stage, model, local, axis, &metric);
     if (model->kapila) {
