@@ -3,8 +3,8 @@
 #
 #     tests/perf/bench.sh [BUILD]
 #
-# For each case: CPU time per cell and stage, the bare kernels of the same machine, their ratio, and
-# peak memory per cell and field in doubles (three arrays are stored; the program itself comes on top).
+# For each case: CPU time per cell and stage, the bare kernels of the same machine, their ratio, and what
+# peak memory grows by per cell and field, in doubles (three arrays are stored; the program comes on top).
 # Then two ranks against one: wall time of the whole run, start and end included. Runs on an idle machine only
 # mean something.
 set -eu
@@ -19,17 +19,22 @@ number() { # FILE KEY: a number of provenance.json
     sed -n "s/^ *\"$2\": *\([-0-9.e+]*\),*\$/\1/p" "$1" | head -n 1
 }
 
-run() { # CASE RANKS: runs into CASE-RANKS
-    "$build/bin/bulla" run "$here/$1.yaml" -o "$1-$2" -n "$2" --quiet --overwrite
+run() { # CASE RANKS [OPTIONS...]: runs into CASE-RANKS
+    case=$1 ranks=$2
+    shift 2
+    "$build/bin/bulla" run "$here/$case.yaml" -o "$case-$ranks" -n "$ranks" --quiet --overwrite "$@"
 }
 
 report() { # CASE FIELDS KERNEL_NS
-    run "$1" 1
     of="$1-1/provenance.json"
+    run "$1" 1 --max-steps 1 --set 'domain.cells=[64, 64]'
+    few=$(number "$of" cells) least=$(number "$of" peak_memory_bytes)
+    run "$1" 1
     awk -v name="$1" -v fields="$2" -v bare="$3" -v ns="$(number "$of" cpu_ns_per_cell_stage)" \
-        -v bytes="$(number "$of" bytes_per_cell)" 'BEGIN {
+        -v bytes="$(number "$of" peak_memory_bytes)" -v cells="$(number "$of" cells)" -v few="$few" -v least="$least" \
+        'BEGIN {
         printf "%-14s %6.1f ns per cell-stage, bare kernels %5.1f, ratio %.2f; %.2f doubles per cell and field\n",
-               name, ns, bare, ns / bare, bytes / 8 / fields }'
+               name, ns, bare, ns / bare, (bytes - least) / (cells - few) / 8 / fields }'
 }
 
 kernels=$("$build/bin/bulla-bench-kernels" 2>/dev/null | head -n 1)
