@@ -153,6 +153,7 @@ struct scene {
     int cells[SCENE_AXES];                         /* 1 beyond dim */
     struct scene_boundary boundary[SCENE_AXES][2]; /* [axis][0 lower, 1 upper] */
     int levels, tile;                              /* mesh; tile 0: chosen by the mesh */
+    char *cells_place;                             /* of domain.cells, as file:line:column, for messages */
     unsigned n_material;
     struct scene_material material[SCENE_MATERIALS];
     unsigned n_layer;

@@ -1,6 +1,8 @@
 /* scene_domain.c - the region, its cells, and the mesh upon it. */
 #include "case/scene_draft.h"
 
+#include "base/mem.h"
+
 #include <string.h>
 
 static const struct key scene_domain_boundaries[] = {
@@ -157,6 +159,8 @@ static void scene_domain_cells(struct draft *draft, const struct keys_map *domai
         return;
     }
     for (int axis = 0; axis < scene->dim; axis++) scene->cells[axis] = (int)cells->list[axis].integer;
+    const struct mark *mark = &cells->node->mark;
+    scene->cells_place = mem_print("%s:%d:%d", mark->source->name, mark->line, mark->column);
 }
 
 static void scene_domain_mesh_read(struct draft *draft)

@@ -34,8 +34,8 @@ static int mesh_refuse(const struct scene *scene, int common)
     for (int d = 0; d < scene->dim; d++) text_add(&counts, "%s%d", d ? ", " : "", (scene->cells[d] + 15) / 16 * 16);
     status_fail(
         STATUS_CASE,
-        "domain.cells: the counts have no common tile side from %d to %d (greatest common divisor %d); try [%s]",
-        MESH_TILE_LEAST, mesh_tile_most(scene->dim), common, counts.at);
+        "%s: domain.cells: the counts have no common tile side from %d to %d (greatest common divisor %d); try [%s]",
+        scene->cells_place, MESH_TILE_LEAST, mesh_tile_most(scene->dim), common, counts.at);
     text_done(&counts);
     return 0;
 }
@@ -46,8 +46,8 @@ int mesh_tile_size(const struct scene *scene)
     for (int d = 1; d < scene->dim; d++) common = mesh_gcd(common, scene->cells[d]);
     if (scene->tile) {
         if (common % scene->tile == 0) return scene->tile;
-        status_fail(STATUS_CASE, "mesh.tile: %d does not divide all of domain.cells (greatest common divisor %d)",
-                    scene->tile, common);
+        status_fail(STATUS_CASE, "%s: mesh.tile: %d does not divide all of domain.cells (greatest common divisor %d)",
+                    scene->cells_place, scene->tile, common);
         return 0;
     }
     for (int n = mesh_tile_most(scene->dim); n >= MESH_TILE_LEAST; n--)

@@ -145,6 +145,19 @@ static void face_limit(const struct face_work *work, unsigned q, size_t cells, s
     face_edges(cells, w, own->slope, lower, upper);
 }
 
+/* Without K a mixed cell is as stiff as its stiffest material makes it, so an edge must not look like the
+ * pure softer one: the face would yield with that impedance and overshoot. Edges keep at least half of
+ * what the cell has of every material. */
+static BULLA_KERNEL void face_temper(size_t n, const double *restrict alpha, double *restrict edge)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], e = edge[i], least = 0.5 * a, most = 0.5 + 0.5 * a;
+        e = e > least ? e : least;
+        edge[i] = e < most ? e : most;
+    }
+}
+
 /* First-order states at the faces of troubled cells. */
 static void face_flatten(size_t n, size_t step, const double *w, const double *mask, double *left, double *right)
 {
@@ -166,6 +179,10 @@ static void face_reconstruct(struct face_work *work, const struct frame *frame, 
         const double *w = work->frame + q * FACE_ROOM + step;
         double *upper = own->state + 2 * q * FACE_ROOM;
         face_limit(work, q, cells, step, w, upper);
+        if (q < model->n_alpha && !model->kapila) {
+            face_temper(cells, w, upper);
+            face_temper(cells, w, upper + cells);
+        }
         if (masked) face_flatten(cells - step, step, w, work->mask + step, upper, upper + cells + step);
     }
 }

@@ -5,7 +5,7 @@ set -eu
 cat >tube.yaml <<'END'
 bulla: 1
 title: A tube
-domain: {lower: [0], upper: [1], cells: [512], boundaries: {x-: outflow, x+: outflow}}
+domain: {lower: [0], upper: [1], cells: [4096], boundaries: {x-: outflow, x+: outflow}}
 mesh: {tile: 64}
 materials:
   air: {eos: {type: ideal-gas, gamma: 1.4}}
@@ -14,7 +14,7 @@ initial:
   - {half-space: {point: [0.5], normal: [1]}, material: air, density: 0.125, pressure: 0.1 bar}
 run: {until: 1 s}
 output:
-  snapshots: {every: 50 steps}
+  snapshots: {every: 1000 steps}
 END
 for ranks in 1 3; do
     rm -rf out
@@ -24,10 +24,10 @@ for ranks in 1 3; do
     until [ -e out/fields/tube_000000.hdf ]; do
         kill -0 "$run" || { echo "the run ended by itself"; exit 1; }
     done
-    number=50 # from now on the disk is full: one of these is the next file
-    while [ "$number" -le 10000 ]; do
+    number=1000 # from now on the disk is full: one of these is the next file, a good while away
+    while [ "$number" -le 40000 ]; do
         ln -sf /dev/full "out/fields/$(printf 'tube_%06d.hdf.tmp' "$number")" 2>/dev/null || true
-        number=$((number + 50))
+        number=$((number + 1000))
     done
     code=0
     wait "$run" || code=$?
