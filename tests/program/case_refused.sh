@@ -30,3 +30,7 @@ grep -q "the case has no variants" err.txt
 run 2 run nowhere.yaml
 grep -q "cannot read 'nowhere.yaml'" err.txt
 [ ! -e out ]
+
+# What a case asks for and this version does not do is said.
+run 0 check "$good" --set output.checkpoints.every=1us
+grep -q "warning: this version writes no checkpoints yet" err.txt

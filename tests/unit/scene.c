@@ -232,7 +232,6 @@ static void the_design_case_is_understood(void **state)
     assert_int_equal(scene->n_snapshot_field, 4);
     assert_int_equal(scene->columns[1].in, 2);
     assert_int_equal(scene->columns[2].along, 1);
-    assert_int_equal(scene->checkpoints_keep, 2);
     assert_string_equal(scene->probes[0].fields[0], "pressure");
     assert_string_equal(scene->expects[0].value, "min(V)/first(V)");
     scene_free(scene);
@@ -322,6 +321,25 @@ static int read_with_fields(const char *fields, struct scene **ret_scene, char *
     return code;
 }
 
+/* Checkpoints are understood, and that this version writes none is said. */
+static void checkpoints_are_read_with_a_warning(void **state)
+{
+    (void)state;
+    const char *sets[] = {"output.checkpoints.every=100 ns", "output.checkpoints.keep=2", NULL};
+    struct scene_options options = {.sets = sets};
+    struct scene *scene = NULL;
+    char *said = NULL;
+    size_t length;
+    options.messages = open_memstream(&said, &length);
+    assert_int_equal(scene_read("tests/data/case/good/minimal.yaml", &options, &scene), STATUS_OK);
+    fclose(options.messages);
+    assert_true(scene->checkpoints.time == 1e-7);
+    assert_int_equal(scene->checkpoints_keep, 2);
+    assert_non_null(strstr(said, "warning: this version writes no checkpoints yet"));
+    free(said);
+    scene_free(scene);
+}
+
 /* Cases may name exactly what can be derived. */
 static void fields_of_cases_are_those_that_can_be_derived(void **state)
 {
@@ -360,6 +378,7 @@ int main(void)
         cmocka_unit_test(overlays_are_laid_in_order),
         cmocka_unit_test(one_number_in_many_units),
         cmocka_unit_test(waves_and_inflows_keep_their_numbers),
+        cmocka_unit_test(checkpoints_are_read_with_a_warning),
         cmocka_unit_test(fields_of_cases_are_those_that_can_be_derived),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
