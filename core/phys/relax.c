@@ -131,8 +131,18 @@ static double relax_close(struct relax *relax)
     return relax->w[relax->model->i_E];
 }
 
-/* Moves volume between the two materials of highest and lowest energy density until the energy
- * held at p* is the conserved one. */
+/* The present material of least or most energy per volume. */
+static unsigned relax_extreme(const struct relax *relax, const double *rho_e, bool least)
+{
+    unsigned found = 0;
+    while (!relax->present[found]) found++;
+    for (unsigned l = found + 1; l < relax->model->n_material; l++)
+        if (relax->present[l] && (least ? rho_e[l] < rho_e[found] : rho_e[l] > rho_e[found])) found = l;
+    return found;
+}
+
+/* Moves volume to the material of least or most energy per volume until the energy held at p* is the conserved one;
+ * from the material that has most to give, which need not be the other extreme: that may be a trace. */
 static void relax_shift(struct relax *relax, double p)
 {
     const struct model *model = relax->model;
@@ -143,22 +153,23 @@ static void relax_shift(struct relax *relax, double p)
         kinetic += 0.5 * q * q / rho;
     }
     for (int i = 0; i < RELAX_NEWTON; i++) {
-        double held = 0.0, most = -HUGE_VAL, least = HUGE_VAL, slope;
-        unsigned from = 0, to = 0;
+        double rho_e[SCENE_MATERIALS], slope, excess = kinetic - relax->u[model->i_E], most = 0.0;
         for (unsigned l = 0; l < model->n_material; l++) {
             if (!relax->present[l]) continue;
-            double rho_e = relax_energy(&model->eos[l], relax->m[l] / relax->u[l], p, &slope);
-            held += relax->u[l] * rho_e;
-            if (rho_e > most) most = rho_e, from = l;
-            if (rho_e < least) least = rho_e, to = l;
+            rho_e[l] = relax_energy(&model->eos[l], relax->m[l] / relax->u[l], p, &slope);
+            excess += relax->u[l] * rho_e[l];
         }
-        double shift = (held - (relax->u[model->i_E] - kinetic)) / (most - least);
-        if (!(most > least) || !isfinite(shift)) return;
+        unsigned to = relax_extreme(relax, rho_e, excess > 0.0), from = to;
+        for (unsigned l = 0; l < model->n_material; l++) {
+            double room = relax->present[l] ? relax->u[l] * fabs(rho_e[l] - rho_e[to]) : 0.0;
+            if (room > most) most = room, from = l;
+        }
+        double shift = fabs(excess / (rho_e[from] - rho_e[to]));
+        if (!isfinite(shift)) return;
         if (shift > 0.5 * relax->u[from]) shift = 0.5 * relax->u[from];
-        if (shift < -0.5 * relax->u[to]) shift = -0.5 * relax->u[to];
         relax->u[from] -= shift;
         relax->u[to] += shift;
-        if (fabs(shift) < 1e-15) return;
+        if (shift < 1e-15) return;
     }
 }
 
