@@ -13,9 +13,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Share of a cell's fraction that its edges keep where fractions are fixed. */
-#define FACE_SHARE 0.5
-
 /* Both edges of the cells of a row lie behind each other, upper then lower, n_cell each: face i
  * has upper edge i on its left and lower edge i + step on its right. */
 struct face_own {
@@ -199,34 +196,12 @@ static BULLA_KERNEL void face_divide(size_t n, const double *restrict sum, doubl
     for (size_t i = 0; i < n; i++) a[i] /= sum[i];
 }
 
-/* An edge keeps a share of each material of its cell. */
-static BULLA_KERNEL void face_hold(size_t n, const double *restrict alpha, double *restrict edge)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double least = FACE_SHARE * alpha[i], value = edge[i];
-        edge[i] = value > least ? value : least;
-    }
-}
-
-/* With fixed fractions (Allaire) a cell of gas with little liquid is stiff (7e7 Pa at 0.2 water), while an edge with
- * gas alone yields like gas: together more than an explicit step can bear, and water beside air at rest blows up.
- * The liquid that stays at the edge carries the impedance. */
-static void face_hold_fractions(struct face_work *work, const struct frame *frame, size_t cells)
-{
-    const struct model *model = work->model;
-    const struct face_own *own = work->own;
-    for (unsigned l = 0; l < model->n_alpha; l++)
-        for (size_t side = 0; side < 2; side++)
-            face_hold(cells, work->frame + l * FACE_ROOM + frame->inner, own->state + 2 * l * FACE_ROOM + side * cells);
-}
-
-/* Limited fractions of three or more materials, or held ones, need not sum to 1 (of two they do: limiters are odd). */
+/* Limited fractions of three or more materials need not sum to 1 (of two they do: limiters are odd). */
 static void face_normalise(struct face_work *work, size_t n)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
-    if (model->n_alpha < 3 && (model->kapila || !model->n_alpha)) return;
+    if (model->n_alpha < 3) return;
     memset(own->term, 0, n * sizeof *own->term);
     for (unsigned l = 0; l < model->n_alpha; l++) face_sum(n, own->state + 2 * l * FACE_ROOM, own->term);
     for (unsigned l = 0; l < model->n_alpha; l++) face_divide(n, own->term, own->state + 2 * l * FACE_ROOM);
@@ -391,7 +366,6 @@ void face_solve(struct face_work *work, const struct frame *frame, bool masked)
     const struct model *model = work->model;
     size_t cells = frame->count - 2 * frame->inner;
     face_reconstruct(work, frame, cells, masked);
-    if (!model->kapila) face_hold_fractions(work, frame, cells);
     face_normalise(work, 2 * cells);
     face_complete(work, 2 * cells);
     face_point(work, frame, cells);
