@@ -53,9 +53,9 @@ initial:
     velocity: ['= x > 0 and 600 or -600', '= y > 0 and 600 or -600']
   - {sphere: {center: [0.1, 0.1], radius: 0.3}, material: air, density: 1, pressure: 1 bar, velocity: [0, 0]}
 scheme: {closure: allaire, limiter: mc, cfl: 0.9}
-run: {until: 1, max-steps: 25}
+run: {until: 1, max-steps: 18}
 output:
-  snapshots: {every: 25 steps, fields: [density, velocity, pressure, alpha_air], precision: double}
+  snapshots: {every: 18 steps, fields: [density, velocity, pressure, alpha_air], precision: double}
   history: {columns: {m: {mass: air}, E: {total: energy}, pmin: {min: pressure}}}
   probes: {every: 1 steps, in: {at: [0.1, 0], fields: [pressure, velocity]}}
 END
