@@ -25,7 +25,7 @@ static int mesh_gcd(int a, int b)
 /* Largest tile side by dimension: long rows in 1D; else small enough that most tiles hold one material. */
 static int mesh_tile_most(int dim)
 {
-    return dim == 1 ? 128 : 16;
+    return dim == 1 ? 64 : 16;
 }
 
 static int mesh_refuse(const struct scene *scene, int common)
