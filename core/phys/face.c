@@ -258,11 +258,10 @@ static void face_complete(struct face_work *work, size_t n)
     const struct model *model = work->model;
     struct face_own *own = work->own;
     const double *p = own->state + 2 * model->i_E * FACE_ROOM, *u[3] = {own->zero, own->zero, own->zero};
+    const double *rho = model->n_alpha ? own->rho : own->state + 2 * model->i_m * FACE_ROOM; /* one material: rho_l */
     for (int d = 0; d < model->dim; d++) u[d] = own->state + 2 * (model->i_u + (unsigned)d) * FACE_ROOM;
     if (!model->n_alpha) {
-        memcpy(own->rho, own->state + 2 * model->i_m * FACE_ROOM, n * sizeof *own->rho);
-        memcpy(own->m, own->rho, n * sizeof *own->m);
-        model->eos[0].law->state(model->eos[0].self, n, own->rho, p, own->energy, own->c);
+        model->eos[0].law->state(model->eos[0].self, n, rho, p, own->energy, own->c);
     }
     for (unsigned l = 0; l < model->n_alpha; l++) {
         const double *rho_l = own->state + 2 * (model->i_m + l) * FACE_ROOM, *alpha = own->state + 2 * l * FACE_ROOM;
@@ -271,7 +270,7 @@ static void face_complete(struct face_work *work, size_t n)
         if (l == 0) face_first_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
         else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
     }
-    face_finish(n, own->rho, u[0], u[1], u[2], own->energy, own->c);
+    face_finish(n, rho, u[0], u[1], u[2], own->energy, own->c);
 }
 
 static void face_point(struct face_work *work, const struct frame *frame, size_t cells)
@@ -288,10 +287,12 @@ static void face_point(struct face_work *work, const struct frame *frame, size_t
         size_t from = side ? cells + frame->inner : 0; /* right: the lower edge of the cell behind the face */
         for (unsigned d = 0; d < (unsigned)model->dim; d++)
             own->side_u[side][d] = own->state + 2 * (model->i_u + frame_component(frame->axis, d)) * FACE_ROOM + from;
-        for (unsigned l = 0; l < model->n_material; l++) own->side_m[side][l] = own->m + 2 * l * FACE_ROOM + from;
+        const double *rho = model->n_alpha ? own->rho : own->state + 2 * model->i_m * FACE_ROOM;
+        own->side_m[side][0] = rho + from;
+        for (unsigned l = 0; l < model->n_alpha; l++) own->side_m[side][l] = own->m + 2 * l * FACE_ROOM + from;
         for (unsigned l = 0; l < model->n_alpha; l++) own->side_alpha[side][l] = own->state + 2 * l * FACE_ROOM + from;
         struct bulla_side *states = side ? &faces->right : &faces->left;
-        *states = (struct bulla_side){.rho = own->rho + from,
+        *states = (struct bulla_side){.rho = rho + from,
                                       .p = own->state + 2 * model->i_E * FACE_ROOM + from,
                                       .rho_E = own->energy + from,
                                       .c = own->c + from,

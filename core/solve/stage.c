@@ -25,6 +25,7 @@ struct stage *stage_new(const struct model *model, struct mesh *mesh, struct lev
     stage->present = mem_new(level->n_local, sizeof *stage->present);
     stage->present_next = mem_new(level->n_local, sizeof *stage->present_next);
     stage->path = mem_new(level->n_local, sizeof *stage->path);
+    stage->streak = mem_new(level->n_local, sizeof *stage->streak);
     stage->rates = mem_new(update_rates(model) * mesh->n_cell, sizeof(double));
     stage->K = mem_new(model->n_material * mesh->n_cell, sizeof(double));
     stage->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
@@ -42,6 +43,7 @@ void stage_free(struct stage *stage)
     mem_free(stage->present);
     mem_free(stage->present_next);
     mem_free(stage->path);
+    mem_free(stage->streak);
     bound_free(stage->bound);
     mem_free(stage->rates);
     mem_free(stage->K);
@@ -105,12 +107,19 @@ static const struct model *stage_choose(const struct stage *stage, unsigned loca
     return model->pure[l];
 }
 
-/* Copies the components that a pure model leaves alone. */
-static void stage_keep(const struct stage *stage, const struct model *model, const double *from, double *to)
+/* Copies the components that a pure model leaves alone. The fractions are the same constants in all
+ * three arrays, so that after three stages they need no copying. */
+static void stage_keep(struct stage *stage, unsigned local, const double *from, double *to)
 {
+    const struct model *model = stage->path[local];
     size_t n_cell = stage->mesh->n_cell;
-    for (unsigned q = 0; q < stage->model->i_u; q++)
+    if (model == stage->model) {
+        stage->streak[local] = 0;
+        return;
+    }
+    for (unsigned q = stage->streak[local] < 3 ? 0 : stage->model->i_m; q < stage->model->i_u; q++)
         if (q != model->i_m) memcpy(to + q * n_cell, from + q * n_cell, n_cell * sizeof *to);
+    if (stage->streak[local] < 3) stage->streak[local]++;
 }
 
 /* One axis of one tile: gather, reconstruct, solve, add the divergence. */
@@ -199,7 +208,7 @@ static void stage_half_tile(struct stage *stage, unsigned local)
     size_t n_cell = stage->mesh->n_cell, p = stage->model->i_E * n_cell;
     double *w = level->w[local], *w_star = level->u_new[local];
     stage_advance_tile(stage, local, 0.5 * stage->dt, stage->u_star);
-    if (stage->path[local] != stage->model) stage_keep(stage, stage->path[local], w, w_star);
+    stage_keep(stage, local, w, w_star);
     memcpy(w_star + p, w + p, n_cell * sizeof *w); /* where an iteration starts */
     stage_judge(stage, local, 0, stage->u_star, w_star);
 }
@@ -208,8 +217,7 @@ static void stage_full_tile(struct stage *stage, unsigned local)
 {
     const struct level *level = stage->level;
     stage_advance_tile(stage, local, stage->dt, level->u_new[local]);
-    if (stage->path[local] != stage->model)
-        stage_keep(stage, stage->path[local], level->u_old[local], level->u_new[local]);
+    stage_keep(stage, local, level->u_old[local], level->u_new[local]);
 }
 
 static void stage_swap_present(struct stage *stage)
@@ -295,5 +303,6 @@ void stage_reset(struct stage *stage)
         mix_primitives(stage->model, n_cell, n_cell, level->u_old[tile], level->w[tile]);
         stage->present[tile] = stage_materials(stage->model, n_cell, level->u_old[tile]);
         stage->path[tile] = stage->model;
+        stage->streak[tile] = 0;
     }
 }

@@ -22,8 +22,10 @@ struct stage {
     struct face_work *faces;
     /* Tiles that hold one material only, with neighbours that hold the same, are advanced without the others:
      * half the work or less, bitwise the same result. */
-    struct face_work *faces_pure;             /* NULL for one material */
-    unsigned *present, *present_next;         /* [n_local] bit l: material l is in the tile now; after this stage */
+    struct face_work *faces_pure;     /* NULL for one material */
+    unsigned *present, *present_next; /* [n_local] bit l: material l is in the tile now; after this stage */
+    unsigned *streak; /* [n_local] stages in a row that a tile was pure, up to 3: then the fractions of all three
+                         arrays are in place */
     const struct model **path;                /* [n_local] the model each tile was last advanced with */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
     double t, dt;                             /* of the step under way */
