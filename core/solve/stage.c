@@ -26,6 +26,10 @@ struct stage *stage_new(const struct model *model, struct mesh *mesh, struct lev
     stage->present_next = mem_new(level->n_local, sizeof *stage->present_next);
     stage->path = mem_new(level->n_local, sizeof *stage->path);
     stage->streak = mem_new(level->n_local, sizeof *stage->streak);
+    stage->still = mem_new(level->n_local, sizeof *stage->still);
+    stage->still_next = mem_new(level->n_local, sizeof *stage->still_next);
+    stage->skipped = mem_new(level->n_local, sizeof *stage->skipped);
+    stage->tile_signal = mem_new(level->n_local, sizeof *stage->tile_signal);
     stage->rates = mem_new(update_rates(model) * mesh->n_cell, sizeof(double));
     stage->K = mem_new(model->n_material * mesh->n_cell, sizeof(double));
     stage->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
@@ -44,6 +48,10 @@ void stage_free(struct stage *stage)
     mem_free(stage->present_next);
     mem_free(stage->path);
     mem_free(stage->streak);
+    mem_free(stage->still);
+    mem_free(stage->still_next);
+    mem_free(stage->skipped);
+    mem_free(stage->tile_signal);
     bound_free(stage->bound);
     mem_free(stage->rates);
     mem_free(stage->K);
@@ -105,6 +113,54 @@ static const struct model *stage_choose(const struct stage *stage, unsigned loca
         if (!stage_alike(stage, local, face)) return model;
     while (present >> (l + 1)) l++;
     return model->pure[l];
+}
+
+/* Is a tile of one material uniform and at rest, to the bit (+0, not -0)? */
+static bool stage_rests(const struct model *model, size_t n_cell, const double *w)
+{
+    static const double zero = 0.0;
+    if (model->n_alpha) return false;
+    for (unsigned i = 0; i < model->n_active; i++) {
+        unsigned q = model->active[i];
+        const double *row = w + q * n_cell;
+        bool velocity = q >= model->i_u && q < model->i_E;
+        if (velocity && memcmp(row, &zero, sizeof zero)) return false;
+        if (memcmp(row, row + 1, (n_cell - 1) * sizeof *row)) return false;
+    }
+    return true;
+}
+
+/* Does what lies behind a face of a resting tile rest in the same state? Boundaries that only mirror or copy do. */
+static bool stage_rests_behind(const struct stage *stage, unsigned local, int face)
+{
+    const struct level *level = stage->level;
+    const struct neighbour *neighbour = &level->neighbours[local][face];
+    size_t n_cell = stage->mesh->n_cell;
+    if (neighbour->kind == NEIGHBOUR_BOUNDARY)
+        return stage->model->scene->boundary[face / 2][face % 2].type <= SCENE_OUTFLOW;
+    if (neighbour->kind != NEIGHBOUR_LOCAL || !stage->still[neighbour->index] ||
+        stage->present[neighbour->index] != stage->present[local])
+        return false;
+    for (unsigned q = 0; q < stage->model->n_field; q++)
+        if (memcmp(level->w[local] + q * n_cell, level->w[neighbour->index] + q * n_cell, sizeof(double))) return false;
+    return true;
+}
+
+/* Has a tile nothing to compute in this stage? Iterated closures and repeated steps are not skipped. */
+static bool stage_skips(const struct stage *stage, unsigned local)
+{
+    if (!stage->still[local] || stage->guard->masked || !stage->model->linear) return false;
+    for (int face = 0; face < 2 * stage->model->dim; face++)
+        if (!stage_rests_behind(stage, local, face)) return false;
+    return true;
+}
+
+/* Carries a resting tile on: the whole block as it is. */
+static void stage_carry(struct stage *stage, unsigned local, const double *from, double *to)
+{
+    memcpy(to, from, stage->model->n_field * stage->mesh->n_cell * sizeof *to);
+    stage->present_next[local] = stage->present[local];
+    stage->still_next[local] = true;
 }
 
 /* Copies the components that a pure model leaves alone. The fractions are the same constants in all
@@ -200,6 +256,7 @@ static void stage_judge(struct stage *stage, unsigned local, int judged, double 
                               .c2 = stage->c2};
     guard_check(stage->guard, &tile);
     stage->present_next[local] = model == stage->model ? stage_materials(model, n_cell, u) : stage->present[local];
+    stage->still_next[local] = stage_rests(model, n_cell, w);
 }
 
 static void stage_half_tile(struct stage *stage, unsigned local)
@@ -207,6 +264,10 @@ static void stage_half_tile(struct stage *stage, unsigned local)
     const struct level *level = stage->level;
     size_t n_cell = stage->mesh->n_cell, p = stage->model->i_E * n_cell;
     double *w = level->w[local], *w_star = level->u_new[local];
+    if (stage_skips(stage, local)) {
+        stage_carry(stage, local, w, w_star);
+        return;
+    }
     stage_advance_tile(stage, local, 0.5 * stage->dt, stage->u_star);
     stage_keep(stage, local, w, w_star);
     memcpy(w_star + p, w + p, n_cell * sizeof *w); /* where an iteration starts */
@@ -216,15 +277,23 @@ static void stage_half_tile(struct stage *stage, unsigned local)
 static void stage_full_tile(struct stage *stage, unsigned local)
 {
     const struct level *level = stage->level;
+    stage->skipped[local] = stage_skips(stage, local);
+    if (stage->skipped[local]) {
+        stage_carry(stage, local, level->u_old[local], level->u_new[local]);
+        return;
+    }
     stage_advance_tile(stage, local, stage->dt, level->u_new[local]);
     stage_keep(stage, local, level->u_old[local], level->u_new[local]);
 }
 
-static void stage_swap_present(struct stage *stage)
+static void stage_swap_census(struct stage *stage)
 {
     unsigned *keep = stage->present;
     stage->present = stage->present_next;
     stage->present_next = keep;
+    bool *still = stage->still;
+    stage->still = stage->still_next;
+    stage->still_next = still;
 }
 
 /* All tiles, those without remote neighbours while the exchange is under way. */
@@ -246,7 +315,7 @@ void stage_half(struct stage *stage)
     double **w_star = level->u_new;
     level->u_new = level->w;
     level->w = w_star;
-    stage_swap_present(stage);
+    stage_swap_census(stage);
 }
 
 void stage_full(struct stage *stage)
@@ -267,7 +336,7 @@ static BULLA_KERNEL void stage_signal(size_t n, const double *restrict c2, const
     }
 }
 
-static void stage_measure(struct stage *stage, const double *w)
+static double stage_measure(struct stage *stage, const double *w)
 {
     const struct model *model = stage->model;
     const struct mesh *mesh = stage->mesh;
@@ -278,10 +347,11 @@ static void stage_measure(struct stage *stage, const double *w)
         u[d] = w + (model->i_u + (used ? (unsigned)d : 0)) * mesh->n_cell;
         per_h[d] = used ? 1.0 / stage->level->h[d] : 0.0;
     }
-    double *signal = stage->rates; /* free between stages */
+    double *signal = stage->rates, most = 0.0; /* rates are free between stages */
     stage_signal(mesh->n_cell, stage->c2, u, per_h, signal);
     for (size_t i = 0; i < mesh->n_cell; i++)
-        if (signal[i] > stage->signal) stage->signal = signal[i];
+        if (signal[i] > most) most = signal[i];
+    return most;
 }
 
 void stage_close(struct stage *stage)
@@ -289,10 +359,13 @@ void stage_close(struct stage *stage)
     const struct level *level = stage->level;
     stage->signal = 0.0;
     for (unsigned tile = 0; tile < level->n_local; tile++) {
-        stage_judge(stage, tile, 1, level->u_new[tile], level->w[tile]);
-        stage_measure(stage, level->w[tile]);
+        if (!stage->skipped[tile]) {
+            stage_judge(stage, tile, 1, level->u_new[tile], level->w[tile]);
+            stage->tile_signal[tile] = stage_measure(stage, level->w[tile]);
+        }
+        if (stage->tile_signal[tile] > stage->signal) stage->signal = stage->tile_signal[tile];
     }
-    stage_swap_present(stage);
+    stage_swap_census(stage);
 }
 
 void stage_reset(struct stage *stage)
@@ -304,5 +377,6 @@ void stage_reset(struct stage *stage)
         stage->present[tile] = stage_materials(stage->model, n_cell, level->u_old[tile]);
         stage->path[tile] = stage->model;
         stage->streak[tile] = 0;
+        stage->still[tile] = stage->skipped[tile] = false;
     }
 }
