@@ -6,7 +6,7 @@ foreach(file ${case_files})
     string(REGEX REPLACE "[/_]" "-" name case-${file})
     string(REGEX REPLACE "\\.yaml$" "" name ${name})
     add_test(NAME ${name} COMMAND bulla run ${CMAKE_SOURCE_DIR}/cases/${file} --variant quick --quiet --overwrite
-             -o ${CMAKE_BINARY_DIR}/tests/work/${name})
+             -o ${CMAKE_BINARY_DIR}/tests/runs/${name})
     set_tests_properties(${name} PROPERTIES ENVIRONMENT "${BULLA_TEST_ENV}" TIMEOUT 600)
   endif()
 endforeach()
