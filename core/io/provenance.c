@@ -195,6 +195,7 @@ static json_t *provenance_work(const struct provenance *provenance, const struct
     json_object_set_new(work, "wall_s", json_real(cost->wall));
     json_object_set_new(work, "cpu_s", json_real(cost->cpu));
     json_object_set_new(work, "cells_updated", json_integer(cost->counts.cells));
+    json_object_set_new(work, "cells_carried", json_integer(cost->counts.carried)); /* of these, at rest: only copied */
     json_object_set_new(work, "cpu_ns_per_cell_stage",
                         provenance_number(1e9 * cost->cpu_run / (double)cost->counts.cells));
     json_object_set_new(work, "peak_memory_bytes", json_integer((json_int_t)cost->memory));

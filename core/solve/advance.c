@@ -52,6 +52,7 @@ static void advance_accept(struct state *state, double signal)
     state->dt = stage->dt;
     state->step++;
     state->counts.cells += stage->cells;
+    state->counts.carried += stage->carried;
     state->counts.clipped += stage->clipped;
     state->counts.relaxed += stage->guard->relaxed;
     state->dt_shrink = state->dt_shrink * 1.1 < 1.0 ? state->dt_shrink * 1.1 : 1.0;
@@ -79,7 +80,7 @@ int advance_step(struct state *state, double dt_most)
         double signal = 0.0;
         stage->t = state->t;
         stage->dt = dt;
-        stage->cells = stage->clipped = 0;
+        stage->cells = stage->carried = stage->clipped = 0;
         double bad = advance_rounds(state, &signal);
         int status = comm_agree(stage->bound->status);
         if (status) stage_reset(stage);

@@ -161,6 +161,8 @@ static void stage_carry(struct stage *stage, unsigned local, const double *from,
     memcpy(to, from, stage->model->n_field * stage->mesh->n_cell * sizeof *to);
     stage->present_next[local] = stage->present[local];
     stage->still_next[local] = true;
+    stage->cells += (long long)stage->mesh->n_cell;
+    stage->carried += (long long)stage->mesh->n_cell;
 }
 
 /* Copies the components that a pure model leaves alone. The fractions are the same constants in all

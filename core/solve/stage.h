@@ -27,14 +27,14 @@ struct stage {
     unsigned *streak; /* [n_local] stages in a row that a tile was pure, up to 3: then the fractions of all three
                          arrays are in place */
     /* Tiles that are uniform and at rest, with neighbours in the same state, have a rate of exactly zero: they are
-     * copied on. `cells` does not count them. */
+     * copied on. */
     bool *still, *still_next, *skipped;       /* [n_local] uniform and at rest now; after this stage; copied in it */
     double *tile_signal;                      /* [n_local] the signal of each tile at the last close */
     const struct model **path;                /* [n_local] the model each tile was last advanced with */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
     double t, dt;                             /* of the step under way */
-    double signal;            /* largest sum over axes of (|u_a| + c) / h_a [1/s], rank-local, of the last close */
-    long long cells, clipped; /* work done, rank-local */
+    double signal; /* largest sum over axes of (|u_a| + c) / h_a [1/s], rank-local, of the last close */
+    long long cells, carried, clipped; /* work done, rank-local */
 };
 
 struct stage *stage_new(const struct model *model, struct mesh *mesh, struct level *level);

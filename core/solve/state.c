@@ -69,7 +69,7 @@ void state_free(struct state *state)
 struct state_counts state_counts_total(const struct state *state)
 {
     struct state_counts total = state->counts;
-    long long values[] = {total.cells, total.fallback, total.relaxed, total.clipped};
-    comm_sum_counts(values, 4);
-    return (struct state_counts){values[0], values[1], values[2], values[3], total.retries};
+    long long values[] = {total.cells, total.carried, total.fallback, total.relaxed, total.clipped};
+    comm_sum_counts(values, 5);
+    return (struct state_counts){values[0], values[1], values[2], values[3], values[4], total.retries};
 }

@@ -8,7 +8,8 @@
 
 /* Everything the guard did, and the work done, on this rank; state_counts_total sums the ranks. */
 struct state_counts {
-    long long cells;    /* cell-stages computed */
+    long long cells;    /* cell-stages advanced */
+    long long carried;  /* of these: in resting tiles, which are only copied on */
     long long fallback; /* cell-steps redone with first-order fluxes */
     long long relaxed;  /* cell-stages whose volume fractions came from pressure relaxation */
     long long clipped;  /* cell-stages with a volume fraction clipped into its range */
