@@ -78,14 +78,14 @@ static void launch_read(const char *path, long *ret_pid, int *ret_code)
 }
 
 /* The first signal goes to rank 0 once there is one (true then), and it tells the others; a
- * second one ends rank 0 at once, and mpirun. */
-static bool launch_forward(const char *path, pid_t child, int count)
+ * second one ends rank 0 at once, and mpirun. `number` is the one that came last. */
+static bool launch_forward(const char *path, pid_t child, int count, int number)
 {
     long pid;
     int code;
     launch_read(path, &pid, &code);
     if (count > 1) kill(child, SIGTERM);
-    return pid > 0 && (code >= 0 || !kill((pid_t)pid, SIGUSR1));
+    return pid > 0 && (code >= 0 || !kill((pid_t)pid, number));
 }
 
 /* Waits for the end of mpirun, handing signals on. Returns their number. */
@@ -93,11 +93,14 @@ static int launch_wait(const char *path, pid_t child, const sigset_t *wanted, in
 {
     static const struct timespec soon = {.tv_nsec = 50000000};
     bool passed_on = true;
-    for (int count = 0;;) {
+    for (int count = 0, last = 0;;) {
         int number = passed_on ? sigwaitinfo(wanted, NULL) : sigtimedwait(wanted, NULL, &soon);
         if (number == SIGCHLD && waitpid(child, ret_raw, WNOHANG) == child) return count;
-        if (number > 0 && number != SIGCHLD) count++;
-        if (number != SIGCHLD && count) passed_on = launch_forward(path, child, count);
+        if (number > 0 && number != SIGCHLD) {
+            count++;
+            last = number;
+        }
+        if (number != SIGCHLD && count) passed_on = launch_forward(path, child, count, last);
     }
 }
 

@@ -36,7 +36,7 @@ done
 env --default-signal=INT "$BULLA" run tube.yaml -o ranks $long -n 2 >said 2>&1 &
 await ranks
 kill -s INT $!
-stopped $! ranks USR1
+stopped $! ranks INT
 
 # shellcheck disable=SC2086
 "$BULLA" run tube.yaml -o clock $long --walltime 0 >said 2>&1 &
