@@ -143,6 +143,37 @@ struct scene_expect {
     int line;
 };
 
+/* What becomes of the difference between coarse and fine fluxes (model.md 7). */
+enum scene_reflux {
+    SCENE_REFLUX_CORRECTED, /* conserved fields and fractions; the free stream stays */
+    SCENE_REFLUX_PLAIN,     /* fractions without the term of div u: for comparison, a uniform alpha drifts */
+    SCENE_REFLUX_OFF,       /* nothing: mass is lost; for comparison */
+};
+
+/* A criterion of refinement. All of them are limited by where, levels and time. */
+struct scene_refine {
+    enum {
+        SCENE_REFINE_GRADIENT,  /* |grad field| (per metre, absolute) or jump over value (relative) */
+        SCENE_REFINE_JUMP,      /* largest difference to a face neighbour, absolute or relative */
+        SCENE_REFINE_VALUE,     /* the field itself */
+        SCENE_REFINE_INTERFACE, /* cells where a material and another are, and where its fraction jumps */
+        SCENE_REFINE_SCRIPT,    /* a Lua function of x, y, z, t and named fields that is true or > 0 */
+        SCENE_REFINE_REGION     /* all cells of `where` */
+    } kind;
+    char field[SCENE_NAME];
+    bool relative;
+    bool has_above, has_below;
+    double above, below; /* thresholds in the unit of the quantity; below: VALUE only */
+    int material;        /* INTERFACE */
+    const struct script *script;
+    char (*uses)[SCENE_NAME]; /* fields that the script takes after x, y, z, t */
+    unsigned n_use;
+    struct shape *where;     /* or NULL */
+    int finest;              /* finest level that this criterion asks for */
+    double t_from, t_until;  /* s */
+    int line;                /* in the case file */
+};
+
 struct scene {
     char *path, *name; /* of the case file; base name without extension */
     char *title, *about, *cite;
@@ -152,7 +183,14 @@ struct scene {
     double lower[SCENE_AXES], upper[SCENE_AXES];
     int cells[SCENE_AXES];                         /* 1 beyond dim */
     struct scene_boundary boundary[SCENE_AXES][2]; /* [axis][0 lower, 1 upper] */
-    int levels, tile;                              /* mesh; tile 0: chosen by the mesh */
+    int levels, tile;                              /* mesh; levels above the coarsest; tile 0: chosen by the mesh */
+    int regrid_every, buffer; /* steps of a level between regrids of the finer ones; cells refined around a tag */
+    int patience;             /* regrids in a row that must find a tile unwanted before it goes */
+    bool subcycle;            /* finer levels take smaller steps */
+    enum scene_reflux reflux;
+    double memory_limit; /* bytes of all ranks that blocks of tiles may take (--max-memory); 0: no limit */
+    unsigned n_refine;
+    struct scene_refine *refines;
     char *cells_place;                             /* of domain.cells, as file:line:column, for messages */
     unsigned n_material;
     struct scene_material material[SCENE_MATERIALS];

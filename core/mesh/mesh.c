@@ -145,7 +145,7 @@ static void mesh_store_level(const struct mesh *mesh, struct level *level)
     level->halo = halo_new(mesh, level, mesh->n_field);
 }
 
-int mesh_new(const struct scene *scene, unsigned n_field, struct mesh **ret_mesh)
+int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, struct mesh **ret_mesh)
 {
     int n = mesh_tile_size(scene);
     if (!n) return STATUS_CASE;
@@ -153,6 +153,8 @@ int mesh_new(const struct scene *scene, unsigned n_field, struct mesh **ret_mesh
     mesh->dim = scene->dim;
     mesh->beta = (int)scene->geometry;
     mesh->n_field = n_field;
+    mesh->n_alpha = n_alpha;
+    mesh->most_level = scene->levels;
     mesh->n_level = 1;
     mesh->n_cell = 1;
     struct level *level = &mesh->levels[0];

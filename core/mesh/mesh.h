@@ -2,11 +2,16 @@
  *
  * A level is a set of tiles of n^d cells (n the same everywhere), sorted along the Morton
  * curve. The list is replicated on all ranks; the curve is cut into one contiguous piece per
- * rank, so the local tiles of a level are tiles[first .. first + n_local). Arrays are always
- * 3D: extents beyond `dim` are 1. Tiles store no ghosts; primitives of neighbours are gathered
- * into a frame when needed (phys/frame.h), remote ones come through mesh/halo.h.
+ * rank, ranks ascending, so the local tiles of a level are tiles[first .. first + n_local).
+ * Arrays are always 3D: extents beyond `dim` are 1. Tiles store no ghosts; primitives of
+ * neighbours are gathered into a frame when needed (phys/frame.h), remote ones come through
+ * mesh/halo.h, those of the next coarser level through mesh/link.h.
  *
- * Level 0 covers the domain. Finer levels (ratio 2) will lie above it in the same array. */
+ * Level 0 covers the domain. A tile of level l + 1 at b lies under exactly one octant of (n/2)^d
+ * cells of the tile b >> 1 of level l; the coarse cells under it stay allocated. Levels nest: the
+ * 3^d octants around every fine tile lie in tiles of the coarser level or outside the domain, so
+ * that what a tile's two ghost layers need exists on the next coarser level at the latest
+ * (Berger & Colella 1989, J. Comput. Phys. 82, 64, on fixed tiles). */
 #ifndef MESH_H
 #define MESH_H
 
@@ -15,31 +20,38 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { MESH_LEVELS = 16, MESH_FACES = 6, MESH_GHOST = 2 };
+enum { MESH_LEVELS = 16, MESH_FACES = 6, MESH_GHOST = 2, MESH_OCTANTS = 8 };
 
 struct tile {
     uint64_t key; /* Morton key of `at` */
     int at[3];    /* tile coordinates; cell (i, j, k) of the tile is cell at * n + (i, j, k) of the level */
     int rank;
+    unsigned char covered;  /* bit o: octant o = ox + 2 oy + 4 oz lies under a tile of the next level */
+    unsigned char unwanted; /* regrids in a row that found no use for the tile */
+    bool hidden;            /* wholly covered, and so are its face neighbours: nobody reads its cells between
+                               averages of the finer level, so they are not advanced */
 };
 
 /* What lies behind face 2 * axis + side of a local tile. */
 struct neighbour {
-    enum { NEIGHBOUR_LOCAL, NEIGHBOUR_REMOTE, NEIGHBOUR_BOUNDARY } kind;
-    unsigned index; /* LOCAL: local tile; REMOTE: slab of the halo; BOUNDARY: unused */
+    enum { NEIGHBOUR_LOCAL, NEIGHBOUR_REMOTE, NEIGHBOUR_BOUNDARY, NEIGHBOUR_COARSE } kind;
+    unsigned index; /* LOCAL: local tile; REMOTE: slab of the halo; COARSE: face of the link; BOUNDARY: unused */
 };
 
 struct halo;
+struct link;
+struct pool;
 
 struct level {
     double h[3];   /* cell size [m]; 1 beyond dim */
-    int extent[3]; /* tiles per axis */
+    int extent[3]; /* tiles per axis if the level covered the domain */
     unsigned n_tile, first, n_local;
     struct tile *tiles;                         /* [n_tile], replicated, Morton order */
     struct neighbour (*neighbours)[MESH_FACES]; /* [n_local] */
     double **u_old, **u_new; /* [n_local] conserved at t^n and the one being made: [n_field][n^d], 64-byte aligned */
     double **w;              /* [n_local] primitives of the last completed stage: [n_prim][n^d] */
     struct halo *halo;
+    struct link *link; /* to the next coarser level; NULL on level 0 */
 };
 
 struct mesh {
@@ -48,19 +60,37 @@ struct mesh {
     int n[3];         /* cells of a tile per axis: n, or 1 beyond dim */
     size_t n_cell;    /* cells of a tile */
     unsigned n_field; /* evolved fields */
-    int n_level;
+    unsigned n_alpha; /* volume fractions among them (the first), for the sizes of registers */
+    int n_level;      /* levels in use: none of them is empty */
+    int most_level;   /* finest level the case allows */
     struct level levels[MESH_LEVELS];
+    struct pool *pool; /* where blocks of tiles come from */
     bool periodic[3];
 };
 
-/* Builds level 0 for a scene with `n_field` evolved fields (as many primitives): chooses the
- * tile size if the case does not, partitions over the ranks, allocates. A cell count that no
- * tile divides is STATUS_CASE with a suggestion. Collective. */
-int mesh_new(const struct scene *scene, unsigned n_field, struct mesh **ret_mesh);
+/* Builds level 0 for a scene with `n_field` evolved fields (as many primitives), `n_alpha` of them volume
+ * fractions: chooses the tile size if the case does not, partitions over the ranks, allocates. A cell count
+ * that no tile divides is STATUS_CASE with a suggestion. Collective. */
+int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, struct mesh **ret_mesh);
 void mesh_free(struct mesh *mesh);
 
 /* The tile size that mesh_new would use, or 0 with a recorded message. */
 int mesh_tile_size(const struct scene *scene);
+
+/* What mesh_replace did with the local tiles of a level. All arrays are [n_local] of the new level. */
+struct mesh_change {
+    int *from;         /* local index the tile had before on this rank, or -1: it is new here */
+    bool *born;        /* the tile did not exist on any rank: its blocks hold nothing yet */
+    unsigned n_before; /* local tiles before */
+};
+
+/* Gives level l (1 .. n_level: the next new one is allowed) the sorted tile set `tiles` (taken over; rank and
+ * unwanted are set, covered and hidden are not). Tiles that stay on a rank keep their blocks, tiles that move bring
+ * u_old and w along, born ones get blocks for the caller to fill. n_tile 0 removes the level (it must be the
+ * finest). Neighbours, halo and links of l and l + 1, and the covered and hidden flags of l - 1 and l are made anew.
+ * Level 0 may be given its own tiles with other ranks. Collective; *ret_change is freed by mesh_change_free. */
+void mesh_replace(struct mesh *mesh, int l, struct tile *tiles, unsigned n_tile, struct mesh_change *ret_change);
+void mesh_change_free(struct mesh_change *change);
 
 /* Lower corner of a tile [m]. */
 void mesh_corner(const struct mesh *mesh, const struct level *level, const struct tile *tile, double ret_corner[3]);
@@ -68,7 +98,20 @@ void mesh_corner(const struct mesh *mesh, const struct level *level, const struc
 /* The tile of a level at tile coordinates, or -1. Periodic axes wrap. */
 int mesh_find(const struct mesh *mesh, const struct level *level, const int at[3]);
 
+/* The finest tile that holds the point x (in the domain; upper faces belong to the last tile): its index in the
+ * level's list, the level, and the cell in the tile. */
+unsigned mesh_locate(const struct mesh *mesh, const double x[3], int *ret_level, size_t *ret_cell);
+
+/* Which cells of a tile are leaves: ret_leaf[n_cell], 0 under finer tiles and 1 elsewhere. */
+void mesh_leaves(const struct mesh *mesh, const struct tile *tile, double *ret_leaf);
+
+/* Octant of a tile that a cell lies in. */
+int mesh_octant(const struct mesh *mesh, size_t cell);
+
 /* Swaps u_old and u_new of a level. */
 void mesh_swap(struct level *level);
+
+/* Bytes that the blocks of `n_tile` tiles take (three each). */
+double mesh_bytes(const struct mesh *mesh, double n_tile);
 
 #endif

@@ -29,6 +29,7 @@ struct frame_source {
     const struct level *level;
     double *const *arrays;   /* [n_local] blocks of n_field components */
     const struct halo *halo; /* finished exchange of the same arrays */
+    const struct link *link; /* strips behind coarse-fine faces; NULL: `boundary` fills those too */
     unsigned n_field;
     const unsigned
         *fields; /* [n_field] components to gather, each keeps its number in the frame; NULL: the first n_field */

@@ -43,7 +43,7 @@ int state_new(const struct scene *scene, struct state **ret_state)
     state->scene = scene;
     state->dt_shrink = 1.0;
     state->model = model_new(scene);
-    int status = mesh_new(scene, state->model->n_field, &state->mesh);
+    int status = mesh_new(scene, state->model->n_field, state->model->n_alpha, &state->mesh);
     if (!status) {
         state->stage = stage_new(state->model, state->mesh, &state->mesh->levels[0]);
         status = state_paint(state);
@@ -69,7 +69,11 @@ void state_free(struct state *state)
 struct state_counts state_counts_total(const struct state *state)
 {
     struct state_counts total = state->counts;
-    long long values[] = {total.cells, total.carried, total.fallback, total.relaxed, total.clipped};
-    comm_sum_counts(values, 5);
-    return (struct state_counts){values[0], values[1], values[2], values[3], values[4], total.retries};
+    long long *sums[] = {&total.cells,   &total.carried, &total.fallback, &total.relaxed,
+                         &total.clipped, &total.limited, &total.spread};
+    long long values[sizeof sums / sizeof *sums];
+    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) values[i] = *sums[i];
+    comm_sum_counts(values, (int)(sizeof sums / sizeof *sums));
+    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) *sums[i] = values[i];
+    return total;
 }

@@ -8,12 +8,17 @@
 
 /* Everything the guard did, and the work done, on this rank; state_counts_total sums the ranks. */
 struct state_counts {
+    /* all but retries and regrids are sums over ranks */
     long long cells;    /* cell-stages advanced */
     long long carried;  /* of these: in resting tiles, which are only copied on */
     long long fallback; /* cell-steps redone with first-order fluxes */
     long long relaxed;  /* cell-stages whose volume fractions came from pressure relaxation */
     long long clipped;  /* cell-stages with a volume fraction clipped into its range */
     long long retries;  /* steps repeated with half the time step */
+    long long regrids;  /* times that a level's tiles changed */
+    long long limited;  /* coarse cells whose children got less than the full slopes */
+    long long spread;   /* refluxes that one cell could not take and its column got */
+    double regrid_seconds; /* CPU time of this rank spent on regridding */
 };
 
 struct stage;
@@ -23,15 +28,32 @@ struct state {
     struct mesh *mesh;
     struct model *model;
     double t, dt; /* time reached and the last step's size [s] */
-    long step;    /* steps done */
+    long step;    /* steps of level 0 done */
+    long level_steps[MESH_LEVELS]; /* steps of each level done: they say when it is time to regrid */
     struct state_counts counts;
     double dt_shrink;    /* 1, or the factor that retries left on the time step */
     double signal;       /* largest sum over axes of (|u_a| + c) / h_a in the present state [1/s] */
     struct stage *stage; /* work space of this rank (stage.h) */
 };
 
-/* Builds model and mesh of a scene and paints the initial state. Collective. */
+/* Builds model and mesh of a scene and paints the initial state, with as many levels as it asks for. Collective. */
 int state_new(const struct scene *scene, struct state **ret_state);
+
+/* A state to go on from (a checkpoint), read piece by piece. All values as struct state had them after a step. */
+struct state_source {
+    double t, dt, dt_shrink;
+    long step, level_steps[MESH_LEVELS];
+    int n_level;
+    unsigned n_tile[MESH_LEVELS];
+    struct tile *tiles[MESH_LEVELS]; /* [n_tile] at and unwanted, in Morton order, replicated; copied */
+    /* Fills the conserved fields u[n_field][n_cell] of a tile of a level (its place in the list), and its pressure
+     * p[n_cell], from which iterated closures start. Called for local tiles only. */
+    int (*fill)(void *data, int level, unsigned tile, double *u, double *p);
+    void *data;
+};
+
+/* Like state_new, from a source: bitwise the state that was saved, on any number of ranks. Collective. */
+int state_resume(const struct scene *scene, const struct state_source *source, struct state **ret_state);
 void state_free(struct state *state);
 
 /* Sums of all ranks. Collective. */

@@ -1,0 +1,63 @@
+/* link.h - what a level and the next coarser one tell each other: ghosts down, averages and fluxes up.
+ *
+ * Down: for every face of a fine tile that no fine tile covers, a strip of fine ghost primitives,
+ * [n_field][outer][MESH_GHOST][inner] like a slab of the halo, at the beginning and at the end of a step of the
+ * coarse level. The owner of the coarse tile behind the face makes it (phys/prolong.h), so that only finished
+ * ghosts travel. A face looks at exactly one octant of one coarse tile.
+ * Up: per such face the sum over fine steps and sub-faces of the fluxes (the register), and per fine tile its
+ * average on the octant above. Where both tiles are on one rank the two ends share memory. */
+#ifndef LINK_H
+#define LINK_H
+
+#include "mesh/mesh.h"
+
+/* One end of a coarse-fine face. */
+struct link_face {
+    unsigned fine, coarse; /* tiles: indices in the lists of the levels */
+    int face;              /* 2 * axis + side of the fine tile */
+    int layer;             /* along the axis: the layer of coarse cells next to the face, in the coarse tile */
+    int from[3];           /* first cell of that patch in the coarse tile (from[axis] == layer); n/2 cells along
+                              the other axes */
+    double *strip[2];      /* at the beginning and at the end of the coarse step */
+    double *flux;          /* register: [n_register][(n/2)^(d-1)], lower axes fastest: sum of dt times mean flux */
+};
+
+/* A fine tile and the octant under which it lies. */
+struct link_child {
+    unsigned fine, coarse;
+    int octant;
+    double *average; /* [n_field][(n/2)^d]: of the fine tile, x fastest; NULL where both tiles are local */
+};
+
+struct link {
+    int fine_level;
+    unsigned n_register; /* components of a register: the fields, and u_n where there are fractions */
+    size_t face_cells;   /* (n/2)^(d-1) */
+    size_t strip_doubles, octant_cells;
+    double theta; /* where between the two strips the fine level stands: set before each of its stages */
+    /* of local fine tiles: neighbours[t][face].index counts these */
+    unsigned n_face;
+    struct link_face *faces;
+    /* of local coarse tiles, sorted by (coarse tile, fine tile, face); those of local coarse tile c are
+     * sources[source_from[c] .. source_from[c + 1]) */
+    unsigned n_source, *source_from;
+    struct link_face *sources;
+    unsigned n_child; /* of local fine tiles, in their order */
+    struct link_child *children;
+    unsigned n_octant, *octant_from; /* of local coarse tiles, sorted by (coarse tile, octant); as source_from */
+    struct link_child *octants;
+    void *own;
+};
+
+/* The link between fine_level and fine_level - 1, both with tiles. Not collective. */
+struct link *link_new(const struct mesh *mesh, int fine_level);
+void link_free(struct link *link);
+
+/* Strips to the owners of the fine tiles, after both have been written through `sources`. Collective. */
+void link_down(struct link *link);
+
+/* Registers and averages to the owners of the coarse tiles, after they have been written through `faces` and
+ * `children`; registers are then read through `sources`, averages through `octants`. Collective. */
+void link_up(struct link *link);
+
+#endif

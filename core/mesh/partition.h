@@ -1,0 +1,21 @@
+/* partition.h - which rank owns which tile: per level, equal cost along the Morton curve.
+ *
+ * Each level is cut on its own, because each sub-step of each level synchronises (measured by simulation:
+ * docs/decisions). Levels with fewer tiles than ranks go to the ranks with least work so far. Tiles stay
+ * where they are while the imbalance is small. Pure functions: they decide nothing by the clock or the rank. */
+#ifndef PARTITION_H
+#define PARTITION_H
+
+#include "mesh/mesh.h"
+
+/* Imbalance (largest over mean load, less 1) from which on a level is cut anew. */
+#define PARTITION_SLACK 0.1
+
+/* Sets tiles[i].rank, ascending, for `size` ranks. cost[n]: work per tile; load[size]: work per coarse step that
+ * the ranks have so far, `weight` * cost is added. */
+void partition_cut(struct tile *tiles, unsigned n, const double *cost, int size, double weight, double *load);
+
+/* Largest over mean load of a level with the owners it has, less 1. */
+double partition_imbalance(const struct tile *tiles, unsigned n, const double *cost, int size);
+
+#endif

@@ -1,0 +1,22 @@
+/* restrict.h - from a level to the next coarser one: volume averages of the conserved fields.
+ *
+ * Children are added in an order that mirrors and exchanges of axes leave unchanged (diagonal pairs),
+ * so that symmetric states stay symmetric to the bit; in curved geometry weighted by exact volumes. */
+#ifndef RESTRICT_H
+#define RESTRICT_H
+
+#include "mesh/link.h"
+
+/* Averages of all local tiles of level l >= 1 (their u_old): into the link's `children`, or where the coarse
+ * tile is local straight into its u_old. Not collective; then link_up, then restrict_take. */
+void restrict_averages(const struct mesh *mesh, int l);
+
+/* Averages that came from other ranks (the link's `octants`), into u_old of local tiles of level l - 1. */
+void restrict_take(const struct mesh *mesh, int l);
+
+/* Mean over the sub-faces of a fine tile's face: fine[n^(d-1)] -> coarse[(n/2)^(d-1)], lower axes fastest, weighted by
+ * area (axis 0 of curved geometry is no tangent of faces normal to it). */
+void restrict_face(const struct mesh *mesh, const struct level *level, const struct tile *tile, int axis,
+                   const double *fine, double *ret_coarse);
+
+#endif

@@ -1,0 +1,20 @@
+/* tag.h - which cells of a level ask for refinement: the case's criteria on derived fields.
+ *
+ * A criterion looks at a named field (its gradient, its jump to a neighbour, its value), at the surface of a
+ * material, at a Lua function, or only at a region; all may be limited to a region, a time window and levels.
+ * Jumps are taken to face neighbours on the same level; across coarse-fine faces and domain boundaries the
+ * cell's own value stands in. */
+#ifndef TAG_H
+#define TAG_H
+
+#include "mesh/halo.h"
+#include "mesh/mesh.h"
+#include "phys/model.h"
+
+/* Sets marks[n_local][n_cell] of level l to 1 where a criterion asks for level l + 1, else 0. w is that of a
+ * completed step; `halo` exchanges one component on this level. hits[n_refine] counts the cells of this
+ * rank that each criterion tagged (added to what is there). STATUS_RUN or STATUS_CASE: a script failed. Collective. */
+int tag_level(const struct model *model, const struct mesh *mesh, int l, double t, struct halo *halo, double **marks,
+              long long *hits);
+
+#endif
