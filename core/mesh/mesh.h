@@ -57,12 +57,14 @@ struct level {
 struct mesh {
     int dim, beta; /* beta: 0 cartesian, 1 axisymmetric, 2 spherical */
     double lower[3], upper[3];
-    int n[3];         /* cells of a tile per axis: n, or 1 beyond dim */
-    size_t n_cell;    /* cells of a tile */
-    unsigned n_field; /* evolved fields */
-    unsigned n_alpha; /* volume fractions among them (the first), for the sizes of registers */
-    int n_level;      /* levels in use: none of them is empty */
-    int most_level;   /* finest level the case allows */
+    int n[3];          /* cells of a tile per axis: n, or 1 beyond dim */
+    size_t n_cell;     /* cells of a tile */
+    unsigned n_field;  /* evolved fields */
+    unsigned n_alpha;  /* volume fractions among them (the first), for the sizes of registers */
+    int n_level;       /* levels in use: none of them is empty */
+    int most_level;    /* finest level the case allows */
+    unsigned revision; /* counts changes of any level's tiles or owners (mesh_replace): who keeps something per
+                          tile makes it anew when this has moved */
     struct level levels[MESH_LEVELS];
     struct pool *pool; /* where blocks of tiles come from */
     bool periodic[3];
