@@ -101,18 +101,38 @@ int comm_agree(int code)
     return largest;
 }
 
+/* How many items each rank has, and behind these counts where each rank's items start; one more for the total. */
+static int *comm_counts(int count)
+{
+    int size = comm_size();
+    int *counts = mem_new(2 * (size_t)size + 1, sizeof *counts), *starts = counts + size;
+    if (comm_is_active) MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, MPI_COMM_WORLD);
+    else counts[0] = count;
+    for (int rank = 0; rank < size; rank++) starts[rank + 1] = starts[rank] + counts[rank];
+    return counts;
+}
+
 void comm_join(const double *values, int count, double *ret_all)
 {
     if (!comm_is_active) {
         memcpy(ret_all, values, (size_t)count * sizeof *values);
         return;
     }
-    int size = comm_size();
-    int *counts = mem_new(2 * (size_t)size, sizeof *counts), *starts = counts + size;
-    MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, MPI_COMM_WORLD);
-    for (int rank = 1; rank < size; rank++) starts[rank] = starts[rank - 1] + counts[rank - 1];
+    int *counts = comm_counts(count), *starts = counts + comm_size();
     MPI_Allgatherv(values, count, MPI_DOUBLE, ret_all, counts, starts, MPI_DOUBLE, MPI_COMM_WORLD);
     mem_free(counts);
+}
+
+uint64_t *comm_join_keys(const uint64_t *keys, unsigned count, unsigned *ret_count)
+{
+    int *counts = comm_counts((int)count), *starts = counts + comm_size();
+    *ret_count = (unsigned)starts[comm_size()];
+    uint64_t *all = mem_new(*ret_count + 1u, sizeof *all);
+    if (comm_is_active)
+        MPI_Allgatherv(keys, (int)count, MPI_UINT64_T, all, counts, starts, MPI_UINT64_T, MPI_COMM_WORLD);
+    else if (count) memcpy(all, keys, count * sizeof *keys);
+    mem_free(counts);
+    return all;
 }
 
 void comm_bcast(void *data, size_t bytes)

@@ -10,6 +10,7 @@
 #include <mpi.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* Initialises MPI if a launcher's environment is seen. Ends with comm_done. */
 void comm_init(int *argc, char ***argv);
@@ -35,6 +36,10 @@ int comm_agree(int code);
 
 /* Joins the `count` values of each rank, in rank order, into `ret_all` on every rank. */
 void comm_join(const double *values, int count, double *ret_all);
+
+/* The same for 64-bit keys, whose number only their own rank knows: a new array (free with mem_free) of
+ * *ret_count keys, in rank order. */
+uint64_t *comm_join_keys(const uint64_t *keys, unsigned count, unsigned *ret_count);
 
 /* From rank 0 to all. */
 void comm_bcast(void *data, size_t bytes);
