@@ -28,15 +28,20 @@ void nest_wish(const struct mesh *mesh, const struct level *level, const struct 
 /* Joins the keys of all ranks, sorted and without repetition. Collective. */
 void nest_join(struct nest_keys *keys);
 
-/* The new sets of levels base + 1 .. most_level: wishes[l] holds the joined keys for level l. */
+/* The new sets of levels base + 1 .. most_level, ret_sets[l] for level l from the joined keys wishes[l]; they are the
+ * caller's (nest_free_set, or their tiles handed to mesh_replace). */
 void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes, int patience,
                struct nest_set *ret_sets);
 
 /* Is `set` what level l already is (keys; not owners)? */
 bool nest_same(const struct mesh *mesh, int l, const struct nest_set *set);
 
-/* Do all levels nest, are they sorted, and in the domain? STATUS_RUN with the offending tile; always checked. */
+/* Do all levels nest, are they sorted, and in the domain, and does level 0 cover it? STATUS_RUN with the offending
+ * tile; always checked. */
 int nest_check(const struct mesh *mesh);
+
+/* Tile coordinates of a key. */
+void nest_at(uint64_t key, int ret_at[3]);
 
 void nest_free_keys(struct nest_keys *keys);
 void nest_free_set(struct nest_set *set);

@@ -1,0 +1,435 @@
+/* nest.c - see nest.h.
+ *
+ * The tiles under one tile of the coarser level (a family) follow each other on the curve. What a family needs
+ * there to nest is a subset of the 3^d tiles around its parent: 27 bits, bit 13 for the parent itself. Needs are
+ * therefore listed family by family, sorted once, and merged with lists that are sorted already; nothing is
+ * looked up tile by tile (except around the fixed level, once per tile of it).
+ * Coordinates are halved by an arithmetic shift, which rounds down on both sides of zero: a mirrored set
+ * then needs the mirrored tiles exactly, since extents above level 0 are even. */
+#include "mesh/nest.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "mesh/metric.h"
+#include "mesh/morton.h"
+
+#include <assert.h>
+#include <string.h>
+
+enum { NEST_AROUND = 27, NEST_SELF = 13 };
+
+/* Takes every third bit out, the inverse of morton_spread. */
+static int nest_gather(uint64_t x)
+{
+    x &= 0x1249249249249249u;
+    x = (x | x >> 2) & 0x10c30c30c30c30c3u;
+    x = (x | x >> 4) & 0x100f00f00f00f00fu;
+    x = (x | x >> 8) & 0x1f0000ff0000ffu;
+    x = (x | x >> 16) & 0x1f00000000ffffu;
+    x = (x | x >> 32) & 0x1fffffu;
+    return (int)x;
+}
+
+void nest_at(uint64_t key, int ret_at[3])
+{
+    for (int d = 0; d < 3; d++) ret_at[d] = nest_gather(key >> d);
+}
+
+static int nest_extent(const struct mesh *mesh, int l, int d)
+{
+    return d < mesh->dim ? mesh->levels[0].extent[d] << l : 1;
+}
+
+/* The key of a place on level l; false if that is outside the domain. Periodic axes wrap. */
+static bool nest_key(const struct mesh *mesh, int l, const int at[3], uint64_t *ret_key)
+{
+    int inside[3];
+    for (int d = 0; d < 3; d++) {
+        int extent = nest_extent(mesh, l, d), c = at[d];
+        if (c < 0 || c >= extent) {
+            if (!mesh->periodic[d]) return false;
+            c = (c % extent + extent) % extent;
+        }
+        inside[d] = c;
+    }
+    *ret_key = morton_key(inside);
+    return true;
+}
+
+static void nest_push(struct nest_keys *keys, uint64_t key)
+{
+    if (keys->n == keys->room) {
+        unsigned room = keys->room ? 2 * keys->room : 256;
+        keys->keys = mem_grow(keys->keys, keys->room, room, sizeof *keys->keys);
+        keys->room = room;
+    }
+    keys->keys[keys->n++] = key;
+}
+
+/* Stable sort by one byte of the keys. */
+static void nest_sort_byte(const uint64_t *from, unsigned n, int shift, uint64_t *to)
+{
+    unsigned start[256] = {0}, sum = 0;
+    for (unsigned i = 0; i < n; i++) start[from[i] >> shift & 255u]++;
+    for (int b = 0; b < 256; b++) {
+        unsigned count = start[b];
+        start[b] = sum;
+        sum += count;
+    }
+    for (unsigned i = 0; i < n; i++) to[start[from[i] >> shift & 255u]++] = from[i];
+}
+
+/* Sorts (byte by byte, those that differ at all) and drops repetitions. */
+static void nest_sort(struct nest_keys *keys)
+{
+    if (keys->n < 2) return;
+    uint64_t *from = keys->keys, *to = mem_new(keys->room, sizeof *to), differ = 0;
+    for (unsigned i = 1; i < keys->n; i++) differ |= from[i] ^ from[0];
+    for (int shift = 0; shift < 64; shift += 8) {
+        if (!(differ >> shift & 255u)) continue;
+        nest_sort_byte(from, keys->n, shift, to);
+        uint64_t *other = from;
+        from = to;
+        to = other;
+    }
+    unsigned n = 1;
+    for (unsigned i = 1; i < keys->n; i++)
+        if (from[i] != from[n - 1]) from[n++] = from[i];
+    keys->keys = from;
+    keys->n = n;
+    mem_free(to);
+}
+
+/* The octants along one axis that a tag in cell i of a tile reaches: first[i] .. last[i], counted from `from`, the
+ * first that any cell of the tile reaches; `count` of them in all. */
+struct nest_reach {
+    int from, count;
+    int first[METRIC_CELLS], last[METRIC_CELLS];
+};
+
+static int nest_floor(int a, int b)
+{
+    return a >= 0 ? a / b : -((b - 1 - a) / b);
+}
+
+static struct nest_reach nest_reach(const struct mesh *mesh, const struct tile *tile, int d, int buffer)
+{
+    struct nest_reach reach = {.count = 1};
+    if (d >= mesh->dim) return reach;
+    int n = mesh->n[d], half = n / 2;
+    assert(n % 2 == 0 && n <= METRIC_CELLS);
+    int from = nest_floor(-buffer, half);
+    for (int i = 0; i < n; i++) {
+        reach.first[i] = nest_floor(i - buffer, half) - from;
+        reach.last[i] = nest_floor(i + buffer, half) - from;
+    }
+    reach.from = 2 * tile->at[d] + from;
+    reach.count = reach.last[n - 1] + 1;
+    return reach;
+}
+
+static bool nest_is_tagged(const double *marks, size_t n)
+{
+    int any = 0;
+    for (size_t i = 0; i < n; i++) any |= marks[i] != 0.0;
+    return any;
+}
+
+/* Marks in `row` the octants along x that a row of cells reaches. */
+static void nest_reach_row(const struct nest_reach *x, const double *marks, int n, unsigned char *row)
+{
+    memset(row, 0, (size_t)x->count);
+    for (int i = 0; i < n; i++)
+        if (marks[i] != 0.0) memset(row + x->first[i], 1, (size_t)(x->last[i] - x->first[i] + 1));
+}
+
+/* Marks in `octants` [z][y][x] all octants that the tags reach, row by row of cells; a row of octants behind them is
+ * scratch. */
+static void nest_reach_tile(const struct mesh *mesh, const struct nest_reach reach[3], const double *marks,
+                            unsigned char *octants)
+{
+    const struct nest_reach *x = &reach[0], *y = &reach[1], *z = &reach[2];
+    unsigned char *row = octants + x->count * y->count * z->count;
+    for (int k = 0; k < mesh->n[2]; k++)
+        for (int j = 0; j < mesh->n[1]; j++, marks += mesh->n[0]) {
+            if (!nest_is_tagged(marks, (size_t)mesh->n[0])) continue;
+            nest_reach_row(x, marks, mesh->n[0], row);
+            for (int oz = z->first[k]; oz <= z->last[k]; oz++)
+                for (int oy = y->first[j]; oy <= y->last[j]; oy++) {
+                    unsigned char *to = octants + (oz * y->count + oy) * x->count;
+                    for (int ox = 0; ox < x->count; ox++) to[ox] |= row[ox];
+                }
+        }
+}
+
+void nest_wish(const struct mesh *mesh, const struct level *level, const struct tile *tile, const double *marks,
+               int buffer, struct nest_keys *keys)
+{
+    if (!nest_is_tagged(marks, mesh->n_cell)) return;
+    int l = (int)(level - mesh->levels) + 1;
+    struct nest_reach reach[3];
+    for (int d = 0; d < 3; d++) reach[d] = nest_reach(mesh, tile, d, buffer);
+    int nx = reach[0].count, ny = reach[1].count, nz = reach[2].count;
+    unsigned char *octants = mem_new((size_t)(nx * (ny * nz + 1)), 1);
+    nest_reach_tile(mesh, reach, marks, octants);
+    for (int o = 0; o < nx * ny * nz; o++) {
+        int at[3] = {reach[0].from + o % nx, reach[1].from + o / nx % ny, reach[2].from + o / nx / ny};
+        uint64_t key;
+        if (octants[o] && nest_key(mesh, l, at, &key)) nest_push(keys, key);
+    }
+    mem_free(octants);
+}
+
+void nest_join(struct nest_keys *keys)
+{
+    nest_sort(keys);
+    struct nest_keys all = {0};
+    all.keys = comm_join_keys(keys->keys, keys->n, &all.n);
+    all.room = all.n + 1;
+    nest_sort(&all);
+    nest_free_keys(keys);
+    *keys = all;
+}
+
+/* Which of the 3^d tiles around a parent its child in octant o needs: its own side of each axis. */
+static uint32_t nest_needs_of_child(int dim, unsigned octant)
+{
+    uint32_t needs = 0;
+    for (int i = 0; i < NEST_AROUND; i++) {
+        int off[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+        bool needed = true;
+        for (int d = 0; d < 3; d++) {
+            int side = octant >> d & 1u ? 1 : -1;
+            if (off[d] != 0 && (d >= dim || off[d] != side)) needed = false;
+        }
+        if (needed) needs |= 1u << i;
+    }
+    return needs;
+}
+
+/* Adds what `tiles` of level l need on level l - 1. */
+static void nest_add_needs(const struct mesh *mesh, int l, const struct tile *tiles, unsigned n, struct nest_keys *keys)
+{
+    uint32_t child[MESH_OCTANTS];
+    for (unsigned o = 0; o < MESH_OCTANTS; o++) child[o] = nest_needs_of_child(mesh->dim, o);
+    for (unsigned i = 0; i < n;) {
+        uint64_t family = tiles[i].key >> 3, key;
+        const int *at = tiles[i].at;
+        int parent[3] = {at[0] >> 1, at[1] >> 1, at[2] >> 1};
+        uint32_t needs = 0;
+        for (; i < n && tiles[i].key >> 3 == family; i++) needs |= child[tiles[i].key & 7u];
+        for (int a = 0; a < NEST_AROUND; a++) {
+            if (!(needs >> a & 1u)) continue;
+            int place[3] = {parent[0] + a % 3 - 1, parent[1] + a / 3 % 3 - 1, parent[2] + a / 9 - 1};
+            if (nest_key(mesh, l - 1, place, &key)) nest_push(keys, key);
+        }
+    }
+}
+
+static bool nest_has(const struct level *level, uint64_t key)
+{
+    unsigned from = 0, to = level->n_tile;
+    while (from < to) {
+        unsigned middle = from + (to - from) / 2;
+        if (level->tiles[middle].key < key) from = middle + 1;
+        else to = middle;
+    }
+    return from < level->n_tile && level->tiles[from].key == key;
+}
+
+/* The tiles of the fixed level around one place: remembered, since wishes come sorted. */
+struct nest_base {
+    const struct mesh *mesh;
+    int level;
+    uint64_t key; /* of the place */
+    bool known;
+    uint32_t there; /* which of the 3^d exist or lie outside the domain */
+};
+
+static void nest_look_around(struct nest_base *base, uint64_t key)
+{
+    if (base->known && base->key == key) return;
+    int at[3];
+    nest_at(key, at);
+    base->known = true;
+    base->key = key;
+    base->there = 0;
+    for (int a = 0; a < NEST_AROUND; a++) {
+        int place[3] = {at[0] + a % 3 - 1, at[1] + a / 3 % 3 - 1, at[2] + a / 9 - 1};
+        uint64_t around;
+        bool inside = nest_key(base->mesh, base->level, place, &around);
+        if (!inside || nest_has(&base->mesh->levels[base->level], around)) base->there |= 1u << a;
+    }
+}
+
+/* May a tile of level l exist over the fixed level? What it needs on the way down, and what that needs, is a box
+ * that is at most one tile wider on each side than the tile it lies in. */
+static bool nest_is_allowed(struct nest_base *base, int l, uint64_t key)
+{
+    int lo[3], hi[3], at[3];
+    nest_at(key, at);
+    for (int d = 0; d < 3; d++) {
+        lo[d] = hi[d] = at[d];
+        if (d < base->mesh->dim)
+            for (int m = l; m > base->level; m--) {
+                lo[d] = (lo[d] - 1) >> 1;
+                hi[d] = (hi[d] + 1) >> 1;
+            }
+        at[d] >>= l - base->level;
+    }
+    nest_look_around(base, key >> 3 * (l - base->level));
+    for (int z = lo[2]; z <= hi[2]; z++)
+        for (int y = lo[1]; y <= hi[1]; y++)
+            for (int x = lo[0]; x <= hi[0]; x++) {
+                int a = NEST_SELF + (x - at[0]) + 3 * (y - at[1]) + 9 * (z - at[2]);
+                if (!(base->there >> a & 1u)) return false;
+            }
+    return true;
+}
+
+static void nest_add_wishes(const struct mesh *mesh, int fixed, int l, const struct nest_keys *wishes,
+                            struct nest_keys *keys)
+{
+    struct nest_base base = {.mesh = mesh, .level = fixed};
+    for (unsigned i = 0; i < wishes->n; i++)
+        if (fixed == 0 || nest_is_allowed(&base, l, wishes->keys[i])) nest_push(keys, wishes->keys[i]);
+}
+
+static struct tile nest_tile(uint64_t key, unsigned unwanted)
+{
+    struct tile tile = {.key = key, .unwanted = (unsigned char)(unwanted < UINT8_MAX ? unwanted : UINT8_MAX)};
+    nest_at(key, tile.at);
+    return tile;
+}
+
+/* What is used (sorted), and of what is there what has not been unwanted for too long. */
+static struct nest_set nest_merge(const struct nest_keys *used, const struct tile *there, unsigned n_there,
+                                  int patience)
+{
+    struct nest_set set = {.tiles = mem_new((size_t)used->n + n_there, sizeof *set.tiles)};
+    unsigned i = 0, j = 0;
+    while (i < used->n || j < n_there) {
+        if (i < used->n && (j == n_there || used->keys[i] <= there[j].key)) {
+            if (j < n_there && used->keys[i] == there[j].key) j++;
+            set.tiles[set.n++] = nest_tile(used->keys[i++], 0);
+            continue;
+        }
+        unsigned unwanted = there[j].unwanted + 1u;
+        if ((int)unwanted < patience) set.tiles[set.n++] = nest_tile(there[j].key, unwanted);
+        j++;
+    }
+    return set;
+}
+
+void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes, int patience,
+               struct nest_set *ret_sets)
+{
+    for (int l = mesh->most_level; l > base; l--) {
+        struct nest_keys used = {0};
+        nest_add_wishes(mesh, base, l, &wishes[l], &used);
+        if (l < mesh->most_level) nest_add_needs(mesh, l + 1, ret_sets[l + 1].tiles, ret_sets[l + 1].n, &used);
+        nest_sort(&used);
+        const struct level *level = &mesh->levels[l];
+        bool exists = l < mesh->n_level;
+        ret_sets[l] = nest_merge(&used, exists ? level->tiles : NULL, exists ? level->n_tile : 0, patience);
+        nest_free_keys(&used);
+    }
+}
+
+bool nest_same(const struct mesh *mesh, int l, const struct nest_set *set)
+{
+    if (l >= mesh->n_level) return set->n == 0;
+    const struct level *level = &mesh->levels[l];
+    if (level->n_tile != set->n) return false;
+    for (unsigned i = 0; i < set->n; i++)
+        if (level->tiles[i].key != set->tiles[i].key) return false;
+    return true;
+}
+
+static int nest_check_order(const struct mesh *mesh, int l)
+{
+    const struct level *level = &mesh->levels[l];
+    for (unsigned i = 0; i < level->n_tile; i++) {
+        const struct tile *tile = &level->tiles[i];
+        const int *at = tile->at;
+        bool inside = true;
+        for (int d = 0; d < 3; d++) inside &= at[d] >= 0 && at[d] < nest_extent(mesh, l, d);
+        const char *wrong = !inside                                     ? "outside the domain"
+                            : morton_key(at) != tile->key               ? "not where its key says"
+                            : i && level->tiles[i - 1].key >= tile->key ? "not in its place along the curve"
+                                                                        : NULL;
+        if (wrong)
+            return status_fail(STATUS_RUN, "the mesh is broken: tile (%d, %d, %d) of level %d is %s", at[0], at[1],
+                               at[2], l, wrong);
+    }
+    return STATUS_OK;
+}
+
+/* Names the tile of level l that needs what is missing on level l - 1. */
+static int nest_fail(const struct mesh *mesh, int l, uint64_t missing)
+{
+    const struct level *level = &mesh->levels[l];
+    int at[3];
+    nest_at(missing, at);
+    for (unsigned i = 0; i < level->n_tile; i++) {
+        struct nest_keys needs = {0};
+        nest_add_needs(mesh, l, &level->tiles[i], 1, &needs);
+        bool found = false;
+        for (unsigned k = 0; k < needs.n; k++) found |= needs.keys[k] == missing;
+        nest_free_keys(&needs);
+        const int *by = level->tiles[i].at;
+        if (found)
+            return status_fail(STATUS_RUN,
+                               "the mesh is broken: tile (%d, %d, %d) of level %d needs tile (%d, %d, %d) of level %d, "
+                               "which does not exist",
+                               by[0], by[1], by[2], l, at[0], at[1], at[2], l - 1);
+    }
+    return STATUS_RUN;
+}
+
+static int nest_check_needs(const struct mesh *mesh, int l)
+{
+    const struct level *level = &mesh->levels[l], *coarse = level - 1;
+    struct nest_keys needs = {0};
+    nest_add_needs(mesh, l, level->tiles, level->n_tile, &needs);
+    nest_sort(&needs);
+    int code = STATUS_OK;
+    for (unsigned i = 0, j = 0; i < needs.n && !code; i++) {
+        while (j < coarse->n_tile && coarse->tiles[j].key < needs.keys[i]) j++;
+        if (j == coarse->n_tile || coarse->tiles[j].key != needs.keys[i]) code = nest_fail(mesh, l, needs.keys[i]);
+    }
+    nest_free_keys(&needs);
+    return code;
+}
+
+static int nest_check_cover(const struct mesh *mesh)
+{
+    const int *extent = mesh->levels[0].extent;
+    unsigned n = (unsigned)extent[0] * (unsigned)extent[1] * (unsigned)extent[2];
+    if (mesh->levels[0].n_tile == n) return STATUS_OK;
+    return status_fail(STATUS_RUN, "the mesh is broken: level 0 has %u of the %u tiles of the domain",
+                       mesh->levels[0].n_tile, n);
+}
+
+int nest_check(const struct mesh *mesh)
+{
+    TRY(nest_check_cover(mesh));
+    for (int l = 0; l < mesh->n_level; l++) {
+        TRY(nest_check_order(mesh, l));
+        if (l) TRY(nest_check_needs(mesh, l));
+    }
+    return STATUS_OK;
+}
+
+void nest_free_keys(struct nest_keys *keys)
+{
+    mem_free(keys->keys);
+    *keys = (struct nest_keys){0};
+}
+
+void nest_free_set(struct nest_set *set)
+{
+    mem_free(set->tiles);
+    *set = (struct nest_set){0};
+}
