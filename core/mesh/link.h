@@ -49,7 +49,8 @@ struct link {
     void *own;
 };
 
-/* The link between fine_level and fine_level - 1, both with tiles. Not collective. */
+/* The link between fine_level and fine_level - 1, both with tiles and with their neighbours and covered flags made;
+ * NULL if a local fine tile lies in no coarse tile or looks at none. Not collective. */
 struct link *link_new(const struct mesh *mesh, int fine_level);
 void link_free(struct link *link);
 

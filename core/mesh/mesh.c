@@ -1,4 +1,5 @@
-/* mesh.c - level 0: tiles along the Morton curve, their owners, neighbours and memory.
+/* mesh.c - the mesh as a whole: tile size, level 0, replacing the tiles of a level, and where a point lies. What
+ * follows from a list of tiles is made in level.c, halo.c and link.c, blocks are moved in move.c.
  *
  * Main invariant: tiles are sorted by key and every rank holds the whole list, so that who
  * owns what, and what must be exchanged, follows on every rank from the same data without a
@@ -11,8 +12,13 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "mesh/halo.h"
+#include "mesh/level.h"
+#include "mesh/link.h"
 #include "mesh/morton.h"
+#include "mesh/move.h"
+#include "mesh/pool.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 enum { MESH_TILE_LEAST = 4 };
@@ -32,27 +38,57 @@ static int mesh_refuse(const struct scene *scene, int common)
 {
     struct text counts = {0};
     for (int d = 0; d < scene->dim; d++) text_add(&counts, "%s%d", d ? ", " : "", (scene->cells[d] + 15) / 16 * 16);
-    status_fail(
-        STATUS_CASE,
-        "%s: domain.cells: the counts have no common tile side from %d to %d (greatest common divisor %d); try [%s]",
-        scene->cells_place, MESH_TILE_LEAST, mesh_tile_most(scene->dim), common, counts.at);
+    status_fail(STATUS_CASE,
+                "%s: domain.cells: the counts have no common %stile side from %d to %d (greatest common divisor %d); "
+                "try [%s]",
+                scene->cells_place, scene->levels > 0 ? "even " : "", MESH_TILE_LEAST, mesh_tile_most(scene->dim),
+                common, counts.at);
     text_done(&counts);
     return 0;
+}
+
+/* Refined tiles lie under octants of n / 2 cells, which must hold the MESH_GHOST layers. */
+static bool mesh_tile_halves(const struct scene *scene, int n)
+{
+    return !scene->levels || (n % 2 == 0 && n >= MESH_TILE_LEAST);
+}
+
+static int mesh_tile_given(const struct scene *scene, int common)
+{
+    if (common % scene->tile) {
+        status_fail(STATUS_CASE, "%s: mesh.tile: %d does not divide all of domain.cells (greatest common divisor %d)",
+                    scene->cells_place, scene->tile, common);
+        return 0;
+    }
+    if (mesh_tile_halves(scene, scene->tile)) return scene->tile;
+    status_fail(STATUS_CASE,
+                "%s: mesh.tile: %d cannot be refined: with mesh.levels above 0 it must be even and at least %d",
+                scene->cells_place, scene->tile, MESH_TILE_LEAST);
+    return 0;
+}
+
+static int mesh_tile_chosen(const struct scene *scene, int common)
+{
+    for (int n = mesh_tile_most(scene->dim); n >= MESH_TILE_LEAST; n--)
+        if (common % n == 0 && mesh_tile_halves(scene, n)) return n;
+    return mesh_refuse(scene, common);
 }
 
 int mesh_tile_size(const struct scene *scene)
 {
     int common = scene->cells[0];
     for (int d = 1; d < scene->dim; d++) common = mesh_gcd(common, scene->cells[d]);
-    if (scene->tile) {
-        if (common % scene->tile == 0) return scene->tile;
-        status_fail(STATUS_CASE, "%s: mesh.tile: %d does not divide all of domain.cells (greatest common divisor %d)",
-                    scene->cells_place, scene->tile, common);
-        return 0;
-    }
-    for (int n = mesh_tile_most(scene->dim); n >= MESH_TILE_LEAST; n--)
-        if (common % n == 0) return n;
-    return mesh_refuse(scene, common);
+    int n = scene->tile ? mesh_tile_given(scene, common) : mesh_tile_chosen(scene, common);
+    for (int d = 0; n && d < scene->dim; d++)
+        if (scene->cells[d] / n > MORTON_MOST >> scene->levels) {
+            status_fail(
+                STATUS_CASE,
+                "%s: domain.cells: %d cells in tiles of %d with %d finer levels are more than the %d tiles along an "
+                "axis that can be numbered; try fewer mesh.levels or larger tiles",
+                scene->cells_place, scene->cells[d], n, scene->levels, MORTON_MOST);
+            n = 0;
+        }
+    return n;
 }
 
 static int mesh_compare_tiles(const void *a, const void *b)
@@ -61,88 +97,43 @@ static int mesh_compare_tiles(const void *a, const void *b)
     return (ka > kb) - (ka < kb);
 }
 
-/* All tiles of a box of extent[] tiles, cut into equal pieces of the curve. */
-static void mesh_fill_level(struct level *level)
+/* All tiles of the domain, cut into equal pieces of the curve. */
+static struct tile *mesh_fill(const int extent[3], unsigned *ret_n_tile)
 {
-    const int *extent = level->extent;
-    level->n_tile = (unsigned)(extent[0] * extent[1] * extent[2]);
-    level->tiles = mem_new(level->n_tile, sizeof *level->tiles);
-    unsigned count = 0;
+    unsigned n_tile = (unsigned)(extent[0] * extent[1] * extent[2]), count = 0;
+    struct tile *tiles = mem_new(n_tile, sizeof *tiles);
     for (int k = 0; k < extent[2]; k++)
         for (int j = 0; j < extent[1]; j++)
             for (int i = 0; i < extent[0]; i++) {
-                struct tile *tile = &level->tiles[count++];
+                struct tile *tile = &tiles[count++];
                 *tile = (struct tile){.at = {i, j, k}};
                 tile->key = morton_key(tile->at);
             }
-    qsort(level->tiles, level->n_tile, sizeof *level->tiles, mesh_compare_tiles);
+    qsort(tiles, n_tile, sizeof *tiles, mesh_compare_tiles);
     uint64_t size = (uint64_t)comm_size();
-    for (unsigned rank = 0; rank < size; rank++) {
-        unsigned from = (unsigned)(level->n_tile * (uint64_t)rank / size);
-        unsigned to = (unsigned)(level->n_tile * (rank + 1ull) / size);
-        for (unsigned i = from; i < to; i++) level->tiles[i].rank = (int)rank;
-        if ((int)rank != comm_rank()) continue;
-        level->first = from;
-        level->n_local = to - from;
-    }
+    for (uint64_t rank = 0; rank < size; rank++)
+        for (uint64_t i = n_tile * rank / size; i < n_tile * (rank + 1) / size; i++) tiles[i].rank = (int)rank;
+    *ret_n_tile = n_tile;
+    return tiles;
 }
 
-int mesh_find(const struct mesh *mesh, const struct level *level, const int at[3])
+static void mesh_measure(struct mesh *mesh, const struct scene *scene, int n)
 {
-    struct tile wanted = {0};
+    mesh->n_cell = 1;
     for (int d = 0; d < 3; d++) {
-        int c = at[d], extent = level->extent[d];
-        if (mesh->periodic[d]) c = (c % extent + extent) % extent;
-        if (c < 0 || c >= extent) return -1;
-        wanted.at[d] = c;
-    }
-    wanted.key = morton_key(wanted.at);
-    const struct tile *found = bsearch(&wanted, level->tiles, level->n_tile, sizeof *level->tiles, mesh_compare_tiles);
-    return found ? (int)(found - level->tiles) : -1;
-}
-
-static void mesh_find_neighbours(const struct mesh *mesh, struct level *level)
-{
-    level->neighbours = mem_new(level->n_local, sizeof *level->neighbours);
-    unsigned slab = 0; /* remote slabs are numbered in the order tile, face: halo.c relies on it */
-    for (unsigned t = 0; t < level->n_local; t++)
-        for (int face = 0; face < 2 * mesh->dim; face++) {
-            const struct tile *tile = &level->tiles[level->first + t];
-            int at[3] = {tile->at[0], tile->at[1], tile->at[2]};
-            at[face / 2] += face % 2 ? 1 : -1;
-            int other = mesh_find(mesh, level, at);
-            struct neighbour *neighbour = &level->neighbours[t][face];
-            neighbour->kind = other < 0                                 ? NEIGHBOUR_BOUNDARY
-                              : level->tiles[other].rank == comm_rank() ? NEIGHBOUR_LOCAL
-                                                                        : NEIGHBOUR_REMOTE;
-            if (neighbour->kind == NEIGHBOUR_LOCAL) neighbour->index = (unsigned)other - level->first;
-            if (neighbour->kind == NEIGHBOUR_REMOTE) neighbour->index = slab++;
+        bool used = d < scene->dim;
+        mesh->lower[d] = scene->lower[d];
+        mesh->upper[d] = scene->upper[d];
+        mesh->n[d] = used ? n : 1;
+        mesh->n_cell *= (size_t)mesh->n[d];
+        mesh->periodic[d] = used && scene->boundary[d][0].type == SCENE_PERIODIC;
+        mesh->levels[0].extent[d] = used ? scene->cells[d] / n : 1;
+        mesh->levels[0].h[d] = used ? (scene->upper[d] - scene->lower[d]) / scene->cells[d] : 1.0;
+        for (int l = 1; l <= mesh->most_level; l++) {
+            mesh->levels[l].extent[d] = mesh->levels[l - 1].extent[d] * (used ? 2 : 1);
+            mesh->levels[l].h[d] = mesh->levels[l - 1].h[d] / (used ? 2.0 : 1.0);
         }
-}
-
-/* `count` arrays of one size, all in one block (large pages where the system has them). */
-static double **mesh_arrays(unsigned count, size_t doubles)
-{
-    double **arrays = mem_new(count + 1, sizeof *arrays);
-    size_t pitch = (doubles + 15) / 8 * 8; /* a cache line apart, so that arrays do not share cache sets */
-    arrays[0] = mem_new_large(pitch * (count ? count : 1), sizeof **arrays);
-    for (unsigned i = 1; i < count; i++) arrays[i] = arrays[0] + i * pitch;
-    return arrays;
-}
-
-static void mesh_free_arrays(double **arrays)
-{
-    if (arrays) mem_free(arrays[0]);
-    mem_free(arrays);
-}
-
-static void mesh_store_level(const struct mesh *mesh, struct level *level)
-{
-    size_t doubles = mesh->n_field * mesh->n_cell;
-    level->u_old = mesh_arrays(level->n_local, doubles);
-    level->u_new = mesh_arrays(level->n_local, doubles);
-    level->w = mesh_arrays(level->n_local, doubles);
-    level->halo = halo_new(mesh, level, mesh->n_field);
+    }
 }
 
 int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, struct mesh **ret_mesh)
@@ -155,39 +146,78 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
     mesh->n_field = n_field;
     mesh->n_alpha = n_alpha;
     mesh->most_level = scene->levels;
-    mesh->n_level = 1;
-    mesh->n_cell = 1;
-    struct level *level = &mesh->levels[0];
-    for (int d = 0; d < 3; d++) {
-        bool used = d < scene->dim;
-        mesh->lower[d] = scene->lower[d];
-        mesh->upper[d] = scene->upper[d];
-        mesh->n[d] = used ? n : 1;
-        mesh->n_cell *= (size_t)mesh->n[d];
-        mesh->periodic[d] = used && scene->boundary[d][0].type == SCENE_PERIODIC;
-        level->extent[d] = used ? scene->cells[d] / n : 1;
-        level->h[d] = used ? (scene->upper[d] - scene->lower[d]) / scene->cells[d] : 1.0;
-    }
-    mesh_fill_level(level);
-    mesh_find_neighbours(mesh, level);
-    mesh_store_level(mesh, level);
+    mesh_measure(mesh, scene, n);
+    mesh->pool = pool_new(n_field * mesh->n_cell);
+    unsigned n_tile;
+    struct tile *tiles = mesh_fill(mesh->levels[0].extent, &n_tile);
+    struct mesh_change change;
+    mesh_replace(mesh, 0, tiles, n_tile, &change);
+    mesh_change_free(&change);
     *ret_mesh = mesh;
     return STATUS_OK;
+}
+
+/* Everything of a level but its blocks. */
+static void mesh_drop(struct level *level)
+{
+    halo_free(level->halo);
+    link_free(level->link);
+    mem_free(level->u_old);
+    mem_free(level->u_new);
+    mem_free(level->w);
+    level->halo = NULL;
+    level->link = NULL;
+    level->u_old = level->u_new = level->w = NULL;
+    level_drop(level);
 }
 
 void mesh_free(struct mesh *mesh)
 {
     if (!mesh) return;
-    for (int l = 0; l < mesh->n_level; l++) {
-        struct level *level = &mesh->levels[l];
-        halo_free(level->halo);
-        mesh_free_arrays(level->u_old);
-        mesh_free_arrays(level->u_new);
-        mesh_free_arrays(level->w);
-        mem_free(level->neighbours);
-        mem_free(level->tiles);
-    }
+    for (int l = 0; l < mesh->n_level; l++) mesh_drop(&mesh->levels[l]);
+    pool_free(mesh->pool);
     mem_free(mesh);
+}
+
+static void mesh_link(struct mesh *mesh, int l)
+{
+    if (l < 1 || l >= mesh->n_level) return;
+    link_free(mesh->levels[l].link);
+    mesh->levels[l].link = link_new(mesh, l);
+}
+
+/* All that hangs on the tiles of level l. */
+static void mesh_connect(struct mesh *mesh, int l)
+{
+    struct level *level = &mesh->levels[l];
+    if (l > 0) level_cover(mesh, l - 1);
+    if (l >= mesh->n_level) return;
+    level_cover(mesh, l);
+    level_connect(mesh, level);
+    halo_free(level->halo);
+    level->halo = halo_new(mesh, level, mesh->n_field);
+    mesh_link(mesh, l);
+    mesh_link(mesh, l + 1);
+}
+
+void mesh_replace(struct mesh *mesh, int l, struct tile *tiles, unsigned n_tile, struct mesh_change *ret_change)
+{
+    struct level *level = &mesh->levels[l];
+    mesh->revision++;
+    move_blocks(mesh, l, tiles, n_tile, ret_change);
+    level_adopt(level, tiles, n_tile);
+    if (!n_tile) {
+        mesh_drop(level);
+        mesh->n_level = l;
+    } else if (l == mesh->n_level) mesh->n_level++;
+    mesh_connect(mesh, l);
+}
+
+void mesh_change_free(struct mesh_change *change)
+{
+    mem_free(change->from);
+    mem_free(change->born);
+    *change = (struct mesh_change){0};
 }
 
 void mesh_corner(const struct mesh *mesh, const struct level *level, const struct tile *tile, double ret_corner[3])
@@ -195,9 +225,63 @@ void mesh_corner(const struct mesh *mesh, const struct level *level, const struc
     for (int d = 0; d < 3; d++) ret_corner[d] = mesh->lower[d] + (double)(tile->at[d] * mesh->n[d]) * level->h[d];
 }
 
+int mesh_find(const struct mesh *mesh, const struct level *level, const int at[3])
+{
+    int wrapped[3];
+    for (int d = 0; d < 3; d++) {
+        int extent = level->extent[d];
+        wrapped[d] = mesh->periodic[d] ? (at[d] % extent + extent) % extent : at[d];
+        if (wrapped[d] < 0 || wrapped[d] >= extent) return -1;
+    }
+    return level_find(level, morton_key(wrapped));
+}
+
+unsigned mesh_locate(const struct mesh *mesh, const double x[3], int *ret_level, size_t *ret_cell)
+{
+    for (int l = mesh->n_level - 1;; l--) {
+        const struct level *level = &mesh->levels[l];
+        int at[3] = {0, 0, 0}, tile;
+        size_t cell = 0;
+        for (int d = mesh->dim - 1; d >= 0; d--) {
+            int n = mesh->n[d], last = level->extent[d] * n - 1;
+            double place = floor((x[d] - mesh->lower[d]) / level->h[d]);
+            int i = place >= last ? last : place > 0.0 ? (int)place : 0;
+            at[d] = i / n;
+            cell = cell * (size_t)n + (size_t)(i % n);
+        }
+        tile = mesh_find(mesh, level, at);
+        if (tile < 0 && l > 0) continue; /* level 0 covers the domain */
+        *ret_level = l;
+        *ret_cell = cell;
+        return (unsigned)tile;
+    }
+}
+
+int mesh_octant(const struct mesh *mesh, size_t cell)
+{
+    int octant = 0;
+    for (int d = 0; d < mesh->dim; d++) {
+        size_t n = (size_t)mesh->n[d];
+        if (cell % n >= n / 2) octant |= 1 << d;
+        cell /= n;
+    }
+    return octant;
+}
+
+void mesh_leaves(const struct mesh *mesh, const struct tile *tile, double *ret_leaf)
+{
+    for (size_t c = 0; c < mesh->n_cell; c++)
+        ret_leaf[c] = tile->covered && tile->covered >> mesh_octant(mesh, c) & 1 ? 0.0 : 1.0;
+}
+
 void mesh_swap(struct level *level)
 {
     double **keep = level->u_old;
     level->u_old = level->u_new;
     level->u_new = keep;
+}
+
+double mesh_bytes(const struct mesh *mesh, double n_tile)
+{
+    return 3.0 * n_tile * (double)pool_bytes(mesh->pool);
 }

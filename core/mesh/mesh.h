@@ -47,6 +47,8 @@ struct level {
     int extent[3]; /* tiles per axis if the level covered the domain */
     unsigned n_tile, first, n_local;
     struct tile *tiles;                         /* [n_tile], replicated, Morton order */
+    unsigned *table;                            /* for mesh_find: 1 + index of a tile, 0 free; by hash of the key */
+    int table_bits;                             /* 2^table_bits entries */
     struct neighbour (*neighbours)[MESH_FACES]; /* [n_local] */
     double **u_old, **u_new; /* [n_local] conserved at t^n and the one being made: [n_field][n^d], 64-byte aligned */
     double **w;              /* [n_local] primitives of the last completed stage: [n_prim][n^d] */
@@ -79,17 +81,19 @@ void mesh_free(struct mesh *mesh);
 /* The tile size that mesh_new would use, or 0 with a recorded message. */
 int mesh_tile_size(const struct scene *scene);
 
-/* What mesh_replace did with the local tiles of a level. All arrays are [n_local] of the new level. */
+/* What mesh_replace did with the tiles of a level. */
 struct mesh_change {
-    int *from;         /* local index the tile had before on this rank, or -1: it is new here */
-    bool *born;        /* the tile did not exist on any rank: its blocks hold nothing yet */
+    int *from;         /* [n_local] of the new level: local index the tile had before on this rank, or -1: new here */
+    bool *born;        /* [n_tile] of the whole new level, replicated: the tile did not exist on any rank, its blocks
+                          hold nothing yet */
     unsigned n_before; /* local tiles before */
 };
 
 /* Gives level l (1 .. n_level: the next new one is allowed) the sorted tile set `tiles` (taken over; rank and
  * unwanted are set, covered and hidden are not). Tiles that stay on a rank keep their blocks, tiles that move bring
  * u_old and w along, born ones get blocks for the caller to fill. n_tile 0 removes the level (it must be the
- * finest). Neighbours, halo and links of l and l + 1, and the covered and hidden flags of l - 1 and l are made anew.
+ * finest). Neighbours, halo and links of l and l + 1, and the covered and hidden flags of l - 1 and l are made anew;
+ * the link of l + 1 is NULL as long as that level does not nest in the new tiles (then it must be replaced next).
  * Level 0 may be given its own tiles with other ranks. Collective; *ret_change is freed by mesh_change_free. */
 void mesh_replace(struct mesh *mesh, int l, struct tile *tiles, unsigned n_tile, struct mesh_change *ret_change);
 void mesh_change_free(struct mesh_change *change);

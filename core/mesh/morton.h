@@ -7,6 +7,8 @@
 
 #include <stdint.h>
 
+enum { MORTON_MOST = 1 << 21 }; /* tiles along an axis */
+
 /* Spreads the lowest 21 bits so that two zero bits follow each. */
 static inline uint64_t morton_spread(uint64_t x)
 {

@@ -24,4 +24,7 @@ void pool_give(struct pool *pool, double *block);
 size_t pool_used(const struct pool *pool);
 size_t pool_size(const struct pool *pool);
 
+/* Bytes that one block takes. */
+size_t pool_bytes(const struct pool *pool);
+
 #endif

@@ -3,13 +3,16 @@
  * A post is a list of items to send and a list to receive, each with a peer rank and a size. The
  * items of one pair of ranks must be listed in the same order on both sides; who lists them derives
  * them from the replicated topology, so there is no handshake. Items for the own rank are not allowed:
- * those are copied by whoever knows both ends. */
+ * those are copied by whoever knows both ends. Without items no MPI call is made. */
 #ifndef POST_H
 #define POST_H
 
 #include <stddef.h>
 
 struct post;
+
+/* Tags, one of each per level (added). */
+enum { POST_HALO = 0, POST_DOWN = 100, POST_UP = 200, POST_MOVE = 300 };
 
 struct post_item {
     int rank;       /* the peer */

@@ -1,0 +1,140 @@
+/* level.c - see level.h. Tiles are found by an open-addressing table of their indices: a build asks some ten
+ * times per tile, and bisection of a long list costs several times as much. */
+#include "mesh/level.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "mesh/morton.h"
+
+void level_local(const struct tile *tiles, unsigned n_tile, unsigned *ret_first, unsigned *ret_n_local)
+{
+    unsigned first = 0, end;
+    int rank = comm_rank();
+    while (first < n_tile && tiles[first].rank < rank) first++;
+    for (end = first; end < n_tile && tiles[end].rank == rank;) end++;
+    *ret_first = first;
+    *ret_n_local = end - first;
+}
+
+/* Fibonacci hashing: the highest bits of a product with 2^64 / golden ratio. */
+static size_t level_place(const struct level *level, uint64_t key)
+{
+    return (size_t)(key * 0x9e3779b97f4a7c15u >> (64 - level->table_bits));
+}
+
+static void level_tabulate(struct level *level)
+{
+    for (level->table_bits = 1; (level->n_tile >> (level->table_bits - 1)) > 0;) level->table_bits++;
+    size_t last = ((size_t)1 << level->table_bits) - 1;
+    mem_free(level->table);
+    level->table = mem_new(last + 1, sizeof *level->table);
+    for (unsigned i = 0; i < level->n_tile; i++) {
+        size_t place = level_place(level, level->tiles[i].key);
+        while (level->table[place]) place = (place + 1) & last;
+        level->table[place] = i + 1;
+    }
+}
+
+void level_adopt(struct level *level, struct tile *tiles, unsigned n_tile)
+{
+    mem_free(level->tiles);
+    level->tiles = tiles;
+    level->n_tile = n_tile;
+    level_local(tiles, n_tile, &level->first, &level->n_local);
+    level_tabulate(level);
+}
+
+void level_drop(struct level *level)
+{
+    mem_free(level->neighbours);
+    mem_free(level->table);
+    mem_free(level->tiles);
+    level->neighbours = NULL;
+    level->table = NULL;
+    level->tiles = NULL;
+    level->n_tile = level->first = level->n_local = 0;
+}
+
+int level_find(const struct level *level, uint64_t key)
+{
+    if (!level->n_tile) return -1;
+    size_t last = ((size_t)1 << level->table_bits) - 1, place = level_place(level, key);
+    for (unsigned entry; (entry = level->table[place]); place = (place + 1) & last)
+        if (level->tiles[entry - 1].key == key) return (int)(entry - 1);
+    return -1;
+}
+
+bool level_step(const struct mesh *mesh, const struct level *level, const struct tile *tile, int face, int ret_at[3])
+{
+    int axis = face / 2, extent = level->extent[axis];
+    for (int d = 0; d < 3; d++) ret_at[d] = tile->at[d];
+    ret_at[axis] += face % 2 ? 1 : -1;
+    if (ret_at[axis] >= 0 && ret_at[axis] < extent) return true;
+    ret_at[axis] = face % 2 ? 0 : extent - 1;
+    return mesh->periodic[axis];
+}
+
+int level_behind(const struct mesh *mesh, const struct level *level, const struct tile *tile, int face)
+{
+    int at[3];
+    return level_step(mesh, level, tile, face, at) ? level_find(level, morton_key(at)) : -1;
+}
+
+/* Remote slabs and faces of the link are numbered in the order tile, face: halo.c and link.c rely on it. */
+void level_connect(const struct mesh *mesh, struct level *level)
+{
+    unsigned slab = 0, strip = 0;
+    int rank = comm_rank();
+    mem_free(level->neighbours);
+    level->neighbours = mem_new(level->n_local, sizeof *level->neighbours);
+    for (unsigned t = 0; t < level->n_local; t++)
+        for (int face = 0; face < MESH_FACES; face++) {
+            struct neighbour *neighbour = &level->neighbours[t][face];
+            int at[3];
+            *neighbour = (struct neighbour){.kind = NEIGHBOUR_BOUNDARY};
+            if (face >= 2 * mesh->dim || !level_step(mesh, level, &level->tiles[level->first + t], face, at)) continue;
+            int other = level_find(level, morton_key(at));
+            if (other < 0) *neighbour = (struct neighbour){NEIGHBOUR_COARSE, strip++};
+            else if (level->tiles[other].rank == rank)
+                *neighbour = (struct neighbour){NEIGHBOUR_LOCAL, (unsigned)other - level->first};
+            else *neighbour = (struct neighbour){NEIGHBOUR_REMOTE, slab++};
+        }
+}
+
+unsigned char level_whole(const struct mesh *mesh)
+{
+    return (unsigned char)((1u << (1u << mesh->dim)) - 1u);
+}
+
+/* Both lists follow the curve, and the key of a parent is that of its child without the last digit: one walk. */
+static void level_mark(struct level *level, const struct level *finer)
+{
+    unsigned i = 0;
+    for (unsigned t = 0; t < level->n_tile; t++) level->tiles[t].covered = 0;
+    for (unsigned t = 0; t < finer->n_tile; t++) {
+        uint64_t key = finer->tiles[t].key;
+        while (i < level->n_tile && level->tiles[i].key < key >> 3) i++;
+        if (i < level->n_tile && level->tiles[i].key == key >> 3)
+            level->tiles[i].covered = (unsigned char)(level->tiles[i].covered | 1u << (key & 7u));
+    }
+}
+
+static bool level_hidden(const struct mesh *mesh, const struct level *level, const struct tile *tile)
+{
+    unsigned char whole = level_whole(mesh);
+    bool hidden = tile->covered == whole;
+    for (int face = 0; hidden && face < 2 * mesh->dim; face++) {
+        int at[3];
+        if (!level_step(mesh, level, tile, face, at)) continue;
+        int other = level_find(level, morton_key(at));
+        hidden = other >= 0 && level->tiles[other].covered == whole;
+    }
+    return hidden;
+}
+
+void level_cover(struct mesh *mesh, int l)
+{
+    struct level *level = &mesh->levels[l];
+    level_mark(level, l + 1 < mesh->n_level ? &mesh->levels[l + 1] : &(struct level){0});
+    for (unsigned t = 0; t < level->n_tile; t++) level->tiles[t].hidden = level_hidden(mesh, level, &level->tiles[t]);
+}

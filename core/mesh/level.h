@@ -1,0 +1,35 @@
+/* level.h - what follows from the list of tiles of a level: who finds a tile, who neighbours whom, what finer
+ * tiles cover. All of it derives from the replicated lists; nothing here is collective. Used by core/mesh alone. */
+#ifndef LEVEL_H
+#define LEVEL_H
+
+#include "mesh/mesh.h"
+
+/* The local piece of a list of tiles whose ranks ascend. */
+void level_local(const struct tile *tiles, unsigned n_tile, unsigned *ret_first, unsigned *ret_n_local);
+
+/* Gives the level its list (taken over, the old one is freed) and makes the table that level_find looks in. */
+void level_adopt(struct level *level, struct tile *tiles, unsigned n_tile);
+
+/* Frees list, table and neighbours, not the blocks. */
+void level_drop(struct level *level);
+
+/* The tile with a key, or -1. */
+int level_find(const struct level *level, uint64_t key);
+
+/* Tile coordinates behind a face, wrapped on periodic axes; false outside the domain. */
+bool level_step(const struct mesh *mesh, const struct level *level, const struct tile *tile, int face, int ret_at[3]);
+
+/* The tile behind a face, or -1. */
+int level_behind(const struct mesh *mesh, const struct level *level, const struct tile *tile, int face);
+
+/* Makes the neighbours of the local tiles anew. */
+void level_connect(const struct mesh *mesh, struct level *level);
+
+/* Bits of all octants of a tile. */
+unsigned char level_whole(const struct mesh *mesh);
+
+/* Sets `covered` and `hidden` of the tiles of level l from the list of level l + 1. */
+void level_cover(struct mesh *mesh, int l);
+
+#endif

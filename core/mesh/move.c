@@ -1,0 +1,120 @@
+/* move.c - see move.h. One walk over both sorted lists tells every rank what stays, goes and comes; the items of a
+ * message are in the order of the keys. */
+#include "mesh/move.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "mesh/level.h"
+#include "mesh/pool.h"
+#include "mesh/post.h"
+
+#include <string.h>
+
+struct move {
+    struct pool *pool;
+    struct level *level; /* as it was */
+    unsigned first, n_local;
+    size_t doubles; /* of a block */
+    unsigned n_out, n_in;
+    unsigned *out, *in; /* local tiles: of the old list that leave, of the new one that arrive */
+    struct post_item *out_items, *in_items;
+};
+
+static struct post_item move_item(const struct move *move, int rank)
+{
+    return (struct post_item){.rank = rank, .doubles = 2 * move->doubles};
+}
+
+/* Tile `i` of the new list was tile `old` on rank `from` (both -1: it was not there) and belongs to rank `to`. */
+static void move_tile(struct move *move, unsigned i, int old, int from, int to, struct mesh_change *change)
+{
+    int rank = comm_rank();
+    change->born[i] = old < 0;
+    if (to == rank) change->from[i - move->first] = from == rank ? old - (int)move->level->first : -1;
+    if (old < 0 || from == to) return;
+    if (from == rank) {
+        move->out[move->n_out] = (unsigned)old - move->level->first;
+        move->out_items[move->n_out++] = move_item(move, to);
+    }
+    if (to == rank) {
+        move->in[move->n_in] = i - move->first;
+        move->in_items[move->n_in++] = move_item(move, from);
+    }
+}
+
+static void move_plan(struct move *move, const struct tile *tiles, unsigned n_tile, struct mesh_change *change)
+{
+    const struct level *level = move->level;
+    unsigned old = 0;
+    for (unsigned i = 0; i < n_tile; i++) {
+        while (old < level->n_tile && level->tiles[old].key < tiles[i].key) old++;
+        bool was = old < level->n_tile && level->tiles[old].key == tiles[i].key;
+        move_tile(move, i, was ? (int)old : -1, was ? level->tiles[old].rank : -1, tiles[i].rank, change);
+    }
+}
+
+/* Blocks of a new array: those of tiles that stay; the others go back to the pool and are taken anew. */
+static double **move_array(const struct move *move, double **old, const int *from)
+{
+    double **blocks = mem_new(move->n_local, sizeof *blocks);
+    for (unsigned i = 0; i < move->n_local; i++)
+        if (from[i] >= 0) {
+            blocks[i] = old[from[i]];
+            old[from[i]] = NULL;
+        }
+    for (unsigned t = move->level->n_local; t > 0; t--)
+        if (old[t - 1]) pool_give(move->pool, old[t - 1]);
+    for (unsigned i = 0; i < move->n_local; i++)
+        if (!blocks[i]) blocks[i] = pool_take(move->pool);
+    mem_free(old);
+    return blocks;
+}
+
+static void move_arrays(const struct move *move, const int *from)
+{
+    struct level *level = move->level;
+    if (!level->n_local) pool_reserve(move->pool, 3 * (size_t)move->n_local);
+    level->u_old = move_array(move, level->u_old, from);
+    level->u_new = move_array(move, level->u_new, from);
+    level->w = move_array(move, level->w, from);
+}
+
+/* What leaves is packed before its blocks are given back; what arrives is unpacked into new ones. */
+static void move_data(struct move *move, int tag, const int *from)
+{
+    struct level *level = move->level;
+    size_t bytes = move->doubles * sizeof(double);
+    struct post *post = post_new(tag, move->n_out, move->out_items, move->n_in, move->in_items);
+    for (unsigned i = 0; i < move->n_out; i++) {
+        memcpy(post_out(post, i), level->u_old[move->out[i]], bytes);
+        memcpy(post_out(post, i) + move->doubles, level->w[move->out[i]], bytes);
+    }
+    post_start(post);
+    move_arrays(move, from);
+    post_finish(post);
+    for (unsigned i = 0; i < move->n_in; i++) {
+        memcpy(level->u_old[move->in[i]], post_in(post, i), bytes);
+        memcpy(level->w[move->in[i]], post_in(post, i) + move->doubles, bytes);
+    }
+    post_free(post);
+}
+
+void move_blocks(struct mesh *mesh, int l, const struct tile *tiles, unsigned n_tile, struct mesh_change *ret_change)
+{
+    struct level *level = &mesh->levels[l];
+    struct move move = {.pool = mesh->pool, .level = level, .doubles = mesh->n_field * mesh->n_cell};
+    level_local(tiles, n_tile, &move.first, &move.n_local);
+    move.out = mem_new(level->n_local, sizeof *move.out);
+    move.out_items = mem_new(level->n_local, sizeof *move.out_items);
+    move.in = mem_new(move.n_local, sizeof *move.in);
+    move.in_items = mem_new(move.n_local, sizeof *move.in_items);
+    *ret_change = (struct mesh_change){.from = mem_new(move.n_local, sizeof *ret_change->from),
+                                       .born = mem_new(n_tile, sizeof *ret_change->born),
+                                       .n_before = level->n_local};
+    move_plan(&move, tiles, n_tile, ret_change);
+    move_data(&move, POST_MOVE + l, ret_change->from);
+    mem_free(move.in_items);
+    mem_free(move.in);
+    mem_free(move.out_items);
+    mem_free(move.out);
+}
