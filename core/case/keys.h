@@ -10,6 +10,7 @@
 
 #include "case/params.h"
 #include "case/tree.h"
+#include "case/unit.h"
 
 #include <float.h>
 
@@ -26,6 +27,7 @@ enum keys_type {
     KEYS_VALUE,     /* a quantity, or an expression of x, y, z, r, t */
     KEYS_EVERY,     /* a time, or "N steps" */
     KEYS_SECTION,   /* a map described by `section` */
+    KEYS_SCRIPT,    /* Lua: an expression, a function, or the name of a file with one */
     KEYS_PARAMETER, /* a quantity of any dimension; params.h has read it */
     KEYS_TREE,      /* anything; checked where it is used. With a section: a part of one, laid over it */
 };
@@ -70,6 +72,8 @@ struct keys_value {
     bool given;                  /* present or defaulted, and right */
     bool meant;                  /* an unknown key, which is recorded, was probably meant to be this one */
     double number;               /* numbers, values; of `every` when it is a time */
+    bool bare;                   /* of a number: written without a unit */
+    struct unit unit;            /* of a number that is not bare: the unit it was written in */
     long integer;                /* integers; steps of `every`; flags 0, 1; index of a choice in `choices` */
     const char *text;            /* texts, names, choices */
     const char *name;            /* of an entry of a named map */

@@ -2,7 +2,6 @@
 #include "case/scalar.h"
 
 #include "base/text.h"
-#include "case/unit.h"
 
 #include <math.h>
 #include <string.h>
@@ -57,6 +56,7 @@ const char *scalar_wanted(struct forest *forest, const struct key *key)
     case KEYS_CHOICE: return "a word";
     case KEYS_EVERY: return "a time or a number of steps ('20 ns', '10 steps')";
     case KEYS_SECTION: return "a map of keys";
+    case KEYS_SCRIPT: return "an expression or a function in Lua";
     default: return "a text";
     }
 }
@@ -164,8 +164,19 @@ static void scalar_rewrite(struct keys *keys, const struct keys_value *value, co
     value->node->style = TREE_PLAIN;
 }
 
+/* Keeps how the number was written, before it is rewritten in SI. */
+static void scalar_keep_unit(struct keys_value *value)
+{
+    const char *text = value->node->text;
+    char bad[32];
+    double number;
+    value->bare = params_is_expression(value->node) || text[text_number(text, &number)] == '\0';
+    if (!value->bare) unit_quantity(text, &number, &value->unit, bad);
+}
+
 static void scalar_read_number(struct keys *keys, struct keys_value *value)
 {
+    scalar_keep_unit(value);
     value->given = scalar_constant(keys, value, &value->number);
     if (value->given) scalar_rewrite(keys, value, scalar_number(keys->forest, value->number));
 }
@@ -235,7 +246,7 @@ static void scalar_read_flag(struct keys *keys, struct keys_value *value)
 static void scalar_read_text(struct keys *keys, struct keys_value *value)
 {
     value->text = value->node->text;
-    value->given = value->key->type == KEYS_TEXT || text_is_identifier(value->text);
+    value->given = value->key->type != KEYS_NAME || text_is_identifier(value->text);
     if (!value->given) scalar_refuse(keys, value);
 }
 

@@ -79,6 +79,8 @@ static void scene_fill(struct draft *draft)
     scene_material(draft);
     scene_domain(draft);
     scene_scheme(draft);
+    scene_mesh(draft);
+    scene_refine(draft);
     scene_boundary(draft);
     scene_initial(draft);
     scene_output(draft);
@@ -235,6 +237,11 @@ void scene_free(struct scene *scene)
         mem_free(scene->layers[i].density);
     }
     mem_free(scene->layers);
+    for (unsigned i = 0; i < scene->n_refine; i++) {
+        shape_free(scene->refines[i].where);
+        mem_free(scene->refines[i].uses);
+    }
+    mem_free(scene->refines);
     for (unsigned i = 0; i < scene->n_material; i++) instance_done(&scene->material[i].eos);
     instance_done(&scene->riemann);
     instance_done(&scene->limiter);

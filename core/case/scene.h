@@ -153,25 +153,27 @@ enum scene_reflux {
 /* A criterion of refinement. All of them are limited by where, levels and time. */
 struct scene_refine {
     enum {
-        SCENE_REFINE_GRADIENT,  /* |grad field| (per metre, absolute) or jump over value (relative) */
-        SCENE_REFINE_JUMP,      /* largest difference to a face neighbour, absolute or relative */
+        SCENE_REFINE_GRADIENT,  /* of a field: the larger difference to the two neighbours along an axis, over the cell
+                                   size, of the steepest axis. Relative: as JUMP */
+        SCENE_REFINE_JUMP,      /* largest difference to a face neighbour; relative: over the larger magnitude of the
+                                   two cells */
         SCENE_REFINE_VALUE,     /* the field itself */
         SCENE_REFINE_INTERFACE, /* cells where a material and another are, and where its fraction jumps */
-        SCENE_REFINE_SCRIPT,    /* a Lua function of x, y, z, t and named fields that is true or > 0 */
+        SCENE_REFINE_SCRIPT,    /* a Lua function that is true or above 0 */
         SCENE_REFINE_REGION     /* all cells of `where` */
     } kind;
-    char field[SCENE_NAME];
-    bool relative;
+    char field[SCENE_NAME]; /* of vectors: the largest component of a difference, the magnitude of a value */
+    bool relative;          /* GRADIENT, JUMP */
     bool has_above, has_below;
     double above, below; /* thresholds in the unit of the quantity; below: VALUE only */
-    int material;        /* INTERFACE */
+    int material;        /* INTERFACE; else -1 */
     const struct script *script;
-    char (*uses)[SCENE_NAME]; /* fields that the script takes after x, y, z, t */
+    char (*uses)[SCENE_NAME]; /* arguments of the script, in order: x, y, z, t or fields of one component */
     unsigned n_use;
-    struct shape *where;     /* or NULL */
-    int finest;              /* finest level that this criterion asks for */
-    double t_from, t_until;  /* s */
-    int line;                /* in the case file */
+    struct shape *where;    /* or NULL; regarded at centres of cells */
+    int finest;             /* finest level that this criterion asks for, at most `levels` */
+    double t_from, t_until; /* s; both included; infinity: no end */
+    int line;               /* in the case file */
 };
 
 struct scene {
@@ -191,7 +193,7 @@ struct scene {
     double memory_limit; /* bytes of all ranks that blocks of tiles may take (--max-memory); 0: no limit */
     unsigned n_refine;
     struct scene_refine *refines;
-    char *cells_place;                             /* of domain.cells, as file:line:column, for messages */
+    char *cells_place; /* of domain.cells, as file:line:column, for messages */
     unsigned n_material;
     struct scene_material material[SCENE_MATERIALS];
     unsigned n_layer;

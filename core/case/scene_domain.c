@@ -1,4 +1,4 @@
-/* scene_domain.c - the region, its cells, and the mesh upon it. */
+/* scene_domain.c - the region, its cells and its faces. */
 #include "case/scene_draft.h"
 
 #include "base/mem.h"
@@ -50,52 +50,6 @@ static const struct key scene_domain_rows[] = {
 const struct keys_section scene_domain_keys = {.name = "domain",
                                                .doc = "The region, its cells and its boundaries.",
                                                .keys = scene_domain_rows};
-
-static const struct key scene_domain_refine_rows[] = {
-    {.name = "gradient", .type = KEYS_TEXT, .doc = "Field whose relative jump between cells asks for refinement."},
-    {.name = "above",
-     .type = KEYS_NUMBER,
-     .unit = "1",
-     .min = 0,
-     .max = KEYS_MOST,
-     .doc = "Jump from which on cells are refined."},
-    {.name = "interface", .type = KEYS_TEXT, .doc = "Material whose surface is refined."},
-    {0},
-};
-
-static const struct keys_section scene_domain_refine = {.name = "refine",
-                                                        .doc = "A criterion of refinement.",
-                                                        .keys = scene_domain_refine_rows};
-
-static const struct key scene_domain_mesh[] = {
-    {.name = "levels",
-     .type = KEYS_INTEGER,
-     .min = 0,
-     .max = 15,
-     .fallback = "0",
-     .doc = "Levels of refinement above the coarsest; each halves the cell size."},
-    {.name = "tile",
-     .type = KEYS_INTEGER,
-     .min = 4,
-     .max = 256,
-     .doc = "Cells of a tile along each axis; chosen by the program if not given."},
-    {.name = "regrid-every",
-     .type = KEYS_INTEGER,
-     .min = 1,
-     .max = 1000000,
-     .doc = "Steps of a level between two regriddings."},
-    {.name = "buffer", .type = KEYS_INTEGER, .min = 0, .max = 64, .doc = "Cells refined around a tagged cell."},
-    {.name = "refine",
-     .type = KEYS_SECTION,
-     .many = KEYS_LIST,
-     .section = &scene_domain_refine,
-     .doc = "Where to refine: gradients of fields, interfaces of materials."},
-    {0},
-};
-
-const struct keys_section scene_domain_mesh_keys = {.name = "mesh",
-                                                    .doc = "Tiles and refinement.",
-                                                    .keys = scene_domain_mesh};
 
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES])
 {
@@ -163,26 +117,6 @@ static void scene_domain_cells(struct draft *draft, const struct keys_map *domai
     scene->cells_place = mem_print("%s:%d:%d", mark->source->name, mark->line, mark->column);
 }
 
-static void scene_domain_mesh_read(struct draft *draft)
-{
-    const struct keys_map *mesh = keys_at(draft->root, "mesh")->map;
-    const struct keys_value *levels = keys_at(mesh, "levels"), *refine = keys_at(mesh, "refine");
-    draft->scene->levels = (int)levels->integer;
-    draft->scene->tile = (int)keys_at(mesh, "tile")->integer;
-    if (levels->integer > 0)
-        keys_error(&draft->keys, levels,
-                   "this version computes on the coarsest level only: use 'levels: 0' and more cells");
-    for (unsigned i = 0; i < refine->count; i++) {
-        const struct keys_map *map = refine->list[i].map;
-        bool gradient = keys_at(map, "gradient")->given, interface = keys_at(map, "interface")->given;
-        if (map && gradient == interface)
-            keys_error(&draft->keys, &refine->list[i], "one of 'gradient' and 'interface' is needed");
-        char field[SCENE_NAME];
-        if (gradient) scene_field(draft, keys_at(map, "gradient"), field);
-        if (interface) scene_material_index(draft, keys_at(map, "interface"));
-    }
-}
-
 void scene_domain(struct draft *draft)
 {
     const struct keys_map *domain = keys_at(draft->root, "domain")->map;
@@ -190,5 +124,4 @@ void scene_domain(struct draft *draft)
     scene_domain_corners(draft, domain);
     scene_domain_geometry(draft, domain);
     scene_domain_cells(draft, domain);
-    scene_domain_mesh_read(draft);
 }

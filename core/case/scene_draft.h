@@ -15,7 +15,7 @@ struct draft {
 };
 
 extern const struct keys_section scene_root_keys;
-extern const struct keys_section scene_domain_keys, scene_domain_mesh_keys, scene_boundary_keys;
+extern const struct keys_section scene_domain_keys, scene_mesh_keys, scene_refine_keys, scene_boundary_keys;
 extern const struct keys_section scene_material_keys, scene_scheme_keys;
 extern const struct keys_section scene_shape_keys, scene_initial_keys;
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
@@ -25,6 +25,8 @@ extern const struct keys_section scene_output_keys, scene_history_column_keys, s
 void scene_domain(struct draft *draft);
 void scene_material(struct draft *draft);
 void scene_scheme(struct draft *draft);
+void scene_mesh(struct draft *draft);
+void scene_refine(struct draft *draft);
 void scene_boundary(struct draft *draft);
 void scene_initial(struct draft *draft);
 void scene_output(struct draft *draft);
@@ -71,6 +73,25 @@ void scene_state_velocity(struct draft *draft, const struct keys_map *map, struc
  * wanted), or after a recorded error. */
 struct shape *scene_shape(struct draft *draft, const struct keys_map *map, bool wanted,
                           const struct keys_value **ret_value);
+
+/* What a field is, for those who compare its values with a number. */
+struct scene_field {
+    const char *name, *unit;
+    unsigned is; /* SCENE_FIELD_... */
+};
+enum {
+    SCENE_FIELD_VECTOR = 1,
+    SCENE_FIELD_POSITIVE = 2,  /* everywhere above 0 */
+    SCENE_FIELD_VANISHING = 4, /* 0 in fluid at rest, or where a material is absent */
+    SCENE_FIELD_FRACTION = 8,  /* from 0 to 1 */
+};
+
+/* All fields of the scene, ended by a NULL name; one of them, or NULL. In the forest. */
+const struct scene_field *scene_field_all(struct draft *draft);
+const struct scene_field *scene_field_find(struct draft *draft, const char *name);
+
+/* Why a field has one value in all cells of a level: "0 everywhere: ..."; NULL: it varies. */
+const char *scene_field_constant(struct draft *draft, const char *name);
 
 /* Checks a field name and copies it; false after a recorded error. */
 bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME]);

@@ -6,13 +6,37 @@
 
 #include <string.h>
 
-static const char *const scene_field_plain[] = {"density",    "pressure",        "velocity",     "velocity_x",
-                                                "velocity_y", "velocity_z",      "temperature",  "sound_speed",
-                                                "mach",       "internal_energy", "total_energy", "vorticity",
-                                                "schlieren",  "level",           "rank",         "cost",
-                                                NULL};
+static const struct scene_field scene_field_plain[] = {
+    {"density", "kg/m3", SCENE_FIELD_POSITIVE},
+    {"pressure", "Pa", 0},
+    {"velocity", "m/s", SCENE_FIELD_VECTOR | SCENE_FIELD_VANISHING},
+    {"velocity_x", "m/s", SCENE_FIELD_VANISHING},
+    {"velocity_y", "m/s", SCENE_FIELD_VANISHING},
+    {"velocity_z", "m/s", SCENE_FIELD_VANISHING},
+    {"temperature", "K", SCENE_FIELD_POSITIVE},
+    {"sound_speed", "m/s", SCENE_FIELD_POSITIVE},
+    {"mach", "1", SCENE_FIELD_VANISHING},
+    {"internal_energy", "J/kg", 0},
+    {"total_energy", "J/m3", 0},
+    {"vorticity", "1/s", SCENE_FIELD_VECTOR | SCENE_FIELD_VANISHING},
+    {"schlieren", "1", SCENE_FIELD_FRACTION},
+    {"level", "1", 0},
+    {"rank", "1", 0},
+    {"cost", "1", SCENE_FIELD_POSITIVE},
+};
 
-static const char *const scene_field_by_material[] = {"alpha", "density", "temperature", "partial_density", NULL};
+/* Followed by _ and the name of a material. */
+static const struct scene_field scene_field_by_material[] = {
+    {"alpha", "1", SCENE_FIELD_FRACTION},
+    {"density", "kg/m3", SCENE_FIELD_VANISHING},
+    {"temperature", "K", SCENE_FIELD_VANISHING},
+    {"partial_density", "kg/m3", SCENE_FIELD_VANISHING},
+};
+
+enum {
+    SCENE_FIELD_PLAIN = sizeof scene_field_plain / sizeof *scene_field_plain,
+    SCENE_FIELD_EACH = sizeof scene_field_by_material / sizeof *scene_field_by_material
+};
 
 static const char *const scene_field_of_solids[] = {"stress_xx",     "stress_yy",  "stress_zz",  "stress_xy",
                                                     "stress_xz",     "stress_yz",  "sigma_max",  "sigma_min",
@@ -38,19 +62,51 @@ static const char *scene_field_of_symbol(const char *symbol)
     return NULL;
 }
 
-/* All names this scene has; NULL-terminated, in the forest. */
-static const char *const *scene_field_names(struct draft *draft)
+const struct scene_field *scene_field_all(struct draft *draft)
 {
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
-    unsigned count = 0;
-    while (scene_field_plain[count]) count++;
-    const char **names = tree_take(forest, (count + 4 * scene->n_material + 1) * sizeof *names);
-    memcpy(names, scene_field_plain, count * sizeof *names);
+    struct scene_field *list =
+        tree_take(forest, (SCENE_FIELD_PLAIN + SCENE_FIELD_EACH * scene->n_material + 1) * sizeof *list);
+    unsigned count = SCENE_FIELD_PLAIN;
+    memcpy(list, scene_field_plain, sizeof scene_field_plain);
     for (unsigned i = 0; i < scene->n_material; i++)
-        for (unsigned k = 0; scene_field_by_material[k]; k++)
-            names[count++] = tree_print(forest, "%s_%s", scene_field_by_material[k], scene->material[i].name);
+        for (unsigned k = 0; k < SCENE_FIELD_EACH; k++) {
+            list[count] = scene_field_by_material[k];
+            list[count++].name = tree_print(forest, "%s_%s", scene_field_by_material[k].name, scene->material[i].name);
+        }
+    return list;
+}
+
+/* All names this scene has; NULL-terminated, in the forest. */
+static const char *const *scene_field_names(struct draft *draft)
+{
+    const struct scene_field *all = scene_field_all(draft);
+    unsigned count = 0;
+    while (all[count].name) count++;
+    const char **names = tree_take(draft->keys.forest, (count + 1) * sizeof *names);
+    for (unsigned i = 0; i < count; i++) names[i] = all[i].name;
     return names;
+}
+
+const struct scene_field *scene_field_find(struct draft *draft, const char *name)
+{
+    for (const struct scene_field *field = scene_field_all(draft); field->name; field++)
+        if (strcmp(field->name, name) == 0) return field;
+    return NULL;
+}
+
+const char *scene_field_constant(struct draft *draft, const char *name)
+{
+    const struct scene *scene = draft->scene;
+    bool one = scene->n_material == 1, y = strcmp(name, "velocity_y") == 0, z = strcmp(name, "velocity_z") == 0;
+    if (strcmp(name, "level") == 0) return "the same in all cells of a level";
+    if (strcmp(name, "rank") == 0) return "a matter of how many ranks compute, on which results do not depend";
+    if ((y && scene->dim < 2) || (z && scene->dim < 3)) return "0 everywhere: the domain has no such axis";
+    if (strcmp(name, "vorticity") == 0 && scene->dim == 1) return "0 everywhere: the domain has one axis";
+    if (one && (strcmp(name, "cost") == 0 || strncmp(name, "alpha_", 6) == 0))
+        return "1 everywhere: there is one material";
+    return NULL;
 }
 
 bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME])

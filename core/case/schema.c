@@ -103,6 +103,7 @@ static json_t *schema_one(struct schema *schema, const struct key *key)
     case KEYS_INTEGER: return schema_integer(key);
     case KEYS_FLAG: return schema_types("boolean", NULL);
     case KEYS_TEXT: return schema_types("string", "number");
+    case KEYS_SCRIPT: return schema_types("string", NULL);
     case KEYS_NAME: return json_pack("{s:s,s:s}", "type", "string", "pattern", "^[A-Za-z_][A-Za-z0-9_]*$");
     case KEYS_CHOICE:
         return json_pack("{s:o}", "enum",

@@ -376,3 +376,24 @@ int script_call(const struct script *script, const double *in, unsigned n_in, do
     lua_pop(lua, (int)n_out);
     return STATUS_OK;
 }
+
+int script_test(const struct script *script, const double *in, unsigned n_in, bool *ret)
+{
+    TRY(script_begin(script, in, n_in, 1));
+    lua_State *lua = script->host->lua;
+    double value = lua_toboolean(lua, -1) ? 1.0 : 0.0;
+    bool number = !lua_isboolean(lua, -1) && !lua_isnil(lua, -1);
+    int code = number ? script_check_number(lua, -1, script->file, script->line, &value) : STATUS_OK;
+    lua_pop(lua, 1);
+    *ret = value > 0.0;
+    return code ? script_fail_at(script, in, n_in) : STATUS_OK;
+}
+
+const char *script_parameter(const struct script *script, unsigned index)
+{
+    lua_State *lua = script->host->lua;
+    lua_rawgeti(lua, LUA_REGISTRYINDEX, script->function);
+    const char *name = lua_getlocal(lua, NULL, (int)index + 1);
+    lua_pop(lua, 1);
+    return name;
+}

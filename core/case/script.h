@@ -41,4 +41,10 @@ bool script_is_constant(const struct script *script);
 /* Calls with n_in numbers; wants n_out numbers back, all finite. */
 int script_call(const struct script *script, const double *in, unsigned n_in, double *out, unsigned n_out);
 
+/* Calls for a decision: true, or a number above 0. Anything that is no number, true, false or nil: STATUS_CASE. */
+int script_test(const struct script *script, const double *in, unsigned n_in, bool *ret);
+
+/* Name of a function's parameter, counted from 0; NULL: it has no more. Valid as long as the script. */
+const char *script_parameter(const struct script *script, unsigned index);
+
 #endif

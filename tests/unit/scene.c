@@ -190,6 +190,12 @@ static void the_least_case_has_all_defaults(void **state)
     assert_int_equal(scene->cells[0], 10);
     assert_int_equal(scene->cells[1], 1);
     assert_int_equal(scene->levels, 0);
+    assert_int_equal(scene->regrid_every, 4);
+    assert_int_equal(scene->buffer, 4);
+    assert_int_equal(scene->patience, 2);
+    assert_true(scene->subcycle);
+    assert_int_equal(scene->reflux, SCENE_REFLUX_CORRECTED);
+    assert_int_equal(scene->n_refine, 0);
     assert_int_equal(scene->closure, SCENE_KAPILA);
     assert_string_equal(scene->riemann.module->name, "hllc");
     assert_string_equal(scene->limiter.module->name, "mc");
@@ -308,6 +314,102 @@ static void waves_and_inflows_keep_their_numbers(void **state)
     scene_free(scene);
 }
 
+/* Everything that a case can say about refinement. */
+static void refinement_is_understood(void **state)
+{
+    (void)state;
+    struct scene *scene = good("refine");
+    const struct scene_refine *refine = scene->refines;
+    assert_int_equal(scene->levels, 4);
+    assert_int_equal(scene->tile, 8);
+    assert_int_equal(scene->regrid_every, 5);
+    assert_int_equal(scene->buffer, 3);
+    assert_int_equal(scene->patience, 3);
+    assert_false(scene->subcycle);
+    assert_int_equal(scene->reflux, SCENE_REFLUX_PLAIN);
+    assert_int_equal(scene->n_refine, 17);
+    assert_true(refine[0].kind == SCENE_REFINE_GRADIENT && refine[0].relative && refine[0].above == 0.05);
+    assert_true(refine[0].finest == 4 && refine[0].t_from == 0.0 && isinf(refine[0].t_until) && !refine[0].where);
+    assert_true(!refine[1].relative && refine[1].above == 1e9 && refine[1].finest == 2);
+    assert_true(refine[2].kind == SCENE_REFINE_JUMP && !refine[2].relative && refine[2].above == 1e-2);
+    assert_true(refine[3].relative && refine[3].above == 0.02 && refine[3].t_from == 1e-8 && refine[3].t_until == 2e-8);
+    assert_true(!refine[4].relative && refine[4].above == 0.1 * 101325.0);
+    assert_true(refine[5].kind == SCENE_REFINE_JUMP && !refine[5].relative && refine[5].above == 0.1);
+    assert_true(refine[6].above == 1e6 && refine[6].where && refine[6].where->type == SHAPE_BOX);
+    assert_true(!refine[7].relative && refine[7].above == 0.5);
+    assert_true(!refine[8].relative && refine[8].above == 10.0);
+    assert_true(refine[9].kind == SCENE_REFINE_VALUE && refine[9].has_above && refine[9].has_below);
+    assert_true(refine[9].above == 2e5 && refine[9].below == 1e9 && refine[9].finest == 4);
+    assert_true(refine[10].above == 373.15 && !refine[10].has_below);
+    assert_true(refine[11].kind == SCENE_REFINE_INTERFACE && refine[11].material == 1 && refine[11].where);
+    assert_true(refine[16].kind == SCENE_REFINE_REGION && refine[16].where->type == SHAPE_INTERSECTION);
+    assert_int_equal(refine[16].line, 37);
+    scene_free(scene);
+}
+
+/* A script says by names what it takes, and decides by true or a number above 0. */
+static void scripts_ask_for_refinement(void **state)
+{
+    (void)state;
+    struct scene *scene = good("refine");
+    const struct scene_refine *high = &scene->refines[12], *fast = high + 1, *file = high + 2, *dense = high + 3;
+    bool yes = false;
+    assert_int_equal(high->n_use, 2);
+    assert_string_equal(high->uses[0], "pressure");
+    assert_string_equal(high->uses[1], "x");
+    assert_int_equal(script_test(high->script, (double[]){3e5, 0.0}, 2, &yes), STATUS_OK);
+    assert_true(yes);
+    assert_int_equal(script_test(high->script, (double[]){3e5, 2e-3}, 2, &yes), STATUS_OK);
+    assert_false(yes);
+    assert_int_equal(script_test(fast->script, (double[]){-11.0}, 1, &yes), STATUS_OK);
+    assert_true(yes);
+    assert_int_equal(script_test(fast->script, (double[]){9.0}, 1, &yes), STATUS_OK);
+    assert_false(yes);
+    assert_int_equal(file->n_use, 3);
+    assert_string_equal(file->uses[0], "t");
+    assert_string_equal(file->uses[2], "pressure");
+    assert_int_equal(file->finest, 1);
+    assert_int_equal(dense->n_use, 5);
+    assert_string_equal(dense->uses[4], "density");
+    assert_int_equal(script_test(fast->script, (double[]){NAN}, 1, &yes), STATUS_CASE);
+    assert_non_null(strstr(status_text(), "refine.yaml:31:"));
+    scene_free(scene);
+}
+
+/* Reads minimal.yaml with settings of the mesh; what is said must hold the words. */
+static void warned(const char *mesh, const char *words, const char *help)
+{
+    char *set = mem_print("mesh=%s", mesh), *said = NULL;
+    const char *sets[] = {set, "domain.cells=[16]", NULL};
+    struct scene_options options = {.sets = sets};
+    struct scene *scene = NULL;
+    size_t length;
+    options.messages = open_memstream(&said, &length);
+    int code = scene_read("tests/data/case/good/minimal.yaml", &options, &scene);
+    fclose(options.messages);
+    if (code || count_of(said, "warning: ") != (*words != 0) || !strstr(said, words) || !strstr(said, help))
+        fail_msg("%s: %s", mesh, said);
+    scene_free(scene);
+    free(said);
+    mem_free(set);
+}
+
+static void doubtful_refinement_gives_warnings(void **state)
+{
+    (void)state;
+    warned("{levels: 1}", "mesh.levels: nothing asks for a finer level", "refine: [{gradient: density");
+    warned("{levels: 1, refine: []}", "mesh.levels: nothing asks for a finer level", "");
+    warned("{levels: 1, regrid-every: 10, refine: [{gradient: density, above: 0.1}]}",
+           "waves cross up to 4 cells in the 10 steps between two regriddings, and leave 4 refined cells",
+           "buffer: 5 would do, or regrid-every: 7");
+    warned("{levels: 1, regrid-every: 1, buffer: 0, refine: [{gradient: density, above: 0.1}]}", "waves cross",
+           "buffer: 2 would do");
+    warned("{levels: 1, refine: [{jump: velocity, above: 0.1}]}", "'velocity' may be nearly 0", "'above: 10 m/s'");
+    warned("{levels: 1, refine: [{gradient: density, above: 0.1, from: 1 h}]}", "the run ends before that", "");
+    warned("{levels: 1, refine: [{gradient: density, above: 0.1}]}", "", "");
+    warned("{levels: 0, regrid-every: 10, refine: [{gradient: density, above: 0.1}]}", "", "");
+}
+
 static int read_with_fields(const char *fields, struct scene **ret_scene, char **ret_said)
 {
     char *set = mem_print("output.snapshots.fields=[%s]", fields);
@@ -378,6 +480,9 @@ int main(void)
         cmocka_unit_test(overlays_are_laid_in_order),
         cmocka_unit_test(one_number_in_many_units),
         cmocka_unit_test(waves_and_inflows_keep_their_numbers),
+        cmocka_unit_test(refinement_is_understood),
+        cmocka_unit_test(scripts_ask_for_refinement),
+        cmocka_unit_test(doubtful_refinement_gives_warnings),
         cmocka_unit_test(checkpoints_are_read_with_a_warning),
         cmocka_unit_test(fields_of_cases_are_those_that_can_be_derived),
     };
