@@ -4,7 +4,6 @@
 
 #include "base/mem.h"
 #include "io/tally.h"
-#include "mesh/metric.h"
 
 #include <stdio.h>
 
@@ -18,7 +17,9 @@ void ledger_take(const struct state *state, struct ledger *ret_ledger)
     for (int l = 0; l < mesh->n_level; l++) {
         const struct level *level = &mesh->levels[l];
         for (unsigned tile = 0; tile < level->n_local; tile++, at += n) {
-            metric_volumes(mesh, level, &level->tiles[level->first + tile], volume);
+            const struct tile *here = &level->tiles[level->first + tile];
+            if (tally_is_covered(mesh, here)) continue; /* its sums stay 0 */
+            tally_volumes(mesh, level, here, volume);
             for (unsigned q = 0; q < n; q++)
                 at[q] = tally_row(mesh->n_cell, level->u_old[tile] + (model->i_m + q) * mesh->n_cell, volume);
         }

@@ -4,7 +4,7 @@
 
 #include "solve/state.h"
 
-/* Position [m] along `axis` where the volume fraction of a material is 0.5, linear between cell centres.
+/* Position [m] along `axis` where the volume fraction of a material is 0.5, linear between the centres of leaves.
  * The line runs through the cells next to an axis or symmetry boundary, else through the middle of
  * the domain. Of several such places: the end of the piece of material that touches an end of the
  * line (the lower one, if both do), else the lowest place. NaN if there is none. Collective. */

@@ -1,5 +1,6 @@
 /* measure.c - see measure.h. One pass over the tiles serves all columns: volumes once per tile,
- * each derived field once per tile, then every column adds its sums or extremes. */
+ * each derived field once per tile, then every column adds its sums or extremes. Cells under finer tiles
+ * weigh nothing; tiles without a leaf are passed over. */
 #include "io/measure.h"
 
 #include "base/comm.h"
@@ -36,9 +37,12 @@ struct measures {
     int l;
     unsigned local;
     double *volume, *ones, *weight, *work; /* [n_cell] */
+    double *leaves;                        /* [n_cell] 1 in leaves, 0 in other cells */
+    bool partial;                          /* the tile has both */
     double **derived;                      /* [n_field][3 n_cell], the magnitude first */
     bool *is_derived;
-    double *sums;     /* [local tiles][n][MEASURE_SLOTS] */
+    size_t n_tile;    /* local tiles that `sums` has room for */
+    double *sums;     /* [n_tile][n][MEASURE_SLOTS] */
     double *extremes; /* [n][MEASURE_SLOTS]: largest of the values, of their negatives */
 };
 
@@ -84,8 +88,8 @@ int measure_new(const struct state *state, struct measures **ret_measures)
     measures->ones = mem_new(n_cell, sizeof(double));
     measures->weight = mem_new(n_cell, sizeof(double));
     measures->work = mem_new(n_cell, sizeof(double));
+    measures->leaves = mem_new(n_cell, sizeof(double));
     for (size_t i = 0; i < n_cell; i++) measures->ones[i] = 1.0;
-    measures->sums = mem_new((tally_tiles(state->mesh) + 1) * n * MEASURE_SLOTS, sizeof(double));
     measures->extremes = mem_new((size_t)n * MEASURE_SLOTS, sizeof(double));
     int code = STATUS_OK;
     for (unsigned i = 0; !code && i < n; i++) code = measure_prepare_column(measures, state, i);
@@ -110,6 +114,7 @@ void measure_free(struct measures *measures)
     mem_free(measures->ones);
     mem_free(measures->weight);
     mem_free(measures->work);
+    mem_free(measures->leaves);
     mem_free(measures->sums);
     mem_free(measures->extremes);
     mem_free(measures);
@@ -146,16 +151,22 @@ static const double *measure_field(struct measures *measures, int index)
     return values;
 }
 
-/* Covered fraction b f of each cell, NULL where the column does not look at this tile at all. */
+/* Covered fraction b f of each leaf, NULL where the column does not look at this tile at all. */
 static const double *measure_cover(struct measures *measures, const struct measure_column *column)
 {
-    const double *fractions = NULL, *alpha = measure_alpha(measures, column->from->in);
-    enum region_cover cover =
+    const double *fractions = NULL, *cover = measure_alpha(measures, column->from->in);
+    double *weight = measures->weight;
+    size_t n = measures->state->mesh->n_cell;
+    enum region_cover part =
         column->where ? region_tile(column->where, measures->l, measures->local, &fractions) : REGION_ALL;
-    if (cover == REGION_NONE) return NULL;
-    if (cover == REGION_ALL) return alpha;
-    for (size_t i = 0; i < measures->state->mesh->n_cell; i++) measures->weight[i] = fractions[i] * alpha[i];
-    return measures->weight;
+    if (part == REGION_NONE) return NULL;
+    if (measures->partial) {
+        for (size_t i = 0; i < n; i++) weight[i] = cover[i] * measures->leaves[i];
+        cover = weight;
+    }
+    if (part == REGION_ALL) return cover;
+    for (size_t i = 0; i < n; i++) weight[i] = fractions[i] * cover[i];
+    return weight;
 }
 
 /* Centroids of the cells along an axis: int x dV / V with the metric along the first axis. */
@@ -255,11 +266,15 @@ static void measure_extreme(struct measures *measures, const struct measure_colu
 
 static void measure_tile(struct measures *measures, double *sums)
 {
+    const struct mesh *mesh = measures->state->mesh;
+    const struct tile *tile = &measures->level->tiles[measures->level->first + measures->local];
+    memset(sums, 0, measures->n * MEASURE_SLOTS * sizeof *sums);
+    if (tally_is_covered(mesh, tile)) return;
     memset(measures->is_derived, 0, measures->n_field * sizeof *measures->is_derived);
-    metric_volumes(measures->state->mesh, measures->level,
-                   &measures->level->tiles[measures->level->first + measures->local], measures->volume);
+    metric_volumes(mesh, measures->level, tile, measures->volume);
+    measures->partial = tile->covered != 0;
+    if (measures->partial) mesh_leaves(mesh, tile, measures->leaves);
     for (unsigned i = 0; i < measures->n; i++) {
-        sums[i * MEASURE_SLOTS] = sums[i * MEASURE_SLOTS + 1] = 0.0;
         measure_sum(measures, &measures->columns[i], sums + i * MEASURE_SLOTS);
         measure_extreme(measures, &measures->columns[i], measures->extremes + i * MEASURE_SLOTS);
     }
@@ -293,14 +308,28 @@ static double measure_result(struct measures *measures, const struct measure_col
     }
 }
 
+/* Makes room for the tiles of this moment, and brings everything up to date that hangs on them. */
+static void measure_begin(struct measures *measures, const struct state *state)
+{
+    size_t tiles = tally_tiles(state->mesh) + 1, row = measures->n * MEASURE_SLOTS;
+    measures->state = state;
+    if (tiles > measures->n_tile) {
+        mem_free(measures->sums);
+        measures->sums = mem_new(tiles * row, sizeof *measures->sums);
+        measures->n_tile = tiles;
+    }
+    for (size_t i = 0; i < row; i++) measures->extremes[i] = -INFINITY;
+    for (unsigned i = 0; i < measures->n; i++) region_follow(measures->columns[i].where, state->mesh);
+    for (unsigned i = 0; i < measures->n_field; i++)
+        derive_prepare(state->model, state->mesh, state->t, &measures->fields[i]);
+}
+
 void measure_take(struct measures *measures, const struct state *state, double *ret_values)
 {
     const struct mesh *mesh = state->mesh;
     unsigned slots = measures->n * MEASURE_SLOTS;
+    measure_begin(measures, state);
     double *totals = mem_new(slots, sizeof *totals), *sums = measures->sums;
-    measures->state = state;
-    for (unsigned i = 0; i < slots; i++) measures->extremes[i] = -INFINITY;
-    for (unsigned i = 0; i < measures->n_field; i++) derive_prepare(state->model, mesh, state->t, &measures->fields[i]);
     for (measures->l = 0; measures->l < mesh->n_level; measures->l++) {
         measures->level = &mesh->levels[measures->l];
         for (measures->local = 0; measures->local < measures->level->n_local; measures->local++, sums += slots)

@@ -1,5 +1,6 @@
 /* measure.h - the numbers of a history: volumes, means, extremes, ... of the present state.
  *
+ * Only leaves count: cells that no finer tile covers.
  * What each measure is (V: whole cell volumes, 2 pi and 4 pi included; f: covered fraction of the
  * cell by `where`, 1 without it; a: volume fraction of the material, b: of the material `in`):
  *   volume              sum a b f V

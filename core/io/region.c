@@ -5,14 +5,20 @@
 #include "base/mem.h"
 
 struct region_piece {
+    uint64_t key; /* of the tile */
     enum region_cover cover;
     double *fractions; /* [n_cell] for REGION_PART */
 };
 
+struct region_level {
+    unsigned n; /* local tiles */
+    struct region_piece *pieces;
+};
+
 struct region {
-    int n_level;
-    unsigned n_local[MESH_LEVELS];
-    struct region_piece *pieces[MESH_LEVELS];
+    const struct shape *shape;
+    unsigned revision; /* of the mesh that it was taken for */
+    struct region_level levels[MESH_LEVELS];
 };
 
 /* The box of `count` cells from cell `at` of a tile on. */
@@ -44,32 +50,68 @@ static void region_measure(const struct mesh *mesh, const struct level *level, c
                 piece->fractions[cell++] = region_fraction(mesh, level, shape, corner, at, (const int[]){1, 1, 1});
 }
 
+/* Moves over what is known of tiles that were here before; both lists are in the order of their keys. */
+static void region_measure_level(const struct mesh *mesh, const struct shape *shape, int l, struct region_level *before,
+                                 struct region_level *after)
+{
+    const struct level *level = &mesh->levels[l];
+    unsigned old = 0;
+    after->n = level->n_local;
+    after->pieces = mem_new(after->n, sizeof *after->pieces);
+    for (unsigned i = 0; i < after->n; i++) {
+        uint64_t key = level->tiles[level->first + i].key;
+        while (old < before->n && before->pieces[old].key < key) old++;
+        if (old < before->n && before->pieces[old].key == key) {
+            after->pieces[i] = before->pieces[old];
+            before->pieces[old].fractions = NULL;
+        } else {
+            after->pieces[i].key = key;
+            region_measure(mesh, level, shape, i, &after->pieces[i]);
+        }
+    }
+}
+
+static void region_done(struct region_level *level)
+{
+    for (unsigned i = 0; i < level->n; i++) mem_free(level->pieces[i].fractions);
+    mem_free(level->pieces);
+    *level = (struct region_level){0};
+}
+
+static void region_take(struct region *region, const struct mesh *mesh)
+{
+    for (int l = 0; l < MESH_LEVELS; l++) {
+        struct region_level before = region->levels[l];
+        region->levels[l] = (struct region_level){0};
+        if (l < mesh->n_level) region_measure_level(mesh, region->shape, l, &before, &region->levels[l]);
+        region_done(&before);
+    }
+    region->revision = mesh->revision;
+}
+
 struct region *region_new(const struct mesh *mesh, const struct shape *shape)
 {
     struct region *region = mem_new(1, sizeof *region);
-    region->n_level = mesh->n_level;
-    for (int l = 0; l < mesh->n_level; l++) {
-        const struct level *level = &mesh->levels[l];
-        region->n_local[l] = level->n_local;
-        region->pieces[l] = mem_new(level->n_local, sizeof *region->pieces[l]);
-        for (unsigned i = 0; i < level->n_local; i++) region_measure(mesh, level, shape, i, &region->pieces[l][i]);
-    }
+    region->shape = shape;
+    region_take(region, mesh);
     return region;
+}
+
+void region_follow(struct region *region, const struct mesh *mesh)
+{
+    if (region && region->revision != mesh->revision) region_take(region, mesh);
 }
 
 void region_free(struct region *region)
 {
     if (!region) return;
-    for (int l = 0; l < region->n_level; l++) {
-        for (unsigned i = 0; i < region->n_local[l]; i++) mem_free(region->pieces[l][i].fractions);
-        mem_free(region->pieces[l]);
-    }
+    for (int l = 0; l < MESH_LEVELS; l++) region_done(&region->levels[l]);
     mem_free(region);
 }
 
 enum region_cover region_tile(const struct region *region, int level, unsigned local, const double **ret_fractions)
 {
-    const struct region_piece *piece = &region->pieces[level][local];
+    const struct region_piece *piece = &region->levels[level].pieces[local];
     *ret_fractions = piece->fractions;
     return piece->cover;
 }

@@ -1,4 +1,4 @@
-/* region.h - how much of each cell a `where:` covers, computed once for the tiles of a mesh. */
+/* region.h - how much of each cell a `where:` covers, computed once for each tile of a mesh. */
 #ifndef REGION_H
 #define REGION_H
 
@@ -6,9 +6,12 @@
 
 struct region;
 
-/* For the local tiles of all levels. */
+/* For the local tiles of all levels. The shape must outlive the region. */
 struct region *region_new(const struct mesh *mesh, const struct shape *shape);
 void region_free(struct region *region); /* NULL is fine */
+
+/* To be called before region_tile when tiles may have changed: measures those that are new here. NULL is fine. */
+void region_follow(struct region *region, const struct mesh *mesh);
 
 enum region_cover { REGION_NONE, REGION_ALL, REGION_PART };
 

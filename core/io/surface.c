@@ -5,7 +5,9 @@
  * face times |n_a|, n the normal of the surface from the gradient of alpha and a the axis of the
  * pair: a plane of area S is crossed |n_a| S / A times along axis a, so these weights add up to
  * S sum n_a^2 = S whatever its direction. Pairs across tiles and ranks belong to the lower tile.
- * Tiles away from the surface only lend their alpha. */
+ * Tiles away from the surface only lend their alpha. A pair counts on the finest level that holds both
+ * cells: of two cells of a level at least one must be a leaf, where the other holds the mean of finer
+ * ones; a fine cell and a coarse one are no pair. */
 #include "io/surface.h"
 
 #include "base/mem.h"
@@ -18,8 +20,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Components of the work arrays: alpha, the field, how much `where` covers, the gradient of alpha. */
-enum { SURFACE_ALPHA, SURFACE_FIELD, SURFACE_COVER, SURFACE_SLOPE };
+/* Components of the work arrays: alpha, the field, how much `where` covers, 1 in leaves, the gradient of alpha. */
+enum { SURFACE_ALPHA, SURFACE_FIELD, SURFACE_COVER, SURFACE_LEAF, SURFACE_SLOPE };
 
 struct surface {
     const struct state *state;
@@ -33,12 +35,14 @@ struct surface {
     double *frame; /* [n][FRAME_CELLS] */
 };
 
-/* Copies alpha; which side of 1/2 the tile lies on: -1, 1, or 0 for both. */
+/* Copies alpha, marks leaves; which side of 1/2 the tile lies on: -1, 1, or 0 for both. */
 static int surface_take(const struct surface *surface, unsigned local, unsigned material)
 {
     size_t n = surface->mesh->n_cell, above = 0;
     const double *alpha = surface->level->u_old[local] + (surface->state->model->i_alpha + material) * n;
     memcpy(surface->arrays[local] + SURFACE_ALPHA * n, alpha, n * sizeof *alpha);
+    mesh_leaves(surface->mesh, &surface->level->tiles[surface->level->first + local],
+                surface->arrays[local] + SURFACE_LEAF * n);
     for (size_t i = 0; i < n; i++) above += alpha[i] >= 0.5;
     return above == n ? 1 : above == 0 ? -1 : 0;
 }
@@ -46,6 +50,7 @@ static int surface_take(const struct surface *surface, unsigned local, unsigned 
 /* Can the surface cross a pair of cells that this tile is part of? */
 static bool surface_is_near(const struct surface *surface, unsigned local)
 {
+    if (surface->level->tiles[surface->level->first + local].hidden) return false; /* nor is a neighbour a leaf */
     if (surface->side[local] == 0) return true;
     for (int face = 0; face < 2 * surface->mesh->dim; face++) {
         const struct neighbour *other = &surface->level->neighbours[local][face];
@@ -71,10 +76,25 @@ static void surface_fill(struct surface *surface, unsigned local, const struct d
     mem_free(values);
 }
 
+/* Is there a coarser tile behind this side of the frame? */
+static bool surface_is_jump(const struct surface *surface, unsigned local, const struct frame *frame, int side)
+{
+    return surface->level->neighbours[local][2 * frame->axis + side].kind == NEIGHBOUR_COARSE;
+}
+
+/* Layers behind a side: copies; before coarser cells alpha goes on with its slope. */
 static void surface_boundary(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w)
 {
     const struct surface *surface = data;
     for (unsigned q = 0; q < surface->n; q++) bound_copy(NULL, local, frame, side, pitch, w + q * pitch);
+    if (!surface_is_jump(surface, local, frame, side)) return;
+    int last = side ? (int)frame->n - 1 : 0, out = side ? 1 : -1;
+    double *alpha = w + SURFACE_ALPHA * pitch;
+    for (size_t o = 0; o < frame->outer; o++)
+        for (size_t j = 0; j < frame->inner; j++) {
+            double here = alpha[frame_at(frame, o, last) + j], inside = alpha[frame_at(frame, o, last - out) + j];
+            alpha[frame_at(frame, o, last + out) + j] = 2.0 * here - inside;
+        }
 }
 
 /* Calls `visit` with every frame of a tile. */
@@ -141,13 +161,15 @@ static double surface_area(const struct surface *surface, const struct metric *m
 static void surface_cross(struct surface *surface, unsigned local, const struct frame *frame, double *data)
 {
     const double *alpha = surface->frame, *field = alpha + SURFACE_FIELD * FRAME_CELLS;
-    const double *cover = alpha + SURFACE_COVER * FRAME_CELLS;
+    const double *cover = alpha + SURFACE_COVER * FRAME_CELLS, *leaf = alpha + SURFACE_LEAF * FRAME_CELLS;
+    size_t pairs = frame->n - surface_is_jump(surface, local, frame, 1);
     struct metric metric;
     metric_of_tile(surface->mesh, surface->level, &surface->level->tiles[surface->level->first + local], &metric);
     for (size_t o = 0; o < frame->outer; o++)
-        for (size_t i = 0; i < frame->n; i++)
+        for (size_t i = 0; i < pairs; i++)
             for (size_t j = 0; j < frame->inner; j++) {
                 size_t at = frame_at(frame, o, (int)i) + j, next = at + frame->inner;
+                if (leaf[at] + leaf[next] < 0.5) continue;
                 if ((alpha[at] >= 0.5) == (alpha[next] >= 0.5)) continue;
                 double share = (0.5 - alpha[at]) / (alpha[next] - alpha[at]);
                 if (cover[at] + share * (cover[next] - cover[at]) < 0.5) continue;

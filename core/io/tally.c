@@ -3,10 +3,26 @@
 
 #include "base/comm.h"
 #include "base/mem.h"
+#include "mesh/metric.h"
 
 #include <math.h>
 
 enum { TALLY_LANES = 8 };
+
+bool tally_is_covered(const struct mesh *mesh, const struct tile *tile)
+{
+    return tile->covered == (1u << (1u << mesh->dim)) - 1u;
+}
+
+void tally_volumes(const struct mesh *mesh, const struct level *level, const struct tile *tile, double *ret_volume)
+{
+    metric_volumes(mesh, level, tile, ret_volume);
+    if (!tile->covered) return;
+    double *leaf = mem_new(mesh->n_cell, sizeof *leaf);
+    mesh_leaves(mesh, tile, leaf);
+    for (size_t i = 0; i < mesh->n_cell; i++) ret_volume[i] *= leaf[i];
+    mem_free(leaf);
+}
 
 double tally_row(size_t n, const double *a, const double *b)
 {

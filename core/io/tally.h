@@ -1,11 +1,18 @@
 /* tally.h - sums over the mesh that do not depend on the ranks.
  *
  * Sums are taken per tile, every rank gets the sums of all tiles, and adds them in the order of
- * levels and of the Morton curve: the same additions in the same order on any number of ranks. */
+ * levels and of the Morton curve: the same additions in the same order on any number of ranks.
+ * Only leaves count: the cells that no finer tile covers. */
 #ifndef TALLY_H
 #define TALLY_H
 
 #include "mesh/mesh.h"
+
+/* Is there no leaf in this tile? */
+bool tally_is_covered(const struct mesh *mesh, const struct tile *tile);
+
+/* Whole volumes of the cells of a tile (metric.h), 0 under finer tiles. */
+void tally_volumes(const struct mesh *mesh, const struct level *level, const struct tile *tile, double *ret_volume);
 
 /* Sum of a[i] b[i] over a row, in an order that depends on n alone (eight interleaved sums). */
 double tally_row(size_t n, const double *a, const double *b);

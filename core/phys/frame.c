@@ -72,7 +72,7 @@ static void frame_side(const struct frame_source *source, unsigned local, const 
                        size_t pitch, double *w)
 {
     const struct neighbour *neighbour = &source->level->neighbours[local][2 * frame->axis + side];
-    if (neighbour->kind == NEIGHBOUR_BOUNDARY) {
+    if (neighbour->kind == NEIGHBOUR_BOUNDARY || (neighbour->kind == NEIGHBOUR_COARSE && !source->link)) {
         source->boundary(source->data, local, frame, side, pitch, w);
         return;
     }

@@ -24,8 +24,8 @@ struct small {
     struct state *state;
 };
 
-/* Reads and paints a case; prints why not. */
-static inline void small_start(struct small *small, const char *text)
+/* Reads and paints a case that may have `levels` above the coarsest; prints why not. */
+static inline void small_start_levels(struct small *small, const char *text, int levels)
 {
     *small = (struct small){.folder = "/tmp/bulla-test-XXXXXX"};
     assert_non_null(mkdtemp(small->folder));
@@ -36,11 +36,17 @@ static inline void small_start(struct small *small, const char *text)
     fclose(stream);
     struct scene_options options = {.directory = out};
     assert_int_equal(scene_read(path, &options, &small->scene), 0);
+    small->scene->levels = levels;
     int code = state_new(small->scene, &small->state);
     if (code) print_error("%s\n", status_text());
     assert_int_equal(code, 0);
     mem_free(path);
     mem_free(out);
+}
+
+static inline void small_start(struct small *small, const char *text)
+{
+    small_start_levels(small, text, 0);
 }
 
 /* A path inside the output folder; release with mem_free. */
