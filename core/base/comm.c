@@ -1,4 +1,4 @@
-/* comm.c - see comm.h. Outside this file MPI is called by mesh/halo.c (exchange) and the
+/* comm.c - see comm.h. Outside this file MPI is called by mesh/post.c (exchange) and the
  * writer of data sets (io/h5out.c) only. */
 #include "base/comm.h"
 
