@@ -5,6 +5,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "mesh/level.h"
 #include "mesh/morton.h"
 
 #include <setjmp.h>
@@ -36,21 +37,21 @@ static void mesh_make(struct mesh *mesh, int dim, const int extent[3], int n, un
         mesh->periodic[d] = d < dim && (periodic >> d & 1u);
         for (int l = 0; l <= most_level; l++) mesh->levels[l].extent[d] = d < dim ? extent[d] << l : 1;
     }
-    level->n_tile = (unsigned)(level->extent[0] * level->extent[1] * level->extent[2]);
-    level->tiles = mem_new(level->n_tile, sizeof *level->tiles);
-    unsigned count = 0;
-    for (uint64_t key = 0; count < level->n_tile; key++) {
+    unsigned count = 0, n_tile = (unsigned)(level->extent[0] * level->extent[1] * level->extent[2]);
+    struct tile *tiles = mem_new(n_tile, sizeof *tiles);
+    for (uint64_t key = 0; count < n_tile; key++) {
         struct tile tile = {.key = key};
         nest_at(key, tile.at);
         bool inside = true;
         for (int d = 0; d < 3; d++) inside &= tile.at[d] < level->extent[d];
-        if (inside) level->tiles[count++] = tile;
+        if (inside) tiles[count++] = tile;
     }
+    level_adopt(level, tiles, n_tile);
 }
 
 static void mesh_drop(struct mesh *mesh)
 {
-    for (int l = 0; l <= mesh->most_level; l++) mem_free(mesh->levels[l].tiles);
+    for (int l = 0; l <= mesh->most_level; l++) level_drop(&mesh->levels[l]);
 }
 
 static void mesh_take(struct mesh *mesh, int base, struct nest_set *sets)
@@ -58,9 +59,7 @@ static void mesh_take(struct mesh *mesh, int base, struct nest_set *sets)
     mesh->n_level = base + 1;
     for (int l = base + 1; l <= mesh->most_level; l++) {
         struct level *level = &mesh->levels[l];
-        mem_free(level->tiles);
-        level->tiles = sets[l].tiles;
-        level->n_tile = sets[l].n;
+        level_adopt(level, sets[l].tiles, sets[l].n);
         if (level->n_tile) mesh->n_level = l + 1;
     }
 }
