@@ -11,11 +11,13 @@
 /* Imbalance (largest over mean load, less 1) from which on a level is cut anew. */
 #define PARTITION_SLACK 0.1
 
-/* Sets tiles[i].rank, ascending, for `size` ranks. cost[n]: work per tile; load[size]: work per coarse step that
- * the ranks have so far, `weight` * cost is added. */
+/* Sets tiles[i].rank, ascending, for `size` ranks, so that the largest load is the least that contiguous pieces can
+ * have. cost[n]: work per tile (not negative); load[size]: work per coarse step that the ranks have so far,
+ * `weight` * cost is added. */
 void partition_cut(struct tile *tiles, unsigned n, const double *cost, int size, double weight, double *load);
 
-/* Largest over mean load of a level with the owners it has, less 1. */
+/* Largest over mean load of a level with the owners it has (ascending), less 1. The mean is over as many ranks as
+ * can have a tile: 0 is reached with fewer tiles than ranks, too. */
 double partition_imbalance(const struct tile *tiles, unsigned n, const double *cost, int size);
 
 #endif

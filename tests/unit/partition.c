@@ -1,0 +1,151 @@
+/* Cuts of the curve: the largest load against the best of all cuts, few tiles on many ranks, imbalance. */
+#include "mesh/partition.h"
+
+#include "base/mem.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MOST = 24 };
+
+static uint64_t seed = 5;
+
+static unsigned pick(unsigned count)
+{
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (unsigned)(seed >> 33) % count;
+}
+
+/* Largest load of the best cut of cost[from ..] into pieces for `size` ranks, by trying all. */
+static double best(const double *cost, unsigned n, unsigned from, int size)
+{
+    double least = INFINITY, load = 0.0;
+    if (size == 1) {
+        for (unsigned i = from; i < n; i++) load += cost[i];
+        return load;
+    }
+    for (unsigned to = from; to <= n && load < least; to++) {
+        double rest = best(cost, n, to, size - 1);
+        double largest = load > rest ? load : rest;
+        if (largest < least) least = largest;
+        if (to < n) load += cost[to];
+    }
+    return least;
+}
+
+static double largest_of(const struct tile *tiles, unsigned n, const double *cost, int size)
+{
+    double load[MOST] = {0}, largest = 0.0;
+    for (unsigned i = 0; i < n; i++) load[tiles[i].rank] += cost[i];
+    for (int rank = 0; rank < size; rank++) largest = load[rank] > largest ? load[rank] : largest;
+    return largest;
+}
+
+static void check_cut(const double *cost, unsigned n, int size)
+{
+    struct tile tiles[MOST] = {0};
+    double load[MOST] = {0};
+    for (int rank = 0; rank < size; rank++) load[rank] = 3.0;
+    partition_cut(tiles, n, cost, size, 4.0, load);
+    int count[MOST] = {0};
+    for (unsigned i = 0; i < n; i++) {
+        assert_in_range(tiles[i].rank, 0, size - 1);
+        assert_true(i == 0 || tiles[i].rank >= tiles[i - 1].rank);
+        count[tiles[i].rank]++;
+        load[tiles[i].rank] -= 4.0 * cost[i];
+    }
+    for (int rank = 0; rank < size; rank++) {
+        assert_true(count[rank] >= (n >= (unsigned)size));
+        assert_true(count[rank] <= 1 || n >= (unsigned)size);
+        assert_true(load[rank] == 3.0);
+    }
+    double total = 0.0, largest = largest_of(tiles, n, cost, size);
+    for (unsigned i = 0; i < n; i++) total += cost[i];
+    assert_true(largest == best(cost, n, 0, size));
+    double mean = total / (n < (unsigned)size ? (int)n : size);
+    if (total > 0.0) assert_true(fabs(partition_imbalance(tiles, n, cost, size) - (largest / mean - 1.0)) < 1e-14);
+    else assert_true(partition_imbalance(tiles, n, cost, size) == 0.0);
+}
+
+static void test_best(void **state)
+{
+    (void)state;
+    for (int round = 0; round < 4000; round++) {
+        double cost[MOST];
+        unsigned n = 1 + pick(12), kind = pick(4);
+        int size = 1 + (int)pick(6);
+        for (unsigned i = 0; i < n; i++) /* equal; any; light and heavy; free ones among them: sums are exact */
+            cost[i] = kind == 0 ? 1.0 : kind == 1 ? 1 + pick(9) : kind == 2 ? (pick(6) ? 1.0 : 32.0) : 0.25 * pick(3);
+        check_cut(cost, n, size);
+    }
+}
+
+/* Equal tiles: pieces differ by one tile at most, and no rank is left without. */
+static void test_even(void **state)
+{
+    (void)state;
+    enum { TILES = 1013, RANKS = 100 };
+    static struct tile tiles[TILES];
+    static double cost[TILES], load[RANKS];
+    for (unsigned i = 0; i < TILES; i++) cost[i] = 1.0;
+    partition_cut(tiles, TILES, cost, RANKS, 1.0, load);
+    for (int rank = 0; rank < RANKS; rank++) assert_true(load[rank] == 10.0 || load[rank] == 11.0);
+}
+
+/* Costs whose sums round: no tile is lost, and the largest load is that of the best cut but for rounding. */
+static void test_rounding(void **state)
+{
+    (void)state;
+    for (int round = 0; round < 200; round++) {
+        struct tile tiles[MOST] = {0};
+        double cost[MOST], load[MOST] = {0};
+        unsigned n = 6 + pick(6);
+        for (unsigned i = 0; i < n; i++) cost[i] = 0.1 * (1 + pick(5)) + 1e-17 * pick(9);
+        int size = 1 + (int)pick(6);
+        partition_cut(tiles, n, cost, size, 1.0, load);
+        assert_true(fabs(largest_of(tiles, n, cost, size) - best(cost, n, 0, size)) < 1e-14);
+        assert_int_equal(tiles[n - 1].rank, size - 1);
+    }
+}
+
+/* Levels of few tiles go to the idle ranks, in ascending order. */
+static void test_few(void **state)
+{
+    (void)state;
+    struct tile tiles[3] = {0};
+    const double cost[3] = {1.0, 5.0, 2.0};
+    double load[6] = {4.0, 0.0, 9.0, 1.0, 0.5, 1.0};
+    const double after[6] = {4.0, 2.0, 9.0, 11.0, 4.5, 1.0};
+    partition_cut(tiles, 3, cost, 6, 2.0, load);
+    assert_int_equal(tiles[0].rank, 1);
+    assert_int_equal(tiles[1].rank, 3);
+    assert_int_equal(tiles[2].rank, 4);
+    assert_memory_equal(load, after, sizeof load);
+    partition_cut(tiles, 0, cost, 6, 2.0, load);
+    assert_memory_equal(load, after, sizeof load);
+}
+
+static void test_imbalance(void **state)
+{
+    (void)state;
+    struct tile tiles[4] = {{.rank = 0}, {.rank = 0}, {.rank = 2}, {.rank = 2}};
+    const double cost[4] = {1.0, 2.0, 4.0, 5.0};
+    assert_true(partition_imbalance(tiles, 4, cost, 3) == 1.25);
+    assert_true(partition_imbalance(tiles, 4, cost, 4) == 2.0);
+    assert_true(partition_imbalance(tiles, 0, cost, 3) == 0.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_best), cmocka_unit_test(test_even),      cmocka_unit_test(test_rounding),
+        cmocka_unit_test(test_few),  cmocka_unit_test(test_imbalance),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
