@@ -148,13 +148,22 @@ double *plot_view_values(const struct plot_view *view, const struct plot_field *
     return values;
 }
 
+/* The tile of each cell. */
+static size_t *view_tile_of(const struct snapshot *snapshot)
+{
+    size_t *tile_of = mem_new(snapshot->n_cell, sizeof *tile_of);
+    for (size_t i = 0; i < snapshot->n_tile; i++)
+        for (size_t c = 0; c < snapshot->tiles[i].n_cell; c++) tile_of[snapshot->tiles[i].first + c] = i;
+    return tile_of;
+}
+
 struct raster_cell *plot_view_tiles(const struct plot_view *view, size_t *ret_n)
 {
-    size_t tiles = view->snapshot->n_tile, per_tile = view->snapshot->n_cell / tiles, n = 0;
+    size_t tiles = view->snapshot->n_tile, n = 0, *tile_of = view_tile_of(view->snapshot);
     struct raster_cell *boxes = mem_new(2 * tiles, sizeof *boxes); /* mirror images apart */
     for (size_t c = 0; c < view->n; c++) {
         const struct raster_cell *cell = &view->cells[c];
-        struct raster_cell *box = &boxes[view->source[c] / per_tile + (c < view->n_plain ? 0 : tiles)];
+        struct raster_cell *box = &boxes[tile_of[view->source[c]] + (c < view->n_plain ? 0 : tiles)];
         bool first = box->at[0][0] >= box->at[0][1];
         for (int axis = 0; axis < 2; axis++) {
             if (first || cell->at[axis][0] < box->at[axis][0]) box->at[axis][0] = cell->at[axis][0];
@@ -163,6 +172,7 @@ struct raster_cell *plot_view_tiles(const struct plot_view *view, size_t *ret_n)
     }
     for (size_t b = 0; b < 2 * tiles; b++)
         if (boxes[b].at[0][0] < boxes[b].at[0][1]) boxes[n++] = boxes[b];
+    mem_free(tile_of);
     *ret_n = n;
     return boxes;
 }

@@ -54,37 +54,51 @@ static void chombo_root(struct h5 *file, const struct mesh *mesh, unsigned n, ch
     h5_attribute(file, "/Chombo_global", "SpaceDim", H5_I32, 0, &dim);
 }
 
-/* Box of `count` tiles from tile coordinates `at` on, in cells of the level, both ends included. */
+/* Box of `count` cells from cell `at` of a level on, both ends included. */
 static void chombo_cells(const struct mesh *mesh, const struct level *level, const int at[3], const int count[3],
                          int32_t *ret_box)
 {
     for (int axis = 0; axis < mesh->dim; axis++) {
         int32_t origin = (int32_t)lround(mesh->lower[axis] / level->h[axis]);
-        ret_box[axis] = origin + at[axis] * mesh->n[axis];
-        ret_box[mesh->dim + axis] = ret_box[axis] + count[axis] * mesh->n[axis] - 1;
+        ret_box[axis] = origin + at[axis];
+        ret_box[mesh->dim + axis] = ret_box[axis] + count[axis] - 1;
     }
 }
 
-static void chombo_boxes(struct h5 *file, const struct mesh *mesh, const struct level *level, const char *group)
+/* Blocks of a level: tiles, then octants. */
+static unsigned chombo_blocks(const struct leaves *leaves, int l)
 {
+    return leaves->runs[l][0].n + leaves->runs[l][1].n;
+}
+
+static void chombo_boxes(struct h5 *file, const struct leaves *leaves, int l, const char *group)
+{
+    const struct mesh *mesh = leaves->mesh;
     char path[CHOMBO_PATH];
-    unsigned width = 2 * (unsigned)mesh->dim;
-    int32_t *boxes = mem_new((size_t)level->n_tile * width, sizeof *boxes);
-    for (unsigned tile = 0; tile < level->n_tile; tile++)
-        chombo_cells(mesh, level, level->tiles[tile].at, (const int[]){1, 1, 1}, boxes + (size_t)tile * width);
+    unsigned width = 2 * (unsigned)mesh->dim, n = chombo_blocks(leaves, l);
+    int32_t *boxes = mem_new((size_t)n * width + 1, sizeof *boxes);
+    for (unsigned i = 0; i < n; i++) {
+        unsigned block = leaves->runs[l][0].from + i;
+        const int *tile = mesh->levels[l].tiles[leaves->blocks[block].tile].at;
+        int at[3], count[3];
+        leaves_box(leaves, block, at, count);
+        for (int axis = 0; axis < 3; axis++) at[axis] += tile[axis] * mesh->n[axis];
+        chombo_cells(mesh, &mesh->levels[l], at, count, boxes + (size_t)i * width);
+    }
     snprintf(path, sizeof path, "%s/boxes", group);
-    h5out_records(file, path, chombo_box(mesh->dim), width, level->n_tile, boxes);
+    h5out_records(file, path, chombo_box(mesh->dim), width, n, boxes);
     mem_free(boxes);
 }
 
-static void chombo_offsets(struct h5 *file, const struct mesh *mesh, const struct level *level, const char *group,
-                           unsigned n)
+/* Where the data of each block begin. */
+static void chombo_offsets(struct h5 *file, const struct leaves *leaves, int l, const char *group, unsigned n_column)
 {
     char path[CHOMBO_PATH];
-    int64_t *offsets = mem_new((size_t)level->n_tile + 1, sizeof *offsets);
-    for (unsigned tile = 0; tile <= level->n_tile; tile++) offsets[tile] = (int64_t)(tile * n * mesh->n_cell);
+    unsigned from = leaves->runs[l][0].from, n = chombo_blocks(leaves, l);
+    int64_t *offsets = mem_new((size_t)n + 1, sizeof *offsets);
+    for (unsigned i = 0; i < n; i++) offsets[i + 1] = offsets[i] + (int64_t)(leaves_cells(leaves, from + i) * n_column);
     snprintf(path, sizeof path, "%s/data:offsets=0", group);
-    h5out_array(file, path, H5_I64, (size_t)level->n_tile + 1, 0, offsets);
+    h5out_array(file, path, H5_I64, (size_t)n + 1, 0, offsets);
     mem_free(offsets);
 }
 
@@ -93,7 +107,9 @@ static void chombo_level_attributes(struct h5 *file, const struct state *state, 
     const struct mesh *mesh = state->mesh;
     const struct level *level = &mesh->levels[l];
     int32_t refine = CHOMBO_REFINE, domain[6];
-    chombo_cells(mesh, level, (const int[]){0, 0, 0}, level->extent, domain);
+    int cells[3];
+    for (int axis = 0; axis < 3; axis++) cells[axis] = level->extent[axis] * mesh->n[axis];
+    chombo_cells(mesh, level, (const int[]){0, 0, 0}, cells, domain);
     h5_group(file, group);
     h5_attribute(file, group, "dx", H5_F64, 0, &level->h[0]);
     h5_attribute(file, group, "dt", H5_F64, 0, &state->dt);
@@ -114,35 +130,36 @@ static void chombo_data_attributes(struct h5 *file, int dim, const char *group, 
     h5_attribute_record(file, path, "outputGhost", chombo_vector, (unsigned)dim, none);
 }
 
-static void chombo_level(struct h5 *file, const struct state *state, int l, struct h5out_view *view)
+static void chombo_level(struct h5 *file, const struct state *state, const struct leaves *leaves, int l,
+                         struct h5out_view *view)
 {
-    const struct mesh *mesh = state->mesh;
-    const struct level *level = &mesh->levels[l];
+    struct h5out_groups runs[LEAVES_KINDS];
     char group[CHOMBO_PATH / 2], path[CHOMBO_PATH];
     snprintf(group, sizeof group, "/level_%d", l);
     chombo_level_attributes(file, state, l, group);
-    chombo_boxes(file, mesh, level, group);
-    chombo_offsets(file, mesh, level, group, view->n_column);
-    chombo_data_attributes(file, mesh->dim, group, view->n_column);
-    view->first = vtkhdf_first_cell(mesh, l, 0);
-    view->n_group = level->n_tile;
+    chombo_boxes(file, leaves, l, group);
+    chombo_offsets(file, leaves, l, group, view->n_column);
+    chombo_data_attributes(file, state->mesh->dim, group, view->n_column);
+    for (int kind = 0; kind < LEAVES_KINDS; kind++) {
+        const struct leaves_run *run = &leaves->runs[l][kind];
+        runs[kind] = (struct h5out_groups){run->first, run->cells, run->n};
+    }
+    view->runs = runs;
+    view->n_run = LEAVES_KINDS;
     snprintf(path, sizeof path, "%s/data:datatype=0", group);
     h5out_interleave(file, path, view);
 }
 
-void chombo_write(struct h5 *file, const struct state *state, const struct vtkhdf_fields *fields)
+void chombo_write(struct h5 *file, const struct state *state, const struct leaves *leaves,
+                  const struct vtkhdf_fields *fields)
 {
     const struct mesh *mesh = state->mesh;
     char(*names)[2 * SCENE_NAME];
     struct h5out_column *columns;
     unsigned n = chombo_columns(fields, &names, &columns);
-    struct h5out_view view = {.type = fields->type,
-                              .n_column = n,
-                              .columns = columns,
-                              .total = vtkhdf_first_cell(mesh, mesh->n_level, 0),
-                              .group = mesh->n_cell};
+    struct h5out_view view = {.type = fields->type, .n_column = n, .columns = columns, .total = leaves->n_cell};
     chombo_root(file, mesh, n, names);
-    for (int l = 0; l < mesh->n_level; l++) chombo_level(file, state, l, &view);
+    for (int l = 0; l < mesh->n_level; l++) chombo_level(file, state, leaves, l, &view);
     mem_free(columns);
     mem_free(names);
 }

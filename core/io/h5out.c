@@ -238,14 +238,15 @@ void h5out_unit(struct h5 *file, const char *path, const char *unit)
     h5_attribute_text(file, path, "units", unit);
 }
 
-/* Column q of a view with Q columns: block q of every group of Q blocks <- a run of the source. */
-static void h5out_map(struct h5 *file, hid_t layout, hid_t space, const struct h5out_view *view, unsigned q)
+/* Column q of a view with Q columns: block q of every group of Q blocks, from `to` on <- a run of the source. */
+static void h5out_map(struct h5 *file, const hid_t id[2], const struct h5out_view *view, const struct h5out_groups *run,
+                      size_t to, unsigned q)
 {
     const struct h5out_column *column = &view->columns[q];
-    hid_t source = h5out_space(file, view->total, column->columns);
-    hsize_t start[2] = {view->first, column->column}, extent[2] = {view->group * view->n_group, 1};
+    hid_t layout = id[0], space = id[1], source = h5out_space(file, view->total, column->columns);
+    hsize_t start[2] = {run->first, column->column}, extent[2] = {run->group * run->n_group, 1};
     h5_check(file, H5Sselect_hyperslab(source, H5S_SELECT_SET, start, NULL, extent, NULL), "map a view");
-    hsize_t block = view->group, at = q * block, stride = view->n_column * block, n_group = view->n_group;
+    hsize_t block = run->group, at = to + q * block, stride = view->n_column * block, n_group = run->n_group;
     h5_check(file, H5Sselect_hyperslab(space, H5S_SELECT_SET, &at, &stride, &n_group, &block), "map a view");
     h5_check(file, H5Pset_virtual(layout, space, ".", column->path, source), "map a view");
     if (source >= 0) H5Sclose(source);
@@ -254,9 +255,16 @@ static void h5out_map(struct h5 *file, hid_t layout, hid_t space, const struct h
 void h5out_interleave(struct h5 *file, const char *path, const struct h5out_view *view)
 {
     if (file->idle) return;
+    size_t size = 0, to = 0;
+    for (unsigned i = 0; i < view->n_run; i++) size += view->runs[i].n_group * view->runs[i].group * view->n_column;
     hid_t layout = h5_check(file, H5Pcreate(H5P_DATASET_CREATE), "prepare a view");
-    hid_t space = h5out_space(file, view->n_group * view->group * view->n_column, 0);
-    for (unsigned q = 0; q < view->n_column; q++) h5out_map(file, layout, space, view, q);
+    hid_t space = h5out_space(file, size, 0);
+    for (unsigned i = 0; i < view->n_run; i++) {
+        const struct h5out_groups *run = &view->runs[i];
+        for (unsigned q = 0; run->n_group && q < view->n_column; q++)
+            h5out_map(file, (const hid_t[2]){layout, space}, view, run, to, q);
+        to += run->n_group * run->group * view->n_column;
+    }
     hid_t set =
         h5_check(file, H5Dcreate2(file->id, path, h5_type_id(view->type), space, H5P_DEFAULT, layout, H5P_DEFAULT),
                  path);

@@ -45,14 +45,19 @@ struct h5out_column {
     unsigned columns, column; /* columns 0: the data set has shape [rows] */
 };
 
-/* A virtual data set: for each group of `group` rows from row `first` on, all columns one after the
- * other; n_group groups. Stores no numbers itself. */
+/* n_group groups of `group` rows, from row `first` on. */
+struct h5out_groups {
+    size_t first, group, n_group;
+};
+
+/* A virtual data set: for each group of rows, all columns one after the other. Stores no numbers itself. */
 struct h5out_view {
     enum h5_type type;
     unsigned n_column;
     const struct h5out_column *columns;
     size_t total; /* rows of the sources */
-    size_t first, group, n_group;
+    unsigned n_run;
+    const struct h5out_groups *runs; /* those without groups are passed over */
 };
 
 void h5out_interleave(struct h5 *file, const char *path, const struct h5out_view *view);

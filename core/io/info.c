@@ -23,6 +23,31 @@ static void info_print_domain(FILE *out, const struct snapshot *snapshot)
     else fprintf(out, ", %.6g to %.6g m wide\n", least, most);
 }
 
+/* Tiles and leaves of each level. */
+static void info_print_levels(FILE *out, const struct snapshot *snapshot)
+{
+    if (snapshot->n_level == 1) {
+        fprintf(out, "tiles     %zu\n", snapshot->n_tile);
+        return;
+    }
+    fprintf(out, "levels    %d\n", snapshot->n_level);
+    for (int l = 0; l < snapshot->n_level; l++) {
+        size_t n_tile = 0, n_cell = 0, under = 0;
+        double width = 0.0;
+        for (size_t i = 0; i < snapshot->n_tile; i++) {
+            const struct snapshot_tile *tile = &snapshot->tiles[i];
+            if (tile->level != l) continue;
+            n_tile++;
+            n_cell += tile->n_cell;
+            under += tile->n_cell == 0;
+            if (tile->n_cell) width = snapshot->upper[tile->first][0] - snapshot->lower[tile->first][0];
+        }
+        fprintf(out, "  %-2d      %zu tiles (%zu under finer ones), %zu cells", l, n_tile, under, n_cell);
+        if (n_cell) fprintf(out, ", %.6g m wide", width);
+        fputc('\n', out);
+    }
+}
+
 static void info_print_fields(FILE *out, const struct snapshot *snapshot)
 {
     int width = (int)strlen("field");
@@ -47,6 +72,7 @@ int info_print(FILE *out, const char *path)
     fprintf(out, "\nby        bulla %s\ntime      %.9g s\nstep      %ld\n", snapshot->version, snapshot->time,
             snapshot->step);
     info_print_domain(out, snapshot);
+    info_print_levels(out, snapshot);
     fprintf(out, "materials");
     for (unsigned l = 0; l < snapshot->n_material; l++) fprintf(out, "%s%s", l ? ", " : " ", snapshot->materials[l]);
     fputc('\n', out);

@@ -1,19 +1,36 @@
 /* nodes.c - see nodes.h.
  *
- * The points of a tile fall into 3^d classes by their place along each axis: on the lower face
- * (0), between the faces (1), on the upper face (2). All points of a class are touched by the same
- * tiles, so the owner is found once per class. */
+ * Around a tile lie 4^d regions of the size of an octant: its own octants and one layer more. Each is a leaf of
+ * its level, a leaf of the next coarser level (levels nest, so none is coarser still), under finer tiles, or
+ * outside. The points of a tile fall into 5^d classes by their place along each axis - faces, middle, and between
+ * - so that all points of a class touch the same regions; only every other point is a corner of coarser
+ * cells. So the owner is found once per class, for both kinds of points. */
 #include "io/nodes.h"
 
 #include "base/comm.h"
 #include "base/mem.h"
 
-enum { NODES_CLASSES = 27 };
+enum { NODES_REGIONS = 64, NODES_CLASSES = 125, NODES_NONE = -1 };
 
-static int nodes_place(const struct mesh *mesh, int axis, int i)
+/* Whose leaves a region holds. */
+struct nodes_owner {
+    int level; /* or NODES_NONE */
+    unsigned tile;
+};
+
+struct nodes_around {
+    struct nodes_owner owners[NODES_CLASSES][2]; /* of a class: [0] of its odd points, [1] of its even ones */
+};
+
+static bool nodes_before(struct nodes_owner a, struct nodes_owner b)
 {
-    if (axis >= mesh->dim) return 1;
-    return i == 0 ? 0 : i == mesh->n[axis] ? 2 : 1;
+    if (a.level == NODES_NONE || b.level == NODES_NONE) return a.level != NODES_NONE;
+    return a.level != b.level ? a.level < b.level : a.tile < b.tile;
+}
+
+static bool nodes_same(struct nodes_owner a, struct nodes_owner b)
+{
+    return a.level == b.level && a.tile == b.tile;
 }
 
 static void nodes_at(const struct nodes *nodes, size_t point, int ret_at[3])
@@ -24,66 +41,100 @@ static void nodes_at(const struct nodes *nodes, size_t point, int ret_at[3])
     ret_at[2] = (int)(point / (n0 * n1));
 }
 
+/* Place of point i of a tile along an axis: 0 lower face, 1 between, 2 middle, 3 between, 4 upper face. */
+static int nodes_place(const struct mesh *mesh, int axis, int i)
+{
+    int n = mesh->n[axis];
+    if (axis >= mesh->dim) return 1;
+    return i == 0 ? 0 : i == n ? 4 : 2 * i < n ? 1 : 2 * i == n ? 2 : 3;
+}
+
 static int nodes_class(const struct mesh *mesh, const int at[3])
 {
-    int digit = 1, kind = 0;
-    for (int axis = 0; axis < 3; axis++, digit *= 3) kind += digit * nodes_place(mesh, axis, at[axis]);
+    int kind = 0;
+    for (int axis = 2; axis >= 0; axis--) kind = 5 * kind + nodes_place(mesh, axis, at[axis]);
     return kind;
 }
 
-/* The tile at `at` + `step`, or -1 beyond the domain: periodic sides are two places here. */
-static int nodes_tile(const struct mesh *mesh, const struct level *level, const int at[3], const int step[3])
+static bool nodes_even(const struct mesh *mesh, const int at[3])
 {
-    int there[3];
-    for (int axis = 0; axis < 3; axis++) {
-        there[axis] = at[axis] + step[axis];
-        if (there[axis] < 0 || there[axis] >= level->extent[axis]) return -1;
-    }
-    return mesh_find(mesh, level, there);
+    for (int axis = 0; axis < mesh->dim; axis++)
+        if (at[axis] % 2) return false;
+    return true;
 }
 
-/* First of the tiles that touch the points of class `kind` of a tile. */
-static unsigned nodes_owner(const struct mesh *mesh, const struct level *level, unsigned tile, int kind)
+/* Who has leaves in the region at octant coordinates `octant` of level l: periodic sides are two places here. */
+static struct nodes_owner nodes_region(const struct mesh *mesh, int l, const int octant[3])
 {
-    const int place[3] = {kind % 3 - 1, kind / 3 % 3 - 1, kind / 9 - 1};
-    unsigned owner = tile;
-    for (int corner = 1; corner < 8; corner++) {
-        int step[3];
-        bool touching = true;
-        for (int axis = 0; axis < 3; axis++) {
-            step[axis] = (corner >> axis & 1) * place[axis];
-            touching = touching && (step[axis] || !(corner >> axis & 1));
-        }
-        if (!touching) continue;
-        int other = nodes_tile(mesh, level, level->tiles[tile].at, step);
-        if (other >= 0 && (unsigned)other < owner) owner = (unsigned)other;
+    const struct level *level = &mesh->levels[l];
+    const struct nodes_owner none = {.level = NODES_NONE};
+    int at[3] = {0, 0, 0}, above[3] = {0, 0, 0}, bit = 0;
+    for (int axis = 0; axis < mesh->dim; axis++) {
+        if (octant[axis] < 0 || octant[axis] >= 2 * level->extent[axis]) return none;
+        at[axis] = octant[axis] / 2;
+        above[axis] = octant[axis] / 4;
+        bit |= (octant[axis] & 1) << axis;
     }
+    int tile = mesh_find(mesh, level, at);
+    if (tile >= 0 && level->tiles[tile].covered >> bit & 1) return none;
+    if (tile >= 0) return (struct nodes_owner){l, (unsigned)tile};
+    return (struct nodes_owner){l - 1, (unsigned)mesh_find(mesh, level - 1, above)};
+}
+
+static void nodes_regions(const struct mesh *mesh, int l, unsigned tile, struct nodes_owner ret_regions[NODES_REGIONS])
+{
+    const int *at = mesh->levels[l].tiles[tile].at;
+    for (int region = 0; region < NODES_REGIONS; region++) {
+        const int step[3] = {region % 4 - 1, region / 4 % 4 - 1, region / 16 - 1};
+        int octant[3] = {0, 0, 0};
+        bool used = true;
+        for (int axis = 0; axis < 3; axis++) {
+            if (axis < mesh->dim) octant[axis] = 2 * at[axis] + step[axis];
+            else used = used && step[axis] == 0;
+        }
+        ret_regions[region] = used ? nodes_region(mesh, l, octant) : (struct nodes_owner){.level = NODES_NONE};
+    }
+}
+
+/* First of the regions that the points of class `kind` touch; odd points have no coarser cells. */
+static struct nodes_owner nodes_first(const struct nodes_owner regions[NODES_REGIONS], int l, int kind, bool even)
+{
+    static const int lower[5] = {0, 1, 1, 2, 2}, upper[5] = {1, 1, 2, 2, 3}; /* regions along an axis, by place */
+    const int place[3] = {kind % 5, kind / 5 % 5, kind / 25};
+    struct nodes_owner owner = {.level = NODES_NONE};
+    for (int k = lower[place[2]]; k <= upper[place[2]]; k++)
+        for (int j = lower[place[1]]; j <= upper[place[1]]; j++)
+            for (int i = lower[place[0]]; i <= upper[place[0]]; i++) {
+                struct nodes_owner other = regions[i + 4 * (j + 4 * k)];
+                if ((even || other.level == l) && nodes_before(other, owner)) owner = other;
+            }
     return owner;
 }
 
-static void nodes_owners(const struct mesh *mesh, const struct level *level, unsigned tile,
-                         unsigned ret_owner[NODES_CLASSES])
+static void nodes_look(const struct mesh *mesh, int l, unsigned tile, struct nodes_around *ret_around)
 {
-    for (int kind = 0; kind < NODES_CLASSES; kind++) {
-        const int places[3] = {kind % 3, kind / 3 % 3, kind / 9};
-        ret_owner[kind] = tile;
-        bool used = true;
-        for (int axis = mesh->dim; axis < 3; axis++) used = used && places[axis] == 1;
-        if (used) ret_owner[kind] = nodes_owner(mesh, level, tile, kind);
-    }
+    struct nodes_owner regions[NODES_REGIONS];
+    nodes_regions(mesh, l, tile, regions);
+    for (int kind = 0; kind < NODES_CLASSES; kind++)
+        for (int even = 0; even < 2; even++) ret_around->owners[kind][even] = nodes_first(regions, l, kind, even);
+}
+
+static struct nodes_owner nodes_owner_at(const struct nodes_around *around, const struct mesh *mesh, const int at[3])
+{
+    return around->owners[nodes_class(mesh, at)][nodes_even(mesh, at)];
 }
 
 /* Numbers the points that a tile owns from 0 on, the others -1; returns how many. */
-static size_t nodes_own(const struct nodes *nodes, const struct mesh *mesh, const struct level *level, unsigned tile,
+static size_t nodes_own(const struct nodes *nodes, const struct mesh *mesh, struct nodes_owner owner,
                         int32_t *ret_number)
 {
-    unsigned owner[NODES_CLASSES];
-    nodes_owners(mesh, level, tile, owner);
+    struct nodes_around around;
+    nodes_look(mesh, owner.level, owner.tile, &around);
     int32_t count = 0;
     for (size_t point = 0; point < nodes->n_point; point++) {
         int at[3];
         nodes_at(nodes, point, at);
-        ret_number[point] = owner[nodes_class(mesh, at)] == tile ? count++ : -1;
+        ret_number[point] = nodes_same(nodes_owner_at(&around, mesh, at), owner) ? count++ : -1;
     }
     return (size_t)count;
 }
@@ -94,7 +145,7 @@ static void nodes_count(struct nodes *nodes, const struct mesh *mesh, int l)
     const struct level *level = &mesh->levels[l];
     double *own = mem_new(level->n_local + 1, sizeof *own), *all = mem_new(level->n_tile, sizeof *all);
     for (unsigned i = 0; i < level->n_local; i++)
-        own[i] = (double)nodes_own(nodes, mesh, level, level->first + i, nodes->number);
+        own[i] = (double)nodes_own(nodes, mesh, (struct nodes_owner){l, level->first + i}, nodes->number);
     comm_join(own, (int)level->n_local, all);
     nodes->first[l] = mem_new((size_t)level->n_tile + 1, sizeof *nodes->first[l]);
     for (unsigned tile = 0; tile < level->n_tile; tile++) {
@@ -127,31 +178,40 @@ void nodes_free(struct nodes *nodes)
     mem_free(nodes);
 }
 
-/* Gives the points whose owner is `owner` their numbers, seen from `tile`. */
-static void nodes_take(struct nodes *nodes, const struct mesh *mesh, int l, unsigned tile, unsigned owner,
-                       const unsigned owners[NODES_CLASSES], int32_t *ret_numbers)
+/* Gives the points whose owner is `owner` their numbers, seen from `tile` of level l. */
+static void nodes_take(struct nodes *nodes, const struct mesh *mesh, const struct nodes_around *around, int l,
+                       unsigned tile, struct nodes_owner owner, int32_t *ret_numbers)
 {
-    const struct level *level = &mesh->levels[l];
-    const int *here = level->tiles[tile].at, *there = level->tiles[owner].at;
-    nodes_own(nodes, mesh, level, owner, nodes->number);
+    const int *here = mesh->levels[l].tiles[tile].at, *there = mesh->levels[owner.level].tiles[owner.tile].at;
+    nodes_own(nodes, mesh, owner, nodes->number);
     for (size_t point = 0; point < nodes->n_point; point++) {
         int at[3];
         nodes_at(nodes, point, at);
-        if (owners[nodes_class(mesh, at)] != owner) continue;
-        for (int axis = 0; axis < 3; axis++) at[axis] += (here[axis] - there[axis]) * mesh->n[axis];
+        if (!nodes_same(nodes_owner_at(around, mesh, at), owner)) continue;
+        for (int axis = 0; axis < mesh->dim; axis++) {
+            int index = here[axis] * mesh->n[axis] + at[axis];
+            at[axis] = (owner.level < l ? index / 2 : index) - there[axis] * mesh->n[axis];
+        }
         int place = at[0] + nodes->n[0] * (at[1] + nodes->n[1] * at[2]);
-        ret_numbers[point] = (int32_t)nodes->first[l][owner] + nodes->number[place];
+        ret_numbers[point] = (int32_t)nodes->first[owner.level][owner.tile] + nodes->number[place];
     }
 }
 
 void nodes_of_tile(struct nodes *nodes, const struct mesh *mesh, int level, unsigned tile, int32_t *ret_numbers)
 {
-    unsigned owners[NODES_CLASSES];
-    nodes_owners(mesh, &mesh->levels[level], tile, owners);
-    for (int kind = 0; kind < NODES_CLASSES; kind++) {
-        bool done = false;
-        for (int before = 0; before < kind; before++) done = done || owners[before] == owners[kind];
-        if (!done) nodes_take(nodes, mesh, level, tile, owners[kind], owners, ret_numbers);
+    struct nodes_around around;
+    struct nodes_owner done[NODES_REGIONS + 1];
+    int n_done = 0;
+    nodes_look(mesh, level, tile, &around);
+    for (size_t point = 0; point < nodes->n_point; point++) ret_numbers[point] = -1;
+    for (size_t point = 0; point < nodes->n_point; point++) {
+        int at[3], i = 0;
+        nodes_at(nodes, point, at);
+        struct nodes_owner owner = nodes_owner_at(&around, mesh, at);
+        while (i < n_done && !nodes_same(done[i], owner)) i++;
+        if (i < n_done || owner.level == NODES_NONE) continue;
+        done[n_done++] = owner;
+        nodes_take(nodes, mesh, &around, level, tile, owner, ret_numbers);
     }
 }
 
@@ -159,7 +219,7 @@ size_t nodes_positions(struct nodes *nodes, const struct mesh *mesh, int level, 
 {
     const struct level *here = &mesh->levels[level];
     size_t count = 0;
-    nodes_own(nodes, mesh, here, tile, nodes->number);
+    nodes_own(nodes, mesh, (struct nodes_owner){level, tile}, nodes->number);
     for (size_t point = 0; point < nodes->n_point; point++) {
         if (nodes->number[point] < 0) continue;
         int at[3];

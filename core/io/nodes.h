@@ -1,10 +1,10 @@
-/* nodes.h - the corners of cells, numbered once: the points of a plot file.
+/* nodes.h - the corners of leaf cells, numbered once: the points of a plot file.
  *
  * Tiles that touch share their corner points; if each tile brought its own, contours would break
- * at every tile. A point belongs to the first tile (Morton order) that touches it, and points are
- * numbered tile by tile, x fastest within a tile. All of this follows from the replicated tile
- * list, so that numbers do not depend on the ranks and nobody has to ask a neighbour. Points are
- * shared within a level. */
+ * at every tile. A point belongs to the first tile (level, then Morton order) that has a leaf there, and
+ * points are numbered tile by tile, x fastest within a tile. All of this follows from the replicated
+ * tile lists, so that numbers do not depend on the ranks and nobody has to ask a neighbour. Coarse and fine
+ * cells share the corners of the coarse ones; the others of the fine ones hang on their faces. */
 #ifndef NODES_H
 #define NODES_H
 
@@ -22,7 +22,7 @@ struct nodes {
 struct nodes *nodes_new(const struct mesh *mesh);
 void nodes_free(struct nodes *nodes); /* NULL is fine */
 
-/* The numbers of all points of a tile, x fastest. */
+/* The numbers of all points of a tile, x fastest; -1 where no leaf is. */
 void nodes_of_tile(struct nodes *nodes, const struct mesh *mesh, int level, unsigned tile, int32_t *ret_numbers);
 
 /* Positions [m] of the points that belong to a tile, in the order of their numbers; returns how many. */

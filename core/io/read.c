@@ -14,6 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of snapshots, and the columns of their blocks: level, i, j, k, rank, covered octants. */
+enum { READ_FORMAT = 2, READ_BLOCK = 6 };
+
 static int read_broken(const struct h5 *file, const char *what)
 {
     return status_fail(STATUS_RUN, "%s: %s: not a snapshot of bulla, or a broken one", file->path, what);
@@ -37,8 +40,9 @@ static int read_head(struct h5 *file, struct snapshot *snapshot)
     double format = 0, step = 0, dim = 0, beta = 0;
     char *materials = NULL;
     TRY(h5in_attribute(file, "/bulla", "format", 1, &format));
-    if (format != 1.0)
-        return status_fail(STATUS_RUN, "%s: snapshot format %g; this program reads format 1", file->path, format);
+    if (format != READ_FORMAT)
+        return status_fail(STATUS_RUN, "%s: snapshot format %g; this program reads format %d", file->path, format,
+                           READ_FORMAT);
     TRY(h5in_attribute_text(file, "/bulla", "version", &snapshot->version));
     TRY(h5in_attribute_text(file, "/bulla", "case", &snapshot->name));
     TRY(h5in_attribute_text(file, "/bulla", "title", &snapshot->title));
@@ -91,14 +95,59 @@ static int read_boxes(struct h5 *file, struct snapshot *snapshot, const double *
     return STATUS_OK;
 }
 
+/* Octants of a tile that are not under finer tiles. */
+static size_t read_open(const struct snapshot *snapshot, const double *block)
+{
+    unsigned octants = 1u << snapshot->dim, covered = (unsigned)block[5];
+    return octants - (size_t)__builtin_popcount(covered & ((1u << octants) - 1u));
+}
+
+/* Which cells belong to which tile: by level, whole tiles before others. */
+static int read_place_tiles(struct h5 *file, struct snapshot *snapshot, const double *blocks)
+{
+    size_t octants = (size_t)1 << snapshot->dim, open = 0, first = 0;
+    for (size_t i = 0; i < snapshot->n_tile; i++) {
+        const double *block = blocks + i * READ_BLOCK;
+        if (!(block[0] >= 0 && (i == 0 || block[0] >= block[-READ_BLOCK]))) return read_broken(file, "/bulla/blocks");
+        open += read_open(snapshot, block);
+    }
+    if (!open || snapshot->n_cell * octants % open) return read_broken(file, "/bulla/blocks");
+    size_t whole = snapshot->n_cell * octants / open; /* cells of a tile */
+    for (size_t from = 0, to = 0; from < snapshot->n_tile; from = to) {
+        while (to < snapshot->n_tile && blocks[to * READ_BLOCK] == blocks[from * READ_BLOCK]) to++;
+        for (int kind = 0; kind < 2; kind++)
+            for (size_t i = from; i < to; i++) {
+                const double *block = blocks + i * READ_BLOCK;
+                size_t part = read_open(snapshot, block);
+                if ((part == octants) != (kind == 0)) continue;
+                size_t n_cell = whole * part / octants;
+                snapshot->tiles[i] = (struct snapshot_tile){(int)block[0], (int)block[4], first, n_cell};
+                first += n_cell;
+            }
+        snapshot->n_level = (int)blocks[from * READ_BLOCK] + 1;
+    }
+    return STATUS_OK;
+}
+
+static int read_tiles(struct h5 *file, struct snapshot *snapshot)
+{
+    unsigned columns = 0;
+    double *blocks = NULL;
+    TRY(h5in_shape(file, "/bulla/blocks", &snapshot->n_tile, &columns));
+    TRY(read_table(file, "/bulla/blocks", snapshot->n_tile, READ_BLOCK, &blocks));
+    snapshot->tiles = mem_new(snapshot->n_tile, sizeof *snapshot->tiles);
+    int code = read_place_tiles(file, snapshot, blocks);
+    mem_free(blocks);
+    return code;
+}
+
 static int read_cells(struct h5 *file, struct snapshot *snapshot)
 {
     size_t points = 0;
     unsigned columns = 0;
     double *corners = NULL, *x = NULL;
     TRY(h5in_shape(file, "/VTKHDF/Types", &snapshot->n_cell, &columns));
-    TRY(h5in_shape(file, "/bulla/blocks", &snapshot->n_tile, &columns));
-    if (!snapshot->n_tile || snapshot->n_cell % snapshot->n_tile) return read_broken(file, "/bulla/blocks");
+    TRY(read_tiles(file, snapshot));
     TRY(h5in_shape(file, "/VTKHDF/Points", &points, &columns));
     TRY(read_table(file, "/VTKHDF/Points", points, 3, &x));
     int code = read_table(file, "/VTKHDF/Connectivity", snapshot->n_cell << snapshot->dim, 0, &corners);
@@ -199,6 +248,7 @@ void read_free(struct snapshot *snapshot)
     for (unsigned i = 0; i < snapshot->n_field; i++) mem_free(snapshot->fields[i].data);
     mem_free(snapshot->fields);
     mem_free(snapshot->materials);
+    mem_free(snapshot->tiles);
     mem_free(snapshot->upper);
     mem_free(snapshot->lower);
     mem_free(snapshot->version);

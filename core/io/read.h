@@ -18,8 +18,14 @@ struct snapshot_field {
     double least, most;   /* extremes of the finite values (of the magnitude when there are 3 components) */
 };
 
-/* The cells of a snapshot do not overlap and fill the domain; their order is the file's: tiles along
- * the Morton curve, within a tile x fastest. A mesh of one level has equal cells. */
+/* A tile of the mesh and its leaves, which follow each other. */
+struct snapshot_tile {
+    int level, rank;
+    size_t first, n_cell; /* n_cell 0: it lies under finer tiles */
+};
+
+/* The cells of a snapshot, its leaves, do not overlap and fill the domain; their order is the file's
+ * (leaves.h). A mesh of one level has equal cells. */
 struct snapshot {
     char *title, *name; /* of the case; name: base name of the case file */
     char *version;      /* of the bulla that wrote it */
@@ -29,7 +35,9 @@ struct snapshot {
     int beta;            /* 0 cartesian, 1 axisymmetric (x = r, y = z), 2 spherical (x = r) */
     double domain[2][3]; /* [0] lower, [1] upper corner [m]; 0 beyond dim */
     size_t n_cell;
-    size_t n_tile;      /* tiles of the mesh; each has n_cell / n_tile cells, one tile after the other */
+    size_t n_tile;
+    struct snapshot_tile *tiles; /* [n_tile] of all levels */
+    int n_level;
     double (*lower)[3]; /* [n_cell] corners of each cell [m]; 0 beyond dim */
     double (*upper)[3];
     unsigned n_material;

@@ -10,13 +10,14 @@
 #include "io/chombo.h"
 #include "io/filelist.h"
 #include "io/h5out.h"
+#include "io/leaves.h"
 #include "io/place.h"
 #include "io/vtkhdf.h"
 
 #include <stdio.h>
 #include <string.h>
 
-enum { SNAPSHOT_FORMAT = 1, SNAPSHOT_BLOCK = 5 };
+enum { SNAPSHOT_FORMAT = 2, SNAPSHOT_BLOCK = 6 };
 
 struct snapshots {
     const struct scene *scene;
@@ -90,15 +91,16 @@ void snapshot_free(struct snapshots *snapshots)
     mem_free(snapshots);
 }
 
-/* Level, tile coordinates and rank of every tile. */
+/* Level, tile coordinates, rank and covered octants of every tile. */
 static void snapshot_write_blocks(struct h5 *file, const struct mesh *mesh)
 {
-    size_t n = vtkhdf_first_cell(mesh, mesh->n_level, 0) / mesh->n_cell, at = 0;
+    size_t n = 0, at = 0;
+    for (int l = 0; l < mesh->n_level; l++) n += mesh->levels[l].n_tile;
     int32_t *blocks = mem_new(n * SNAPSHOT_BLOCK, sizeof *blocks);
     for (int l = 0; l < mesh->n_level; l++)
         for (unsigned i = 0; i < mesh->levels[l].n_tile; i++) {
             const struct tile *tile = &mesh->levels[l].tiles[i];
-            const int32_t block[SNAPSHOT_BLOCK] = {l, tile->at[0], tile->at[1], tile->at[2], tile->rank};
+            const int32_t block[SNAPSHOT_BLOCK] = {l, tile->at[0], tile->at[1], tile->at[2], tile->rank, tile->covered};
             for (int q = 0; q < SNAPSHOT_BLOCK; q++) blocks[at++] = block[q];
         }
     h5out_array(file, "/bulla/blocks", H5_I32, n, SNAPSHOT_BLOCK, blocks);
@@ -142,10 +144,12 @@ static int snapshot_fill(struct h5 *file, const struct state *state, const struc
     int32_t step = (int32_t)state->step;
     h5_attribute(file, "/", "time", H5_F64, 0, &state->t);
     h5_attribute(file, "/", "iteration", H5_I32, 0, &step);
-    TRY(vtkhdf_write(file, state, fields));
-    if (state->mesh->dim > 1) chombo_write(file, state, fields);
-    snapshot_write_bulla(file, state, provenance);
-    return STATUS_OK;
+    struct leaves *leaves = leaves_new(state->mesh);
+    int code = vtkhdf_write(file, state, leaves, fields);
+    if (!code && state->mesh->dim > 1) chombo_write(file, state, leaves, fields);
+    if (!code) snapshot_write_bulla(file, state, provenance);
+    leaves_free(leaves);
+    return code;
 }
 
 /* Writes the draft of a file. */

@@ -1,13 +1,13 @@
 /* snapshot.h - plot files: one HDF5 file per output time that ParaView and yt open as it is.
  *
  * <directory>/fields/<case>_<step>.hdf holds, stored once, two views of the same arrays:
- *   /VTKHDF            an unstructured grid (VTKHDF 1.0) of lines, quads or hexahedra with shared
- *                      points; CellData/<name> [n_cell] or [n_cell, 3], float32 or float64
- *   /level_<l>, ...    the Chombo layout of the same tiles, as virtual data sets (2D and 3D);
+ *   /VTKHDF            an unstructured grid (VTKHDF 1.0) of the leaves: lines, quads or hexahedra with
+ *                      shared points; CellData/<name> [n_cell] or [n_cell, 3], float32 or float64
+ *   /level_<l>, ...    the Chombo layout of the same leaves, as virtual data sets (2D and 3D);
  *                      it knows one cell width: where cells are not square its lengths are off
- *   /bulla             case.yaml, blocks (level, i, j, k, rank), provenance.json, and what
+ *   /bulla             case.yaml, blocks (level, i, j, k, rank, covered octants), provenance.json, and what
  *                      read.h needs: title, case, dim, beta, domain, materials
- * Cells are ordered by level, tile (Morton), x fastest within a tile. <case>.hdf.series lists all
+ * The order of cells is that of leaves.h. <case>.hdf.series lists all
  * files with their times. Files get their names when complete. The numbers do not depend on the
  * ranks (but for the rank column of blocks and provenance.json). */
 #ifndef SNAPSHOT_H

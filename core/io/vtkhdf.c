@@ -18,246 +18,287 @@ struct vtkhdf {
     struct h5 *file;
     const struct state *state;
     const struct mesh *mesh;
+    const struct leaves *leaves;
     struct nodes *nodes;
-    size_t n_cell, chunk; /* cells of all tiles; cells compressed together */
-    struct h5out_range cells[MESH_LEVELS], points[MESH_LEVELS];
+    size_t chunk; /* cells compressed together */
+    unsigned n_range;
+    struct h5out_range cells[LEAVES_KINDS * MESH_LEVELS], points[MESH_LEVELS];
     int corners;                /* of a cell */
     const struct derive *field; /* being written */
     enum h5_type type;
+    int level; /* of the tile that values or numbers are of; -1: none */
+    unsigned tile;
     double *values;   /* [3][cells of a tile] */
     int32_t *numbers; /* [points of a tile] */
     double (*x)[3];   /* [points of a tile] */
 };
 
-size_t vtkhdf_first_cell(const struct mesh *mesh, int level, unsigned tile)
+/* A part of a block that is asked for. */
+struct vtkhdf_part {
+    unsigned block;
+    size_t from, to; /* cells of the block */
+};
+
+/* The part from cell `cell` on, up to `end` at most. */
+static struct vtkhdf_part vtkhdf_part(const struct vtkhdf *out, size_t cell, size_t end)
 {
-    size_t tiles = tile;
-    for (int l = 0; l < level; l++) tiles += mesh->levels[l].n_tile;
-    return tiles * mesh->n_cell;
+    unsigned block = leaves_find(out->leaves, cell);
+    size_t first = out->leaves->blocks[block].first, last = first + leaves_cells(out->leaves, block);
+    return (struct vtkhdf_part){block, cell - first, (last < end ? last : end) - first};
 }
 
-/* Level and tile in which a cell lies. */
-static unsigned vtkhdf_tile(const struct mesh *mesh, size_t cell, int *ret_level)
+/* Makes the tile of a block the one at hand; false if it was that already. */
+static bool vtkhdf_turn(struct vtkhdf *out, unsigned block)
 {
-    size_t tile = cell / mesh->n_cell;
-    int level = 0;
-    while (tile >= mesh->levels[level].n_tile) tile -= mesh->levels[level++].n_tile;
-    *ret_level = level;
-    return (unsigned)tile;
+    const struct leaves_block *at = &out->leaves->blocks[block];
+    bool same = at->level == out->level && at->tile == out->tile;
+    out->level = at->level;
+    out->tile = at->tile;
+    return !same;
 }
 
-/* Runs begin and end between tiles: chunks hold whole tiles. */
-static void vtkhdf_fill_field(void *context, size_t first, size_t count, void *out)
+/* Place in its tile of cell i of the box of a block. */
+static void vtkhdf_place(const int from[3], const int count[3], size_t i, int ret_at[3])
 {
-    struct vtkhdf *part = context;
-    size_t n = part->mesh->n_cell, components = part->field->components, at = 0;
-    float *narrow = out;
-    double *wide = out;
-    for (size_t cell = first; cell < first + count; cell += n) {
-        int level;
-        unsigned local = vtkhdf_tile(part->mesh, cell, &level);
-        local -= part->mesh->levels[level].first;
-        derive_tile(part->state->model, part->mesh, level, local, part->state->t, part->field, part->values);
-        for (size_t i = 0; i < n; i++)
-            for (size_t q = 0; q < components; q++, at++) {
-                double value = part->values[q * n + i];
-                if (part->type == H5_F64) wide[at] = value;
-                else narrow[at] = (float)value;
-            }
+    size_t n0 = (size_t)count[0], n1 = (size_t)count[1];
+    ret_at[0] = from[0] + (int)(i % n0);
+    ret_at[1] = from[1] + (int)(i / n0 % n1);
+    ret_at[2] = from[2] + (int)(i / (n0 * n1));
+}
+
+/* Writes the values of a part; returns how many numbers that were. */
+static size_t vtkhdf_put(struct vtkhdf *out, const struct vtkhdf_part *part, void *to)
+{
+    const struct mesh *mesh = out->mesh;
+    const int *n = mesh->n;
+    size_t components = out->field->components, count = 0;
+    float *narrow = to;
+    double *wide = to;
+    int from[3], box[3], at[3];
+    if (vtkhdf_turn(out, part->block))
+        derive_tile(out->state->model, mesh, out->level, out->tile - mesh->levels[out->level].first, out->state->t,
+                    out->field, out->values);
+    leaves_box(out->leaves, part->block, from, box);
+    for (size_t i = part->from; i < part->to; i++) {
+        vtkhdf_place(from, box, i, at);
+        const double *value = out->values + at[0] + n[0] * (at[1] + n[1] * at[2]);
+        for (size_t q = 0; q < components; q++, count++) {
+            if (out->type == H5_F64) wide[count] = value[q * mesh->n_cell];
+            else narrow[count] = (float)value[q * mesh->n_cell];
+        }
+    }
+    return count;
+}
+
+static void vtkhdf_fill_field(void *context, size_t first, size_t count, void *to)
+{
+    struct vtkhdf *out = context;
+    char *at = to;
+    for (size_t cell = first, end = first + count; cell < end;) {
+        struct vtkhdf_part part = vtkhdf_part(out, cell, end);
+        at += vtkhdf_put(out, &part, at) * h5_type_size(out->type);
+        cell += part.to - part.from;
     }
 }
 
-static void vtkhdf_fill_points(void *context, size_t first, size_t count, void *out)
+static void vtkhdf_fill_points(void *context, size_t first, size_t count, void *to)
 {
-    struct vtkhdf *part = context;
-    double(*x)[3] = out;
-    for (int l = 0; l < part->mesh->n_level; l++) {
-        const struct level *level = &part->mesh->levels[l];
-        const size_t *start = part->nodes->first[l];
+    struct vtkhdf *out = context;
+    double(*x)[3] = to;
+    for (int l = 0; l < out->mesh->n_level; l++) {
+        const struct level *level = &out->mesh->levels[l];
+        const size_t *start = out->nodes->first[l];
         for (unsigned tile = level->first; tile < level->first + level->n_local; tile++) {
             if (start[tile + 1] <= first || start[tile] >= first + count) continue;
-            nodes_positions(part->nodes, part->mesh, l, tile, part->x);
-            size_t from = start[tile] > first ? start[tile] : first;
-            size_t to = start[tile + 1] < first + count ? start[tile + 1] : first + count;
-            memcpy(x + (from - first), part->x + (from - start[tile]), (to - from) * sizeof *x);
+            nodes_positions(out->nodes, out->mesh, l, tile, out->x);
+            size_t low = start[tile] > first ? start[tile] : first;
+            size_t high = start[tile + 1] < first + count ? start[tile + 1] : first + count;
+            memcpy(x + (low - first), out->x + (low - start[tile]), (high - low) * sizeof *x);
         }
     }
 }
 
-/* Corners of the cells in VTK's order: a line; a quad counter-clockwise; a hexahedron's bottom, then its top. */
-static void vtkhdf_connect(const struct vtkhdf *part, int32_t *ret_corners)
+/* Corners of the cells of a part in VTK's order: a line; a quad counter-clockwise; a hexahedron's bottom, then its
+ * top. */
+static void vtkhdf_connect(struct vtkhdf *out, const struct vtkhdf_part *part, int32_t *ret_corners)
 {
     static const int turn[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                    {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    const int *n = part->mesh->n, *points = part->nodes->n;
-    for (int k = 0; k < n[2]; k++)
-        for (int j = 0; j < n[1]; j++)
-            for (int i = 0; i < n[0]; i++)
-                for (int c = 0; c < part->corners; c++) {
-                    int point = i + turn[c][0] + points[0] * (j + turn[c][1] + points[1] * (k + turn[c][2]));
-                    *ret_corners++ = part->numbers[point];
-                }
-}
-
-static void vtkhdf_fill_connectivity(void *context, size_t first, size_t count, void *out)
-{
-    struct vtkhdf *part = context;
-    size_t corners = (size_t)part->corners, step = part->mesh->n_cell;
-    int32_t *at = out;
-    for (size_t cell = first / corners; cell < (first + count) / corners; cell += step, at += corners * step) {
-        int level;
-        unsigned tile = vtkhdf_tile(part->mesh, cell, &level);
-        nodes_of_tile(part->nodes, part->mesh, level, tile, part->numbers);
-        vtkhdf_connect(part, at);
+    const int *points = out->nodes->n;
+    int from[3], box[3], at[3];
+    if (vtkhdf_turn(out, part->block)) nodes_of_tile(out->nodes, out->mesh, out->level, out->tile, out->numbers);
+    leaves_box(out->leaves, part->block, from, box);
+    for (size_t i = part->from; i < part->to; i++) {
+        vtkhdf_place(from, box, i, at);
+        for (int c = 0; c < out->corners; c++)
+            *ret_corners++ =
+                out->numbers[at[0] + turn[c][0] + points[0] * (at[1] + turn[c][1] + points[1] * (at[2] + turn[c][2]))];
     }
 }
 
-static void vtkhdf_fill_offsets(void *context, size_t first, size_t count, void *out)
+static void vtkhdf_fill_connectivity(void *context, size_t first, size_t count, void *to)
 {
-    const struct vtkhdf *part = context;
-    int32_t *offsets = out;
-    for (size_t i = 0; i < count; i++) offsets[i] = (int32_t)((first + i) * (size_t)part->corners);
+    struct vtkhdf *out = context;
+    size_t corners = (size_t)out->corners, end = (first + count) / corners;
+    int32_t *at = to;
+    for (size_t cell = first / corners; cell < end;) {
+        struct vtkhdf_part part = vtkhdf_part(out, cell, end);
+        vtkhdf_connect(out, &part, at);
+        at += (part.to - part.from) * corners;
+        cell += part.to - part.from;
+    }
 }
 
-static void vtkhdf_fill_types(void *context, size_t first, size_t count, void *out)
+static void vtkhdf_fill_offsets(void *context, size_t first, size_t count, void *to)
+{
+    const struct vtkhdf *out = context;
+    int32_t *offsets = to;
+    for (size_t i = 0; i < count; i++) offsets[i] = (int32_t)((first + i) * (size_t)out->corners);
+}
+
+static void vtkhdf_fill_types(void *context, size_t first, size_t count, void *to)
 {
     static const unsigned char types[] = {[1] = 3, [2] = 9, [3] = 12}; /* VTK_LINE, VTK_QUAD, VTK_HEXAHEDRON */
-    const struct vtkhdf *part = context;
+    const struct vtkhdf *out = context;
     (void)first;
-    memset(out, types[part->mesh->dim], count);
+    memset(to, types[out->mesh->dim], count);
 }
 
 /* Which cells and points this rank writes, level by level. */
-static void vtkhdf_divide(struct vtkhdf *part)
+static void vtkhdf_divide(struct vtkhdf *out)
 {
-    for (int l = 0; l < part->mesh->n_level; l++) {
-        const struct level *level = &part->mesh->levels[l];
-        unsigned end = level->first + level->n_local;
-        const size_t *start = part->nodes->first[l];
-        part->cells[l] =
-            (struct h5out_range){vtkhdf_first_cell(part->mesh, l, level->first), level->n_local * part->mesh->n_cell};
-        part->points[l] = (struct h5out_range){start[level->first], start[end] - start[level->first]};
-        part->n_cell += level->n_tile * part->mesh->n_cell;
+    for (int l = 0; l < out->mesh->n_level; l++) {
+        const struct level *level = &out->mesh->levels[l];
+        const size_t *start = out->nodes->first[l];
+        for (int kind = 0; kind < LEAVES_KINDS; kind++) {
+            const struct leaves_run *run = &out->leaves->runs[l][kind];
+            out->cells[out->n_range++] = (struct h5out_range){run->local_first, run->local};
+        }
+        out->points[l] =
+            (struct h5out_range){start[level->first], start[level->first + level->n_local] - start[level->first]};
     }
 }
 
-static void vtkhdf_begin(struct vtkhdf *part)
+static void vtkhdf_begin(struct vtkhdf *out)
 {
-    const struct mesh *mesh = part->mesh;
+    const struct mesh *mesh = out->mesh;
     size_t tiles = VTKHDF_CHUNK_ROWS / mesh->n_cell;
     if (tiles > VTKHDF_CHUNK_TILES) tiles = VTKHDF_CHUNK_TILES;
-    part->chunk = mesh->n_cell * (tiles ? tiles : 1);
-    part->corners = 1 << mesh->dim;
-    part->nodes = nodes_new(mesh);
-    part->values = mem_new(3 * mesh->n_cell, sizeof *part->values);
-    part->numbers = mem_new(part->nodes->n_point, sizeof *part->numbers);
-    part->x = mem_new(part->nodes->n_point, sizeof *part->x);
-    vtkhdf_divide(part);
+    out->chunk = mesh->n_cell * (tiles ? tiles : 1);
+    out->corners = 1 << mesh->dim;
+    out->nodes = nodes_new(mesh);
+    out->values = mem_new(3 * mesh->n_cell, sizeof *out->values);
+    out->numbers = mem_new(out->nodes->n_point, sizeof *out->numbers);
+    out->x = mem_new(out->nodes->n_point, sizeof *out->x);
+    vtkhdf_divide(out);
 }
 
-static void vtkhdf_end(struct vtkhdf *part)
+static void vtkhdf_end(struct vtkhdf *out)
 {
-    nodes_free(part->nodes);
-    mem_free(part->values);
-    mem_free(part->numbers);
-    mem_free(part->x);
+    nodes_free(out->nodes);
+    mem_free(out->values);
+    mem_free(out->numbers);
+    mem_free(out->x);
 }
 
 /* Ranges of rows that are `factor` per cell; the last rank adds `more` rows at the end. */
-static void vtkhdf_scale(const struct vtkhdf *part, size_t factor, size_t more, struct h5out_range *ret_ranges)
+static void vtkhdf_scale(const struct vtkhdf *out, size_t factor, size_t more, struct h5out_range *ret_ranges)
 {
-    int last = part->mesh->n_level - 1;
-    for (int l = 0; l <= last; l++)
-        ret_ranges[l] = (struct h5out_range){part->cells[l].first * factor, part->cells[l].count * factor};
-    if (comm_rank() == comm_size() - 1) ret_ranges[last].count += more;
+    for (unsigned i = 0; i < out->n_range; i++)
+        ret_ranges[i] = (struct h5out_range){out->cells[i].first * factor, out->cells[i].count * factor};
+    if (more && comm_rank() == comm_size() - 1) {
+        struct h5out_range *last = &ret_ranges[out->n_range - 1];
+        if (!last->count) last->first = out->leaves->n_cell * factor;
+        last->count += more;
+    }
 }
 
-static int vtkhdf_write_points(struct vtkhdf *part)
+static int vtkhdf_write_points(struct vtkhdf *out)
 {
     struct h5out_rows rows = {.type = H5_F64,
                               .columns = 3,
-                              .total = part->nodes->total,
-                              .chunk = part->chunk,
-                              .n_range = (unsigned)part->mesh->n_level,
-                              .ranges = part->points,
+                              .total = out->nodes->total,
+                              .chunk = out->chunk,
+                              .n_range = (unsigned)out->mesh->n_level,
+                              .ranges = out->points,
                               .fill = vtkhdf_fill_points,
-                              .context = part};
-    return h5out_write(part->file, "/VTKHDF/Points", &rows);
+                              .context = out};
+    return h5out_write(out->file, "/VTKHDF/Points", &rows);
 }
 
-static int vtkhdf_write_cells(struct vtkhdf *part)
+static int vtkhdf_write_cells(struct vtkhdf *out)
 {
-    struct h5out_range ranges[MESH_LEVELS];
-    size_t corners = (size_t)part->corners;
-    struct h5out_rows rows = {.type = H5_I32,
-                              .n_range = (unsigned)part->mesh->n_level,
-                              .ranges = ranges,
-                              .context = part};
-    vtkhdf_scale(part, corners, 0, ranges);
-    rows.total = part->n_cell * corners;
-    rows.chunk = part->chunk * corners;
+    struct h5out_range ranges[LEAVES_KINDS * MESH_LEVELS];
+    size_t corners = (size_t)out->corners;
+    struct h5out_rows rows = {.type = H5_I32, .n_range = out->n_range, .ranges = ranges, .context = out};
+    vtkhdf_scale(out, corners, 0, ranges);
+    rows.total = out->leaves->n_cell * corners;
+    rows.chunk = out->chunk * corners;
     rows.fill = vtkhdf_fill_connectivity;
-    TRY(h5out_write(part->file, "/VTKHDF/Connectivity", &rows));
-    vtkhdf_scale(part, 1, 1, ranges);
-    rows.total = part->n_cell + 1;
-    rows.chunk = part->chunk;
+    out->level = -1;
+    TRY(h5out_write(out->file, "/VTKHDF/Connectivity", &rows));
+    vtkhdf_scale(out, 1, 1, ranges);
+    rows.total = out->leaves->n_cell + 1;
+    rows.chunk = out->chunk;
     rows.fill = vtkhdf_fill_offsets;
-    TRY(h5out_write(part->file, "/VTKHDF/Offsets", &rows));
-    vtkhdf_scale(part, 1, 0, ranges);
-    rows.total = part->n_cell;
+    TRY(h5out_write(out->file, "/VTKHDF/Offsets", &rows));
+    vtkhdf_scale(out, 1, 0, ranges);
+    rows.total = out->leaves->n_cell;
     rows.type = H5_U8;
     rows.fill = vtkhdf_fill_types;
-    return h5out_write(part->file, "/VTKHDF/Types", &rows);
+    return h5out_write(out->file, "/VTKHDF/Types", &rows);
 }
 
-static int vtkhdf_write_counts(struct vtkhdf *part)
+static int vtkhdf_write_counts(struct vtkhdf *out)
 {
-    int64_t points = (int64_t)part->nodes->total, cells = (int64_t)part->n_cell, ids = cells * part->corners;
+    int64_t points = (int64_t)out->nodes->total, cells = (int64_t)out->leaves->n_cell, ids = cells * out->corners;
     if (ids > INT32_MAX || points > INT32_MAX)
-        return status_fail(STATUS_RUN, "%s: %lld cells are more than a plot file can hold (%d)", part->file->path,
-                           (long long)cells, INT32_MAX / part->corners);
-    h5out_array(part->file, "/VTKHDF/NumberOfPoints", H5_I64, 1, 0, &points);
-    h5out_array(part->file, "/VTKHDF/NumberOfCells", H5_I64, 1, 0, &cells);
-    h5out_array(part->file, "/VTKHDF/NumberOfConnectivityIds", H5_I64, 1, 0, &ids);
+        return status_fail(STATUS_RUN, "%s: %lld cells are more than a plot file can hold (%d)", out->file->path,
+                           (long long)cells, INT32_MAX / out->corners);
+    h5out_array(out->file, "/VTKHDF/NumberOfPoints", H5_I64, 1, 0, &points);
+    h5out_array(out->file, "/VTKHDF/NumberOfCells", H5_I64, 1, 0, &cells);
+    h5out_array(out->file, "/VTKHDF/NumberOfConnectivityIds", H5_I64, 1, 0, &ids);
     return STATUS_OK;
 }
 
-static int vtkhdf_write_field(struct vtkhdf *part, const struct derive *field)
+static int vtkhdf_write_field(struct vtkhdf *out, const struct derive *field)
 {
     char path[SCENE_NAME + 32];
     snprintf(path, sizeof path, "/VTKHDF/CellData/%s", field->name);
-    part->field = field;
-    struct h5out_rows rows = {.type = part->type,
+    out->field = field;
+    out->level = -1;
+    struct h5out_rows rows = {.type = out->type,
                               .columns = field->components > 1 ? field->components : 0,
-                              .total = part->n_cell,
-                              .chunk = part->chunk,
-                              .n_range = (unsigned)part->mesh->n_level,
-                              .ranges = part->cells,
+                              .total = out->leaves->n_cell,
+                              .chunk = out->chunk,
+                              .n_range = out->n_range,
+                              .ranges = out->cells,
                               .fill = vtkhdf_fill_field,
-                              .context = part};
-    TRY(h5out_write(part->file, path, &rows));
-    h5out_unit(part->file, path, field->unit);
+                              .context = out};
+    TRY(h5out_write(out->file, path, &rows));
+    h5out_unit(out->file, path, field->unit);
     return STATUS_OK;
 }
 
-static void vtkhdf_write_frame(struct vtkhdf *part)
+static void vtkhdf_write_frame(struct vtkhdf *out)
 {
     static const char *const groups[] = {"/VTKHDF", "/VTKHDF/CellData", "/VTKHDF/PointData", "/VTKHDF/FieldData"};
-    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++) h5_group(part->file, groups[i]);
-    h5_attribute(part->file, "/VTKHDF", "Version", H5_I64, 2, (int64_t[]){1, 0});
-    h5_attribute_text(part->file, "/VTKHDF", "Type", "UnstructuredGrid");
-    h5out_array(part->file, "/VTKHDF/FieldData/TimeValue", H5_F64, 1, 0, &part->state->t);
+    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++) h5_group(out->file, groups[i]);
+    h5_attribute(out->file, "/VTKHDF", "Version", H5_I64, 2, (int64_t[]){1, 0});
+    h5_attribute_text(out->file, "/VTKHDF", "Type", "UnstructuredGrid");
+    h5out_array(out->file, "/VTKHDF/FieldData/TimeValue", H5_F64, 1, 0, &out->state->t);
 }
 
-int vtkhdf_write(struct h5 *file, const struct state *state, const struct vtkhdf_fields *fields)
+int vtkhdf_write(struct h5 *file, const struct state *state, const struct leaves *leaves,
+                 const struct vtkhdf_fields *fields)
 {
-    struct vtkhdf part = {.file = file, .state = state, .mesh = state->mesh, .type = fields->type};
-    vtkhdf_begin(&part);
-    vtkhdf_write_frame(&part);
-    int code = vtkhdf_write_counts(&part);
-    if (!code) code = vtkhdf_write_points(&part);
-    if (!code) code = vtkhdf_write_cells(&part);
-    for (unsigned i = 0; !code && i < fields->n; i++) code = vtkhdf_write_field(&part, &fields->at[i]);
-    vtkhdf_end(&part);
+    struct vtkhdf out = {.file = file, .state = state, .mesh = state->mesh, .leaves = leaves, .type = fields->type};
+    vtkhdf_begin(&out);
+    vtkhdf_write_frame(&out);
+    int code = vtkhdf_write_counts(&out);
+    if (!code) code = vtkhdf_write_points(&out);
+    if (!code) code = vtkhdf_write_cells(&out);
+    for (unsigned i = 0; !code && i < fields->n; i++) code = vtkhdf_write_field(&out, &fields->at[i]);
+    vtkhdf_end(&out);
     return code;
 }

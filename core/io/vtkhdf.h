@@ -5,6 +5,7 @@
 #define VTKHDF_H
 
 #include "io/h5.h"
+#include "io/leaves.h"
 #include "phys/derive.h"
 #include "solve/state.h"
 
@@ -15,10 +16,8 @@ struct vtkhdf_fields {
     enum h5_type type;       /* H5_F32 or H5_F64 */
 };
 
-/* Number of cells before tile `tile` of a level: where its run of CellData begins. */
-size_t vtkhdf_first_cell(const struct mesh *mesh, int level, unsigned tile);
-
 /* Writes the group. More cells than 32-bit numbers can connect are STATUS_RUN. Collective. */
-int vtkhdf_write(struct h5 *file, const struct state *state, const struct vtkhdf_fields *fields);
+int vtkhdf_write(struct h5 *file, const struct state *state, const struct leaves *leaves,
+                 const struct vtkhdf_fields *fields);
 
 #endif

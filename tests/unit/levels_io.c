@@ -1,7 +1,11 @@
 /* levels_io.c - what histories and ledgers say of a mesh of three levels: every place counts once, with its finest
  * cell. Cells under finer ones hold nonsense wherever nobody may look at them. */
+#include "io/h5in.h"
+#include "io/info.h"
 #include "io/ledger.h"
 #include "io/measure.h"
+#include "io/read.h"
+#include "io/snapshot.h"
 #include "levels_io.h"
 
 #include <math.h>
@@ -172,13 +176,191 @@ static void test_crossing(void **state)
     small_stop(&small);
 }
 
+/* Points of a plot file in the order of their places. */
+static int compare_points(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    for (int axis = 0; axis < 3; axis++)
+        if (fabs(x[axis] - y[axis]) > 1e-12) return x[axis] < y[axis] ? -1 : 1;
+    return 0;
+}
+
+/* No two points in one place, none that nobody uses; n_point of them. */
+static void expect_points(const char *path, size_t n_cell, int dim, size_t n_point)
+{
+    struct h5 *file;
+    size_t rows, corners = n_cell << dim;
+    unsigned wide;
+    assert_int_equal(h5_open(path, &file), 0);
+    assert_int_equal(h5in_shape(file, "/VTKHDF/Points", &rows, &wide), 0);
+    assert_int_equal(rows, n_point);
+    double(*x)[3] = mem_new(rows, sizeof *x), *ids = mem_new(corners, sizeof *ids);
+    char *used = mem_new(rows, 1);
+    assert_int_equal(h5in_read(file, "/VTKHDF/Points", *x), 0);
+    assert_int_equal(h5in_read(file, "/VTKHDF/Connectivity", ids), 0);
+    for (size_t i = 0; i < corners; i++) used[(size_t)ids[i]] = 1;
+    for (size_t i = 0; i < rows; i++) assert_true(used[i]);
+    qsort(x, rows, sizeof *x, compare_points);
+    for (size_t i = 1; i < rows; i++) assert_true(compare_points(x[i - 1], x[i]) < 0);
+    mem_free(used);
+    mem_free(ids);
+    mem_free(x);
+    h5_abandon(file);
+}
+
+/* Cells fill the domain, each at its level's width and with the values of its leaf. */
+static void expect_cells(const struct snapshot *snapshot, const struct state *state)
+{
+    const struct mesh *mesh = state->mesh;
+    const struct snapshot_field *density = read_field(snapshot, "density"), *level = read_field(snapshot, "level");
+    double volume = 0.0, domain = 1.0;
+    size_t in_tiles = 0;
+    for (int axis = 0; axis < mesh->dim; axis++) domain *= mesh->upper[axis] - mesh->lower[axis];
+    for (size_t i = 0; i < snapshot->n_tile; i++) in_tiles += snapshot->tiles[i].n_cell;
+    assert_int_equal(in_tiles, snapshot->n_cell);
+    for (size_t i = 0; i < snapshot->n_cell; i++) {
+        double size = 1.0, x[3] = {0}, rho = 0.0;
+        int l;
+        size_t cell;
+        for (int axis = 0; axis < mesh->dim; axis++) {
+            x[axis] = 0.5 * (snapshot->lower[i][axis] + snapshot->upper[i][axis]);
+            size *= snapshot->upper[i][axis] - snapshot->lower[i][axis];
+        }
+        volume += size;
+        unsigned at = mesh_locate(mesh, x, &l, &cell);
+        const double *w = mesh->levels[l].w[at];
+        for (unsigned m = 0; m < 2; m++)
+            rho +=
+                w[(state->model->i_alpha + m) * mesh->n_cell + cell] * w[(state->model->i_m + m) * mesh->n_cell + cell];
+        assert_true(level->data[i] == l);
+        assert_true(density->data[i] == rho);
+        close_to(snapshot->upper[i][0] - snapshot->lower[i][0], mesh->levels[l].h[0], 1e-9);
+    }
+    close_to(volume, domain, 1e-12);
+}
+
+/* Corners of leaves, counted by brute force on the finest lattice. */
+static size_t count_points(const struct snapshot *snapshot, int dim)
+{
+    size_t n = snapshot->n_cell << dim, count = 1;
+    double(*x)[3] = mem_new(n, sizeof *x);
+    for (size_t i = 0; i < snapshot->n_cell; i++)
+        for (size_t c = 0; c < (size_t)1 << dim; c++)
+            for (int axis = 0; axis < dim; axis++)
+                x[(i << dim) + c][axis] = (c >> axis & 1 ? snapshot->upper : snapshot->lower)[i][axis];
+    qsort(x, n, sizeof *x, compare_points);
+    for (size_t i = 1; i < n; i++) count += compare_points(x[i - 1], x[i]) != 0;
+    mem_free(x);
+    return count;
+}
+
+static void expect_file(struct small *small)
+{
+    struct snapshots *snapshots;
+    struct snapshot *snapshot;
+    assert_int_equal(snapshot_new(small->state, &snapshots), 0);
+    assert_int_equal(snapshot_write(snapshots, small->state, "{}"), 0);
+    snapshot_free(snapshots);
+    char *path = small_path(small, "fields/tiny_000000.hdf");
+    int code = read_snapshot(path, NULL, &snapshot), dim = small->state->mesh->dim;
+    if (code) print_error("%s\n", status_text());
+    assert_int_equal(code, 0);
+    assert_int_equal(snapshot->n_level, 3);
+    expect_cells(snapshot, small->state);
+    expect_points(path, snapshot->n_cell, dim, count_points(snapshot, dim));
+    read_free(snapshot);
+    mem_free(path);
+}
+
+/* What `bulla info` says of the levels. */
+static void expect_info(const struct small *small)
+{
+    char *path = small_path(small, "fields/tiny_000000.hdf"), *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_int_equal(info_print(out, path), 0);
+    fclose(out);
+    assert_non_null(strstr(text, "\nlevels    3\n  0       8 tiles (2 under finer ones), 1024 cells, 3.125e-05 m wide\n"
+                                 "  1       16 tiles (0 under finer ones), 3520 cells, 1.5625e-05 m wide\n"));
+    free(text);
+    mem_free(path);
+}
+
+#define FIELDS "output: {snapshots: {every: 1 us, precision: double, fields: [density, level, velocity]}}\n"
+
+static void test_file(void **state)
+{
+    (void)state;
+    struct small small;
+    small_start_levels(&small, SMALL_AXISYMMETRIC FIELDS, 2);
+    refine(&small);
+    levels_spoil(small.state);
+    expect_file(&small);
+    expect_info(&small);
+    small_stop(&small);
+}
+
+static bool left(const double *x)
+{
+    return x[0] < 0.9;
+}
+
+static bool middle(const double *x)
+{
+    return x[0] > 0.3 && x[0] < 0.6;
+}
+
+static void test_file_line(void **state)
+{
+    (void)state;
+    struct small small;
+    small_start_levels(
+        &small,
+        "bulla: 1\ndomain: {lower: [0], upper: [1], cells: [40], boundaries: {x-: outflow, x+: outflow}}\n"
+        "mesh: {tile: 8}\n" SMALL_MATERIALS
+        "initial: [{everywhere: true, material: air, density: = 1 + x, pressure: 1e5}]\n"
+        "run: {until: 1 ms}\n" FIELDS,
+        2);
+    levels_add(small.state, left);
+    levels_add(small.state, middle);
+    expect_file(&small);
+    small_stop(&small);
+}
+
+static bool corner(const double *x)
+{
+    return x[0] + x[1] + x[2] < 3.0 || x[0] > 2.4; /* x is periodic */
+}
+
+static bool deep(const double *x)
+{
+    return x[0] + x[1] + x[2] < 1.0;
+}
+
+static void test_file_volume(void **state)
+{
+    (void)state;
+    struct small small;
+    small_start_levels(
+        &small,
+        "bulla: 1\ndomain:\n  lower: [0, 0, 0]\n  upper: [3, 2, 1]\n  cells: [12, 8, 4]\n"
+        "  boundaries: {x-: periodic, x+: periodic, y-: outflow, y+: outflow, z-: outflow, z+: outflow}\n"
+        "mesh: {tile: 4}\n" SMALL_MATERIALS
+        "initial: [{everywhere: true, material: air, density: = 1 + x, pressure: 1e5}]\n"
+        "run: {until: 1 ms}\n" FIELDS,
+        2);
+    levels_add(small.state, corner);
+    levels_add(small.state, deep);
+    expect_file(&small);
+    small_stop(&small);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_measures),
-        cmocka_unit_test(test_ledger),
-        cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_crossing),
+        cmocka_unit_test(test_measures),    cmocka_unit_test(test_ledger), cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_crossing),    cmocka_unit_test(test_file),   cmocka_unit_test(test_file_line),
+        cmocka_unit_test(test_file_volume),
     };
     if (registry_init()) return 1;
     return cmocka_run_group_tests(tests, NULL, NULL);

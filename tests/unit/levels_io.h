@@ -5,6 +5,7 @@
 
 #include "mesh/metric.h"
 #include "mesh/morton.h"
+#include "mesh/nest.h"
 #include "phys/mix.h"
 #include "phys/paint.h"
 #include "small.h"
@@ -95,6 +96,7 @@ static inline void levels_add(struct state *state, bool (*wanted)(const double *
     for (unsigned t = 0; t < level->n_tile; t++)
         assert_int_equal(paint_tile(state->model, mesh, level, &level->tiles[t], level->u_old[t]), 0);
     levels_average(state);
+    if (nest_check(mesh)) fail_msg("%s", status_text());
 }
 
 /* Gives all cells under finer ones wrong values: densities, momenta, energies and pressures a thousand times too

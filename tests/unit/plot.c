@@ -33,12 +33,16 @@ static struct snapshot *snapshot_new(int dim, int beta)
     snapshot->time = 2.5e-7;
     snapshot->dim = dim;
     snapshot->beta = beta;
-    snapshot->n_tile = 2;
     snapshot->n_cell = 1;
     for (int axis = 0; axis < dim; axis++) {
         snapshot->domain[1][axis] = 1.0;
         snapshot->n_cell *= M;
     }
+    snapshot->n_level = 1;
+    snapshot->n_tile = 2;
+    snapshot->tiles = mem_new(2, sizeof *snapshot->tiles);
+    for (size_t i = 0; i < 2; i++)
+        snapshot->tiles[i] = (struct snapshot_tile){.first = i * snapshot->n_cell / 2, .n_cell = snapshot->n_cell / 2};
     snapshot->lower = mem_new(snapshot->n_cell, sizeof *snapshot->lower);
     snapshot->upper = mem_new(snapshot->n_cell, sizeof *snapshot->upper);
     snapshot->n_material = 2;
