@@ -4,9 +4,9 @@
  * the coarse cell, so that bounds, positivity and uniform p and u survive for every law (design notes:
  * docs/decisions). Between the beginning and the end of the coarse step they are linear in time.
  * New tiles must be conservative: central slopes of the conserved fields about the centroid of the volume, times one
- * factor phi in [0, 1] per coarse cell for all fields - the largest that keeps every field, every rho_l and p
- * within the range of the coarse cell and its face neighbours, and every child admissible. phi is common to
- * all fields because only then linear relations (sum alpha = 1, rho E at uniform p and u) survive. */
+ * factor phi in [0, 1] per coarse cell for all fields, so that every field, every rho_l and p stay
+ * within the range of the coarse cell and its face neighbours, and every child is admissible (phys/prolong_cell.h). phi
+ * is common to all fields because only then linear relations (sum alpha = 1, rho E at uniform p and u) survive. */
 #ifndef PROLONG_H
 #define PROLONG_H
 
@@ -24,9 +24,10 @@ void prolong_free(struct prolong *prolong);
  * Not collective; link_down sends them. */
 void prolong_strips(struct prolong *prolong, const struct mesh *mesh, int l, struct bound *bound, int slot);
 
-/* Fills u_old of the tiles of level l >= 1 that are marked in born[n_tile] (all tiles of the level, replicated),
- * from u_old and w of level l - 1 (halo of w exchanged and finished; `bound` of level l - 1). Returns the number
- * of coarse cells of this rank where phi was below 1. Collective. */
+/* Fills u_old, and the pressure in w (where iterated closures start), of the tiles of level l >= 1 that are marked in
+ * born[n_tile] (all tiles of the level, replicated), from u_old and w of level l - 1 (halo of w exchanged and
+ * finished; `bound` of level l - 1). Returns the number of coarse cells of this rank where phi was below 1.
+ * Collective. */
 long long prolong_tiles(struct prolong *prolong, struct mesh *mesh, int l, struct bound *bound, const bool *born);
 
 #endif
