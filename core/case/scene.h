@@ -152,7 +152,7 @@ enum scene_reflux {
 
 /* A criterion of refinement. All of them are limited by where, levels and time. */
 struct scene_refine {
-    enum {
+    enum scene_refine_kind {
         SCENE_REFINE_GRADIENT,  /* of a field: the larger difference to the two neighbours along an axis, over the cell
                                    size, of the steepest axis. Relative: as JUMP */
         SCENE_REFINE_JUMP,      /* largest difference to a face neighbour; relative: over the larger magnitude of the

@@ -69,7 +69,7 @@ static const struct keys_value *scene_refine_chosen(struct draft *draft, const s
             return NULL;
         }
         chosen = value;
-        refine->kind = i;
+        refine->kind = (enum scene_refine_kind)i;
     }
     if (chosen) return chosen;
     diag_error(draft->keys.diag, &map->node->mark, "%s: nothing is said about what asks for refinement", map->path);

@@ -3,7 +3,9 @@
  * A criterion looks at a named field (its gradient, its jump to a neighbour, its value), at the surface of a
  * material, at a Lua function, or only at a region; all may be limited to a region, a time window and levels.
  * Jumps are taken to face neighbours on the same level; across coarse-fine faces and domain boundaries the
- * cell's own value stands in. */
+ * cell's own value stands in. A gradient is the larger of the two one-sided differences along an axis over the cell
+ * size, the largest of all axes: one-sided, because a central one does not see an odd-even wave and halves a jump;
+ * the largest, because that is the same in a turned frame to the bit. Thresholds are exceeded, not met. */
 #ifndef TAG_H
 #define TAG_H
 
@@ -16,5 +18,9 @@
  * rank that each criterion tagged (added to what is there). STATUS_RUN or STATUS_CASE: a script failed. Collective. */
 int tag_level(const struct model *model, const struct mesh *mesh, int l, double t, struct halo *halo, double **marks,
               long long *hits);
+
+/* What a criterion is, with its line in the case file: "mesh.refine[0] (line 12): jump of density above 0.05 of the
+ * larger cell". Free with mem_free. */
+char *tag_describe(const struct scene *scene, unsigned criterion);
 
 #endif
