@@ -53,8 +53,8 @@ static void move_plan(struct move *move, const struct tile *tiles, unsigned n_ti
     }
 }
 
-/* Blocks of a new array: those of tiles that stay; the others go back to the pool and are taken anew. */
-static double **move_array(const struct move *move, double **old, const int *from)
+/* A new array with the blocks of tiles that stay; the others go back to the pool. */
+static double **move_keep(const struct move *move, double **old, const int *from)
 {
     double **blocks = mem_new(move->n_local, sizeof *blocks);
     for (unsigned i = 0; i < move->n_local; i++)
@@ -64,19 +64,22 @@ static double **move_array(const struct move *move, double **old, const int *fro
         }
     for (unsigned t = move->level->n_local; t > 0; t--)
         if (old[t - 1]) pool_give(move->pool, old[t - 1]);
-    for (unsigned i = 0; i < move->n_local; i++)
-        if (!blocks[i]) blocks[i] = pool_take(move->pool);
     mem_free(old);
     return blocks;
 }
 
+/* Missing blocks are taken array by array: those of a new level lie in three runs, each in the order of the curve. */
 static void move_arrays(const struct move *move, const int *from)
 {
     struct level *level = move->level;
-    if (!level->n_local) pool_reserve(move->pool, 3 * (size_t)move->n_local);
-    level->u_old = move_array(move, level->u_old, from);
-    level->u_new = move_array(move, level->u_new, from);
-    level->w = move_array(move, level->w, from);
+    double ***const arrays[] = {&level->u_old, &level->u_new, &level->w};
+    size_t missing = 0;
+    for (unsigned i = 0; i < move->n_local; i++) missing += from[i] < 0;
+    for (int a = 0; a < 3; a++) *arrays[a] = move_keep(move, *arrays[a], from);
+    pool_reserve(move->pool, 3 * missing);
+    for (int a = 0; a < 3; a++)
+        for (unsigned i = 0; i < move->n_local; i++)
+            if (from[i] < 0) (*arrays[a])[i] = pool_take(move->pool);
 }
 
 /* What leaves is packed before its blocks are given back; what arrives is unpacked into new ones. */

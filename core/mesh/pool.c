@@ -4,7 +4,7 @@
 
 #include "base/mem.h"
 
-enum { POOL_LINE = 8 /* doubles of a cache line */, POOL_STEP = 8 /* an empty pool grows by 1 / POOL_STEP */ };
+enum { POOL_LINE = 8 /* doubles of a cache line */, POOL_STEP = 16 /* a slab is at least 1 / POOL_STEP of the pool */ };
 
 struct pool {
     size_t pitch; /* doubles from block to block */
@@ -31,6 +31,7 @@ void pool_free(struct pool *pool)
 
 static void pool_grow(struct pool *pool, size_t count)
 {
+    if (count < pool->size / POOL_STEP) count = pool->size / POOL_STEP;
     double *slab = mem_new_large(count * pool->pitch, sizeof *slab);
     pool->slabs = mem_grow(pool->slabs, pool->n_slab, pool->n_slab + 1, sizeof *pool->slabs);
     pool->slabs[pool->n_slab++] = slab;
@@ -46,7 +47,7 @@ void pool_reserve(struct pool *pool, size_t count)
 
 double *pool_take(struct pool *pool)
 {
-    if (!pool->n_free) pool_grow(pool, pool->size / POOL_STEP + 1);
+    pool_reserve(pool, 1);
     return pool->free[--pool->n_free];
 }
 

@@ -13,7 +13,8 @@ struct pool;
 struct pool *pool_new(size_t block_doubles);
 void pool_free(struct pool *pool);
 
-/* Makes room for `count` more blocks at once (a slab of exactly what is missing). */
+/* Makes room for `count` more blocks at once: a slab of what is missing, or a sixteenth of the pool if that is more, so
+ * that slabs stay few. */
 void pool_reserve(struct pool *pool, size_t count);
 
 /* One block; grows the pool by a slab when it is empty. */

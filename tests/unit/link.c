@@ -203,24 +203,32 @@ static void test_traffic(void **state)
     each_link(check_traffic);
 }
 
-/* Other owners of the coarse tiles, then of the fine ones: links follow. */
+/* Gives level l the tiles of its map with other owners and compares all links. */
+static void replace(struct levels *levels, int l)
+{
+    unsigned n;
+    struct mesh_change change;
+    struct tile *tiles = levels_list(levels, l, &n);
+    mesh_replace(levels->mesh, l, tiles, n, &change);
+    mesh_change_free(&change);
+    for (int finer = 1; finer < levels->mesh->n_level; finer++) {
+        check_lists(levels, finer);
+        check_traffic(levels, finer);
+    }
+}
+
+/* Other owners of the coarse tiles, then of the fine ones; then more coarse tiles: links follow. */
 static void test_owners(void **state)
 {
     (void)state;
     for (int i = 0; i < LEVELS_SHAPE_COUNT; i++) {
         struct levels levels;
-        struct mesh_change change;
         levels_open(&levels, &LEVELS_SHAPES[i], 77u + (unsigned)i);
         levels_refine(&levels);
-        for (int l = 0; l < levels.mesh->n_level; l++) {
-            unsigned n;
-            struct tile *tiles = levels_list(&levels, l, &n);
-            mesh_replace(levels.mesh, l, tiles, n, &change);
-            mesh_change_free(&change);
-            for (int finer = 1; finer < levels.mesh->n_level; finer++) {
-                check_lists(&levels, finer);
-                check_traffic(&levels, finer);
-            }
+        for (int l = 0; l < levels.mesh->n_level; l++) replace(&levels, l);
+        for (int l = 1; l < levels.mesh->n_level; l++) {
+            memset(levels.maps[l], 1, levels_places(&levels, l));
+            replace(&levels, l);
         }
         levels_close_all(&levels);
     }
