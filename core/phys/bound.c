@@ -12,6 +12,7 @@
 #include "base/status.h"
 #include "case/pulse.h"
 #include "phys/mix.h"
+#include "phys/paint.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,15 +35,14 @@ static size_t bound_face_cells(const struct mesh *mesh, int axis)
     return mesh->n_cell / (size_t)mesh->n[axis];
 }
 
-static void bound_keep_reference(struct bound *bound, unsigned local, int axis, int side)
+static void bound_keep_reference(struct bound *bound, unsigned local, int axis, int side, const double *w)
 {
     const struct mesh *mesh = bound->mesh;
     const struct model *model = bound->model;
     size_t cells = bound_face_cells(mesh, axis), n = (size_t)mesh->n[axis], inner = 1;
     for (int d = 0; d < axis; d++) inner *= (size_t)mesh->n[d];
     double *reference = mem_new(2 * cells, sizeof *reference);
-    const double *p = bound->level->w[local] + model->i_E * mesh->n_cell;
-    const double *u = bound->level->w[local] + (model->i_u + (unsigned)axis) * mesh->n_cell;
+    const double *p = w + model->i_E * mesh->n_cell, *u = w + (model->i_u + (unsigned)axis) * mesh->n_cell;
     for (size_t c = 0; c < cells; c++) {
         size_t cell = (c / inner * n + (side ? n - 1 : 0)) * inner + c % inner;
         reference[c] = p[cell];
@@ -51,23 +51,72 @@ static void bound_keep_reference(struct bound *bound, unsigned local, int axis, 
     bound->reference[local * MESH_FACES + (unsigned)(2 * axis + side)] = reference;
 }
 
-struct bound *bound_new(const struct model *model, const struct mesh *mesh, const struct level *level)
+static struct bound *bound_start(const struct model *model, const struct mesh *mesh, const struct level *level)
 {
     struct bound *bound = mem_new(1, sizeof *bound);
-    *bound = (struct bound){.model = model, .mesh = mesh, .level = level};
+    *bound = (struct bound){.model = model, .mesh = mesh, .level = level, .n_local = level->n_local};
     bound->reference = mem_new((size_t)level->n_local * MESH_FACES, sizeof *bound->reference);
+    return bound;
+}
+
+static bool bound_refers(const struct bound *bound, unsigned local, int face)
+{
+    return bound->level->neighbours[local][face].kind == NEIGHBOUR_BOUNDARY &&
+           bound_is_characteristic(&bound->model->scene->boundary[face / 2][face % 2]);
+}
+
+struct bound *bound_new(const struct model *model, const struct mesh *mesh, const struct level *level)
+{
+    struct bound *bound = bound_start(model, mesh, level);
     for (unsigned t = 0; t < level->n_local; t++)
         for (int face = 0; face < 2 * mesh->dim; face++)
-            if (level->neighbours[t][face].kind == NEIGHBOUR_BOUNDARY &&
-                bound_is_characteristic(&model->scene->boundary[face / 2][face % 2]))
-                bound_keep_reference(bound, t, face / 2, face % 2);
+            if (bound_refers(bound, t, face)) bound_keep_reference(bound, t, face / 2, face % 2, level->w[t]);
+    return bound;
+}
+
+/* References of one tile from its initial state; u and w are scratch of a tile's block. */
+static int bound_paint_tile(struct bound *bound, unsigned local, double *u, double *w)
+{
+    const struct mesh *mesh = bound->mesh;
+    const struct level *level = bound->level;
+    size_t n_cell = mesh->n_cell;
+    bool painted = false;
+    for (int face = 0; face < 2 * mesh->dim; face++) {
+        if (!bound_refers(bound, local, face)) continue;
+        if (!painted) {
+            TRY(paint_tile(bound->model, mesh, level, &level->tiles[level->first + local], u));
+            for (size_t i = 0; i < n_cell; i++) w[bound->model->i_E * n_cell + i] = 1e5; /* where an iteration starts */
+            mix_primitives(bound->model, n_cell, n_cell, u, w);
+        }
+        painted = true;
+        bound_keep_reference(bound, local, face / 2, face % 2, w);
+    }
+    return STATUS_OK;
+}
+
+struct bound *bound_paint(const struct model *model, const struct mesh *mesh, const struct level *level,
+                          struct bound *before, const int *from)
+{
+    struct bound *bound = bound_start(model, mesh, level);
+    double *u = mem_new(2 * model->n_field * mesh->n_cell, sizeof *u), *w = u + model->n_field * mesh->n_cell;
+    for (unsigned t = 0; t < level->n_local && !bound->status; t++) {
+        if (!from || from[t] < 0) {
+            bound->status = bound_paint_tile(bound, t, u, w);
+            continue;
+        }
+        double **old = before->reference + (size_t)from[t] * MESH_FACES;
+        memcpy(bound->reference + (size_t)t * MESH_FACES, old, MESH_FACES * sizeof *old);
+        memset(old, 0, MESH_FACES * sizeof *old);
+    }
+    mem_free(u);
+    bound_free(before);
     return bound;
 }
 
 void bound_free(struct bound *bound)
 {
     if (!bound) return;
-    for (size_t i = 0; i < (size_t)bound->level->n_local * MESH_FACES; i++) mem_free(bound->reference[i]);
+    for (size_t i = 0; i < (size_t)bound->n_local * MESH_FACES; i++) mem_free(bound->reference[i]);
     mem_free(bound->reference);
     mem_free(bound);
 }

@@ -15,13 +15,19 @@ struct bound {
     const struct mesh *mesh;
     const struct level *level;
     double t;           /* [s] at which time-dependent values are taken; set before each stage */
+    unsigned n_local;
     double **reference; /* [n_local * MESH_FACES]: p then u_n of the boundary cells, or NULL */
     int status;         /* first failure of a script since bound_new; the message is in status.h */
 };
 
-/* For one level; takes the reference from the level's primitives w (so after the first
- * conversion of the initial state). */
+/* For one level; takes the references from the level's primitives w as they are. */
 struct bound *bound_new(const struct model *model, const struct mesh *mesh, const struct level *level);
+
+/* For one level; takes the references from the initial condition, so that they are the same for a tile that was
+ * there from the start, one that comes later, and after a restart. Tiles with from[local] >= 0 (mesh_change.from;
+ * NULL: none) take over those of `before`, which is freed. A script's failure is in bound->status. */
+struct bound *bound_paint(const struct model *model, const struct mesh *mesh, const struct level *level,
+                          struct bound *before, const int *from);
 void bound_free(struct bound *bound);
 
 /* Callback for frame_source: primitives of all fields. `data` is a struct bound. */

@@ -1,6 +1,8 @@
 /* frame.c - gathering, see frame.h. */
 #include "phys/frame.h"
 
+#include "mesh/link.h"
+
 #include <string.h>
 
 static struct frame frame_whole(const struct mesh *mesh, int axis)
@@ -68,11 +70,48 @@ static unsigned frame_field(const struct frame_source *source, unsigned i)
     return source->fields ? source->fields[i] : i;
 }
 
+/* A row between the values at the beginning and at the end of the coarse step. */
+static inline void frame_blend(size_t n, double theta, const double *restrict begin, const double *restrict end,
+                               double *restrict target)
+{
+    for (size_t i = 0; i < n; i++) target[i] = begin[i] + theta * (end[i] - begin[i]); /* equal values stay */
+}
+
+/* The two layers behind a coarse-fine face, of one field: linear in time between two strips. */
+static void frame_copy_strip(const struct frame *frame, double theta, const double *begin, const double *end, int to,
+                             double *w)
+{
+    size_t slice = MESH_GHOST * frame->tile_inner, at = frame->outer_from * slice + frame->inner_from;
+    for (size_t o = 0; o < frame->outer; o++, at += slice)
+        for (int row = 0; row < MESH_GHOST; row++) {
+            size_t from = at + (size_t)row * frame->tile_inner;
+            frame_blend(frame->inner, theta, begin + from, end + from, w + frame_at(frame, o, to + row));
+        }
+}
+
+static void frame_coarse(const struct frame_source *source, unsigned index, const struct frame *frame, int side,
+                         size_t pitch, double *w)
+{
+    const struct link_face *face = &source->link->faces[index];
+    double theta = source->link->theta;
+    size_t block = frame->tile_outer * MESH_GHOST * frame->tile_inner;
+    int to = side ? (int)frame->n : -MESH_GHOST;
+    for (unsigned i = 0; i < source->n_field; i++) {
+        size_t q = frame_field(source, i);
+        const double *begin = face->strip[0] + q * block, *end = theta > 0.0 ? face->strip[1] + q * block : begin;
+        frame_copy_strip(frame, theta, begin, end, to, w + q * pitch);
+    }
+}
+
 static void frame_side(const struct frame_source *source, unsigned local, const struct frame *frame, int side,
                        size_t pitch, double *w)
 {
     const struct neighbour *neighbour = &source->level->neighbours[local][2 * frame->axis + side];
-    if (neighbour->kind == NEIGHBOUR_BOUNDARY || (neighbour->kind == NEIGHBOUR_COARSE && !source->link)) {
+    if (neighbour->kind == NEIGHBOUR_COARSE && source->link) {
+        frame_coarse(source, neighbour->index, frame, side, pitch, w);
+        return;
+    }
+    if (neighbour->kind == NEIGHBOUR_BOUNDARY || neighbour->kind == NEIGHBOUR_COARSE) {
         source->boundary(source->data, local, frame, side, pitch, w);
         return;
     }

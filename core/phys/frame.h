@@ -33,7 +33,8 @@ struct frame_source {
     unsigned n_field;
     const unsigned
         *fields; /* [n_field] components to gather, each keeps its number in the frame; NULL: the first n_field */
-    /* Fills the two layers of all fields behind boundary face `side`; `data` is its own. */
+    /* Fills the two layers of all fields behind a boundary (and, without a link, a coarse-fine) face `side`;
+     * `data` is its own. */
     void (*boundary)(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);
     void *data;
 };

@@ -1,12 +1,20 @@
-/* advance.c - a step: run the plan, judge, and climb the guard's ladder where needed.
+/* advance.c - a step: run the plan on a level, judge, climb the guard's ladder where needed, then take the finer
+ * levels through the same time (Berger & Oliger 1984, J. Comput. Phys. 53, 484).
  *
- * u_old is never touched before a step is accepted, so any attempt can be repeated. One
- * reduction per attempt carries the judgement and the signal speed of the next step. */
+ * u_old of a level is never touched before its step is accepted, and finer levels start only then, so any attempt
+ * can be repeated. A finer level that cannot take its step takes two of half the size: its ghosts are
+ * linear in time and its registers are sums over time, so that the coarser level does not notice. One reduction
+ * per attempt carries the judgement and the signal speed. */
 #include "solve/advance.h"
 
 #include "base/comm.h"
 #include "base/status.h"
 #include "solve/plan.h"
+#include "solve/regrid.h"
+#include "solve/sync.h"
+
+/* A finer level halves its step when the speeds have grown since the coarsest chose its own. */
+#define ADVANCE_EXCESS 1.25
 
 double advance_dt(const struct state *state)
 {
@@ -29,10 +37,10 @@ static double advance_attempt(struct stage *stage, double *ret_signal)
 }
 
 /* Attempts with the given dt: plain, then with more and more marked cells. 0, or the last count. */
-static double advance_rounds(struct state *state, double *ret_signal)
+static double advance_rounds(struct state *state, struct stage *stage, double *ret_signal)
 {
-    struct stage *stage = state->stage;
     bool strict = state->scene->guard == SCENE_GUARD_STRICT;
+    stage->cells = stage->carried = stage->clipped = 0;
     guard_clear(stage->guard);
     for (int round = 0;; round++) {
         double bad = advance_attempt(stage, ret_signal);
@@ -43,57 +51,130 @@ static double advance_rounds(struct state *state, double *ret_signal)
     }
 }
 
-static void advance_accept(struct state *state, double signal)
+static void advance_accept(struct state *state, struct stage *stage, double signal)
 {
-    struct stage *stage = state->stage;
     mesh_swap(stage->level);
-    state->signal = signal;
-    state->t += stage->dt;
-    state->dt = stage->dt;
-    state->step++;
+    reflux_commit(stage->reflux, stage->dt);
+    state->signals[stage->l] = signal;
+    state->level_steps[stage->l]++;
     state->counts.cells += stage->cells;
     state->counts.carried += stage->carried;
     state->counts.clipped += stage->clipped;
     state->counts.relaxed += stage->guard->relaxed;
-    state->dt_shrink = state->dt_shrink * 1.1 < 1.0 ? state->dt_shrink * 1.1 : 1.0;
+    stage->clipped = 0;
 }
 
 /* The message of the first rank that found a bad cell, on all ranks. */
-static int advance_give_up(const struct state *state, double dt)
+static int advance_give_up(const struct state *state, const struct stage *stage)
 {
-    const char *cause = state->stage->guard->cause;
+    const char *cause = stage->guard->cause;
     const char *tried = state->scene->guard == SCENE_GUARD_STRICT ? "guard: strict allows no repair"
                                                                   : "first-order fluxes and smaller steps did not help";
     int code = STATUS_OK;
     if (cause[0])
         code = status_fail(STATUS_RUN, "step %ld at t = %.9g s cannot be completed: %s (%s; dt = %.3g s)",
-                           state->step + 1, state->t, cause, tried, dt);
+                           state->step + 1, stage->t, cause, tried, stage->dt);
     return comm_agree(code);
+}
+
+/* One step of a level, from stage->t over stage->dt: STATUS_OK, or a script's failure. *ret_good: accepted. */
+static int advance_once(struct state *state, struct stage *stage, bool *ret_good)
+{
+    double signal = 0.0, bad = advance_rounds(state, stage, &signal);
+    int status = comm_agree(stage->bound->status);
+    *ret_good = bad == 0.0 && !status;
+    if (*ret_good) advance_accept(state, stage, signal);
+    else stage_reset(stage);
+    return status;
+}
+
+static int advance_through(struct state *state, int l, double t, double dt);
+
+/* The levels above l through the step that l has just taken. */
+static int advance_finer(struct state *state, int l)
+{
+    if (l + 1 >= state->mesh->n_level) return STATUS_OK;
+    struct stage *coarse = state->stages[l], *fine = state->stages[l + 1];
+    sync_down(coarse, fine);
+    TRY(advance_through(state, l + 1, coarse->t, coarse->dt));
+    int status = sync_up(coarse, fine, &state->counts.spread);
+    state->counts.clipped += coarse->clipped;
+    coarse->clipped = 0;
+    return status;
+}
+
+/* After a step of level l that does not end the step of a coarser level which will regrid anyway. */
+static int advance_regrid(struct state *state, int l, bool last)
+{
+    if (!regrid_due(state, l) || (last && l > 0 && regrid_due(state, l - 1))) return STATUS_OK;
+    double t = state->t;
+    state->t = state->stages[l]->t + state->stages[l]->dt; /* tags see the time of the level */
+    int status = regrid_levels(state, l);
+    state->t = t;
+    return status;
+}
+
+/* Level l through the time [t, t + dt] of a step of the coarser one. */
+static int advance_through(struct state *state, int l, double t, double dt)
+{
+    struct stage *stage = state->stages[l];
+    double done = 0.0, part = state->scene->subcycle ? 0.5 : 1.0, most = ADVANCE_EXCESS * state->scene->cfl;
+    int retries = 0;
+    while (done < 1.0) {
+        while (state->scene->dt_fixed <= 0.0 && part * dt * state->signals[l] > most && part > 0x1p-10) part *= 0.5;
+        bool good;
+        stage->t = t + done * dt;
+        stage->dt = part * dt;
+        stage->from = done;
+        stage->part = part;
+        TRY(advance_once(state, stage, &good));
+        if (!good) {
+            if (state->scene->guard == SCENE_GUARD_STRICT || ++retries > GUARD_RETRIES)
+                return advance_give_up(state, stage);
+            state->counts.retries++;
+            part *= 0.5;
+            continue;
+        }
+        done += part;
+        TRY(advance_finer(state, l));
+        TRY(advance_regrid(state, l, done >= 1.0));
+    }
+    return STATUS_OK;
+}
+
+/* Level 0 has made its step: the others follow, then the mesh. */
+static int advance_follow(struct state *state)
+{
+    struct stage *stage = state->stages[0];
+    state->whole = false;
+    TRY(advance_finer(state, 0));
+    state->t += stage->dt;
+    state->dt = stage->dt;
+    state->step++;
+    state->whole = true;
+    state->dt_shrink = state->dt_shrink * 1.1 < 1.0 ? state->dt_shrink * 1.1 : 1.0;
+    int status = advance_regrid(state, 0, true);
+    regrid_signals(state);
+    return status;
 }
 
 int advance_step(struct state *state, double dt_most)
 {
-    struct stage *stage = state->stage;
+    struct stage *stage = state->stages[0];
     double dt = advance_dt(state);
     if (dt_most <= ADVANCE_STRETCH * dt) dt = dt_most;
     for (int retry = 0; retry <= GUARD_RETRIES; retry++) {
-        double signal = 0.0;
+        bool good;
         stage->t = state->t;
         stage->dt = dt;
-        stage->cells = stage->carried = stage->clipped = 0;
-        double bad = advance_rounds(state, &signal);
-        int status = comm_agree(stage->bound->status);
-        if (status) stage_reset(stage);
-        TRY(status);
-        if (bad == 0.0) {
-            advance_accept(state, signal);
-            return STATUS_OK;
-        }
-        stage_reset(stage);
+        stage->from = 0.0;
+        stage->part = 1.0;
+        TRY(advance_once(state, stage, &good));
+        if (good) return advance_follow(state);
         if (state->scene->guard == SCENE_GUARD_STRICT) break;
         state->counts.retries++;
         state->dt_shrink *= 0.5;
         dt *= 0.5;
     }
-    return advance_give_up(state, dt);
+    return advance_give_up(state, stage);
 }

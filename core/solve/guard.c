@@ -20,10 +20,11 @@ enum { GUARD_BATCH = 512 };
 /* A mark of the second stage until it is known whether the first was clean everywhere. */
 static const double GUARD_PENDING = 2.0;
 
-struct guard *guard_new(const struct model *model, const struct mesh *mesh, const struct level *level)
+struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l)
 {
     struct guard *guard = mem_new(1, sizeof *guard);
-    *guard = (struct guard){.model = model, .mesh = mesh, .level = level};
+    const struct level *level = &mesh->levels[l];
+    *guard = (struct guard){.model = model, .mesh = mesh, .level = level, .l = l, .n_local = level->n_local};
     guard->repair = model->kapila && model->scene->guard != SCENE_GUARD_STRICT;
     guard->mask = mem_new(level->n_local, sizeof *guard->mask);
     guard->halo = halo_new(mesh, level, 1);
@@ -33,7 +34,7 @@ struct guard *guard_new(const struct model *model, const struct mesh *mesh, cons
 void guard_free(struct guard *guard)
 {
     if (!guard) return;
-    for (unsigned t = 0; t < guard->level->n_local; t++) mem_free(guard->mask[t]);
+    for (unsigned t = 0; t < guard->n_local; t++) mem_free(guard->mask[t]);
     mem_free(guard->mask);
     halo_free(guard->halo);
     mem_free(guard);
@@ -43,14 +44,14 @@ void guard_free(struct guard *guard)
 static void guard_allow_marks(struct guard *guard)
 {
     if (guard->marked) return;
-    for (unsigned t = 0; t < guard->level->n_local; t++)
+    for (unsigned t = 0; t < guard->n_local; t++)
         if (!guard->mask[t]) guard->mask[t] = mem_new(guard->mesh->n_cell, sizeof **guard->mask);
     guard->marked = true;
 }
 
 void guard_clear(struct guard *guard)
 {
-    for (unsigned t = 0; guard->marked && t < guard->level->n_local; t++)
+    for (unsigned t = 0; guard->marked && t < guard->n_local; t++)
         memset(guard->mask[t], 0, guard->mesh->n_cell * sizeof **guard->mask);
     guard->marked = guard->masked = false;
 }
@@ -135,8 +136,8 @@ static void guard_describe(struct guard *guard, const struct guard_tile *tile, s
     for (size_t d = 0, rest = cell; d < 3; rest /= (size_t)mesh->n[d], d++)
         x[d] = (int)d < mesh->dim ? x[d] + ((double)(rest % (size_t)mesh->n[d]) + 0.5) * level->h[d] : 0.0;
     guard_name(guard, tile, cell, what, sizeof what);
-    snprintf(guard->cause, sizeof guard->cause, "%s, in the cell at (%.9g, %.9g, %.9g) m of level 0, after stage %d",
-             what, x[0], x[1], x[2], tile->stage + 1);
+    snprintf(guard->cause, sizeof guard->cause, "%s, in the cell at (%.9g, %.9g, %.9g) m of level %d, after stage %d",
+             what, x[0], x[1], x[2], guard->l, tile->stage + 1);
 }
 
 /* The checks on n cells from `from`; bad[i] > 0 where one fails. Returns their sum. */
@@ -155,24 +156,46 @@ static double guard_judge(const struct guard *guard, const struct guard_tile *ti
     return count;
 }
 
+/* Speeds of one cell, anew; true if it is admissible. */
+static bool guard_again(struct guard *guard, const struct guard_tile *tile, size_t cell)
+{
+    size_t n_cell = guard->mesh->n_cell;
+    double bad;
+    mix_stiffness(tile->model, 1, n_cell, tile->w + cell, tile->rho_c2 + cell);
+    mix_speed2(tile->model, 1, n_cell, tile->w + cell, tile->rho_c2 + cell, tile->c2 + cell);
+    return guard_judge(guard, tile, cell, 1, &bad) == 0.0;
+}
+
 /* Relaxation of one cell; true if it is admissible afterwards. */
 static bool guard_repair(struct guard *guard, const struct guard_tile *tile, size_t cell)
 {
     size_t n_cell = guard->mesh->n_cell;
-    double bad;
     if (!guard->repair || !relax_cell(tile->model, n_cell, tile->u_old + cell, tile->u + cell, tile->w + cell))
         return false;
-    mix_stiffness(tile->model, 1, n_cell, tile->w + cell, tile->rho_c2 + cell);
-    mix_speed2(tile->model, 1, n_cell, tile->w + cell, tile->rho_c2 + cell, tile->c2 + cell);
-    if (guard_judge(guard, tile, cell, 1, &bad) > 0.0) return false;
+    if (!guard_again(guard, tile, cell)) return false;
     guard->relaxed++;
+    return true;
+}
+
+/* Does a cell lie under a finer tile? Then it is put back to the state from before the step. */
+static bool guard_put_back(struct guard *guard, const struct guard_tile *tile, size_t cell)
+{
+    const struct mesh *mesh = guard->mesh;
+    unsigned covered = guard->level->tiles[guard->level->first + tile->local].covered;
+    if (!covered || !(covered >> mesh_octant(mesh, cell) & 1u)) return false;
+    for (unsigned i = 0; i < tile->model->n_active; i++) {
+        size_t at = tile->model->active[i] * mesh->n_cell + cell;
+        tile->u[at] = tile->u_old[at];
+    }
+    mix_primitives(tile->model, 1, mesh->n_cell, tile->u + cell, tile->w + cell);
+    guard_again(guard, tile, cell);
     return true;
 }
 
 void guard_settle(struct guard *guard, bool first)
 {
     guard_allow_marks(guard);
-    for (unsigned t = 0; t < guard->level->n_local; t++)
+    for (unsigned t = 0; t < guard->n_local; t++)
         for (size_t c = 0; c < guard->mesh->n_cell; c++)
             if (guard->mask[t][c] == GUARD_PENDING) guard->mask[t][c] = first ? 0.0 : 1.0;
     if (!first) return;
@@ -189,7 +212,7 @@ void guard_check(struct guard *guard, const struct guard_tile *tile)
         double bad[GUARD_BATCH];
         if (guard_judge(guard, tile, from, n, bad) == 0.0) continue;
         for (size_t i = 0; i < n; i++) {
-            if (bad[i] == 0.0 || guard_repair(guard, tile, from + i)) continue;
+            if (bad[i] == 0.0 || guard_repair(guard, tile, from + i) || guard_put_back(guard, tile, from + i)) continue;
             if (!guard->cause[0]) guard_describe(guard, tile, from + i);
             guard->bad[tile->stage]++;
             guard_allow_marks(guard);

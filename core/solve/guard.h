@@ -6,7 +6,8 @@
  * an inadmissible cell: redo the step with first-order states and the robust solver at the faces
  * of the troubled cells (conservative: both sides see the same flux), at most GUARD_ROUNDS times;
  * then halve the time step, at most GUARD_RETRIES times; then stop with the place and the cause.
- * Nothing is floored. (MOOD: Clain, Diot & Loubere 2011; retry as in Castro.) */
+ * Cells under finer tiles are not judged: one that fails and cannot be repaired keeps the state from before the step
+ * until the next average of the finer level. Nothing is floored. (MOOD: Clain, Diot & Loubere 2011; retry as in Castro.) */
 #ifndef GUARD_H
 #define GUARD_H
 
@@ -22,6 +23,8 @@ struct guard {
     const struct model *model;
     const struct mesh *mesh;
     const struct level *level;
+    int l; /* its number, for messages */
+    unsigned n_local;
     double **mask;     /* [n_local][n_cell]: 1 in troubled cells of this step; NULL until a run has had one */
     bool marked;       /* masks are there and may hold marks */
     struct halo *halo; /* exchange of the masks */
@@ -32,7 +35,7 @@ struct guard {
     char cause[512];   /* the first of them, in words (rank-local) */
 };
 
-struct guard *guard_new(const struct model *model, const struct mesh *mesh, const struct level *level);
+struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l);
 void guard_free(struct guard *guard);
 
 /* Forgets marks (a new step or a smaller time step). */
@@ -51,7 +54,7 @@ struct guard_tile {
     double *rho_c2, *c2; /* rho_l c_l^2 and frozen c^2 (mix_stiffness), likewise */
 };
 
-/* Checks a tile; repairs, notes and marks bad cells; after a bad first stage the second is not judged. */
+/* Checks a tile; repairs, notes and marks bad leaf cells; after a bad first stage the second is not judged. */
 void guard_check(struct guard *guard, const struct guard_tile *tile);
 
 /* After an attempt with bad cells, on all ranks: if any rank found one in the `first` stage, what the others found in the second

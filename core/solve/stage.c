@@ -6,6 +6,7 @@
 #include "solve/stage.h"
 
 #include "base/mem.h"
+#include "base/status.h"
 #include "mesh/halo.h"
 #include "phys/mix.h"
 #include "phys/update.h"
@@ -13,28 +14,39 @@
 #include <math.h>
 #include <string.h>
 
-struct stage *stage_new(const struct model *model, struct mesh *mesh, struct level *level)
+struct stage_work *stage_work_new(const struct model *model, const struct mesh *mesh)
+{
+    struct stage_work *work = mem_new(1, sizeof *work);
+    work->faces = face_new(model);
+    if (model->mixed) work->faces_pure = face_new(model->pure[0]);
+    work->prolong = prolong_new(model, mesh);
+    work->rates = mem_new(update_rates(model) * mesh->n_cell, sizeof(double));
+    work->K = mem_new(model->n_material * mesh->n_cell, sizeof(double));
+    work->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
+    work->c2 = mem_new(mesh->n_cell, sizeof(double));
+    work->u_star = mem_new(model->n_field * mesh->n_cell, sizeof(double));
+    return work;
+}
+
+void stage_work_free(struct stage_work *work)
+{
+    if (!work) return;
+    face_free(work->faces);
+    face_free(work->faces_pure);
+    prolong_free(work->prolong);
+    mem_free(work->rates);
+    mem_free(work->K);
+    mem_free(work->rho_c2);
+    mem_free(work->c2);
+    mem_free(work->u_star);
+    mem_free(work);
+}
+
+struct stage *stage_new(const struct model *model, struct mesh *mesh, int l, struct stage_work *work)
 {
     struct stage *stage = mem_new(1, sizeof *stage);
-    stage->model = model;
-    stage->mesh = mesh;
-    stage->level = level;
-    stage->guard = guard_new(model, mesh, level);
-    stage->faces = face_new(model);
-    if (model->mixed) stage->faces_pure = face_new(model->pure[0]);
-    stage->present = mem_new(level->n_local, sizeof *stage->present);
-    stage->present_next = mem_new(level->n_local, sizeof *stage->present_next);
-    stage->path = mem_new(level->n_local, sizeof *stage->path);
-    stage->streak = mem_new(level->n_local, sizeof *stage->streak);
-    stage->still = mem_new(level->n_local, sizeof *stage->still);
-    stage->still_next = mem_new(level->n_local, sizeof *stage->still_next);
-    stage->skipped = mem_new(level->n_local, sizeof *stage->skipped);
-    stage->tile_signal = mem_new(level->n_local, sizeof *stage->tile_signal);
-    stage->rates = mem_new(update_rates(model) * mesh->n_cell, sizeof(double));
-    stage->K = mem_new(model->n_material * mesh->n_cell, sizeof(double));
-    stage->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
-    stage->c2 = mem_new(mesh->n_cell, sizeof(double));
-    stage->u_star = mem_new(model->n_field * mesh->n_cell, sizeof(double));
+    *stage = (struct stage){.model = model, .mesh = mesh, .l = l, .level = &mesh->levels[l], .work = work};
+    stage->census = (struct census){.model = model, .mesh = mesh, .level = stage->level};
     return stage;
 }
 
@@ -42,22 +54,10 @@ void stage_free(struct stage *stage)
 {
     if (!stage) return;
     guard_free(stage->guard);
-    face_free(stage->faces);
-    face_free(stage->faces_pure);
-    mem_free(stage->present);
-    mem_free(stage->present_next);
-    mem_free(stage->path);
-    mem_free(stage->streak);
-    mem_free(stage->still);
-    mem_free(stage->still_next);
-    mem_free(stage->skipped);
-    mem_free(stage->tile_signal);
     bound_free(stage->bound);
-    mem_free(stage->rates);
-    mem_free(stage->K);
-    mem_free(stage->rho_c2);
-    mem_free(stage->c2);
-    mem_free(stage->u_star);
+    reflux_free(stage->reflux);
+    mem_free(stage->census.tiles);
+    mem_free(stage->census.behind);
     mem_free(stage);
 }
 
@@ -79,88 +79,36 @@ static void stage_finish_exchange(struct stage *stage)
     if (stage->guard->masked) halo_finish(stage->guard->halo);
 }
 
-/* Bits of the materials that a tile's conserved block holds anything of. */
-static unsigned stage_materials(const struct model *model, size_t n_cell, const double *u)
+void stage_ghosts(struct stage *stage)
 {
-    unsigned present = 0;
-    for (unsigned l = 0; l < model->n_alpha; l++) {
-        const double *alpha = u + (model->i_alpha + l) * n_cell, *m = u + (model->i_m + l) * n_cell;
-        for (size_t i = 0; i < n_cell; i++)
-            if ((alpha[i] != 0.0) | (m[i] != 0.0)) {
-                present |= 1u << l;
-                break;
-            }
-    }
-    return present;
+    if (stage->l + 1 >= stage->mesh->n_level) return;
+    halo_finish(stage->level->halo);
+    stage->bound->t = stage->t;
+    prolong_strips(stage->work->prolong, stage->mesh, stage->l, stage->bound, 0);
 }
 
-/* Does what lies behind a face hold the same materials? Of other ranks that is not known here. */
-static bool stage_alike(const struct stage *stage, unsigned local, int face)
-{
-    const struct neighbour *neighbour = &stage->level->neighbours[local][face];
-    if (neighbour->kind == NEIGHBOUR_LOCAL) return stage->present[neighbour->index] == stage->present[local];
-    return neighbour->kind == NEIGHBOUR_BOUNDARY &&
-           stage->model->scene->boundary[face / 2][face % 2].type != SCENE_INFLOW;
-}
-
-/* The model that suffices for a tile. */
-static const struct model *stage_choose(const struct stage *stage, unsigned local)
-{
-    const struct model *model = stage->model;
-    unsigned present = stage->present[local], l = 0;
-    if (!model->mixed || !present || (present & (present - 1))) return model;
-    for (int face = 0; face < 2 * model->dim; face++)
-        if (!stage_alike(stage, local, face)) return model;
-    while (present >> (l + 1)) l++;
-    return model->pure[l];
-}
-
-/* Is a tile of one material uniform and at rest, to the bit (+0, not -0)? */
-static bool stage_rests(const struct model *model, size_t n_cell, const double *w)
-{
-    static const double zero = 0.0;
-    if (model->n_alpha) return false;
-    for (unsigned i = 0; i < model->n_active; i++) {
-        unsigned q = model->active[i];
-        const double *row = w + q * n_cell;
-        bool velocity = q >= model->i_u && q < model->i_E;
-        if (velocity && memcmp(row, &zero, sizeof zero)) return false;
-        if (memcmp(row, row + 1, (n_cell - 1) * sizeof *row)) return false;
-    }
-    return true;
-}
-
-/* Does what lies behind a face of a resting tile rest in the same state? Boundaries that only mirror or copy do. */
-static bool stage_rests_behind(const struct stage *stage, unsigned local, int face)
-{
-    const struct level *level = stage->level;
-    const struct neighbour *neighbour = &level->neighbours[local][face];
-    size_t n_cell = stage->mesh->n_cell;
-    if (neighbour->kind == NEIGHBOUR_BOUNDARY)
-        return stage->model->scene->boundary[face / 2][face % 2].type <= SCENE_OUTFLOW;
-    if (neighbour->kind != NEIGHBOUR_LOCAL || !stage->still[neighbour->index] ||
-        stage->present[neighbour->index] != stage->present[local])
-        return false;
-    for (unsigned q = 0; q < stage->model->n_field; q++)
-        if (memcmp(level->w[local] + q * n_cell, level->w[neighbour->index] + q * n_cell, sizeof(double))) return false;
-    return true;
-}
-
-/* Has a tile nothing to compute in this stage? Iterated closures and repeated steps are not skipped. */
+/* Has a tile nothing to compute in this stage? Iterated closures, repeated steps and tiles whose fluxes another level
+ * asks for are not skipped. */
 static bool stage_skips(const struct stage *stage, unsigned local)
 {
-    if (!stage->still[local] || stage->guard->masked || !stage->model->linear) return false;
-    for (int face = 0; face < 2 * stage->model->dim; face++)
-        if (!stage_rests_behind(stage, local, face)) return false;
-    return true;
+    if (!stage->census.tiles[local].still || stage->guard->masked || !stage->model->linear) return false;
+    return !reflux_concerns(stage->reflux, local) && census_rests(&stage->census, local);
 }
 
-/* Carries a resting tile on: the whole block as it is. */
+/* Is a tile only an average of the finer level, which nobody reads before the next one? */
+static bool stage_is_hidden(const struct stage *stage, unsigned local)
+{
+    return stage->level->tiles[stage->level->first + local].hidden;
+}
+
+/* Carries a tile on: the whole block as it is. */
 static void stage_carry(struct stage *stage, unsigned local, const double *from, double *to)
 {
+    struct census_tile *tile = &stage->census.tiles[local];
     memcpy(to, from, stage->model->n_field * stage->mesh->n_cell * sizeof *to);
-    stage->present_next[local] = stage->present[local];
-    stage->still_next[local] = true;
+    tile->present_next = tile->present;
+    tile->still_next = tile->still;
+    if (stage_is_hidden(stage, local)) return;
     stage->cells += (long long)stage->mesh->n_cell;
     stage->carried += (long long)stage->mesh->n_cell;
 }
@@ -169,15 +117,15 @@ static void stage_carry(struct stage *stage, unsigned local, const double *from,
  * three arrays, so that after three stages they need no copying. */
 static void stage_keep(struct stage *stage, unsigned local, const double *from, double *to)
 {
-    const struct model *model = stage->path[local];
+    struct census_tile *tile = &stage->census.tiles[local];
     size_t n_cell = stage->mesh->n_cell;
-    if (model == stage->model) {
-        stage->streak[local] = 0;
+    if (tile->path == stage->model) {
+        tile->streak = 0;
         return;
     }
-    for (unsigned q = stage->streak[local] < 3 ? 0 : stage->model->i_m; q < stage->model->i_u; q++)
-        if (q != model->i_m) memcpy(to + q * n_cell, from + q * n_cell, n_cell * sizeof *to);
-    if (stage->streak[local] < 3) stage->streak[local]++;
+    for (unsigned q = tile->streak < 3 ? 0 : stage->model->i_m; q < stage->model->i_u; q++)
+        if (q != tile->path->i_m) memcpy(to + q * n_cell, from + q * n_cell, n_cell * sizeof *to);
+    if (tile->streak < 3) tile->streak++;
 }
 
 /* One axis of one tile: gather, reconstruct, solve, add the divergence. */
@@ -187,11 +135,13 @@ static void stage_sweep(struct stage *stage, const struct model *model, unsigned
     const struct mesh *mesh = stage->mesh;
     const struct level *level = stage->level;
     const struct guard *guard = stage->guard;
-    struct face_work *faces = model == stage->model ? stage->faces : stage->faces_pure;
+    struct face_work *faces = model == stage->model ? stage->work->faces : stage->work->faces_pure;
+    bool concerned = stage->fluxes && reflux_concerns(stage->reflux, local);
     const struct frame_source fields = {.mesh = mesh,
                                         .level = level,
                                         .arrays = level->w,
                                         .halo = level->halo,
+                                        .link = level->link,
                                         .n_field = model->n_active,
                                         .fields = model->active,
                                         .boundary = bound_fill,
@@ -204,61 +154,65 @@ static void stage_sweep(struct stage *stage, const struct model *model, unsigned
         frame_gather(&fields, local, &frame, FACE_ROOM, faces->frame);
         if (guard->masked) frame_gather(&marks, local, &frame, FACE_ROOM, faces->mask);
         face_solve(faces, &frame, guard->masked);
-        update_add(model, level, metric, &frame, faces, mesh->n_cell, level->w[local], stage->rates);
+        if (concerned) reflux_collect(stage->reflux, model, local, &frame, faces);
+        update_add(model, level, metric, &frame, faces, mesh->n_cell, level->w[local], stage->work->rates);
     }
+    if (concerned) reflux_average(stage->reflux, local, axis);
 }
 
 static void stage_clear_rates(struct stage *stage, const struct model *model)
 {
     size_t n_cell = stage->mesh->n_cell, more = update_rates(model) - model->n_field;
     for (unsigned i = 0; i < model->n_active; i++)
-        memset(stage->rates + model->active[i] * n_cell, 0, n_cell * sizeof *stage->rates);
-    if (model->n_alpha) memset(stage->rates + model->n_field * n_cell, 0, more * n_cell * sizeof *stage->rates);
+        memset(stage->work->rates + model->active[i] * n_cell, 0, n_cell * sizeof(double));
+    if (model->n_alpha) memset(stage->work->rates + model->n_field * n_cell, 0, more * n_cell * sizeof(double));
 }
 
 /* u = u_old + dt L(w) of one tile; of a pure tile the active components only. */
 static void stage_advance_tile(struct stage *stage, unsigned local, double dt, double *u)
 {
-    const struct model *model = stage->path[local] = stage_choose(stage, local);
+    const struct model *model = stage->census.tiles[local].path = census_choose(&stage->census, local);
     const struct mesh *mesh = stage->mesh;
     struct level *level = stage->level;
+    struct stage_work *work = stage->work;
     size_t n_cell = mesh->n_cell;
     struct metric metric;
     if (mesh->beta) metric_of_tile(mesh, level, &level->tiles[level->first + local], &metric);
     stage_clear_rates(stage, model);
     for (int axis = 0; axis < mesh->dim; axis++) stage_sweep(stage, model, local, axis, &metric);
     if (model->kapila) {
-        mix_stiffness(model, n_cell, n_cell, level->w[local], stage->rho_c2);
-        mix_closure(model, n_cell, n_cell, level->w[local], stage->rho_c2, stage->K);
+        mix_stiffness(model, n_cell, n_cell, level->w[local], work->rho_c2);
+        mix_closure(model, n_cell, n_cell, level->w[local], work->rho_c2, work->K);
     }
+    if (stage->fluxes) reflux_keep(stage->reflux, local, level->w[local], model->kapila ? work->K : NULL);
     struct update_input input = {.u_old = level->u_old[local],
                                  .w = level->w[local],
-                                 .K = stage->K,
-                                 .rho_c2 = stage->rho_c2,
-                                 .rates = stage->rates};
+                                 .K = work->K,
+                                 .rho_c2 = work->rho_c2,
+                                 .rates = work->rates};
     stage->clipped += (long long)update_apply(model, n_cell, dt, &input, u);
     stage->cells += (long long)n_cell;
 }
 
-/* Primitives of u, into w, and the guard's judgement. */
-static void stage_judge(struct stage *stage, unsigned local, int judged, double *u, double *w)
+/* Primitives of u, into w, and the guard's judgement; `before`: an earlier admissible state. */
+static void stage_judge(struct stage *stage, unsigned local, int judged, const double *before, double *u, double *w)
 {
-    const struct model *model = stage->path[local];
+    struct stage_work *work = stage->work;
+    const struct model *model = stage->census.tiles[local].path;
     size_t n_cell = stage->mesh->n_cell;
     mix_primitives(model, n_cell, n_cell, u, w);
-    mix_stiffness(model, n_cell, n_cell, w, stage->rho_c2);
-    mix_speed2(model, n_cell, n_cell, w, stage->rho_c2, stage->c2);
+    mix_stiffness(model, n_cell, n_cell, w, work->rho_c2);
+    mix_speed2(model, n_cell, n_cell, w, work->rho_c2, work->c2);
     struct guard_tile tile = {.model = model,
                               .local = local,
                               .stage = judged,
-                              .u_old = stage->level->u_old[local],
+                              .u_old = before,
                               .u = u,
                               .w = w,
-                              .rho_c2 = stage->rho_c2,
-                              .c2 = stage->c2};
+                              .rho_c2 = work->rho_c2,
+                              .c2 = work->c2};
     guard_check(stage->guard, &tile);
-    stage->present_next[local] = model == stage->model ? stage_materials(model, n_cell, u) : stage->present[local];
-    stage->still_next[local] = stage_rests(model, n_cell, w);
+    census_note(&stage->census, local, u, w);
 }
 
 static void stage_half_tile(struct stage *stage, unsigned local)
@@ -266,21 +220,22 @@ static void stage_half_tile(struct stage *stage, unsigned local)
     const struct level *level = stage->level;
     size_t n_cell = stage->mesh->n_cell, p = stage->model->i_E * n_cell;
     double *w = level->w[local], *w_star = level->u_new[local];
-    if (stage_skips(stage, local)) {
+    if (stage_is_hidden(stage, local) || stage_skips(stage, local)) {
         stage_carry(stage, local, w, w_star);
         return;
     }
-    stage_advance_tile(stage, local, 0.5 * stage->dt, stage->u_star);
+    stage_advance_tile(stage, local, 0.5 * stage->dt, stage->work->u_star);
     stage_keep(stage, local, w, w_star);
     memcpy(w_star + p, w + p, n_cell * sizeof *w); /* where an iteration starts */
-    stage_judge(stage, local, 0, stage->u_star, w_star);
+    stage_judge(stage, local, 0, level->u_old[local], stage->work->u_star, w_star);
 }
 
 static void stage_full_tile(struct stage *stage, unsigned local)
 {
     const struct level *level = stage->level;
-    stage->skipped[local] = stage_skips(stage, local);
-    if (stage->skipped[local]) {
+    struct census_tile *tile = &stage->census.tiles[local];
+    tile->skipped = stage_is_hidden(stage, local) || stage_skips(stage, local);
+    if (tile->skipped) {
         stage_carry(stage, local, level->u_old[local], level->u_new[local]);
         return;
     }
@@ -288,21 +243,13 @@ static void stage_full_tile(struct stage *stage, unsigned local)
     stage_keep(stage, local, level->u_old[local], level->u_new[local]);
 }
 
-static void stage_swap_census(struct stage *stage)
-{
-    unsigned *keep = stage->present;
-    stage->present = stage->present_next;
-    stage->present_next = keep;
-    bool *still = stage->still;
-    stage->still = stage->still_next;
-    stage->still_next = still;
-}
-
-/* All tiles, those without remote neighbours while the exchange is under way. */
-static void stage_tiles(struct stage *stage, double t, void (*work)(struct stage *stage, unsigned local))
+/* All tiles, those without remote neighbours while the exchange is under way. `at`: how far the stage is into the
+ * step, 0 or 1/2. */
+static void stage_tiles(struct stage *stage, double at, void (*work)(struct stage *stage, unsigned local))
 {
     const struct level *level = stage->level;
-    stage->bound->t = t;
+    stage->bound->t = stage->t + at * stage->dt;
+    if (level->link) level->link->theta = stage->from + at * stage->part;
     for (unsigned tile = 0; tile < level->n_local; tile++)
         if (!halo_is_remote(level, tile)) work(stage, tile);
     stage_finish_exchange(stage);
@@ -313,16 +260,18 @@ static void stage_tiles(struct stage *stage, double t, void (*work)(struct stage
 void stage_half(struct stage *stage)
 {
     struct level *level = stage->level;
-    stage_tiles(stage, stage->t, stage_half_tile);
+    stage_tiles(stage, 0.0, stage_half_tile);
     double **w_star = level->u_new;
     level->u_new = level->w;
     level->w = w_star;
-    stage_swap_census(stage);
+    for (unsigned tile = 0; tile < level->n_local; tile++) census_turn(&stage->census.tiles[tile]);
 }
 
 void stage_full(struct stage *stage)
 {
-    stage_tiles(stage, stage->t + 0.5 * stage->dt, stage_full_tile);
+    stage->fluxes = stage->reflux->down || stage->reflux->up;
+    stage_tiles(stage, 0.5, stage_full_tile);
+    stage->fluxes = false;
 }
 
 /* Sum over axes of (|u_a| + c) / h_a; the largest sets the time step. */
@@ -338,36 +287,42 @@ static BULLA_KERNEL void stage_signal(size_t n, const double *restrict c2, const
     }
 }
 
-static double stage_measure(struct stage *stage, const double *w)
+/* Signal of the tile that was judged last: its speeds are in the work space. */
+static void stage_measure(struct stage *stage, unsigned local, const double *w)
 {
     const struct model *model = stage->model;
     const struct mesh *mesh = stage->mesh;
     const double *u[3];
-    double per_h[3];
-    for (int d = 0; d < 3; d++) { /* unused axes: any field, with weight zero */
+    double per_h[3], most = 0.0, *signal = stage->work->rates; /* rates are free between stages */
+    for (int d = 0; d < 3; d++) {                              /* unused axes: any field, with weight zero */
         bool used = d < mesh->dim;
         u[d] = w + (model->i_u + (used ? (unsigned)d : 0)) * mesh->n_cell;
         per_h[d] = used ? 1.0 / stage->level->h[d] : 0.0;
     }
-    double *signal = stage->rates, most = 0.0; /* rates are free between stages */
-    stage_signal(mesh->n_cell, stage->c2, u, per_h, signal);
+    stage_signal(mesh->n_cell, stage->work->c2, u, per_h, signal);
     for (size_t i = 0; i < mesh->n_cell; i++)
         if (signal[i] > most) most = signal[i];
-    return most;
+    stage->census.tiles[local].signal = most;
+}
+
+void stage_survey(struct stage *stage)
+{
+    stage->signal = 0.0;
+    for (unsigned tile = 0; tile < stage->level->n_local; tile++)
+        if (stage->census.tiles[tile].signal > stage->signal) stage->signal = stage->census.tiles[tile].signal;
 }
 
 void stage_close(struct stage *stage)
 {
     const struct level *level = stage->level;
-    stage->signal = 0.0;
     for (unsigned tile = 0; tile < level->n_local; tile++) {
-        if (!stage->skipped[tile]) {
-            stage_judge(stage, tile, 1, level->u_new[tile], level->w[tile]);
-            stage->tile_signal[tile] = stage_measure(stage, level->w[tile]);
+        if (!stage->census.tiles[tile].skipped) {
+            stage_judge(stage, tile, 1, level->u_old[tile], level->u_new[tile], level->w[tile]);
+            stage_measure(stage, tile, level->w[tile]);
         }
-        if (stage->tile_signal[tile] > stage->signal) stage->signal = stage->tile_signal[tile];
+        census_turn(&stage->census.tiles[tile]);
     }
-    stage_swap_census(stage);
+    stage_survey(stage);
 }
 
 void stage_reset(struct stage *stage)
@@ -376,9 +331,92 @@ void stage_reset(struct stage *stage)
     size_t n_cell = stage->mesh->n_cell;
     for (unsigned tile = 0; tile < level->n_local; tile++) {
         mix_primitives(stage->model, n_cell, n_cell, level->u_old[tile], level->w[tile]);
-        stage->present[tile] = stage_materials(stage->model, n_cell, level->u_old[tile]);
-        stage->path[tile] = stage->model;
-        stage->streak[tile] = 0;
-        stage->still[tile] = stage->skipped[tile] = false;
+        census_forget(&stage->census, tile);
     }
+}
+
+int stage_start(struct stage *stage)
+{
+    const struct level *level = stage->level;
+    size_t bytes = stage->model->n_field * stage->mesh->n_cell * sizeof(double);
+    bool repair = stage->guard->repair;
+    stage_reset(stage);
+    guard_attempt(stage->guard);
+    stage->guard->repair = false;
+    for (unsigned tile = 0; tile < level->n_local; tile++) {
+        memcpy(level->u_new[tile], level->u_old[tile], bytes); /* an earlier state, for stage_touch */
+        stage_judge(stage, tile, 1, level->u_new[tile], level->u_old[tile], level->w[tile]);
+        stage_measure(stage, tile, level->w[tile]);
+        census_turn(&stage->census.tiles[tile]);
+    }
+    stage_survey(stage);
+    stage->guard->repair = repair;
+    guard_clear(stage->guard);
+    if (!stage->guard->cause[0]) return STATUS_OK;
+    return status_fail(STATUS_CASE, "the initial state is not admissible: %s", stage->guard->cause);
+}
+
+void stage_touch(struct stage *stage, unsigned local)
+{
+    const struct level *level = stage->level;
+    struct census_tile *tile = &stage->census.tiles[local];
+    double *u = level->u_old[local], *w = level->w[local];
+    unsigned present = census_materials(stage->model, stage->mesh->n_cell, u);
+    if (tile->path != stage->model && present != tile->present) tile->path = stage->model;
+    stage_judge(stage, local, 1, level->u_new[local], u, w);
+    stage_measure(stage, local, w);
+    census_turn(tile);
+}
+
+/* A tile whose primitives are there, from another rank or just made: census and signal. */
+static void stage_welcome(struct stage *stage, unsigned local)
+{
+    const struct model *model = stage->model;
+    struct stage_work *work = stage->work;
+    const double *w = stage->level->w[local];
+    size_t n_cell = stage->mesh->n_cell;
+    census_forget(&stage->census, local);
+    mix_stiffness(model, n_cell, n_cell, w, work->rho_c2);
+    mix_speed2(model, n_cell, n_cell, w, work->rho_c2, work->c2);
+    stage_measure(stage, local, w);
+}
+
+static void stage_admit(struct stage *stage, unsigned local, bool born)
+{
+    const struct level *level = stage->level;
+    size_t n_cell = stage->mesh->n_cell;
+    double *w = level->w[local];
+    if (born) {
+        for (size_t i = 0; i < n_cell; i++) w[stage->model->i_E * n_cell + i] = 1e5; /* where an iteration starts */
+        mix_primitives(stage->model, n_cell, n_cell, level->u_old[local], w);
+    }
+    memcpy(level->u_new[local], level->u_old[local], stage->model->n_field * n_cell * sizeof *w); /* for stage_touch */
+    stage_welcome(stage, local);
+}
+
+/* The tiles of the level are others: those that stayed keep what is known of them. */
+static void stage_move(struct stage *stage, const int *from, const bool *born)
+{
+    const struct level *level = stage->level;
+    struct census_tile *before = stage->census.tiles;
+    stage->census.tiles = mem_new(level->n_local, sizeof *stage->census.tiles);
+    for (unsigned tile = 0; tile < level->n_local; tile++) {
+        if (from[tile] >= 0) stage->census.tiles[tile] = before[from[tile]];
+        else stage_admit(stage, tile, born[level->first + tile]);
+    }
+    mem_free(before);
+    stage->bound = bound_paint(stage->model, stage->mesh, level, stage->bound, from);
+    guard_free(stage->guard);
+    stage->guard = guard_new(stage->model, stage->mesh, stage->l);
+    stage_survey(stage);
+}
+
+void stage_adopt(struct stage *stage, const int *from, const bool *born)
+{
+    const struct level *level = stage->level;
+    if (from) stage_move(stage, from, born);
+    reflux_free(stage->reflux);
+    stage->reflux = reflux_new(stage->model, stage->mesh, stage->l);
+    mem_free(stage->census.behind);
+    stage->census.behind = mem_new(level->link ? level->link->n_face : 0, sizeof *stage->census.behind);
 }

@@ -1,8 +1,9 @@
-/* stage.h - what one rank does in a stage of the midpoint rule, tile by tile.
+/* stage.h - what one rank does in a stage of the midpoint rule on one level, tile by tile.
  *
- * The verbs are the stages of the plan: exchange primitives with other ranks; half (from u to the
- * primitives of the midpoint); full (from u to the new u with the rates at the midpoint); close (new
- * primitives, admissibility, signal speed). This is the page to read first.
+ * The verbs are the stages of the plan: exchange primitives with other ranks; ghosts (what the next
+ * finer level sees at the beginning of the step); half (from u to the primitives of the midpoint); full (from u to
+ * the new u with the rates at the midpoint); close (new primitives, admissibility, signal speed). This is the page
+ * to read first.
  *
  * Three arrays serve both stages: the conserved midpoint u* lives only as long as its tile is
  * worked on; its primitives go to the memory that u_new needs later, and the arrays change names. */
@@ -11,40 +12,55 @@
 
 #include "phys/bound.h"
 #include "phys/face.h"
+#include "phys/prolong.h"
+#include "phys/reflux.h"
+#include "solve/census.h"
 #include "solve/guard.h"
+
+/* Scratch of one rank, used by its levels in turn. */
+struct stage_work {
+    struct face_work *faces;
+    struct face_work *faces_pure;             /* NULL for one material */
+    struct prolong *prolong;
+    double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
+};
+
+struct stage_work *stage_work_new(const struct model *model, const struct mesh *mesh);
+void stage_work_free(struct stage_work *work);
 
 struct stage {
     const struct model *model;
     struct mesh *mesh;
+    int l;
     struct level *level;
+    struct stage_work *work;
     struct bound *bound;
     struct guard *guard;
-    struct face_work *faces;
-    /* Tiles that hold one material only, with neighbours that hold the same, are advanced without the others:
-     * half the work or less, bitwise the same result. */
-    struct face_work *faces_pure;     /* NULL for one material */
-    unsigned *present, *present_next; /* [n_local] bit l: material l is in the tile now; after this stage */
-    unsigned *streak; /* [n_local] stages in a row that a tile was pure, up to 3: then the fractions of all three
-                         arrays are in place */
-    /* Tiles that are uniform and at rest, with neighbours in the same state, have a rate of exactly zero: they are
-     * copied on. */
-    bool *still, *still_next, *skipped;       /* [n_local] uniform and at rest now; after this stage; copied in it */
-    double *tile_signal;                      /* [n_local] the signal of each tile at the last close */
-    const struct model **path;                /* [n_local] the model each tile was last advanced with */
-    double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
-    double t, dt;                             /* of the step under way */
-    double signal; /* largest sum over axes of (|u_a| + c) / h_a [1/s], rank-local, of the last close */
+    struct reflux *reflux;
+    struct census census;
+    double t, dt;       /* of the step under way */
+    double from, part;  /* where it begins in the step of the coarser level, and how much of that it takes */
+    double signal;      /* largest of the local tiles */
+    bool fluxes;        /* the stage under way makes the step: coarse-fine fluxes are kept */
     long long cells, carried, clipped; /* work done, rank-local */
 };
 
-struct stage *stage_new(const struct model *model, struct mesh *mesh, struct level *level);
+struct stage *stage_new(const struct model *model, struct mesh *mesh, int l, struct stage_work *work);
 void stage_free(struct stage *stage);
 
-/* Takes the boundary references from the present primitives (once, after the first close). */
+/* After mesh_replace of this level or a neighbour of it: `from` as in mesh_change (NULL: the tiles are the same, only
+ * links have changed); `born` (mesh_change, all tiles of the level). Tiles that came from other ranks are counted
+ * anew, born ones get their primitives. Not collective. */
+void stage_adopt(struct stage *stage, const int *from, const bool *born);
+
+/* Takes the boundary references from the present primitives (tests set states by hand). */
 void stage_bind(struct stage *stage);
 
 /* Sends slabs of w (and of the guard's marks) to other ranks. Collective. */
 void stage_exchange(struct stage *stage);
+
+/* Waits for the exchange and writes the strips for the next finer level, if there is one. */
+void stage_ghosts(struct stage *stage);
 
 /* w = primitives of u* = u_old + dt/2 L(w), boundary values at t; judged as stage 0. Waits for the exchange. */
 void stage_half(struct stage *stage);
@@ -57,5 +73,15 @@ void stage_close(struct stage *stage);
 
 /* w = primitives of u_old: before the first step and before a step is repeated. */
 void stage_reset(struct stage *stage);
+
+/* An initial state in u_old: primitives, judgement without repair, signal. STATUS_CASE: inadmissible. Not collective. */
+int stage_start(struct stage *stage);
+
+/* Tile `local` after its u_old was changed from outside (averages, refluxing; u_new holds an earlier admissible
+ * state): primitives, the guard's judgement as stage 1, signal. */
+void stage_touch(struct stage *stage, unsigned local);
+
+/* The largest signal of the tiles, anew. */
+void stage_survey(struct stage *stage);
 
 #endif

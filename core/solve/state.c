@@ -4,8 +4,14 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "mesh/nest.h"
+#include "mesh/partition.h"
+#include "phys/mix.h"
 #include "phys/paint.h"
+#include "solve/regrid.h"
 #include "solve/stage.h"
+
+#include <string.h>
 
 static int state_paint(struct state *state)
 {
@@ -17,52 +23,121 @@ static int state_paint(struct state *state)
     return comm_agree(status);
 }
 
-/* Primitives, boundary references and the first signal speed. */
-static int state_begin(struct state *state)
+/* A level that was just given its tiles: they are all new here. */
+static int state_enter(struct state *state, int l)
 {
-    struct stage *stage = state->stage;
-    guard_attempt(stage->guard);
-    stage_reset(stage);
-    mesh_swap(stage->level); /* the painted state closes like that of a step */
-    stage_close(stage);
-    mesh_swap(stage->level);
-    state->signal = stage->signal;
-    comm_max(&state->signal, 1);
-    guard_clear(stage->guard);
-    int status = STATUS_OK;
-    if (stage->guard->cause[0])
-        status = status_fail(STATUS_CASE, "the initial state is not admissible: %s", stage->guard->cause);
-    TRY(comm_agree(status));
-    stage_bind(stage);
-    return STATUS_OK;
+    const struct level *level = &state->mesh->levels[l];
+    int *from = mem_new(level->n_local + 1, sizeof *from);
+    bool *born = mem_new(level->n_tile + 1, sizeof *born);
+    for (unsigned t = 0; t < level->n_local; t++) from[t] = -1;
+    if (!state->stages[l]) state->stages[l] = stage_new(state->model, state->mesh, l, state->work);
+    stage_adopt(state->stages[l], from, born);
+    mem_free(from);
+    mem_free(born);
+    return comm_agree(state->stages[l]->bound->status);
 }
 
-int state_new(const struct scene *scene, struct state **ret_state)
+/* What every state needs before its levels have data. */
+static struct state *state_blank(const struct scene *scene)
 {
     struct state *state = mem_new(1, sizeof *state);
     state->scene = scene;
     state->dt_shrink = 1.0;
+    state->whole = true;
     state->model = model_new(scene);
-    int status = mesh_new(scene, state->model->n_field, state->model->n_alpha, &state->mesh);
-    if (!status) {
-        state->stage = stage_new(state->model, state->mesh, &state->mesh->levels[0]);
-        status = state_paint(state);
-    }
-    if (!status) status = state_begin(state);
-    if (status) {
-        state_free(state);
-        return status;
-    }
-    *ret_state = state;
+    state->tagged = mem_new(scene->n_refine + 1, sizeof *state->tagged);
+    return state;
+}
+
+static int state_build(struct state *state)
+{
+    TRY(mesh_new(state->scene, state->model->n_field, state->model->n_alpha, &state->mesh));
+    state->work = stage_work_new(state->model, state->mesh);
     return STATUS_OK;
+}
+
+static int state_begin(struct state *state)
+{
+    TRY(state_build(state));
+    TRY(state_paint(state));
+    TRY(state_enter(state, 0));
+    TRY(comm_agree(stage_start(state->stages[0])));
+    TRY(regrid_initial(state));
+    regrid_signals(state);
+    return STATUS_OK;
+}
+
+/* The state, or nothing if it could not be made. */
+static int state_hand_over(struct state *state, int status, struct state **ret_state)
+{
+    if (status) state_free(state);
+    else *ret_state = state;
+    return status;
+}
+
+int state_new(const struct scene *scene, struct state **ret_state)
+{
+    struct state *state = state_blank(scene);
+    return state_hand_over(state, state_begin(state), ret_state);
+}
+
+/* One level of a source: tiles in equal pieces (costs are not known yet), then their data. */
+static int state_load_level(struct state *state, const struct state_source *source, int l)
+{
+    struct mesh *mesh = state->mesh;
+    unsigned n = source->n_tile[l];
+    size_t n_cell = mesh->n_cell;
+    struct tile *tiles = mem_new(n, sizeof *tiles);
+    double *cost = mem_new(n, sizeof *cost), *load = mem_new((size_t)comm_size(), sizeof *load);
+    memcpy(tiles, source->tiles[l], n * sizeof *tiles);
+    for (unsigned i = 0; i < n; i++) cost[i] = 1.0;
+    partition_cut(tiles, n, cost, comm_size(), 1.0, load);
+    mem_free(cost);
+    mem_free(load);
+    struct mesh_change change = {0};
+    mesh_replace(mesh, l, tiles, n, &change);
+    mesh_change_free(&change);
+    const struct level *level = &mesh->levels[l];
+    double *p = mem_new(n_cell, sizeof *p);
+    int status = STATUS_OK;
+    for (unsigned t = 0; t < level->n_local && !status; t++) {
+        status = source->fill(source->data, l, level->first + t, level->u_old[t], p);
+        memcpy(level->w[t] + state->model->i_E * n_cell, p, n_cell * sizeof *p);
+        mix_primitives(state->model, n_cell, n_cell, level->u_old[t], level->w[t]);
+    }
+    mem_free(p);
+    return comm_agree(status);
+}
+
+static int state_load(struct state *state, const struct state_source *source)
+{
+    TRY(state_build(state));
+    for (int l = 0; l < source->n_level; l++) TRY(state_load_level(state, source, l));
+    for (int l = 0; l < source->n_level; l++) TRY(state_enter(state, l));
+    TRY(nest_check(state->mesh));
+    regrid_signals(state);
+    state->t = source->t;
+    state->dt = source->dt;
+    state->dt_shrink = source->dt_shrink;
+    state->step = source->step;
+    memcpy(state->level_steps, source->level_steps, sizeof state->level_steps);
+    return STATUS_OK;
+}
+
+int state_resume(const struct scene *scene, const struct state_source *source, struct state **ret_state)
+{
+    struct state *state = state_blank(scene);
+    return state_hand_over(state, state_load(state, source), ret_state);
 }
 
 void state_free(struct state *state)
 {
     if (!state) return;
-    stage_free(state->stage);
+    for (int l = 0; l < MESH_LEVELS; l++) stage_free(state->stages[l]);
+    stage_work_free(state->work);
     mesh_free(state->mesh);
     model_free(state->model);
+    mem_free(state->tagged);
     mem_free(state);
 }
 

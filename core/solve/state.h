@@ -22,6 +22,7 @@ struct state_counts {
 };
 
 struct stage;
+struct stage_work;
 
 struct state {
     const struct scene *scene;
@@ -32,8 +33,13 @@ struct state {
     long level_steps[MESH_LEVELS]; /* steps of each level done: they say when it is time to regrid */
     struct state_counts counts;
     double dt_shrink;    /* 1, or the factor that retries left on the time step */
-    double signal;       /* largest sum over axes of (|u_a| + c) / h_a in the present state [1/s] */
-    struct stage *stage; /* work space of this rank (stage.h) */
+    double signal;       /* largest sum over axes of (|u_a| + c) / h_a in the present state, of all levels; with
+                            subcycling that of level l counts 2^-l [1/s] */
+    double signals[MESH_LEVELS];       /* of each level, over all ranks */
+    bool whole;                        /* all levels stand at t: false after a step that failed half way */
+    struct stage *stages[MESH_LEVELS]; /* work on each level (stage.h); NULL above the finest in use */
+    struct stage_work *work;           /* scratch of this rank */
+    long long *tagged;                 /* [n_refine] cells that each criterion has tagged on this rank so far */
 };
 
 /* Builds model and mesh of a scene and paints the initial state, with as many levels as it asks for. Collective. */

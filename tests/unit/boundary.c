@@ -95,7 +95,7 @@ static void check_rule(const struct rule *rule, int axis)
                                         .halo = flow_level(&flow)->halo,
                                         .n_field = flow.state->model->n_field,
                                         .boundary = bound_fill,
-                                        .data = flow.state->stage->bound};
+                                        .data = flow.state->stages[0]->bound};
     double *w = mem_new((size_t)source.n_field * FRAME_CELLS, sizeof *w);
     for (size_t piece = 0; piece < frame_pieces(source.mesh, axis); piece++) {
         struct frame frame = frame_piece(source.mesh, axis, piece);

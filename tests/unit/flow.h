@@ -102,15 +102,8 @@ static inline void flow_centre(const struct flow *flow, size_t index, double ret
 /* Closes u_old as after a step: primitives, signal speed and boundary references. */
 static inline void flow_close(struct flow *flow)
 {
-    struct stage *stage = flow->state->stage;
-    struct level *level = &flow->state->mesh->levels[0];
-    guard_attempt(stage->guard);
-    stage_reset(stage);
-    mesh_swap(level);
-    stage_close(stage);
-    mesh_swap(level);
-    guard_clear(stage->guard);
-    if (stage->guard->cause[0]) fail_msg("not admissible: %s", stage->guard->cause);
+    struct stage *stage = flow->state->stages[0];
+    if (stage_start(stage)) fail_msg("%s", status_text());
     flow->state->signal = stage->signal;
     stage_bind(stage);
 }

@@ -93,7 +93,7 @@ static void test_paths(void **state)
     whole = true;
     run(&flow, DOMAINS[2], 8, "{limiter: mc}");
     all = flow_level(&flow)->n_local;
-    for (unsigned t = 0; t < all; t++) pure += flow.state->stage->path[t] != flow.state->model;
+    for (unsigned t = 0; t < all; t++) pure += flow.state->stages[0]->census.tiles[t].path != flow.state->model;
     print_message("%u of %u tiles were advanced with one material\n", pure, all);
     assert_true(pure > 0 && pure < all);
     flow_stop(&flow);

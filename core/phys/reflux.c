@@ -1,0 +1,266 @@
+/* reflux.c - see reflux.h. */
+#include "phys/reflux.h"
+
+#include "base/mem.h"
+#include "phys/restrict.h"
+
+#include <string.h>
+
+struct reflux *reflux_new(const struct model *model, const struct mesh *mesh, int l)
+{
+    struct reflux *reflux = mem_new(1, sizeof *reflux);
+    const struct level *level = &mesh->levels[l];
+    *reflux = (struct reflux){.model = model, .mesh = mesh, .level = level, .down = level->link};
+    if (l + 1 < mesh->n_level) reflux->up = mesh->levels[l + 1].link;
+    const struct link *down = reflux->down, *up = reflux->up;
+    size_t plane = mesh->n_cell / (size_t)mesh->n[0];
+    if (down) reflux->fine = mem_new(down->n_face * down->n_register * down->face_cells, sizeof(double));
+    if (down) reflux->plane = mem_new(2 * down->n_register * plane, sizeof(double));
+    if (up) reflux->coarse = mem_new(up->n_source * (up->n_register + model->n_alpha) * up->face_cells, sizeof(double));
+    return reflux;
+}
+
+void reflux_free(struct reflux *reflux)
+{
+    if (!reflux) return;
+    mem_free(reflux->fine);
+    mem_free(reflux->coarse);
+    mem_free(reflux->plane);
+    mem_free(reflux);
+}
+
+static unsigned reflux_sources(const struct reflux *reflux, unsigned local)
+{
+    return reflux->up ? reflux->up->source_from[local + 1] - reflux->up->source_from[local] : 0;
+}
+
+bool reflux_concerns(const struct reflux *reflux, unsigned local)
+{
+    for (int face = 0; reflux->down && face < 2 * reflux->mesh->dim; face++)
+        if (reflux->level->neighbours[local][face].kind == NEIGHBOUR_COARSE) return true;
+    return reflux_sources(reflux, local) > 0;
+}
+
+/* Flux of register component q in a solved row; NULL: no such flux, where the material is absent. */
+static const double *reflux_row(const struct model *model, const struct model *used, const struct face_work *work,
+                                int axis, unsigned q)
+{
+    bool whole = used->n_alpha == model->n_alpha;
+    if (q < model->n_alpha) return whole ? work->alpha + q * FACE_ROOM : q == used->first ? work->u : NULL;
+    if (q < model->i_u) {
+        unsigned l = q - model->i_m;
+        return whole ? work->m + l * FACE_ROOM : l == used->first ? work->m : NULL;
+    }
+    if (q == model->i_E) return work->energy;
+    if (q == model->n_field) return work->u;
+    unsigned a = q - model->i_u, normal = (unsigned)axis; /* the inverse of frame_component */
+    return work->momentum + (a == normal ? 0 : a < normal ? a + 1 : a) * FACE_ROOM;
+}
+
+/* A square patch of faces (or cells) of a tile across an axis. */
+struct reflux_patch {
+    int layer;   /* index along the axis */
+    int from[3]; /* first cell along the other axes */
+    int cells;   /* along each of the others */
+};
+
+/* Axes across `axis`, ascending; unused ones have one cell. */
+static void reflux_across(int axis, int ret_axes[2])
+{
+    ret_axes[0] = axis == 0 ? 1 : 0;
+    ret_axes[1] = axis == 2 ? 1 : 2;
+}
+
+static int reflux_extent(const struct mesh *mesh, const struct reflux_patch *patch, int axis)
+{
+    return axis < mesh->dim ? patch->cells : 1;
+}
+
+/* Copies what the piece holds of a patch of faces; row NULL: zeros. */
+static void reflux_copy(const struct mesh *mesh, const struct frame *frame, const double *row,
+                        const struct reflux_patch *patch, double *out)
+{
+    int across[2];
+    reflux_across(frame->axis, across);
+    int n0 = reflux_extent(mesh, patch, across[0]), n1 = reflux_extent(mesh, patch, across[1]);
+    for (int b = 0; b < n1; b++)
+        for (int a = 0; a < n0; a++, out++) {
+            size_t at[3] = {0}, inner = 0, outer = 0, step = 1;
+            at[across[0]] = (size_t)(patch->from[across[0]] + a);
+            at[across[1]] = (size_t)(patch->from[across[1]] + b);
+            for (int d = 0; d < frame->axis; d++, step *= (size_t)mesh->n[d - 1]) inner += at[d] * step;
+            step = 1;
+            for (int d = frame->axis + 1; d < 3; d++, step *= (size_t)mesh->n[d - 1]) outer += at[d] * step;
+            if (inner - frame->inner_from >= frame->inner || outer - frame->outer_from >= frame->outer) continue;
+            size_t face = face_at(frame, outer - frame->outer_from, (size_t)patch->layer) + inner - frame->inner_from;
+            *out = row ? row[face] : 0.0;
+        }
+}
+
+static double *reflux_coarse(const struct reflux *reflux, unsigned source)
+{
+    const struct link *up = reflux->up;
+    return reflux->coarse + source * (up->n_register + reflux->model->n_alpha) * up->face_cells;
+}
+
+static void reflux_collect_fine(struct reflux *reflux, const struct model *used, unsigned local,
+                                const struct frame *frame, const struct face_work *work)
+{
+    const struct mesh *mesh = reflux->mesh;
+    size_t plane = mesh->n_cell / (size_t)mesh->n[0];
+    for (int side = 0; side < 2; side++) {
+        if (reflux->level->neighbours[local][2 * frame->axis + side].kind != NEIGHBOUR_COARSE) continue;
+        struct reflux_patch patch = {.layer = side ? mesh->n[frame->axis] : 0, .cells = mesh->n[0]};
+        for (unsigned q = 0; q < reflux->down->n_register; q++)
+            reflux_copy(mesh, frame, reflux_row(reflux->model, used, work, frame->axis, q), &patch,
+                        reflux->plane + ((size_t)side * reflux->down->n_register + q) * plane);
+    }
+}
+
+void reflux_collect(struct reflux *reflux, const struct model *used, unsigned local, const struct frame *frame,
+                    const struct face_work *work)
+{
+    const struct mesh *mesh = reflux->mesh;
+    const struct link *up = reflux->up;
+    if (reflux->down) reflux_collect_fine(reflux, used, local, frame, work);
+    if (!up) return;
+    for (unsigned s = up->source_from[local]; s < up->source_from[local + 1]; s++) {
+        const struct link_face *source = &up->sources[s];
+        if (source->face / 2 != frame->axis) continue;
+        /* Below the fine tile lies its lower face: the upper face of the coarse layer. */
+        struct reflux_patch patch = {.layer = source->layer + (source->face % 2 == 0), .cells = mesh->n[0] / 2};
+        memcpy(patch.from, source->from, sizeof patch.from);
+        for (unsigned q = 0; q < up->n_register; q++)
+            reflux_copy(mesh, frame, reflux_row(reflux->model, used, work, frame->axis, q), &patch,
+                        reflux_coarse(reflux, s) + q * up->face_cells);
+    }
+}
+
+void reflux_average(struct reflux *reflux, unsigned local, int axis)
+{
+    const struct mesh *mesh = reflux->mesh;
+    const struct level *level = reflux->level;
+    const struct link *down = reflux->down;
+    size_t plane = mesh->n_cell / (size_t)mesh->n[0];
+    for (int side = 0; down && side < 2; side++) {
+        const struct neighbour *neighbour = &level->neighbours[local][2 * axis + side];
+        if (neighbour->kind != NEIGHBOUR_COARSE) continue;
+        double *mean = reflux->fine + (size_t)neighbour->index * down->n_register * down->face_cells;
+        for (unsigned q = 0; q < down->n_register; q++)
+            restrict_face(mesh, level, &level->tiles[level->first + local], axis,
+                          reflux->plane + ((size_t)side * down->n_register + q) * plane, mean + q * down->face_cells);
+    }
+}
+
+/* Calls for every cell of a source's patch: its index in the tile, and in the patch. */
+static size_t reflux_cell(const struct mesh *mesh, const struct link_face *source, size_t index)
+{
+    int across[2], axis = source->face / 2;
+    size_t at[3] = {0}, half = (size_t)mesh->n[0] / 2;
+    reflux_across(axis, across);
+    at[axis] = (size_t)source->layer;
+    for (int i = 0; i < 2; i++) {
+        size_t cells = across[i] < mesh->dim ? half : 1;
+        at[across[i]] = (size_t)source->from[across[i]] + index % cells;
+        index /= cells;
+    }
+    return at[0] + (size_t)mesh->n[0] * (at[1] + (size_t)mesh->n[1] * at[2]);
+}
+
+void reflux_keep(struct reflux *reflux, unsigned local, const double *w, const double *K)
+{
+    const struct mesh *mesh = reflux->mesh;
+    const struct link *up = reflux->up;
+    for (unsigned s = up ? up->source_from[local] : 0; up && s < up->source_from[local + 1]; s++)
+        for (unsigned l = 0; l < reflux->model->n_alpha; l++) {
+            double *kept = reflux_coarse(reflux, s) + (up->n_register + l) * up->face_cells;
+            for (size_t i = 0; i < up->face_cells; i++) {
+                size_t cell = l * mesh->n_cell + reflux_cell(mesh, &up->sources[s], i);
+                kept[i] = w[cell] + (K ? K[cell] : 0.0);
+            }
+        }
+}
+
+void reflux_commit(struct reflux *reflux, double dt)
+{
+    const struct link *down = reflux->down;
+    if (!down) return;
+    size_t block = down->n_register * down->face_cells;
+    for (unsigned f = 0; f < down->n_face; f++)
+        for (size_t i = 0; i < block; i++) down->faces[f].flux[i] += dt * reflux->fine[f * block + i];
+}
+
+void reflux_clear(struct reflux *reflux)
+{
+    const struct link *up = reflux->up;
+    for (unsigned f = 0; up && f < up->n_face; f++)
+        memset(up->faces[f].flux, 0, up->n_register * up->face_cells * sizeof(double));
+}
+
+/* A/V of the face behind which a cell of a source lies [1/m]. */
+static double reflux_area(const struct reflux *reflux, const struct metric *metric, const struct link_face *source,
+                          size_t cell)
+{
+    int axis = source->face / 2;
+    if (axis > 0 || reflux->mesh->beta == 0) return 1.0 / reflux->level->h[axis];
+    size_t i = cell % (size_t)reflux->mesh->n[0];
+    return metric->area[i + (source->face % 2 == 0)] / metric->volume[i];
+}
+
+/* Change of all fields of one cell, from its registers. */
+static void reflux_change(const struct reflux *reflux, unsigned s, size_t i, double scale, double dt, double *change)
+{
+    const struct model *model = reflux->model;
+    const struct link *up = reflux->up;
+    const double *fine = up->sources[s].flux + i, *coarse = reflux_coarse(reflux, s) + i;
+    bool corrected = model->scene->reflux == SCENE_REFLUX_CORRECTED;
+    size_t step = up->face_cells;
+    for (unsigned q = 0; q < model->n_field; q++) change[q] = scale * (fine[q * step] - dt * coarse[q * step]);
+    if (!corrected || !model->n_alpha) return;
+    double swept = scale * (fine[model->n_field * step] - dt * coarse[model->n_field * step]);
+    for (unsigned l = 0; l < model->n_alpha; l++) change[l] -= coarse[(up->n_register + l) * step] * swept;
+}
+
+/* Gives a change of one cell to the column of n/2 cells behind the face, in proportion to mass. */
+static void reflux_spread(const struct reflux *reflux, const struct metric *metric, const struct link_face *source,
+                          size_t cell, const double *u, const double *change, double *delta)
+{
+    const struct model *model = reflux->model;
+    const struct mesh *mesh = reflux->mesh;
+    int axis = source->face / 2, half = mesh->n[0] / 2;
+    size_t step = 1, n0 = (size_t)mesh->n[0], column[METRIC_CELLS];
+    double share[METRIC_CELLS], mass = 0.0;
+    for (int d = 0; d < axis; d++) step *= (size_t)mesh->n[d];
+    for (int k = 0; k < half; k++) { /* away from the face */
+        column[k] = source->face % 2 == 0 ? cell - (size_t)k * step : cell + (size_t)k * step;
+        double volume = mesh->beta ? metric->volume[column[k] % n0] : 1.0, rho = 0.0;
+        for (unsigned l = 0; l < model->n_material; l++) rho += u[(model->i_m + l) * mesh->n_cell + column[k]];
+        share[k] = rho;
+        mass += rho * volume;
+    }
+    double own = mesh->beta ? metric->volume[cell % n0] : 1.0;
+    for (int k = 0; k < half; k++)
+        for (unsigned q = 0; q < model->n_field; q++)
+            delta[q * mesh->n_cell + column[k]] += change[q] * own * share[k] / mass;
+}
+
+void reflux_delta(const struct reflux *reflux, unsigned local, double dt, const double *u, bool spread, double *delta)
+{
+    const struct mesh *mesh = reflux->mesh;
+    const struct link *up = reflux->up;
+    struct metric metric;
+    double change[2 * SCENE_MATERIALS + 4];
+    memset(delta, 0, reflux->model->n_field * mesh->n_cell * sizeof *delta);
+    if (mesh->beta) metric_of_tile(mesh, reflux->level, &reflux->level->tiles[reflux->level->first + local], &metric);
+    for (unsigned s = up->source_from[local]; s < up->source_from[local + 1]; s++) {
+        const struct link_face *source = &up->sources[s];
+        double sign = source->face % 2 == 0 ? -1.0 : 1.0; /* the cell lies on the lower or upper side of the face */
+        for (size_t i = 0; i < up->face_cells; i++) {
+            size_t cell = reflux_cell(mesh, source, i);
+            reflux_change(reflux, s, i, sign * reflux_area(reflux, &metric, source, cell), dt, change);
+            if (spread) reflux_spread(reflux, &metric, source, cell, u, change, delta);
+            else
+                for (unsigned q = 0; q < reflux->model->n_field; q++) delta[q * mesh->n_cell + cell] += change[q];
+        }
+    }
+}

@@ -1,0 +1,55 @@
+/* reflux.h - coarse and fine fluxes made one: what the coarse cell at a coarse-fine face gets after the fine level
+ * has caught up (Berger & Colella 1989; model.md 7, amr.md 3.6).
+ *
+ * Of the fluxes of the last stage, which alone make the step of the midpoint rule, a level keeps those
+ * through its coarse-fine faces: as the finer side, their means over sub-faces; as the coarser side, its own. With
+ * delta = (sum over fine steps of dt F_fine) - dt F_coarse and the cell on the lower side of the face,
+ *     conserved fields:  d q = -(A/V) delta(F)
+ *     fractions:         d alpha = -(A/V) [delta(alpha* u*) - (alpha + K) delta(u*)],
+ * alpha + K that of the coarse cell at the midpoint: without the second term a uniform alpha would drift. */
+#ifndef REFLUX_H
+#define REFLUX_H
+
+#include "mesh/link.h"
+#include "mesh/metric.h"
+#include "phys/face.h"
+
+/* Of one level; links are those of its neighbours when it was made. */
+struct reflux {
+    const struct model *model;
+    const struct mesh *mesh;
+    const struct level *level;
+    struct link *down, *up; /* to the coarser and from the finer level, or NULL */
+    double *fine;           /* [down->n_face][n_register][face_cells] of the last full stage */
+    double *coarse;         /* [up->n_source][n_register + n_alpha][face_cells]: fluxes, then alpha + K */
+    double *plane;          /* scratch: both fine faces of an axis, [2][n_register][n^(d-1)] */
+};
+
+struct reflux *reflux_new(const struct model *model, const struct mesh *mesh, int l);
+void reflux_free(struct reflux *reflux);
+
+/* Has this local tile a coarse-fine face, on either side? */
+bool reflux_concerns(const struct reflux *reflux, unsigned local);
+
+/* Takes the fluxes of one piece of a tile (after face_solve); `used`: the model it was solved with. */
+void reflux_collect(struct reflux *reflux, const struct model *used, unsigned local, const struct frame *frame,
+                    const struct face_work *work);
+
+/* After all pieces of an axis: means over sub-faces of the tile's own coarse-fine faces. */
+void reflux_average(struct reflux *reflux, unsigned local, int axis);
+
+/* Keeps alpha + K of the cells behind finer faces; w: the tile's primitives, K: of mix_closure or NULL (K = 0). */
+void reflux_keep(struct reflux *reflux, unsigned local, const double *w, const double *K);
+
+/* The step of this level was accepted: adds dt times its fine fluxes to the registers of the link below. */
+void reflux_commit(struct reflux *reflux, double dt);
+
+/* Empties the registers of the link above: a coarse step begins. */
+void reflux_clear(struct reflux *reflux);
+
+/* What refluxing adds to the conserved fields of local tile `local` after a step dt of this level and link_up:
+ * delta[n_field][n_cell], zeroed here. With `spread`, each patch cell's share goes to the n/2 cells of its column
+ * behind the face, by mass (u: the tile's conserved fields), because the one cell cannot take it. */
+void reflux_delta(const struct reflux *reflux, unsigned local, double dt, const double *u, bool spread, double *delta);
+
+#endif

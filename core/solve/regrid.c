@@ -1,0 +1,291 @@
+/* regrid.c - see regrid.h.
+ *
+ * Every rank makes the same sets from the same joined wishes; only cells, tags and costs are local. A level is
+ * replaced after the coarser one, so that new tiles find the final state they are made from. */
+#include "solve/regrid.h"
+
+#include "base/comm.h"
+#include "base/log.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "mesh/halo.h"
+#include "mesh/nest.h"
+#include "mesh/partition.h"
+#include "phys/paint.h"
+#include "phys/tag.h"
+#include "solve/stage.h"
+#include "solve/sync.h"
+
+#include <string.h>
+#include <time.h>
+
+/* How a born tile gets its state. */
+enum regrid_origin { REGRID_PAINTED, REGRID_INTERPOLATED };
+
+struct regrid {
+    struct state *state;
+    int base;
+    struct nest_keys wishes[MESH_LEVELS + 1];
+    struct nest_set sets[MESH_LEVELS + 1];
+};
+
+bool regrid_due(const struct state *state, int base)
+{
+    return base < state->mesh->most_level && state->level_steps[base] % state->scene->regrid_every == 0;
+}
+
+void regrid_signals(struct state *state)
+{
+    const struct mesh *mesh = state->mesh;
+    state->signal = 0.0;
+    for (int l = 0; l < mesh->n_level; l++) state->signals[l] = state->stages[l]->signal;
+    comm_max(state->signals, mesh->n_level);
+    double per_step = 1.0; /* steps of a level in one of level 0 */
+    for (int l = 0; l < mesh->n_level; l++) {
+        if (state->signals[l] / per_step > state->signal) state->signal = state->signals[l] / per_step;
+        if (state->scene->subcycle) per_step *= 2.0;
+    }
+}
+
+/* Tags a level and collects which tiles of the next one they ask for. */
+static int regrid_tag(struct regrid *regrid, int l)
+{
+    struct state *state = regrid->state;
+    const struct mesh *mesh = state->mesh;
+    const struct level *level = &mesh->levels[l];
+    double **marks = mem_new(level->n_local + 1, sizeof *marks);
+    double *all = mem_new(level->n_local * mesh->n_cell, sizeof *all);
+    for (unsigned t = 0; t < level->n_local; t++) marks[t] = all + t * mesh->n_cell;
+    int status = tag_level(state->model, mesh, l, state->t, state->stages[l]->guard->halo, marks, state->tagged);
+    for (unsigned t = 0; t < level->n_local && !status; t++)
+        nest_wish(mesh, level, &level->tiles[level->first + t], marks[t], state->scene->buffer,
+                  &regrid->wishes[l + 1]);
+    mem_free(all);
+    mem_free(marks);
+    return comm_agree(status);
+}
+
+static int regrid_sets(struct regrid *regrid, int patience)
+{
+    const struct mesh *mesh = regrid->state->mesh;
+    for (int l = regrid->base; l < mesh->most_level && l < mesh->n_level; l++) {
+        TRY(regrid_tag(regrid, l));
+        nest_join(&regrid->wishes[l + 1]);
+    }
+    nest_sets(mesh, regrid->base, regrid->wishes, patience, regrid->sets);
+    return STATUS_OK;
+}
+
+static void regrid_free(struct regrid *regrid)
+{
+    for (int l = 0; l <= MESH_LEVELS; l++) {
+        nest_free_keys(&regrid->wishes[l]);
+        nest_free_set(&regrid->sets[l]);
+    }
+}
+
+/* Are all sets what the levels are? Then only the counts of unwanted tiles move on. */
+static bool regrid_is_idle(const struct regrid *regrid)
+{
+    struct mesh *mesh = regrid->state->mesh;
+    for (int l = regrid->base + 1; l <= mesh->most_level; l++)
+        if (!nest_same(mesh, l, &regrid->sets[l])) return false;
+    for (int l = regrid->base + 1; l < mesh->n_level; l++)
+        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++)
+            mesh->levels[l].tiles[i].unwanted = regrid->sets[l].tiles[i].unwanted;
+    return true;
+}
+
+/* Work per cell of a tile relative to one of a single material (measured: docs/decisions). */
+static double regrid_cost(const struct stage *stage, unsigned local)
+{
+    const struct census_tile *tile = &stage->census.tiles[local];
+    unsigned materials = 0;
+    if (stage->level->tiles[stage->level->first + local].hidden) return 0.05;
+    if (tile->still) return 0.2;
+    for (unsigned present = tile->present; present; present &= present - 1) materials++;
+    return materials > 1 ? 1.2 * materials : 1.0;
+}
+
+/* Costs of all tiles of a level as it is, in its order. */
+static double *regrid_costs(const struct stage *stage)
+{
+    const struct level *level = stage->level;
+    double *own = mem_new(level->n_local + 1, sizeof *own), *all = mem_new(level->n_tile, sizeof *all);
+    for (unsigned t = 0; t < level->n_local; t++) own[t] = regrid_cost(stage, t);
+    comm_join(own, (int)level->n_local, all);
+    mem_free(own);
+    return all;
+}
+
+/* Costs of a new set: tiles that were there keep theirs, born ones take that of the tile below. */
+static double *regrid_new_costs(const struct regrid *regrid, int l, double *const *before)
+{
+    const struct mesh *mesh = regrid->state->mesh;
+    const struct nest_set *set = &regrid->sets[l];
+    double *cost = mem_new(set->n, sizeof *cost);
+    for (unsigned i = 0; i < set->n; i++) {
+        const struct tile *tile = &set->tiles[i];
+        int at[3] = {tile->at[0], tile->at[1], tile->at[2]};
+        cost[i] = 1.0;
+        for (int m = l; m >= 0; m--) {
+            int found = m < mesh->n_level ? mesh_find(mesh, &mesh->levels[m], at) : -1;
+            if (found >= 0 && before[m]) cost[i] = before[m][found];
+            if (found >= 0 && before[m]) break;
+            for (int d = 0; d < 3; d++) at[d] >>= d < mesh->dim;
+        }
+    }
+    return cost;
+}
+
+/* Sets the owners of all new sets. Level `base` and those below count as load, and stay. */
+static void regrid_partition(struct regrid *regrid)
+{
+    const struct state *state = regrid->state;
+    const struct mesh *mesh = state->mesh;
+    int size = comm_size();
+    double *before[MESH_LEVELS] = {0}, *load = mem_new((size_t)size, sizeof *load), weight = 1.0;
+    if (size == 1) {
+        mem_free(load); /* rank 0 owns all */
+        return;
+    }
+    for (int l = 0; l < mesh->n_level; l++) before[l] = regrid_costs(state->stages[l]);
+    for (int l = 0; l <= mesh->most_level; l++, weight *= state->scene->subcycle ? 2.0 : 1.0) {
+        if (l <= regrid->base) {
+            for (unsigned i = 0; i < mesh->levels[l].n_tile; i++)
+                load[mesh->levels[l].tiles[i].rank] += weight * before[l][i];
+            continue;
+        }
+        if (!regrid->sets[l].n) break;
+        double *cost = regrid_new_costs(regrid, l, before);
+        partition_cut(regrid->sets[l].tiles, regrid->sets[l].n, cost, size, weight, load);
+        mem_free(cost);
+    }
+    for (int l = 0; l < mesh->n_level; l++) mem_free(before[l]);
+    mem_free(load);
+}
+
+/* Levels up to `base` and the new sets, against the case's limit. */
+static int regrid_afford(const struct regrid *regrid)
+{
+    const struct mesh *mesh = regrid->state->mesh;
+    double tiles = 0.0, limit = regrid->state->scene->memory_limit;
+    for (int l = 0; l <= regrid->base; l++) tiles += mesh->levels[l].n_tile;
+    for (int l = regrid->base + 1; l <= mesh->most_level; l++) tiles += regrid->sets[l].n;
+    double bytes = mesh_bytes(mesh, tiles);
+    if (limit <= 0.0 || bytes <= limit) return STATUS_OK;
+    return status_fail(STATUS_RUN,
+                       "at t = %.9g s refinement asks for %.0f tiles, %.4g GiB, but --max-memory allows %.4g GiB: allow "
+                       "more, or fewer levels, or a higher threshold",
+                       regrid->state->t, tiles, bytes / 1073741824.0, limit / 1073741824.0);
+}
+
+static int regrid_paint(struct state *state, int l, const bool *born)
+{
+    const struct mesh *mesh = state->mesh;
+    const struct level *level = &mesh->levels[l];
+    int status = STATUS_OK;
+    for (unsigned t = 0; t < level->n_local && !status; t++)
+        if (born[level->first + t])
+            status = paint_tile(state->model, mesh, level, &level->tiles[level->first + t], level->u_old[t]);
+    return comm_agree(status);
+}
+
+static void regrid_interpolate(struct state *state, int l, const bool *born)
+{
+    struct stage *coarse = state->stages[l - 1];
+    halo_start(coarse->level->halo, coarse->level->w);
+    halo_finish(coarse->level->halo);
+    coarse->bound->t = state->t;
+    state->counts.limited += prolong_tiles(state->work->prolong, state->mesh, l, coarse->bound, born);
+}
+
+/* Gives level l its new set (taken over). */
+static int regrid_replace(struct regrid *regrid, int l, enum regrid_origin origin)
+{
+    struct state *state = regrid->state;
+    struct nest_set *set = &regrid->sets[l];
+    struct mesh_change change = {0};
+    int status = STATUS_OK;
+    if (!state->stages[l]) state->stages[l] = stage_new(state->model, state->mesh, l, state->work);
+    mesh_replace(state->mesh, l, set->tiles, set->n, &change);
+    *set = (struct nest_set){0};
+    if (origin == REGRID_PAINTED) status = regrid_paint(state, l, change.born);
+    else regrid_interpolate(state, l, change.born);
+    if (!status) stage_adopt(state->stages[l], change.from, change.born);
+    mesh_change_free(&change);
+    return status;
+}
+
+static void regrid_drop(struct state *state, int l)
+{
+    struct mesh_change change = {0};
+    mesh_replace(state->mesh, l, NULL, 0, &change);
+    mesh_change_free(&change);
+    stage_free(state->stages[l]);
+    state->stages[l] = NULL;
+    state->level_steps[l] = 0;
+    state->signals[l] = 0.0;
+}
+
+static int regrid_apply(struct regrid *regrid, enum regrid_origin origin)
+{
+    struct state *state = regrid->state;
+    struct mesh *mesh = state->mesh;
+    int finest = regrid->base;
+    regrid_partition(regrid);
+    while (finest < mesh->most_level && regrid->sets[finest + 1].n) finest++;
+    for (int l = mesh->n_level - 1; l > finest; l--) regrid_drop(state, l);
+    for (int l = regrid->base + 1; l <= finest; l++) TRY(regrid_replace(regrid, l, origin));
+    for (int l = regrid->base; l < mesh->n_level; l++) stage_adopt(state->stages[l], NULL, NULL);
+    TRY(nest_check(mesh));
+    state->counts.regrids++;
+    return STATUS_OK;
+}
+
+int regrid_levels(struct state *state, int base)
+{
+    struct regrid regrid = {.state = state, .base = base};
+    clock_t begin = clock();
+    int status = regrid_sets(&regrid, state->scene->patience);
+    if (!status && !regrid_is_idle(&regrid)) {
+        status = regrid_afford(&regrid);
+        if (!status) status = regrid_apply(&regrid, REGRID_INTERPOLATED);
+    }
+    regrid_free(&regrid);
+    state->counts.regrid_seconds += (double)(clock() - begin) / CLOCKS_PER_SEC;
+    return status;
+}
+
+/* Averages the painted levels onto those below. */
+static int regrid_settle(struct state *state)
+{
+    for (int l = state->mesh->n_level - 1; l > 0; l--)
+        TRY(sync_up(state->stages[l - 1], state->stages[l], &state->counts.spread));
+    return STATUS_OK;
+}
+
+int regrid_initial(struct state *state)
+{
+    bool idle = state->mesh->most_level == 0;
+    int status = STATUS_OK;
+    for (int pass = 0; !idle && !status && pass <= 2 * MESH_LEVELS; pass++) {
+        struct regrid regrid = {.state = state};
+        status = regrid_sets(&regrid, 1);
+        idle = !status && regrid_is_idle(&regrid);
+        if (!status && !idle) status = regrid_afford(&regrid);
+        if (!status && !idle) status = regrid_apply(&regrid, REGRID_PAINTED);
+        regrid_free(&regrid);
+    }
+    state->counts.regrids = 0;
+    for (int l = 1; l < state->mesh->n_level && !status; l++) status = comm_agree(stage_start(state->stages[l]));
+    return status ? status : regrid_settle(state);
+}
+
+void regrid_stages(struct state *state)
+{
+    for (int l = 0; l < state->mesh->n_level; l++) {
+        if (!state->stages[l]) state->stages[l] = stage_new(state->model, state->mesh, l, state->work);
+        stage_adopt(state->stages[l], NULL, NULL);
+    }
+}
