@@ -14,7 +14,7 @@ struct bound {
     const struct model *model;
     const struct mesh *mesh;
     const struct level *level;
-    double t;           /* [s] at which time-dependent values are taken; set before each stage */
+    double t; /* [s] at which time-dependent values are taken; set before each stage */
     unsigned n_local;
     double **reference; /* [n_local * MESH_FACES]: p then u_n of the boundary cells, or NULL */
     int status;         /* first failure of a script since bound_new; the message is in status.h */

@@ -58,8 +58,7 @@ static int regrid_tag(struct regrid *regrid, int l)
     for (unsigned t = 0; t < level->n_local; t++) marks[t] = all + t * mesh->n_cell;
     int status = tag_level(state->model, mesh, l, state->t, state->stages[l]->guard->halo, marks, state->tagged);
     for (unsigned t = 0; t < level->n_local && !status; t++)
-        nest_wish(mesh, level, &level->tiles[level->first + t], marks[t], state->scene->buffer,
-                  &regrid->wishes[l + 1]);
+        nest_wish(mesh, level, &level->tiles[level->first + t], marks[t], state->scene->buffer, &regrid->wishes[l + 1]);
     mem_free(all);
     mem_free(marks);
     return comm_agree(status);
@@ -174,10 +173,11 @@ static int regrid_afford(const struct regrid *regrid)
     for (int l = regrid->base + 1; l <= mesh->most_level; l++) tiles += regrid->sets[l].n;
     double bytes = mesh_bytes(mesh, tiles);
     if (limit <= 0.0 || bytes <= limit) return STATUS_OK;
-    return status_fail(STATUS_RUN,
-                       "at t = %.9g s refinement asks for %.0f tiles, %.4g GiB, but --max-memory allows %.4g GiB: allow "
-                       "more, or fewer levels, or a higher threshold",
-                       regrid->state->t, tiles, bytes / 1073741824.0, limit / 1073741824.0);
+    return status_fail(
+        STATUS_RUN,
+        "at t = %.9g s refinement asks for %.0f tiles, %.4g GiB, but --max-memory allows %.4g GiB: allow "
+        "more, or fewer levels, or a higher threshold",
+        regrid->state->t, tiles, bytes / 1073741824.0, limit / 1073741824.0);
 }
 
 static int regrid_paint(struct state *state, int l, const bool *born)

@@ -185,11 +185,8 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double dt, d
         mix_closure(model, n_cell, n_cell, level->w[local], work->rho_c2, work->K);
     }
     if (stage->fluxes) reflux_keep(stage->reflux, local, level->w[local], model->kapila ? work->K : NULL);
-    struct update_input input = {.u_old = level->u_old[local],
-                                 .w = level->w[local],
-                                 .K = work->K,
-                                 .rho_c2 = work->rho_c2,
-                                 .rates = work->rates};
+    struct update_input input = {
+        .u_old = level->u_old[local], .w = level->w[local], .K = work->K, .rho_c2 = work->rho_c2, .rates = work->rates};
     stage->clipped += (long long)update_apply(model, n_cell, dt, &input, u);
     stage->cells += (long long)n_cell;
 }

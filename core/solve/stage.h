@@ -20,7 +20,7 @@
 /* Scratch of one rank, used by its levels in turn. */
 struct stage_work {
     struct face_work *faces;
-    struct face_work *faces_pure;             /* NULL for one material */
+    struct face_work *faces_pure; /* NULL for one material */
     struct prolong *prolong;
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
 };
@@ -38,10 +38,10 @@ struct stage {
     struct guard *guard;
     struct reflux *reflux;
     struct census census;
-    double t, dt;       /* of the step under way */
-    double from, part;  /* where it begins in the step of the coarser level, and how much of that it takes */
-    double signal;      /* largest of the local tiles */
-    bool fluxes;        /* the stage under way makes the step: coarse-fine fluxes are kept */
+    double t, dt;      /* of the step under way */
+    double from, part; /* where it begins in the step of the coarser level, and how much of that it takes */
+    double signal;     /* largest of the local tiles */
+    bool fluxes;       /* the stage under way makes the step: coarse-fine fluxes are kept */
     long long cells, carried, clipped; /* work done, rank-local */
 };
 

@@ -9,15 +9,15 @@
 /* Everything the guard did, and the work done, on this rank; state_counts_total sums the ranks. */
 struct state_counts {
     /* all but retries and regrids are sums over ranks */
-    long long cells;    /* cell-stages advanced */
-    long long carried;  /* of these: in resting tiles, which are only copied on */
-    long long fallback; /* cell-steps redone with first-order fluxes */
-    long long relaxed;  /* cell-stages whose volume fractions came from pressure relaxation */
-    long long clipped;  /* cell-stages with a volume fraction clipped into its range */
-    long long retries;  /* steps repeated with half the time step */
-    long long regrids;  /* times that a level's tiles changed */
-    long long limited;  /* coarse cells whose children got less than the full slopes */
-    long long spread;   /* refluxes that one cell could not take and its column got */
+    long long cells;       /* cell-stages advanced */
+    long long carried;     /* of these: in resting tiles, which are only copied on */
+    long long fallback;    /* cell-steps redone with first-order fluxes */
+    long long relaxed;     /* cell-stages whose volume fractions came from pressure relaxation */
+    long long clipped;     /* cell-stages with a volume fraction clipped into its range */
+    long long retries;     /* steps repeated with half the time step */
+    long long regrids;     /* times that a level's tiles changed */
+    long long limited;     /* coarse cells whose children got less than the full slopes */
+    long long spread;      /* refluxes that one cell could not take and its column got */
     double regrid_seconds; /* CPU time of this rank spent on regridding */
 };
 
@@ -28,15 +28,15 @@ struct state {
     const struct scene *scene;
     struct mesh *mesh;
     struct model *model;
-    double t, dt; /* time reached and the last step's size [s] */
-    long step;    /* steps of level 0 done */
+    double t, dt;                  /* time reached and the last step's size [s] */
+    long step;                     /* steps of level 0 done */
     long level_steps[MESH_LEVELS]; /* steps of each level done: they say when it is time to regrid */
     struct state_counts counts;
-    double dt_shrink;    /* 1, or the factor that retries left on the time step */
-    double signal;       /* largest sum over axes of (|u_a| + c) / h_a in the present state, of all levels; with
+    double dt_shrink;            /* 1, or the factor that retries left on the time step */
+    double signal;               /* largest sum over axes of (|u_a| + c) / h_a in the present state, of all levels; with
                             subcycling that of level l counts 2^-l [1/s] */
-    double signals[MESH_LEVELS];       /* of each level, over all ranks */
-    bool whole;                        /* all levels stand at t: false after a step that failed half way */
+    double signals[MESH_LEVELS]; /* of each level, over all ranks */
+    bool whole;                  /* all levels stand at t: false after a step that failed half way */
     struct stage *stages[MESH_LEVELS]; /* work on each level (stage.h); NULL above the finest in use */
     struct stage_work *work;           /* scratch of this rank */
     long long *tagged;                 /* [n_refine] cells that each criterion has tagged on this rank so far */

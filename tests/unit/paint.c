@@ -95,7 +95,8 @@ static int paint_scene(const char *domain, const char *initial, bool alone, stru
     *canvas = (struct canvas){0};
     if (scene_read(path, NULL, &canvas->scene)) fail_msg("%s", status_text());
     canvas->model = model_new(canvas->scene);
-    if (mesh_new(canvas->scene, canvas->model->n_field, canvas->model->n_alpha, &canvas->mesh)) fail_msg("%s", status_text());
+    if (mesh_new(canvas->scene, canvas->model->n_field, canvas->model->n_alpha, &canvas->mesh))
+        fail_msg("%s", status_text());
     canvas->n_cell = 1;
     for (int d = 0; d < canvas->scene->dim; d++) canvas->n_cell *= (size_t)canvas->scene->cells[d];
     canvas->u = mem_new(canvas->n_cell * canvas->model->n_field, sizeof *canvas->u);
