@@ -153,9 +153,9 @@ static int advance_follow(struct state *state)
     state->step++;
     state->whole = true;
     state->dt_shrink = state->dt_shrink * 1.1 < 1.0 ? state->dt_shrink * 1.1 : 1.0;
-    int status = advance_regrid(state, 0, true);
+    TRY(advance_regrid(state, 0, true));
     regrid_signals(state);
-    return status;
+    return regrid_verdict(state);
 }
 
 int advance_step(struct state *state, double dt_most)

@@ -165,19 +165,26 @@ static void regrid_partition(struct regrid *regrid)
 }
 
 /* Levels up to `base` and the new sets, against the case's limit. */
-static int regrid_afford(const struct regrid *regrid)
+static bool regrid_affords(const struct regrid *regrid)
 {
-    const struct mesh *mesh = regrid->state->mesh;
-    double tiles = 0.0, limit = regrid->state->scene->memory_limit;
+    struct state *state = regrid->state;
+    const struct mesh *mesh = state->mesh;
+    double tiles = 0.0, limit = state->scene->memory_limit;
     for (int l = 0; l <= regrid->base; l++) tiles += mesh->levels[l].n_tile;
     for (int l = regrid->base + 1; l <= mesh->most_level; l++) tiles += regrid->sets[l].n;
-    double bytes = mesh_bytes(mesh, tiles);
-    if (limit <= 0.0 || bytes <= limit) return STATUS_OK;
-    return status_fail(
-        STATUS_RUN,
-        "at t = %.9g s refinement asks for %.0f tiles, %.4g GiB, but --max-memory allows %.4g GiB: allow "
-        "more, or fewer levels, or a higher threshold",
-        regrid->state->t, tiles, bytes / 1073741824.0, limit / 1073741824.0);
+    if (limit <= 0.0 || mesh_bytes(mesh, tiles) <= limit) return true;
+    state->starved = tiles;
+    return false;
+}
+
+int regrid_verdict(const struct state *state)
+{
+    if (state->starved <= 0.0) return STATUS_OK;
+    return status_fail(STATUS_RUN,
+                       "at t = %.9g s refinement asks for %.0f tiles, %.4g GiB, but --max-memory allows %.4g GiB: allow "
+                       "more, or fewer levels, or a higher threshold",
+                       state->t, state->starved, mesh_bytes(state->mesh, state->starved) / 1073741824.0,
+                       state->scene->memory_limit / 1073741824.0);
 }
 
 static int regrid_paint(struct state *state, int l, const bool *born)
@@ -185,9 +192,12 @@ static int regrid_paint(struct state *state, int l, const bool *born)
     const struct mesh *mesh = state->mesh;
     const struct level *level = &mesh->levels[l];
     int status = STATUS_OK;
-    for (unsigned t = 0; t < level->n_local && !status; t++)
-        if (born[level->first + t])
-            status = paint_tile(state->model, mesh, level, &level->tiles[level->first + t], level->u_old[t]);
+    for (unsigned t = 0; t < level->n_local && !status; t++) {
+        double *p = level->w[t] + state->model->i_E * mesh->n_cell;
+        if (!born[level->first + t]) continue;
+        status = paint_tile(state->model, mesh, level, &level->tiles[level->first + t], level->u_old[t]);
+        for (size_t i = 0; i < mesh->n_cell; i++) p[i] = 1e5; /* where an iteration starts */
+    }
     return comm_agree(status);
 }
 
@@ -248,10 +258,8 @@ int regrid_levels(struct state *state, int base)
     struct regrid regrid = {.state = state, .base = base};
     clock_t begin = clock();
     int status = regrid_sets(&regrid, state->scene->patience);
-    if (!status && !regrid_is_idle(&regrid)) {
-        status = regrid_afford(&regrid);
-        if (!status) status = regrid_apply(&regrid, REGRID_INTERPOLATED);
-    }
+    if (!status && !regrid_is_idle(&regrid) && regrid_affords(&regrid))
+        status = regrid_apply(&regrid, REGRID_INTERPOLATED);
     regrid_free(&regrid);
     state->counts.regrid_seconds += (double)(clock() - begin) / CLOCKS_PER_SEC;
     return status;
@@ -273,7 +281,7 @@ int regrid_initial(struct state *state)
         struct regrid regrid = {.state = state};
         status = regrid_sets(&regrid, 1);
         idle = !status && regrid_is_idle(&regrid);
-        if (!status && !idle) status = regrid_afford(&regrid);
+        if (!status && !idle && !regrid_affords(&regrid)) status = regrid_verdict(state);
         if (!status && !idle) status = regrid_apply(&regrid, REGRID_PAINTED);
         regrid_free(&regrid);
     }

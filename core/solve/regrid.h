@@ -9,9 +9,12 @@
 int regrid_initial(struct state *state);
 
 /* New tile sets for the levels above `base`, which all stand at the same time. New tiles are interpolated from
- * the next coarser level, conservatively. Where nothing changes nothing is touched. STATUS_RUN: the new mesh would
- * need more than the memory limit; the state is as before. Collective. */
+ * the next coarser level, conservatively. Where nothing changes nothing is touched; so too where the new mesh would
+ * need more than the memory limit, which state->starved then notes. Collective. */
 int regrid_levels(struct state *state, int base);
+
+/* STATUS_RUN and the reason if a regrid could not be afforded. */
+int regrid_verdict(const struct state *state);
 
 /* Is it time, after a step of level `base`? */
 bool regrid_due(const struct state *state, int base);

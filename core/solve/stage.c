@@ -383,10 +383,7 @@ static void stage_admit(struct stage *stage, unsigned local, bool born)
     const struct level *level = stage->level;
     size_t n_cell = stage->mesh->n_cell;
     double *w = level->w[local];
-    if (born) {
-        for (size_t i = 0; i < n_cell; i++) w[stage->model->i_E * n_cell + i] = 1e5; /* where an iteration starts */
-        mix_primitives(stage->model, n_cell, n_cell, level->u_old[local], w);
-    }
+    if (born) mix_primitives(stage->model, n_cell, n_cell, level->u_old[local], w);
     memcpy(level->u_new[local], level->u_old[local], stage->model->n_field * n_cell * sizeof *w); /* for stage_touch */
     stage_welcome(stage, local);
 }
