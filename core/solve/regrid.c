@@ -180,11 +180,12 @@ static bool regrid_affords(const struct regrid *regrid)
 int regrid_verdict(const struct state *state)
 {
     if (state->starved <= 0.0) return STATUS_OK;
-    return status_fail(STATUS_RUN,
-                       "at t = %.9g s refinement asks for %.0f tiles, %.4g GiB, but --max-memory allows %.4g GiB: allow "
-                       "more, or fewer levels, or a higher threshold",
-                       state->t, state->starved, mesh_bytes(state->mesh, state->starved) / 1073741824.0,
-                       state->scene->memory_limit / 1073741824.0);
+    return status_fail(
+        STATUS_RUN,
+        "at t = %.9g s refinement asks for %.0f tiles, %.4g GiB, but --max-memory allows %.4g GiB: allow "
+        "more, or fewer levels, or a higher threshold",
+        state->t, state->starved, mesh_bytes(state->mesh, state->starved) / 1073741824.0,
+        state->scene->memory_limit / 1073741824.0);
 }
 
 static int regrid_paint(struct state *state, int l, const bool *born)
