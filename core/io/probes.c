@@ -1,4 +1,4 @@
-/* probes.c - see probes.h. The cells around a point are found once; at a sample each rank fills in
+/* probes.c - see probes.h. The cells around a point are found once per mesh; at a sample each rank fills in
  * those that it holds, a maximum over the ranks brings them together, and every rank interpolates
  * the same numbers in the same way. */
 #include "io/probes.h"
@@ -18,7 +18,8 @@ enum { PROBES_CORNERS = 8 };
 
 /* The cells around a probe, x fastest: up to 2 per axis. */
 struct probes_point {
-    int at[PROBES_CORNERS][3]; /* cell of level 0 */
+    int level;
+    int at[PROBES_CORNERS][3]; /* cell of the level */
     double weight[PROBES_CORNERS];
 };
 
@@ -32,6 +33,7 @@ struct probes {
     struct csv *csv;
     unsigned n_corner, n_trace, n_value; /* n_value: columns after t */
     struct probes_point *points;
+    unsigned revision; /* of the mesh in which points were found */
     struct probes_trace *traces;
     double *corners, *tile;     /* [n_value][n_corner]; [3][cells of a tile] */
     double *before, *now, *row; /* [n_value], [n_value], [1 + n_value] */
@@ -40,10 +42,9 @@ struct probes {
     struct scene_every every;
 };
 
-/* Lower of the two cells around a coordinate and the share of the upper one. */
-static int probes_bracket(const struct mesh *mesh, int axis, double x, double *ret_share)
+/* Lower of the two cells of a level around a coordinate, and the share of the upper one. */
+static int probes_bracket(const struct mesh *mesh, const struct level *level, int axis, double x, double *ret_share)
 {
-    const struct level *level = &mesh->levels[0];
     int cells = level->extent[axis] * mesh->n[axis];
     double place = (x - mesh->lower[axis]) / level->h[axis] - 0.5, below = floor(place);
     *ret_share = place - below;
@@ -53,27 +54,59 @@ static int probes_bracket(const struct mesh *mesh, int axis, double x, double *r
     return below < 0.0 ? 0 : below >= cells - 1 ? cells - 1 : (int)below;
 }
 
-static int probes_place(const struct mesh *mesh, const struct scene_probe *probe, struct probes_point *point)
+/* The tile of a level that holds a cell, or -1; ret_cell: the cell in it. */
+static int probes_tile(const struct mesh *mesh, const struct level *level, const int at[3], size_t *ret_cell)
 {
+    const int *n = mesh->n, tile[3] = {at[0] / n[0], at[1] / n[1], at[2] / n[2]};
+    *ret_cell = (size_t)(at[0] % n[0] + n[0] * (at[1] % n[1] + n[1] * (at[2] % n[2])));
+    return mesh_find(mesh, level, tile);
+}
+
+/* The cells of a level around x; false if one of them is not there. */
+static bool probes_surround(const struct mesh *mesh, int l, const double x[3], struct probes_point *point)
+{
+    const struct level *level = &mesh->levels[l];
     int below[3] = {0};
     double share[3] = {0};
-    for (int axis = 0; axis < mesh->dim; axis++) {
+    bool there = true;
+    point->level = l;
+    for (int axis = 0; axis < mesh->dim; axis++) below[axis] = probes_bracket(mesh, level, axis, x[axis], &share[axis]);
+    for (int corner = 0; corner < 1 << mesh->dim; corner++) {
+        size_t cell;
+        point->weight[corner] = 1.0;
+        for (int axis = 0; axis < 3; axis++) {
+            bool upper = corner >> axis & 1;
+            int cells = level->extent[axis] * mesh->n[axis];
+            int at = below[axis] + (upper && (share[axis] > 0.0));
+            point->at[corner][axis] = (at + cells) % cells;
+            if (axis < mesh->dim) point->weight[corner] *= upper ? share[axis] : 1.0 - share[axis];
+        }
+        there = there && probes_tile(mesh, level, point->at[corner], &cell) >= 0;
+    }
+    return there;
+}
+
+/* Finds the cells around every probe: at the start, and again when tiles have come or gone. */
+static void probes_look(struct probes *probes, const struct state *state)
+{
+    const struct mesh *mesh = state->mesh;
+    for (unsigned i = 0; i < state->scene->n_probe; i++) {
+        size_t cell;
+        int l;
+        mesh_locate(mesh, state->scene->probes[i].at, &l, &cell);
+        if (!probes_surround(mesh, l, state->scene->probes[i].at, &probes->points[i]))
+            probes_surround(mesh, l - 1, state->scene->probes[i].at, &probes->points[i]);
+    }
+    probes->revision = mesh->revision;
+}
+
+static int probes_check(const struct mesh *mesh, const struct scene_probe *probe)
+{
+    for (int axis = 0; axis < mesh->dim; axis++)
         if (!(probe->at[axis] >= mesh->lower[axis] && probe->at[axis] <= mesh->upper[axis]))
             return status_fail(STATUS_CASE,
                                "output.probes.%s.at: %g m lies outside the domain, which has %c from %g to %g m",
                                probe->name, probe->at[axis], "xyz"[axis], mesh -> lower[axis], mesh -> upper[axis]);
-        below[axis] = probes_bracket(mesh, axis, probe->at[axis], &share[axis]);
-    }
-    for (int corner = 0; corner < 1 << mesh->dim; corner++) {
-        point->weight[corner] = 1.0;
-        for (int axis = 0; axis < 3; axis++) {
-            bool upper = corner >> axis & 1;
-            int cells = mesh->levels[0].extent[axis] * mesh->n[axis];
-            int cell = below[axis] + (upper && (share[axis] > 0.0));
-            point->at[corner][axis] = (cell + cells) % cells;
-            if (axis < mesh->dim) point->weight[corner] *= upper ? share[axis] : 1.0 - share[axis];
-        }
-    }
     return STATUS_OK;
 }
 
@@ -103,9 +136,10 @@ static int probes_prepare(struct probes *probes, const struct state *state, stru
     probes->n_corner = 1u << state->mesh->dim;
     text_add(header, "t");
     for (unsigned i = 0; i < scene->n_probe; i++) {
-        TRY(probes_place(state->mesh, &scene->probes[i], &probes->points[i]));
+        TRY(probes_check(state->mesh, &scene->probes[i]));
         TRY(probes_find_fields(probes, state, i, header));
     }
+    probes_look(probes, state);
     probes->corners = mem_new(probes->n_value * probes->n_corner, sizeof(double));
     probes->tile = mem_new(3 * state->mesh->n_cell, sizeof(double));
     probes->before = mem_new(probes->n_value, sizeof(double));
@@ -155,20 +189,19 @@ void probes_free(struct probes *probes)
 static void probes_collect(struct probes *probes, const struct state *state, const struct probes_trace *trace)
 {
     const struct mesh *mesh = state->mesh;
-    const struct level *level = &mesh->levels[0];
+    const struct probes_point *point = &probes->points[trace->point];
+    const struct level *level = &mesh->levels[point->level];
     int derived = -1; /* the tile that is in probes->tile */
     for (unsigned corner = 0; corner < probes->n_corner; corner++) {
-        const int *at = probes->points[trace->point].at[corner];
-        const int tile_at[3] = {at[0] / mesh->n[0], at[1] / mesh->n[1], at[2] / mesh->n[2]};
-        int tile = mesh_find(mesh, level, tile_at);
-        if (tile < 0 || level->tiles[tile].rank != comm_rank()) continue;
+        size_t cell;
+        int tile = probes_tile(mesh, level, point->at[corner], &cell);
+        if (level->tiles[tile].rank != comm_rank()) continue;
         if (tile != derived)
-            derive_tile(state->model, mesh, 0, (unsigned)tile - level->first, state->t, &trace->field, probes->tile);
+            derive_tile(state->model, mesh, point->level, (unsigned)tile - level->first, state->t, &trace->field,
+                        probes->tile);
         derived = tile;
-        int cell = at[0] % mesh->n[0] + mesh->n[0] * (at[1] % mesh->n[1] + mesh->n[1] * (at[2] % mesh->n[2]));
         for (unsigned q = 0; q < trace->field.components; q++)
-            probes->corners[(trace->first + q) * probes->n_corner + corner] =
-                probes->tile[q * mesh->n_cell + (size_t)cell];
+            probes->corners[(trace->first + q) * probes->n_corner + corner] = probes->tile[q * mesh->n_cell + cell];
     }
 }
 
@@ -176,6 +209,7 @@ static void probes_sample(struct probes *probes, const struct state *state)
 {
     unsigned n = probes->n_value * probes->n_corner;
     for (unsigned i = 0; i < n; i++) probes->corners[i] = -INFINITY;
+    if (probes->revision != state->mesh->revision) probes_look(probes, state);
     for (unsigned i = 0; i < probes->n_trace; i++) {
         derive_prepare(state->model, state->mesh, state->t, &probes->traces[i].field);
         probes_collect(probes, state, &probes->traces[i]);

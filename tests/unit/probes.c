@@ -2,7 +2,7 @@
  * domain is, linear in time between steps. */
 #include "io/probes.h"
 
-#include "small.h"
+#include "levels_io.h"
 
 #include <math.h>
 
@@ -133,6 +133,43 @@ static void test_steps(void **state)
     small_stop(&small);
 }
 
+static bool near(const double *x)
+{
+    return hypot(x[0], x[1]) < 0.85e-3;
+}
+
+/* Points in fine cells, and on both sides of where the fine level ends: exact for a linear field at all of them, and
+ * found anew when the mesh changes. */
+static void test_levels(void **state)
+{
+    (void)state;
+    struct small small;
+    struct probes *probes;
+    small_start_levels(&small,
+                       SMALL_AXISYMMETRIC "output:\n  probes:\n"
+                                          "    fine: {at: [0.6 mm, 0.31 mm], fields: [pressure, level]}\n"
+                                          "    inner: {at: [0.6 mm, 0.4999 mm], fields: [pressure]}\n"
+                                          "    outer: {at: [0.6 mm, 0.5001 mm], fields: [pressure]}\n"
+                                          "    side: {at: [0.7499 mm, 0.4999 mm], fields: [pressure]}\n",
+                       1);
+    assert_int_equal(probes_new(small.state, &probes), 0);
+    assert_int_equal(probes_record(probes, small.state), 0);
+    levels_add(small.state, near);
+    small_skip(&small, 0.5);
+    assert_int_equal(probes_record(probes, small.state), 0);
+    levels_spoil(small.state);
+    small_skip(&small, 0.5);
+    assert_int_equal(probes_record(probes, small.state), 0);
+    probes_free(probes);
+    const double places[4] = {0.31e-3, 0.4999e-3, 0.5001e-3, 0.4999e-3};
+    const int columns[4] = {1, 3, 4, 5};
+    for (int i = 0; i < 4; i++)
+        for (int row = 0; row < 2; row++) close_to(cell(&small, row, columns[i]), 1e5 + 1e8 * places[i]);
+    assert_true(cell(&small, 0, 2) == 0.0 && cell(&small, 1, 2) == 1.0);
+    close_to(cell(&small, 2, 1), 1e5 + 1e8 * places[0]); /* nothing of it comes from under the fine level */
+    small_stop(&small);
+}
+
 static void test_none(void **state)
 {
     (void)state;
@@ -150,10 +187,8 @@ static void test_none(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_space),
-        cmocka_unit_test(test_time),
-        cmocka_unit_test(test_steps),
-        cmocka_unit_test(test_none),
+        cmocka_unit_test(test_space),  cmocka_unit_test(test_time), cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_levels), cmocka_unit_test(test_none),
     };
     if (registry_init()) return 1;
     return cmocka_run_group_tests(tests, NULL, NULL);
