@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "phys/bound.h"
 #include "phys/mix.h"
+#include "phys/prolong.h"
 
 #include <math.h>
 #include <string.h>
@@ -187,6 +188,21 @@ static void derive_cost(const struct derive_tile *tile, double *out)
     }
 }
 
+/* Layers behind the domain's boundary. What non-reflecting boundaries send in depends on the start of the run; here
+ * they go on with the value inside. */
+static void derive_behind(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w)
+{
+    const struct bound *bound = data;
+    const struct model *model = bound->model;
+    enum scene_boundary_type type = model->scene->boundary[frame->axis][side].type;
+    if (type != SCENE_NONREFLECTING && type != SCENE_INCOMING_WAVE) {
+        bound_fill(data, local, frame, side, pitch, w);
+        return;
+    }
+    for (unsigned i = 0; i < model->n_active; i++)
+        bound_copy(NULL, local, frame, side, pitch, w + model->active[i] * pitch);
+}
+
 /* Central differences along an axis of a combination of primitives: `combine` makes one value per
  * frame cell out of the gathered primitives. grad: [n]. */
 static void derive_gradient(const struct derive_tile *tile, int axis,
@@ -195,8 +211,7 @@ static void derive_gradient(const struct derive_tile *tile, int axis,
 {
     const struct mesh *mesh = tile->mesh;
     const struct model *model = tile->model;
-    struct bound *bound = bound_new(model, mesh, tile->level);
-    bound->t = tile->t;
+    struct bound bound = {.model = model, .mesh = mesh, .level = tile->level, .t = tile->t};
     const struct frame_source source = {.mesh = mesh,
                                         .level = tile->level,
                                         .arrays = tile->level->w,
@@ -204,8 +219,8 @@ static void derive_gradient(const struct derive_tile *tile, int axis,
                                         .link = tile->level->link,
                                         .n_field = model->n_active,
                                         .fields = model->active,
-                                        .boundary = bound_fill,
-                                        .data = bound};
+                                        .boundary = derive_behind,
+                                        .data = &bound};
     double *w = mem_new((size_t)model->n_field * FRAME_CELLS, sizeof *w);
     for (size_t piece = 0; piece < frame_pieces(mesh, axis); piece++) {
         struct frame frame = frame_piece(mesh, axis, piece);
@@ -220,7 +235,6 @@ static void derive_gradient(const struct derive_tile *tile, int axis,
                 }
     }
     mem_free(w);
-    bound_free(bound);
 }
 
 static double derive_combine_velocity(const struct model *model, const double *w, size_t pitch, int which)
@@ -348,28 +362,45 @@ static struct derive_tile derive_view(const struct model *model, const struct me
                                 .n = mesh->n_cell};
 }
 
-/* Brings the neighbours' layers up to date: after a step the halo still holds the midpoint. */
-static void derive_exchange(const struct mesh *mesh)
+/* Brings the neighbours' layers up to date, coarser ones too: after a step they still hold the midpoint. */
+static void derive_exchange(const struct model *model, const struct mesh *mesh, double t)
 {
+    struct prolong *prolong = prolong_new(model, mesh);
     for (int l = 0; l < mesh->n_level; l++) {
         halo_start(mesh->levels[l].halo, mesh->levels[l].w);
         halo_finish(mesh->levels[l].halo);
+        if (l + 1 == mesh->n_level) break;
+        struct link *link = mesh->levels[l + 1].link;
+        struct bound *bound = bound_new(model, mesh, &mesh->levels[l]);
+        bound->t = t;
+        prolong_strips(prolong, mesh, l, bound, 0);
+        bound_free(bound);
+        link_down(link);
+        link->theta = 0.0;
     }
+    prolong_free(prolong);
+}
+
+/* Raises *scale to the largest gradient in the leaves of a tile. */
+static void derive_steepest(const struct derive_tile *tile, double *gradient, double *scale)
+{
+    const struct tile *here = &tile->level->tiles[tile->level->first + tile->local];
+    derive_density_gradient(tile, gradient);
+    for (size_t i = 0; i < tile->n; i++)
+        if (gradient[i] > *scale && !(here->covered >> mesh_octant(tile->mesh, i) & 1)) *scale = gradient[i];
 }
 
 void derive_prepare(const struct model *model, const struct mesh *mesh, double t, struct derive *field)
 {
     void (*compute)(const struct derive_tile *, double *) = derive_table[field->what].compute;
-    if (compute == derive_schlieren || compute == derive_vorticity) derive_exchange(mesh);
+    if (compute == derive_schlieren || compute == derive_vorticity) derive_exchange(model, mesh, t);
     if (compute != derive_schlieren) return;
     double *gradient = mem_new(mesh->n_cell, sizeof *gradient);
     field->scale = 0.0;
     for (int l = 0; l < mesh->n_level; l++)
         for (unsigned tile = 0; tile < mesh->levels[l].n_local; tile++) {
             struct derive_tile view = derive_view(model, mesh, l, tile, t, field);
-            derive_density_gradient(&view, gradient);
-            for (size_t i = 0; i < mesh->n_cell; i++)
-                if (gradient[i] > field->scale) field->scale = gradient[i];
+            derive_steepest(&view, gradient, &field->scale);
         }
     mem_free(gradient);
     comm_max(&field->scale, 1);

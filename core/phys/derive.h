@@ -23,8 +23,9 @@ const char *const *derive_names(const struct model *model);
 /* Once per output time, before tiles are derived: global values of the field. Collective. */
 void derive_prepare(const struct model *model, const struct mesh *mesh, double t, struct derive *field);
 
-/* Values in the cells of a local tile: out[component][cell], cells x fastest. Not collective
- * (after a completed step all neighbour data is at hand). */
+/* Values in the cells of a local tile of any level: out[component][cell], cells x fastest; under finer tiles those
+ * of the averages. Gradients are central differences; beside a coarser level they see what the solver sees there
+ * (prolong.h). Not collective (after a completed step and derive_prepare all neighbour data is at hand). */
 void derive_tile(const struct model *model, const struct mesh *mesh, int level, unsigned local, double t,
                  const struct derive *field, double *out);
 

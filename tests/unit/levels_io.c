@@ -355,12 +355,72 @@ static void test_file_volume(void **state)
     small_stop(&small);
 }
 
+static bool inside(const double *x)
+{
+    return fabs(x[0] - 0.5) < 0.3 && fabs(x[1] - 0.5) < 0.3;
+}
+
+static bool core(const double *x)
+{
+    return fabs(x[0] - 0.5) < 0.13 && fabs(x[1] - 0.5) < 0.13;
+}
+
+/* Linear fields have the same gradients on all levels and at all faces between them. */
+static void test_gradients(void **state)
+{
+    (void)state;
+    struct small small;
+    struct derive vorticity, schlieren;
+    small_start_levels(&small,
+                       "bulla: 1\ndomain: {lower: [0, 0], upper: [1, 1], cells: [32, 32],\n"
+                       "  boundaries: {x-: outflow, x+: outflow, y-: outflow, y+: outflow}}\n"
+                       "mesh: {tile: 8}\nmaterials: {air: {eos: {type: ideal-gas, gamma: 1.4}}}\n"
+                       "initial: [{everywhere: true, material: air, density: = 1 + x + 2 * y, pressure: 1e5,"
+                       " velocity: [= -3 * y, = 3 * x]}]\nrun: {until: 1 ms}\n",
+                       2);
+    levels_add(small.state, inside);
+    levels_add(small.state, core);
+    const struct mesh *mesh = small.state->mesh;
+    double *out = mem_new(3 * mesh->n_cell, sizeof *out), *leaf = mem_new(mesh->n_cell, sizeof *leaf);
+    for (int l = 0; l < 3; l++) /* primitives of averages of u are not linear: those of the field are */
+        for (unsigned t = 0; t < mesh->levels[l].n_tile; t++)
+            for (size_t i = 0; i < mesh->n_cell; i++) {
+                double corner[3], *w = mesh->levels[l].w[t];
+                mesh_corner(mesh, &mesh->levels[l], &mesh->levels[l].tiles[t], corner);
+                double x = corner[0] + ((double)(i % 8) + 0.5) * mesh->levels[l].h[0];
+                double y = corner[1] + ((double)(i / 8) + 0.5) * mesh->levels[l].h[1];
+                w[small.state->model->i_u * mesh->n_cell + i] = -3.0 * y;
+                w[(small.state->model->i_u + 1) * mesh->n_cell + i] = 3.0 * x;
+            }
+    int hidden = mesh_find(mesh, &mesh->levels[0], (const int[]){1, 1, 0});
+    mesh->levels[0].w[hidden][63] = 1e6; /* in the middle: nobody has it beside him */
+    assert_int_equal(derive_find(small.state->model, "vorticity", &vorticity), 0);
+    assert_int_equal(derive_find(small.state->model, "schlieren", &schlieren), 0);
+    derive_prepare(small.state->model, mesh, 0.0, &vorticity);
+    derive_prepare(small.state->model, mesh, 0.0, &schlieren);
+    close_to(schlieren.scale, sqrt(5.0), 1e-9);
+    for (int l = 0; l < 3; l++)
+        for (unsigned t = 0; t < mesh->levels[l].n_tile; t++) {
+            const struct tile *tile = &mesh->levels[l].tiles[t];
+            derive_tile(small.state->model, mesh, l, t, 0.0, &vorticity, out);
+            mesh_leaves(mesh, tile, leaf);
+            for (size_t i = 0; i < mesh->n_cell; i++) {
+                int x = tile->at[0] * 8 + (int)(i % 8), y = tile->at[1] * 8 + (int)(i / 8), last = (32 << l) - 1;
+                bool edge = x == 0 || y == 0 || x == last || y == last; /* one-sided there */
+                if (leaf[i] > 0.0 && !edge) close_to(out[2 * mesh->n_cell + i], 6.0, 1e-9);
+            }
+        }
+    mem_free(leaf);
+    mem_free(out);
+    small_stop(&small);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_measures),    cmocka_unit_test(test_ledger), cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_crossing),    cmocka_unit_test(test_file),   cmocka_unit_test(test_file_line),
-        cmocka_unit_test(test_file_volume),
+        cmocka_unit_test(test_measures),    cmocka_unit_test(test_ledger),    cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_crossing),    cmocka_unit_test(test_file),      cmocka_unit_test(test_file_line),
+        cmocka_unit_test(test_file_volume), cmocka_unit_test(test_gradients),
     };
     if (registry_init()) return 1;
     return cmocka_run_group_tests(tests, NULL, NULL);
