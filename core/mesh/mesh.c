@@ -270,8 +270,13 @@ int mesh_octant(const struct mesh *mesh, size_t cell)
 
 void mesh_leaves(const struct mesh *mesh, const struct tile *tile, double *ret_leaf)
 {
-    for (size_t c = 0; c < mesh->n_cell; c++)
-        ret_leaf[c] = tile->covered && tile->covered >> mesh_octant(mesh, c) & 1 ? 0.0 : 1.0;
+    const int *n = mesh->n;
+    for (int k = 0; k < n[2]; k++)
+        for (int j = 0; j < n[1]; j++, ret_leaf += n[0]) {
+            int above = (mesh->dim > 1 && j >= n[1] / 2 ? 2 : 0) + (mesh->dim > 2 && k >= n[2] / 2 ? 4 : 0);
+            double lower = tile->covered >> above & 1 ? 0.0 : 1.0, upper = tile->covered >> (above + 1) & 1 ? 0.0 : 1.0;
+            for (int i = 0; i < n[0]; i++) ret_leaf[i] = i < n[0] / 2 ? lower : upper;
+        }
 }
 
 void mesh_swap(struct level *level)
