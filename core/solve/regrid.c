@@ -25,6 +25,7 @@ enum regrid_origin { REGRID_PAINTED, REGRID_INTERPOLATED };
 struct regrid {
     struct state *state;
     int base;
+    struct tile *root; /* tiles of level 0 with other owners, where those they have share the work badly */
     struct nest_keys wishes[MESH_LEVELS + 1];
     struct nest_set sets[MESH_LEVELS + 1];
 };
@@ -137,7 +138,21 @@ static double *regrid_new_costs(const struct regrid *regrid, int l, double *cons
     return cost;
 }
 
-/* Sets the owners of all new sets. Level `base` and those below count as load, and stay. */
+/* Level `base` and those below stay where they are and count as load; but level 0 is cut anew if it is `base` itself
+ * and its cells under finer tiles, or at rest, leave some ranks idle. */
+static void regrid_load(struct regrid *regrid, int l, const double *cost, double weight, double *load)
+{
+    const struct level *level = &regrid->state->mesh->levels[l];
+    if (regrid->base == 0 && partition_imbalance(level->tiles, level->n_tile, cost, comm_size()) > PARTITION_SLACK) {
+        regrid->root = mem_new(level->n_tile, sizeof *regrid->root);
+        memcpy(regrid->root, level->tiles, level->n_tile * sizeof *regrid->root);
+        partition_cut(regrid->root, level->n_tile, cost, comm_size(), weight, load);
+        return;
+    }
+    for (unsigned i = 0; i < level->n_tile; i++) load[level->tiles[i].rank] += weight * cost[i];
+}
+
+/* Sets the owners of all new sets. */
 static void regrid_partition(struct regrid *regrid)
 {
     const struct state *state = regrid->state;
@@ -150,11 +165,8 @@ static void regrid_partition(struct regrid *regrid)
     }
     for (int l = 0; l < mesh->n_level; l++) before[l] = regrid_costs(state->stages[l]);
     for (int l = 0; l <= mesh->most_level; l++, weight *= state->scene->subcycle ? 2.0 : 1.0) {
-        if (l <= regrid->base) {
-            for (unsigned i = 0; i < mesh->levels[l].n_tile; i++)
-                load[mesh->levels[l].tiles[i].rank] += weight * before[l][i];
-            continue;
-        }
+        if (l <= regrid->base) regrid_load(regrid, l, before[l], weight, load);
+        if (l <= regrid->base) continue;
         if (!regrid->sets[l].n) break;
         double *cost = regrid_new_costs(regrid, l, before);
         partition_cut(regrid->sets[l].tiles, regrid->sets[l].n, cost, size, weight, load);
@@ -228,6 +240,18 @@ static int regrid_replace(struct regrid *regrid, int l, enum regrid_origin origi
     return status;
 }
 
+/* Moves the tiles of level 0 to their new owners. */
+static void regrid_share(struct regrid *regrid)
+{
+    struct state *state = regrid->state;
+    struct mesh_change change = {0};
+    if (!regrid->root) return;
+    mesh_replace(state->mesh, 0, regrid->root, state->mesh->levels[0].n_tile, &change);
+    regrid->root = NULL;
+    stage_adopt(state->stages[0], change.from, change.born);
+    mesh_change_free(&change);
+}
+
 static void regrid_drop(struct state *state, int l)
 {
     struct mesh_change change = {0};
@@ -247,6 +271,7 @@ static int regrid_apply(struct regrid *regrid, enum regrid_origin origin)
     regrid_partition(regrid);
     while (finest < mesh->most_level && regrid->sets[finest + 1].n) finest++;
     for (int l = mesh->n_level - 1; l > finest; l--) regrid_drop(state, l);
+    regrid_share(regrid);
     for (int l = regrid->base + 1; l <= finest; l++) TRY(regrid_replace(regrid, l, origin));
     for (int l = regrid->base; l < mesh->n_level; l++) stage_adopt(state->stages[l], NULL, NULL);
     TRY(nest_check(mesh));
