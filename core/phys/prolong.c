@@ -19,10 +19,11 @@ enum { PROLONG_TAG = 400 };
 
 struct prolong {
     const struct model *model;
-    size_t stride[3], cells, origin;    /* of the block: to the next cell along an axis (0 beyond dim), size of a
+    size_t stride[3], cells, origin; /* of the block: to the next cell along an axis (0 beyond dim), size of a
                                         component, offset of the tile's first cell */
-    size_t *edge[3];                    /* by (outer, inner) of an axis: offset of the first cell along it */
-    double *frame;                      /* [n_field][FRAME_CELLS] */
+    size_t *edge[3];                 /* by (outer, inner) of an axis: offset of the first cell along it */
+    double *frame;                   /* [n_field][pitch]: a line of cells with all beside it along an axis */
+    size_t pitch;
     double *w, *u, *rho_c2, *stiffness; /* blocks: primitives, conserved, rho c_f^2 and that of each material */
 };
 
@@ -52,7 +53,8 @@ struct prolong *prolong_new(const struct model *model, const struct mesh *mesh)
         prolong->cells *= (size_t)mesh->n[d] + 2;
     }
     for (int axis = 0; axis < mesh->dim; axis++) prolong_edges(mesh, axis, prolong);
-    prolong->frame = mem_new(model->n_field * (size_t)FRAME_CELLS, sizeof(double));
+    prolong->pitch = (size_t)mesh->n[0] * ((size_t)mesh->n[0] + 2 * MESH_GHOST);
+    prolong->frame = mem_new(model->n_field * prolong->pitch, sizeof(double));
     prolong->w = mem_new(model->n_field * prolong->cells, sizeof(double));
     prolong->u = mem_new(model->n_field * prolong->cells, sizeof(double));
     prolong->stiffness = mem_new(model->n_material * prolong->cells, sizeof(double));
@@ -90,8 +92,8 @@ static void prolong_place(struct prolong *prolong, const struct frame *frame)
     size_t stride = prolong->stride[frame->axis], length = frame->n * stride;
     for (unsigned q = 0; q < prolong->model->n_field; q++)
         for (size_t o = 0; o < frame->outer; o++) {
-            const double *low = prolong->frame + q * FRAME_CELLS + frame_at(frame, o, -1);
-            const double *high = prolong->frame + q * FRAME_CELLS + frame_at(frame, o, (int)frame->n);
+            const double *low = prolong->frame + q * prolong->pitch + frame_at(frame, o, -1);
+            const double *high = prolong->frame + q * prolong->pitch + frame_at(frame, o, (int)frame->n);
             const size_t *edge =
                 prolong->edge[frame->axis] + (frame->outer_from + o) * frame->tile_inner + frame->inner_from;
             double *w = prolong->w + q * prolong->cells;
@@ -102,9 +104,49 @@ static void prolong_place(struct prolong *prolong, const struct frame *frame)
         }
 }
 
-/* Fills the block of primitives with a local tile and what lies behind its faces. */
+/* Cells of a tile: from[d] <= i < to[d]. */
+struct prolong_box {
+    size_t from[3], to[3];
+};
+
+/* Cells of a box on one line across an axis, with all cells of the tile along it. k: index along the third axis. */
+static struct frame prolong_line(const struct mesh *mesh, int axis, const struct prolong_box *box, size_t k)
+{
+    struct frame frame = {.axis = axis, .outer = 1, .inner = 1, .n = (size_t)mesh->n[axis], .tile_inner = 1};
+    for (int d = 0; d < axis; d++) frame.tile_inner *= (size_t)mesh->n[d];
+    frame.tile_outer = mesh->n_cell / frame.n / frame.tile_inner;
+    if (axis == 0) {
+        frame.outer_from = box->from[1] + (size_t)mesh->n[1] * k;
+        frame.outer = box->to[1] - box->from[1];
+    } else {
+        frame.outer_from = axis == 1 ? k : 0;
+        frame.inner_from = box->from[0] + (axis == 1 ? 0 : (size_t)mesh->n[0] * k);
+        frame.inner = box->to[0] - box->from[0];
+    }
+    frame.count = frame.outer * (frame.n + 2 * MESH_GHOST) * frame.inner;
+    return frame;
+}
+
+/* Copies the cells of a box and their neighbours in the tile to the block. */
+static void prolong_inside(struct prolong *prolong, const struct mesh *mesh, const double *w,
+                           const struct prolong_box *box)
+{
+    struct prolong_box wide = *box;
+    for (int d = 0; d < mesh->dim; d++) {
+        if (wide.from[d] > 0) wide.from[d]--;
+        if (wide.to[d] < (size_t)mesh->n[d]) wide.to[d]++;
+    }
+    size_t n0 = (size_t)mesh->n[0], n1 = (size_t)mesh->n[1], length = wide.to[0] - wide.from[0];
+    for (unsigned q = 0; q < prolong->model->n_field; q++)
+        for (size_t k = wide.from[2]; k < wide.to[2]; k++)
+            for (size_t j = wide.from[1]; j < wide.to[1]; j++)
+                memcpy(prolong->w + q * prolong->cells + prolong->edge[0][k * n1 + j] + wide.from[0],
+                       w + q * mesh->n_cell + (k * n1 + j) * n0 + wide.from[0], length * sizeof *w);
+}
+
+/* Fills the block of primitives with the cells of a box of a local tile and the face neighbours of each. */
 static void prolong_gather(struct prolong *prolong, const struct mesh *mesh, const struct level *level, unsigned local,
-                           struct bound *bound)
+                           struct bound *bound, const struct prolong_box *box)
 {
     struct frame_source source = {.mesh = mesh,
                                   .level = level,
@@ -113,17 +155,16 @@ static void prolong_gather(struct prolong *prolong, const struct mesh *mesh, con
                                   .n_field = prolong->model->n_field,
                                   .boundary = prolong_behind,
                                   .data = bound};
-    size_t n0 = (size_t)mesh->n[0];
-    for (int axis = 0; axis < mesh->dim; axis++)
-        for (size_t piece = 0; piece < frame_pieces(mesh, axis); piece++) {
-            struct frame frame = frame_piece(mesh, axis, piece);
-            frame_gather(&source, local, &frame, FRAME_CELLS, prolong->frame);
+    prolong_inside(prolong, mesh, level->w[local], box);
+    for (int axis = 0; axis < mesh->dim; axis++) {
+        int other = axis == 2 ? 1 : 2;
+        if (box->from[axis] > 0 && box->to[axis] < (size_t)mesh->n[axis]) continue;
+        for (size_t k = box->from[other]; k < box->to[other]; k++) {
+            struct frame frame = prolong_line(mesh, axis, box, k);
+            frame_gather(&source, local, &frame, prolong->pitch, prolong->frame);
             prolong_place(prolong, &frame);
         }
-    for (unsigned q = 0; q < prolong->model->n_field; q++)
-        for (size_t row = 0; row < mesh->n_cell / n0; row++)
-            memcpy(prolong->w + q * prolong->cells + prolong->edge[0][row],
-                   level->w[local] + q * mesh->n_cell + row * n0, n0 * sizeof(double));
+    }
 }
 
 /* A row of coarse cells and the fine ghosts made from it. */
@@ -199,16 +240,28 @@ static void prolong_strip(const struct prolong *prolong, const struct mesh *mesh
     if (model->n_alpha > 2) prolong_normalise(size, model->n_alpha, strip);
 }
 
+/* The coarse cells that a strip is made from. */
+static struct prolong_box prolong_patch(const struct mesh *mesh, const struct link_face *face)
+{
+    struct prolong_box box;
+    for (int d = 0; d < 3; d++) {
+        box.from[d] = (size_t)face->from[d];
+        box.to[d] = box.from[d] + (d < mesh->dim && d != face->face / 2 ? (size_t)mesh->n[d] / 2 : 1);
+    }
+    return box;
+}
+
 void prolong_strips(struct prolong *prolong, const struct mesh *mesh, int l, struct bound *bound, int slot)
 {
     const struct level *level = &mesh->levels[l];
     const struct link *link = mesh->levels[l + 1].link;
     for (unsigned t = 0; t < level->n_local; t++) {
         unsigned from = link->source_from[t], to = link->source_from[t + 1];
-        if (from == to) continue;
-        prolong_gather(prolong, mesh, level, t, bound);
-        for (unsigned s = from; s < to; s++)
+        for (unsigned s = from; s < to; s++) {
+            struct prolong_box box = prolong_patch(mesh, &link->sources[s]);
+            prolong_gather(prolong, mesh, level, t, bound, &box);
             prolong_strip(prolong, mesh, &link->sources[s], link->sources[s].strip[slot]);
+        }
     }
 }
 
@@ -258,10 +311,11 @@ static void prolong_prepare(struct prolong *prolong, const struct mesh *mesh, co
                             struct bound *bound)
 {
     const struct model *model = prolong->model;
+    const struct prolong_box all = {.to = {(size_t)mesh->n[0], (size_t)mesh->n[1], (size_t)mesh->n[2]}};
     for (unsigned q = 0; q < model->n_field; q++)
         for (size_t c = 0; c < prolong->cells; c++)
             prolong->w[q * prolong->cells + c] = level->w[local][q * mesh->n_cell];
-    prolong_gather(prolong, mesh, level, local, bound);
+    prolong_gather(prolong, mesh, level, local, bound, &all);
     mix_conserved(model, prolong->cells, prolong->cells, prolong->w, prolong->u);
     mix_stiffness(model, prolong->cells, prolong->cells, prolong->w, prolong->stiffness);
     mix_speed2(model, prolong->cells, prolong->cells, prolong->w, prolong->stiffness, prolong->rho_c2);
