@@ -5,6 +5,8 @@
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
+#include "mesh/mesh.h"
+
 #include <stdbool.h>
 
 enum progress_mode { PROGRESS_LINES, PROGRESS_LIVE, PROGRESS_JSON, PROGRESS_SILENT };
@@ -14,11 +16,15 @@ struct progress {
     bool color;
     double until;    /* end of the run [s] */
     long most_steps; /* or this many steps; 0: no limit */
-    double cells;    /* of the mesh */
-    double start;    /* clock at the start [s] */
-    double shown;    /* clock, share of the run and step when a line was shown last */
+    double cells;    /* of the mesh, all levels */
+    int n_level;
+    double level_cells[MESH_LEVELS];
+    long level_steps[MESH_LEVELS];
+    double work; /* cell updates since the start, and when a line was shown last */
+    double worked;
+    double start; /* clock at the start [s] */
+    double shown; /* clock and share of the run when a line was shown last */
     double share;
-    long step;
     double speed;   /* share of the run per second, smoothed */
     bool line_open; /* a live line stands on the terminal */
 };
@@ -28,6 +34,10 @@ double progress_clock(void);
 
 /* Mode for a terminal or not, as NO_COLOR and `json`, `quiet` ask. */
 enum progress_mode progress_choose(bool json, bool quiet, bool terminal);
+
+/* Counts the cells of the mesh and the work done on it: at the start, and after each step. `level_steps`: the steps
+ * that each level has taken (state.h). */
+void progress_mesh(struct progress *progress, const struct mesh *mesh, const long level_steps[MESH_LEVELS]);
 
 /* Begins; `name` of the case and `ranks` go into the first JSON line. */
 void progress_begin(struct progress *progress, const char *name, const char *directory);

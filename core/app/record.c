@@ -57,6 +57,7 @@ static int record_row(struct record *record, const struct state *state)
 
 int record_due(struct record *record, const struct state *state)
 {
+    provenance_watch(record->provenance, state);
     TRY(probes_record(record->probes, state));
     if (due_now(&record->history_due, state->t, state->step)) TRY(record_row(record, state));
     if (due_now(&record->snapshot_due, state->t, state->step)) TRY(record_snapshot(record, state));

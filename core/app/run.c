@@ -92,6 +92,7 @@ static int run_step(struct run *run)
     double take = due_step(dt, left);
     TRY(advance_step(state, take));
     if (take == left && state->dt == take) state->t = target;
+    progress_mesh(&run->progress, state->mesh, state->level_steps);
     progress_step(&run->progress, state->t, state->dt, state->step);
     return 0;
 }
@@ -112,7 +113,7 @@ static void run_say_end(const struct run *run, int code)
 {
     char time[HUMAN_ROOM], wall[HUMAN_ROOM], rate[HUMAN_ROOM];
     const struct state *state = run->state;
-    double passed = progress_clock() - run->progress.start, work = run->progress.cells * (double)state->step;
+    double passed = progress_clock() - run->progress.start, work = run->progress.work;
     const char *directory = run->scene->directory;
     human_si(state->t, "s", time);
     if (code == 0)
@@ -175,7 +176,7 @@ static int run_in_directory(struct run *run, const struct cli_given *given)
 {
     run->progress.until = run->scene->until;
     run->progress.most_steps = run->scene->max_steps;
-    run->progress.cells = scenes_cells(run->scene);
+    progress_mesh(&run->progress, run->state->mesh, run->state->level_steps);
     int code = run_files(run, given);
     if (code) {
         cli_failed(code);

@@ -28,6 +28,7 @@ struct provenance {
     double wall_0, cpu_0; /* at the start of the run [s] */
     long step_0;
     char started[32];
+    unsigned peak[MESH_LEVELS]; /* most tiles of each level */
     struct ledger initial;
     char (*hosts)[PROVENANCE_HOST]; /* [ranks] */
 };
@@ -176,19 +177,60 @@ static json_t *provenance_origin(const struct provenance *provenance, const stru
 
 /* What it cost and how much there is, of all ranks. */
 struct provenance_cost {
-    double wall, cpu, cpu_run, memory; /* s, s, s since the run began, bytes; sums over ranks but wall */
+    double wall, cpu, cpu_run, memory, regrid; /* s, s, s since the run began, bytes, s; sums over ranks but wall */
     struct state_counts counts;
     struct ledger now;
 };
+
+/* Leaves of a level. */
+static double provenance_leaves(const struct mesh *mesh, const struct level *level)
+{
+    unsigned octants = 1u << mesh->dim;
+    double open = 0.0;
+    for (unsigned i = 0; i < level->n_tile; i++)
+        open += (double)octants - (double)__builtin_popcount(level->tiles[i].covered);
+    return open * (double)mesh->n_cell / (double)octants;
+}
+
+/* What there is of each level now, and was at most. */
+static json_t *provenance_levels(const struct provenance *provenance, const struct state *state)
+{
+    const struct mesh *mesh = state->mesh;
+    json_t *levels = json_array();
+    for (int l = 0; l < MESH_LEVELS && provenance->peak[l]; l++) {
+        const struct level *level = &mesh->levels[l];
+        unsigned tiles = l < mesh->n_level ? level->n_tile : 0;
+        double leaves = tiles ? provenance_leaves(mesh, level) : 0.0, n_cell = (double)mesh->n_cell;
+        json_array_append_new(levels,
+                              json_pack("{s:i, s:f, s:I, s:I, s:I, s:I, s:I, s:I}", "level", l, "width", level->h[0],
+                                        "tiles", (json_int_t)tiles, "cells", (json_int_t)(tiles * n_cell), "leaves",
+                                        (json_int_t)leaves, "peak_tiles", (json_int_t)provenance->peak[l], "peak_cells",
+                                        (json_int_t)(provenance->peak[l] * n_cell), "steps",
+                                        (json_int_t)state->level_steps[l]));
+    }
+    return levels;
+}
+
+static json_t *provenance_refinement(const struct provenance_cost *cost)
+{
+    const struct state_counts *counts = &cost->counts;
+    return json_pack("{s:I, s:f, s:o, s:I, s:I}", "regrids", (json_int_t)counts->regrids, "regrid_cpu_s", cost->regrid,
+                     "regrid_share", provenance_number(cost->regrid / cost->cpu_run), "limited_cells",
+                     (json_int_t)counts->limited, "spread_refluxes", (json_int_t)counts->spread);
+}
 
 static json_t *provenance_work(const struct provenance *provenance, const struct state *state,
                                const struct provenance_cost *cost)
 {
     const struct mesh *mesh = state->mesh;
     json_t *work = json_object();
-    double cells = 0.0;
-    for (int l = 0; l < mesh->n_level; l++) cells += (double)mesh->levels[l].n_tile * (double)mesh->n_cell;
-    json_object_set_new(work, "cells", json_integer((json_int_t)cells));
+    double cells = 0.0, leaves = 0.0;
+    for (int l = 0; l < mesh->n_level; l++) {
+        cells += (double)mesh->levels[l].n_tile * (double)mesh->n_cell;
+        leaves += provenance_leaves(mesh, &mesh->levels[l]);
+    }
+    json_object_set_new(work, "cells", json_integer((json_int_t)cells)); /* of all levels, covered ones too */
+    json_object_set_new(work, "leaves", json_integer((json_int_t)leaves));
     json_object_set_new(work, "steps", json_integer(state->step));
     json_object_set_new(work, "steps_of_this_run", json_integer(state->step - provenance->step_0));
     json_object_set_new(work, "time", json_real(state->t));
@@ -222,6 +264,8 @@ static char *provenance_compose(const struct provenance *provenance, const struc
     json_decref(work);
     json_object_set_new(root, "conservation", provenance_conservation(provenance, state, &cost->now));
     json_object_set_new(root, "guard", provenance_guard(&cost->counts));
+    json_object_set_new(root, "levels", provenance_levels(provenance, state));
+    json_object_set_new(root, "refinement", provenance_refinement(cost));
     json_object_set_new(root, "exit_reason", json_string(reason));
     json_object_set_new(root, "exit_code", strcmp(reason, "running") ? json_integer(exit_code) : json_null());
     char *json = json_dumps(root, JSON_INDENT(2)), *text = mem_print("%s\n", json ? json : "{}");
@@ -240,6 +284,14 @@ static char *provenance_share(char *text)
     return text;
 }
 
+void provenance_watch(struct provenance *provenance, const struct state *state)
+{
+    for (int l = 0; l < state->mesh->n_level; l++) {
+        unsigned tiles = state->mesh->levels[l].n_tile;
+        if (tiles > provenance->peak[l]) provenance->peak[l] = tiles;
+    }
+}
+
 int provenance_write(struct provenance *provenance, const struct state *state, const char *reason, int exit_code)
 {
     double cpu = provenance_cpu();
@@ -247,6 +299,7 @@ int provenance_write(struct provenance *provenance, const struct state *state, c
                                    .cpu = provenance_sum(cpu),
                                    .cpu_run = provenance_sum(cpu - provenance->cpu_0),
                                    .memory = provenance_sum(mem_peak()),
+                                   .regrid = provenance_sum(state->counts.regrid_seconds),
                                    .counts = state_counts_total(state)};
     ledger_take(state, &cost.now);
     char *text = comm_rank() == 0 ? provenance_compose(provenance, state, &cost, reason, exit_code) : NULL;
@@ -266,6 +319,7 @@ int provenance_new(const struct state *state, int argc, char *const *argv, struc
     provenance_now(provenance->started, sizeof provenance->started);
     provenance_find_hosts(provenance);
     ledger_take(state, &provenance->initial);
+    provenance_watch(provenance, state);
     int code = provenance_write(provenance, state, "running", 0);
     if (code) provenance_free(provenance);
     else *ret_provenance = provenance;

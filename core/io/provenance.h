@@ -13,6 +13,9 @@ struct provenance;
 int provenance_new(const struct state *state, int argc, char *const *argv, struct provenance **ret_provenance);
 void provenance_free(struct provenance *provenance); /* NULL is fine */
 
+/* To be called with the initial state and after every step: notes how many tiles there were at most. */
+void provenance_watch(struct provenance *provenance, const struct state *state);
+
 /* Writes the file again with the present figures; `reason`: "running", "finished", "interrupted by
  * SIGTERM", or the message of the failure. Collective. */
 int provenance_write(struct provenance *provenance, const struct state *state, const char *reason, int exit_code);

@@ -28,9 +28,15 @@ static size_t tell(json_t *ret_lines[8])
     fflush(stdout);
     int kept = dup(STDOUT_FILENO);
     assert_true(kept >= 0 && dup2(fileno(file), STDOUT_FILENO) >= 0);
-    struct progress progress = {.mode = PROGRESS_JSON, .until = 2, .cells = 10};
+    struct mesh mesh = {.n_level = 2, .n_cell = 4, .levels = {{.n_tile = 1}, {.n_tile = 3}}};
+    long steps[MESH_LEVELS] = {10, 20};
+    struct progress progress = {.mode = PROGRESS_JSON, .until = 2};
+    progress_mesh(&progress, &mesh, steps); /* what was done before does not count */
     progress_begin(&progress, "a \"case\"", "out");
     progress.shown -= 10; /* ten seconds later: time for a line */
+    steps[0] += 5;
+    steps[1] += 10;
+    progress_mesh(&progress, &mesh, steps);
     progress_step(&progress, 0.5, 0.1, 5);
     progress_step(&progress, 0.6, 0.1, 6); /* too soon for another */
     progress_end(&progress, 2, 20, 0, "end time");
@@ -54,6 +60,12 @@ static void lines_are_objects(void **state)
     assert_string_equal(json_string_value(json_object_get(lines[0], "case")), "a \"case\"");
     assert_true(json_number_value(json_object_get(lines[1], "percent")) == 25);
     assert_true(json_integer_value(json_object_get(lines[1], "step")) == 5);
+    assert_int_equal(json_integer_value(json_object_get(lines[1], "cells")), 16);
+    json_t *levels = json_object_get(lines[1], "cells_by_level");
+    assert_int_equal(json_array_size(levels), 2);
+    assert_int_equal(json_integer_value(json_array_get(levels, 1)), 12);
+    double rate = json_number_value(json_object_get(lines[1], "updates_per_s"));
+    assert_true(rate > 13.5 && rate <= 14.0); /* 5 * 4 + 10 * 12 cells in ten seconds */
     double eta = json_number_value(json_object_get(lines[1], "eta_s"));
     assert_true(eta > 29.9 && eta < 30.5); /* a quarter in ten seconds */
     assert_string_equal(json_string_value(json_object_get(lines[2], "event")), "end");

@@ -2,7 +2,7 @@
 #include "io/provenance.h"
 
 #include "io/ledger.h"
-#include "small.h"
+#include "levels_io.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -91,6 +91,48 @@ static void test_end(void **state)
     small_stop(&small);
 }
 
+static bool near(const double *x)
+{
+    return hypot(x[0], x[1]) < 0.85e-3;
+}
+
+/* What there is of each level, and was at most. */
+static void test_levels(void **state)
+{
+    (void)state;
+    struct small small;
+    struct provenance *provenance;
+    struct mesh_change change;
+    char program[] = "bulla", *argv[] = {program, NULL};
+    small_start_levels(&small, SMALL_AXISYMMETRIC, 1);
+    assert_int_equal(provenance_new(small.state, 1, argv, &provenance), 0);
+    levels_add(small.state, near);
+    provenance_watch(provenance, small.state);
+    small.state->counts.regrids = 1;
+    small.state->counts.regrid_seconds = 1e-9;
+    assert_int_equal(provenance_write(provenance, small.state, "finished", 0), 0);
+    json_t *root = load(&small), *fine = json_array_get(json_object_get(root, "levels"), 1);
+    assert_int_equal(json_integer_value(json_object_get(root, "cells")), 24 * 256);
+    assert_int_equal(json_integer_value(json_object_get(root, "leaves")), 24 * 256 - 16 * 64);
+    assert_int_equal(json_integer_value(json_object_get(fine, "tiles")), 16);
+    assert_int_equal(json_integer_value(json_object_get(fine, "leaves")), 16 * 256);
+    json_t *refinement = json_object_get(root, "refinement");
+    assert_int_equal(json_integer_value(json_object_get(refinement, "regrids")), 1);
+    assert_true(json_number_value(json_object_get(refinement, "regrid_share")) > 0.0);
+    json_decref(root);
+    mesh_replace(small.state->mesh, 1, NULL, 0, &change); /* gone again */
+    mesh_change_free(&change);
+    assert_int_equal(provenance_write(provenance, small.state, "finished", 0), 0);
+    root = load(&small);
+    fine = json_array_get(json_object_get(root, "levels"), 1);
+    assert_int_equal(json_integer_value(json_object_get(root, "leaves")), 8 * 256);
+    assert_int_equal(json_integer_value(json_object_get(fine, "tiles")), 0);
+    assert_int_equal(json_integer_value(json_object_get(fine, "peak_cells")), 16 * 256);
+    json_decref(root);
+    provenance_free(provenance);
+    small_stop(&small);
+}
+
 /* Stock is what the case has painted: masses of a ball and of what surrounds it. */
 static void test_ledger(void **state)
 {
@@ -119,6 +161,7 @@ int main(void)
         cmocka_unit_test(test_running),
         cmocka_unit_test(test_end),
         cmocka_unit_test(test_ledger),
+        cmocka_unit_test(test_levels),
     };
     if (registry_init()) return 1;
     return cmocka_run_group_tests(tests, NULL, NULL);
