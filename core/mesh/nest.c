@@ -11,6 +11,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "mesh/level.h"
 #include "mesh/metric.h"
 #include "mesh/morton.h"
 
@@ -36,17 +37,12 @@ void nest_at(uint64_t key, int ret_at[3])
     for (int d = 0; d < 3; d++) ret_at[d] = nest_gather(key >> d);
 }
 
-static int nest_extent(const struct mesh *mesh, int l, int d)
-{
-    return d < mesh->dim ? mesh->levels[0].extent[d] << l : 1;
-}
-
 /* The key of a place on level l; false if that is outside the domain. Periodic axes wrap. */
 static bool nest_key(const struct mesh *mesh, int l, const int at[3], uint64_t *ret_key)
 {
     int inside[3];
     for (int d = 0; d < 3; d++) {
-        int extent = nest_extent(mesh, l, d), c = at[d];
+        int extent = mesh->levels[l].extent[d], c = at[d];
         if (c < 0 || c >= extent) {
             if (!mesh->periodic[d]) return false;
             c = (c % extent + extent) % extent;
@@ -227,17 +223,6 @@ static void nest_add_needs(const struct mesh *mesh, int l, const struct tile *ti
     }
 }
 
-static bool nest_has(const struct level *level, uint64_t key)
-{
-    unsigned from = 0, to = level->n_tile;
-    while (from < to) {
-        unsigned middle = from + (to - from) / 2;
-        if (level->tiles[middle].key < key) from = middle + 1;
-        else to = middle;
-    }
-    return from < level->n_tile && level->tiles[from].key == key;
-}
-
 /* The tiles of the fixed level around one place: remembered, since wishes come sorted. */
 struct nest_base {
     const struct mesh *mesh;
@@ -259,7 +244,7 @@ static void nest_look_around(struct nest_base *base, uint64_t key)
         int place[3] = {at[0] + a % 3 - 1, at[1] + a / 3 % 3 - 1, at[2] + a / 9 - 1};
         uint64_t around;
         bool inside = nest_key(base->mesh, base->level, place, &around);
-        if (!inside || nest_has(&base->mesh->levels[base->level], around)) base->there |= 1u << a;
+        if (!inside || level_find(&base->mesh->levels[base->level], around) >= 0) base->there |= 1u << a;
     }
 }
 
@@ -354,7 +339,7 @@ static int nest_check_order(const struct mesh *mesh, int l)
         const struct tile *tile = &level->tiles[i];
         const int *at = tile->at;
         bool inside = true;
-        for (int d = 0; d < 3; d++) inside &= at[d] >= 0 && at[d] < nest_extent(mesh, l, d);
+        for (int d = 0; d < 3; d++) inside &= at[d] >= 0 && at[d] < mesh->levels[l].extent[d];
         const char *wrong = !inside                                     ? "outside the domain"
                             : morton_key(at) != tile->key               ? "not where its key says"
                             : i && level->tiles[i - 1].key >= tile->key ? "not in its place along the curve"
