@@ -1,0 +1,37 @@
+/* traffic.h - what a partition costs: load of each rank and level, and the messages that follow from it.
+ *
+ * Counted as the mesh sends them: per stage a slab of MESH_GHOST layers for every face to a remote tile of the same
+ * level (halo.h); per step of the coarser level two strips for every coarse-fine face whose coarse tile is remote,
+ * its register back, and the average of every tile whose parent is remote (link.h). */
+#ifndef TRAFFIC_H
+#define TRAFFIC_H
+
+#include "mesh/mesh.h"
+
+/* Who is behind each face, and above each tile: made once per mesh. */
+struct traffic_graph {
+    int *behind; /* [n_tile][2 dim] tile of the level; -1: boundary; -2 - c: tile c of the coarser level */
+    int *above;  /* [n_tile] tile of the coarser level; NULL on level 0 */
+};
+
+/* One phase of one level: the most loaded rank's figures, and the sum over ranks. */
+struct traffic_phase {
+    double most_bytes, bytes; /* per exchange: larger of in and out; all sent */
+    double most_messages;
+};
+
+struct traffic {
+    double mean[MESH_LEVELS], most[MESH_LEVELS]; /* cost per step of the level: mean and largest of the ranks */
+    struct traffic_phase halo[MESH_LEVELS];      /* per stage of level l */
+    struct traffic_phase down[MESH_LEVELS], up[MESH_LEVELS]; /* between l - 1 and l, per step of l - 1 */
+    double remote_parents;                                   /* share of tiles of the levels above 0 */
+};
+
+struct traffic_graph traffic_connect(const struct mesh *mesh, int l);
+void traffic_free_graph(struct traffic_graph *graph);
+
+/* Of the owners that the tiles have. costs[l]: of the tiles of level l. */
+void traffic_count(const struct mesh *mesh, const struct traffic_graph *graphs, double *const *costs, int size,
+                   struct traffic *ret_traffic);
+
+#endif
