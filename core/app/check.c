@@ -3,14 +3,17 @@
  * Steps and time are measured, not guessed: the scene runs for a moment on a coarse copy of its
  * mesh (which also finds scripts that fail). The last time step there, scaled by the cell size,
  * gives the number of steps, and the time of a step the cost per cell on this machine. What
- * happens later in the run may need smaller steps. */
+ * happens later in the run may need smaller steps.
+ * With levels the real initial mesh is built too, for its cells; the coarse copy has one level. */
 #include "app/check.h"
 
 #include "app/human.h"
 #include "app/progress.h"
 #include "app/scenes.h"
 #include "base/comm.h"
+#include "base/mem.h"
 #include "base/status.h"
+#include "phys/tag.h"
 #include "solve/advance.h"
 
 #include <math.h>
@@ -18,6 +21,7 @@
 
 enum { CHECK_COARSE = 32, CHECK_STEPS = 500 }; /* most cells along an axis of the coarse copy; most steps there */
 static const double check_moment = 0.2;        /* most seconds spent on them */
+static const double check_build = 1 << 30;     /* most bytes of a coarsest level that is built to be refined */
 
 struct check_cost {
     double steps, seconds;
@@ -45,10 +49,30 @@ static void check_print_fields(const struct model *model)
     putchar('\n');
 }
 
-/* Three copies of the fields (old, new, primitive) and a tenth for frames and exchange. */
-static double check_memory(const struct scene *scene, unsigned n_field)
+/* Cells of the mesh at the start, by level. */
+struct check_mesh {
+    int n_level;
+    double cells[MESH_LEVELS], all;
+    double updates; /* cells advanced during a step of level 0 */
+};
+
+/* Builds the initial mesh if the case has levels and its coarsest is not too large for a check. */
+static int check_count(const struct scene *scene, struct check_mesh *ret)
 {
-    return scenes_cells(scene) * 3 * 8 * n_field * 1.1;
+    *ret = (struct check_mesh){.n_level = 1, .cells = {scenes_cells(scene)}};
+    struct state *state = NULL;
+    if (scene->levels > 0 && scenes_bytes(scene, scenes_cells(scene)) <= check_build) {
+        TRY(state_new(scene, &state));
+        const struct mesh *mesh = state->mesh;
+        ret->n_level = mesh->n_level;
+        for (int l = 0; l < mesh->n_level; l++) ret->cells[l] = (double)mesh->levels[l].n_tile * (double)mesh->n_cell;
+        state_free(state);
+    }
+    for (int l = 0; l < ret->n_level; l++) {
+        ret->all += ret->cells[l];
+        ret->updates += ldexp(ret->cells[l], scene->subcycle ? l : ret->n_level - 1);
+    }
+    return STATUS_OK;
 }
 
 /* The scene on fewer cells: every axis by about the same factor, in multiples of 8 that tiles
@@ -56,6 +80,7 @@ static double check_memory(const struct scene *scene, unsigned n_field)
 static struct scene check_coarsen(const struct scene *scene, double *ret_ratio)
 {
     struct scene coarse = *scene;
+    coarse.levels = 0;
     int most = 1, limit = scene->dim == 1 ? 8 * CHECK_COARSE : CHECK_COARSE;
     for (int axis = 0; axis < scene->dim; axis++) most = scene->cells[axis] > most ? scene->cells[axis] : most;
     int factor = (most + limit - 1) / limit;
@@ -69,10 +94,13 @@ static struct scene check_coarsen(const struct scene *scene, double *ret_ratio)
     if (factor > 1) coarse.tile = 0;
     if (mesh_tile_size(&coarse)) return coarse;
     *ret_ratio = 1;
-    return *scene;
+    coarse = *scene;
+    coarse.levels = 0;
+    return coarse;
 }
 
-static int check_measure(struct state *coarse, double ratio, const struct scene *scene, struct check_cost *ret)
+static int check_measure(struct state *coarse, double ratio, const struct scene *scene, const struct check_mesh *mesh,
+                         struct check_cost *ret)
 {
     double begin = progress_clock(), spent = 0, dt = advance_dt(coarse);
     while (coarse->step < CHECK_STEPS && coarse->t < scene->until && spent < check_moment) {
@@ -85,11 +113,36 @@ static int check_measure(struct state *coarse, double ratio, const struct scene 
     ret->coarse_steps = coarse->step;
     ret->steps = ceil(scene->until / dt);
     if (scene->max_steps > 0 && ret->steps > (double)scene->max_steps) ret->steps = (double)scene->max_steps;
-    ret->seconds = ret->steps * spent / (double)coarse->step * scenes_cells(scene) / scenes_cells(coarse->scene);
+    ret->seconds = ret->steps * spent / (double)coarse->step * mesh->updates / scenes_cells(coarse->scene);
     return 0;
 }
 
-static void check_print(const struct scene *scene, const struct state *coarse, const struct check_cost *cost)
+/* Levels, where they are at the start, and what asks for them. */
+static void check_print_levels(const struct scene *scene, const struct check_mesh *mesh)
+{
+    char text[HUMAN_ROOM];
+    if (scene->levels == 0) {
+        if (scene->n_refine) printf("  %-12s 0: 'refine' is not used\n", "levels");
+        return;
+    }
+    double finest = HUGE_VAL;
+    for (int axis = 0; axis < scene->dim; axis++)
+        finest = fmin(finest, (scene->upper[axis] - scene->lower[axis]) / ldexp(scene->cells[axis], scene->levels));
+    printf("  %-12s %d above the coarsest, finest cells %s; regrid every %d steps, buffer %d%s\n", "levels",
+           scene->levels, human_si(finest, "m", text), scene->regrid_every, scene->buffer,
+           scene->subcycle ? ", subcycled" : "");
+    for (unsigned i = 0; i < scene->n_refine; i++) {
+        char *criterion = tag_describe(scene, i);
+        printf("  %-12s %s\n", i ? "" : "refine", criterion);
+        mem_free(criterion);
+    }
+    printf("  %-12s %s", "at the start", human_count(mesh->cells[0], text));
+    for (int l = 1; l < mesh->n_level; l++) printf(" + %s", human_count(mesh->cells[l], text));
+    printf(" cells\n");
+}
+
+static void check_print(const struct scene *scene, const struct state *coarse, const struct check_mesh *mesh,
+                        const struct check_cost *cost)
 {
     char text[HUMAN_ROOM];
     printf("%s: good\n", scene->path);
@@ -101,6 +154,7 @@ static void check_print(const struct scene *scene, const struct state *coarse, c
     double tiles = 1;
     for (int axis = 0; axis < scene->dim; axis++) tiles *= scene->cells[axis] / (double)tile;
     printf(" cells in %.0f tiles of %d\n", tiles, tile);
+    check_print_levels(scene, mesh);
     check_print_fields(coarse->model);
     for (unsigned i = 0; i < scene->n_material; i++)
         check_print_module(scene->material[i].name, &scene->material[i].eos);
@@ -108,7 +162,8 @@ static void check_print(const struct scene *scene, const struct state *coarse, c
     check_print_module("riemann", &scene->riemann);
     check_print_module("limiter", &scene->limiter);
     if (scene->n_material > 1) check_print_module("interface", &scene->interface_limiter);
-    printf("  %-12s about %s\n", "memory", human_bytes(check_memory(scene, coarse->model->n_field), text));
+    printf("  %-12s about %s\n", "memory",
+           human_bytes(1.1 * scenes_bytes(scene, mesh->all), text)); /* frames, messages */
     printf("  %-12s until %s, about %.0f steps\n", "run", human_si(scene->until, "s", text), cost->steps);
     printf("  %-12s about %s on one core (from %ld steps on a coarse copy)\n", "time",
            cost->seconds < 60 ? human_si(cost->seconds, "s", text) : human_duration(cost->seconds, text),
@@ -125,11 +180,13 @@ static int check_one(const struct cli_given *given, const char *path)
     struct scene coarse_scene = check_coarsen(scene, &ratio);
     struct state *coarse = NULL;
     struct check_cost cost = {0};
+    struct check_mesh mesh;
     if (!mesh_tile_size(scene)) code = STATUS_CASE;
+    if (!code) code = check_count(scene, &mesh);
     if (!code) code = state_new(&coarse_scene, &coarse);
-    if (!code) code = check_measure(coarse, ratio, scene, &cost);
+    if (!code) code = check_measure(coarse, ratio, scene, &mesh, &cost);
     if (code) cli_failed(code);
-    else if (comm_rank() == 0) check_print(scene, coarse, &cost);
+    else if (comm_rank() == 0) check_print(scene, coarse, &mesh, &cost);
     state_free(coarse);
     scene_free(scene);
     return code ? STATUS_CASE : 0;

@@ -30,20 +30,32 @@ static const struct cli_option
     command_variant = {"--variant", NULL, "NAME", "Applies a variant that the case defines."},
     command_until = {"--until", NULL, "T", "Ends at this time, e.g. '2 us'."},
     command_steps = {"--max-steps", NULL, "N", "Ends after so many steps."},
+    command_memory = {"--max-memory", NULL, "SIZE", "Most that all ranks' blocks of cells may take, e.g. '8 GiB'."},
     command_walltime = {"--walltime", NULL, "HH:MM:SS", "Saves and stops when this much time has passed."},
     command_quiet = {"--quiet", NULL, NULL, "Says nothing but warnings and errors."},
     command_json = {"--json", NULL, NULL, "Progress and errors on stdout, one JSON object per line."},
     command_overwrite = {"--overwrite", NULL, NULL, "Replaces the run that is in the output directory."},
     command_restart = {"--restart", NULL, NULL, NULL};
 
-static const struct cli_option *const command_run_options[] = {&command_output,    &command_ranks,   &command_set,
-                                                               &command_variant,   &command_until,   &command_steps,
-                                                               &command_walltime,  &command_quiet,   &command_json,
-                                                               &command_overwrite, &command_restart, NULL};
+static const struct cli_option *const command_run_options[] = {&command_output,
+                                                               &command_ranks,
+                                                               &command_set,
+                                                               &command_variant,
+                                                               &command_until,
+                                                               &command_steps,
+                                                               &command_walltime,
+                                                               &command_quiet,
+                                                               &command_json,
+                                                               &command_overwrite,
+                                                               &command_restart,
+                                                               &command_memory,
+                                                               NULL};
 static const struct cli_option *const command_case_options[] = {&command_set,   &command_variant, &command_until,
                                                                 &command_steps, &command_output,  NULL};
-static const struct cli_option *const command_check_options[] = {
-    &command_set, &command_variant, &command_until, &command_steps, &command_output, &command_json, NULL};
+static const struct cli_option *const command_check_options[] = {&command_set,    &command_variant,
+                                                                 &command_until,  &command_steps,
+                                                                 &command_output, &command_memory,
+                                                                 &command_json,   NULL};
 
 static const struct cli_option command_markdown = {"--markdown", NULL, NULL, "A page to read instead of a schema."};
 static const struct cli_option *const command_schema_options[] = {&command_markdown, NULL};

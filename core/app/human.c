@@ -4,8 +4,11 @@
 #include "base/status.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <strings.h>
 
 const char *human_si(double value, const char *unit, char text[HUMAN_ROOM])
 {
@@ -69,4 +72,21 @@ int human_read_duration(const char *text, double *ret_seconds)
         at = end + 1;
     }
     return status_fail(STATUS_CASE, "'%s' is no duration; write HH:MM:SS, MM:SS or seconds", text);
+}
+
+int human_read_bytes(const char *text, double *ret_bytes)
+{
+    static const char letters[] = "kmgtp";
+    char *end;
+    double number = strtod(text, &end);
+    const char *unit = end + strspn(end, " ");
+    const char *letter = *unit ? strchr(letters, *unit | 0x20) : NULL;
+    int power = letter ? (int)(letter - letters) + 1 : 0;
+    const char *rest = letter ? unit + 1 : unit;
+    bool binary = letter && (!*rest || !strcasecmp(rest, "ib"));
+    if (end != text && isfinite(number) && number > 0 && (binary || !*rest || !strcasecmp(rest, "b"))) {
+        *ret_bytes = number * pow(binary ? 1024 : 1000, power);
+        return 0;
+    }
+    return status_fail(STATUS_CASE, "'%s' is no amount of memory; write '8 GiB', '500 MB' or a number of bytes", text);
 }

@@ -19,4 +19,7 @@ const char *human_bytes(double bytes, char text[HUMAN_ROOM]);
 /* "HH:MM:SS", "MM:SS" or seconds into seconds; returns STATUS_CASE with a message if it is none. */
 int human_read_duration(const char *text, double *ret_seconds);
 
+/* "8 GiB", "500MB", "2G" (letters alone are powers of 1024) or a number of bytes; STATUS_CASE if it is none. */
+int human_read_bytes(const char *text, double *ret_bytes);
+
 #endif

@@ -1,6 +1,7 @@
 /* scenes.c - see scenes.h. */
 #include "app/scenes.h"
 
+#include "app/human.h"
 #include "base/mem.h"
 #include "base/status.h"
 
@@ -16,6 +17,20 @@ static char *scenes_setting(const char *option, const char *value)
     for (size_t i = 0; i < sizeof scenes_short / sizeof *scenes_short; i++)
         if (!strcmp(option, scenes_short[i].option)) return mem_print("%s=%s", scenes_short[i].path, value);
     return !strcmp(option, "--set") ? mem_text(value) : NULL;
+}
+
+/* The coarsest level is there from the start, whatever is refined. */
+static int scenes_limit(struct scene *scene, const char *size)
+{
+    char text[HUMAN_ROOM];
+    double bytes = scenes_bytes(scene, scenes_cells(scene));
+    if (!size) return STATUS_OK;
+    if (human_read_bytes(size, &scene->memory_limit)) return status_wrap(STATUS_CASE, "--max-memory: ");
+    if (bytes <= scene->memory_limit) return STATUS_OK;
+    return status_fail(STATUS_CASE,
+                       "--max-memory %s: the coarsest level alone takes %s; fewer domain.cells, or more "
+                       "memory",
+                       size, human_bytes(bytes, text));
 }
 
 int scenes_read(const struct cli_given *given, const char *path, struct scene **ret_scene)
@@ -34,10 +49,21 @@ int scenes_read(const struct cli_given *given, const char *path, struct scene **
     int code = scene_read(path, &options, ret_scene);
     for (int i = 0; i < n; i++) mem_free(sets[i]);
     mem_free(sets);
-    return options.json ? code : cli_failed(code);
+    if (code) return options.json ? code : cli_failed(code);
+    code = scenes_limit(*ret_scene, cli_value(given, "--max-memory"));
+    if (!code) return STATUS_OK;
+    scene_free(*ret_scene);
+    *ret_scene = NULL;
+    return cli_failed(code);
 }
 
 double scenes_cells(const struct scene *scene)
 {
     return (double)scene->cells[0] * (double)scene->cells[1] * (double)scene->cells[2];
+}
+
+double scenes_bytes(const struct scene *scene, double cells)
+{
+    unsigned n_alpha = scene->n_material > 1 ? scene->n_material : 0;
+    return cells * 3 * sizeof(double) * (n_alpha + scene->n_material + (unsigned)scene->dim + 1);
 }

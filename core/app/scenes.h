@@ -5,12 +5,15 @@
 #include "app/cli.h"
 #include "case/scene.h"
 
-/* Reads `path` with --set, --variant, -o, --until and --max-steps of the command line; the last
- * two are settings of the case like any other, so that the resolved case has them. Errors have
- * been printed when this returns. */
+/* Reads `path` with --set, --variant, -o, --until, --max-steps and --max-memory of the command line; --until and
+ * --max-steps are settings of the case like any other, so that the resolved case has them. A coarsest level that
+ * takes more than --max-memory is STATUS_CASE. Errors have been printed when this returns. */
 int scenes_read(const struct cli_given *given, const char *path, struct scene **ret_scene);
 
-/* Cells of the whole mesh. */
+/* Cells of the coarsest level. */
 double scenes_cells(const struct scene *scene);
+
+/* Bytes that the blocks of so many cells take: all evolved fields three times (old, new, primitive). */
+double scenes_bytes(const struct scene *scene, double cells);
 
 #endif

@@ -163,6 +163,7 @@ struct scene_refine {
         SCENE_REFINE_REGION     /* all cells of `where` */
     } kind;
     char field[SCENE_NAME]; /* of vectors: the largest component of a difference, the magnitude of a value */
+    const char *unit;       /* of the field, "1" for pure numbers; NULL without one */
     bool relative;          /* GRADIENT, JUMP */
     bool has_above, has_below;
     double above, below; /* thresholds in the unit of the quantity; below: VALUE only */

@@ -206,6 +206,7 @@ static void scene_refine_threshold(struct draft *draft, struct scene_refine *ref
     const struct keys_value *above = keys_at(map, "above"), *below = keys_at(map, "below");
     const struct scene_field *field = scene_refine_field(draft, chosen, refine->field);
     bool differs = scene_refine_differs(refine);
+    refine->unit = field ? field->unit : NULL;
     refine->has_above = above->given;
     refine->has_below = below->given;
     refine->above = above->number;

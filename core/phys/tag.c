@@ -449,14 +449,15 @@ int tag_level(const struct model *model, const struct mesh *mesh, int l, double 
     return status;
 }
 
-/* "density above 0.05 of the larger value", "pressure above 100 Pa and below ..." */
+/* " of pressure above 1e+09 Pa/m", " of density above 0.05 of the larger cell" */
 static void tag_describe_bounds(const struct scene_refine *refine, struct text *text)
 {
-    bool slope = refine->kind == SCENE_REFINE_GRADIENT && !refine->relative;
+    bool slope = refine->kind == SCENE_REFINE_GRADIENT && !refine->relative, pure = strcmp(refine->unit, "1") == 0;
+    const char *unit = refine->relative ? " of the larger cell" : pure && !slope ? "" : refine->unit;
+    const char *gap = refine->relative || !*unit ? "" : " ", *per = slope ? "/m" : "";
     text_add(text, " of %s", refine->field);
-    if (refine->has_above) text_add(text, " above %g%s", refine->above, slope ? " per m" : "");
-    if (refine->relative) text_add(text, " of the larger cell");
-    if (refine->has_below) text_add(text, "%s below %g", refine->has_above ? " and" : "", refine->below);
+    if (refine->has_above) text_add(text, " above %g%s%s%s", refine->above, gap, unit, per);
+    if (refine->has_below) text_add(text, "%s below %g%s%s", refine->has_above ? " and" : "", refine->below, gap, unit);
 }
 
 char *tag_describe(const struct scene *scene, unsigned criterion)

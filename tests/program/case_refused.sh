@@ -34,3 +34,21 @@ grep -q "cannot read 'nowhere.yaml'" err.txt
 # What a case asks for and this version does not do is said.
 run 0 check "$good" --set output.checkpoints.every=1us
 grep -q "warning: this version writes no checkpoints yet" err.txt
+
+# A coarsest level larger than --max-memory is no case to start.
+run 2 run "$good" --max-memory '100 B'
+grep -q "error: --max-memory 100 B: the coarsest level alone takes" err.txt
+run 2 check "$good" --max-memory lots
+grep -q "'lots' is no amount of memory; write '8 GiB'" err.txt
+for size in '' GiB '8 apples' '-1 GiB' 0 '8 GiBs' nan; do run 2 check "$good" --max-memory="$size"; done
+[ ! -e out ]
+for size in '721 B' 0.72kB 1k '0.5 MiB' 1e9 2GB; do run 0 check "$good" --max-memory="$size"; done
+for size in 719 0.7K 0.71kB; do run 2 check "$good" --max-memory="$size"; done
+
+# What a case refines is told.
+run 0 check "$BULLA_SOURCE/tests/data/case/good/refine.yaml"
+grep -q "levels  *4 above the coarsest, finest cells 976.6 nm; regrid every 5 steps, buffer 3$" out.txt
+grep -q "mesh.refine\[1\] (line 19): gradient of pressure above 1e+09 Pa/m, to level 2$" out.txt
+grep -q "at the start 4096" out.txt
+run 0 check "$BULLA_SOURCE/tests/data/case/good/refine.yaml" --set mesh.levels=0
+grep -q "levels  *0: 'refine' is not used" out.txt

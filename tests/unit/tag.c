@@ -398,9 +398,9 @@ static void criteria_are_described(void **state)
                "{value: pressure, above: 1 bar, below: 2 bar, from: 1, until: 2}, "
                "{interface: air, where: {everywhere: true}}, {region: {everywhere: true}}, {lua: = x > 1}");
     described(&world, 0, "mesh.refine[0] (line 3): jump of density above 0.05 of the larger cell");
-    described(&world, 1, "mesh.refine[1] (line 3): gradient of pressure above 1e+09 per m, to level 1");
+    described(&world, 1, "mesh.refine[1] (line 3): gradient of pressure above 1e+09 Pa/m, to level 1");
     described(&world, 2,
-              "mesh.refine[2] (line 3): value of pressure above 100000 and below 200000, from 1 s, until 2 s");
+              "mesh.refine[2] (line 3): value of pressure above 100000 Pa and below 200000 Pa, from 1 s, until 2 s");
     described(&world, 3, "mesh.refine[3] (line 3): interface of air, in a region");
     described(&world, 4, "mesh.refine[4] (line 3): region");
     described(&world, 5, "mesh.refine[5] (line 3): lua");
