@@ -1,9 +1,7 @@
 /* nest.c - see nest.h.
  *
- * The tiles under one tile of the coarser level (a family) follow each other on the curve. What a family needs
- * there to nest is a subset of the 3^d tiles around its parent: 27 bits, bit 13 for the parent itself. Needs are
- * therefore listed family by family, sorted once, and merged with lists that are sorted already; nothing is
- * looked up tile by tile (except around the fixed level, once per tile of it).
+ * Sets are lists of families (nest_family.h), sorted once per level and merged with lists that are sorted already;
+ * nothing is looked up tile by tile, except around the fixed level, once per tile of it.
  * Coordinates are halved by an arithmetic shift, which rounds down on both sides of zero: a mirrored set
  * then needs the mirrored tiles exactly, since extents above level 0 are even. */
 #include "mesh/nest.h"
@@ -14,11 +12,10 @@
 #include "mesh/level.h"
 #include "mesh/metric.h"
 #include "mesh/morton.h"
+#include "mesh/nest_family.h"
 
 #include <assert.h>
 #include <string.h>
-
-enum { NEST_AROUND = 27, NEST_SELF = 13 };
 
 /* Takes every third bit out, the inverse of morton_spread. */
 static int nest_gather(uint64_t x)
@@ -37,22 +34,6 @@ void nest_at(uint64_t key, int ret_at[3])
     for (int d = 0; d < 3; d++) ret_at[d] = nest_gather(key >> d);
 }
 
-/* The key of a place on level l; false if that is outside the domain. Periodic axes wrap. */
-static bool nest_key(const struct mesh *mesh, int l, const int at[3], uint64_t *ret_key)
-{
-    int inside[3];
-    for (int d = 0; d < 3; d++) {
-        int extent = mesh->levels[l].extent[d], c = at[d];
-        if (c < 0 || c >= extent) {
-            if (!mesh->periodic[d]) return false;
-            c = (c % extent + extent) % extent;
-        }
-        inside[d] = c;
-    }
-    *ret_key = morton_key(inside);
-    return true;
-}
-
 static void nest_push(struct nest_keys *keys, uint64_t key)
 {
     if (keys->n == keys->room) {
@@ -61,40 +42,6 @@ static void nest_push(struct nest_keys *keys, uint64_t key)
         keys->room = room;
     }
     keys->keys[keys->n++] = key;
-}
-
-/* Stable sort by one byte of the keys. */
-static void nest_sort_byte(const uint64_t *from, unsigned n, int shift, uint64_t *to)
-{
-    unsigned start[256] = {0}, sum = 0;
-    for (unsigned i = 0; i < n; i++) start[from[i] >> shift & 255u]++;
-    for (int b = 0; b < 256; b++) {
-        unsigned count = start[b];
-        start[b] = sum;
-        sum += count;
-    }
-    for (unsigned i = 0; i < n; i++) to[start[from[i] >> shift & 255u]++] = from[i];
-}
-
-/* Sorts (byte by byte, those that differ at all) and drops repetitions. */
-static void nest_sort(struct nest_keys *keys)
-{
-    if (keys->n < 2) return;
-    uint64_t *from = keys->keys, *to = mem_new(keys->room, sizeof *to), differ = 0;
-    for (unsigned i = 1; i < keys->n; i++) differ |= from[i] ^ from[0];
-    for (int shift = 0; shift < 64; shift += 8) {
-        if (!(differ >> shift & 255u)) continue;
-        nest_sort_byte(from, keys->n, shift, to);
-        uint64_t *other = from;
-        from = to;
-        to = other;
-    }
-    unsigned n = 1;
-    for (unsigned i = 1; i < keys->n; i++)
-        if (from[i] != from[n - 1]) from[n++] = from[i];
-    keys->keys = from;
-    keys->n = n;
-    mem_free(to);
 }
 
 /* The octants along one axis that a tag in cell i of a tile reaches: first[i] .. last[i], counted from `from`, the
@@ -163,7 +110,6 @@ void nest_wish(const struct mesh *mesh, const struct level *level, const struct 
                int buffer, struct nest_keys *keys)
 {
     if (!nest_is_tagged(marks, mesh->n_cell)) return;
-    int l = (int)(level - mesh->levels) + 1;
     struct nest_reach reach[3];
     for (int d = 0; d < 3; d++) reach[d] = nest_reach(mesh, tile, d, buffer);
     int nx = reach[0].count, ny = reach[1].count, nz = reach[2].count;
@@ -172,9 +118,21 @@ void nest_wish(const struct mesh *mesh, const struct level *level, const struct 
     for (int o = 0; o < nx * ny * nz; o++) {
         int at[3] = {reach[0].from + o % nx, reach[1].from + o / nx % ny, reach[2].from + o / nx / ny};
         uint64_t key;
-        if (octants[o] && nest_key(mesh, l, at, &key)) nest_push(keys, key);
+        if (octants[o] && nest_family_place(mesh, level + 1, at, &key)) nest_push(keys, key);
     }
     mem_free(octants);
+}
+
+/* Sorts and drops repetitions. */
+static void nest_sort(struct nest_keys *keys)
+{
+    struct nest_families families = {0};
+    for (unsigned i = 0; i < keys->n; i++) nest_family_add_tile(&families, keys->keys[i]);
+    nest_family_sort(&families);
+    mem_free(keys->keys);
+    keys->keys = nest_family_keys(&families, &keys->n);
+    keys->room = keys->n + 1;
+    nest_family_free(&families);
 }
 
 void nest_join(struct nest_keys *keys)
@@ -182,45 +140,9 @@ void nest_join(struct nest_keys *keys)
     nest_sort(keys);
     struct nest_keys all = {0};
     all.keys = comm_join_keys(keys->keys, keys->n, &all.n);
-    all.room = all.n + 1;
     nest_sort(&all);
     nest_free_keys(keys);
     *keys = all;
-}
-
-/* Which of the 3^d tiles around a parent its child in octant o needs: its own side of each axis. */
-static uint32_t nest_needs_of_child(int dim, unsigned octant)
-{
-    uint32_t needs = 0;
-    for (int i = 0; i < NEST_AROUND; i++) {
-        int off[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-        bool needed = true;
-        for (int d = 0; d < 3; d++) {
-            int side = octant >> d & 1u ? 1 : -1;
-            if (off[d] != 0 && (d >= dim || off[d] != side)) needed = false;
-        }
-        if (needed) needs |= 1u << i;
-    }
-    return needs;
-}
-
-/* Adds what `tiles` of level l need on level l - 1. */
-static void nest_add_needs(const struct mesh *mesh, int l, const struct tile *tiles, unsigned n, struct nest_keys *keys)
-{
-    uint32_t child[MESH_OCTANTS];
-    for (unsigned o = 0; o < MESH_OCTANTS; o++) child[o] = nest_needs_of_child(mesh->dim, o);
-    for (unsigned i = 0; i < n;) {
-        uint64_t family = tiles[i].key >> 3, key;
-        const int *at = tiles[i].at;
-        int parent[3] = {at[0] >> 1, at[1] >> 1, at[2] >> 1};
-        uint32_t needs = 0;
-        for (; i < n && tiles[i].key >> 3 == family; i++) needs |= child[tiles[i].key & 7u];
-        for (int a = 0; a < NEST_AROUND; a++) {
-            if (!(needs >> a & 1u)) continue;
-            int place[3] = {parent[0] + a % 3 - 1, parent[1] + a / 3 % 3 - 1, parent[2] + a / 9 - 1};
-            if (nest_key(mesh, l - 1, place, &key)) nest_push(keys, key);
-        }
-    }
 }
 
 /* The tiles of the fixed level around one place: remembered, since wishes come sorted. */
@@ -235,16 +157,17 @@ struct nest_base {
 static void nest_look_around(struct nest_base *base, uint64_t key)
 {
     if (base->known && base->key == key) return;
+    const struct level *level = &base->mesh->levels[base->level];
     int at[3];
     nest_at(key, at);
     base->known = true;
     base->key = key;
     base->there = 0;
-    for (int a = 0; a < NEST_AROUND; a++) {
+    for (int a = 0; a < NEST_FAMILY_AROUND; a++) {
         int place[3] = {at[0] + a % 3 - 1, at[1] + a / 3 % 3 - 1, at[2] + a / 9 - 1};
         uint64_t around;
-        bool inside = nest_key(base->mesh, base->level, place, &around);
-        if (!inside || level_find(&base->mesh->levels[base->level], around) >= 0) base->there |= 1u << a;
+        bool inside = nest_family_place(base->mesh, level, place, &around);
+        if (!inside || level_find(level, around) >= 0) base->there |= 1u << a;
     }
 }
 
@@ -267,18 +190,18 @@ static bool nest_is_allowed(struct nest_base *base, int l, uint64_t key)
     for (int z = lo[2]; z <= hi[2]; z++)
         for (int y = lo[1]; y <= hi[1]; y++)
             for (int x = lo[0]; x <= hi[0]; x++) {
-                int a = NEST_SELF + (x - at[0]) + 3 * (y - at[1]) + 9 * (z - at[2]);
+                int a = NEST_FAMILY_SELF + (x - at[0]) + 3 * (y - at[1]) + 9 * (z - at[2]);
                 if (!(base->there >> a & 1u)) return false;
             }
     return true;
 }
 
 static void nest_add_wishes(const struct mesh *mesh, int fixed, int l, const struct nest_keys *wishes,
-                            struct nest_keys *keys)
+                            struct nest_families *families)
 {
     struct nest_base base = {.mesh = mesh, .level = fixed};
     for (unsigned i = 0; i < wishes->n; i++)
-        if (fixed == 0 || nest_is_allowed(&base, l, wishes->keys[i])) nest_push(keys, wishes->keys[i]);
+        if (fixed == 0 || nest_is_allowed(&base, l, wishes->keys[i])) nest_family_add_tile(families, wishes->keys[i]);
 }
 
 static struct tile nest_tile(uint64_t key, unsigned unwanted)
@@ -311,14 +234,17 @@ void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes
                struct nest_set *ret_sets)
 {
     for (int l = mesh->most_level; l > base; l--) {
+        struct nest_families families = {0};
+        nest_add_wishes(mesh, base, l, &wishes[l], &families);
+        if (l < mesh->most_level) nest_family_needs(mesh, l + 1, ret_sets[l + 1].tiles, ret_sets[l + 1].n, &families);
+        nest_family_sort(&families);
         struct nest_keys used = {0};
-        nest_add_wishes(mesh, base, l, &wishes[l], &used);
-        if (l < mesh->most_level) nest_add_needs(mesh, l + 1, ret_sets[l + 1].tiles, ret_sets[l + 1].n, &used);
-        nest_sort(&used);
+        used.keys = nest_family_keys(&families, &used.n);
         const struct level *level = &mesh->levels[l];
         bool exists = l < mesh->n_level;
         ret_sets[l] = nest_merge(&used, exists ? level->tiles : NULL, exists ? level->n_tile : 0, patience);
         nest_free_keys(&used);
+        nest_family_free(&families);
     }
 }
 
@@ -351,40 +277,46 @@ static int nest_check_order(const struct mesh *mesh, int l)
     return STATUS_OK;
 }
 
-/* Names the tile of level l that needs what is missing on level l - 1. */
+/* Does a tile of level l need the tile `missing` of level l - 1? */
+static bool nest_is_needed_by(const struct mesh *mesh, int l, const struct tile *tile, uint64_t missing)
+{
+    struct nest_families needs = {0};
+    bool found = false;
+    nest_family_needs(mesh, l, tile, 1, &needs);
+    for (unsigned i = 0; i < needs.n; i++)
+        found |= needs.list[i].key == missing >> 3 && (needs.list[i].mask >> (missing & 7u) & 1u);
+    nest_family_free(&needs);
+    return found;
+}
+
 static int nest_fail(const struct mesh *mesh, int l, uint64_t missing)
 {
-    const struct level *level = &mesh->levels[l];
+    const struct tile *tile = mesh->levels[l].tiles;
     int at[3];
     nest_at(missing, at);
-    for (unsigned i = 0; i < level->n_tile; i++) {
-        struct nest_keys needs = {0};
-        nest_add_needs(mesh, l, &level->tiles[i], 1, &needs);
-        bool found = false;
-        for (unsigned k = 0; k < needs.n; k++) found |= needs.keys[k] == missing;
-        nest_free_keys(&needs);
-        const int *by = level->tiles[i].at;
-        if (found)
-            return status_fail(STATUS_RUN,
-                               "the mesh is broken: tile (%d, %d, %d) of level %d needs tile (%d, %d, %d) of level %d, "
-                               "which does not exist",
-                               by[0], by[1], by[2], l, at[0], at[1], at[2], l - 1);
-    }
-    return STATUS_RUN;
+    while (!nest_is_needed_by(mesh, l, tile, missing)) tile++;
+    return status_fail(STATUS_RUN,
+                       "the mesh is broken: tile (%d, %d, %d) of level %d needs tile (%d, %d, %d) of level %d, "
+                       "which does not exist",
+                       tile->at[0], tile->at[1], tile->at[2], l, at[0], at[1], at[2], l - 1);
 }
 
 static int nest_check_needs(const struct mesh *mesh, int l)
 {
     const struct level *level = &mesh->levels[l], *coarse = level - 1;
-    struct nest_keys needs = {0};
-    nest_add_needs(mesh, l, level->tiles, level->n_tile, &needs);
-    nest_sort(&needs);
+    struct nest_families needs = {0};
+    nest_family_needs(mesh, l, level->tiles, level->n_tile, &needs);
+    nest_family_sort(&needs);
     int code = STATUS_OK;
     for (unsigned i = 0, j = 0; i < needs.n && !code; i++) {
-        while (j < coarse->n_tile && coarse->tiles[j].key < needs.keys[i]) j++;
-        if (j == coarse->n_tile || coarse->tiles[j].key != needs.keys[i]) code = nest_fail(mesh, l, needs.keys[i]);
+        uint64_t family = needs.list[i].key;
+        uint32_t missing = needs.list[i].mask;
+        while (j < coarse->n_tile && coarse->tiles[j].key >> 3 < family) j++;
+        for (; j < coarse->n_tile && coarse->tiles[j].key >> 3 == family; j++)
+            missing &= ~(1u << (coarse->tiles[j].key & 7u));
+        if (missing) code = nest_fail(mesh, l, family << 3 | (unsigned)__builtin_ctz(missing));
     }
-    nest_free_keys(&needs);
+    nest_family_free(&needs);
     return code;
 }
 
