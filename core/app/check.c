@@ -53,7 +53,8 @@ static void check_print_fields(const struct model *model)
 struct check_mesh {
     int n_level;
     double cells[MESH_LEVELS], all;
-    double updates; /* cells advanced during a step of level 0 */
+    double parts;   /* steps of the run for one that the coarsest level alone would take: more without subcycling */
+    double updates; /* cells advanced during one of them */
 };
 
 /* Builds the initial mesh if the case has levels and its coarsest is not too large for a check. */
@@ -68,9 +69,10 @@ static int check_count(const struct scene *scene, struct check_mesh *ret)
         for (int l = 0; l < mesh->n_level; l++) ret->cells[l] = (double)mesh->levels[l].n_tile * (double)mesh->n_cell;
         state_free(state);
     }
+    ret->parts = scene->subcycle ? 1 : ldexp(1, ret->n_level - 1);
     for (int l = 0; l < ret->n_level; l++) {
         ret->all += ret->cells[l];
-        ret->updates += ldexp(ret->cells[l], scene->subcycle ? l : ret->n_level - 1);
+        ret->updates += scene->subcycle ? ldexp(ret->cells[l], l) : ret->cells[l];
     }
     return STATUS_OK;
 }
@@ -109,7 +111,7 @@ static int check_measure(struct state *coarse, double ratio, const struct scene 
         spent = progress_clock() - begin;
         comm_max(&spent, 1);
     }
-    if (scene->dt_fixed <= 0) dt /= ratio;
+    if (scene->dt_fixed <= 0) dt /= ratio * mesh->parts;
     ret->coarse_steps = coarse->step;
     ret->steps = ceil(scene->until / dt);
     if (scene->max_steps > 0 && ret->steps > (double)scene->max_steps) ret->steps = (double)scene->max_steps;

@@ -109,6 +109,9 @@ static void guide_section(struct guide *guide, const struct keys_section *sectio
     if (guide->n_done == GUIDE_SECTIONS) return;
     guide->done[guide->n_done++] = section;
     text_add(&guide->text, "\n## %s\n\n%s\n", section->name, section->doc ? section->doc : "");
+    if (section->choose)
+        text_add(&guide->text, "\nExactly one of the keys up to `%s` is given.\n",
+                 section->keys[section->choose - 1].name);
     guide_table(guide, section);
     if (section->selector) guide_cases(guide, section);
     guide_below(guide, section);

@@ -48,7 +48,8 @@ static const struct key scene_expect_rows[] = {
 
 const struct keys_section scene_expect_keys = {.name = "expectation",
                                                .doc = "A bound on a value or on the distance to a reference.",
-                                               .keys = scene_expect_rows};
+                                               .keys = scene_expect_rows,
+                                               .choose = 2};
 
 static char *scene_expect_text(const struct keys_value *value)
 {

@@ -6,6 +6,9 @@
 
 #include <string.h>
 
+/* In the order of enum scene_measure, which is that of the rows. */
+enum { SCENE_HISTORY_MEASURES = SCENE_VALUE + 1 };
+
 static const struct key scene_history_rows[] = {
     {.name = "volume", .type = KEYS_TEXT, .doc = "Volume of a material."},
     {.name = "mass", .type = KEYS_TEXT, .doc = "Mass of a material."},
@@ -36,10 +39,8 @@ static const struct key scene_history_rows[] = {
 
 const struct keys_section scene_history_column_keys = {.name = "column",
                                                        .doc = "One measure per column.",
-                                                       .keys = scene_history_rows};
-
-/* In the order of enum scene_measure, which is that of the rows. */
-enum { SCENE_HISTORY_MEASURES = SCENE_VALUE + 1 };
+                                                       .keys = scene_history_rows,
+                                                       .choose = SCENE_HISTORY_MEASURES};
 
 static bool scene_history_of_material(enum scene_measure measure)
 {

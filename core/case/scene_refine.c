@@ -10,6 +10,9 @@
 #include <math.h>
 #include <string.h>
 
+/* In the order of the kinds in struct scene_refine, which is that of the rows. */
+enum { SCENE_REFINE_KINDS = SCENE_REFINE_REGION + 1 };
+
 static const struct key scene_refine_rows[] = {
     {.name = "gradient",
      .type = KEYS_TEXT,
@@ -45,10 +48,8 @@ static const struct key scene_refine_rows[] = {
 const struct keys_section scene_refine_keys = {.name = "refine",
                                                .doc = "One criterion of refinement, which may be limited to a region, "
                                                       "to coarser levels and to a time window.",
-                                               .keys = scene_refine_rows};
-
-/* In the order of the kinds in struct scene_refine, which is that of the rows. */
-enum { SCENE_REFINE_KINDS = SCENE_REFINE_REGION + 1 };
+                                               .keys = scene_refine_rows,
+                                               .choose = SCENE_REFINE_KINDS};
 
 static bool scene_refine_differs(const struct scene_refine *refine)
 {

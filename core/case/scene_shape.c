@@ -97,7 +97,10 @@ static const struct key scene_shape_rows[] = {
     {0},
 };
 
-const struct keys_section scene_shape_keys = {.name = "shape", .doc = "A region.", .keys = scene_shape_rows};
+const struct keys_section scene_shape_keys = {.name = "shape",
+                                              .doc = "A region.",
+                                              .keys = scene_shape_rows,
+                                              .choose = SHAPE_INTERSECTION + 1};
 
 static const char *const scene_shape_names[] = {"everywhere", "box",       "half-space",   "sphere",
                                                 "cylinder",   "ellipsoid", "ring",         "polygon",

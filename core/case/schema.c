@@ -213,10 +213,20 @@ static json_t *schema_choice(struct schema *schema, const struct schema_rows *ro
     return list;
 }
 
+/* [{"required": ["a"]}, {"required": ["b"]}] for the first rows of a section. */
+static json_t *schema_one_of(const struct keys_section *section)
+{
+    json_t *list = json_array();
+    for (unsigned i = 0; i < section->choose; i++)
+        json_array_append_new(list, json_pack("{s:[s]}", "required", section->keys[i].name));
+    return list;
+}
+
 static json_t *schema_section(struct schema *schema, const struct keys_section *section)
 {
     struct schema_rows rows = {{section}, 1};
     json_t *object = schema_object(schema, &rows);
+    if (section->choose && !schema->part) json_object_set_new(object, "oneOf", schema_one_of(section));
     if (!section->selector) {
         json_object_set_new(object, "type", json_string("object"));
         return object;

@@ -30,7 +30,8 @@ for name in sorted(files):
     for error in judge.iter_errors(yaml.load(open(name), Core)):
         print(name, list(error.absolute_path), error.message[:200])
         bad += 1
-for name in ["key-unknown", "list-of-numbers", "choice-typo", "number-range", "boundary-other-pulse", "eos-unknown"]:
+for name in ["key-unknown", "list-of-numbers", "choice-typo", "number-range", "boundary-other-pulse", "eos-unknown",
+             "refine", "refine-lua", "column-two-measures"]:
     name = source + "/tests/data/case/bad/" + name + ".yaml"
     if judge.is_valid(yaml.load(open(name), Core)):
         print(name, "should be refused")
