@@ -1,7 +1,9 @@
-/* csv.c - see csv.h. */
+/* csv.c - see csv.h. The checksum of all bytes so far grows with the rows, so that a checkpoint can say
+ * what the file was; only whole rows count. */
 #include "io/csv.h"
 
 #include "base/comm.h"
+#include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
 
@@ -11,10 +13,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 struct csv {
     char *path;
-    FILE *stream; /* rank 0 */
+    FILE *stream;       /* rank 0 */
+    long bytes;         /* of the header and the whole rows */
+    XXH64_state_t *sum; /* of these */
 };
 
 static int csv_fail(const char *path)
@@ -40,22 +45,64 @@ static long csv_past(FILE *stream, const char *header, double limit)
     return keep;
 }
 
+/* Adds a text, which counts as soon as all of it has been written. */
+static int csv_add(struct csv *csv, const char *text, size_t length)
+{
+    bool good = fwrite(text, 1, length, csv->stream) == length && !fflush(csv->stream);
+    if (!good) return csv_fail(csv->path);
+    csv->bytes += (long)length;
+    XXH64_update(csv->sum, text, length);
+    return STATUS_OK;
+}
+
+/* Copies the first bytes of a file to the stream, which is empty, or only sums them up; returns how many. */
+static long csv_replay(struct csv *csv, const char *path, long bytes, bool copy)
+{
+    char piece[4096];
+    FILE *from = fopen(path, "r");
+    XXH64_reset(csv->sum, 0);
+    csv->bytes = 0;
+    while (from && csv->bytes < bytes) {
+        size_t want = bytes - csv->bytes < (long)sizeof piece ? (size_t)(bytes - csv->bytes) : sizeof piece;
+        size_t got = fread(piece, 1, want, from);
+        if (!got || (copy && fwrite(piece, 1, got, csv->stream) != got)) break;
+        XXH64_update(csv->sum, piece, got);
+        csv->bytes += (long)got;
+    }
+    if (from) fclose(from);
+    return csv->bytes;
+}
+
+/* Rows with other columns are not thrown away. */
+static void csv_set_aside(const char *path)
+{
+    char *aside = mem_print("%s.before", path);
+    if (!rename(path, aside))
+        log_warn("%s has other columns than the case asks for now: it is kept as %s", path, aside);
+    mem_free(aside);
+}
+
 static int csv_start(struct csv *csv, const char *header, bool resume, double limit)
 {
     FILE *old = resume ? fopen(csv->path, "r") : NULL;
     long keep = old ? csv_past(old, header, limit) : 0;
     if (old) fclose(old);
+    if (old && !keep) csv_set_aside(csv->path);
     if (keep && truncate(csv->path, keep)) return csv_fail(csv->path);
     csv->stream = fopen(csv->path, keep ? "a" : "w");
     if (!csv->stream) return csv_fail(csv->path);
-    if (!keep) fprintf(csv->stream, "%s\n", header);
-    return fflush(csv->stream) ? csv_fail(csv->path) : STATUS_OK;
+    csv_replay(csv, csv->path, keep, false);
+    if (keep) return STATUS_OK;
+    TRY(csv_add(csv, header, strlen(header)));
+    return csv_add(csv, "\n", 1);
 }
 
 int csv_open(const char *path, const char *header, bool resume, double limit, struct csv **ret_csv)
 {
     struct csv *csv = mem_new(1, sizeof *csv);
     csv->path = mem_text(path);
+    csv->sum = XXH64_createState();
+    XXH64_reset(csv->sum, 0);
     int code = comm_agree(comm_rank() == 0 ? csv_start(csv, header, resume, limit) : STATUS_OK);
     if (code) csv_close(csv);
     else *ret_csv = csv;
@@ -64,13 +111,16 @@ int csv_open(const char *path, const char *header, bool resume, double limit, st
 
 static int csv_put(struct csv *csv, unsigned n, const double *values)
 {
+    struct text line = {0};
     for (unsigned i = 0; i < n; i++) {
         const char *comma = i ? "," : "";
-        if (isnan(values[i])) fprintf(csv->stream, "%snan", comma);
-        else fprintf(csv->stream, "%s%.17g", comma, values[i]);
+        if (isnan(values[i])) text_add(&line, "%snan", comma);
+        else text_add(&line, "%s%.17g", comma, values[i]);
     }
-    fputc('\n', csv->stream);
-    return fflush(csv->stream) ? csv_fail(csv->path) : STATUS_OK;
+    text_add(&line, "\n");
+    int code = csv_add(csv, line.at, line.length);
+    text_done(&line);
+    return code;
 }
 
 int csv_row(struct csv *csv, unsigned n, const double *values)
@@ -78,10 +128,68 @@ int csv_row(struct csv *csv, unsigned n, const double *values)
     return comm_agree(comm_rank() == 0 ? csv_put(csv, n, values) : STATUS_OK);
 }
 
+/* Length and checksum, the latter in two halves: a double holds 53 bits. */
+static void csv_mark(const struct csv *csv, double ret_mark[3])
+{
+    XXH64_hash_t hash = XXH64_digest(csv->sum);
+    ret_mark[0] = (double)csv->bytes;
+    ret_mark[1] = (double)(hash >> 32);
+    ret_mark[2] = (double)(hash & 0xffffffffu);
+}
+
+int csv_keep(struct csv *csv, const char *name, struct notes *notes)
+{
+    double mark[3] = {0};
+    int code = STATUS_OK;
+    if (comm_rank() == 0 && fsync(fileno(csv->stream))) code = csv_fail(csv->path);
+    csv_mark(csv, mark);
+    notes_put(notes, name, 3, mark);
+    return comm_agree(code);
+}
+
+/* Does a file begin with what was noted? The sum then stands there. */
+static bool csv_has(struct csv *csv, const char *path, const double mark[3])
+{
+    double found[3];
+    csv_replay(csv, path, (long)mark[0], false);
+    csv_mark(csv, found);
+    return !memcmp(found, mark, sizeof found);
+}
+
+/* Takes the stream to an empty file, or to one of a length. */
+static int csv_cut(struct csv *csv, long bytes)
+{
+    if (fflush(csv->stream) || ftruncate(fileno(csv->stream), bytes)) return csv_fail(csv->path);
+    return fseek(csv->stream, 0, SEEK_END) ? csv_fail(csv->path) : STATUS_OK;
+}
+
+static int csv_return(struct csv *csv, const double mark[3], const char *origin)
+{
+    long now = csv->bytes;
+    if (csv_has(csv, csv->path, mark)) return csv_cut(csv, csv->bytes);
+    if (origin && csv_has(csv, origin, mark)) {
+        TRY(csv_cut(csv, 0));
+        if (csv_replay(csv, origin, (long)mark[0], true) != (long)mark[0] || fflush(csv->stream))
+            return csv_fail(csv->path);
+        return STATUS_OK;
+    }
+    log_warn("%s does not hold the rows that the checkpoint knows of; new rows follow those that are there", csv->path);
+    csv_replay(csv, csv->path, now, false);
+    return STATUS_OK;
+}
+
+int csv_recall(struct csv *csv, const char *name, const struct notes *notes, const char *origin)
+{
+    double mark[3];
+    if (!notes_get(notes, name, 3, mark)) return STATUS_OK;
+    return comm_agree(comm_rank() == 0 ? csv_return(csv, mark, origin) : STATUS_OK);
+}
+
 void csv_close(struct csv *csv)
 {
     if (!csv) return;
     if (csv->stream) fclose(csv->stream);
+    XXH64_freeState(csv->sum);
     mem_free(csv->path);
     mem_free(csv);
 }

@@ -3,6 +3,8 @@
 #ifndef CSV_H
 #define CSV_H
 
+#include "io/notes.h"
+
 #include <stdbool.h>
 
 struct csv;
@@ -13,6 +15,14 @@ int csv_open(const char *path, const char *header, bool resume, double limit, st
 
 /* Appends a row; whole numbers are written as such. */
 int csv_row(struct csv *csv, unsigned n, const double *values);
+
+/* Makes all rows lasting, and notes under `name` how long the file is and what its checksum. */
+int csv_keep(struct csv *csv, const char *name, struct notes *notes);
+
+/* Goes back to where the file was when csv_keep noted it. The rows up to there are those of the file itself or, if it
+ * has not them (another directory), of the file `origin`; without either the table begins anew, which is said in a
+ * warning. */
+int csv_recall(struct csv *csv, const char *name, const struct notes *notes, const char *origin);
 
 void csv_close(struct csv *csv); /* NULL is fine */
 

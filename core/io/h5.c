@@ -129,12 +129,19 @@ static hid_t h5_access(struct h5 *file)
 
 int h5_create(const char *path, struct h5 **ret_file)
 {
+    return h5_create_behind(path, 0, ret_file);
+}
+
+int h5_create_behind(const char *path, size_t head, struct h5 **ret_file)
+{
     struct h5 *file = h5_handle(path);
     file->idle = comm_rank() != 0;
     if (!file->idle) {
-        hid_t access = h5_access(file);
-        file->id = h5_check(file, H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access), "create it");
+        hid_t access = h5_access(file), start = h5_check(file, H5Pcreate(H5P_FILE_CREATE), "prepare");
+        h5_check(file, H5Pset_userblock(start, head), "leave room for a header");
+        file->id = h5_check(file, H5Fcreate(path, H5F_ACC_TRUNC, start, access), "create it");
         H5Pclose(access);
+        H5Pclose(start);
     }
     int code = comm_agree(file->code);
     if (code) h5_abandon(file);

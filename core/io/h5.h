@@ -27,6 +27,9 @@ struct h5 {
 /* Creates (replaces) a file for writing. Collective. */
 int h5_create(const char *path, struct h5 **ret_file);
 
+/* The same behind `head` bytes that are left to others (0, or a power of two from 512 on). */
+int h5_create_behind(const char *path, size_t head, struct h5 **ret_file);
+
 /* Opens a file for reading. */
 int h5_open(const char *path, struct h5 **ret_file);
 

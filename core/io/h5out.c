@@ -4,7 +4,8 @@
  * sends it to rank 0, which files it as it is; pieces of a chunk that several ranks hold travel as
  * plain rows, and rank 0 packs it. So packing runs on all ranks at once, nobody holds more than his
  * own data set packed, and the bytes in the file do not depend on the ranks. All ranks know all
- * ranges, therefore who sends what, and rank 0 takes every message even after a failure. */
+ * ranges, therefore who sends what, and rank 0 takes every message even after a failure.
+ * The plain path (`hash`): for what will be read back at its place in the file. */
 #include "io/h5out.h"
 
 #include "base/comm.h"
@@ -15,6 +16,7 @@
 #include <hdf5.h>
 #include <mpi.h>
 #include <string.h>
+#include <xxhash.h>
 
 enum { H5OUT_TAG = 77, H5OUT_HEAD = 8 }; /* bytes before a packed chunk: which filters were left out */
 
@@ -38,7 +40,7 @@ static hid_t h5out_layout(struct h5 *file, const struct h5out_rows *rows)
     hid_t layout = h5_check(file, H5Pcreate(H5P_DATASET_CREATE), "prepare a data set");
     h5_check(file, H5Pset_obj_track_times(layout, false), "prepare a data set");
     h5_check(file, H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER), "prepare a data set");
-    if (!rows->chunk) return layout;
+    if (!rows->chunk || rows->hash) return layout;
     hsize_t chunk[2] = {rows->chunk < rows->total ? rows->chunk : rows->total, rows->columns};
     h5_check(file, H5Pset_chunk(layout, rows->columns ? 2 : 1, chunk), "set the chunks of a data set");
     h5_check(file, H5Pset_shuffle(layout), "set the compression of a data set");
@@ -178,19 +180,64 @@ static void h5out_store(struct h5 *file, hid_t set, struct h5out *out, const cha
     }
 }
 
+/* Rows that are stored as they are go chunk by chunk in the order of the file, and nobody copies his part of
+ * them whole: rank 0 takes one message after the other, and the others wait for it. */
+static void h5out_send_plain(struct h5out *out)
+{
+    for (size_t first = 0; first < out->rows->total; first += out->chunk)
+        for (unsigned i = 0; i < out->n_range; i++) {
+            struct h5out_piece piece = h5out_piece(out, first, i);
+            if (!piece.count || piece.rank != comm_rank()) continue;
+            out->rows->fill(out->rows->context, piece.first, piece.count, out->plain);
+            MPI_Send(out->plain, (int)(piece.count * out->row), MPI_BYTE, 0, H5OUT_TAG, comm_world());
+        }
+}
+
+/* Brings a chunk together on rank 0 as it is. */
+static void h5out_gather_plain(struct h5out *out, size_t first)
+{
+    for (unsigned i = 0; i < out->n_range; i++) {
+        struct h5out_piece piece = h5out_piece(out, first, i);
+        char *to = out->plain + (piece.first - first) * out->row;
+        if (!piece.count) continue;
+        if (piece.rank == 0) out->rows->fill(out->rows->context, piece.first, piece.count, to);
+        else h5out_receive(piece.rank, to, piece.count * out->row);
+    }
+}
+
+static void h5out_store_plain(struct h5 *file, hid_t set, struct h5out *out, const char *path)
+{
+    XXH64_state_t *sum = XXH64_createState();
+    XXH64_reset(sum, 0);
+    for (size_t first = 0; first < out->rows->total; first += out->chunk) {
+        size_t count = h5out_count(out, first);
+        h5out_gather_plain(out, first);
+        if (file->code) continue; /* the others go on sending */
+        XXH64_update(sum, out->plain, count * out->row);
+        hid_t memory = h5out_space(file, count, out->rows->columns), space = h5_check(file, H5Dget_space(set), path);
+        hsize_t start[2] = {first, 0}, extent[2] = {count, out->rows->columns};
+        h5_check(file, H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, extent, NULL), path);
+        h5_check(file, H5Dwrite(set, h5_type_id(out->rows->type), memory, space, H5P_DEFAULT, out->plain), path);
+        if (memory >= 0) H5Sclose(memory);
+        if (space >= 0) H5Sclose(space);
+    }
+    *out->rows->hash = XXH64_digest(sum);
+    XXH64_freeState(sum);
+}
+
 int h5out_write(struct h5 *file, const char *path, const struct h5out_rows *rows)
 {
     struct h5out out;
     TRY(comm_agree(file->code));
     h5out_begin(&out, rows);
     if (file->idle) {
-        h5out_send(&out);
+        (rows->hash ? h5out_send_plain : h5out_send)(&out);
     } else {
         hid_t layout = h5out_layout(file, rows), space = h5out_space(file, rows->total, rows->columns);
         hid_t set =
             h5_check(file, H5Dcreate2(file->id, path, h5_type_id(rows->type), space, H5P_DEFAULT, layout, H5P_DEFAULT),
                      path);
-        h5out_store(file, set, &out, path);
+        (rows->hash ? h5out_store_plain : h5out_store)(file, set, &out, path);
         if (set >= 0) h5_check(file, H5Dclose(set), path);
         if (space >= 0) H5Sclose(space);
         if (layout >= 0) H5Pclose(layout);
@@ -231,6 +278,17 @@ void h5out_text(struct h5 *file, const char *path, const char *text)
     hid_t type = h5_string_type(file, text, strlen(text));
     h5out_whole(file, path, (hid_t[2]){type, h5_check(file, H5Screate(H5S_SCALAR), path)}, text);
     if (type >= 0) H5Tclose(type);
+}
+
+void h5out_place(struct h5 *file, const char *path, uint64_t *ret_offset, uint64_t *ret_length)
+{
+    if (file->idle) return;
+    hid_t set = h5_check(file, H5Dopen2(file->id, path, H5P_DEFAULT), path);
+    haddr_t offset = set >= 0 ? H5Dget_offset(set) : HADDR_UNDEF;
+    h5_check(file, offset == HADDR_UNDEF ? -1 : 0, path);
+    *ret_offset = (uint64_t)offset;
+    *ret_length = set >= 0 ? (uint64_t)H5Dget_storage_size(set) : 0;
+    if (set >= 0) H5Dclose(set);
 }
 
 void h5out_unit(struct h5 *file, const char *path, const char *unit)

@@ -16,7 +16,8 @@ struct h5out_rows {
     enum h5_type type;
     unsigned columns; /* 0: shape [total], else [total, columns] */
     size_t total;
-    size_t chunk; /* rows that are compressed together (shuffle + deflate 1) */
+    size_t chunk;   /* rows that are compressed together (shuffle + deflate 1), or travel together if they are not */
+    uint64_t *hash; /* not NULL: the rows are stored as they are, in one piece; rank 0 gets their XXH64 */
     unsigned n_range;
     const struct h5out_range *ranges;
     void (*fill)(void *context, size_t first, size_t count, void *out);
@@ -35,6 +36,9 @@ void h5out_records(struct h5 *file, const char *path, const char *const *members
 
 /* One text that every rank knows. */
 void h5out_text(struct h5 *file, const char *path, const char *text);
+
+/* Where in the file the numbers of a data set lie that was not compressed [bytes]; rank 0 gets it. */
+void h5out_place(struct h5 *file, const char *path, uint64_t *ret_offset, uint64_t *ret_length);
 
 /* Names the unit of a data set (attribute `units`). */
 void h5out_unit(struct h5 *file, const char *path, const char *unit);

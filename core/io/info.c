@@ -3,6 +3,8 @@
 
 #include "base/status.h"
 #include "io/read.h"
+#include "io/resume.h"
+#include "io/seal.h"
 
 #include <string.h>
 
@@ -66,6 +68,7 @@ static void info_print_fields(FILE *out, const struct snapshot *snapshot)
 int info_print(FILE *out, const char *path)
 {
     struct snapshot *snapshot;
+    if (seal_is(path)) return resume_info(out, path);
     TRY(read_snapshot(path, NULL, &snapshot));
     fprintf(out, "snapshot  %s\ncase      %s", path, snapshot->name);
     if (*snapshot->title) fprintf(out, ": %s", snapshot->title);

@@ -1,0 +1,292 @@
+/* checkpoint.c - see checkpoint.h. The order of events for one file: draft written by rank 0 with the rows of
+ * all ranks, closed, made lasting, read back and compared, sealed, renamed, folder made lasting; then older
+ * files removed. A crash anywhere leaves the older files and at most a draft. */
+#include "io/checkpoint.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/version.h"
+#include "io/facts.h"
+#include "io/h5out.h"
+#include "io/place.h"
+#include "io/seal.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { CHECKPOINT_MESSAGE = 4 << 20, CHECKPOINT_KEEP = 2 }; /* bytes of rows that travel together; files kept */
+
+struct checkpoints {
+    const struct scene *scene;
+    char *folder, *last;
+    int keep;
+    long step; /* of the last file, or -1 */
+};
+
+/* One file being written. */
+struct checkpoint {
+    struct h5 *file;
+    const struct state *state;
+    struct h5out_range tiles[MESH_LEVELS]; /* that this rank holds */
+    size_t n_tile;
+    struct seal seal; /* rank 0 */
+};
+
+struct checkpoints *checkpoint_new(const struct scene *scene)
+{
+    struct checkpoints *checkpoints = mem_new(1, sizeof *checkpoints);
+    checkpoints->scene = scene;
+    checkpoints->folder = mem_print("%s/checkpoints", scene->directory);
+    checkpoints->keep = scene->checkpoints_keep > 0 ? scene->checkpoints_keep : CHECKPOINT_KEEP;
+    checkpoints->step = -1;
+    return checkpoints;
+}
+
+void checkpoint_free(struct checkpoints *checkpoints)
+{
+    if (!checkpoints) return;
+    mem_free(checkpoints->folder);
+    mem_free(checkpoints->last);
+    mem_free(checkpoints);
+}
+
+const char *checkpoint_last(const struct checkpoints *checkpoints)
+{
+    return checkpoints->last;
+}
+
+/* A checkpoint in a folder; number 0: its header is damaged. */
+struct checkpoint_entry {
+    uint64_t number;
+    char *path;
+};
+
+static int checkpoint_compare(const void *a, const void *b)
+{
+    uint64_t x = ((const struct checkpoint_entry *)a)->number, y = ((const struct checkpoint_entry *)b)->number;
+    return x && y ? (x < y) - (x > y) : (x > y) - (x < y);
+}
+
+/* All of them, damaged ones first, then the highest number; NULL if there are none. */
+static struct checkpoint_entry *checkpoint_entries(const char *folder, unsigned *ret_n)
+{
+    struct checkpoint_entry *entries = NULL;
+    unsigned n = 0;
+    DIR *stream = opendir(folder);
+    for (struct dirent *entry; stream && (entry = readdir(stream));) {
+        size_t length = strlen(entry->d_name);
+        if (length < 4 || strcmp(entry->d_name + length - 4, ".chk")) continue;
+        struct seal seal;
+        char *path = mem_print("%s/%s", folder, entry->d_name);
+        entries = mem_grow(entries, n, n + 1, sizeof *entries);
+        entries[n++] = (struct checkpoint_entry){seal_read(path, &seal) ? 0 : seal.number, path};
+    }
+    if (stream) closedir(stream);
+    if (n) qsort(entries, n, sizeof *entries, checkpoint_compare);
+    *ret_n = n;
+    return entries;
+}
+
+void checkpoint_list(const char *folder, unsigned *ret_n, char ***ret_paths)
+{
+    struct checkpoint_entry *entries = checkpoint_entries(folder, ret_n);
+    char **paths = mem_new(*ret_n + 1u, sizeof *paths);
+    for (unsigned i = 0; i < *ret_n; i++) paths[i] = entries[i].path;
+    mem_free(entries);
+    *ret_paths = paths;
+}
+
+/* The numbers of a state, as resume.c reads them back. */
+static void checkpoint_note(const struct state *state, struct notes *notes)
+{
+    struct state_counts counts = state_counts_total(state);
+    double steps[MESH_LEVELS];
+    const double sums[] = {(double)counts.cells,   (double)counts.fallback, (double)counts.relaxed,
+                           (double)counts.clipped, (double)counts.limited,  (double)counts.spread};
+    for (int l = 0; l < MESH_LEVELS; l++) steps[l] = (double)state->level_steps[l];
+    notes_put_one(notes, "state.t", state->t);
+    notes_put_one(notes, "state.dt", state->dt);
+    notes_put_one(notes, "state.dt_shrink", state->dt_shrink);
+    notes_put_one(notes, "state.step", (double)state->step);
+    notes_put(notes, "state.level_steps", MESH_LEVELS, steps);
+    notes_put(notes, "counts.of_all_ranks", 6, sums);
+    notes_put_one(notes, "cells.carried", (double)counts.carried);
+    notes_put(notes, "counts.of_each_rank", 2, (double[]){(double)counts.retries, (double)counts.regrids});
+}
+
+/* Who wrote it, when, and what it is of. */
+static void checkpoint_note_origin(const struct state *state, struct notes *notes)
+{
+    char now[32];
+    time_t clock = time(NULL);
+    struct tm parts;
+    strftime(now, sizeof now, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&clock, &parts));
+    notes_put_text(notes, "written.at", now);
+    notes_put_text(notes, "written.by", "bulla " BULLA_VERSION);
+    notes_put_text(notes, "written.commit", version_commit());
+    notes_put_one(notes, "written.ranks", comm_size());
+    notes_put_text(notes, "case.name", state->scene->name);
+    notes_put_text(notes, "case.title", state->scene->title ? state->scene->title : "");
+}
+
+/* Level and local index of a tile in the list of all. */
+static unsigned checkpoint_tile(const struct mesh *mesh, size_t tile, int *ret_level)
+{
+    int level = 0;
+    while (tile >= mesh->levels[level].n_tile) tile -= mesh->levels[level++].n_tile;
+    *ret_level = level;
+    return (unsigned)tile - mesh->levels[level].first;
+}
+
+static void checkpoint_fill_u(void *context, size_t first, size_t count, void *out)
+{
+    const struct mesh *mesh = ((struct checkpoint *)context)->state->mesh;
+    size_t block = mesh->n_field * mesh->n_cell;
+    for (size_t i = 0; i < count; i++) {
+        int l;
+        unsigned local = checkpoint_tile(mesh, first + i, &l);
+        memcpy((double *)out + i * block, mesh->levels[l].u_old[local], block * sizeof(double));
+    }
+}
+
+static void checkpoint_fill_p(void *context, size_t first, size_t count, void *out)
+{
+    const struct state *state = ((struct checkpoint *)context)->state;
+    const struct mesh *mesh = state->mesh;
+    for (size_t i = 0; i < count; i++) {
+        int l;
+        unsigned local = checkpoint_tile(mesh, first + i, &l);
+        memcpy((double *)out + i * mesh->n_cell, mesh->levels[l].w[local] + state->model->i_E * mesh->n_cell,
+               mesh->n_cell * sizeof(double));
+    }
+}
+
+/* Adds a data set that has been written to the list of the seal. */
+static void checkpoint_list_part(struct checkpoint *point, const char *path, uint64_t hash)
+{
+    if (point->file->idle || point->file->code) return;
+    uint64_t offset, length;
+    h5out_place(point->file, path, &offset, &length);
+    if (!point->file->code) seal_add(&point->seal, path, offset, length, hash);
+}
+
+static int checkpoint_put_rows(struct checkpoint *point, const char *path, size_t columns,
+                               void (*fill)(void *, size_t, size_t, void *))
+{
+    uint64_t hash = 0;
+    size_t rows = CHECKPOINT_MESSAGE / (columns * sizeof(double));
+    const struct h5out_rows all = {.type = H5_F64,
+                                   .columns = (unsigned)columns,
+                                   .total = point->n_tile,
+                                   .chunk = rows ? rows : 1,
+                                   .hash = &hash,
+                                   .n_range = (unsigned)point->state->mesh->n_level,
+                                   .ranges = point->tiles,
+                                   .fill = fill,
+                                   .context = point};
+    TRY(h5out_write(point->file, path, &all));
+    checkpoint_list_part(point, path, hash);
+    return STATUS_OK;
+}
+
+static void checkpoint_put_tiles(struct checkpoint *point)
+{
+    const struct mesh *mesh = point->state->mesh;
+    int32_t *rows = mem_new(point->n_tile * CHECKPOINT_TILE, sizeof *rows), *row = rows;
+    for (int l = 0; l < mesh->n_level; l++)
+        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++, row += CHECKPOINT_TILE) {
+            const struct tile *tile = &mesh->levels[l].tiles[i];
+            const int32_t values[CHECKPOINT_TILE] = {l, tile->at[0], tile->at[1], tile->at[2], tile->unwanted};
+            memcpy(row, values, sizeof values);
+        }
+    h5out_array(point->file, "/tiles", H5_I32, point->n_tile, CHECKPOINT_TILE, rows);
+    checkpoint_list_part(point, "/tiles", seal_hash(rows, point->n_tile * CHECKPOINT_TILE * sizeof *rows));
+    mem_free(rows);
+}
+
+static void checkpoint_put_text(struct checkpoint *point, const char *path, const char *text)
+{
+    h5out_text(point->file, path, text);
+    checkpoint_list_part(point, path, seal_hash(text, strlen(text)));
+}
+
+static int checkpoint_fill(struct checkpoint *point, const struct notes *outputs)
+{
+    const struct state *state = point->state;
+    const struct mesh *mesh = state->mesh;
+    struct notes notes = {0};
+    checkpoint_note_origin(state, &notes);
+    checkpoint_note(state, &notes);
+    facts_put(state->scene, state->model, mesh->n[0], &notes);
+    text_add(&notes.text, "%s", outputs->text.at ? outputs->text.at : "");
+    checkpoint_put_text(point, "/case.yaml", state->scene->resolved);
+    checkpoint_put_text(point, "/notes", notes.text.at);
+    text_done(&notes.text);
+    checkpoint_put_tiles(point);
+    TRY(checkpoint_put_rows(point, "/u", mesh->n_field * mesh->n_cell, checkpoint_fill_u));
+    return state->model->linear ? STATUS_OK : checkpoint_put_rows(point, "/p", mesh->n_cell, checkpoint_fill_p);
+}
+
+/* Writes the data; the header stays empty. */
+static int checkpoint_draft(struct checkpoint *point, const char *draft, const struct notes *outputs)
+{
+    const struct mesh *mesh = point->state->mesh;
+    for (int l = 0; l < mesh->n_level; l++) {
+        const struct level *level = &mesh->levels[l];
+        point->tiles[l] = (struct h5out_range){point->n_tile + level->first, level->n_local};
+        point->n_tile += level->n_tile;
+    }
+    TRY(h5_create_behind(draft, SEAL_BYTES, &point->file));
+    int code = checkpoint_fill(point, outputs);
+    if (!code) return h5_close(point->file);
+    h5_abandon(point->file);
+    return code;
+}
+
+/* Seals the draft, gives it its name and removes what is too old. Rank 0. */
+static int checkpoint_accept(const struct checkpoints *checkpoints, struct seal *seal, const char *draft,
+                             const char *path)
+{
+    unsigned n;
+    struct checkpoint_entry *entries = checkpoint_entries(checkpoints->folder, &n);
+    for (unsigned i = 0; i < n; i++)
+        if (entries[i].number > seal->number) seal->number = entries[i].number;
+    seal->number++;
+    int code = seal_close(draft, seal);
+    if (!code && rename(draft, path))
+        code = status_fail(STATUS_RUN, "%s: cannot rename to it: %s", path, strerror(errno));
+    if (!code) code = seal_sync_folder(checkpoints->folder);
+    for (unsigned i = 0, kept = 1; i < n; i++) {
+        bool counts = entries[i].number && strcmp(entries[i].path, path) != 0;
+        if (!code && counts && kept++ >= (unsigned)checkpoints->keep) unlink(entries[i].path);
+        mem_free(entries[i].path);
+    }
+    mem_free(entries);
+    return code;
+}
+
+int checkpoint_write(struct checkpoints *checkpoints, const struct state *state, const struct notes *outputs)
+{
+    if (checkpoints->step == state->step) return STATUS_OK;
+    TRY(place_folder(checkpoints->folder));
+    char *path = mem_print("%s/%s_%06ld.chk", checkpoints->folder, state->scene->name, state->step);
+    char *draft = place_draft(path);
+    struct checkpoint point = {.state = state};
+    int code = checkpoint_draft(&point, draft, outputs);
+    if (!code) code = comm_agree(comm_rank() == 0 ? checkpoint_accept(checkpoints, &point.seal, draft, path) : 0);
+    if (code) place_reject(path);
+    mem_free(draft);
+    if (code) {
+        mem_free(path);
+        return status_wrap(code, "no checkpoint of step %ld: ", state->step);
+    }
+    mem_free(checkpoints->last);
+    checkpoints->last = path;
+    checkpoints->step = state->step;
+    return STATUS_OK;
+}
