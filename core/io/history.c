@@ -56,6 +56,24 @@ void history_free(struct history *history)
     mem_free(history);
 }
 
+int history_keep(struct history *history, struct notes *notes)
+{
+    notes_put_one(notes, "history.last", (double)history->last);
+    measure_keep(history->measures, notes);
+    return csv_keep(history->csv, "history.csv", notes);
+}
+
+int history_recall(struct history *history, const struct notes *notes, const char *origin)
+{
+    double last = -1.0;
+    if (notes_get(notes, "history.last", 1, &last)) history->last = (long)last;
+    measure_recall(history->measures, notes);
+    char *path = mem_print("%s/history.csv", origin);
+    int code = csv_recall(history->csv, "history.csv", notes, path);
+    mem_free(path);
+    return code;
+}
+
 /* Value of the argument `name` of an expression: t or a column. */
 static double history_argument(const struct scene *scene, const char *name, double t, const double *columns)
 {

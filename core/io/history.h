@@ -6,6 +6,7 @@
 #ifndef HISTORY_H
 #define HISTORY_H
 
+#include "io/notes.h"
 #include "solve/state.h"
 
 struct history;
@@ -14,6 +15,11 @@ struct history;
  * STATUS_CASE for an unknown field. Collective, as all calls here. */
 int history_new(const struct state *state, struct history **ret_history);
 void history_free(struct history *history); /* NULL is fine */
+
+/* Notes where the file is and what columns carry from step to step, and goes back there (csv.h); `origin` is the
+ * directory that the rows of the past may be copied from. */
+int history_keep(struct history *history, struct notes *notes);
+int history_recall(struct history *history, const struct notes *notes, const char *origin);
 
 /* Appends the row of the present state, unless this step was the last written. A `value` that
  * cannot be computed (0/0, a column that is NaN) is NaN. */

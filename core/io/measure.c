@@ -120,6 +120,31 @@ void measure_free(struct measures *measures)
     mem_free(measures);
 }
 
+static char *measure_origin_name(const struct measure_column *column)
+{
+    return mem_print("history.origin.%s", column->from->name);
+}
+
+void measure_keep(const struct measures *measures, struct notes *notes)
+{
+    for (unsigned i = 0; i < measures->n; i++) {
+        const struct measure_column *column = &measures->columns[i];
+        if (column->from->measure != SCENE_PENETRATION) continue;
+        char *name = measure_origin_name(column);
+        notes_put_one(notes, name, column->origin);
+        mem_free(name);
+    }
+}
+
+void measure_recall(struct measures *measures, const struct notes *notes)
+{
+    for (unsigned i = 0; i < measures->n; i++) {
+        char *name = measure_origin_name(&measures->columns[i]);
+        notes_get(notes, name, 1, &measures->columns[i].origin);
+        mem_free(name);
+    }
+}
+
 /* An evolved field of the tile at hand. */
 static const double *measure_evolved(const struct measures *measures, unsigned index)
 {

@@ -20,6 +20,7 @@
 #ifndef MEASURE_H
 #define MEASURE_H
 
+#include "io/notes.h"
 #include "solve/state.h"
 
 struct measures;
@@ -28,6 +29,10 @@ struct measures;
  * end now. Collective. */
 int measure_new(const struct state *state, struct measures **ret_measures);
 void measure_free(struct measures *measures); /* NULL is fine */
+
+/* Notes what columns carry from step to step (where materials ended at the start), and takes it back. */
+void measure_keep(const struct measures *measures, struct notes *notes);
+void measure_recall(struct measures *measures, const struct notes *notes);
 
 /* One number per column of the scene, NaN for `value` columns; equal on all ranks. Collective. */
 void measure_take(struct measures *measures, const struct state *state, double *ret_values);

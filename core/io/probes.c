@@ -31,6 +31,7 @@ struct probes_trace {
 
 struct probes {
     struct csv *csv;
+    char *header;
     unsigned n_corner, n_trace, n_value; /* n_value: columns after t */
     struct probes_point *points;
     unsigned revision; /* of the mesh in which points were found */
@@ -165,6 +166,7 @@ int probes_new(const struct state *state, struct probes **ret_probes)
     char *path = mem_print("%s/probes.csv", scene->directory);
     if (!code) code = csv_open(path, header.at, resume, state->t, &probes->csv);
     mem_free(path);
+    probes->header = mem_text(header.at);
     text_done(&header);
     if (code) probes_free(probes);
     else *ret_probes = probes;
@@ -175,6 +177,7 @@ void probes_free(struct probes *probes)
 {
     if (!probes) return;
     csv_close(probes->csv);
+    mem_free(probes->header);
     mem_free(probes->points);
     mem_free(probes->traces);
     mem_free(probes->corners);
@@ -183,6 +186,39 @@ void probes_free(struct probes *probes)
     mem_free(probes->now);
     mem_free(probes->row);
     mem_free(probes);
+}
+
+int probes_keep(struct probes *probes, struct notes *notes)
+{
+    if (!probes) return STATUS_OK;
+    const double place[] = {probes->t_before, probes->t_row, (double)probes->step};
+    const double next[] = {probes->every.time, (double)probes->every.steps, (double)probes->next};
+    notes_put_text(notes, "probes.columns", probes->header);
+    notes_put(notes, "probes.place", 3, place);
+    notes_put(notes, "probes.next", 3, next);
+    notes_put(notes, "probes.before", probes->n_value, probes->before);
+    return csv_keep(probes->csv, "probes.csv", notes);
+}
+
+int probes_recall(struct probes *probes, const struct notes *notes, const char *origin)
+{
+    double place[3], next[3];
+    char *columns = notes_get_text(notes, "probes.columns");
+    bool same = probes && columns && !strcmp(columns, probes->header);
+    mem_free(columns);
+    if (!same || !notes_get(notes, "probes.before", probes->n_value, probes->before)) return STATUS_OK;
+    if (notes_get(notes, "probes.place", 3, place)) {
+        probes->t_before = place[0];
+        probes->t_row = place[1];
+        probes->step = (long)place[2];
+    }
+    if (notes_get(notes, "probes.next", 3, next) && next[0] == probes->every.time &&
+        (long)next[1] == probes->every.steps)
+        probes->next = (long)next[2];
+    char *path = mem_print("%s/probes.csv", origin);
+    int code = csv_recall(probes->csv, "probes.csv", notes, path);
+    mem_free(path);
+    return code;
 }
 
 /* Values of a field in those cells around its point that this rank holds. */
@@ -249,8 +285,9 @@ static int probes_rows(struct probes *probes, const struct state *state)
     }
     /* times are multiples, never sums; closer than 1e-9 of the interval is the same time */
     while ((double)probes->next * every <= state->t + 1e-9 * every) {
-        double t = (double)probes->next++ * every;
+        double t = (double)probes->next * every;
         TRY(probes_row(probes, fabs(t - state->t) <= 1e-9 * every ? state->t : t, state->t));
+        probes->next++;
     }
     return STATUS_OK;
 }

@@ -11,6 +11,7 @@
 #ifndef PROBES_H
 #define PROBES_H
 
+#include "io/notes.h"
 #include "solve/state.h"
 
 struct probes;
@@ -19,6 +20,11 @@ struct probes;
  * accept). STATUS_CASE for unknown fields and points outside the domain. Collective, as all calls here. */
 int probes_new(const struct state *state, struct probes **ret_probes);
 void probes_free(struct probes *probes);
+
+/* Notes where the file is and the last sample, and goes back there (csv.h); `origin` is the directory that the rows
+ * of the past may be copied from. */
+int probes_keep(struct probes *probes, struct notes *notes);
+int probes_recall(struct probes *probes, const struct notes *notes, const char *origin);
 
 /* To be called with the initial state and after every step: writes the rows that fall between the
  * last call and this state. */

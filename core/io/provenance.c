@@ -27,6 +27,8 @@ struct provenance {
     char *path, *text;
     double wall_0, cpu_0; /* at the start of the run [s] */
     long step_0;
+    double before[4]; /* wall, CPU, CPU while running, CPU of regridding, of the runs that this one continues [s] */
+    int runs;         /* with this one */
     char started[32];
     unsigned peak[MESH_LEVELS]; /* most tiles of each level */
     struct ledger initial;
@@ -259,6 +261,7 @@ static char *provenance_compose(const struct provenance *provenance, const struc
     provenance_now(time_text, sizeof time_text);
     json_t *root = provenance_origin(provenance, state->scene), *work = provenance_work(provenance, state, cost);
     json_object_set_new(root, "started", json_string(provenance->started));
+    json_object_set_new(root, "runs", json_integer(provenance->runs));
     json_object_set_new(root, strcmp(reason, "running") ? "ended" : "written", json_string(time_text));
     json_object_update(root, work);
     json_decref(work);
@@ -292,14 +295,25 @@ void provenance_watch(struct provenance *provenance, const struct state *state)
     }
 }
 
-int provenance_write(struct provenance *provenance, const struct state *state, const char *reason, int exit_code)
+/* Wall, CPU, CPU while running, CPU of regridding, of all ranks and all runs so far. Collective. */
+static void provenance_spent(const struct provenance *provenance, const struct state *state, double ret_spent[4])
 {
     double cpu = provenance_cpu();
-    struct provenance_cost cost = {.wall = provenance_wall() - provenance->wall_0,
-                                   .cpu = provenance_sum(cpu),
-                                   .cpu_run = provenance_sum(cpu - provenance->cpu_0),
+    ret_spent[0] = provenance->before[0] + provenance_wall() - provenance->wall_0;
+    ret_spent[1] = provenance->before[1] + provenance_sum(cpu);
+    ret_spent[2] = provenance->before[2] + provenance_sum(cpu - provenance->cpu_0);
+    ret_spent[3] = provenance->before[3] + provenance_sum(state->counts.regrid_seconds);
+}
+
+int provenance_write(struct provenance *provenance, const struct state *state, const char *reason, int exit_code)
+{
+    double spent[4];
+    provenance_spent(provenance, state, spent);
+    struct provenance_cost cost = {.wall = spent[0],
+                                   .cpu = spent[1],
+                                   .cpu_run = spent[2],
                                    .memory = provenance_sum(mem_peak()),
-                                   .regrid = provenance_sum(state->counts.regrid_seconds),
+                                   .regrid = spent[3],
                                    .counts = state_counts_total(state)};
     ledger_take(state, &cost.now);
     char *text = comm_rank() == 0 ? provenance_compose(provenance, state, &cost, reason, exit_code) : NULL;
@@ -312,7 +326,7 @@ int provenance_new(const struct state *state, int argc, char *const *argv, struc
 {
     TRY(place_folder(state->scene->directory));
     struct provenance *provenance = mem_new(1, sizeof *provenance);
-    *provenance = (struct provenance){.argc = argc, .argv = argv, .step_0 = state->step};
+    *provenance = (struct provenance){.argc = argc, .argv = argv, .step_0 = state->step, .runs = 1};
     provenance->path = mem_print("%s/provenance.json", state->scene->directory);
     provenance->wall_0 = provenance_wall();
     provenance->cpu_0 = provenance_cpu();
@@ -324,6 +338,33 @@ int provenance_new(const struct state *state, int argc, char *const *argv, struc
     if (code) provenance_free(provenance);
     else *ret_provenance = provenance;
     return code;
+}
+
+void provenance_keep(const struct provenance *provenance, const struct state *state, struct notes *notes)
+{
+    double spent[4], peak[MESH_LEVELS];
+    provenance_spent(provenance, state, spent);
+    for (int l = 0; l < MESH_LEVELS; l++) peak[l] = provenance->peak[l];
+    notes_put_text(notes, "provenance.started", provenance->started);
+    notes_put_one(notes, "provenance.runs", provenance->runs);
+    notes_put(notes, "provenance.spent", 4, spent);
+    notes_put(notes, "provenance.peak_tiles", MESH_LEVELS, peak);
+    notes_put(notes, "provenance.initial", provenance->initial.n, provenance->initial.total);
+}
+
+int provenance_recall(struct provenance *provenance, const struct state *state, const struct notes *notes)
+{
+    double runs = 0.0, peak[MESH_LEVELS] = {0};
+    char *started = notes_get_text(notes, "provenance.started");
+    if (started) snprintf(provenance->started, sizeof provenance->started, "%s", started);
+    mem_free(started);
+    if (notes_get(notes, "provenance.runs", 1, &runs)) provenance->runs += (int)runs;
+    notes_get(notes, "provenance.spent", 4, provenance->before);
+    notes_get(notes, "provenance.peak_tiles", MESH_LEVELS, peak);
+    for (int l = 0; l < MESH_LEVELS; l++)
+        if (peak[l] > provenance->peak[l]) provenance->peak[l] = (unsigned)peak[l];
+    notes_get(notes, "provenance.initial", provenance->initial.n, provenance->initial.total);
+    return provenance_write(provenance, state, "running", 0);
 }
 
 void provenance_free(struct provenance *provenance)

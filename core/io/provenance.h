@@ -5,6 +5,7 @@
 #ifndef PROVENANCE_H
 #define PROVENANCE_H
 
+#include "io/notes.h"
 #include "solve/state.h"
 
 struct provenance;
@@ -19,6 +20,11 @@ void provenance_watch(struct provenance *provenance, const struct state *state);
 /* Writes the file again with the present figures; `reason`: "running", "finished", "interrupted by
  * SIGTERM", or the message of the failure. Collective. */
 int provenance_write(struct provenance *provenance, const struct state *state, const char *reason, int exit_code);
+
+/* Notes what has been used and what there was at the start, and goes on counting from there: the figures are those
+ * of all runs that follow each other. Collective. */
+void provenance_keep(const struct provenance *provenance, const struct state *state, struct notes *notes);
+int provenance_recall(struct provenance *provenance, const struct state *state, const struct notes *notes);
 
 /* The text as last written, equal on all ranks; valid until the next write. */
 const char *provenance_text(const struct provenance *provenance);

@@ -57,12 +57,34 @@ static int snapshot_choose_fields(struct snapshots *snapshots, const struct stat
     return STATUS_OK;
 }
 
+/* Removes the last file of the list. */
+static void snapshot_drop(struct snapshots *snapshots)
+{
+    char *path = mem_print("%s/%s", snapshots->folder, snapshots->list.names[--snapshots->list.n]);
+    remove(path);
+    mem_free(path);
+    mem_free(snapshots->list.names[snapshots->list.n]);
+}
+
 /* The files of the run that is being taken up again, as far as they lie in its past. */
-static void snapshot_recall(struct snapshots *snapshots, const struct state *state)
+static void snapshot_go_on(struct snapshots *snapshots, const struct state *state)
 {
     struct filelist *list = &snapshots->list;
     if (state->step == 0 || comm_rank() != 0 || filelist_read(snapshots->list_path, list)) return;
-    while (list->n && list->times[list->n - 1] > state->t) mem_free(list->names[--list->n]);
+    while (list->n && list->times[list->n - 1] > state->t) snapshot_drop(snapshots);
+}
+
+void snapshot_keep(const struct snapshots *snapshots, struct notes *notes)
+{
+    notes_put(notes, "snapshots.files", 2, (double[]){(double)snapshots->list.n, (double)snapshots->last});
+}
+
+void snapshot_recall(struct snapshots *snapshots, const struct notes *notes)
+{
+    double files[2];
+    if (!notes_get(notes, "snapshots.files", 2, files)) return;
+    while ((double)snapshots->list.n > files[0]) snapshot_drop(snapshots);
+    snapshots->last = (long)files[1];
 }
 
 int snapshot_new(const struct state *state, struct snapshots **ret_snapshots)
@@ -75,7 +97,7 @@ int snapshot_new(const struct state *state, struct snapshots **ret_snapshots)
     int code = state->scene->n_snapshot_field ? snapshot_find_fields(snapshots, state)
                                               : snapshot_choose_fields(snapshots, state);
     if (!code) code = place_folder(snapshots->folder);
-    if (!code) snapshot_recall(snapshots, state);
+    if (!code) snapshot_go_on(snapshots, state);
     if (code) snapshot_free(snapshots);
     else *ret_snapshots = snapshots;
     return code;

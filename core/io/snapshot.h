@@ -13,6 +13,7 @@
 #ifndef SNAPSHOT_H
 #define SNAPSHOT_H
 
+#include "io/notes.h"
 #include "solve/state.h"
 
 struct snapshots;
@@ -21,6 +22,11 @@ struct snapshots;
  * behind it goes on with the list of files up to its time; a new one starts it. Collective. */
 int snapshot_new(const struct state *state, struct snapshots **ret_snapshots);
 void snapshot_free(struct snapshots *snapshots); /* NULL is fine */
+
+/* Notes how many files are listed, and goes back to that: files listed after them, which the continued run
+ * may write again, are removed. */
+void snapshot_keep(const struct snapshots *snapshots, struct notes *notes);
+void snapshot_recall(struct snapshots *snapshots, const struct notes *notes);
 
 /* Writes the present state unless this step was the last written; `provenance` is the text of
  * provenance.json, equal on all ranks. Collective. */
