@@ -44,6 +44,13 @@ static const struct cli_option *cli_match(const struct cli_command *command, con
     return NULL;
 }
 
+/* Is the next word (NULL: none) the value that an option may have, and neither another option nor a case? */
+static bool cli_takes(const char *next)
+{
+    const char *dot = next ? strrchr(next, '.') : NULL;
+    return next && *next != '-' && !(dot && (!strcmp(dot, ".yaml") || !strcmp(dot, ".yml")));
+}
+
 /* Reads one option at argv[*at]; *at ends on its last argument. */
 static int cli_option_at(struct cli_given *given, int *at)
 {
@@ -53,7 +60,9 @@ static int cli_option_at(struct cli_given *given, int *at)
     if (!option->doc)
         return status_fail(STATUS_CASE, "%s %s is not part of version " BULLA_VERSION, given->command->name,
                            option->name);
-    if (option->value && !value) {
+    if (option->value && *option->value == '[') {
+        if (!value && cli_takes(given->argv[*at + 1])) value = given->argv[++*at];
+    } else if (option->value && !value) {
         const char *next = *at + 1 < given->argc ? given->argv[*at + 1] : NULL;
         if (!next || !strncmp(next, "--", 2))
             return status_fail(STATUS_CASE, "%s wants a value: %s %s", word, option->name, option->value);

@@ -12,7 +12,7 @@
 struct cli_option {
     const char *name;   /* "--until" */
     const char *letter; /* "-o", or NULL */
-    const char *value;  /* what follows it ("DIR"), or NULL for a switch */
+    const char *value;  /* what follows it ("DIR"; "[FILE]": may follow it), or NULL for a switch */
     const char *doc;    /* NULL: not there yet; giving it is refused with a clear sentence */
 };
 
@@ -41,7 +41,7 @@ struct cli_given {
 int cli_parse(const struct cli_command *command, int argc, char **argv, struct cli_given *ret_given);
 void cli_done(struct cli_given *given);
 
-/* The value of an option (the last one given; "" for a switch), or NULL if it was not given. */
+/* The value of an option (the last one given; "" for a switch or without its value), or NULL if it was not given. */
 const char *cli_value(const struct cli_given *given, const char *name);
 
 /* Number given by an option that wants a whole number of at least `least`; *ret is untouched

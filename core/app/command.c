@@ -35,7 +35,8 @@ static const struct cli_option
     command_quiet = {"--quiet", NULL, NULL, "Says nothing but warnings and errors."},
     command_json = {"--json", NULL, NULL, "Progress and errors on stdout, one JSON object per line."},
     command_overwrite = {"--overwrite", NULL, NULL, "Replaces the run that is in the output directory."},
-    command_restart = {"--restart", NULL, NULL, NULL};
+    command_restart = {"--restart", NULL, "[FILE]",
+                       "Goes on from a checkpoint: FILE, or the newest in the output directory."};
 
 static const struct cli_option *const command_run_options[] = {&command_output,
                                                                &command_ranks,
@@ -69,7 +70,7 @@ static const struct cli_command command_table[] = {
      inspect_show},
     {"modules", "[NAME...]", "The laws there are; of one: parameters, units, ranges, defaults.", NULL, 0, -1,
      inspect_modules},
-    {"info", "FILE...", "What is inside a snapshot.", NULL, 1, -1, inspect_info},
+    {"info", "FILE...", "What is inside a snapshot or a checkpoint.", NULL, 1, -1, inspect_info},
     {"plot", "DIR FIELD|history", "PNG pictures of snapshots and histories.", plot_option_table, 1, -1, plot_command},
     {"report", "DIR", "One HTML page about a run, pictures inside.", report_option_table, 1, 1, report_command},
     {"verify", "[ID...]", "Errors, orders and cost of the verification scenes (r09: r09a, r09b, ...; none: all).",

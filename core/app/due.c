@@ -27,6 +27,24 @@ void due_written(struct due *due, double t, long step)
     if (every > 0) due->next = (long)floor(t / every + due_same) + 1;
 }
 
+void due_keep(const struct due *due, const char *name, struct notes *notes)
+{
+    const double values[] = {due->every.time, (double)due->every.steps, (double)due->next, (double)due->last_step};
+    notes_put(notes, name, 4, values);
+}
+
+void due_recall(struct due *due, const char *name, const struct notes *notes, double t, long step)
+{
+    double values[4];
+    bool known = notes_get(notes, name, 4, values);
+    if (known && values[0] == due->every.time && (long)values[1] == due->every.steps) {
+        due->next = (long)values[2];
+        due->last_step = (long)values[3];
+    } else {
+        due_written(due, t, step);
+    }
+}
+
 double due_target(const struct due *const *dues, int n, double t, double until)
 {
     double target = until;

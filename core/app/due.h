@@ -7,6 +7,7 @@
 #define DUE_H
 
 #include "case/scene.h"
+#include "io/notes.h"
 
 #include <stdbool.h>
 
@@ -24,6 +25,11 @@ bool due_now(const struct due *due, double t, long step);
 
 /* Notes that the output of this time and step has been written. */
 void due_written(struct due *due, double t, long step);
+
+/* Notes a schedule under a name, and goes on with it, if it still has the same interval; with another one the next
+ * output is that of the next multiple after t. */
+void due_keep(const struct due *due, const char *name, struct notes *notes);
+void due_recall(struct due *due, const char *name, const struct notes *notes, double t, long step);
 
 /* The earliest of `until` and the next times of `n` schedules that is later than t. */
 double due_target(const struct due *const *dues, int n, double t, double until);

@@ -30,14 +30,20 @@ static bool outdir_is_ours(const char *name)
     return false;
 }
 
-/* Counts our files in a folder; removes them if asked. -1: cannot remove (errno). */
-static int outdir_sweep(const char *folder, bool remove_them)
+static bool outdir_is_draft(const char *name)
+{
+    size_t length = strlen(name);
+    return length > 4 && !strcmp(name + length - 4, ".tmp");
+}
+
+/* Counts the files in a folder that `is_meant` names; removes them if asked. -1: cannot remove (errno). */
+static int outdir_sweep(const char *folder, bool (*is_meant)(const char *name), bool remove_them)
 {
     DIR *stream = opendir(folder);
     if (!stream) return 0;
     int count = 0;
     for (struct dirent *entry; count >= 0 && (entry = readdir(stream));) {
-        if (!outdir_is_ours(entry->d_name)) continue;
+        if (!is_meant(entry->d_name)) continue;
         char *path = mem_print("%s/%s", folder, entry->d_name);
         count = remove_them && unlink(path) ? -1 : count + 1;
         mem_free(path);
@@ -58,7 +64,7 @@ static void outdir_list(const char *path, struct text *found)
     }
     for (int i = 0; i < FOLDERS; i++) {
         char *name = mem_print("%s/%s", path, outdir_folders[i]);
-        int count = outdir_sweep(name, false);
+        int count = outdir_sweep(name, outdir_is_ours, false);
         if (count > 0)
             text_add(found, "%s%s/ (%d file%s)", found->length ? ", " : "", outdir_folders[i], count,
                      count == 1 ? "" : "s");
@@ -72,7 +78,8 @@ static int outdir_clear(const char *path)
     for (int i = 0; i < FILES + FOLDERS && !code; i++) {
         bool is_file = i < FILES;
         char *name = mem_print("%s/%s", path, is_file ? outdir_files[i] : outdir_folders[i - FILES]);
-        if (is_file ? unlink(name) && errno != ENOENT && errno != ENOTDIR : outdir_sweep(name, true) < 0)
+        if (is_file ? unlink(name) && errno != ENOENT && errno != ENOTDIR
+                    : outdir_sweep(name, outdir_is_ours, true) < 0)
             code = status_fail(STATUS_RUN, "cannot remove %s: %s", name, strerror(errno));
         mem_free(name);
     }
@@ -126,6 +133,35 @@ static int outdir_prepare_here(const char *path)
 int outdir_prepare(const char *path)
 {
     return comm_agree(comm_rank() == 0 ? outdir_prepare_here(path) : 0);
+}
+
+static int outdir_go_on_here(const char *path)
+{
+    int code = 0;
+    for (int i = 0; i < FOLDERS && !code; i++) {
+        char *name = mem_print("%s/%s", path, outdir_folders[i]);
+        if (outdir_sweep(name, outdir_is_draft, true) < 0)
+            code = status_fail(STATUS_RUN, "cannot remove the drafts in %s: %s", name, strerror(errno));
+        mem_free(name);
+    }
+    return code;
+}
+
+int outdir_go_on(const char *path)
+{
+    return comm_agree(comm_rank() == 0 ? outdir_go_on_here(path) : 0);
+}
+
+bool outdir_holds(const char *path, const char *name, const char *file)
+{
+    const char *slash = strrchr(file, '/');
+    char *place = slash ? mem_text_n(file, (size_t)(slash - file + 1)) : mem_text(".");
+    char *folder = mem_print("%s/%s", path, name);
+    struct stat a, b;
+    bool same = !stat(place, &a) && !stat(folder, &b) && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+    mem_free(folder);
+    mem_free(place);
+    return same;
 }
 
 static int outdir_write_here(const char *directory, const char *name, const char *text)

@@ -12,6 +12,12 @@ int outdir_check(const char *path, bool overwrite);
  * not ours are never touched. */
 int outdir_prepare(const char *path);
 
+/* Keeps what is there, for a run that goes on, but for drafts that a killed run left. */
+int outdir_go_on(const char *path);
+
+/* Does a file lie in the folder `name` of the directory? */
+bool outdir_holds(const char *path, const char *name, const char *file);
+
 /* Writes a text file of the run, for example case.yaml. */
 int outdir_write(const char *directory, const char *name, const char *text);
 

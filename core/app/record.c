@@ -1,21 +1,29 @@
 /* record.c - see record.h. Snapshots and history rows at times make the run cut its steps; rows of
- * probes are interpolated between steps and do not. */
+ * probes are interpolated between steps and do not, nor do checkpoints: the numbers of a run must not
+ * depend on how often it is saved. A checkpoint comes after all else that is due, so that it knows what
+ * has been written; what ends a run is written after its checkpoint and is cut off again when the
+ * run goes on. */
 #include "app/record.h"
 
 #include "app/due.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "io/checkpoint.h"
 #include "io/history.h"
 #include "io/probes.h"
 #include "io/provenance.h"
+#include "io/resume.h"
 #include "io/snapshot.h"
+
+#include <string.h>
 
 struct record {
     struct snapshots *snapshots;
     struct history *history;
     struct probes *probes; /* NULL: the case has none */
+    struct checkpoints *checkpoints;
     struct provenance *provenance;
-    struct due snapshot_due, history_due;
+    struct due snapshot_due, history_due, checkpoint_due;
 };
 
 static int record_open_files(struct record *record, const struct state *state, int argc, char *const *argv)
@@ -23,15 +31,43 @@ static int record_open_files(struct record *record, const struct state *state, i
     TRY(snapshot_new(state, &record->snapshots));
     TRY(history_new(state, &record->history));
     TRY(probes_new(state, &record->probes));
+    record->checkpoints = checkpoint_new(state->scene);
     return provenance_new(state, argc, argv, &record->provenance);
 }
 
-int record_open(const struct state *state, int argc, char *const *argv, struct record **ret_record)
+/* The directory of the run that a checkpoint belongs to: <directory>/checkpoints/FILE. */
+static char *record_origin(const char *path)
+{
+    const char *file = strrchr(path, '/');
+    return file ? mem_print("%.*s/..", (int)(file - path), path) : mem_text("..");
+}
+
+/* Takes up everything as it was when the checkpoint was written. */
+static int record_recall(struct record *record, const struct state *state, const struct resume *from)
+{
+    const struct notes *notes = resume_notes(from);
+    char *origin = record_origin(resume_path(from));
+    due_recall(&record->snapshot_due, "due.snapshots", notes, state->t, state->step);
+    due_recall(&record->history_due, "due.history", notes, state->t, state->step);
+    due_written(&record->checkpoint_due, state->t, state->step);
+    snapshot_recall(record->snapshots, notes);
+    int code = history_recall(record->history, notes, origin);
+    if (!code) code = probes_recall(record->probes, notes, origin);
+    if (!code) code = provenance_recall(record->provenance, state, notes);
+    mem_free(origin);
+    return code;
+}
+
+int record_open(const struct state *state, int argc, char *const *argv, const struct resume *from,
+                struct record **ret_record)
 {
     struct record *record = mem_new(1, sizeof *record);
     due_init(&record->snapshot_due, state->scene->snapshots);
     due_init(&record->history_due, state->scene->history);
+    due_init(&record->checkpoint_due, state->scene->checkpoints);
+    due_written(&record->checkpoint_due, state->t, state->step); /* the start can be had again */
     int code = record_open_files(record, state, argc, argv);
+    if (!code && from) code = record_recall(record, state, from);
     if (code) record_close(record);
     else *ret_record = record;
     return code;
@@ -43,32 +79,72 @@ double record_target(const struct record *record, double t, double until)
     return due_target(dues, 2, t, until);
 }
 
-static int record_snapshot(struct record *record, const struct state *state)
+int record_now(struct record *record, const struct state *state)
 {
-    due_written(&record->snapshot_due, state->t, state->step);
     return snapshot_write(record->snapshots, state, provenance_text(record->provenance));
 }
 
-static int record_row(struct record *record, const struct state *state)
+static int record_due_snapshot(struct record *record, const struct state *state)
 {
+    TRY(record_now(record, state));
+    due_written(&record->snapshot_due, state->t, state->step);
+    return 0;
+}
+
+static int record_due_row(struct record *record, const struct state *state)
+{
+    TRY(history_write(record->history, state));
     due_written(&record->history_due, state->t, state->step);
-    return history_write(record->history, state);
+    return 0;
+}
+
+/* What outputs need to go on as if nothing had happened. */
+static int record_note(const struct record *record, const struct state *state, struct notes *notes)
+{
+    due_keep(&record->snapshot_due, "due.snapshots", notes);
+    due_keep(&record->history_due, "due.history", notes);
+    snapshot_keep(record->snapshots, notes);
+    provenance_keep(record->provenance, state, notes);
+    TRY(history_keep(record->history, notes));
+    return probes_keep(record->probes, notes);
+}
+
+int record_save(struct record *record, const struct state *state)
+{
+    struct notes notes = {0};
+    int code = record_note(record, state, &notes);
+    if (!code) code = checkpoint_write(record->checkpoints, state, &notes);
+    text_done(&notes.text);
+    return code;
+}
+
+const char *record_saved(const struct record *record)
+{
+    return checkpoint_last(record->checkpoints);
+}
+
+static int record_due_save(struct record *record, const struct state *state)
+{
+    TRY(record_save(record, state));
+    due_written(&record->checkpoint_due, state->t, state->step);
+    return 0;
 }
 
 int record_due(struct record *record, const struct state *state)
 {
     provenance_watch(record->provenance, state);
     TRY(probes_record(record->probes, state));
-    if (due_now(&record->history_due, state->t, state->step)) TRY(record_row(record, state));
-    if (due_now(&record->snapshot_due, state->t, state->step)) TRY(record_snapshot(record, state));
+    if (due_now(&record->history_due, state->t, state->step)) TRY(record_due_row(record, state));
+    if (due_now(&record->snapshot_due, state->t, state->step)) TRY(record_due_snapshot(record, state));
+    if (due_now(&record->checkpoint_due, state->t, state->step)) TRY(record_due_save(record, state));
     return 0;
 }
 
 int record_last(struct record *record, const struct state *state)
 {
     TRY(probes_finish(record->probes, state));
-    TRY(record_row(record, state));
-    return record_snapshot(record, state);
+    TRY(history_write(record->history, state));
+    return record_now(record, state);
 }
 
 int record_conclude(struct record *record, const struct state *state, const char *reason, int exit_code)
@@ -82,6 +158,7 @@ void record_close(struct record *record)
     snapshot_free(record->snapshots);
     history_free(record->history);
     probes_free(record->probes);
+    checkpoint_free(record->checkpoints);
     provenance_free(record->provenance);
     mem_free(record);
 }

@@ -1,20 +1,31 @@
-/* record.h - everything a run writes while it goes: snapshots, history, probes, provenance. */
+/* record.h - everything a run writes while it goes: snapshots, history, probes, checkpoints, provenance. */
 #ifndef RECORD_H
 #define RECORD_H
 
 #include "solve/state.h"
 
 struct record;
+struct resume;
 
-/* Opens the files in the scene's directory, which exists; `argv` must outlive the record.
- * Collective, as all calls here. */
-int record_open(const struct state *state, int argc, char *const *argv, struct record **ret_record);
+/* Opens the files in the scene's directory, which exists; `argv` must outlive the record. `from` is the checkpoint
+ * that the state was read from, or NULL: the files go on where they were then. Collective, as all calls here. */
+int record_open(const struct state *state, int argc, char *const *argv, const struct resume *from,
+                struct record **ret_record);
 
 /* The next time at which something must be written, or `until`. */
 double record_target(const struct record *record, double t, double until);
 
 /* To be called with the initial state and after every step: writes what is due. */
 int record_due(struct record *record, const struct state *state);
+
+/* Writes a snapshot that nobody planned, unless this state has one. */
+int record_now(struct record *record, const struct state *state);
+
+/* Writes a checkpoint, unless this state has one. */
+int record_save(struct record *record, const struct state *state);
+
+/* The checkpoint written last, or NULL. */
+const char *record_saved(const struct record *record);
 
 /* Writes whatever this state lacks: the end of a run, whatever ended it. */
 int record_last(struct record *record, const struct state *state);

@@ -5,6 +5,7 @@
  * files, a snapshot of the last good state and a reason in provenance.json. */
 #include "app/run.h"
 
+#include "app/again.h"
 #include "app/due.h"
 #include "app/expect.h"
 #include "app/human.h"
@@ -18,15 +19,22 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "io/resume.h"
 #include "solve/advance.h"
 
+#include <errno.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 struct run {
+    const struct cli_given *given;
     struct scene *scene;
+    struct resume *from; /* the checkpoint that the run goes on from, or NULL */
+    bool in_place;       /* its files are those of the run that wrote it */
+    long step_0;         /* steps done before */
     struct state *state;
     struct record *record;
     struct progress progress;
@@ -34,6 +42,7 @@ struct run {
     bool shortened; /* the command line ended the run before the case does */
     bool quiet, json;
     double walltime;   /* seconds, or infinity */
+    char *now;         /* a file by this name asks for a snapshot; NULL: nobody looks */
     char reason[1024]; /* why the run ended */
 };
 
@@ -58,16 +67,29 @@ static void run_because(struct run *run, const char *format, const char *what)
     snprintf(run->reason, sizeof run->reason, format, what);
 }
 
-/* Reasons to end before the next step, agreed on by all ranks. */
+/* A snapshot that somebody asked for by making a file. */
+static int run_snapshot(struct run *run)
+{
+    TRY(record_now(run->record, run->state));
+    int kept = comm_rank() == 0 && unlink(run->now) ? errno : 0;
+    if (kept) log_warn("%s cannot be removed: %s; it is not looked for any more", run->now, strerror(kept));
+    else log_note("a snapshot of step %ld, as %s asked", run->state->step, run->now);
+    if (comm_agree(kept ? STATUS_RUN : STATUS_OK)) run->now = NULL;
+    return STATUS_OK;
+}
+
+/* Wishes from outside before the next step, agreed on by all ranks: a snapshot, an end. */
 static int run_interruption(struct run *run)
 {
-    double wish = RUN_GO;
-    if (comm_rank() == 0 && progress_clock() - run->progress.start >= run->walltime) wish = RUN_CLOCK;
-    if (stop_signal()) wish = RUN_SIGNAL + stop_signal();
-    comm_max(&wish, 1);
-    if (wish == RUN_GO) return 0;
-    if (wish == RUN_CLOCK) run_because(run, "interrupted by %s", "walltime");
-    else run_because(run, "interrupted by SIG%s", sigabbrev_np((int)wish - RUN_SIGNAL));
+    double wish[2] = {RUN_GO, 0.0};
+    if (comm_rank() == 0 && progress_clock() - run->progress.start >= run->walltime) wish[0] = RUN_CLOCK;
+    if (stop_signal()) wish[0] = RUN_SIGNAL + stop_signal();
+    if (comm_rank() == 0 && run->now && !access(run->now, F_OK)) wish[1] = 1.0;
+    comm_max(wish, 2);
+    if (wish[1] > 0.0) TRY(run_snapshot(run));
+    if (wish[0] == RUN_GO) return 0;
+    if (wish[0] == RUN_CLOCK) run_because(run, "interrupted by %s", "walltime");
+    else run_because(run, "interrupted by SIG%s", sigabbrev_np((int)wish[0] - RUN_SIGNAL));
     return STATUS_STOPPED;
 }
 
@@ -109,6 +131,14 @@ static int run_loop(struct run *run)
     return code && code != STATUS_STOPPED ? STATUS_RUN : code;
 }
 
+static void run_say_how_to_go_on(const struct run *run, const char *time)
+{
+    char *command = again_command(run->given);
+    log_warn("%s at t = %s, step %ld: saved as %s; to go on: %s", run->reason, time, run->state->step,
+             record_saved(run->record), command);
+    mem_free(command);
+}
+
 static void run_say_end(const struct run *run, int code)
 {
     char time[HUMAN_ROOM], wall[HUMAN_ROOM], rate[HUMAN_ROOM];
@@ -120,28 +150,42 @@ static void run_say_end(const struct run *run, int code)
         log_note("%s: t = %s, %ld steps, %s wall, %s cell updates/s; output in %s", run->reason, time, state->step,
                  passed < 60 ? human_si(passed, "s", wall) : human_duration(passed, wall),
                  human_count(passed > 0 ? work / passed : 0, rate), directory);
-    else if (code == STATUS_STOPPED)
-        log_warn("%s at t = %s, step %ld: snapshot, history and probes up to here are in %s (version " BULLA_VERSION
-                 " cannot continue from them)",
-                 run->reason, time, state->step, directory);
+    else if (code == STATUS_STOPPED) run_say_how_to_go_on(run, time);
     else log_error("the last good state (t = %s, step %ld) is saved in %s", time, state->step, directory);
 }
 
-/* The loop, and the outputs that end a run however it ends. */
+/* A run leaves a checkpoint if it could go on: it did not come to the end of its case, or the case asks for them. */
+static bool run_may_go_on(const struct run *run, int code)
+{
+    const struct scene_every *every = &run->scene->checkpoints;
+    if (!run->state->whole) return false;
+    return code || run->shortened || every->time > 0.0 || every->steps > 0;
+}
+
+/* The outputs that end a run however it ends; the checkpoint first, because it leaves most. */
+static int run_save(struct run *run, int code)
+{
+    int bad = run_may_go_on(run, code) ? record_save(run->record, run->state) : STATUS_OK;
+    if (bad) log_error("the last state could not be saved: %s", status_text());
+    if (bad && code != STATUS_RUN) run_because(run, "%s", status_text());
+    int worse = record_last(run->record, run->state);
+    if (worse) log_error("the last state could not be written: %s", status_text());
+    if (worse && !bad && code != STATUS_RUN) run_because(run, "%s", status_text());
+    return bad || worse ? STATUS_RUN : STATUS_OK;
+}
+
+/* The loop, and what ends it. */
 static int run_until_end(struct run *run)
 {
     progress_begin(&run->progress, run->scene->name, run->scene->directory);
+    run->progress.share = run->state->t / run->scene->until;
     int code = run_loop(run);
     progress_clear(&run->progress);
     if (code == STATUS_RUN) {
         run_because(run, "%s", status_text());
         cli_failed(code);
     }
-    if (record_last(run->record, run->state)) {
-        log_error("the last state could not be saved: %s", status_text());
-        if (code != STATUS_RUN) run_because(run, "%s", status_text());
-        return STATUS_RUN;
-    }
+    TRY(run_save(run, code));
     run_say_end(run, code);
     return code;
 }
@@ -160,15 +204,18 @@ static int run_judge(struct run *run)
 static int run_files(struct run *run, const struct cli_given *given)
 {
     const char *directory = run->scene->directory;
-    TRY(outdir_prepare(directory));
+    TRY((run->in_place ? outdir_go_on : outdir_prepare)(directory));
     TRY(outdir_write(directory, "case.yaml", run->scene->resolved));
     char *log = mem_print("%s/log.txt", directory);
-    int code = comm_agree(log_open(log, false));
+    int code = comm_agree(log_open(log, run->in_place));
     mem_free(log);
     TRY(code);
     log_file("bulla " BULLA_VERSION ", case %s, %d ranks, %.0f cells", run->scene->path, comm_size(),
              run->progress.cells);
-    return record_open(run->state, given->argc, given->argv, &run->record);
+    if (run->from)
+        log_note("going on from %s: t = %.9g s, step %ld", resume_path(run->from), run->state->t, run->state->step);
+    const struct resume *past = run->step_0 > 0 ? run->from : NULL; /* the start has none: its outputs begin anew */
+    return record_open(run->state, given->argc, given->argv, past, &run->record);
 }
 
 /* With a state in memory: the directory, the files, the loop, the expectations. */
@@ -206,9 +253,34 @@ static int run_ranks(const struct cli_given *given, bool *ret_started, int *ret_
     return 0;
 }
 
+/* The checkpoint to go on from, if the command line wants one. */
+static int run_find(struct run *run, const struct cli_given *given)
+{
+    const char *file = cli_value(given, "--restart"), *directory = run->scene->directory;
+    if (!file) return 0;
+    TRY(*file ? resume_open(file, &run->from) : resume_newest(directory, &run->from));
+    double in_place = outdir_holds(directory, "checkpoints", resume_path(run->from)) ? 1.0 : 0.0;
+    comm_max(&in_place, 1);
+    run->in_place = in_place > 0.0;
+    if (run->in_place && cli_value(given, "--overwrite"))
+        return status_fail(STATUS_CASE, "--restart goes on with the run in %s, which --overwrite would remove",
+                           directory);
+    return 0;
+}
+
+/* The state to start from. */
+static int run_begin(struct run *run, const struct cli_given *given)
+{
+    TRY(run_find(run, given));
+    if (!run->in_place) TRY(outdir_check(run->scene->directory, cli_value(given, "--overwrite") != NULL));
+    TRY(run->from ? resume_state(run->from, run->scene, &run->state) : state_new(run->scene, &run->state));
+    run->step_0 = run->state->step;
+    return 0;
+}
+
 int run_command(const struct cli_given *given)
 {
-    struct run run = {0};
+    struct run run = {.given = given};
     bool started;
     int code = run_options(&run, given), outcome = 0;
     if (!code) code = run_ranks(given, &started, &outcome);
@@ -219,11 +291,13 @@ int run_command(const struct cli_given *given)
     code = comm_agree(scenes_read(given, given->words[0], &run.scene));
     if (code) return code;
     run.limited = cli_value(given, "--max-steps") != NULL;
-    code = outdir_check(run.scene->directory, cli_value(given, "--overwrite") != NULL);
-    if (!code) code = state_new(run.scene, &run.state);
+    char *now = run.now = mem_print("%s/output_now", run.scene->directory);
+    code = run_begin(&run, given);
     if (code) cli_failed(code);
     else code = run_in_directory(&run, given);
+    mem_free(now);
     state_free(run.state);
+    resume_close(run.from);
     scene_free(run.scene);
     return code;
 }

@@ -175,9 +175,5 @@ void scene_output(struct draft *draft)
     scene->history = scene_output_every(keys_at(keys_at(output, "history")->map, "every"));
     scene_output_probes_read(draft, keys_at(output, "probes")->map);
     scene->checkpoints = scene_output_every(keys_at(checkpoints, "every"));
-    const struct keys_value *given = keys_at(output, "checkpoints");
-    if (given->node && (scene->checkpoints.time > 0 || scene->checkpoints.steps > 0))
-        diag_warn(draft->keys.diag, &given->node->mark,
-                  "this version writes no checkpoints yet: a stopped run starts anew");
     scene->checkpoints_keep = (int)keys_at(checkpoints, "keep")->integer;
 }

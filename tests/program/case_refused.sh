@@ -31,10 +31,6 @@ run 2 run nowhere.yaml
 grep -q "cannot read 'nowhere.yaml'" err.txt
 [ ! -e out ]
 
-# What a case asks for and this version does not do is said.
-run 0 check "$good" --set output.checkpoints.every=1us
-grep -q "warning: this version writes no checkpoints yet" err.txt
-
 # A coarsest level larger than --max-memory is no case to start.
 run 2 run "$good" --max-memory '100 B'
 grep -q "error: --max-memory 100 B: the coarsest level alone takes" err.txt

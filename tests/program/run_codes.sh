@@ -53,7 +53,7 @@ run 2 'did you mean --overwrite' tube.yaml --overwrit
 run 2 -- '--until wants a value' tube.yaml --until
 run 2 'HH:MM:SS' tube.yaml --walltime soon -o never
 run 2 'exclude each other' tube.yaml --quiet --json -o never
-run 2 'not part of version' tube.yaml --restart
+run 2 'there is no whole checkpoint in never/checkpoints' tube.yaml --restart -o never
 [ ! -e never ]
 
 # 3: the directory cannot be made, nor a folder in it.
