@@ -252,6 +252,7 @@ static void stage_tiles(struct stage *stage, double at, void (*work)(struct stag
     stage_finish_exchange(stage);
     for (unsigned tile = 0; tile < level->n_local; tile++)
         if (halo_is_remote(level, tile)) work(stage, tile);
+    stage->bound->model = stage->model; /* strips and births need all fields, whatever the last tile held */
 }
 
 void stage_half(struct stage *stage)
