@@ -80,7 +80,7 @@ static const char *scene_mesh_multiples(struct draft *draft, int n)
     return list;
 }
 
-static void scene_mesh_tile(struct draft *draft, const struct keys_value *tile)
+static void scene_mesh_given(struct draft *draft, const struct keys_value *tile)
 {
     const struct scene *scene = draft->scene;
     int n = scene->tile, axis = scene_mesh_misfit(scene, n), step = scene->levels > 0 ? 2 : 1;
@@ -98,30 +98,33 @@ static void scene_mesh_tile(struct draft *draft, const struct keys_value *tile)
     else diag_help(draft->keys.diag, "cells: [%s] would do", scene_mesh_multiples(draft, n));
 }
 
-/* Largest tile that the program takes by itself (mesh/mesh.c). */
-static int scene_mesh_tile_most(const struct scene *scene)
+int scene_mesh_tile(const struct scene *scene)
 {
-    return scene->dim == 1 ? 64 : 16;
+    bool fine = scene->levels > 0, line = scene->dim == 1;
+    int most = line ? 64 : 16, wish = !fine ? most : line ? 16 : 8, step = fine ? 2 : 1;
+    for (int n = wish; n >= SCENE_MESH_LEAST; n -= step)
+        if (scene_mesh_misfit(scene, n) < 0) return n;
+    for (int n = wish + step; n <= most; n += step)
+        if (scene_mesh_misfit(scene, n) < 0) return n;
+    return 0;
 }
 
 /* The program will choose the tile: is there one with an even side? */
 static void scene_mesh_divisor(struct draft *draft, const struct keys_value *cells)
 {
-    int most = scene_mesh_tile_most(draft->scene), n = most;
-    while (n >= SCENE_MESH_LEAST && scene_mesh_misfit(draft->scene, n) >= 0) n -= 2;
-    if (n >= SCENE_MESH_LEAST) return;
+    if (scene_mesh_tile(draft->scene)) return;
     keys_error(&draft->keys, cells, "with 'levels' above 0 the counts need a common even divisor from %d to %d",
-               SCENE_MESH_LEAST, most);
+               SCENE_MESH_LEAST, draft->scene->dim == 1 ? 64 : 16);
     diag_help(draft->keys.diag, "[%s] would do: the domain is cut into tiles of that side",
-              scene_mesh_multiples(draft, most));
+              scene_mesh_multiples(draft, draft->scene->dim == 1 ? 16 : 8));
 }
 
 /* Tiles of the finest level are counted in 21 bits per axis, and its cells must be told apart in doubles. */
 static void scene_mesh_finest(struct draft *draft, const struct keys_value *levels)
 {
     const struct scene *scene = draft->scene;
-    int n = scene->tile ? scene->tile : scene_mesh_tile_most(scene);
-    for (int axis = 0; axis < scene->dim; axis++) {
+    int n = scene->tile ? scene->tile : scene_mesh_tile(scene);
+    for (int axis = 0; n && axis < scene->dim; axis++) {
         double lower = scene->lower[axis], upper = scene->upper[axis];
         double cells = ldexp(scene->cells[axis], scene->levels), far = fmax(fabs(lower), fabs(upper));
         int most = scene->levels - (int)ceil(log2(cells / n / SCENE_MESH_TILES));
@@ -170,7 +173,7 @@ void scene_mesh(struct draft *draft)
     scene->subcycle = keys_at(mesh, "subcycle")->integer != 0;
     scene->reflux = (enum scene_reflux)keys_at(mesh, "reflux")->integer;
     bool whole = scene->cells_place && levels->given && (tile->given || !tile->node);
-    if (whole && tile->given) scene_mesh_tile(draft, tile);
+    if (whole && tile->given) scene_mesh_given(draft, tile);
     if (whole && scene->levels > 0 && !tile->given) scene_mesh_divisor(draft, cells);
     if (whole && scene->levels > 0) scene_mesh_finest(draft, levels);
     if (scene->levels > 0 && buffer->given && every->given && scene->cfl > 0) scene_mesh_buffer(draft, buffer);

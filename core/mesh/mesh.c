@@ -28,12 +28,6 @@ static int mesh_gcd(int a, int b)
     return b ? mesh_gcd(b, a % b) : a;
 }
 
-/* Largest tile side by dimension: long rows in 1D; else small enough that most tiles hold one material. */
-static int mesh_tile_most(int dim)
-{
-    return dim == 1 ? 64 : 16;
-}
-
 static int mesh_refuse(const struct scene *scene, int common)
 {
     struct text counts = {0};
@@ -41,7 +35,7 @@ static int mesh_refuse(const struct scene *scene, int common)
     status_fail(STATUS_CASE,
                 "%s: domain.cells: the counts have no common %stile side from %d to %d (greatest common divisor %d); "
                 "try [%s]",
-                scene->cells_place, scene->levels > 0 ? "even " : "", MESH_TILE_LEAST, mesh_tile_most(scene->dim),
+                scene->cells_place, scene->levels > 0 ? "even " : "", MESH_TILE_LEAST, scene->dim == 1 ? 64 : 16,
                 common, counts.at);
     text_done(&counts);
     return 0;
@@ -67,18 +61,12 @@ static int mesh_tile_given(const struct scene *scene, int common)
     return 0;
 }
 
-static int mesh_tile_chosen(const struct scene *scene, int common)
-{
-    for (int n = mesh_tile_most(scene->dim); n >= MESH_TILE_LEAST; n--)
-        if (common % n == 0 && mesh_tile_halves(scene, n)) return n;
-    return mesh_refuse(scene, common);
-}
-
 int mesh_tile_size(const struct scene *scene)
 {
     int common = scene->cells[0];
     for (int d = 1; d < scene->dim; d++) common = mesh_gcd(common, scene->cells[d]);
-    int n = scene->tile ? mesh_tile_given(scene, common) : mesh_tile_chosen(scene, common);
+    int n = scene->tile ? mesh_tile_given(scene, common) : scene_mesh_tile(scene);
+    if (!n && !scene->tile) return mesh_refuse(scene, common);
     for (int d = 0; n && d < scene->dim; d++)
         if (scene->cells[d] / n > MORTON_MOST >> scene->levels) {
             status_fail(

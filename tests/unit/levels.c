@@ -344,7 +344,7 @@ static void test_sides(void **state)
     struct scene scene = {.dim = 2, .cells = {60, 90, 1}, .cells_place = "case.yaml:5:10"};
     assert_int_equal(mesh_tile_size(&scene), 15);
     scene.levels = 2;
-    assert_int_equal(mesh_tile_size(&scene), 10);
+    assert_int_equal(mesh_tile_size(&scene), 6);
     scene.tile = 5;
     assert_int_equal(mesh_tile_size(&scene), 0);
     assert_non_null(strstr(status_text(), "case.yaml:5:10: mesh.tile: 5 cannot be refined"));
