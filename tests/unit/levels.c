@@ -358,8 +358,8 @@ static void test_sides(void **state)
     scene.levels = 12;
     assert_int_equal(mesh_tile_size(&scene), 0);
     assert_non_null(strstr(status_text(), "fewer mesh.levels"));
-    scene.levels = 11;
-    assert_int_equal(mesh_tile_size(&scene), 16);
+    scene.levels = 10;
+    assert_int_equal(mesh_tile_size(&scene), 8);
 }
 
 static int run(void)
