@@ -1,14 +1,14 @@
 /* partition.h - which rank owns which tile: per level, equal cost along the Morton curve.
  *
- * Each level is cut on its own, because each sub-step of each level synchronises (measured by simulation:
- * docs/decisions). Levels with fewer tiles than ranks go to the ranks with least work so far. Tiles stay
- * where they are while the imbalance is small. Pure functions: they decide nothing by the clock or the rank. */
+ * Each level is cut on its own, because each sub-step of each level synchronises (simulated: docs/scaling.md).
+ * Levels with fewer tiles than ranks go to the ranks with least work so far. A level whose tiles change is cut anew:
+ * keeping owners would save next to nothing. Pure functions: they decide nothing by the clock or the rank. */
 #ifndef PARTITION_H
 #define PARTITION_H
 
 #include "mesh/mesh.h"
 
-/* Imbalance (largest over mean load, less 1) from which on a level is cut anew. */
+/* Imbalance (largest over mean load, less 1) from which on a level whose tiles stay the same is cut anew. */
 #define PARTITION_SLACK 0.1
 
 /* Sets tiles[i].rank, ascending, for `size` ranks, so that the largest load is the least that contiguous pieces can

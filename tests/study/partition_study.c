@@ -4,11 +4,9 @@
  *
  * docs/scaling.md holds its output and says what it means. `tiny` takes small sets and few ranks, checks that the
  * figures hang together, and exits with 1 where they do not; it is what the test suite runs. */
-#include "sets.h"
-#include "traffic.h"
+#include "study.h"
 
 #include "base/mem.h"
-#include "base/status.h"
 #include "mesh/level.h"
 #include "mesh/partition.h"
 
@@ -18,19 +16,10 @@
 #include <string.h>
 #include <time.h>
 
-enum { STUDY_REGRID = 4, STUDY_RANKS = 6, STUDY_REPEATS = 5 };
+enum { STUDY_REGRID = 4, STUDY_RANKS = 6, STUDY_REPEATS = 5, STUDY_REGRIDS = 6 };
 
 /* The machine of the projection: seconds per cell and stage of cost 1, per message, per byte. */
 static const double STUDY_CELL = 45e-9, STUDY_MESSAGE = 2e-6, STUDY_BYTE = 1e-10;
-
-struct study {
-    struct sets_scene scene;
-    struct mesh mesh;
-    struct traffic_graph graphs[MESH_LEVELS];
-    double *costs[MESH_LEVELS];
-    double tiles;
-    double topology, idle; /* seconds per tile: a regrid that changes all, one that changes nothing */
-};
 
 static const int RANKS[STUDY_RANKS] = {12, 96, 1000, 10000, 30000, 100000};
 
@@ -66,95 +55,6 @@ static const struct sets_scene BUBBLE_3D = {.name = "bubble and pulse",
                                             .features = {{SETS_SHELL, {1.0, 1.0, 1.0}, 0.15, 6, true},
                                                          {SETS_BALL, {1.0, 1.0, 1.0}, 0.18, 4, false},
                                                          {SETS_PLANE, {0.0, 0.0, 0.0}, 1.3, 3, false}}};
-
-static void study_start(struct study *study, struct sets_scene scene, int n)
-{
-    *study = (struct study){.scene = scene};
-    study->scene.base = scene.base * scene.n / n; /* the same cells in other tiles */
-    study->scene.n = n;
-    sets_make(&study->scene, &study->mesh);
-    study->mesh.n_field = 5 + (unsigned)scene.dim; /* two materials: alpha, m; momentum, energy */
-    if (nest_check(&study->mesh)) {
-        fprintf(stderr, "%s\n", status_text());
-        exit(1);
-    }
-    for (int l = 0; l < study->mesh.n_level; l++) {
-        study->graphs[l] = traffic_connect(&study->mesh, l);
-        study->costs[l] = sets_costs(&study->scene, &study->mesh, l);
-        study->tiles += study->mesh.levels[l].n_tile;
-    }
-}
-
-static void study_stop(struct study *study)
-{
-    for (int l = 0; l < study->mesh.n_level; l++) {
-        traffic_free_graph(&study->graphs[l]);
-        mem_free(study->costs[l]);
-        level_drop(&study->mesh.levels[l]);
-    }
-}
-
-static void study_cut_levels(struct study *study, int size)
-{
-    double *load = mem_new((size_t)size, sizeof *load);
-    for (int l = 0; l < study->mesh.n_level; l++) {
-        struct level *level = &study->mesh.levels[l];
-        partition_cut(level->tiles, level->n_tile, study->costs[l], size, ldexp(1.0, l), load);
-    }
-    mem_free(load);
-}
-
-/* A tile on the one curve through all levels: by its first descendant on the finest, coarser tiles first. */
-struct study_place {
-    uint64_t key;
-    int level;
-    unsigned index;
-};
-
-static int study_compare_places(const void *a, const void *b)
-{
-    const struct study_place *x = a, *y = b;
-    if (x->key != y->key) return x->key < y->key ? -1 : 1;
-    return x->level - y->level;
-}
-
-static void study_cut_curve(struct study *study, int size)
-{
-    size_t n = (size_t)study->tiles, count = 0;
-    struct study_place *places = mem_new(n, sizeof *places);
-    struct tile *tiles = mem_new(n, sizeof *tiles);
-    double *costs = mem_new(n, sizeof *costs), *load = mem_new((size_t)size, sizeof *load);
-    int finest = study->mesh.n_level - 1;
-    for (int l = 0; l <= finest; l++)
-        for (unsigned i = 0; i < study->mesh.levels[l].n_tile; i++)
-            places[count++] = (struct study_place){study->mesh.levels[l].tiles[i].key << 3 * (finest - l), l, i};
-    qsort(places, n, sizeof *places, study_compare_places);
-    for (size_t i = 0; i < n; i++) costs[i] = ldexp(study->costs[places[i].level][places[i].index], places[i].level);
-    partition_cut(tiles, (unsigned)n, costs, size, 1.0, load);
-    for (size_t i = 0; i < n; i++) study->mesh.levels[places[i].level].tiles[places[i].index].rank = tiles[i].rank;
-    mem_free(places);
-    mem_free(tiles);
-    mem_free(costs);
-    mem_free(load);
-}
-
-static struct traffic study_count(const struct study *study, int size)
-{
-    struct traffic traffic;
-    traffic_count(&study->mesh, study->graphs, study->costs, size, &traffic);
-    return traffic;
-}
-
-/* Ideal over real compute time of a coarse step, each sub-step of each level waiting for its slowest rank. */
-static double study_efficiency(const struct study *study, const struct traffic *traffic)
-{
-    double mean = 0.0, most = 0.0;
-    for (int l = 0; l < study->mesh.n_level; l++) {
-        mean += ldexp(traffic->mean[l], l);
-        most += ldexp(traffic->most[l], l);
-    }
-    return mean / most;
-}
 
 static void study_print_sets(const struct study *study)
 {
@@ -212,7 +112,7 @@ static double study_clock(void)
 }
 
 struct study_times {
-    double sets, list, cover, check, cut;
+    double sets, list, find, cover, check, cut;
 };
 
 /* CPU time of what every rank does at a regrid from level 0 that replaces all levels by what they are. */
@@ -233,6 +133,11 @@ static struct study_times study_regrid(struct study *study, int size)
         nest_free_keys(&wishes[l]);
     }
     times.list = study_clock() - start;
+    start = study_clock();
+    for (int l = 1; l < mesh->n_level; l++) /* as costs are carried to a new list */
+        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++)
+            if (mesh_find(mesh, &mesh->levels[l], mesh->levels[l].tiles[i].at) != (int)i) exit(1);
+    times.find = study_clock() - start;
     start = study_clock();
     for (int l = 0; l < mesh->n_level; l++) level_cover(mesh, l);
     times.cover = study_clock() - start;
@@ -261,23 +166,10 @@ static double study_bytes(const struct study *study)
     return bytes / study->tiles;
 }
 
-static void study_print_topology(struct study *study, int size)
+/* Compute time of a step of a tile of cost 1: two stages. */
+static double study_step(const struct study *study)
 {
-    struct study_times least = {0};
-    for (int repeat = 0; repeat < STUDY_REPEATS; repeat++) {
-        struct study_times times = study_regrid(study, size);
-        study_least(&least.sets, times.sets, repeat);
-        study_least(&least.list, times.list, repeat);
-        study_least(&least.cover, times.cover, repeat);
-        study_least(&least.check, times.check, repeat);
-        study_least(&least.cut, times.cut, repeat);
-    }
-    double per = 1e9 / study->tiles, all = least.sets + least.list + least.cover + least.check + least.cut;
-    study->topology = all / study->tiles;
-    study->idle = least.sets / study->tiles;
-    printf("| %s %dD, %d | %.3g | %.0f | %.1f | %.0f | %.0f | %.0f | %.0f | %.0f | %.0f |\n", study->scene.name,
-           study->scene.dim, study->scene.n, study->tiles, study_bytes(study), study_bytes(study) * study->tiles / 1e6,
-           per * least.sets, per * least.list, per * least.cover, per * least.check, per * least.cut, per * all);
+    return 2.0 * STUDY_CELL * (double)study->mesh.n_cell;
 }
 
 /* Tiles in all the regrids of a coarse step: one from base b replaces the levels above b. It is due every
@@ -292,32 +184,50 @@ static double study_regridded(const struct study *study)
     return tiles;
 }
 
-static double study_phase(const struct traffic_phase *phase, double byte)
+static void study_print_topology(struct study *study, int size)
 {
-    return phase->most_messages * STUDY_MESSAGE + phase->most_bytes * byte;
+    struct study_times least = {0};
+    for (int repeat = 0; repeat < STUDY_REPEATS; repeat++) {
+        struct study_times times = study_regrid(study, size);
+        study_least(&least.sets, times.sets, repeat);
+        study_least(&least.list, times.list, repeat);
+        study_least(&least.find, times.find, repeat);
+        study_least(&least.cover, times.cover, repeat);
+        study_least(&least.check, times.check, repeat);
+        study_least(&least.cut, times.cut, repeat);
+    }
+    double per = 1e9 / study->tiles, all = least.sets + least.list + least.find + least.cover + least.check + least.cut;
+    study->topology = all / study->tiles;
+    double share = study->topology * study_regridded(study) / (study_step(study) * study_work(study)); /* on one rank */
+    printf("| %s %dD, %d | %.3g | %.0f | %.1f | %.0f | %.0f | %.0f | %.0f | %.0f | %.0f | %.0f | %.0f | %.0f |\n",
+           study->scene.name, study->scene.dim, study->scene.n, study->tiles, study_bytes(study),
+           study_bytes(study) * study->tiles / 1e6, per * least.sets, per * least.list, per * least.find,
+           per * least.cover, per * least.check, per * least.cut, per * all, 0.03 / share, 0.1 / share);
+}
+
+/* Each rank posts its messages one after the other; its bytes, or those that its node's link carries, follow. */
+static double study_phase(const struct traffic_phase *phase)
+{
+    double bytes = phase->most_bytes > phase->node_bytes ? phase->most_bytes : phase->node_bytes;
+    return phase->most_messages * STUDY_MESSAGE + bytes * STUDY_BYTE;
 }
 
 struct study_projection {
-    double compute, wait, network, shared; /* seconds per coarse step; shared: 64 ranks share a link */
-    double topology;
+    double compute, wait, network, topology; /* seconds per coarse step */
 };
 
 static struct study_projection study_project(const struct study *study, int size)
 {
     struct traffic traffic = study_count(study, size);
-    struct study_projection p = {0};
-    double stage = 2.0 * STUDY_CELL * (double)study->mesh.n_cell;
+    struct study_projection p = {.topology = study->topology * study_regridded(study)};
+    double step = study_step(study);
     for (int l = 0; l < study->mesh.n_level; l++) {
         double steps = ldexp(1.0, l);
-        p.compute += steps * stage * traffic.mean[l];
-        p.wait += steps * stage * (traffic.most[l] - traffic.mean[l]);
-        for (int shared = 0; shared < 2; shared++) {
-            double byte = shared ? 64.0 * STUDY_BYTE : STUDY_BYTE, *to = shared ? &p.shared : &p.network;
-            *to += 2.0 * steps * study_phase(&traffic.halo[l], byte);
-            *to += 0.5 * steps * (study_phase(&traffic.down[l], byte) + study_phase(&traffic.up[l], byte));
-        }
+        p.compute += steps * step * traffic.mean[l];
+        p.wait += steps * step * (traffic.most[l] - traffic.mean[l]);
+        p.network += 2.0 * steps * study_phase(&traffic.halo[l]);
+        p.network += 0.5 * steps * (study_phase(&traffic.down[l]) + study_phase(&traffic.up[l]));
     }
-    p.topology = study->topology * study_regridded(study);
     return p;
 }
 
@@ -325,35 +235,74 @@ static void study_print_projection(struct study *study, int size)
 {
     study_cut_levels(study, size);
     struct study_projection p = study_project(study, size);
-    double ideal = p.compute, busy = p.compute + p.wait;
-    printf("| %s %dD, %d | %d | %.2f | %.3g | %.2f | %.2f | %.2f | %.2f | %.2f |\n", study->scene.name,
-           study->scene.dim, study->scene.n, size, study->tiles / size, 1e3 * ideal, ideal / busy,
-           ideal / (busy + p.network), ideal / (busy + p.network + p.topology), ideal / (busy + p.shared + p.topology),
-           p.topology / ideal);
+    double busy = p.compute + p.wait;
+    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2f | %.2f | %.2f | %.3f |\n", study->scene.name, study->scene.dim,
+           study->scene.n, size, study->tiles / size, 1e3 * p.compute, p.compute / busy, p.compute / (busy + p.network),
+           p.compute / (busy + p.network + p.topology), p.topology / p.compute);
 }
 
-/* Share of tiles present before and after that change owner when the features grow by one buffer's width. */
-static void study_print_moves(const struct study *study, int size)
+/* Owners as before, born tiles with those before them on the curve: if that balances within the slack of what a new
+ * cut reaches. Both orders are merged; `level` has been cut anew. */
+static void study_keep(struct level *level, const struct level *old, const double *costs, int size)
 {
-    struct sets_scene grown = study->scene;
-    for (int f = 0; f < grown.n_feature; f++)
-        grown.features[f].radius += 2.0 / ((double)grown.base * grown.n) / ldexp(1.0, grown.features[f].finest) * 4.0;
-    struct study after;
-    study_start(&after, grown, grown.n);
-    study_cut_levels(&after, size);
-    double same = 0.0, moved = 0.0, born = 0.0;
-    for (int l = 1; l < after.mesh.n_level; l++)
-        for (unsigned i = 0; i < after.mesh.levels[l].n_tile; i++) {
-            const struct tile *tile = &after.mesh.levels[l].tiles[i];
-            int index = level_find(&study->mesh.levels[l], tile->key);
-            if (index < 0) born++;
-            else if (study->mesh.levels[l].tiles[index].rank == tile->rank) same++;
-            else moved++;
+    struct tile *kept = mem_new(level->n_tile, sizeof *kept);
+    int rank = 0;
+    for (unsigned i = 0, j = 0; i < level->n_tile; i++) {
+        kept[i] = level->tiles[i];
+        while (j < old->n_tile && old->tiles[j].key < kept[i].key) j++;
+        if (j < old->n_tile && old->tiles[j].key == kept[i].key) rank = old->tiles[j].rank;
+        kept[i].rank = rank;
+    }
+    double anew = 1.0 + partition_imbalance(level->tiles, level->n_tile, costs, size);
+    if (1.0 + partition_imbalance(kept, level->n_tile, costs, size) <= (1.0 + PARTITION_SLACK) * anew)
+        memcpy(level->tiles, kept, level->n_tile * sizeof *kept);
+    mem_free(kept);
+}
+
+struct study_moves {
+    double born, moved, away, tiles; /* away: to another node */
+};
+
+static void study_add_moves(const struct study *before, const struct study *after, struct study_moves *moves)
+{
+    for (int l = 1; l < after->mesh.n_level; l++)
+        for (unsigned i = 0; i < after->mesh.levels[l].n_tile; i++) {
+            const struct tile *tile = &after->mesh.levels[l].tiles[i];
+            int index = level_find(&before->mesh.levels[l], tile->key);
+            int rank = index < 0 ? tile->rank : before->mesh.levels[l].tiles[index].rank;
+            moves->tiles += 1.0;
+            moves->born += index < 0;
+            moves->moved += rank != tile->rank;
+            moves->away += rank / TRAFFIC_NODE != tile->rank / TRAFFIC_NODE;
         }
-    double all = same + moved + born;
-    printf("| %s %dD, %d | %d | %.2f | %.2f | %.2f |\n", study->scene.name, study->scene.dim, study->scene.n, size,
-           born / all, moved / all, same / all);
-    study_stop(&after);
+}
+
+/* A few regrids, between which the features grow by the width of the buffer: tiles that change owner. */
+static void study_print_moves(const struct study *study, int size, bool keep)
+{
+    struct study_moves moves = {0};
+    double efficiency = 0.0;
+    struct sets_scene scene = study->scene;
+    struct study before, after;
+    study_start(&before, scene, scene.n);
+    study_cut_levels(&before, size);
+    for (int regrid = 0; regrid < STUDY_REGRIDS; regrid++) {
+        for (int f = 0; f < scene.n_feature; f++)
+            scene.features[f].radius += ldexp(SETS_BUFFER * 2.0 / (scene.base * scene.n), -scene.features[f].finest);
+        study_start(&after, scene, scene.n);
+        study_cut_levels(&after, size);
+        for (int l = 0; keep && l < after.mesh.n_level; l++)
+            study_keep(&after.mesh.levels[l], &before.mesh.levels[l], after.costs[l], size);
+        study_add_moves(&before, &after, &moves);
+        struct traffic traffic = study_count(&after, size);
+        efficiency += study_efficiency(&after, &traffic) / STUDY_REGRIDS;
+        study_stop(&before);
+        before = after;
+    }
+    study_stop(&before);
+    printf("| %s %dD, %d | %d | %s | %.3f | %.3f | %.3f | %.3f |\n", scene.name, scene.dim, scene.n, size,
+           keep ? "kept" : "anew", moves.born / moves.tiles, moves.moved / moves.tiles, moves.away / moves.tiles,
+           efficiency);
 }
 
 static void study_head(const char *title, const char *columns)
@@ -377,19 +326,17 @@ static void study_tables(struct study *studies, int n_study)
             study_print_traffic(&studies[i], RANKS[s]);
         }
     study_head("Topology",
-               "| set | tiles | bytes per tile | MB per rank | sets, ns | list | cover | check | cut | all |");
+               "| set | tiles | bytes per tile | MB per rank | sets, ns | list | find | cover | check | cut | all "
+               "| ranks at 3 % | at 10 % |");
     for (int i = 0; i < n_study; i++) study_print_topology(&studies[i], 1000);
-    study_head("Projection",
-               "| set | ranks | tiles per rank | ideal, ms | balance | + network | + topology | link shared | "
-               "topology / ideal |");
+    study_head("Projection", "| set | ranks | tiles per rank | ideal, ms | balance | + network | + topology | "
+                             "topology / ideal |");
     for (int i = 0; i < n_study; i++)
         for (int s = 0; s < STUDY_RANKS; s++) study_print_projection(&studies[i], RANKS[s]);
-    study_head("Moves", "| set | ranks | born | moved | stayed |");
-    for (int i = 0; i < n_study; i++)
-        for (int s = 0; s < 3; s++) {
-            study_cut_levels(&studies[i], RANKS[s]);
-            study_print_moves(&studies[i], RANKS[s]);
-        }
+    study_head("Moves", "| set | ranks | owners | born | moved | to another node | efficiency |");
+    for (int i = 0; i < n_study; i += 2)
+        for (int s = 1; s < 4; s++)
+            for (int keep = 0; keep < 2; keep++) study_print_moves(&studies[i], RANKS[s], keep);
 }
 
 static int study_expect(bool holds, const char *what)

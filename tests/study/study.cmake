@@ -1,6 +1,6 @@
 # The partition study: a program for docs/scaling.md; the suite runs its tiny size. And the unit test of tile sets
 # once more on three ranks, which join their wishes.
-add_executable(partition-study study/partition_study.c study/sets.c study/traffic.c)
+add_executable(partition-study study/partition_study.c study/study.c study/sets.c study/traffic.c)
 target_link_libraries(partition-study PRIVATE bulla_core)
 set_target_properties(partition-study PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
 add_test(NAME study-partition COMMAND partition-study tiny)

@@ -11,7 +11,7 @@
 /* One post of all ranks: bytes and messages of each, and who was last seen as peer of whom. */
 struct traffic_post {
     int size;
-    double *in, *out;
+    double *in, *out, *node_in, *node_out;
     int *in_messages, *out_messages, *seen;
 };
 
@@ -19,6 +19,8 @@ static struct traffic_post traffic_open(int size)
 {
     size_t n = (size_t)size;
     struct traffic_post post = {.size = size, .in = mem_new(n, sizeof(double)), .out = mem_new(n, sizeof(double))};
+    post.node_in = mem_new(n / TRAFFIC_NODE + 1, sizeof(double));
+    post.node_out = mem_new(n / TRAFFIC_NODE + 1, sizeof(double));
     post.in_messages = mem_new(n, sizeof(int));
     post.out_messages = mem_new(n, sizeof(int));
     post.seen = mem_new(n, sizeof(int));
@@ -31,6 +33,10 @@ static void traffic_send(struct traffic_post *post, int from, int to, double byt
     if (from == to) return;
     post->in[to] += bytes;
     post->out[from] += bytes;
+    if (from / TRAFFIC_NODE != to / TRAFFIC_NODE) {
+        post->node_in[to / TRAFFIC_NODE] += bytes;
+        post->node_out[from / TRAFFIC_NODE] += bytes;
+    }
     if (post->seen[from] == to + 1) return;
     post->seen[from] = to + 1;
     post->in_messages[to]++;
@@ -51,6 +57,10 @@ static struct traffic_phase traffic_close(struct traffic_post *post)
         phase.most_messages = traffic_larger(phase.most_messages, post->in_messages[rank]);
         phase.most_messages = traffic_larger(phase.most_messages, post->out_messages[rank]);
     }
+    for (int node = 0; node <= (post->size - 1) / TRAFFIC_NODE; node++)
+        phase.node_bytes = traffic_larger(phase.node_bytes, traffic_larger(post->node_in[node], post->node_out[node]));
+    mem_free(post->node_in);
+    mem_free(post->node_out);
     mem_free(post->in);
     mem_free(post->out);
     mem_free(post->in_messages);

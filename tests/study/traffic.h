@@ -14,9 +14,12 @@ struct traffic_graph {
     int *above;  /* [n_tile] tile of the coarser level; NULL on level 0 */
 };
 
-/* One phase of one level: the most loaded rank's figures, and the sum over ranks. */
+enum { TRAFFIC_NODE = 64 }; /* ranks that share a node and its link */
+
+/* One phase of one level: the most loaded rank's and node's figures, and the sum over ranks. */
 struct traffic_phase {
     double most_bytes, bytes; /* per exchange: larger of in and out; all sent */
+    double node_bytes;        /* of the most loaded node, to and from other nodes */
     double most_messages;
 };
 

@@ -1,0 +1,107 @@
+/* study.c - see study.h. */
+#include "study.h"
+
+#include "base/mem.h"
+#include "base/status.h"
+#include "mesh/level.h"
+#include "mesh/partition.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+void study_start(struct study *study, struct sets_scene scene, int n)
+{
+    *study = (struct study){.scene = scene};
+    study->scene.base = scene.base * scene.n / n; /* the same cells in other tiles */
+    study->scene.n = n;
+    sets_make(&study->scene, &study->mesh);
+    study->mesh.n_field = 5 + (unsigned)scene.dim; /* two materials: alpha, m; momentum, energy */
+    if (nest_check(&study->mesh)) {
+        fprintf(stderr, "%s\n", status_text());
+        exit(1);
+    }
+    for (int l = 0; l < study->mesh.n_level; l++) {
+        study->graphs[l] = traffic_connect(&study->mesh, l);
+        study->costs[l] = sets_costs(&study->scene, &study->mesh, l);
+        study->tiles += study->mesh.levels[l].n_tile;
+    }
+}
+
+void study_stop(struct study *study)
+{
+    for (int l = 0; l < study->mesh.n_level; l++) {
+        traffic_free_graph(&study->graphs[l]);
+        mem_free(study->costs[l]);
+        level_drop(&study->mesh.levels[l]);
+    }
+}
+
+void study_cut_levels(struct study *study, int size)
+{
+    double *load = mem_new((size_t)size, sizeof *load);
+    for (int l = 0; l < study->mesh.n_level; l++) {
+        struct level *level = &study->mesh.levels[l];
+        partition_cut(level->tiles, level->n_tile, study->costs[l], size, ldexp(1.0, l), load);
+    }
+    mem_free(load);
+}
+
+/* A tile on the one curve through all levels: by its first descendant on the finest, coarser tiles first. */
+struct study_place {
+    uint64_t key;
+    int level;
+    unsigned index;
+};
+
+static int study_compare_places(const void *a, const void *b)
+{
+    const struct study_place *x = a, *y = b;
+    if (x->key != y->key) return x->key < y->key ? -1 : 1;
+    return x->level - y->level;
+}
+
+void study_cut_curve(struct study *study, int size)
+{
+    size_t n = (size_t)study->tiles, count = 0;
+    struct study_place *places = mem_new(n, sizeof *places);
+    struct tile *tiles = mem_new(n, sizeof *tiles);
+    double *costs = mem_new(n, sizeof *costs), *load = mem_new((size_t)size, sizeof *load);
+    int finest = study->mesh.n_level - 1;
+    for (int l = 0; l <= finest; l++)
+        for (unsigned i = 0; i < study->mesh.levels[l].n_tile; i++)
+            places[count++] = (struct study_place){study->mesh.levels[l].tiles[i].key << 3 * (finest - l), l, i};
+    qsort(places, n, sizeof *places, study_compare_places);
+    for (size_t i = 0; i < n; i++) costs[i] = ldexp(study->costs[places[i].level][places[i].index], places[i].level);
+    partition_cut(tiles, (unsigned)n, costs, size, 1.0, load);
+    for (size_t i = 0; i < n; i++) study->mesh.levels[places[i].level].tiles[places[i].index].rank = tiles[i].rank;
+    mem_free(places);
+    mem_free(tiles);
+    mem_free(costs);
+    mem_free(load);
+}
+
+struct traffic study_count(const struct study *study, int size)
+{
+    struct traffic traffic;
+    traffic_count(&study->mesh, study->graphs, study->costs, size, &traffic);
+    return traffic;
+}
+
+double study_efficiency(const struct study *study, const struct traffic *traffic)
+{
+    double mean = 0.0, most = 0.0;
+    for (int l = 0; l < study->mesh.n_level; l++) {
+        mean += ldexp(traffic->mean[l], l);
+        most += ldexp(traffic->most[l], l);
+    }
+    return mean / most;
+}
+
+double study_work(const struct study *study)
+{
+    double cost = 0.0;
+    for (int l = 0; l < study->mesh.n_level; l++)
+        for (unsigned i = 0; i < study->mesh.levels[l].n_tile; i++) cost += ldexp(study->costs[l][i], l);
+    return cost;
+}
