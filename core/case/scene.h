@@ -171,7 +171,7 @@ struct scene_refine {
     const struct script *script;
     char (*uses)[SCENE_NAME]; /* arguments of the script, in order: x, y, z, t or fields of one component */
     unsigned n_use;
-    struct shape *where;    /* or NULL; regarded at centres of cells */
+    struct shape *where;    /* or NULL; a cell counts if it covers any of it */
     int finest;             /* finest level that this criterion asks for, at most `levels` */
     double t_from, t_until; /* s; both included; infinity: no end */
     int line;               /* in the case file */

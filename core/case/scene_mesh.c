@@ -152,8 +152,9 @@ static void scene_mesh_buffer(struct draft *draft, const struct keys_value *buff
     if (scene->dt_fixed > 0 || scene->buffer >= wanted - 1e-9) return;
     int every = (int)((scene->buffer - 1) / scene->cfl + 1e-9);
     diag_warn(draft->keys.diag, &buffer->node->mark,
-              "%s: waves cross up to %g cells in the %d steps between two regriddings, and leave %d refined cells",
-              buffer->path, scene->regrid_every * scene->cfl, scene->regrid_every, scene->buffer);
+              "%s: waves cross up to %g cells in the %d step%s between two regriddings, and leave %d refined cells",
+              buffer->path, scene->regrid_every * scene->cfl, scene->regrid_every, scene->regrid_every == 1 ? "" : "s",
+              scene->buffer);
     if (every >= 1) diag_help(draft->keys.diag, "buffer: %.0f would do, or regrid-every: %d", ceil(wanted), every);
     else diag_help(draft->keys.diag, "buffer: %.0f would do", ceil(wanted));
 }

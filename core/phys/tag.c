@@ -1,10 +1,7 @@
 /* tag.c - see tag.h.
  *
- * A difference is judged once per pair of cells and marks both: |a - b| is the same number from either side, so the
- * marks of a mirrored or turned state are the mirrored or turned marks to the bit. Pairs inside of a tile are
- * compared along the whole tile at once, whatever the axis; pairs that would wrap around a row are taken out again.
- * Most tiles are never looked at a second time: the least and the largest value of a tile and its neighbour bound all
- * of their differences, exactly, since rounding is monotone. */
+ * Each criterion finds cells tile by tile, or for vectors component by component; what it found in its region is
+ * kept. Differences are taken by tag_pair.c. */
 #include "phys/tag.h"
 
 #include "base/comm.h"
@@ -12,6 +9,7 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "phys/derive.h"
+#include "phys/tag_pair.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,35 +25,39 @@ struct tag {
     int l;
     double t;
     struct halo *halo;
+    double radius;                     /* half the diagonal of a cell */
     const struct scene_refine *refine; /* the criterion at hand */
     double **marks;
-    double *step; /* [n_cell] work space */
+    struct tag_pair pair;
     long long hits;
 };
 
-/* Least and largest value of a tile. */
-struct tag_bounds {
-    double least, most;
-};
-
-/* What a difference must exceed. */
-struct tag_rule {
-    double above[3]; /* per axis */
-    bool relative;   /* then in units of the larger magnitude of the pair */
-};
-
-/* Centre of a cell, such that cells mirrored at x = 0 have the same bits but the sign. */
-static void tag_centre(const struct tag *tag, unsigned local, size_t cell, double ret_x[3])
+/* A point of a cell, `part` of the cell size above its lower corner: such that cells mirrored at x = 0 have the same
+ * bits but the sign. */
+static void tag_point(const struct tag *tag, unsigned local, size_t cell, double part, double ret_x[3])
 {
     const struct mesh *mesh = tag->mesh;
     const struct tile *tile = &tag->level->tiles[tag->level->first + local];
     for (int d = 0; d < 3; d++) {
         size_t n = (size_t)mesh->n[d];
         double all = (double)tag->level->extent[d] * mesh->n[d];
-        double at = (double)tile->at[d] * mesh->n[d] + (double)(cell % n) + 0.5;
+        double at = (double)tile->at[d] * mesh->n[d] + (double)(cell % n) + part;
         ret_x[d] = d < mesh->dim ? (mesh->lower[d] * (all - at) + mesh->upper[d] * at) / all : 0.0;
         cell /= n;
     }
+}
+
+/* Does the criterion's region cover any of a cell? A region smaller than a cell must be found on coarse levels too. */
+static bool tag_covers(const struct tag *tag, unsigned local, size_t cell)
+{
+    const struct shape *where = tag->refine->where;
+    double x[3], upper[3];
+    tag_point(tag, local, cell, 0.5, x);
+    double level = shape_level(where, x);
+    if (level <= 0.0 || level > tag->radius) return level <= 0.0;
+    tag_point(tag, local, cell, 0.0, x);
+    tag_point(tag, local, cell, 1.0, upper);
+    return shape_fraction(where, x, upper, tag->mesh->dim, 0) > 0.0;
 }
 
 enum tag_place { TAG_OUTSIDE, TAG_CUT, TAG_INSIDE };
@@ -81,14 +83,11 @@ static enum tag_place tag_place(const struct tag *tag, unsigned local)
 static void tag_keep(struct tag *tag, unsigned local, double *found)
 {
     enum tag_place place = tag_place(tag, local);
-    double *mark = tag->marks[local], x[3];
+    double *mark = tag->marks[local];
     size_t n = tag->mesh->n_cell;
     if (place == TAG_CUT)
-        for (size_t i = 0; i < n; i++) {
-            if (found[i] <= 0.0) continue;
-            tag_centre(tag, local, i, x);
-            if (!shape_contains(tag->refine->where, x)) found[i] = 0.0;
-        }
+        for (size_t i = 0; i < n; i++)
+            if (found[i] > 0.0 && !tag_covers(tag, local, i)) found[i] = 0.0;
     double hits = 0.0;
     for (size_t i = 0; i < n && place != TAG_OUTSIDE; i++) {
         double one = found[i] > 0.0 ? 1.0 : 0.0;
@@ -99,144 +98,10 @@ static void tag_keep(struct tag *tag, unsigned local, double *found)
     memset(found, 0, n * sizeof *found);
 }
 
-/* Does a pair exceed the rule? */
-static inline double tag_exceeds(double a, double b, double above, bool relative)
-{
-    double size_a = fabs(a), size_b = fabs(b), larger = size_a > size_b ? size_a : size_b;
-    return fabs(a - b) > (relative ? above * larger : above) ? 1.0 : 0.0;
-}
-
-/* Pairs of cells along an axis inside of a tile. */
-static void tag_inside(const struct tag *tag, int axis, const struct tag_rule *rule, const double *restrict values,
-                       double *restrict found)
-{
-    size_t n = (size_t)tag->mesh->n[axis], inner = 1;
-    for (int d = 0; d < axis; d++) inner *= (size_t)tag->mesh->n[d];
-    size_t count = tag->mesh->n_cell - inner;
-    double above = rule->above[axis], *restrict step = tag->step;
-    if (rule->relative)
-        for (size_t i = 0; i < count; i++) step[i] = tag_exceeds(values[i], values[i + inner], above, true);
-    else
-        for (size_t i = 0; i < count; i++) step[i] = tag_exceeds(values[i], values[i + inner], above, false);
-    for (size_t last = (n - 1) * inner; last < count; last += n * inner)
-        for (size_t j = 0; j < inner; j++) step[last + j] = 0.0;
-    for (size_t i = 0; i < count; i++) found[i] += step[i];
-    for (size_t i = 0; i < count; i++) found[i + inner] += step[i];
-}
-
-/* Pairs across a face: the cells of this tile are judged, those behind belong to whoever owns them. */
-static void tag_across(const struct tag *tag, unsigned local, int face, const struct tag_rule *rule,
-                       double *const *values, double *found)
-{
-    const struct neighbour *neighbour = &tag->level->neighbours[local][face];
-    bool remote = neighbour->kind == NEIGHBOUR_REMOTE;
-    int axis = face / 2, side = face % 2;
-    size_t n = (size_t)tag->mesh->n[axis], inner = 1;
-    for (int d = 0; d < axis; d++) inner *= (size_t)tag->mesh->n[d];
-    size_t outer = tag->mesh->n_cell / n / inner, depth = remote ? MESH_GHOST : n;
-    const double *own = values[local] + (side ? n - 1 : 0) * inner;
-    const double *other = remote ? halo_slab(tag->halo, neighbour->index) : values[neighbour->index];
-    other += (side ? 0 : depth - 1) * inner;
-    double *to = found + (own - values[local]);
-    for (size_t o = 0; o < outer; o++)
-        for (size_t j = 0; j < inner; j++)
-            to[o * n * inner + j] +=
-                tag_exceeds(own[o * n * inner + j], other[o * depth * inner + j], rule->above[axis], rule->relative);
-}
-
-/* In lanes of their own, so that the compiler may take several values at a time. */
-static struct tag_bounds tag_bounds_of(size_t n, const double *values)
-{
-    enum { LANES = 4 };
-    double least[LANES], most[LANES];
-    size_t i = 0;
-    for (size_t k = 0; k < LANES; k++) least[k] = most[k] = values[0];
-    for (; i + LANES <= n; i += LANES)
-        for (size_t k = 0; k < LANES; k++) {
-            least[k] = values[i + k] < least[k] ? values[i + k] : least[k];
-            most[k] = values[i + k] > most[k] ? values[i + k] : most[k];
-        }
-    for (; i < n; i++) {
-        least[0] = values[i] < least[0] ? values[i] : least[0];
-        most[0] = values[i] > most[0] ? values[i] : most[0];
-    }
-    for (size_t k = 1; k < LANES; k++) {
-        least[0] = least[k] < least[0] ? least[k] : least[0];
-        most[0] = most[k] > most[0] ? most[k] : most[0];
-    }
-    return (struct tag_bounds){least[0], most[0]};
-}
-
-/* Can no two values within the bounds exceed the rule along an axis? */
-static bool tag_is_flat(const struct tag_rule *rule, int axis, struct tag_bounds bounds)
-{
-    double size = bounds.least > 0.0 ? bounds.least : bounds.most < 0.0 ? -bounds.most : 0.0; /* least magnitude */
-    return bounds.most - bounds.least <= (rule->relative ? rule->above[axis] * size : rule->above[axis]);
-}
-
-/* The same for the tile and what lies behind a face. */
-static bool tag_is_flat_across(const struct tag *tag, unsigned local, int face, const struct tag_rule *rule,
-                               const struct tag_bounds *bounds)
-{
-    const struct neighbour *neighbour = &tag->level->neighbours[local][face];
-    struct tag_bounds both = bounds[local], other;
-    if (neighbour->kind != NEIGHBOUR_LOCAL) return neighbour->kind != NEIGHBOUR_REMOTE;
-    other = bounds[neighbour->index];
-    both.least = other.least < both.least ? other.least : both.least;
-    both.most = other.most > both.most ? other.most : both.most;
-    return tag_is_flat(rule, face / 2, both);
-}
-
-/* Adds to found[n_cell] where a cell of a tile differs from one of its neighbours. False: nowhere. */
-static bool tag_differ(const struct tag *tag, unsigned local, const struct tag_rule *rule, double *const *values,
-                       const struct tag_bounds *bounds, double *found)
-{
-    bool any = false;
-    for (int axis = 0; axis < tag->mesh->dim; axis++) {
-        bool inside = !tag_is_flat(rule, axis, bounds[local]);
-        if (inside) tag_inside(tag, axis, rule, values[local], found);
-        any |= inside;
-        for (int face = 2 * axis; face < 2 * axis + 2; face++) {
-            bool flat = tag_is_flat_across(tag, local, face, rule, bounds);
-            if (!flat) tag_across(tag, local, face, rule, values, found);
-            any |= !flat;
-        }
-    }
-    return any;
-}
-
 static void tag_exchange(const struct tag *tag, double *const *values)
 {
     halo_start(tag->halo, values);
     halo_finish(tag->halo);
-}
-
-/* Values of all local tiles, one block of n_cell doubles each, and their bounds. */
-struct tag_values {
-    double **blocks;
-    struct tag_bounds *bounds;
-};
-
-/* `own` false: the blocks are somebody else's. */
-static struct tag_values tag_values_new(const struct tag *tag, bool own)
-{
-    unsigned count = tag->level->n_local;
-    struct tag_values values = {mem_new(count + 1, sizeof *values.blocks), mem_new(count + 1, sizeof *values.bounds)};
-    if (own) values.blocks[0] = mem_new_large(count * tag->mesh->n_cell + 1, sizeof **values.blocks);
-    for (unsigned t = 1; own && t < count; t++) values.blocks[t] = values.blocks[0] + t * tag->mesh->n_cell;
-    return values;
-}
-
-static void tag_values_free(struct tag_values values, bool own)
-{
-    if (own) mem_free(values.blocks[0]);
-    mem_free(values.blocks);
-    mem_free(values.bounds);
-}
-
-static void tag_derive(const struct tag *tag, unsigned local, const struct derive *field, double *out)
-{
-    derive_tile(tag->model, tag->mesh, tag->l, local, tag->t, field, out);
 }
 
 static int tag_find(const struct tag *tag, const char *name, struct derive *ret_field)
@@ -246,19 +111,75 @@ static int tag_find(const struct tag *tag, const char *name, struct derive *ret_
     return STATUS_OK;
 }
 
-/* One component of a field in all local tiles. */
-static void tag_derive_all(const struct tag *tag, const struct derive *field, unsigned component,
-                           const struct tag_values *values)
+static void tag_derive(const struct tag *tag, unsigned local, const struct derive *field, double *out)
+{
+    derive_tile(tag->model, tag->mesh, tag->l, local, tag->t, field, out);
+}
+
+/* One component of a field in the local tiles that need be looked at twice. Few do, and memory that is written once
+ * and read once costs more than the field. */
+struct tag_values {
+    const struct derive *field;
+    unsigned component;
+    double *all;     /* [components][n_cell] work space */
+    double **blocks; /* [n_local] blocks of n_cell, or NULL */
+    struct tag_pair_bounds *bounds;
+    bool *need;
+};
+
+static void tag_values_fill(const struct tag *tag, const struct tag_values *values, unsigned local, double *out)
 {
     size_t n = tag->mesh->n_cell;
-    double *all = mem_new(field->components * n, sizeof *all);
+    bool vector = values->field->components > 1;
+    tag_derive(tag, local, values->field, vector ? values->all : out);
+    if (vector) memcpy(out, values->all + values->component * n, n * sizeof *out);
+}
+
+/* Bounds of all tiles; values of those that differ within or that other ranks look at. */
+static void tag_values_begin(const struct tag *tag, const struct tag_pair_rule *rule, const struct tag_values *values)
+{
+    double *block = NULL;
     for (unsigned t = 0; t < tag->level->n_local; t++) {
-        double *block = values->blocks[t];
-        tag_derive(tag, t, field, field->components > 1 ? all : block);
-        if (field->components > 1) memcpy(block, all + component * n, n * sizeof *all);
-        values->bounds[t] = tag_bounds_of(n, block);
+        if (!block) block = mem_new(tag->mesh->n_cell, sizeof *block);
+        tag_values_fill(tag, values, t, block);
+        values->bounds[t] = tag_pair_bounds_of(tag->mesh->n_cell, block);
+        if (tag_pair_is_smooth(&tag->pair, rule, values->bounds[t]) && !halo_is_remote(tag->level, t)) continue;
+        values->blocks[t] = block;
+        block = NULL;
     }
-    mem_free(all);
+    mem_free(block);
+}
+
+/* Values of the tiles beside them. */
+static void tag_values_end(const struct tag *tag, const struct tag_pair_rule *rule, const struct tag_values *values)
+{
+    for (unsigned t = 0; t < tag->level->n_local; t++)
+        tag_pair_needs(&tag->pair, t, rule, values->bounds, values->need);
+    for (unsigned t = 0; t < tag->level->n_local; t++) {
+        if (!values->need[t] || values->blocks[t]) continue;
+        values->blocks[t] = mem_new(tag->mesh->n_cell, sizeof **values->blocks);
+        tag_values_fill(tag, values, t, values->blocks[t]);
+    }
+}
+
+static struct tag_values tag_values_new(const struct tag *tag, const struct derive *field, unsigned component)
+{
+    unsigned count = tag->level->n_local + 1;
+    struct tag_values values = {.field = field, .component = component};
+    values.all = mem_new(field->components * tag->mesh->n_cell, sizeof *values.all);
+    values.blocks = mem_new(count, sizeof *values.blocks);
+    values.bounds = mem_new(count, sizeof *values.bounds);
+    values.need = mem_new(count, sizeof *values.need);
+    return values;
+}
+
+static void tag_values_free(const struct tag *tag, struct tag_values values)
+{
+    for (unsigned t = 0; t < tag->level->n_local; t++) mem_free(values.blocks[t]);
+    mem_free(values.blocks);
+    mem_free(values.bounds);
+    mem_free(values.need);
+    mem_free(values.all);
 }
 
 /* Gradients and jumps. Components of a vector are judged one by one; a cell counts once. */
@@ -267,23 +188,24 @@ static int tag_difference(struct tag *tag)
     const struct scene_refine *refine = tag->refine;
     struct derive field;
     TRY(tag_find(tag, refine->field, &field));
-    struct tag_rule rule = {.relative = refine->relative};
+    struct tag_pair_rule rule = {.relative = refine->relative};
     bool slope = refine->kind == SCENE_REFINE_GRADIENT && !refine->relative;
     for (int d = 0; d < 3; d++) rule.above[d] = refine->above * (slope ? tag->level->h[d] : 1.0);
     unsigned count = tag->level->n_local, last = field.components - 1;
     size_t pitch = last ? tag->mesh->n_cell : 0; /* scalars: one tile's marks, again and again */
     double *found = mem_new((last ? count : 1) * tag->mesh->n_cell + 1, sizeof *found);
-    struct tag_values values = tag_values_new(tag, true);
     for (unsigned c = 0; c <= last; c++) {
-        tag_derive_all(tag, &field, c, &values);
+        struct tag_values values = tag_values_new(tag, &field, c);
+        tag_values_begin(tag, &rule, &values);
         tag_exchange(tag, values.blocks);
+        tag_values_end(tag, &rule, &values);
         for (unsigned t = 0; t < count; t++) {
             bool any = tag_place(tag, t) != TAG_OUTSIDE &&
-                       tag_differ(tag, t, &rule, values.blocks, values.bounds, found + t * pitch);
+                       tag_pair_differ(&tag->pair, t, &rule, values.blocks, values.bounds, found + t * pitch);
             if (c == last && (any || last > 0)) tag_keep(tag, t, found + t * pitch);
         }
+        tag_values_free(tag, values);
     }
-    tag_values_free(values, true);
     mem_free(found);
     return STATUS_OK;
 }
@@ -293,26 +215,26 @@ static int tag_difference(struct tag *tag)
 static int tag_interface(struct tag *tag)
 {
     const struct model *model = tag->model;
-    const struct tag_rule rule = {.above = {TAG_PRESENT, TAG_PRESENT, TAG_PRESENT}};
+    const struct tag_pair_rule rule = {.above = {TAG_PRESENT, TAG_PRESENT, TAG_PRESENT}};
     size_t n = tag->mesh->n_cell, at = (model->i_alpha + (unsigned)tag->refine->material) * n;
     unsigned count = tag->level->n_local;
-    struct tag_values values = tag_values_new(tag, false);
-    double *found = mem_new(n, sizeof *found);
+    double **values = mem_new(count + 1, sizeof *values), *found = mem_new(n, sizeof *found);
+    struct tag_pair_bounds *bounds = mem_new(count + 1, sizeof *bounds);
     for (unsigned t = 0; t < count; t++) {
-        values.blocks[t] = tag->level->w[t] + at;
-        values.bounds[t] = tag_bounds_of(n, values.blocks[t]);
+        values[t] = tag->level->w[t] + at;
+        bounds[t] = tag_pair_bounds_of(n, values[t]);
     }
-    tag_exchange(tag, values.blocks);
+    tag_exchange(tag, values);
     for (unsigned t = 0; t < count; t++) {
-        const double *alpha = values.blocks[t];
         if (tag_place(tag, t) == TAG_OUTSIDE) continue;
-        bool any = values.bounds[t].most > TAG_PRESENT && 1.0 - values.bounds[t].least > TAG_PRESENT;
+        bool any = bounds[t].most > TAG_PRESENT && 1.0 - bounds[t].least > TAG_PRESENT;
         for (size_t i = 0; any && i < n; i++)
-            found[i] = alpha[i] > TAG_PRESENT && 1.0 - alpha[i] > TAG_PRESENT ? 1.0 : 0.0;
-        any |= tag_differ(tag, t, &rule, values.blocks, values.bounds, found);
+            found[i] = values[t][i] > TAG_PRESENT && 1.0 - values[t][i] > TAG_PRESENT ? 1.0 : 0.0;
+        any |= tag_pair_differ(&tag->pair, t, &rule, values, bounds, found);
         if (any) tag_keep(tag, t, found);
     }
-    tag_values_free(values, false);
+    mem_free(values);
+    mem_free(bounds);
     mem_free(found);
     return STATUS_OK;
 }
@@ -386,8 +308,8 @@ static int tag_ask(const struct tag *tag, unsigned local, const struct tag_argum
     for (size_t i = 0; i < tag->mesh->n_cell; i++) {
         double x[3], in[SCRIPT_ARGUMENTS];
         bool yes;
-        tag_centre(tag, local, i, x);
-        if (cut && !shape_contains(refine->where, x)) continue;
+        if (cut && !tag_covers(tag, local, i)) continue;
+        tag_point(tag, local, i, 0.5, x);
         for (unsigned k = 0; k < refine->n_use; k++)
             in[k] = arguments[k].from == 4   ? arguments[k].values[i]
                     : arguments[k].from == 3 ? tag->t
@@ -436,8 +358,10 @@ int tag_level(const struct model *model, const struct mesh *mesh, int l, double 
     struct tag tag = {
         .model = model, .mesh = mesh, .level = &mesh->levels[l], .l = l, .t = t, .halo = halo, .marks = marks};
     int status = STATUS_OK;
+    for (int d = 0; d < mesh->dim; d++) tag.radius += 0.25 * tag.level->h[d] * tag.level->h[d];
+    tag.radius = 1.001 * sqrt(tag.radius);
     for (unsigned i = 0; i < tag.level->n_local; i++) memset(marks[i], 0, mesh->n_cell * sizeof **marks);
-    tag.step = mem_new(mesh->n_cell, sizeof *tag.step);
+    tag.pair = (struct tag_pair){mesh, tag.level, halo, mem_new(mesh->n_cell, sizeof(double))};
     for (unsigned c = 0; c < scene->n_refine && !status; c++) {
         tag.refine = &scene->refines[c];
         tag.hits = 0;
@@ -445,7 +369,7 @@ int tag_level(const struct model *model, const struct mesh *mesh, int l, double 
         status = tag_criterion(&tag);
         hits[c] += tag.hits;
     }
-    mem_free(tag.step);
+    mem_free(tag.pair.step);
     return status;
 }
 

@@ -174,11 +174,19 @@ static void centre(const struct world *world, const int cell[3], double ret_x[3]
         ret_x[d] = d < world->mesh->dim ? world->mesh->lower[d] + (cell[d] + 0.5) * world->mesh->levels[0].h[d] : 0.0;
 }
 
+/* Does a disc of radius 0.45 about the origin cover any of the cell? */
 static bool disc(const struct world *world, const int cell[3])
 {
-    double x[3];
+    double x[3], near[2];
     centre(world, cell, x);
-    return hypot(x[0], x[1]) < 0.45;
+    for (int d = 0; d < 2; d++) near[d] = fmax(fabs(x[d]) - 0.5 * world->mesh->levels[0].h[d], 0.0);
+    return hypot(near[0], near[1]) < 0.45;
+}
+
+static bool speck(const struct world *world, const int cell[3])
+{
+    (void)world;
+    return cell[0] == 15 && (cell[1] == 3 || cell[1] == 4);
 }
 
 static bool jumps_in_disc(const struct world *world, const int cell[3])
@@ -205,6 +213,7 @@ static void values_regions_and_scripts(void **state)
     (void)state;
     check_pressure(2, "outflow", "{value: pressure, above: 1.1 bar, below: 1.3 bar}", between);
     check_pressure(2, "outflow", "{region: " TAG_DISC "}", disc);
+    check_pressure(2, "outflow", "{region: {box: {lower: [0.26, -0.668], upper: [0.27, -0.666]}}}", speck);
     check_pressure(2, "outflow", "{jump: pressure, above: 0.3 bar, where: " TAG_DISC "}", jumps_in_disc);
     check_pressure(2, "outflow", "{lua: = pressure > 1.01e5 + 1e4 * x and y < 0.3}", script);
     check_pressure(2, "outflow",
