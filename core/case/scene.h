@@ -240,7 +240,8 @@ int scene_read(const char *path, const struct scene_options *options, struct sce
 int scene_value_at(const struct scene_value *value, const double x[SCENE_AXES], double r, double t, double *ret);
 
 /* The tile side that the program takes where a case gives none, or 0 if none divides the cells: 16 in 2D and 3D and 64
- * in 1D, or the largest divisor below; with refinement 8 and 16, or the nearest even one (docs/decisions/tiles.md). */
+ * in 1D, or the largest divisor below; with refinement 8 and 16, or the nearest even one, larger if the tiles of the
+ * finest level were too many (docs/decisions/tiles.md). */
 int scene_mesh_tile(const struct scene *scene);
 
 void scene_free(struct scene *scene);

@@ -98,15 +98,25 @@ static void scene_mesh_given(struct draft *draft, const struct keys_value *tile)
     else diag_help(draft->keys.diag, "cells: [%s] would do", scene_mesh_multiples(draft, n));
 }
 
+/* Does n divide the cells, and are the tiles of the finest level not too many to be numbered? */
+static bool scene_mesh_fits(const struct scene *scene, int n)
+{
+    for (int axis = 0; axis < scene->dim; axis++)
+        if (ldexp(scene->cells[axis], scene->levels) / n > SCENE_MESH_TILES) return false;
+    return scene_mesh_misfit(scene, n) < 0;
+}
+
 int scene_mesh_tile(const struct scene *scene)
 {
     bool fine = scene->levels > 0, line = scene->dim == 1;
-    int most = line ? 64 : 16, wish = !fine ? most : line ? 16 : 8, step = fine ? 2 : 1;
+    int most = line ? 64 : 16, wish = !fine ? most : line ? 16 : 8, step = fine ? 2 : 1, largest = 0;
     for (int n = wish; n >= SCENE_MESH_LEAST; n -= step)
-        if (scene_mesh_misfit(scene, n) < 0) return n;
-    for (int n = wish + step; n <= most; n += step)
-        if (scene_mesh_misfit(scene, n) < 0) return n;
-    return 0;
+        if (scene_mesh_fits(scene, n)) return n;
+    for (int n = SCENE_MESH_LEAST; n <= most; n += step) {
+        if (n > wish && scene_mesh_fits(scene, n)) return n;
+        if (scene_mesh_misfit(scene, n) < 0) largest = n;
+    }
+    return largest;
 }
 
 /* The program will choose the tile: is there one with an even side? */
