@@ -103,13 +103,39 @@ static void facts_guard(struct text *page, json_t *guard)
     }
 }
 
+/* Cells of each level at the end and at most, and what it cost to move them; nothing for a mesh of one level. */
+static void facts_levels(struct text *page, const json_t *root)
+{
+    const json_t *levels = json_object_get(root, "levels"), *refinement = json_object_get(root, "refinement");
+    json_t *level;
+    size_t l;
+    if (json_array_size(levels) < 2) return;
+    json_array_foreach(levels, l, level)
+    {
+        char label[96], words[256], width[PICTURE_SCALE_LABEL];
+        double h = json_number_value(json_object_get(level, "width"));
+        picture_scale_quantity(h, h, "m", width);
+        snprintf(label, sizeof label, "level %zu, cells of %.40s", l, width);
+        snprintf(words, sizeof words, "%lld, %lld of them leaves; at most %lld",
+                 (long long)json_integer_value(json_object_get(level, "cells")),
+                 (long long)json_integer_value(json_object_get(level, "leaves")),
+                 (long long)json_integer_value(json_object_get(level, "peak_cells")));
+        facts_add(page, label, words);
+    }
+    char words[128];
+    snprintf(words, sizeof words, "%lld, %.2g %% of the CPU time",
+             (long long)json_integer_value(json_object_get(refinement, "regrids")),
+             100.0 * json_number_value(json_object_get(refinement, "regrid_share")));
+    facts_add(page, "regrids", words);
+}
+
 void report_facts_run(struct text *page, const char *directory)
 {
     static const struct facts_row rows[] = {
         {"exit_reason", "ended", NULL},
         {"time", "simulated time", "s"},
         {"steps", "steps", ""},
-        {"cells", "cells", ""},
+        {"leaves", "cells", ""},
         {"ranks", "ranks", ""},
         {"wall_s", "wall time", "wall"},
         {"cpu_s", "CPU time", "wall"},
@@ -129,6 +155,7 @@ void report_facts_run(struct text *page, const char *directory)
         facts_value(value, rows[i].unit, words, sizeof words);
         facts_add(page, rows[i].label, words);
     }
+    facts_levels(page, root);
     facts_drift(page, json_object_get(root, "conservation"));
     facts_guard(page, json_object_get(root, "guard"));
     text_add(page, "</div>\n");

@@ -69,3 +69,5 @@ done
 for key in '"peak_cells"' '"regrids"' '"leaves"'; do grep -q "$key" alone/out/provenance.json; done
 "$BULLA" plot alone/out density --tiles -o picture.png
 [ -s picture.png ]
+"$BULLA" report alone/out
+grep -q 'level 2, cells of' alone/out/report.html
