@@ -2,6 +2,7 @@
  * the same cells: a point value in the middle differs by O(h^2), and at a jump by O(1). */
 #include "app/norm.h"
 
+#include "app/overlap.h"
 #include "app/table.h"
 #include "app/tube.h"
 #include "base/mem.h"
@@ -121,6 +122,11 @@ static int norm_against_exact(const struct scene *scene, const char *name, const
     return STATUS_OK;
 }
 
+static void norm_visit(void *data, double size, double one, double other)
+{
+    norm_add(data, size, one - other);
+}
+
 static int norm_against_initial(const char *name, const struct snapshot *last, const char *first_path,
                                 struct norm *norm)
 {
@@ -129,10 +135,10 @@ static int norm_against_initial(const char *name, const struct snapshot *last, c
     TRY(read_snapshot(first_path, NULL, &first));
     int code = norm_cells_of(last, name, &cells);
     if (!code) code = norm_cells_of(first, name, &before);
-    if (!code && (first->time != 0 || first->n_cell != last->n_cell))
-        code = status_fail(STATUS_CASE, "'initial' needs a snapshot at t = 0 on the same cells as the last one");
-    for (size_t i = 0; !code && i < last->n_cell; i++)
-        norm_add(norm, norm_weight(last, i), cells.data[i * cells.stride] - before.data[i * before.stride]);
+    if (!code && first->time != 0) code = status_fail(STATUS_CASE, "'initial' needs a snapshot at t = 0");
+    if (!code)
+        code = overlap_visit(&(struct overlap_side){last, cells.data, cells.stride},
+                             &(struct overlap_side){first, before.data, before.stride}, norm_visit, norm);
     read_free(first);
     return code;
 }
