@@ -19,6 +19,7 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "phys/tag.h"
 #include "io/resume.h"
 #include "solve/advance.h"
 
@@ -175,6 +176,24 @@ static int run_save(struct run *run, int code)
 }
 
 /* The loop, and what ends it. */
+/* Criteria of refinement that have not tagged a single cell: a threshold that is never reached looks like a mesh that
+ * is good enough. */
+static void run_say_unused(const struct run *run)
+{
+    const struct scene *scene = run->scene;
+    long long *hits = mem_new(scene->n_refine + 1, sizeof *hits);
+    memcpy(hits, run->state->tagged, scene->n_refine * sizeof *hits);
+    comm_sum_counts(hits, (int)scene->n_refine);
+    for (unsigned i = 0; scene->levels > 0 && i < scene->n_refine; i++) {
+        if (hits[i] > 0) continue;
+        char *criterion = tag_describe(scene, i);
+        log_warn("mesh.refine[%u], %s, has not tagged a single cell: lower its threshold, or leave it out", i,
+                 criterion);
+        mem_free(criterion);
+    }
+    mem_free(hits);
+}
+
 static int run_until_end(struct run *run)
 {
     progress_begin(&run->progress, run->scene->name, run->scene->directory);
@@ -187,6 +206,7 @@ static int run_until_end(struct run *run)
     }
     TRY(run_save(run, code));
     run_say_end(run, code);
+    if (code == 0) run_say_unused(run);
     return code;
 }
 
