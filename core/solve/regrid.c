@@ -138,18 +138,29 @@ static double *regrid_new_costs(const struct regrid *regrid, int l, double *cons
     return cost;
 }
 
+/* Level 0 with other owners, if those it has share the work badly and others would share it better. */
+static struct tile *regrid_recut(const struct level *level, const double *cost)
+{
+    double *load = mem_new((size_t)comm_size(), sizeof *load);
+    struct tile *tiles = mem_new(level->n_tile, sizeof *tiles);
+    double now = partition_imbalance(level->tiles, level->n_tile, cost, comm_size());
+    memcpy(tiles, level->tiles, level->n_tile * sizeof *tiles);
+    partition_cut(tiles, level->n_tile, cost, comm_size(), 1.0, load);
+    double then = partition_imbalance(tiles, level->n_tile, cost, comm_size());
+    mem_free(load);
+    if (now > PARTITION_SLACK && then < now - 0.5 * PARTITION_SLACK) return tiles;
+    mem_free(tiles);
+    return NULL;
+}
+
 /* Level `base` and those below stay where they are and count as load; but level 0 is cut anew if it is `base` itself
  * and its cells under finer tiles, or at rest, leave some ranks idle. */
 static void regrid_load(struct regrid *regrid, int l, const double *cost, double weight, double *load)
 {
     const struct level *level = &regrid->state->mesh->levels[l];
-    if (regrid->base == 0 && partition_imbalance(level->tiles, level->n_tile, cost, comm_size()) > PARTITION_SLACK) {
-        regrid->root = mem_new(level->n_tile, sizeof *regrid->root);
-        memcpy(regrid->root, level->tiles, level->n_tile * sizeof *regrid->root);
-        partition_cut(regrid->root, level->n_tile, cost, comm_size(), weight, load);
-        return;
-    }
-    for (unsigned i = 0; i < level->n_tile; i++) load[level->tiles[i].rank] += weight * cost[i];
+    if (regrid->base == 0) regrid->root = regrid_recut(level, cost);
+    const struct tile *tiles = regrid->root ? regrid->root : level->tiles;
+    for (unsigned i = 0; i < level->n_tile; i++) load[tiles[i].rank] += weight * cost[i];
 }
 
 /* Sets the owners of all new sets. */
