@@ -10,7 +10,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 
-enum { NODES_REGIONS = 64, NODES_CLASSES = 125, NODES_NONE = -1 };
+enum { NODES_REGIONS = 64, NODES_PLACES = 125, NODES_KINDS = 2 * NODES_PLACES, NODES_NONE = -1 };
 
 /* Whose leaves a region holds. */
 struct nodes_owner {
@@ -18,8 +18,9 @@ struct nodes_owner {
     unsigned tile;
 };
 
+/* Owners of the points of a tile by kind: that of class c is 2 c for its odd points, 2 c + 1 for its even ones. */
 struct nodes_around {
-    struct nodes_owner owners[NODES_CLASSES][2]; /* of a class: [0] of its odd points, [1] of its even ones */
+    struct nodes_owner owners[NODES_KINDS];
 };
 
 static bool nodes_before(struct nodes_owner a, struct nodes_owner b)
@@ -49,18 +50,13 @@ static int nodes_place(const struct mesh *mesh, int axis, int i)
     return i == 0 ? 0 : i == n ? 4 : 2 * i < n ? 1 : 2 * i == n ? 2 : 3;
 }
 
-static int nodes_class(const struct mesh *mesh, const int at[3])
+static unsigned char nodes_kind(const struct mesh *mesh, const int at[3])
 {
     int kind = 0;
+    bool even = true;
     for (int axis = 2; axis >= 0; axis--) kind = 5 * kind + nodes_place(mesh, axis, at[axis]);
-    return kind;
-}
-
-static bool nodes_even(const struct mesh *mesh, const int at[3])
-{
-    for (int axis = 0; axis < mesh->dim; axis++)
-        if (at[axis] % 2) return false;
-    return true;
+    for (int axis = 0; axis < mesh->dim; axis++) even = even && at[axis] % 2 == 0;
+    return (unsigned char)(2 * kind + even);
 }
 
 /* Who has leaves in the region at octant coordinates `octant` of level l: periodic sides are two places here. */
@@ -96,11 +92,12 @@ static void nodes_regions(const struct mesh *mesh, int l, unsigned tile, struct 
     }
 }
 
-/* First of the regions that the points of class `kind` touch; odd points have no coarser cells. */
-static struct nodes_owner nodes_first(const struct nodes_owner regions[NODES_REGIONS], int l, int kind, bool even)
+/* First of the regions that the points of a kind touch; odd points have no coarser cells. */
+static struct nodes_owner nodes_first(const struct nodes_owner regions[NODES_REGIONS], int l, int kind)
 {
     static const int lower[5] = {0, 1, 1, 2, 2}, upper[5] = {1, 1, 2, 2, 3}; /* regions along an axis, by place */
-    const int place[3] = {kind % 5, kind / 5 % 5, kind / 25};
+    const int place[3] = {kind / 2 % 5, kind / 10 % 5, kind / 50};
+    bool even = kind % 2;
     struct nodes_owner owner = {.level = NODES_NONE};
     for (int k = lower[place[2]]; k <= upper[place[2]]; k++)
         for (int j = lower[place[1]]; j <= upper[place[1]]; j++)
@@ -115,13 +112,7 @@ static void nodes_look(const struct mesh *mesh, int l, unsigned tile, struct nod
 {
     struct nodes_owner regions[NODES_REGIONS];
     nodes_regions(mesh, l, tile, regions);
-    for (int kind = 0; kind < NODES_CLASSES; kind++)
-        for (int even = 0; even < 2; even++) ret_around->owners[kind][even] = nodes_first(regions, l, kind, even);
-}
-
-static struct nodes_owner nodes_owner_at(const struct nodes_around *around, const struct mesh *mesh, const int at[3])
-{
-    return around->owners[nodes_class(mesh, at)][nodes_even(mesh, at)];
+    for (int kind = 0; kind < NODES_KINDS; kind++) ret_around->owners[kind] = nodes_first(regions, l, kind);
 }
 
 /* Numbers the points that a tile owns from 0 on, the others -1; returns how many. */
@@ -131,11 +122,8 @@ static size_t nodes_own(const struct nodes *nodes, const struct mesh *mesh, stru
     struct nodes_around around;
     nodes_look(mesh, owner.level, owner.tile, &around);
     int32_t count = 0;
-    for (size_t point = 0; point < nodes->n_point; point++) {
-        int at[3];
-        nodes_at(nodes, point, at);
-        ret_number[point] = nodes_same(nodes_owner_at(&around, mesh, at), owner) ? count++ : -1;
-    }
+    for (size_t point = 0; point < nodes->n_point; point++)
+        ret_number[point] = nodes_same(around.owners[nodes->kinds[point]], owner) ? count++ : -1;
     return (size_t)count;
 }
 
@@ -166,6 +154,12 @@ struct nodes *nodes_new(const struct mesh *mesh)
         nodes->n_point *= (size_t)nodes->n[axis];
     }
     nodes->number = mem_new(nodes->n_point, sizeof *nodes->number);
+    nodes->kinds = mem_new(nodes->n_point, sizeof *nodes->kinds);
+    for (size_t point = 0; point < nodes->n_point; point++) {
+        int at[3];
+        nodes_at(nodes, point, at);
+        nodes->kinds[point] = nodes_kind(mesh, at);
+    }
     for (int level = 0; level < mesh->n_level; level++) nodes_count(nodes, mesh, level);
     return nodes;
 }
@@ -175,6 +169,7 @@ void nodes_free(struct nodes *nodes)
     if (!nodes) return;
     for (int level = 0; level < MESH_LEVELS; level++) mem_free(nodes->first[level]);
     mem_free(nodes->number);
+    mem_free(nodes->kinds);
     mem_free(nodes);
 }
 
@@ -186,8 +181,8 @@ static void nodes_take(struct nodes *nodes, const struct mesh *mesh, const struc
     nodes_own(nodes, mesh, owner, nodes->number);
     for (size_t point = 0; point < nodes->n_point; point++) {
         int at[3];
+        if (!nodes_same(around->owners[nodes->kinds[point]], owner)) continue;
         nodes_at(nodes, point, at);
-        if (!nodes_same(nodes_owner_at(around, mesh, at), owner)) continue;
         for (int axis = 0; axis < mesh->dim; axis++) {
             int index = here[axis] * mesh->n[axis] + at[axis];
             at[axis] = (owner.level < l ? index / 2 : index) - there[axis] * mesh->n[axis];
@@ -204,10 +199,9 @@ void nodes_of_tile(struct nodes *nodes, const struct mesh *mesh, int level, unsi
     int n_done = 0;
     nodes_look(mesh, level, tile, &around);
     for (size_t point = 0; point < nodes->n_point; point++) ret_numbers[point] = -1;
-    for (size_t point = 0; point < nodes->n_point; point++) {
-        int at[3], i = 0;
-        nodes_at(nodes, point, at);
-        struct nodes_owner owner = nodes_owner_at(&around, mesh, at);
+    for (int kind = 0; kind < NODES_KINDS; kind++) {
+        struct nodes_owner owner = around.owners[kind];
+        int i = 0;
         while (i < n_done && !nodes_same(done[i], owner)) i++;
         if (i < n_done || owner.level == NODES_NONE) continue;
         done[n_done++] = owner;

@@ -15,6 +15,7 @@ struct nodes {
     size_t *first[MESH_LEVELS]; /* [n_tile + 1] number of the first point of each tile of a level */
     int n[3];                   /* points of a tile per axis, its own or not */
     size_t n_point;             /* their product */
+    unsigned char *kinds;       /* [n_point] class of each point of a tile (nodes.c) */
     int32_t *number;            /* [n_point] work space */
 };
 
