@@ -76,6 +76,10 @@ output:
 END
 sed 's/closure: allaire/closure: kapila/' parting.yaml >relaxing.yaml
 
+# Levels that come and go: a shock that runs, a bubble that stays, patience that is counted across the stop.
+sed 's/^mesh:.*/mesh: {tile: 8, levels: 2, regrid-every: 2, buffer: 2, patience: 2, refine: [{interface: air}, '\
+'{gradient: pressure, above: 0.05, relative: true}]}/; s/max-steps: 40/max-steps: 32/' bubble.yaml >levels.yaml
+
 run() { # FOLDER CASE OPTIONS...: in a folder of its own, so that the outputs have the same names
     folder=$1 name=$2
     shift 2
@@ -96,15 +100,19 @@ compare() { # FOLDER FOLDER CASE; older snapshots hold another case.yaml: that o
 guards() { sed -n '/"guard"/,/}/p' "$1/out/provenance.json"; }
 
 rm -rf whole-* part-*
-run whole-bubble bubble
-for ranks in "1 1" "1 2" "2 1" "2 3"; do
-    rm -rf part-bubble
-    run part-bubble bubble -n "${ranks% *}" --max-steps 20
-    [ -e part-bubble/out/checkpoints/bubble_000020.chk ] || { echo "no checkpoint of the last step"; exit 1; }
-    run part-bubble bubble -n "${ranks#* }" --restart
-    rm -f whole-bubble/out/checkpoints/bubble_000013.chk part-bubble/out/checkpoints/bubble_000013.chk
-    compare whole-bubble part-bubble bubble
+for name in bubble levels; do
+    run whole-$name $name
+    for ranks in "1 1" "1 2" "2 1" "2 3"; do
+        rm -rf part-$name
+        run part-$name $name -n "${ranks% *}" --max-steps 15
+        [ -e part-$name/out/checkpoints/${name}_000015.chk ] || { echo "no checkpoint of the last step"; exit 1; }
+        run part-$name $name -n "${ranks#* }" --restart
+        rm -f whole-$name/out/checkpoints/*_000013.chk part-$name/out/checkpoints/*_00001[35].chk
+        compare whole-$name part-$name $name
+    done
 done
+"$BULLA" info whole-levels/out/checkpoints/levels_000032.chk | grep -q '^level 2 .*cells$' || { echo "no levels"; exit 1; }
+grep -q '"regrids": *[1-9]' whole-levels/out/provenance.json || { echo "no regrids"; exit 1; }
 grep -q '"runs": 2' part-bubble/out/provenance.json
 if "$same" whole-bubble/out/checkpoints/bubble_000026.chk whole-bubble/out/checkpoints/bubble_000039.chk 2>/dev/null; then
     echo "the comparison finds no difference between two steps"
