@@ -275,7 +275,7 @@ static int resume_place(const struct resume *resume, const struct scene *scene, 
 
 static int resume_build(struct resume *resume, const struct scene *scene, struct state **ret_state)
 {
-    struct state_source source = {.n_level = resume->n_level, .fill = resume_fill, .data = resume};
+    struct state_source source = {.fill = resume_fill, .data = resume};
     struct state_counts counts;
     struct tile *tiles = resume->tiles;
     if (!mesh_tile_size(scene)) return STATUS_CASE;
@@ -283,7 +283,9 @@ static int resume_build(struct resume *resume, const struct scene *scene, struct
     TRY(resume_place(resume, scene, mesh_tile_size(scene)));
     TRY(resume_steps(resume, &source));
     TRY(resume_counts(resume, &counts));
-    for (int l = 0; l < resume->n_level; l++) {
+    /* finer levels than the case allows now are left out: the coarser ones hold their averages */
+    source.n_level = resume->n_level <= scene->levels ? resume->n_level : scene->levels + 1;
+    for (int l = 0; l < source.n_level; l++) {
         source.n_tile[l] = resume->n_tile[l];
         source.tiles[l] = tiles;
         tiles += resume->n_tile[l];
