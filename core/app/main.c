@@ -2,9 +2,11 @@
 #include "app/command.h"
 #include "app/launch.h"
 #include "base/comm.h"
+#include "io/h5.h"
 
 int main(int argc, char **argv)
 {
+    h5_begin();
     comm_init(&argc, &argv);
     int code = launch_report(command_main(argc, argv));
     comm_done();

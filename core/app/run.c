@@ -167,7 +167,8 @@ static bool run_may_go_on(const struct run *run, int code)
 static int run_save(struct run *run, int code)
 {
     int bad = run_may_go_on(run, code) ? record_save(run->record, run->state) : STATUS_OK;
-    if (bad) log_error("the last state could not be saved: %s", status_text());
+    if (bad && strcmp(status_text(), run->reason) != 0) /* the same failure once more needs no second line */
+        log_error("the last state could not be saved: %s", status_text());
     if (bad && code != STATUS_RUN) run_because(run, "%s", status_text());
     int worse = record_last(run->record, run->state);
     if (worse) log_error("the last state could not be written: %s", status_text());

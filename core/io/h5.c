@@ -100,6 +100,12 @@ int64_t h5_record_type(struct h5 *file, const char *const *members, unsigned n)
     return type;
 }
 
+void h5_begin(void)
+{
+    H5dont_atexit();
+    H5open();
+}
+
 static struct h5 *h5_handle(const char *path)
 {
     struct h5 *file = mem_new(1, sizeof *file);

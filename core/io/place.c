@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static int place_make(const char *path)
 {
@@ -76,6 +77,8 @@ void place_reject(const char *path)
 {
     if (comm_rank() != 0) return;
     char *draft = place_draft(path);
+    int kept = truncate(draft, 0); /* HDF5 may hold it open after a failure: its space is wanted back now */
+    (void)kept;
     remove(draft);
     mem_free(draft);
 }

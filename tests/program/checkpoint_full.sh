@@ -1,0 +1,69 @@
+# No room for a checkpoint: a full disk, a limit on the size of files, a folder that cannot be made. The run ends on all
+# ranks with exit code 3 and the reason, the older checkpoint is intact, no draft is left, and with room again the run
+# goes on to the bits of an undisturbed one.
+set -eu
+same="$BULLA_BUILD/tests/test-unit-checkpoint"
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
+cat >tube.yaml <<'END'
+bulla: 1
+title: A tube
+domain: {lower: [0], upper: [1], cells: [4096], boundaries: {x-: outflow, x+: reflecting}}
+mesh: {tile: 64}
+materials:
+  air: {eos: {type: ideal-gas, gamma: 1.4}}
+initial:
+  - {everywhere: true, material: air, density: 1, pressure: 1 bar}
+  - {half-space: {point: [0.5], normal: [1]}, material: air, density: 0.125, pressure: 0.1 bar}
+run: {until: 1, max-steps: 40}
+output:
+  checkpoints: {every: 10 steps, keep: 2}
+  history: {columns: {m: {total: mass}}}
+END
+rm -rf whole disk out
+"$BULLA" run tube.yaml -o whole --quiet
+
+failed() { # PATTERN COMMAND...: exit code 3 and the reason
+    pattern=$1
+    shift
+    code=0
+    "$@" >said 2>&1 || code=$?
+    [ "$code" = 3 ] || { echo "exit code $code, not 3: $*"; cat said; exit 1; }
+    grep -q "error: .*$pattern" said || { echo "no '$pattern':"; cat said; exit 1; }
+}
+intact() { # FOLDER: one whole checkpoint, of step 20, no draft
+    [ "$(ls "$1/checkpoints")" = "$(printf 'tube_000010.chk\ntube_000020.chk')" ] || { ls -l "$1/checkpoints"; exit 1; }
+    for file in "$1"/checkpoints/*; do "$BULLA" info "$file" >/dev/null; done
+}
+go_on() { # FOLDER
+    "$BULLA" run tube.yaml -o "$1" --quiet --restart
+    cmp whole/history.csv "$1/history.csv"
+    "$same" whole/checkpoints/tube_000040.chk "$1/checkpoints/tube_000040.chk"
+    rm -rf "$1"
+}
+
+# A limit on the size of files: the next checkpoint (about 100 kB) does not fit. Not through mpirun, which needs files.
+"$BULLA" run tube.yaml -o out --quiet --max-steps 20
+failed 'tube_0000[0-9]*.chk.*File too large' sh -c "ulimit -f 100; exec '$BULLA' run tube.yaml -o out --restart"
+intact out
+go_on out
+
+# The folder is taken by a file.
+mkdir out
+echo mine >out/checkpoints
+failed 'out/checkpoints: cannot make this folder' "$BULLA" run tube.yaml -o out
+[ "$(cat out/checkpoints)" = mine ]
+rm -rf out
+
+# A disk of its own, where it may be mounted: half a checkpoint fits.
+mkdir disk
+mount -t tmpfs -o size=2m none disk 2>/dev/null || { echo "no disk of its own: that part is skipped"; exit 0; }
+trap 'umount disk' EXIT
+for ranks in 1 3; do
+    "$BULLA" run tube.yaml -o disk/out --quiet --max-steps 20 -n $ranks
+    head -c "$(($(df --output=avail -B1 disk | tail -n 1) - 50000))" /dev/zero >disk/other
+    failed 'No space left on device' "$BULLA" run tube.yaml -o disk/out --restart -n $ranks
+    grep -q 'tube_0000[0-9]*.chk.*; .* MB are free in disk/out/checkpoints' said || { cat said; exit 1; }
+    intact disk/out
+    rm disk/other
+    go_on disk/out
+done
