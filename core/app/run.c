@@ -140,6 +140,20 @@ static void run_say_how_to_go_on(const struct run *run, const char *time)
     mem_free(command);
 }
 
+/* After a failure. */
+static void run_say_what_is_left(const struct run *run, const char *time)
+{
+    const char *saved = record_saved(run->record);
+    long step = run->state->step;
+    if (run->state->whole) log_error("the last good state (t = %s, step %ld) is saved as %s", time, step, saved);
+    else if (saved || run->from)
+        log_error("a finer level failed half way through step %ld; the newest checkpoint is %s", step + 1,
+                  saved ? saved : resume_path(run->from));
+    else
+        log_error("a finer level failed half way through step %ld, and output.checkpoints has asked for no checkpoint",
+                  step + 1);
+}
+
 static void run_say_end(const struct run *run, int code)
 {
     char time[HUMAN_ROOM], wall[HUMAN_ROOM], rate[HUMAN_ROOM];
@@ -152,7 +166,7 @@ static void run_say_end(const struct run *run, int code)
                  passed < 60 ? human_si(passed, "s", wall) : human_duration(passed, wall),
                  human_count(passed > 0 ? work / passed : 0, rate), directory);
     else if (code == STATUS_STOPPED) run_say_how_to_go_on(run, time);
-    else log_error("the last good state (t = %s, step %ld) is saved in %s", time, state->step, directory);
+    else run_say_what_is_left(run, time);
 }
 
 /* A run leaves a checkpoint if it could go on: it did not come to the end of its case, or the case asks for them. */
@@ -176,7 +190,6 @@ static int run_save(struct run *run, int code)
     return bad || worse ? STATUS_RUN : STATUS_OK;
 }
 
-/* The loop, and what ends it. */
 /* Criteria of refinement that have not tagged a single cell: a threshold that is never reached looks like a mesh that
  * is good enough. */
 static void run_say_unused(const struct run *run)
@@ -195,6 +208,7 @@ static void run_say_unused(const struct run *run)
     mem_free(hits);
 }
 
+/* The loop, and what ends it. */
 static int run_until_end(struct run *run)
 {
     progress_begin(&run->progress, run->scene->name, run->scene->directory);

@@ -101,6 +101,20 @@ void checkpoint_list(const char *folder, unsigned *ret_n, char ***ret_paths)
     *ret_paths = paths;
 }
 
+/* What each criterion of refinement has tagged, on all ranks. */
+static void checkpoint_note_tagged(const struct state *state, struct notes *notes)
+{
+    unsigned n = state->scene->n_refine;
+    long long *counts = mem_new(n + 1, sizeof *counts);
+    double *tagged = mem_new(n + 1, sizeof *tagged);
+    memcpy(counts, state->tagged, n * sizeof *counts);
+    comm_sum_counts(counts, (int)n);
+    for (unsigned i = 0; i < n; i++) tagged[i] = (double)counts[i];
+    notes_put(notes, "refine.tagged", n, tagged);
+    mem_free(tagged);
+    mem_free(counts);
+}
+
 /* The numbers of a state, as resume.c reads them back. */
 static void checkpoint_note(const struct state *state, struct notes *notes)
 {
@@ -116,6 +130,7 @@ static void checkpoint_note(const struct state *state, struct notes *notes)
     notes_put(notes, "state.level_steps", MESH_LEVELS, steps);
     notes_put(notes, "counts.of_all_ranks", 6, sums);
     notes_put_one(notes, "cells.carried", (double)counts.carried);
+    checkpoint_note_tagged(state, notes);
     notes_put(notes, "counts.of_each_rank", 2, (double[]){(double)counts.retries, (double)counts.regrids});
 }
 

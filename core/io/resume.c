@@ -236,6 +236,16 @@ static int resume_counts(const struct resume *resume, struct state_counts *ret_c
     return STATUS_OK;
 }
 
+/* What criteria have tagged goes on with rank 0, if they are as many as before. */
+static void resume_tagged(const struct resume *resume, struct state *state)
+{
+    unsigned n = state->scene->n_refine;
+    double *tagged = mem_new(n + 1, sizeof *tagged);
+    if (comm_rank() == 0 && notes_get(&resume->notes, "refine.tagged", n, tagged))
+        for (unsigned i = 0; i < n; i++) state->tagged[i] = (long long)tagged[i];
+    mem_free(tagged);
+}
+
 /* Does the scene fit, and are the parts as long as they must be? */
 static int resume_match(struct resume *resume, const struct scene *scene)
 {
@@ -292,6 +302,7 @@ static int resume_build(struct resume *resume, const struct scene *scene, struct
     }
     TRY(state_resume(scene, &source, ret_state));
     (*ret_state)->counts = counts;
+    resume_tagged(resume, *ret_state);
     return STATUS_OK;
 }
 

@@ -104,6 +104,8 @@ static int state_load_level(struct state *state, const struct state_source *sour
         status = source->fill(source->data, l, level->first + t, level->u_old[t], p);
         memcpy(level->w[t] + state->model->i_E * n_cell, p, n_cell * sizeof *p);
         mix_primitives(state->model, n_cell, n_cell, level->u_old[t], level->w[t]);
+        if (!state->model->linear) /* an iteration would go one step further than it did */
+            memcpy(level->w[t] + state->model->i_E * n_cell, p, n_cell * sizeof *p);
     }
     mem_free(p);
     return comm_agree(status);

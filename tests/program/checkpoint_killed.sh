@@ -14,7 +14,7 @@ domain:
   upper: [1 mm, 1 mm]
   cells: [16, 32]
   boundaries: {x-: axis, x+: outflow, y-: reflecting, y+: outflow}
-mesh: {tile: 8}
+mesh: {tile: 8, levels: 1, refine: [{interface: air}]}
 materials:
   water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
   air: {eos: {type: ideal-gas, gamma: 1.4}}

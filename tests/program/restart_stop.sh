@@ -110,3 +110,13 @@ step=$(sed -n 's/.*error: step \([0-9]*\) at t.*/\1/p' said)
 [ -e "torn/checkpoints/torn_$(printf %06d $((step - 1))).chk" ] || { cat said; ls torn/checkpoints; exit 1; }
 "$BULLA" run torn.yaml -o torn --restart --set scheme.guard=normal --max-steps $((step + 20)) >said 2>&1 || { cat said; exit 1; }
 [ "$(tail -n 1 torn/history.csv | cut -d, -f1)" = $((step + 20)) ]
+
+# A finer level that fails half way leaves no state of one time: the newest checkpoint is named, and the run goes on there.
+sed 's/^mesh:.*/mesh: {tile: 16, levels: 1, refine: [{region: {everywhere: true}}]}/' torn.yaml >deep.yaml
+code=0
+"$BULLA" run deep.yaml -o deep --set scheme.guard=strict --set output.checkpoints.every=2steps >said 2>&1 || code=$?
+[ "$code" = 3 ] || { echo "exit code $code, not 3"; cat said; exit 1; }
+left=$(sed -n 's/^error: a finer level failed half way through step .*; the newest checkpoint is //p' said)
+[ "$left" = "$(ls deep/checkpoints/*.chk | tail -n 1)" ] || { cat said; ls deep/checkpoints; exit 1; }
+"$BULLA" run deep.yaml -o deep --restart --quiet --max-steps 20
+[ "$(tail -n 1 deep/history.csv | cut -d, -f1)" = 20 ]
