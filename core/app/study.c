@@ -3,12 +3,15 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "case/scene.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -20,6 +23,41 @@ static char *study_id(const char *path)
     return mem_text_n(name, dot ? (size_t)(dot - name) : strlen(name));
 }
 
+/* mesh.levels of the case as it stands; 0 if it cannot be read, which its runs will report. */
+static int study_levels(const char *path)
+{
+    struct scene *scene = NULL;
+    FILE *nowhere = fopen("/dev/null", "w");
+    if (!nowhere) return 0;
+    int levels = scene_read(path, &(struct scene_options){.messages = nowhere}, &scene) ? 0 : scene->levels;
+    scene_free(scene);
+    fclose(nowhere);
+    return levels;
+}
+
+/* Counts the cells of the matrix as if all were of the finest level, and names levels: "64 x 64 + 2". */
+static void study_refine(struct study *study)
+{
+    static const char key[] = "mesh.levels=";
+    struct matrix *matrix = &study->matrix;
+    int own = study_levels(study->path);
+    unsigned dim = matrix->n_row ? matrix->rows[0].dim : 1;
+    matrix->count = ldexp(matrix->count, own * (int)dim);
+    for (unsigned i = 0; i < matrix->n_row; i++) {
+        struct matrix_row *row = &matrix->rows[i];
+        int levels = own;
+        for (unsigned k = 0; k < matrix->n_set; k++)
+            if (strncmp(row->sets[k], key, strlen(key)) == 0)
+                levels = (int)strtol(row->sets[k] + strlen(key), NULL, 10);
+        if (levels <= 0) continue;
+        char *base = row->cells;
+        row->cells = mem_print("%s + %d", base, levels);
+        row->count = ldexp(row->count, levels * (int)row->dim);
+        study->levels = true;
+        mem_free(base);
+    }
+}
+
 int study_new(const char *path, struct study *ret_study)
 {
     struct study study = {0};
@@ -27,6 +65,7 @@ int study_new(const char *path, struct study *ret_study)
     study.id = study_id(path);
     study.path = mem_text(path);
     study.rows = mem_new(study.matrix.n_row, sizeof *study.rows);
+    study_refine(&study);
     *ret_study = study;
     return STATUS_OK;
 }
@@ -79,15 +118,16 @@ static void study_read(const char *directory, struct study_row *row)
     mem_free(path);
 }
 
-/* CPU time as the run counted it, without start and judgement; `fallback` if it could not write that. */
-static double study_cpu(const char *directory, double fallback)
+/* CPU time as the run counted it, without start and judgement; `fallback` if it could not write that.
+ * Cells are counted in both stages of a step. */
+static void study_cost(const char *directory, double fallback, struct study_row *row)
 {
     char *path = mem_print("%s/provenance.json", directory);
     json_t *root = json_load_file(path, 0, NULL);
-    double cpu = study_number(root, "cpu_s", fallback);
+    row->cpu = study_number(root, "cpu_s", fallback);
+    row->work = study_number(root, "cells_updated", 0) / 2;
     json_decref(root);
     mem_free(path);
-    return cpu;
 }
 
 /* In the child: becomes `bulla run ...`, its terminal output in DIRECTORY.txt. */
@@ -139,7 +179,7 @@ int study_run(struct study *study, unsigned index, const struct study_options *o
         return status_fail(STATUS_RUN, "cannot start a run: %s", strerror(errno));
     }
     row->code = WIFEXITED(state) ? WEXITSTATUS(state) : STATUS_RUN;
-    row->cpu = study_cpu(directory, study_user_time() - before);
+    study_cost(directory, study_user_time() - before, row);
     row->judged = study->matrix.rows[index].count >= study->matrix.count;
     if (row->code <= STATUS_EXPECT) study_read(directory, row);
     mem_free(directory);

@@ -19,14 +19,16 @@ struct study_value {
 struct study_row {
     int code;    /* exit code of the run: 0, 1, or a failure */
     double cpu;  /* CPU time of the run, all ranks [s] */
+    double work; /* cells advanced, summed over steps and levels; 0 if unknown */
     bool judged; /* as fine as the case itself or finer: its bounds hold here */
     unsigned n_value;
     struct study_value *values;
 };
 
 struct study {
-    char *id, *path; /* file name without .yaml; the case file */
-    struct matrix matrix;
+    char *id, *path;        /* file name without .yaml; the case file */
+    struct matrix matrix;   /* its counts are of cells as fine as the finest level, everywhere */
+    bool levels;            /* has a row levels of refinement? */
     struct study_row *rows; /* [matrix.n_row] */
 };
 

@@ -142,12 +142,12 @@ static const struct study_row *verify_columns(const struct study *study)
     return &study->rows[0];
 }
 
-static void verify_head(struct text *out, const struct study_row *columns)
+static void verify_head(struct text *out, const struct study *study, const struct study_row *columns)
 {
-    text_add(out, "| cells | CPU s |");
+    text_add(out, "| cells | CPU s |%s", study->levels ? " cell steps |" : "");
     for (unsigned v = 0; v < columns->n_value; v++)
         text_add(out, " %s |%s", columns->values[v].what, columns->values[v].is_norm ? " order |" : "");
-    text_add(out, "\n| ---: | ---: |");
+    text_add(out, "\n| ---: | ---: |%s", study->levels ? " ---: |" : "");
     for (unsigned v = 0; v < columns->n_value; v++)
         text_add(out, " ---: |%s", columns->values[v].is_norm ? " ---: |" : "");
     text_add(out, "\n");
@@ -159,13 +159,16 @@ static void verify_row(struct text *out, const struct study *study, unsigned ind
     const struct matrix_row *matrix = &study->matrix.rows[index];
     text_add(out, "| %s", matrix->cells);
     for (unsigned k = 0; k < study->matrix.n_set; k++)
-        if (strncmp(matrix->sets[k], "domain.cells=", 13) != 0) text_add(out, ", %s", matrix->sets[k]);
+        if (strncmp(matrix->sets[k], "domain.cells=", 13) != 0 && strncmp(matrix->sets[k], "mesh.levels=", 12) != 0)
+            text_add(out, ", %s", matrix->sets[k]);
     text_add(out, " | %.2f |", row->cpu);
+    if (study->levels) text_add(out, " %.3g |", row->work);
     if (row->code > STATUS_EXPECT) text_add(out, " **run failed (exit code %d)** |", row->code);
     for (unsigned v = 0; v < row->n_value && v < columns->n_value; v++) {
         const struct study_value *value = &row->values[v];
         double order = index > 0 ? study_order(study, index - 1, index, v) : NAN;
-        text_add(out, " %.4g%s |", value->value, row->judged && !value->passed ? " **fails**" : "");
+        int digits = !value->is_norm && fabs(value->value) > 0.01 ? 5 : 4;
+        text_add(out, " %.*g%s |", digits, value->value, row->judged && !value->passed ? " **fails**" : "");
         if (value->is_norm && isfinite(order)) text_add(out, " %.2f |", order);
         else if (value->is_norm) text_add(out, " |");
     }
@@ -180,7 +183,7 @@ static void verify_overall(struct text *out, const struct study *study, const st
     for (unsigned v = 0; v < columns->n_value; v++)
         any = any || (columns->values[v].is_norm && isfinite(study_order(study, 0, last, v)));
     if (last < 2 || !any) return;
-    text_add(out, "| all | |");
+    text_add(out, "| all | |%s", study->levels ? " |" : "");
     for (unsigned v = 0; v < columns->n_value; v++) {
         if (columns->values[v].is_norm) text_add(out, " | %.2f |", study_order(study, 0, last, v));
         else text_add(out, " |");
@@ -204,7 +207,7 @@ static void verify_bounds(struct text *out, const struct study *study, const str
 static void verify_table(struct text *out, const struct study *study)
 {
     const struct study_row *columns = verify_columns(study);
-    verify_head(out, columns);
+    verify_head(out, study, columns);
     for (unsigned i = 0; i < study->matrix.n_row; i++) verify_row(out, study, i, columns);
     verify_overall(out, study, columns);
     verify_bounds(out, study, columns);
