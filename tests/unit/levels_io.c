@@ -1,5 +1,6 @@
 /* levels_io.c - what histories and ledgers say of a mesh of three levels: every place counts once, with its finest
  * cell. Cells under finer ones hold nonsense wherever nobody may look at them. */
+#include "app/norm.h"
 #include "io/h5in.h"
 #include "io/info.h"
 #include "io/ledger.h"
@@ -415,12 +416,52 @@ static void test_gradients(void **state)
     small_stop(&small);
 }
 
+#define LINE                                                                                            \
+    "bulla: 1\ndomain: {lower: [0], upper: [1], cells: [40], boundaries: {x-: outflow, x+: outflow}}\n" \
+    "mesh: {tile: 8}\nmaterials: {air: {eos: {type: ideal-gas, gamma: 1.4}}}\n"                         \
+    "initial: [{everywhere: true, material: air, density: = 1 + x, pressure: 1e5}]\nrun: {until: 1 ms}\n" FIELDS
+
+/* Errors count by the size of cells: a tenth too much in the finest cells, which fill a part of the domain. */
+static void test_norms(void **state)
+{
+    (void)state;
+    struct small small;
+    struct snapshots *snapshots;
+    double part = 0.0, norm;
+    small_start_levels(&small, LINE, 2);
+    assert_int_equal(snapshot_new(small.state, &snapshots), 0);
+    assert_int_equal(snapshot_write(snapshots, small.state, "{}"), 0);
+    levels_add(small.state, left);
+    levels_add(small.state, middle);
+    struct level *finest = &small.state->mesh->levels[2];
+    for (unsigned t = 0; t < finest->n_tile; t++)
+        for (size_t i = 0; i < 8; i++, part += finest->h[0]) finest->w[t][i] += 0.1;
+    assert_true(part > 0.2 && part < 0.5);
+    small_skip(&small, 1e-3);
+    assert_int_equal(snapshot_write(snapshots, small.state, "{}"), 0);
+    snapshot_free(snapshots);
+    char kind[] = "L1", field[] = "density", initial[] = "initial", *out = small_path(&small, "");
+    char *profile = small_path(&small, "profile.csv");
+    FILE *file = fopen(profile, "w");
+    fputs("x,density\n0,1\n1,2\n", file);
+    fclose(file);
+    struct scene_expect expect = {.norm = kind, .field = field, .reference = profile, .scale = 1.0};
+    assert_int_equal(norm_of_field(small.scene, &expect, out, &norm), 0);
+    close_to(norm, 0.1 * part, 1e-9);
+    expect.reference = initial;
+    assert_int_equal(norm_of_field(small.scene, &expect, out, &norm), 0);
+    close_to(norm, 0.1 * part, 1e-9);
+    mem_free(profile);
+    mem_free(out);
+    small_stop(&small);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_measures),    cmocka_unit_test(test_ledger),    cmocka_unit_test(test_surface),
         cmocka_unit_test(test_crossing),    cmocka_unit_test(test_file),      cmocka_unit_test(test_file_line),
-        cmocka_unit_test(test_file_volume), cmocka_unit_test(test_gradients),
+        cmocka_unit_test(test_file_volume), cmocka_unit_test(test_gradients), cmocka_unit_test(test_norms),
     };
     if (registry_init()) return 1;
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -69,6 +69,33 @@ static struct snapshot *snapshot_new(int dim, int beta)
     return snapshot;
 }
 
+/* A coarse tile beside a fine one, and one without leaves: outlines are those of the tiles, whatever their cells. */
+static void tiles_have_their_own_sizes(void **state)
+{
+    (void)state;
+    struct snapshot *snapshot = snapshot_new(2, 0);
+    struct plot_option option = {0};
+    struct plot_view view;
+    struct snapshot_tile tiles[3] = {{.first = 0, .n_cell = 0},
+                                     {.first = 16, .n_cell = 48},
+                                     {.first = 0, .n_cell = 16}};
+    size_t n;
+    mem_free(snapshot->tiles);
+    snapshot->n_tile = 3;
+    snapshot->tiles = mem_new(3, sizeof *snapshot->tiles);
+    memcpy(snapshot->tiles, tiles, sizeof tiles);
+    assert_int_equal(plot_view_make(snapshot, &option, &view), 0);
+    struct raster_cell *boxes = plot_view_tiles(&view, &n);
+    assert_int_equal(n, 2);
+    assert_close(boxes[0].at[1][0], 0.25, 0.0);
+    assert_close(boxes[0].at[1][1], 1.0, 0.0);
+    assert_close(boxes[1].at[1][0], 0.0, 0.0);
+    assert_close(boxes[1].at[1][1], 0.25, 0.0);
+    mem_free(boxes);
+    plot_view_done(&view);
+    read_free(snapshot);
+}
+
 static void a_plane_has_all_cells(void **state)
 {
     (void)state;
@@ -345,6 +372,7 @@ static void bad_options_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tiles_have_their_own_sizes),
         cmocka_unit_test(a_plane_has_all_cells),
         cmocka_unit_test(a_box_is_cut_in_its_middle),
         cmocka_unit_test(a_cut_may_touch_the_ends),
