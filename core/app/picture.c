@@ -210,21 +210,28 @@ static void picture_paint_all_lines(cairo_t *cr, const struct picture_plan *plan
     cairo_stroke(cr);
 }
 
+/* Lines around small tiles are thinner, so that the picture stays visible under many of them. */
+static double picture_tile_width(double width, double height)
+{
+    double size = width < height ? width : height;
+    return size > 12.0 ? 0.4 : size > 3.0 ? size / 30.0 : 0.1;
+}
+
 static void picture_paint_tiles(cairo_t *cr, const struct picture_plan *plan)
 {
     cairo_save(cr);
     cairo_rectangle(cr, plan->box.x, plan->box.y, plan->box.w, plan->box.h);
     cairo_clip(cr);
+    cairo_set_source_rgba(cr, 0.55, 0.55, 0.55, 0.8); /* seen on dark and on light */
     for (size_t i = 0; i < plan->scaled.n_tile; i++) {
         const struct raster_cell *tile = &plan->scaled.tiles[i];
         double x[2], y[2];
         for (int side = 0; side < 2; side++)
             picture_point(plan, (const double[2]){tile->at[0][side], tile->at[1][side]}, &x[side], &y[side]);
         cairo_rectangle(cr, x[0], y[1], x[1] - x[0], y[0] - y[1]);
+        cairo_set_line_width(cr, picture_tile_width(x[1] - x[0], y[0] - y[1]));
+        cairo_stroke(cr);
     }
-    cairo_set_source_rgba(cr, 0.55, 0.55, 0.55, 0.8); /* seen on dark and on light */
-    cairo_set_line_width(cr, 0.4);
-    cairo_stroke(cr);
     cairo_restore(cr);
 }
 
