@@ -9,9 +9,11 @@
 #include "io/facts.h"
 #include "io/seal.h"
 #include "mesh/morton.h"
+#include "mesh/nest.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -67,7 +69,7 @@ static int resume_take_tile(struct resume *resume, size_t i, const int32_t row[C
     if ((!next && !same) || row[0] >= MESH_LEVELS) return resume_damaged(resume, "levels are not in order");
     if (row[4] < 0 || row[4] > UINT8_MAX) return resume_damaged(resume, "a tile has been unwanted too often");
     for (int d = 0; d < 3; d++) {
-        if (row[1 + d] < 0 || row[1 + d] > 0x1fffff) return resume_damaged(resume, "a tile lies outside the domain");
+        if (row[1 + d] < 0 || row[1 + d] > 0x1fffff) return resume_damaged(resume, "a tile outside of any domain");
         tile->at[d] = row[1 + d];
     }
     tile->unwanted = (unsigned char)row[4];
@@ -197,6 +199,8 @@ static int resume_fill(void *data, int level, unsigned tile, double *u, double *
     for (int l = 0; l < level; l++) index += resume->n_tile[l];
     TRY(resume_part(resume, "/u", &part));
     TRY(seal_bytes(resume->file, resume->path, part->offset + index * block, block, u));
+    for (size_t i = 0; i < resume->n_field * resume->n_cell; i++)
+        if (!isfinite(u[i])) return resume_damaged(resume, "a value that is not finite");
     part = seal_find(&resume->seal, "/p");
     return part ? seal_bytes(resume->file, resume->path, part->offset + index * row, row, p) : STATUS_OK;
 }
@@ -207,6 +211,14 @@ static int resume_numbers(const struct resume *resume, const char *name, unsigne
     return status_fail(STATUS_RUN, "%s: impossible checkpoint: no %s", resume->path, name);
 }
 
+/* Are the numbers whole ones that a count may have (a double holds them exactly)? */
+static bool resume_counts_something(unsigned n, const double *values)
+{
+    bool good = true;
+    for (unsigned i = 0; i < n; i++) good = good && values[i] >= 0.0 && values[i] <= 0x1p53;
+    return good;
+}
+
 static int resume_steps(const struct resume *resume, struct state_source *source)
 {
     double step, steps[MESH_LEVELS];
@@ -215,6 +227,10 @@ static int resume_steps(const struct resume *resume, struct state_source *source
     TRY(resume_numbers(resume, "state.dt_shrink", 1, &source->dt_shrink));
     TRY(resume_numbers(resume, "state.step", 1, &step));
     TRY(resume_numbers(resume, "state.level_steps", MESH_LEVELS, steps));
+    bool sound = isfinite(source->t) && source->dt >= 0.0 && isfinite(source->dt) && source->dt_shrink > 0.0 &&
+                 source->dt_shrink <= 1.0 && resume_counts_something(1, &step) &&
+                 resume_counts_something(MESH_LEVELS, steps);
+    if (!sound) return resume_damaged(resume, "a time or a number of steps that no run can have");
     source->step = (long)step;
     for (int l = 0; l < MESH_LEVELS; l++) source->level_steps[l] = (long)steps[l];
     return STATUS_OK;
@@ -227,6 +243,8 @@ static int resume_counts(const struct resume *resume, struct state_counts *ret_c
     TRY(resume_numbers(resume, "counts.of_all_ranks", 6, all));
     TRY(resume_numbers(resume, "cells.carried", 1, &carried));
     TRY(resume_numbers(resume, "counts.of_each_rank", 2, each));
+    if (!resume_counts_something(6, all) || !resume_counts_something(2, each) || !resume_counts_something(1, &carried))
+        return resume_damaged(resume, "counts that are none");
     *ret_counts = (struct state_counts){.retries = (long long)each[0], .regrids = (long long)each[1]};
     if (comm_rank() != 0) return STATUS_OK;
     long long *sums[] = {&ret_counts->cells,   &ret_counts->fallback, &ret_counts->relaxed,
@@ -270,17 +288,30 @@ static int resume_match(struct resume *resume, const struct scene *scene)
     return code;
 }
 
-/* Are all tiles in the domain, and does level 0 cover it? */
-static int resume_place(const struct resume *resume, const struct scene *scene, int tile)
+/* Do the tiles make a mesh of the scene? Asked of a mesh that has nothing but its lists: links and memory of
+ * tiles that do not nest cannot be made. */
+static int resume_nests(const struct resume *resume, const struct scene *scene, int n_level)
 {
-    size_t level_0 = 1, i = 0;
-    for (int l = 0; l < resume->n_level; l++)
-        for (unsigned k = 0; k < resume->n_tile[l]; k++, i++)
-            for (int d = 0; d < 3; d++)
-                if (resume->tiles[i].at[d] >= (d < scene->dim ? scene->cells[d] / tile << l : 1))
-                    return resume_damaged(resume, "a tile lies outside the domain");
-    for (int d = 0; d < scene->dim; d++) level_0 *= (size_t)(scene->cells[d] / tile);
-    return resume->n_tile[0] == level_0 ? STATUS_OK : resume_damaged(resume, "level 0 does not cover the domain");
+    int tile = mesh_tile_size(scene);
+    struct mesh *mesh = mem_new(1, sizeof *mesh);
+    struct tile *tiles = resume->tiles;
+    mesh->dim = scene->dim;
+    mesh->n_level = n_level;
+    for (int l = 0; l < n_level; l++) {
+        struct level *level = &mesh->levels[l];
+        level->n_tile = resume->n_tile[l];
+        level->tiles = tiles;
+        tiles += level->n_tile;
+        for (int d = 0; d < 3; d++) level->extent[d] = d < scene->dim ? scene->cells[d] / tile << l : 1;
+    }
+    for (int d = 0; d < 3; d++) {
+        mesh->n[d] = d < scene->dim ? tile : 1;
+        mesh->periodic[d] = d < scene->dim && scene->boundary[d][0].type == SCENE_PERIODIC;
+    }
+    int code = nest_check(mesh);
+    if (code) status_wrap(code, "%s: impossible checkpoint: ", resume->path);
+    mem_free(mesh);
+    return code;
 }
 
 static int resume_build(struct resume *resume, const struct scene *scene, struct state **ret_state)
@@ -290,11 +321,11 @@ static int resume_build(struct resume *resume, const struct scene *scene, struct
     struct tile *tiles = resume->tiles;
     if (!mesh_tile_size(scene)) return STATUS_CASE;
     TRY(resume_match(resume, scene));
-    TRY(resume_place(resume, scene, mesh_tile_size(scene)));
-    TRY(resume_steps(resume, &source));
-    TRY(resume_counts(resume, &counts));
     /* finer levels than the case allows now are left out: the coarser ones hold their averages */
     source.n_level = resume->n_level <= scene->levels ? resume->n_level : scene->levels + 1;
+    TRY(resume_nests(resume, scene, source.n_level));
+    TRY(resume_steps(resume, &source));
+    TRY(resume_counts(resume, &counts));
     for (int l = 0; l < source.n_level; l++) {
         source.n_tile[l] = resume->n_tile[l];
         source.tiles[l] = tiles;
