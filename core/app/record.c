@@ -45,8 +45,8 @@ static char *record_origin(const char *path)
 /* Takes up everything as it was when the checkpoint was written. */
 static int record_recall(struct record *record, const struct state *state, const struct resume *from)
 {
-    const struct notes *notes = resume_notes(from);
-    char *origin = record_origin(resume_path(from));
+    const struct notes *notes = &from->notes;
+    char *origin = record_origin(from->path);
     due_recall(&record->snapshot_due, "due.snapshots", notes, state->t, state->step);
     due_recall(&record->history_due, "due.history", notes, state->t, state->step);
     due_written(&record->checkpoint_due, state->t, state->step);

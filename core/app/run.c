@@ -19,8 +19,8 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "io/rebuild.h"
 #include "phys/tag.h"
-#include "io/resume.h"
 #include "solve/advance.h"
 
 #include <errno.h>
@@ -148,7 +148,7 @@ static void run_say_what_is_left(const struct run *run, const char *time)
     if (run->state->whole) log_error("the last good state (t = %s, step %ld) is saved as %s", time, step, saved);
     else if (saved || run->from)
         log_error("a finer level failed half way through step %ld; the newest checkpoint is %s", step + 1,
-                  saved ? saved : resume_path(run->from));
+                  saved ? saved : run->from->path);
     else
         log_error("a finer level failed half way through step %ld, and output.checkpoints has asked for no checkpoint",
                   step + 1);
@@ -247,8 +247,7 @@ static int run_files(struct run *run, const struct cli_given *given)
     TRY(code);
     log_file("bulla " BULLA_VERSION ", case %s, %d ranks, %.0f cells", run->scene->path, comm_size(),
              run->progress.cells);
-    if (run->from)
-        log_note("going on from %s: t = %.9g s, step %ld", resume_path(run->from), run->state->t, run->state->step);
+    if (run->from) log_note("going on from %s: t = %.9g s, step %ld", run->from->path, run->state->t, run->state->step);
     const struct resume *past = run->step_0 > 0 ? run->from : NULL; /* the start has none: its outputs begin anew */
     return record_open(run->state, given->argc, given->argv, past, &run->record);
 }
@@ -294,7 +293,7 @@ static int run_find(struct run *run, const struct cli_given *given)
     const char *file = cli_value(given, "--restart"), *directory = run->scene->directory;
     if (!file) return 0;
     TRY(*file ? resume_open(file, &run->from) : resume_newest(directory, &run->from));
-    double in_place = outdir_holds(directory, "checkpoints", resume_path(run->from)) ? 1.0 : 0.0;
+    double in_place = outdir_holds(directory, "checkpoints", run->from->path) ? 1.0 : 0.0;
     comm_max(&in_place, 1);
     run->in_place = in_place > 0.0;
     if (run->in_place && cli_value(given, "--overwrite"))
@@ -308,7 +307,7 @@ static int run_begin(struct run *run, const struct cli_given *given)
 {
     TRY(run_find(run, given));
     if (!run->in_place) TRY(outdir_check(run->scene->directory, cli_value(given, "--overwrite") != NULL));
-    TRY(run->from ? resume_state(run->from, run->scene, &run->state) : state_new(run->scene, &run->state));
+    TRY(run->from ? rebuild_state(run->from, run->scene, &run->state) : state_new(run->scene, &run->state));
     run->step_0 = run->state->step;
     return 0;
 }

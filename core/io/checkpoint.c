@@ -115,7 +115,7 @@ static void checkpoint_note_tagged(const struct state *state, struct notes *note
     mem_free(counts);
 }
 
-/* The numbers of a state, as resume.c reads them back. */
+/* The numbers of a state, as rebuild.c reads them back. */
 static void checkpoint_note(const struct state *state, struct notes *notes)
 {
     struct state_counts counts = state_counts_total(state);
@@ -276,6 +276,7 @@ static int checkpoint_accept(const struct checkpoints *checkpoints, struct seal 
     if (!code && rename(draft, path))
         code = status_fail(STATUS_RUN, "%s: cannot rename to it: %s", path, strerror(errno));
     if (!code) code = seal_sync_folder(checkpoints->folder);
+    if (!code) code = seal_sync_folder(checkpoints->scene->directory); /* in which the folder may be new */
     for (unsigned i = 0, kept = 1; i < n; i++) {
         bool counts = entries[i].number && strcmp(entries[i].path, path) != 0;
         if (!code && counts && kept++ >= (unsigned)checkpoints->keep) unlink(entries[i].path);

@@ -1,10 +1,10 @@
 /* info.c - see info.h. */
 #include "io/info.h"
 
+#include "base/mem.h"
 #include "base/status.h"
 #include "io/read.h"
 #include "io/resume.h"
-#include "io/seal.h"
 
 #include <string.h>
 
@@ -65,10 +65,55 @@ static void info_print_fields(FILE *out, const struct snapshot *snapshot)
     }
 }
 
+/* A line of notes, "?" if it is missing. */
+static void info_print_line(FILE *out, const struct resume *resume, const char *const line[3])
+{
+    char *text = notes_get_text(&resume->notes, line[1]);
+    fprintf(out, "%-11s%s%s\n", line[0], text ? text : "?", line[2]);
+    mem_free(text);
+}
+
+static void info_print_tiles(FILE *out, const struct resume *resume)
+{
+    double tile = 0.0, cells[SCENE_AXES];
+    unsigned dim = 1;
+    notes_get(&resume->notes, "mesh.tile", 1, &tile);
+    while (dim < SCENE_AXES && !notes_get(&resume->notes, "domain.cells", dim, cells)) dim++;
+    double per_tile = tile * (dim > 1 ? tile : 1.0) * (dim > 2 ? tile : 1.0);
+    for (int l = 0; l < resume->n_level; l++)
+        fprintf(out, "level %-5d%u tiles, %.0f cells\n", l, resume->n_tile[l], resume->n_tile[l] * per_tile);
+}
+
+static void info_print_resume(FILE *out, const struct resume *resume)
+{
+    static const char *const lines[][3] = {
+        {"case", "case.name", ""},       {"title", "case.title", ""},
+        {"by", "written.by", ""},        {"at", "written.at", ""},
+        {"ranks", "written.ranks", ""},  {"time", "state.t", " s"},
+        {"step", "state.step", ""},      {"geometry", "domain.geometry", ""},
+        {"lower", "domain.lower", " m"}, {"upper", "domain.upper", " m"},
+        {"cells", "domain.cells", ""},   {"tile", "mesh.tile", ""},
+        {"materials", "materials", ""},  {"fields", "fields", ""},
+    };
+    fprintf(out, "checkpoint %s\n", resume->path);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) info_print_line(out, resume, lines[i]);
+    info_print_tiles(out, resume);
+    fprintf(out, "size       %.3f MB, all checksums hold\n", (double)resume->seal.bytes / 1e6);
+}
+
+static int info_print_checkpoint(FILE *out, const char *path)
+{
+    struct resume *resume;
+    TRY(resume_look(path, &resume));
+    info_print_resume(out, resume);
+    resume_close(resume);
+    return STATUS_OK;
+}
+
 int info_print(FILE *out, const char *path)
 {
     struct snapshot *snapshot;
-    if (seal_is(path)) return resume_info(out, path);
+    if (seal_is(path)) return info_print_checkpoint(out, path);
     TRY(read_snapshot(path, NULL, &snapshot));
     fprintf(out, "snapshot  %s\ncase      %s", path, snapshot->name);
     if (*snapshot->title) fprintf(out, ": %s", snapshot->title);

@@ -1,34 +1,40 @@
-/* resume.h - taking a run up again from a checkpoint (checkpoint.h).
+/* resume.h - a checkpoint (checkpoint.h) being read: verified, with its notes and its lists of tiles.
  *
- * A file is believed only after all its checksums have been compared (seal.h), and then still checked against
- * the scene and against itself: lengths, places of tiles. Every rank reads what it needs at its place in
- * the file; no HDF5 is involved. Refusals are STATUS_CASE with one clear line. Calls are collective. */
+ * A file is believed only after all its checksums have been compared (seal.h). No HDF5 is involved: parts are
+ * read at their places in the file. */
 #ifndef RESUME_H
 #define RESUME_H
 
 #include "io/notes.h"
-#include "solve/state.h"
+#include "io/seal.h"
+#include "mesh/mesh.h"
 
-#include <stdio.h>
+struct resume {
+    char *path;
+    int file; /* open for reading */
+    struct seal seal;
+    struct notes notes; /* what the state and the outputs left for the continued run */
+    int n_level;
+    unsigned n_tile[MESH_LEVELS];
+    size_t n_all;       /* tiles of all levels */
+    struct tile *tiles; /* [n_all] `at`, `key` and `unwanted`; by level, sorted along the curve */
+};
 
-struct resume;
-
-/* Opens and verifies a file. */
+/* Opens and verifies a file for a restart. STATUS_CASE with one line that says what is wrong. Collective. */
 int resume_open(const char *path, struct resume **ret_resume);
 
-/* Opens the newest whole file of <directory>/checkpoints; says in a warning which ones are damaged. */
+/* Opens the newest whole file of <directory>/checkpoints; says in a warning which ones are damaged. Collective. */
 int resume_newest(const char *directory, struct resume **ret_resume);
+
+/* Opens and verifies a file to look at, in this process alone. STATUS_RUN. */
+int resume_look(const char *path, struct resume **ret_resume);
 
 void resume_close(struct resume *resume); /* NULL is fine */
 
-/* The state that was saved, for a scene that has enough in common with it (facts.h). */
-int resume_state(struct resume *resume, const struct scene *scene, struct state **ret_state);
+/* A part of the file; STATUS_RUN if it is not there. */
+int resume_part(const struct resume *resume, const char *name, const struct seal_part **ret_part);
 
-/* What the state and the outputs left for the continued run; belongs to `resume`. */
-const struct notes *resume_notes(const struct resume *resume);
-const char *resume_path(const struct resume *resume);
-
-/* Describes a file for people; verifies it first. Of this process alone. */
-int resume_info(FILE *out, const char *path);
+/* STATUS_RUN: right checksums, but content that no run can have written. */
+int resume_damaged(const struct resume *resume, const char *what);
 
 #endif

@@ -2,7 +2,7 @@
  * kept until a newer one is whole. With two files as arguments: do they hold the same tiles, fields, time and counts? */
 #include "io/checkpoint.h"
 
-#include "io/resume.h"
+#include "io/rebuild.h"
 #include "io/seal.h"
 #include "small.h"
 #include "solve/advance.h"
@@ -56,11 +56,11 @@ static void there_and_back(struct small *small)
     struct checkpoints *checkpoints = checkpoint_new(small->scene);
     char *path = write_step(small, checkpoints);
     assert_int_equal(resume_open(path, &resume), 0);
-    int code = resume_state(resume, small->scene, &again);
+    int code = rebuild_state(resume, small->scene, &again);
     if (code) print_error("%s\n", status_text());
     assert_int_equal(code, 0);
     compare_states(small->state, again);
-    assert_true(notes_get(resume_notes(resume), "mine", 3, mine) && mine[2] == 3.0);
+    assert_true(notes_get(&resume->notes, "mine", 3, mine) && mine[2] == 3.0);
     resume_close(resume);
     state_free(again);
     mem_free(path);
@@ -209,7 +209,7 @@ static void damaged_files_are_passed_over(void **state)
     }
     for (int i = 3; i >= 0; i--) {
         assert_int_equal(resume_newest(out, &resume), 0);
-        assert_non_null(strstr(resume_path(resume), strrchr(paths[i], '/')));
+        assert_non_null(strstr(resume->path, strrchr(paths[i], '/')));
         resume_close(resume);
         damage(paths[i], i % 2 ? 100 : 20000);
     }
@@ -270,7 +270,7 @@ static void other_cases_are_refused(void **state)
         struct scene *scene;
         struct state *again = NULL;
         assert_int_equal(scene_read(file, &options, &scene), 0);
-        assert_int_equal(resume_state(resume, scene, &again), others[i].said ? STATUS_CASE : 0);
+        assert_int_equal(rebuild_state(resume, scene, &again), others[i].said ? STATUS_CASE : 0);
         if (others[i].said && !strstr(status_text(), others[i].said)) print_error("%s\n", status_text());
         if (others[i].said) assert_non_null(strstr(status_text(), others[i].said));
         state_free(again);
@@ -331,7 +331,7 @@ static void forged_files_do_no_harm(void **state)
         forge(copy, seal.bytes, forged, seed % 3 ? "/tiles" : "/notes", seed);
         int code = resume_open(forged, &resume);
         if (!code) {
-            code = resume_state(resume, small.scene, &again);
+            code = rebuild_state(resume, small.scene, &again);
             if (!code) state_free(again);
             resume_close(resume);
         }

@@ -1,0 +1,192 @@
+/* rebuild.c - see rebuild.h. Every rank reads the tiles that it gets at their places in the file. */
+#include "io/rebuild.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "io/facts.h"
+#include "mesh/nest.h"
+
+#include <math.h>
+
+struct rebuild {
+    const struct resume *from;
+    const struct scene *scene;
+    int tile; /* side of a tile */
+    size_t n_cell, n_field;
+    bool iterated; /* the closure of the scene needs pressures */
+};
+
+/* The source's `fill`: a tile's block, at its place in the file. */
+static int rebuild_fill(void *data, int level, unsigned tile, double *u, double *p)
+{
+    const struct rebuild *rebuild = data;
+    const struct resume *resume = rebuild->from;
+    const struct seal_part *part;
+    size_t index = tile, n = rebuild->n_field * rebuild->n_cell;
+    uint64_t block = n * sizeof(double), row = rebuild->n_cell * sizeof(double);
+    for (int l = 0; l < level; l++) index += resume->n_tile[l];
+    TRY(resume_part(resume, "/u", &part));
+    TRY(seal_bytes(resume->file, resume->path, part->offset + index * block, block, u));
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(u[i])) return resume_damaged(resume, "a value that is not finite");
+    if (!rebuild->iterated) return STATUS_OK;
+    TRY(resume_part(resume, "/p", &part));
+    return seal_bytes(resume->file, resume->path, part->offset + index * row, row, p);
+}
+
+static int rebuild_numbers(const struct resume *resume, const char *name, unsigned n, double *ret)
+{
+    if (notes_get(&resume->notes, name, n, ret)) return STATUS_OK;
+    return status_fail(STATUS_RUN, "%s: impossible checkpoint: no %s", resume->path, name);
+}
+
+/* Are the numbers whole ones that a count may have (a double holds them exactly)? */
+static bool rebuild_is_count(unsigned n, const double *values)
+{
+    bool good = true;
+    for (unsigned i = 0; i < n; i++) good = good && values[i] >= 0.0 && values[i] <= 0x1p53;
+    return good;
+}
+
+static int rebuild_steps(const struct resume *resume, struct state_source *source)
+{
+    double step, steps[MESH_LEVELS];
+    TRY(rebuild_numbers(resume, "state.t", 1, &source->t));
+    TRY(rebuild_numbers(resume, "state.dt", 1, &source->dt));
+    TRY(rebuild_numbers(resume, "state.dt_shrink", 1, &source->dt_shrink));
+    TRY(rebuild_numbers(resume, "state.step", 1, &step));
+    TRY(rebuild_numbers(resume, "state.level_steps", MESH_LEVELS, steps));
+    bool sound = isfinite(source->t) && source->dt >= 0.0 && isfinite(source->dt) && source->dt_shrink > 0.0 &&
+                 source->dt_shrink <= 1.0 && rebuild_is_count(1, &step) && rebuild_is_count(MESH_LEVELS, steps);
+    if (!sound) return resume_damaged(resume, "a time or a number of steps that no run can have");
+    source->step = (long)step;
+    for (int l = 0; l < MESH_LEVELS; l++) source->level_steps[l] = (long)steps[l];
+    return STATUS_OK;
+}
+
+/* Counts of all ranks go on with rank 0. */
+static int rebuild_counts(const struct resume *resume, struct state_counts *ret_counts)
+{
+    double all[6], each[2], carried;
+    TRY(rebuild_numbers(resume, "counts.of_all_ranks", 6, all));
+    TRY(rebuild_numbers(resume, "cells.carried", 1, &carried));
+    TRY(rebuild_numbers(resume, "counts.of_each_rank", 2, each));
+    if (!rebuild_is_count(6, all) || !rebuild_is_count(2, each) || !rebuild_is_count(1, &carried))
+        return resume_damaged(resume, "counts that no run can have");
+    *ret_counts = (struct state_counts){.retries = (long long)each[0], .regrids = (long long)each[1]};
+    if (comm_rank() != 0) return STATUS_OK;
+    long long *sums[] = {&ret_counts->cells,   &ret_counts->fallback, &ret_counts->relaxed,
+                         &ret_counts->clipped, &ret_counts->limited,  &ret_counts->spread};
+    for (int i = 0; i < 6; i++) *sums[i] = (long long)all[i];
+    ret_counts->carried = (long long)carried;
+    return STATUS_OK;
+}
+
+/* What criteria have tagged goes on with rank 0, if they are as many as before. */
+static void rebuild_tagged(const struct resume *resume, struct state *state)
+{
+    unsigned n = state->scene->n_refine;
+    double *tagged = mem_new(n + 1, sizeof *tagged);
+    if (comm_rank() == 0 && notes_get(&resume->notes, "refine.tagged", n, tagged))
+        for (unsigned i = 0; i < n; i++) state->tagged[i] = (long long)tagged[i];
+    mem_free(tagged);
+}
+
+/* Has the file as many blocks, and rows of pressures where they are needed, as tiles? */
+static int rebuild_measure(const struct rebuild *rebuild)
+{
+    const struct resume *resume = rebuild->from;
+    const struct seal_part *part;
+    size_t row = rebuild->n_cell * sizeof(double);
+    TRY(resume_part(resume, "/u", &part));
+    if (part->length != resume->n_all * rebuild->n_field * row)
+        return resume_damaged(resume, "/u has not one block per tile");
+    if (!rebuild->iterated) return STATUS_OK;
+    TRY(resume_part(resume, "/p", &part));
+    return part->length == resume->n_all * row ? STATUS_OK : resume_damaged(resume, "/p has not one row per tile");
+}
+
+/* Does the scene fit? Notes what a tile is made of. */
+static int rebuild_match(struct rebuild *rebuild)
+{
+    const struct scene *scene = rebuild->scene;
+    struct model *model = model_new(scene);
+    struct notes now = {0};
+    rebuild->n_field = model->n_field;
+    rebuild->iterated = !model->linear;
+    rebuild->n_cell = 1;
+    for (int d = 0; d < scene->dim; d++) rebuild->n_cell *= (size_t)rebuild->tile;
+    facts_put(scene, model, rebuild->tile, &now);
+    int code = facts_compare(&rebuild->from->notes, &now);
+    if (code) status_wrap(code, "%s: cannot restart: ", rebuild->from->path);
+    text_done(&now.text);
+    model_free(model);
+    return code ? code : rebuild_measure(rebuild);
+}
+
+static int rebuild_affords(const struct rebuild *rebuild, double tiles)
+{
+    double limit = rebuild->scene->memory_limit;
+    double bytes = 3.0 * tiles * (double)(rebuild->n_field * rebuild->n_cell * sizeof(double));
+    if (limit <= 0.0 || bytes <= limit) return STATUS_OK;
+    return status_fail(STATUS_CASE, "%s: cannot restart: its mesh takes %.4g GiB, and --max-memory allows %.4g GiB",
+                       rebuild->from->path, bytes / 0x1p30, limit / 0x1p30);
+}
+
+/* Do the tiles make a mesh of the scene? Asked of a mesh that has nothing but its lists: links and memory of
+ * tiles that do not nest cannot be made. */
+static int rebuild_nests(const struct rebuild *rebuild, int n_level)
+{
+    const struct scene *scene = rebuild->scene;
+    const struct resume *resume = rebuild->from;
+    struct mesh *mesh = mem_new(1, sizeof *mesh);
+    struct tile *tiles = resume->tiles;
+    mesh->dim = scene->dim;
+    mesh->n_level = n_level;
+    for (int d = 0; d < 3; d++) {
+        mesh->n[d] = d < scene->dim ? rebuild->tile : 1;
+        mesh->periodic[d] = d < scene->dim && scene->boundary[d][0].type == SCENE_PERIODIC;
+    }
+    for (int l = 0; l < n_level; l++) {
+        struct level *level = &mesh->levels[l];
+        level->n_tile = resume->n_tile[l];
+        level->tiles = tiles;
+        tiles += level->n_tile;
+        for (int d = 0; d < 3; d++) level->extent[d] = d < scene->dim ? scene->cells[d] / rebuild->tile << l : 1;
+    }
+    int code = nest_check(mesh);
+    if (code) status_wrap(code, "%s: impossible checkpoint: ", resume->path);
+    mem_free(mesh);
+    return code ? code : rebuild_affords(rebuild, (double)(tiles - resume->tiles));
+}
+
+static int rebuild_source(struct rebuild *rebuild, struct state **ret_state)
+{
+    const struct resume *resume = rebuild->from;
+    struct state_source source = {.fill = rebuild_fill, .data = rebuild};
+    struct state_counts counts;
+    struct tile *tiles = resume->tiles;
+    if (!rebuild->tile) return STATUS_CASE;
+    TRY(rebuild_match(rebuild));
+    /* finer levels than the case allows now are left out: the coarser ones hold their averages */
+    source.n_level = resume->n_level <= rebuild->scene->levels ? resume->n_level : rebuild->scene->levels + 1;
+    TRY(rebuild_nests(rebuild, source.n_level));
+    TRY(rebuild_steps(resume, &source));
+    TRY(rebuild_counts(resume, &counts));
+    for (int l = 0; l < source.n_level; l++) {
+        source.n_tile[l] = resume->n_tile[l];
+        source.tiles[l] = tiles;
+        tiles += resume->n_tile[l];
+    }
+    TRY(state_resume(rebuild->scene, &source, ret_state));
+    (*ret_state)->counts = counts;
+    rebuild_tagged(resume, *ret_state);
+    return STATUS_OK;
+}
+
+int rebuild_state(const struct resume *resume, const struct scene *scene, struct state **ret_state)
+{
+    struct rebuild rebuild = {.from = resume, .scene = scene, .tile = mesh_tile_size(scene)};
+    return rebuild_source(&rebuild, ret_state) ? STATUS_CASE : STATUS_OK;
+}
