@@ -5,67 +5,11 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
-#include "case/parse.h"
+#include "case/show.h"
 
 #include <string.h>
 
-enum { MATRIX_PARENTS = 8, MATRIX_ROWS = 10000 };
-
-/* The case and the files it extends, nearest first. */
-struct matrix_files {
-    struct node *roots[MATRIX_PARENTS];
-    unsigned count;
-};
-
-static struct node *matrix_get(const struct matrix_files *files, const char *section, const char *key)
-{
-    for (unsigned i = 0; i < files->count; i++) {
-        struct node *node = tree_get(files->roots[i], section);
-        if (node && key) node = tree_get(node, key);
-        if (node) return node;
-    }
-    return NULL;
-}
-
-static char *matrix_sibling(const char *path, const char *name)
-{
-    const char *slash = strrchr(path, '/');
-    if (*name == '/' || !slash) return mem_text(name);
-    return mem_print("%.*s/%s", (int)(slash - path), path, name);
-}
-
-static int matrix_open(const char *path, struct forest *forest, struct diag *diag, struct matrix_files *files)
-{
-    char *name = mem_text(path);
-    while (name && files->count < MATRIX_PARENTS) {
-        const struct source *source = diag_file(diag, name, PARSE_BYTES, &(struct mark){0});
-        struct node *root = source ? parse_source(forest, diag, source) : NULL;
-        struct node *parent = root ? tree_get(root, "extends") : NULL;
-        if (root) files->roots[files->count++] = root;
-        char *next = parent && parent->kind == TREE_SCALAR ? matrix_sibling(name, parent->text) : NULL;
-        mem_free(name);
-        name = next;
-    }
-    mem_free(name);
-    return diag_errors(diag) ? status_fail(STATUS_CASE, "%s cannot be read", path) : STATUS_OK;
-}
-
-/* A node as flow text: [64, 64]. */
-static void matrix_print(struct text *text, const struct node *node)
-{
-    if (node->kind == TREE_SCALAR) {
-        const char *quote = node->style == TREE_PLAIN ? "" : "\"";
-        text_add(text, "%s%s%s", quote, node->text, quote);
-        return;
-    }
-    text_add(text, node->kind == TREE_LIST ? "[" : "{");
-    for (unsigned i = 0; i < node->count; i++) {
-        if (i) text_add(text, ", ");
-        if (node->kind == TREE_MAP) text_add(text, "%s: ", node->keys[i]->text);
-        matrix_print(text, node->items[i]);
-    }
-    text_add(text, node->kind == TREE_LIST ? "]" : "}");
-}
+enum { MATRIX_ROWS = 10000 };
 
 /* Product of a list of numbers, and "64 x 64"; 0 if it is none. */
 static double matrix_cells(const struct node *node, char **ret_text)
@@ -94,7 +38,7 @@ static void matrix_fill(const struct node *lists, const struct node *own_cells, 
         struct text text = {0};
         index /= list->count;
         text_add(&text, "%s=", lists->keys[k]->text);
-        matrix_print(&text, value);
+        show_value(value, &text);
         row->sets[k] = mem_text(text.at);
         text_done(&text);
         if (strcmp(lists->keys[k]->text, "domain.cells") == 0) cells = value;
@@ -103,10 +47,10 @@ static void matrix_fill(const struct node *lists, const struct node *own_cells, 
     row->dim = cells && cells->count ? cells->count : 1;
 }
 
-static int matrix_build(const struct matrix_files *files, struct matrix *matrix)
+static int matrix_build(const struct node *root, struct matrix *matrix)
 {
-    const struct node *lists = matrix_get(files, "matrix", NULL), *title = matrix_get(files, "title", NULL);
-    const struct node *own_cells = matrix_get(files, "domain", "cells");
+    const struct node *lists = tree_get(root, "matrix"), *title = tree_get(root, "title");
+    const struct node *own_cells = tree_get(tree_get(root, "domain"), "cells");
     unsigned rows = 1;
     if (lists && lists->kind != TREE_MAP) return status_fail(STATUS_CASE, "matrix: a map of lists is needed");
     for (unsigned k = 0; lists && k < lists->count; k++) {
@@ -124,17 +68,17 @@ static int matrix_build(const struct matrix_files *files, struct matrix *matrix)
     return STATUS_OK;
 }
 
-int matrix_read(const char *path, struct matrix *ret_matrix)
+int matrix_read(const char *path, const struct merge_options *options, struct matrix *ret_matrix)
 {
+    static const struct merge_options none;
     struct forest *forest = tree_forest_new();
     struct diag *diag = diag_new();
-    struct matrix_files files = {0};
     struct matrix matrix = {0};
-    int code = matrix_open(path, forest, diag, &files);
+    const struct node *root = merge_case(forest, diag, path, options ? options : &none);
+    int code = root && !diag_errors(diag) ? STATUS_OK : status_fail(STATUS_CASE, "%s cannot be read", path);
     if (code) diag_print(diag, stderr, false);
-    if (!code) code = matrix_build(&files, &matrix);
+    else if (matrix_build(root, &matrix)) code = status_wrap(STATUS_CASE, "%s: ", path);
     if (!code) *ret_matrix = matrix;
-    else status_wrap(code, "%s: ", path);
     diag_free(diag);
     tree_forest_free(forest);
     return code;

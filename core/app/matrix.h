@@ -6,8 +6,10 @@
 #ifndef MATRIX_H
 #define MATRIX_H
 
+#include "case/merge.h"
+
 struct matrix_row {
-    char **sets;  /* [n_set] "domain.cells=[64, 64]" */
+    char **sets;  /* [n_set], then NULL: "domain.cells=[64, 64]" */
     char *cells;  /* "64 x 64", of this row's domain.cells or, without it, of the case's own */
     double count; /* the number of cells; 0 if it cannot be read off */
     unsigned dim; /* axes of domain.cells */
@@ -20,9 +22,9 @@ struct matrix {
     struct matrix_row *rows; /* one row without sets when the case has no matrix */
 };
 
-/* Reads a case file, and those it extends, for these keys alone; mistakes in the rest of the file
- * are found when it runs. STATUS_CASE after printed errors. Release with matrix_done. */
-int matrix_read(const char *path, struct matrix *ret_matrix);
+/* Reads a case file, with those it extends and `options` (NULL: none) laid over it, for these keys alone; mistakes in
+ * the rest of the file are found when it runs. STATUS_CASE after printed errors. Release with matrix_done. */
+int matrix_read(const char *path, const struct merge_options *options, struct matrix *ret_matrix);
 void matrix_done(struct matrix *matrix);
 
 #endif

@@ -1,21 +1,18 @@
 /* study.c - see study.h. */
 #include "app/study.h"
 
+#include "app/study_child.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "case/scene.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <jansson.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 static char *study_id(const char *path)
 {
@@ -61,23 +58,13 @@ static void study_refine(struct study *study)
 int study_new(const char *path, struct study *ret_study)
 {
     struct study study = {0};
-    TRY(matrix_read(path, &study.matrix));
+    TRY(matrix_read(path, NULL, &study.matrix));
     study.id = study_id(path);
     study.path = mem_text(path);
     study.rows = mem_new(study.matrix.n_row, sizeof *study.rows);
     study_refine(&study);
     *ret_study = study;
     return STATUS_OK;
-}
-
-static void study_row_done(struct study_row *row)
-{
-    for (unsigned v = 0; v < row->n_value; v++) {
-        mem_free(row->values[v].what);
-        mem_free(row->values[v].bound);
-    }
-    mem_free(row->values);
-    *row = (struct study_row){0};
 }
 
 void study_done(struct study *study)
@@ -88,73 +75,6 @@ void study_done(struct study *study)
     mem_free(study->path);
     matrix_done(&study->matrix);
     *study = (struct study){0};
-}
-
-static double study_number(const json_t *object, const char *key, double fallback)
-{
-    const json_t *item = json_object_get(object, key);
-    return json_is_number(item) ? json_number_value(item) : fallback;
-}
-
-/* expect.json of a run. A run that failed has none. */
-static void study_read(const char *directory, struct study_row *row)
-{
-    char *path = mem_print("%s/expect.json", directory);
-    json_t *root = json_load_file(path, 0, NULL), *list = json_object_get(root, "expectations");
-    row->n_value = (unsigned)json_array_size(list);
-    row->values = mem_new(row->n_value, sizeof *row->values);
-    for (unsigned v = 0; v < row->n_value; v++) {
-        const json_t *item = json_array_get(list, v);
-        row->values[v] = (struct study_value){
-            .what = mem_text(json_string_value(json_object_get(item, "what"))),
-            .bound = mem_text(json_string_value(json_object_get(item, "bound"))),
-            .value = study_number(item, "value", NAN),
-            .order = study_number(item, "order", 0),
-            .passed = json_is_true(json_object_get(item, "passed")),
-            .is_norm = json_is_string(json_object_get(item, "norm")),
-        };
-    }
-    json_decref(root);
-    mem_free(path);
-}
-
-/* CPU time as the run counted it, without start and judgement; `fallback` if it could not write that.
- * Cells are counted in both stages of a step. */
-static void study_cost(const char *directory, double fallback, struct study_row *row)
-{
-    char *path = mem_print("%s/provenance.json", directory);
-    json_t *root = json_load_file(path, 0, NULL);
-    row->cpu = study_number(root, "cpu_s", fallback);
-    row->work = study_number(root, "cells_updated", 0) / 2;
-    json_decref(root);
-    mem_free(path);
-}
-
-/* In the child: becomes `bulla run ...`, its terminal output in DIRECTORY.txt. */
-static void study_become(const struct study *study, unsigned index, const struct study_options *options,
-                         const char *directory)
-{
-    const struct matrix *matrix = &study->matrix;
-    char **arguments = mem_new(2 * matrix->n_set + 10, sizeof *arguments);
-    unsigned n = 0;
-    char *fixed[] = {"bulla", "run", study->path, "--quiet", "--overwrite", "-o", (char *)(uintptr_t)directory};
-    for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++) arguments[n++] = fixed[i];
-    if (options->ranks) {
-        arguments[n++] = "-n";
-        arguments[n++] = (char *)(uintptr_t)options->ranks;
-    }
-    for (unsigned k = 0; k < matrix->n_set; k++) {
-        arguments[n++] = "--set";
-        arguments[n++] = matrix->rows[index].sets[k];
-    }
-    char *log = mem_print("%s.txt", directory);
-    int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    if (file >= 0) {
-        dup2(file, STDOUT_FILENO);
-        dup2(file, STDERR_FILENO);
-    }
-    execv("/proc/self/exe", arguments);
-    _exit(STATUS_RUN);
 }
 
 static double study_user_time(void)
@@ -168,22 +88,25 @@ int study_run(struct study *study, unsigned index, const struct study_options *o
 {
     struct study_row *row = &study->rows[index];
     char *directory = mem_print("%s/%s/%u", options->directory, study->id, index);
+    char *log = mem_print("%s.txt", directory);
+    struct study_child child = {.path = study->path,
+                                .directory = directory,
+                                .log = log,
+                                .ranks = options->ranks,
+                                .sets = study->matrix.rows[index].sets};
     double before = study_user_time();
     int state = 0;
-    study_row_done(row);
-    pid_t child = fork();
-    if (child == 0) study_become(study, index, options, directory);
-    while (child > 0 && waitpid(child, &state, 0) < 0 && errno == EINTR) continue;
-    if (child < 0) {
-        mem_free(directory);
-        return status_fail(STATUS_RUN, "cannot start a run: %s", strerror(errno));
+    pid_t pid = 0;
+    int code = study_child_start(&child, &pid);
+    while (!code && waitpid(pid, &state, 0) < 0 && errno == EINTR) continue;
+    if (!code) {
+        study_row_read(directory, study_child_code(state), row);
+        if (isnan(row->cpu)) row->cpu = study_user_time() - before;
+        row->judged = study->matrix.rows[index].count >= study->matrix.count;
     }
-    row->code = WIFEXITED(state) ? WEXITSTATUS(state) : STATUS_RUN;
-    study_cost(directory, study_user_time() - before, row);
-    row->judged = study->matrix.rows[index].count >= study->matrix.count;
-    if (row->code <= STATUS_EXPECT) study_read(directory, row);
+    mem_free(log);
     mem_free(directory);
-    return STATUS_OK;
+    return code;
 }
 
 double study_order(const struct study *study, unsigned from, unsigned to, unsigned v)

@@ -5,25 +5,9 @@
 #define STUDY_H
 
 #include "app/matrix.h"
+#include "app/study_row.h"
 
 #include <stdbool.h>
-
-/* One expectation as a run judged it (expect.json). */
-struct study_value {
-    char *what, *bound; /* "L1(density)", "<= 0.5" */
-    double value;       /* NaN if it was not finite */
-    double order;       /* of a norm: least order of convergence wanted, or 0 */
-    bool passed, is_norm;
-};
-
-struct study_row {
-    int code;    /* exit code of the run: 0, 1, or a failure */
-    double cpu;  /* CPU time of the run, all ranks [s] */
-    double work; /* cells advanced, summed over steps and levels; 0 if unknown */
-    bool judged; /* as fine as the case itself or finer: its bounds hold here */
-    unsigned n_value;
-    struct study_value *values;
-};
 
 struct study {
     char *id, *path;        /* file name without .yaml; the case file */

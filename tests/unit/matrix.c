@@ -47,13 +47,13 @@ static void test_rows(void **state)
     write_case(path, "a.yaml",
                "title: A wave\ndomain: {cells: [64, 32]}\n"
                "matrix:\n  domain.cells: [[32, 16], [128, 64]]\n  scheme.limiter: [mc, \"min:mod\"]\n");
-    assert_int_equal(matrix_read(path, &matrix), STATUS_OK);
+    assert_int_equal(matrix_read(path, NULL, &matrix), STATUS_OK);
     assert_string_equal(matrix.title, "A wave");
     assert_true(matrix.count == 64 * 32);
     assert_int_equal(matrix.n_row, 4);
     assert_string_equal(matrix.rows[0].sets[0], "domain.cells=[32, 16]");
     assert_string_equal(matrix.rows[0].sets[1], "scheme.limiter=mc");
-    assert_string_equal(matrix.rows[1].sets[1], "scheme.limiter=\"min:mod\"");
+    assert_string_equal(matrix.rows[1].sets[1], "scheme.limiter=min:mod");
     assert_string_equal(matrix.rows[2].sets[0], "domain.cells=[128, 64]");
     assert_string_equal(matrix.rows[2].cells, "128 x 64");
     assert_true(matrix.rows[3].count == 8192 && matrix.rows[3].dim == 2);
@@ -68,7 +68,7 @@ static void test_no_matrix_and_parents(void **state)
     struct matrix matrix;
     write_case(base, "base.yaml", "title: Base\ndomain: {cells: [100]}\n");
     write_case(child, "child.yaml", "extends: base.yaml\ntitle: Child\n");
-    assert_int_equal(matrix_read(child, &matrix), STATUS_OK);
+    assert_int_equal(matrix_read(child, NULL, &matrix), STATUS_OK);
     assert_string_equal(matrix.title, "Child");
     assert_int_equal(matrix.n_row, 1);
     assert_int_equal(matrix.n_set, 0);
@@ -87,7 +87,7 @@ static void test_refusals(void **state)
         char path[128];
         struct matrix matrix;
         write_case(path, "bad.yaml", bad[i]);
-        assert_int_equal(matrix_read(path, &matrix), STATUS_CASE);
+        assert_int_equal(matrix_read(path, NULL, &matrix), STATUS_CASE);
         assert_non_null(strstr(status_text(), "list"));
         unlink(path);
     }
