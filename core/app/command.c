@@ -10,6 +10,7 @@
 #include "app/plot_option.h"
 #include "app/report.h"
 #include "app/run.h"
+#include "app/sweep.h"
 #include "app/verify.h"
 #include "base/comm.h"
 #include "base/log.h"
@@ -35,6 +36,7 @@ static const struct cli_option
     command_quiet = {"--quiet", NULL, NULL, "Says nothing but warnings and errors."},
     command_json = {"--json", NULL, NULL, "Progress and errors on stdout, one JSON object per line."},
     command_overwrite = {"--overwrite", NULL, NULL, "Replaces the run that is in the output directory."},
+    command_dry = {"--dry-run", NULL, NULL, "Does everything up to the first step, says what it found, writes nothing."},
     command_restart = {"--restart", NULL, "[FILE]",
                        "Goes on from a checkpoint: FILE, or the newest in the output directory."};
 
@@ -50,7 +52,19 @@ static const struct cli_option *const command_run_options[] = {&command_output,
                                                                &command_overwrite,
                                                                &command_restart,
                                                                &command_memory,
+                                                               &command_dry,
                                                                NULL};
+static const struct cli_option command_jobs = {"--jobs", "-j", "JOBS", "Runs at a time (1)."};
+static const struct cli_option command_value = {"--value", NULL, "[NAME=]EXPRESSION",
+                                                "A column of the table, as in 'min(V)/first(V)'; may be repeated."};
+static const struct cli_option command_again = {"--overwrite", NULL, NULL,
+                                                "Replaces runs of another case that are in the way."};
+static const struct cli_option command_list_only = {"--dry-run", NULL, NULL,
+                                                    "Checks and lists the combinations; runs and writes nothing."};
+static const struct cli_option *const command_sweep_options[] = {&command_output,  &command_jobs,  &command_ranks,
+                                                                 &command_set,     &command_variant,
+                                                                 &command_value,   &command_quiet, &command_again,
+                                                                 &command_list_only, NULL};
 static const struct cli_option *const command_case_options[] = {&command_set,   &command_variant, &command_until,
                                                                 &command_steps, &command_output,  NULL};
 static const struct cli_option *const command_check_options[] = {&command_set,    &command_variant,
@@ -68,6 +82,8 @@ static const struct cli_command command_table[] = {
     {"plan", "CASE.yaml", "The stages that will run, in order.", command_case_options, 1, 1, inspect_plan},
     {"show", "CASE.yaml", "The resolved case: parameters, defaults and units applied.", command_case_options, 1, 1,
      inspect_show},
+    {"sweep", "CASE.yaml", "Runs all combinations of the case's matrix; one result table.", command_sweep_options, 1, 1,
+     sweep_command},
     {"modules", "[NAME...]", "The laws there are; of one: parameters, units, ranges, defaults.", NULL, 0, -1,
      inspect_modules},
     {"info", "FILE...", "What is inside a snapshot or a checkpoint.", NULL, 1, -1, inspect_info},
@@ -84,7 +100,7 @@ static const struct cli_command command_table[] = {
 enum { COMMANDS = sizeof command_table / sizeof *command_table };
 
 /* Planned, not there: one clear sentence instead of "unknown". */
-static const char *const command_later[] = {"sweep", "new", "module", NULL};
+static const char *const command_later[] = {"new", "module", NULL};
 static const char *const command_launcher[] = {"setup", "test", NULL};
 
 static const struct cli_command *command_find(const char *name)

@@ -72,11 +72,16 @@ static void expect_close(struct expect_run *run)
     mem_free(run->known);
 }
 
+static int expect_text(struct expect_run *run, const char *text, double *ret_value)
+{
+    struct formula_names names = {run, expect_column, expect_number, run->known};
+    return formula_evaluate(text, &names, ret_value);
+}
+
 static int expect_value(struct expect_run *run, const struct scene_expect *expect, double *ret_value)
 {
     struct trace trace;
-    struct formula_names names = {run, expect_column, expect_number, run->known};
-    if (expect->value) return formula_evaluate(expect->value, &names, ret_value);
+    if (expect->value) return expect_text(run, expect->value, ret_value);
     if (expect_column(run, expect->field, &trace)) return norm_of_trace(expect, &trace, ret_value);
     return norm_of_field(run->scene, expect, run->directory, ret_value);
 }
@@ -196,4 +201,13 @@ int expect_judge(const struct scene *scene, const char *directory, bool quiet)
     int code = STATUS_OK;
     if (scene->n_expect && comm_rank() == 0) code = expect_on_one_rank(scene, directory, quiet);
     return comm_agree(code);
+}
+
+int expect_formula(const struct scene *scene, const char *directory, const char *text, double *ret_value)
+{
+    struct expect_run run = {.scene = scene, .directory = directory};
+    int code = expect_open(&run);
+    if (!code) code = expect_text(&run, text, ret_value);
+    expect_close(&run);
+    return code;
 }

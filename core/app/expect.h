@@ -12,4 +12,7 @@
  * file; STATUS_RUN: files that cannot be read or written. Only rank 0 works; collective. */
 int expect_judge(const struct scene *scene, const char *directory, bool quiet);
 
+/* The value of an expression (formula.h) over the files of a run. Of this process alone. */
+int expect_formula(const struct scene *scene, const char *directory, const char *text, double *ret_value);
+
 #endif

@@ -24,6 +24,7 @@ struct formula_value {
 struct formula {
     const char *text, *at;
     const struct formula_names *names;
+    bool planned; /* there are no rows yet: times are taken as they are */
     int depth;
     void **blocks; /* intermediate columns */
     size_t n_block;
@@ -161,6 +162,7 @@ static void formula_map(struct formula *f, double (*function)(double), struct fo
 static int formula_between(struct formula *f, struct trace *c, double from, double to)
 {
     size_t first = 0, end = c->n;
+    if (f->planned) return STATUS_OK;
     while (first < end && c->t[first] < from) first++;
     while (end > first && c->t[end - 1] > to) end--;
     if (first == end) return formula_fail(f, f->at, "no rows in that time span", NULL);
@@ -216,7 +218,8 @@ static int formula_call(struct formula *f, const char *at, const char *name, str
         return STATUS_OK;
     }
     if (arguments[0].is_column && n == 2 && timed && strcmp(name, "at") == 0) {
-        if (arguments[1].number < column->t[0] || arguments[1].number > column->t[column->n - 1])
+        bool early = arguments[1].number < column->t[0], late = arguments[1].number > column->t[column->n - 1];
+        if (!f->planned && (early || late))
             return formula_fail(f, at, "the run has no such time in", name);
         *ret =
             (struct formula_value){.number = table_interpolate(column->n, column->t, column->v, arguments[1].number)};
@@ -314,17 +317,32 @@ static int formula_sum(struct formula *f, struct formula_value *ret)
     }
 }
 
+static int formula_read(struct formula *f, double *ret_value)
+{
+    struct formula_value value = {0};
+    int code = formula_sum(f, &value);
+    f->at += strspn(f->at, " \t\n");
+    if (!code && *f->at) code = formula_fail(f, f->at, "not understood from here:", f->at);
+    if (!code && value.is_column)
+        code = formula_fail(f, f->text, "the value is a whole column; reduce it with min, max, last, ...", NULL);
+    for (size_t i = 0; i < f->n_block; i++) mem_free(f->blocks[i]);
+    mem_free(f->blocks);
+    *ret_value = value.number;
+    return code;
+}
+
 int formula_evaluate(const char *text, const struct formula_names *names, double *ret_value)
 {
     struct formula f = {.text = text, .at = text, .names = names};
-    struct formula_value value = {0};
-    int code = formula_sum(&f, &value);
-    f.at += strspn(f.at, " \t\n");
-    if (!code && *f.at) code = formula_fail(&f, f.at, "not understood from here:", f.at);
-    if (!code && value.is_column)
-        code = formula_fail(&f, text, "the value is a whole column; reduce it with min, max, last, ...", NULL);
-    for (size_t i = 0; i < f.n_block; i++) mem_free(f.blocks[i]);
-    mem_free(f.blocks);
-    if (!code) *ret_value = value.number;
-    return code;
+    double value;
+    TRY(formula_read(&f, &value));
+    *ret_value = value;
+    return STATUS_OK;
+}
+
+int formula_check(const char *text, const struct formula_names *names)
+{
+    struct formula f = {.text = text, .at = text, .names = names, .planned = true};
+    double value;
+    return formula_read(&f, &value);
 }

@@ -31,4 +31,8 @@ struct formula_names {
  * at which character, with a suggestion for unknown names. */
 int formula_evaluate(const char *text, const struct formula_names *names, double *ret_value);
 
+/* Would it be an expression for a run that is only planned? Columns may have any rows; times in at and between are
+ * not looked at. */
+int formula_check(const char *text, const struct formula_names *names);
+
 #endif

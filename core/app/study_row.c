@@ -66,3 +66,11 @@ void study_row_read(const char *directory, int code, struct study_row *row)
     json_decref(judgement);
     json_decref(origin);
 }
+
+int study_row_exit(const char *directory)
+{
+    json_t *origin = study_row_load(directory, "provenance.json");
+    int code = (int)study_row_number(origin, "exit_code", -1);
+    json_decref(origin);
+    return code;
+}

@@ -29,4 +29,7 @@ struct study_row {
 void study_row_read(const char *directory, int code, struct study_row *row);
 void study_row_done(struct study_row *row);
 
+/* The exit code with which the run in `directory` ended, by its provenance.json; -1: none has ended there. */
+int study_row_exit(const char *directory);
+
 #endif
