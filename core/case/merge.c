@@ -197,15 +197,21 @@ static struct node **merge_walk(struct merge *merge, struct node *root, const ch
 /* Takes a key out: null deletes. */
 static void merge_delete(struct merge *merge, struct node *root, const char *path, const struct mark *mark)
 {
-    const char *last = strrchr(path, '.');
+    const char *name = path, *last = path;
     struct node *parent = root;
-    if (last) {
-        struct node **place =
-            merge_walk(merge, root, tree_print(merge->forest, "%.*s", (int)(last - path), path), mark);
+    for (const char *at = path; *at;) {
+        last = at;
+        if (merge_step(merge, &at, &name)) continue;
+        merge_walk(merge, root, path, mark); /* says what is wrong */
+        return;
+    }
+    if (last > path) {
+        size_t length = (size_t)(last - path) - (last[-1] == '.');
+        struct node **place = merge_walk(merge, root, tree_print(merge->forest, "%.*s", (int)length, path), mark);
         if (!place) return;
         parent = *place;
     }
-    int at = tree_find(parent, last ? last + 1 : path);
+    int at = tree_find(parent, name);
     if (at >= 0) tree_remove(parent, (unsigned)at);
     else diag_error(merge->diag, mark, "there is nothing at '%s' that null could delete", path);
 }
