@@ -36,24 +36,18 @@ static const struct cli_option
     command_quiet = {"--quiet", NULL, NULL, "Says nothing but warnings and errors."},
     command_json = {"--json", NULL, NULL, "Progress and errors on stdout, one JSON object per line."},
     command_overwrite = {"--overwrite", NULL, NULL, "Replaces the run that is in the output directory."},
-    command_dry = {"--dry-run", NULL, NULL, "Does everything up to the first step, says what it found, writes nothing."},
+    command_dry = {"--dry-run", NULL, NULL,
+                   "Does everything up to the first step, says what it found, writes nothing."},
     command_restart = {"--restart", NULL, "[FILE]",
                        "Goes on from a checkpoint: FILE, or the newest in the output directory."};
 
-static const struct cli_option *const command_run_options[] = {&command_output,
-                                                               &command_ranks,
-                                                               &command_set,
-                                                               &command_variant,
-                                                               &command_until,
-                                                               &command_steps,
-                                                               &command_walltime,
-                                                               &command_quiet,
-                                                               &command_json,
-                                                               &command_overwrite,
-                                                               &command_restart,
-                                                               &command_memory,
-                                                               &command_dry,
-                                                               NULL};
+static const struct cli_option *const command_run_options[] = {&command_output,   &command_ranks,
+                                                               &command_set,      &command_variant,
+                                                               &command_until,    &command_steps,
+                                                               &command_walltime, &command_quiet,
+                                                               &command_json,     &command_overwrite,
+                                                               &command_restart,  &command_memory,
+                                                               &command_dry,      NULL};
 static const struct cli_option command_jobs = {"--jobs", "-j", "JOBS", "Runs at a time (1)."};
 static const struct cli_option command_value = {"--value", NULL, "[NAME=]EXPRESSION",
                                                 "A column of the table, as in 'min(V)/first(V)'; may be repeated."};
@@ -61,9 +55,10 @@ static const struct cli_option command_again = {"--overwrite", NULL, NULL,
                                                 "Replaces runs of another case that are in the way."};
 static const struct cli_option command_list_only = {"--dry-run", NULL, NULL,
                                                     "Checks and lists the combinations; runs and writes nothing."};
-static const struct cli_option *const command_sweep_options[] = {&command_output,  &command_jobs,  &command_ranks,
-                                                                 &command_set,     &command_variant,
-                                                                 &command_value,   &command_quiet, &command_again,
+static const struct cli_option *const command_sweep_options[] = {&command_output,    &command_jobs,
+                                                                 &command_ranks,     &command_set,
+                                                                 &command_variant,   &command_value,
+                                                                 &command_quiet,     &command_again,
                                                                  &command_list_only, NULL};
 static const struct cli_option *const command_case_options[] = {&command_set,   &command_variant, &command_until,
                                                                 &command_steps, &command_output,  NULL};

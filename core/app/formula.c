@@ -218,9 +218,8 @@ static int formula_call(struct formula *f, const char *at, const char *name, str
         return STATUS_OK;
     }
     if (arguments[0].is_column && n == 2 && timed && strcmp(name, "at") == 0) {
-        bool early = arguments[1].number < column->t[0], late = arguments[1].number > column->t[column->n - 1];
-        if (!f->planned && (early || late))
-            return formula_fail(f, at, "the run has no such time in", name);
+        bool early = arguments[1].number<column->t[0], late = arguments[1].number> column->t[column->n - 1];
+        if (!f->planned && (early || late)) return formula_fail(f, at, "the run has no such time in", name);
         *ret =
             (struct formula_value){.number = table_interpolate(column->n, column->t, column->v, arguments[1].number)};
         return STATUS_OK;

@@ -15,12 +15,12 @@ struct study_value {
 };
 
 struct study_row {
-    int code;          /* exit code of the run: 0, 1, or a failure */
-    double cpu, wall;  /* time of the run, all ranks; from its start to its end [s]; NaN if it did not say */
-    double cells;      /* cells updated, in both stages of a step; NaN if it did not say */
-    double work;       /* cells advanced, summed over steps and levels; 0 if unknown */
-    bool judged;       /* as fine as the case itself or finer: its bounds hold here */
-    unsigned n_value;  /* 0 for a run that failed */
+    int code;         /* exit code of the run: 0, 1, or a failure */
+    double cpu, wall; /* time of the run, all ranks; from its start to its end [s]; NaN if it did not say */
+    double cells;     /* cells updated, in both stages of a step; NaN if it did not say */
+    double work;      /* cells advanced, summed over steps and levels; 0 if unknown */
+    bool judged;      /* as fine as the case itself or finer: its bounds hold here */
+    unsigned n_value; /* 0 for a run that failed */
     struct study_value *values;
 };
 

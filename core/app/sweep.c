@@ -40,7 +40,8 @@ static int sweep_options(struct sweep *sweep, const struct cli_given *given)
     sweep->jobs = 1;
     sweep->ranks = cli_value(given, "--ranks");
     if (comm_size() > 1)
-        return status_fail(STATUS_CASE, "bulla sweep starts its runs itself: without mpirun, with -n for ranks of each run");
+        return status_fail(STATUS_CASE,
+                           "bulla sweep starts its runs itself: without mpirun, with -n for ranks of each run");
     TRY(cli_count(given, "--jobs", 1, &sweep->jobs));
     TRY(cli_count(given, "--ranks", 1, &ranks));
     log_set_quiet(cli_value(given, "--quiet") != NULL);
@@ -172,7 +173,8 @@ static void sweep_say(const struct sweep *sweep, unsigned index, int code)
                  run->wall < 60 ? human_si(run->wall, "s", wall) : human_duration(run->wall, wall),
                  code ? "; an expectation failed" : "");
     else if (code == STATUS_STOPPED) log_note("%s: interrupted", head);
-    else log_error("%s: failed with exit code %d: %s", head, code, *error ? error : "see terminal.txt in its directory");
+    else
+        log_error("%s: failed with exit code %d: %s", head, code, *error ? error : "see terminal.txt in its directory");
     mem_free(error);
     mem_free(head);
 }
@@ -210,7 +212,8 @@ static int sweep_ended(void *context, unsigned item, int state)
 
 static void sweep_list(const struct sweep *sweep)
 {
-    static const char *const found[] = {"to be run", "finished", "begun, to be run again", "to go on", "to be replaced"};
+    static const char *const found[] = {"to be run", "finished", "begun, to be run again", "to go on",
+                                        "to be replaced"};
     for (unsigned i = 0; i < sweep->plan.matrix.n_row; i++)
         printf("%-24s%s\n", found[sweep->plan.rows[i].found], sweep->plan.rows[i].directory);
 }
@@ -257,8 +260,7 @@ static int sweep_run(struct sweep *sweep)
     struct sweep_pool pool = {jobs, sweep->n_todo, sweep, sweep_start, sweep_ended};
     int code = sweep_pool_run(&pool);
     sweep_print(sweep);
-    if (code == STATUS_STOPPED)
-        return status_fail(code, "interrupted; the same command goes on");
+    if (code == STATUS_STOPPED) return status_fail(code, "interrupted; the same command goes on");
     return code ? code : sweep_judge(sweep);
 }
 

@@ -18,8 +18,7 @@ static int sweep_lock_owner(int file, const char *path)
 {
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET}, holder = lock;
     if (!fcntl(file, F_SETLK, &lock)) return STATUS_OK;
-    if (errno != EACCES && errno != EAGAIN)
-        return status_fail(STATUS_RUN, "cannot lock %s: %s", path, strerror(errno));
+    if (errno != EACCES && errno != EAGAIN) return status_fail(STATUS_RUN, "cannot lock %s: %s", path, strerror(errno));
     long pid = !fcntl(file, F_GETLK, &holder) && holder.l_type != F_UNLCK ? (long)holder.l_pid : 0;
     return status_fail(STATUS_CASE, "another sweep (process %ld) is at work here: it has locked %s", pid, path);
 }

@@ -59,7 +59,8 @@ static char *sweep_name_row(const struct matrix *matrix, unsigned index)
     for (unsigned k = 0; k < matrix->n_set; k++) {
         const char *key = sweep_name_key(matrix, k);
         text_add(&name, "%s", k ? "," : "");
-        for (; *key != '='; key++) text_add(&name, "%c", isalnum((unsigned char)*key) || strchr(".-_", *key) ? *key : '-');
+        for (; *key != '='; key++)
+            text_add(&name, "%c", isalnum((unsigned char)*key) || strchr(".-_", *key) ? *key : '-');
         text_add(&name, "=");
         sweep_name_value(&name, strchr(matrix->rows[index].sets[k], '=') + 1);
     }

@@ -56,10 +56,11 @@ static int sweep_plan_contradiction(const struct sweep_plan *plan)
         for (unsigned k = 0; k < plan->matrix.n_set; k++) {
             const char *set = plan->matrix.rows[0].sets[k];
             if (strcspn(set, "=") != length || strncmp(set, plan->sets[i], length) != 0) continue;
-            return status_fail(STATUS_CASE,
-                               "--set %.*s: the matrix has a list for it; --set 'matrix[%.*s]=[...]' replaces the list, "
-                               "--set 'matrix[%.*s]=null' takes it out",
-                               (int)length, set, (int)length, set, (int)length, set);
+            return status_fail(
+                STATUS_CASE,
+                "--set %.*s: the matrix has a list for it; --set 'matrix[%.*s]=[...]' replaces the list, "
+                "--set 'matrix[%.*s]=null' takes it out",
+                (int)length, set, (int)length, set, (int)length, set);
         }
     }
     return STATUS_OK;
@@ -76,8 +77,9 @@ static int sweep_plan_options(const struct cli_given *given, struct sweep_plan *
     struct merge_options options = {(const char *const *)plan->sets, plan->variant};
     TRY(matrix_read(plan->path, &options, &plan->matrix));
     if (plan->matrix.n_set == 0)
-        return status_fail(STATUS_CASE, "%s has no 'matrix:' to combine; give it one, as in --set "
-                                        "'matrix[scheme.cfl]=[0.2, 0.4]', or use bulla run",
+        return status_fail(STATUS_CASE,
+                           "%s has no 'matrix:' to combine; give it one, as in --set "
+                           "'matrix[scheme.cfl]=[0.2, 0.4]', or use bulla run",
                            plan->path);
     return sweep_plan_contradiction(plan);
 }

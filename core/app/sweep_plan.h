@@ -21,7 +21,7 @@ struct sweep_plan {
     const char *path, *variant; /* of the command line */
     char *directory;
     struct matrix matrix;
-    char **sets; /* of the command line, NULL-terminated */
+    char **sets;                 /* of the command line, NULL-terminated */
     struct sweep_plan_row *rows; /* [matrix.n_row] */
 };
 
