@@ -113,7 +113,9 @@ static int launch_outcome(const char *path, int raw, int signals)
     if (code >= 0 && end == 0) return code;
     if (signals) return STATUS_STOPPED;
     if (end == 127) return status_fail(STATUS_RUN, "mpirun did not start");
-    return status_fail(STATUS_RUN, "a rank ended without finishing the run");
+    return status_fail(STATUS_RUN,
+                       "a rank ended without finishing the run; with --restart the same command goes on from the "
+                       "newest checkpoint, if there is one");
 }
 
 /* Starts mpirun and stays until it ends. */
