@@ -10,10 +10,10 @@
 #include "io/facts.h"
 #include "io/h5out.h"
 #include "io/place.h"
+#include "io/room.h"
 #include "io/seal.h"
 
 #include <dirent.h>
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -273,8 +273,7 @@ static int checkpoint_accept(const struct checkpoints *checkpoints, struct seal 
         if (entries[i].number > seal->number) seal->number = entries[i].number;
     seal->number++;
     int code = seal_close(draft, seal);
-    if (!code && rename(draft, path))
-        code = status_fail(STATUS_RUN, "%s: cannot rename to it: %s", path, strerror(errno));
+    if (!code && rename(draft, path)) code = room_fail(path, "rename to it");
     if (!code) code = seal_sync_folder(checkpoints->folder);
     if (!code) code = seal_sync_folder(checkpoints->scene->directory); /* in which the folder may be new */
     for (unsigned i = 0, kept = 1; i < n; i++) {

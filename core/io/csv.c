@@ -6,8 +6,8 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "io/room.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,11 +21,6 @@ struct csv {
     long bytes;         /* of the header and the whole rows */
     XXH64_state_t *sum; /* of these */
 };
-
-static int csv_fail(const char *path)
-{
-    return status_fail(STATUS_RUN, "%s: cannot write: %s", path, strerror(errno));
-}
 
 /* Length of the part of a file that stays: the header and the whole rows up to `limit`; 0 if the
  * header is another one. */
@@ -49,7 +44,7 @@ static long csv_past(FILE *stream, const char *header, double limit)
 static int csv_add(struct csv *csv, const char *text, size_t length)
 {
     bool good = fwrite(text, 1, length, csv->stream) == length && !fflush(csv->stream);
-    if (!good) return csv_fail(csv->path);
+    if (!good) return room_fail(csv->path, "write");
     csv->bytes += (long)length;
     XXH64_update(csv->sum, text, length);
     return STATUS_OK;
@@ -88,9 +83,9 @@ static int csv_start(struct csv *csv, const char *header, bool resume, double li
     long keep = old ? csv_past(old, header, limit) : 0;
     if (old) fclose(old);
     if (old && !keep) csv_set_aside(csv->path);
-    if (keep && truncate(csv->path, keep)) return csv_fail(csv->path);
+    if (keep && truncate(csv->path, keep)) return room_fail(csv->path, "write");
     csv->stream = fopen(csv->path, keep ? "a" : "w");
-    if (!csv->stream) return csv_fail(csv->path);
+    if (!csv->stream) return room_fail(csv->path, "write");
     csv_replay(csv, csv->path, keep, false);
     if (keep) return STATUS_OK;
     TRY(csv_add(csv, header, strlen(header)));
@@ -141,7 +136,7 @@ int csv_keep(struct csv *csv, const char *name, struct notes *notes)
 {
     double mark[3] = {0};
     int code = STATUS_OK;
-    if (comm_rank() == 0 && fsync(fileno(csv->stream))) code = csv_fail(csv->path);
+    if (comm_rank() == 0 && fsync(fileno(csv->stream))) code = room_fail(csv->path, "write");
     csv_mark(csv, mark);
     notes_put(notes, name, 3, mark);
     return comm_agree(code);
@@ -159,8 +154,8 @@ static bool csv_has(struct csv *csv, const char *path, const double mark[3])
 /* Takes the stream to an empty file, or to one of a length. */
 static int csv_cut(struct csv *csv, long bytes)
 {
-    if (fflush(csv->stream) || ftruncate(fileno(csv->stream), bytes)) return csv_fail(csv->path);
-    return fseek(csv->stream, 0, SEEK_END) ? csv_fail(csv->path) : STATUS_OK;
+    if (fflush(csv->stream) || ftruncate(fileno(csv->stream), bytes)) return room_fail(csv->path, "write");
+    return fseek(csv->stream, 0, SEEK_END) ? room_fail(csv->path, "write") : STATUS_OK;
 }
 
 static int csv_return(struct csv *csv, const double mark[3], const char *origin)
@@ -170,7 +165,7 @@ static int csv_return(struct csv *csv, const double mark[3], const char *origin)
     if (origin && csv_has(csv, origin, mark)) {
         TRY(csv_cut(csv, 0));
         if (csv_replay(csv, origin, (long)mark[0], true) != (long)mark[0] || fflush(csv->stream))
-            return csv_fail(csv->path);
+            return room_fail(csv->path, "write");
         return STATUS_OK;
     }
     log_warn("%s does not hold the rows that the checkpoint knows of; new rows follow those that are there", csv->path);

@@ -9,12 +9,12 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "io/room.h"
 
 #include <errno.h>
 #include <hdf5.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/statvfs.h>
 
 enum { H5_REASON = 512 };
 
@@ -31,34 +31,12 @@ static herr_t h5_collect(unsigned depth, const H5E_error2_t *entry, void *contex
     return 0;
 }
 
-/* The folder of a path, for asking how full its disk is. */
-static void h5_folder(const char *path, char folder[H5_REASON])
-{
-    snprintf(folder, H5_REASON, "%s", path);
-    char *slash = strrchr(folder, '/');
-    if (slash) *(slash == folder ? slash + 1 : slash) = '\0';
-    else snprintf(folder, H5_REASON, ".");
-}
-
-/* ", 12.3 MB free" when space seems to be the reason; else "". */
-static void h5_space(const char *path, const char *reason, char *ret_text, size_t size)
-{
-    char folder[H5_REASON];
-    struct statvfs disk;
-    h5_folder(path, folder);
-    *ret_text = '\0';
-    if (statvfs(folder, &disk)) return;
-    double free_bytes = (double)disk.f_bavail * (double)disk.f_frsize;
-    if (strstr(reason, "No space") || strstr(reason, "quota") || strstr(reason, "NO_SPACE") || free_bytes < 1e6)
-        snprintf(ret_text, size, "; %.3g MB are free in %s", free_bytes / 1e6, folder);
-}
-
 int64_t h5_check(struct h5 *file, int64_t id, const char *what)
 {
     if (id >= 0 || file->code) return id;
-    char reason[H5_REASON] = "unknown reason", space[2 * H5_REASON];
+    char reason[H5_REASON] = "unknown reason", space[ROOM_TEXT];
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, h5_collect, reason);
-    h5_space(file->path, reason, space, sizeof space);
+    room_left(file->path, reason, space);
     file->code = status_fail(STATUS_RUN, "%s: cannot %s%s: %s%s", file->path, *what == '/' ? "access " : "", what,
                              reason, space);
     return id;

@@ -4,6 +4,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "io/room.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -48,10 +49,10 @@ char *place_draft(const char *path)
 static int place_write(const char *path, const char *text)
 {
     FILE *stream = fopen(path, "w");
-    if (!stream) return status_fail(STATUS_RUN, "%s: cannot write: %s", path, strerror(errno));
+    if (!stream) return room_fail(path, "write");
     int bad = fputs(text, stream) < 0;
     bad = fclose(stream) || bad;
-    return bad ? status_fail(STATUS_RUN, "%s: cannot write: %s", path, strerror(errno)) : STATUS_OK;
+    return bad ? room_fail(path, "write") : STATUS_OK;
 }
 
 int place_text(const char *path, const char *text)
@@ -67,7 +68,7 @@ int place_accept(const char *path)
     int code = STATUS_OK;
     if (comm_rank() == 0) {
         char *draft = place_draft(path);
-        if (rename(draft, path)) code = status_fail(STATUS_RUN, "%s: cannot rename to it: %s", path, strerror(errno));
+        if (rename(draft, path)) code = room_fail(path, "rename to it");
         mem_free(draft);
     }
     return comm_agree(code);

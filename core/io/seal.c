@@ -6,6 +6,7 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "io/room.h"
 
 #include <assert.h>
 #include <errno.h>
@@ -56,17 +57,12 @@ const struct seal_part *seal_find(const struct seal *seal, const char *name)
     return NULL;
 }
 
-static int seal_fail(const char *path, const char *what)
-{
-    return status_fail(STATUS_RUN, "%s: cannot %s: %s", path, what, strerror(errno));
-}
-
 int seal_bytes(int file, const char *path, uint64_t offset, uint64_t length, void *out)
 {
     for (uint64_t done = 0; done < length;) {
         ssize_t got = pread(file, (char *)out + done, length - done, (off_t)(offset + done));
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return seal_fail(path, "read");
+        if (got < 0) return room_fail(path, "read");
         if (got == 0) return status_fail(STATUS_RUN, "%s: it ends too early: it was cut", path);
         done += (uint64_t)got;
     }
@@ -120,7 +116,7 @@ static int seal_survey(int file, const char *path, const struct seal *seal, uint
 static int seal_length(int file, const char *path, uint64_t *ret_bytes)
 {
     struct stat info;
-    if (fstat(file, &info)) return seal_fail(path, "look at");
+    if (fstat(file, &info)) return room_fail(path, "look at");
     if (!S_ISREG(info.st_mode)) return status_fail(STATUS_RUN, "%s: not a file", path);
     *ret_bytes = (uint64_t)info.st_size;
     return STATUS_OK;
@@ -143,7 +139,7 @@ static void seal_compose(const struct seal *seal, uint64_t rest, union seal_bloc
 /* Lasting, and out of the cache. */
 static int seal_settle(int file, const char *path)
 {
-    if (fsync(file)) return seal_fail(path, "make it lasting");
+    if (fsync(file)) return room_fail(path, "make it lasting");
     posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
     return STATUS_OK;
 }
@@ -158,7 +154,7 @@ static int seal_put(int file, const char *path, struct seal *seal)
     seal_compose(seal, rest, &block);
     ssize_t put = pwrite(file, &block, sizeof block, 0);
     if (put >= 0 && put < (ssize_t)sizeof block) errno = ENOSPC;
-    if (put < (ssize_t)sizeof block) return seal_fail(path, "write");
+    if (put < (ssize_t)sizeof block) return room_fail(path, "write");
     TRY(seal_settle(file, path));
     TRY(seal_bytes(file, path, 0, sizeof again, &again));
     if (memcmp(&block, &again, sizeof block))
@@ -169,9 +165,9 @@ static int seal_put(int file, const char *path, struct seal *seal)
 int seal_close(const char *path, struct seal *seal)
 {
     int file = open(path, O_RDWR | O_CLOEXEC);
-    if (file < 0) return seal_fail(path, "open");
+    if (file < 0) return room_fail(path, "open");
     int code = seal_put(file, path, seal);
-    if (close(file) && !code) code = seal_fail(path, "finish");
+    if (close(file) && !code) code = room_fail(path, "finish");
     return code;
 }
 
@@ -227,7 +223,7 @@ static int seal_take(int file, const char *path, bool whole, struct seal *ret_se
 static int seal_open(const char *path, bool whole, struct seal *ret_seal)
 {
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) return seal_fail(path, "open");
+    if (file < 0) return room_fail(path, "open");
     int code = seal_take(file, path, whole, ret_seal);
     close(file);
     return code;
@@ -255,8 +251,8 @@ bool seal_is(const char *path)
 int seal_sync_folder(const char *folder)
 {
     int entry = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (entry < 0) return seal_fail(folder, "open");
+    if (entry < 0) return room_fail(folder, "open");
     int bad = fsync(entry);
-    if (close(entry) || bad) return seal_fail(folder, "make its entries lasting");
+    if (close(entry) || bad) return room_fail(folder, "make its entries lasting");
     return STATUS_OK;
 }
