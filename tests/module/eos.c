@@ -1,10 +1,13 @@
-/* eos.c - the contract of kind "eos" on every built-in law and on the plugin of tests/plugin, and the closed-form family against
- * reference points computed with 50 digits (tests/data/eos). */
+/* eos.c - the contract of kind "eos" (core/app/contract_eos.c) on every built-in law and on the plugin of
+ * tests/plugin, far into their continuations, and the closed-form family against reference points
+ * computed with 50 digits (tests/data/eos). */
 #include "support.h"
 
+#include "app/contract_eos.h"
+#include "app/contract_module.h"
 #include "bulla/eos.h"
 
-enum { ROW = 37, LAWS = 32 };
+enum { LAWS = 32 };
 
 /* A law with its parameters, and the densities and pressures to test it at. */
 struct law {
@@ -66,16 +69,6 @@ static struct point at(const struct law *law, double rho, double p)
     law->eos->entropy(self, 1, &rho, &p, &point.s);
     law->eos->p_min(self, 1, &rho, &point.p_min);
     return point;
-}
-
-/* A random state of the law, in tension too where it can be. */
-static void draw(const struct law *law, uint64_t *seed, double *ret_rho, double *ret_p)
-{
-    double rho = exp(support_random(seed, log(law->rho[0]), log(law->rho[1]))), p_min;
-    law->eos->p_min(law->instance.self, 1, &rho, &p_min);
-    double above = exp(support_random(seed, log(1e-3 * fabs(p_min) + 100.0), log(law->p_most)));
-    *ret_rho = rho;
-    *ret_p = fmax(p_min, law->p_least) + above;
 }
 
 struct reference {
@@ -141,59 +134,31 @@ static void test_reference_points(void **state)
     assert_int_equal(count, 150);
 }
 
-/* Derivatives, sound speed and entropy follow from rho e by the identities of thermodynamics:
- * c^2 = ((rho e + p)/rho - de_drho)/de_dp,  T ds = de + p dv. */
-static void test_identities(void **state)
-{
-    (void)state;
-    uint64_t seed = 1;
-    for (size_t i = 0; i < n_law * 60; i++) {
-        const struct law *law = &laws[i % n_law];
-        double rho, p;
-        draw(law, &seed, &rho, &p);
-        struct point here = at(law, rho, p);
-        double dp = 1e-4 * (p - here.p_min), dr = 1e-5 * rho;
-        struct point up = at(law, rho, p + dp), down = at(law, rho, p - dp);
-        struct point dense = at(law, rho + dr, p), thin = at(law, rho - dr, p);
-        double h = (here.rho_e + p) / rho, e = here.rho_e / rho;
-        support_near("de_dp", (up.rho_e - down.rho_e) / (2 * dp), here.de_dp, 1e-6,
-                     here.de_dp + fabs(here.rho_e / p) * 1e-6);
-        double slope = (dense.rho_e - thin.rho_e) / (2 * dr);
-        double size = fabs(here.de_drho) + fabs(e) + here.c2 * here.de_dp;
-        support_near("de_drho", slope, here.de_drho, 1e-6, size);
-        support_near("c2", (h - here.de_drho) / here.de_dp, here.c2, 1e-6, here.c2 + fabs(e) * 1e-9 / here.de_dp);
-        support_near("ds/dp", (up.s - down.s) / (2 * dp) * here.T * rho, here.de_dp, 1e-6, here.de_dp);
-        support_near("ds/drho", (dense.s - thin.s) / (2 * dr) * here.T * rho, here.de_drho - h, 1e-6, size);
-    }
-}
-
-/* Well-posed for every density and every pressure above p_min, the continuation included. */
-static void test_well_posed(void **state)
-{
-    (void)state;
-    for (size_t i = 0; i < n_law; i++)
-        for (double rho = 1e-3; rho < 4600.0; rho *= 1.01)
-            for (double above = 1e-3; above < 1e11; above *= 10.0) {
-                const struct law *law = &laws[i];
-                double p_min = at(law, rho, 0.0).p_min, p = p_min + above;
-                if (p <= p_min * (1.0 - 1e-9)) continue;
-                struct point point = at(law, rho, p);
-                if (!(point.de_dp > 0.0 && point.c2 > 0.0 && point.T > 0.0))
-                    fail_msg("%s %s at rho %g p %g: de_dp %g c2 %g T %g", law->module, law->preset, rho, p, point.de_dp,
-                             point.c2, point.T);
-                assert_true(isfinite(point.rho_e) && isfinite(point.c2) && isfinite(point.T) && isfinite(point.s));
-                assert_true(isfinite(point.de_dp) && isfinite(point.de_drho));
-            }
-}
-
-/* At and below p_min the value says so; nothing traps. */
-static void test_below_p_min(void **state)
+/* In the box of `start`: beyond what the laws state, where nothing is known about them but must hold all the same. */
+static void test_contract(void **state)
 {
     (void)state;
     for (size_t i = 0; i < n_law; i++) {
-        double p_min = at(&laws[i], 900.0, 0.0).p_min;
-        assert_true(at(&laws[i], 900.0, p_min).c2 <= 1e-12 * at(&laws[i], 900.0, 1e5).c2);
-        assert_true(at(&laws[i], 900.0, p_min - 1e8).c2 < 0.0);
+        const struct law *law = &laws[i];
+        struct contract contract = {.module = law->instance.module, .self = law->instance.self, .preset = law->preset};
+        struct contract_eos_box box = {{law->rho[0], law->rho[1]}, law->p_least, law->p_most, {0.0, INFINITY}};
+        contract.strict = true;
+        contract_eos_run_in(&contract, &box);
+        support_holds(&contract);
+        assert_true(contract.n_row == 17 && contract.n_cost == 7);
+    }
+}
+
+/* In the range that each law states, with its defaults and presets, as `bulla module check` does. */
+static void test_contract_as_stated(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < n_law; i++) {
+        if (i && laws[i].instance.module == laws[i - 1].instance.module) continue;
+        struct contract contract = {.module = laws[i].instance.module};
+        assert_int_equal(contract_module_run(&contract, NULL), 0);
+        support_holds(&contract);
+        assert_int_equal(contract.n_row, 19);
     }
 }
 
@@ -211,65 +176,6 @@ static void test_edge_is_smooth(void **state)
             support_near("T", above.T, below.T, 1e-6, below.T);
             support_near("s", above.s, below.s, 1e-6, fabs(below.s) + 3610.0);
             support_near("de_drho", above.de_drho, below.de_drho, 1e-6, fabs(below.de_drho) + below.c2 * below.de_dp);
-        }
-    }
-}
-
-/* density is the inverse of temperature, also beyond the edge. */
-static void test_density_inverts(void **state)
-{
-    (void)state;
-    uint64_t seed = 5;
-    for (size_t i = 0; i < n_law * 100; i++) {
-        const struct law *law = &laws[i % n_law];
-        double rho, p, back;
-        draw(law, &seed, &rho, &p);
-        double T = at(law, rho, p).T;
-        law->eos->density(law->instance.self, 1, &p, &T, &back);
-        support_near("rho(p, T)", back, rho, 1e-9, rho);
-    }
-}
-
-/* The coefficients give exactly the function that state gives. */
-static void test_linear_is_state(void **state)
-{
-    (void)state;
-    uint64_t seed = 2;
-    for (size_t i = 0; i < n_law * 100; i++) {
-        const struct law *law = &laws[i % n_law];
-        double rho, p, a, b;
-        draw(law, &seed, &rho, &p);
-        assert_non_null(law->eos->linear);
-        law->eos->linear(law->instance.self, 1, &rho, &a, &b);
-        struct point point = at(law, rho, p);
-        assert_true(a * p + b == point.rho_e);
-        assert_true(a == point.de_dp);
-    }
-}
-
-/* A value depends on its point alone: not on the place in the row, nor on the length of the row. */
-static void test_rows(void **state)
-{
-    (void)state;
-    uint64_t seed = 3;
-    for (size_t i = 0; i < n_law; i++) {
-        const struct law *law = &laws[i];
-        const void *self = law->instance.self;
-        double rho[ROW], p[ROW], out[8][ROW];
-        for (int j = 0; j < ROW; j++) draw(law, &seed, &rho[j], &p[j]);
-        for (int first = 0; first < 9; first++) {
-            size_t n = (size_t)(ROW - first * 4);
-            law->eos->state(self, n, rho + first, p + first, out[0], out[1]);
-            law->eos->derivatives(self, n, rho + first, p + first, out[2], out[3]);
-            law->eos->temperature(self, n, rho + first, p + first, out[4]);
-            law->eos->entropy(self, n, rho + first, p + first, out[5]);
-            law->eos->linear(self, n, rho + first, out[6], out[7]);
-            for (size_t j = 0; j < n; j++) {
-                struct point point = at(law, rho[j + (size_t)first], p[j + (size_t)first]);
-                double want[6] = {point.rho_e, point.stiffness, point.de_dp, point.de_drho, point.T, point.s};
-                for (int k = 0; k < 6; k++) assert_true(out[k][j] == want[k]);
-                assert_true(out[6][j] == want[2]);
-            }
         }
     }
 }
@@ -315,26 +221,15 @@ static void test_sg3_heats(void **state)
     support_near("temperature rise", at(law, low, 1e10).T - 288.15, 1281.82, 1.0, 0.01);
 }
 
-static void test_ranges(void **state)
-{
-    (void)state;
-    for (size_t i = 0; i < n_law; i++) {
-        struct bulla_eos_range range = {0};
-        laws[i].eos->range(laws[i].instance.self, &range);
-        assert_true(range.rho_min < range.rho_max && range.p_min < range.p_max && range.T_min < range.T_max);
-        assert_true(range.p_min >= at(&laws[i], range.rho_max, 0.0).p_min);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reference_points), cmocka_unit_test(test_identities),
-        cmocka_unit_test(test_well_posed),       cmocka_unit_test(test_below_p_min),
-        cmocka_unit_test(test_edge_is_smooth),   cmocka_unit_test(test_density_inverts),
-        cmocka_unit_test(test_linear_is_state),  cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_presets),          cmocka_unit_test(test_sg3_heats),
-        cmocka_unit_test(test_ranges),
+        cmocka_unit_test(test_reference_points),
+        cmocka_unit_test(test_contract),
+        cmocka_unit_test(test_contract_as_stated),
+        cmocka_unit_test(test_edge_is_smooth),
+        cmocka_unit_test(test_presets),
+        cmocka_unit_test(test_sg3_heats),
     };
     return cmocka_run_group_tests(tests, start, stop);
 }

@@ -1,8 +1,9 @@
-/* support.h - what the contract tests of modules share: opening a module by name and numbers, a
- * repeatable random stream, and comparisons with a scale. */
+/* support.h - what the contract tests of modules share: opening a module by name and numbers,
+ * comparisons with a scale, and judging what a suite has found. */
 #ifndef SUPPORT_H
 #define SUPPORT_H
 
+#include "app/contract.h"
 #include "base/status.h"
 #include "plug/instance.h"
 #include "plug/registry.h"
@@ -42,19 +43,21 @@ static inline struct instance support_open_preset(const struct bulla_module *mod
     return support_open(module, preset->values);
 }
 
-/* Uniform in [low, high): a linear congruential stream, the same on every machine. */
-static inline double support_random(uint64_t *state, double low, double high)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return low + (high - low) * (double)(*state >> 11) * 0x1p-53;
-}
-
 /* |got - want| <= tolerance scale */
 static inline void support_near(const char *what, double got, double want, double tolerance, double scale)
 {
     if (!(fabs(got - want) <= tolerance * scale))
         fail_msg("%s: got %.17g, want %.17g, off by %.3g of %.3g", what, got, want, fabs(got - want) / scale,
                  tolerance);
+}
+
+/* Every check of a suite must hold; else the table. */
+static inline void support_holds(const struct contract *contract)
+{
+    struct text text = {0};
+    if (!contract_failed(contract)) return;
+    contract_table(contract, &text);
+    fail_msg("%s '%s' %s\n%s", contract->module->kind, contract->module->name, contract->preset, text.at);
 }
 
 static inline int support_start(void **state)

@@ -1,0 +1,31 @@
+/* contract_suite.c - see contract_suite.h. */
+#include "app/contract_suite.h"
+
+#include "app/contract_eos.h"
+#include "app/contract_limiter.h"
+#include "app/contract_riemann.h"
+
+#include <stddef.h>
+#include <string.h>
+
+static const struct {
+    const char *kind;
+    void (*run)(struct contract *contract);
+} contract_suite_table[] = {{"eos", contract_eos_run},
+                            {"limiter", contract_limiter_run},
+                            {"riemann", contract_riemann_run}};
+
+enum { SUITE_KINDS = sizeof contract_suite_table / sizeof *contract_suite_table };
+
+void contract_suite_run(struct contract *contract)
+{
+    for (int i = 0; i < SUITE_KINDS; i++)
+        if (!strcmp(contract_suite_table[i].kind, contract->module->kind)) contract_suite_table[i].run(contract);
+}
+
+const char *const *contract_suite_kinds(void)
+{
+    static const char *names[SUITE_KINDS + 1];
+    for (int i = 0; i < SUITE_KINDS; i++) names[i] = contract_suite_table[i].kind;
+    return names;
+}

@@ -1,0 +1,13 @@
+/* contract_suite.h - which kinds there are and the suite of each: a new kind is one row of its table. */
+#ifndef CONTRACT_SUITE_H
+#define CONTRACT_SUITE_H
+
+#include "app/contract.h"
+
+/* Runs the suite of contract->module's kind on contract->self. */
+void contract_suite_run(struct contract *contract);
+
+/* All kinds, NULL-terminated. */
+const char *const *contract_suite_kinds(void);
+
+#endif
