@@ -2,7 +2,7 @@
 set -eu
 command -v ctags >/dev/null || { echo "skipped: no ctags"; exit 77; }
 cd "$BULLA_SOURCE"
-{ find core -name '*.[ch]'; find modules -name '*.c'; } | sort >"$OLDPWD/files"
+{ find core -name '*.[ch]' ! -name '*_test.c'; find modules -name '*.c'; } | sort >"$OLDPWD/files"
 [ -s "$OLDPWD/files" ]
 ctags -f - --languages=C --langmap=C:.c.h --kinds-C=fv --fields=+fk-t --sort=no -L "$OLDPWD/files" | awk -F '\t' '
     {

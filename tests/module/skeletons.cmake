@@ -1,0 +1,15 @@
+# What `bulla new module` begins with: each skeleton as it stands, under the project's own warnings, with its own test.
+file(GLOB skeletons CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/core/include/bulla/skeleton/*/the_name.c)
+foreach(source ${skeletons})
+  get_filename_component(folder ${source} DIRECTORY)
+  get_filename_component(kind ${folder} NAME)
+  add_library(skeleton-${kind} MODULE ${source})
+  set_target_properties(skeleton-${kind} PROPERTIES PREFIX "" OUTPUT_NAME ${kind}-the-name
+                        LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests/skeleton)
+  add_executable(test-skeleton-${kind} ${folder}/the_name_test.c ${source})
+  set_target_properties(test-skeleton-${kind} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  foreach(target skeleton-${kind} test-skeleton-${kind})
+    target_link_libraries(${target} PRIVATE bulla_flags m)
+  endforeach()
+  add_test(NAME module-skeleton-${kind} COMMAND test-skeleton-${kind})
+endforeach()
