@@ -3,9 +3,13 @@
  * One process is one thread of control (MPI ranks, no threads), so a static buffer serves. */
 #include "base/status.h"
 
+#include "base/text.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+enum { STATUS_LINE = 2000 }; /* longest message: one line, whatever names and values are in it */
 
 static char status_buffer[4096];
 
@@ -16,6 +20,7 @@ int status_fail(int code, const char *format, ...)
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    text_line(text, STATUS_LINE);
     memcpy(status_buffer, text, sizeof text);
     return code;
 }
@@ -30,6 +35,7 @@ int status_wrap(int code, const char *format, ...)
     size_t length = strlen(head);
     memcpy(text, head, length);
     snprintf(text + length, sizeof text - length, "%s", status_buffer);
+    text_line(text, STATUS_LINE);
     memcpy(status_buffer, text, sizeof text);
     return code;
 }

@@ -135,3 +135,31 @@ bool text_is_identifier(const char *word)
         if (!isalnum((unsigned char)*word) && *word != '_') return false;
     return true;
 }
+
+/* Bytes of the UTF-8 character at `from`; 0 if there is none (Unicode 15, table 3-7). */
+static size_t text_character(const unsigned char *from)
+{
+    if (*from < 0x80) return 1;
+    size_t length = *from >= 0xc2 && *from < 0xe0 ? 2 : (*from & 0xf0) == 0xe0 ? 3 : (*from & 0xf8) == 0xf0 ? 4 : 0;
+    for (size_t i = 1; i < length; i++)
+        if ((from[i] & 0xc0) != 0x80) return 0;
+    bool narrow = (*from == 0xe0 && from[1] < 0xa0) || (*from == 0xf0 && from[1] < 0x90);
+    bool beyond = (*from == 0xed && from[1] > 0x9f) || (*from == 0xf4 && from[1] > 0x8f) || *from > 0xf4;
+    return narrow || beyond ? 0 : length;
+}
+
+void text_line(char *text, size_t most)
+{
+    size_t length = strlen(text), end = 0;
+    for (size_t at = 0, step; at < length; at += step) {
+        unsigned char *byte = (unsigned char *)text + at;
+        step = text_character(byte);
+        bool odd = !step || *byte < 0x20 || *byte == 0x7f || (*byte == 0xc2 && byte[1] < 0xa0);
+        if (odd) {
+            memset(byte, '?', step ? step : 1);
+            step = step ? step : 1;
+        }
+        if (at + step <= most - 3) end = at + step;
+    }
+    if (length > most) memcpy(text + end, "...", 4);
+}

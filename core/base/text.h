@@ -32,4 +32,8 @@ const char *text_nearest(const char *word, const char *const *names);
 /* Is it an identifier: [A-Za-z_][A-Za-z0-9_]* ? */
 bool text_is_identifier(const char *word);
 
+/* Makes one line of a text that people and terminals can read, in place: control bytes and what is not UTF-8 become
+ * '?', and what is longer than `most` (> 3) bytes ends in "...". */
+void text_line(char *text, size_t most);
+
 #endif

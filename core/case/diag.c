@@ -3,6 +3,7 @@
  * the report follow the file, whatever the order in which the sections were checked. */
 #include "case/diag.h"
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "base/text.h"
 
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DIAG_MOST = 100, DIAG_WINDOW = 110 };
+enum { DIAG_MOST = 100, DIAG_WINDOW = 110, DIAG_LINE = 1000 }; /* entries printed; characters of a source line, bytes of a message */
 
 struct diag_entry {
     bool error;
@@ -40,6 +41,7 @@ void diag_free(struct diag *diag)
     if (!diag) return;
     for (unsigned i = 0; i < diag->n_source; i++) {
         mem_free(diag->sources[i]->name);
+        mem_free(diag->sources[i]->label);
         mem_free(diag->sources[i]->text);
         mem_free(diag->sources[i]);
     }
@@ -67,6 +69,8 @@ static struct source *diag_source(struct diag *diag, const char *name, bool is_f
     struct source *source = mem_new(1, sizeof *source);
     diag->sources[diag->n_source++] = source;
     source->name = mem_text(name);
+    source->label = mem_text(name);
+    text_line(source->label, DIAG_LINE);
     source->is_file = is_file;
     return source;
 }
@@ -90,9 +94,10 @@ static void diag_slurp(FILE *stream, size_t most, struct text *text)
 
 const struct source *diag_file(struct diag *diag, const char *path, size_t most, const struct mark *from)
 {
-    FILE *stream = fopen(path, "rb");
+    const char *why;
+    FILE *stream = file_open(path, &why);
     if (!stream) {
-        diag_error(diag, from, "cannot read '%s': %s", path, strerror(errno));
+        diag_error(diag, from, "cannot read '%s': %s", path, why);
         return NULL;
     }
     struct text text = {0};
@@ -130,7 +135,8 @@ static void diag_add(struct diag *diag, bool error, const struct mark *mark, con
     char *message = mem_new((size_t)length + 1, 1);
     vsnprintf(message, (size_t)length + 1, format, again);
     va_end(again);
-    text_add_n(&entry->message, message, (size_t)length);
+    text_line(message, DIAG_LINE);
+    text_add_n(&entry->message, message, strlen(message));
     mem_free(message);
     diag->n_error += error;
     diag->dropped = false;
@@ -163,6 +169,7 @@ void diag_help(struct diag *diag, const char *format, ...)
     va_start(args, format);
     vsnprintf(line, sizeof line, format, args);
     va_end(args);
+    text_line(line, DIAG_LINE);
     text_add(&diag->entries[diag->n_entry - 1].help, "%s\n", line);
 }
 
@@ -215,11 +222,13 @@ static size_t diag_bytes(const char *line, size_t length, int characters)
 /* One line of the source, with odd bytes made visible, at most DIAG_WINDOW characters. */
 static void diag_clean(FILE *to, const char *line, size_t length)
 {
+    char shown[4 * DIAG_WINDOW + 1];
     size_t end = diag_bytes(line, length, DIAG_WINDOW);
-    for (size_t i = 0; i < end; i++) {
-        unsigned char byte = (unsigned char)line[i];
-        fputc(byte == '\t' ? ' ' : byte < 32 || byte == 127 ? '?' : byte, to);
-    }
+    if (end > sizeof shown - 1) end = sizeof shown - 1;
+    for (size_t i = 0; i < end; i++) shown[i] = line[i] == '\t' ? ' ' : line[i] ? line[i] : '?';
+    shown[end] = '\0';
+    text_line(shown, sizeof shown);
+    fputs(shown, to);
 }
 
 static const char *diag_line(const struct source *source, int number, size_t *ret_length)
@@ -260,8 +269,8 @@ static void diag_print_entry(const struct diag_entry *entry, FILE *to)
     const struct mark *mark = &entry->mark;
     const char *kind = entry->error ? "error" : "warning";
     if (!mark->source) fprintf(to, "%s: %s\n", kind, entry->message.at);
-    else if (!mark->source->is_file) fprintf(to, "%s: %s: %s\n", mark->source->name, kind, entry->message.at);
-    else fprintf(to, "%s:%d:%d: %s: %s\n", mark->source->name, mark->line, mark->column, kind, entry->message.at);
+    else if (!mark->source->is_file) fprintf(to, "%s: %s: %s\n", mark->source->label, kind, entry->message.at);
+    else fprintf(to, "%s:%d:%d: %s: %s\n", mark->source->label, mark->line, mark->column, kind, entry->message.at);
     if (mark->source && mark->source->is_file) diag_excerpt(to, mark);
     const char *help = entry->help.at ? entry->help.at : "";
     while (*help) {
@@ -277,7 +286,7 @@ static void diag_print_json(const struct diag_entry *entry, FILE *to)
     json_t *object = json_object();
     json_object_set_new(object, "severity", json_string(entry->error ? "error" : "warning"));
     if (entry->mark.source) {
-        json_object_set_new(object, "file", json_string(entry->mark.source->name));
+        json_object_set_new(object, "file", json_string(entry->mark.source->label));
         json_object_set_new(object, "line", json_integer(entry->mark.line));
         json_object_set_new(object, "column", json_integer(entry->mark.column));
     }

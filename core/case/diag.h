@@ -9,9 +9,9 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* A text that was read. `name` is what messages call it. */
+/* A text that was read: `name` is its path; messages show it as `label`, one readable line. */
 struct source {
-    char *name;
+    char *name, *label;
     char *text; /* terminated; `length` bytes without the terminator */
     size_t length;
     bool is_file; /* else a piece of the command line: messages give no line number */

@@ -1,9 +1,10 @@
 /* scene_expect.c - what a case says its result must satisfy. */
 #include "case/scene_draft.h"
 
+#include "base/file.h"
 #include "base/mem.h"
 
-#include <errno.h>
+#include <stdio.h>
 #include <string.h>
 
 static const struct key scene_expect_rows[] = {
@@ -124,9 +125,9 @@ static void scene_expect_reference(struct draft *draft, struct scene_expect *exp
 {
     bool word = scene_expect_word(reference->text);
     expect->reference = mem_text(word ? reference->text : scene_file(draft, reference));
-    FILE *file = word ? NULL : fopen(expect->reference, "r");
-    if (!word && !file)
-        keys_error(&draft->keys, reference, "'%s' cannot be read: %s", expect->reference, strerror(errno));
+    const char *why = "";
+    FILE *file = word ? NULL : file_open(expect->reference, &why);
+    if (!word && !file) keys_error(&draft->keys, reference, "'%s' cannot be read: %s", expect->reference, why);
     if (file) fclose(file);
 }
 

@@ -2,6 +2,7 @@
  * into columns at the end. */
 #include "case/series.h"
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
@@ -13,6 +14,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { SERIES_LINE = 1 << 16 }; /* longest line */
 
 struct series_reader {
     struct series *series;
@@ -154,16 +157,27 @@ static void series_turn(struct series_reader *reader)
     }
 }
 
+/* The next line and its length; 0 at the end, SERIES_LINE if there was no room for all of it. */
+static size_t series_next(FILE *file, char line[static SERIES_LINE + 1])
+{
+    size_t length = 0;
+    for (int byte = 0; byte != '\n' && length < SERIES_LINE && (byte = getc_unlocked(file)) != EOF;)
+        line[length++] = (char)byte;
+    line[length] = '\0';
+    return length;
+}
+
 static int series_read_file(struct series_reader *reader, FILE *file)
 {
-    char *line = NULL;
-    size_t capacity = 0;
+    char *line = mem_new(SERIES_LINE + 1, 1);
     int code = STATUS_OK;
-    ssize_t length;
-    while (!code && (length = getline(&line, &capacity, file)) >= 0) {
+    for (size_t length; !code && (length = series_next(file, line)) > 0;) {
         reader->line++;
-        if (strlen(line) != (size_t)length)
+        if (memchr(line, 0, length))
             code = status_fail(STATUS_CASE, "%s:%u: not a text file", reader->series->path, reader->line);
+        else if (length == SERIES_LINE)
+            code = status_fail(STATUS_CASE, "%s:%u: the line is longer than %d bytes", reader->series->path,
+                               reader->line, SERIES_LINE - 1);
         else code = series_line(reader, line);
     }
     if (!code && ferror(file)) code = status_fail(STATUS_CASE, "%s: %s", reader->series->path, strerror(errno));
@@ -175,8 +189,9 @@ static int series_read_file(struct series_reader *reader, FILE *file)
 
 int series_read(const char *path, struct series *ret_series)
 {
-    FILE *file = fopen(path, "r");
-    if (!file) return status_fail(STATUS_CASE, "%s: %s", path, strerror(errno));
+    const char *why;
+    FILE *file = file_open(path, &why);
+    if (!file) return status_fail(STATUS_CASE, "%s: %s", path, why);
     struct series series = {.path = mem_text(path)};
     struct series_reader reader = {.series = &series};
     int code = series_read_file(&reader, file);

@@ -7,11 +7,11 @@
 #include "io/h5.h"
 
 #include "base/comm.h"
+#include "base/file.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/room.h"
 
-#include <errno.h>
 #include <hdf5.h>
 #include <stdio.h>
 #include <string.h>
@@ -135,8 +135,9 @@ int h5_create_behind(const char *path, size_t head, struct h5 **ret_file)
 
 int h5_open(const char *path, struct h5 **ret_file)
 {
-    FILE *probe = fopen(path, "rb"); /* the system's reason is clearer than HDF5's */
-    if (!probe) return status_fail(STATUS_RUN, "%s: cannot open it: %s", path, strerror(errno));
+    const char *why;
+    FILE *probe = file_open(path, &why); /* the system's reason is clearer than HDF5's */
+    if (!probe) return status_fail(STATUS_RUN, "%s: cannot open it: %s", path, why);
     fclose(probe);
     struct h5 *file = h5_handle(path);
     if (H5Fis_hdf5(path) <= 0) {

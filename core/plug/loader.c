@@ -20,6 +20,8 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+enum { LOADER_BYTES = 256 << 20 }; /* largest file that is looked at */
+
 #ifdef __SSE2__
 #include <xmmintrin.h>
 enum { LOADER_FLAGS = 0x3f }; /* exceptions seen so far: no part of the mode */
@@ -52,6 +54,8 @@ static int loader_read(int file, const char *path, char **ret_bytes, size_t *ret
     struct stat about;
     if (fstat(file, &about) != 0) return status_fail(STATUS_CASE, "%s cannot be read: %s", path, strerror(errno));
     if (!S_ISREG(about.st_mode)) return status_fail(STATUS_CASE, "%s is not a file", path);
+    if (about.st_size > LOADER_BYTES)
+        return status_fail(STATUS_CASE, "%s is larger than %d bytes: no module", path, LOADER_BYTES);
     size_t size = (size_t)about.st_size, done = 0;
     char *bytes = mem_new(size, 1);
     while (done < size) {
@@ -68,7 +72,7 @@ static int loader_read(int file, const char *path, char **ret_bytes, size_t *ret
 /* Hash, and a first look before the system's loader sees the file. */
 static int loader_inspect(const char *path, uint64_t *ret_hash)
 {
-    int file = open(path, O_RDONLY | O_CLOEXEC);
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) return status_fail(STATUS_CASE, "%s cannot be read: %s", path, strerror(errno));
     char *bytes = NULL;
     size_t size = 0;

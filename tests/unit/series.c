@@ -1,6 +1,7 @@
 /* Reading CSV files of numbers: forms that are accepted, and one message per flaw. */
 #include "case/series.h"
 
+#include "base/mem.h"
 #include "base/status.h"
 
 #include <math.h>
@@ -119,6 +120,15 @@ static void refuses(void **state)
     struct series series;
     assert_int_equal(read_text("1,2\n3\0,4\n", 9, &series), STATUS_CASE);
     assert_non_null(strstr(status_text(), ":2: not a text file"));
+    assert_int_equal(read_text("1,2\n3\0,4", 8, &series), STATUS_CASE);
+    assert_non_null(strstr(status_text(), ":2: not a text file"));
+    char *endless = mem_new(70000, 1);
+    memset(endless, '1', 69999);
+    assert_int_equal(read_text(endless, 69999, &series), STATUS_CASE);
+    assert_non_null(strstr(status_text(), ":1: the line is longer than 65535 bytes"));
+    mem_free(endless);
+    assert_int_equal(series_read("/dev/zero", &series), STATUS_CASE);
+    assert_non_null(strstr(status_text(), "/dev/zero: it is a pipe or a device"));
     assert_int_equal(series_read("/nowhere/p.csv", &series), STATUS_CASE);
     assert_non_null(strstr(status_text(), "/nowhere/p.csv: No such file"));
     assert_int_equal(series_read("/tmp", &series), STATUS_CASE);
