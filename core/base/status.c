@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { STATUS_LINE = 2000 }; /* longest message: one line, whatever names and values are in it */
+enum { STATUS_LINE = 4000 }; /* longest message: one line, whatever names and values are in it */
 
 static char status_buffer[4096];
 

@@ -13,7 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DIAG_MOST = 100, DIAG_WINDOW = 110, DIAG_LINE = 1000 }; /* entries printed; characters of a source line, bytes of a message */
+enum {
+    DIAG_MOST = 100,
+    DIAG_WINDOW = 110,
+    DIAG_LINE = 1000
+}; /* entries printed; characters of a source line, bytes of a message */
 
 struct diag_entry {
     bool error;
@@ -70,7 +74,7 @@ static struct source *diag_source(struct diag *diag, const char *name, bool is_f
     diag->sources[diag->n_source++] = source;
     source->name = mem_text(name);
     source->label = mem_text(name);
-    text_line(source->label, DIAG_LINE);
+    text_line(source->label, is_file ? DIAG_LINE : DIAG_WINDOW);
     source->is_file = is_file;
     return source;
 }

@@ -132,9 +132,9 @@ static bool scalar_in_range(struct keys *keys, const struct keys_value *value, d
     bool bounded = key->min != 0 || key->max != 0;
     if (isfinite(number) && (!bounded || (number >= key->min && number <= key->max))) return true;
     const char *given = scalar_number(keys->forest, number);
-    if (key->min == key->max)
+    if (!isfinite(number)) keys_error(keys, value, "the number is too large");
+    else if (key->min == key->max)
         keys_error(keys, value, "%s is not possible, only %s", given, scalar_number(keys->forest, key->min));
-    else if (!isfinite(number)) keys_error(keys, value, "the number is too large");
     else if (number < key->min && key->min == KEYS_POSITIVE)
         keys_error(keys, value, "%s%s%s is not above 0", given, gap, unit);
     else if (key->max == KEYS_MOST)

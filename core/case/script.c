@@ -102,6 +102,7 @@ static int script_fail_lua(lua_State *lua, const char *file, int line, int struc
 int script_fail_at(const struct script *script, const double *in, unsigned n_in)
 {
     struct text text = {0};
+    if (n_in == 0) return STATUS_CASE;
     text_add(&text, "%s (called with ", status_text());
     if (script->arguments) text_add(&text, "%s = ", script->arguments);
     for (unsigned i = 0; i < n_in; i++) text_add(&text, "%s%.10g", i ? ", " : "", in[i]);

@@ -13,7 +13,8 @@
 #include <time.h>
 
 enum {
-    SCRIPT_GUARD_TICK = 400000000, /* ns of CPU time; a call is ended after one to two ticks */
+    SCRIPT_GUARD_TICK = 200000000, /* ns of CPU time; a call is ended after one to two ticks */
+    SCRIPT_GUARD_HALVINGS = 7,     /* of the tick, one per call that was ended: many endless scripts end soon, too */
     SCRIPT_GUARD_COUNT = 50000000, /* instructions, where there is no timer */
 };
 
@@ -24,6 +25,7 @@ static struct {
     volatile sig_atomic_t calls, seen; /* calls begun so far; the same at the last tick */
     volatile sig_atomic_t ticking;     /* the timer is set */
     volatile sig_atomic_t line;        /* where the guard struck */
+    int strikes;                       /* calls ended since the first user came */
     int timeless;                      /* no timer to be had: count instructions, slower */
 } script_guard;
 
@@ -38,7 +40,7 @@ static void script_guard_strike(lua_State *lua, lua_Debug *where)
 
 static void script_guard_set(void)
 {
-    struct itimerspec once = {.it_value = {.tv_nsec = SCRIPT_GUARD_TICK}};
+    struct itimerspec once = {.it_value = {.tv_nsec = SCRIPT_GUARD_TICK >> script_guard.strikes}};
     script_guard.ticking = 1;
     timer_settime(script_guard.timer, 0, &once, NULL);
 }
@@ -58,6 +60,7 @@ static void script_guard_tick(int signal)
 void script_guard_new(void)
 {
     if (script_guard.users++) return;
+    script_guard.strikes = 0;
     struct sigaction action = {.sa_handler = script_guard_tick, .sa_flags = SA_RESTART};
     sigemptyset(&action.sa_mask);
     struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGVTALRM};
@@ -86,7 +89,13 @@ int script_guard_leave(lua_State *lua)
     script_guard.busy = NULL;
     if (!lua_gethookmask(lua)) return 0;
     lua_sethook(lua, NULL, 0, 0);
+    if (script_guard.strikes < SCRIPT_GUARD_HALVINGS) script_guard.strikes++;
     int line = (int)script_guard.line;
     script_guard.line = 0;
     return line;
+}
+
+bool script_guard_struck(void)
+{
+    return script_guard.strikes > 0;
 }

@@ -1,9 +1,11 @@
 /* history.c - see history.h. */
 #include "io/history.h"
 
+#include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "case/script_guard.h"
 #include "io/csv.h"
 #include "io/measure.h"
 #include "io/place.h"
@@ -83,15 +85,19 @@ static double history_argument(const struct scene *scene, const char *name, doub
 }
 
 /* Columns that are expressions of t and of columns before them. */
-static void history_compute(const struct scene *scene, double t, double *columns)
+static int history_compute(const struct scene *scene, double t, double *columns)
 {
+    int code = STATUS_OK;
     for (unsigned i = 0; i < scene->n_column; i++) {
         const struct scene_column *column = &scene->columns[i];
         double in[SCRIPT_ARGUMENTS];
         if (column->measure != SCENE_VALUE) continue;
         for (unsigned k = 0; k < column->n_use; k++) in[k] = history_argument(scene, column->uses[k], t, columns);
         if (script_call(column->script, in, column->n_use, &columns[i], 1)) columns[i] = NAN;
+        if (script_guard_struck()) code = status_wrap(STATUS_RUN, "history column '%s': ", column->name);
+        if (code) break;
     }
+    return comm_agree(code);
 }
 
 int history_write(struct history *history, const struct state *state)
@@ -104,7 +110,7 @@ int history_write(struct history *history, const struct state *state)
     row[1] = state->t;
     row[2] = state->dt;
     measure_take(history->measures, state, columns);
-    history_compute(state->scene, state->t, columns);
+    TRY(history_compute(state->scene, state->t, columns));
     guard[0] = (double)counts.fallback;
     guard[1] = (double)counts.relaxed;
     guard[2] = (double)counts.clipped;

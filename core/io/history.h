@@ -22,7 +22,7 @@ int history_keep(struct history *history, struct notes *notes);
 int history_recall(struct history *history, const struct notes *notes, const char *origin);
 
 /* Appends the row of the present state, unless this step was the last written. A `value` that
- * cannot be computed (0/0, a column that is NaN) is NaN. */
+ * cannot be computed (0/0, a column that is NaN) is NaN; one that does not end is STATUS_RUN. */
 int history_write(struct history *history, const struct state *state);
 
 #endif

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "plug/vet.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -55,6 +56,11 @@ int instance_open(const struct bulla_module *module, const struct bulla_value *v
         instance_forget(instance.values, count);
         return status_fail(STATUS_CASE, "%s '%s': %s", module->kind, module->name,
                            instance_reason[0] ? instance_reason : "it cannot be opened and gives no reason");
+    }
+    int code = vet_instance(module, instance.self);
+    if (code) {
+        instance_done(&instance);
+        return code;
     }
     *ret_instance = instance;
     return STATUS_OK;

@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "plug/elf.h"
+#include "plug/probe.h"
 #include "plug/vet.h"
 
 #include <dlfcn.h>
@@ -111,7 +112,7 @@ static const struct bulla_module *loader_symbol(void *handle, size_t *ret_space)
     return symbol;
 }
 
-int loader_open(const char *path, struct loader_object *ret_object)
+int loader_open(const char *path, bool known, struct loader_object *ret_object)
 {
     struct loader_object object = {0};
     char *real = realpath(path, NULL);
@@ -119,6 +120,7 @@ int loader_open(const char *path, struct loader_object *ret_object)
     object.path = mem_text(real);
     free(real);
     int code = loader_inspect(object.path, &object.hash);
+    if (!code && !known) code = probe_object(object.path);
     if (!code) code = loader_map(object.path, &object.handle);
     if (!code) {
         size_t space;

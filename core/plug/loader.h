@@ -8,6 +8,8 @@
 
 #include "bulla/module.h"
 
+#include <stdbool.h>
+
 struct loader_object {
     const struct bulla_module *module; /* inside the object: valid until loader_close */
     char *path;                        /* absolute, without symbolic links; owned */
@@ -15,8 +17,9 @@ struct loader_object {
     void *handle;
 };
 
-/* Loads and vets. On failure STATUS_CASE with "PATH reason" as the message, nothing stays loaded. */
-int loader_open(const char *path, struct loader_object *ret_object);
+/* Loads and vets; what is not `known` to be sound (bulla's own modules) is tried in a child process first. On
+ * failure STATUS_CASE with "PATH reason" as the message, nothing stays loaded. */
+int loader_open(const char *path, bool known, struct loader_object *ret_object);
 
 /* Unloads; a zeroed object is fine. */
 void loader_close(struct loader_object *object);

@@ -48,10 +48,10 @@ static void registry_insert(struct loader_object object)
     registry_entries[at] = (struct registry_entry){object.module, object.path, object.hash};
 }
 
-int registry_load(const char *path)
+static int registry_add(const char *path, bool known)
 {
     struct loader_object object;
-    TRY(loader_open(path, &object));
+    TRY(loader_open(path, known, &object));
     const struct registry_entry *taken = registry_find(object.module->kind, object.module->name);
     if (!taken) {
         registry_insert(object);
@@ -63,6 +63,11 @@ int registry_load(const char *path)
                     object.module->name, taken->path);
     loader_close(&object);
     return same ? STATUS_OK : STATUS_CASE;
+}
+
+int registry_load(const char *path)
+{
+    return registry_add(path, false);
 }
 
 static int registry_is_object(const struct dirent *entry)
@@ -82,7 +87,7 @@ static void registry_scan(const char *folder, bool must_exist)
     }
     for (int i = 0; i < count; i++) {
         char *path = mem_print("%s/%s", folder, files[i]->d_name);
-        if (registry_load(path)) log_warn("module skipped: %s", status_text());
+        if (registry_add(path, !must_exist)) log_warn("module skipped: %s", status_text());
         mem_free(path);
         free(files[i]);
     }

@@ -201,3 +201,39 @@ int vet_module(const struct bulla_module *module, size_t space)
     TRY(vet_params(module));
     return vet_presets(module);
 }
+
+/* Slopes of a straight line, of nothing, of an extremum. */
+static bool vet_try_limiter(const struct bulla_limiter *limiter, const void *self)
+{
+    const double minus[] = {1.0, 0.0, 1.0}, plus[] = {1.0, 0.0, -1.0};
+    double slope[] = {(double)NAN, (double)NAN, (double)NAN};
+    limiter->slope(self, 3, minus, plus, slope);
+    return isfinite(slope[0]) && isfinite(slope[1]) && isfinite(slope[2]);
+}
+
+/* A gas that moves through a face, the same on both sides. */
+static bool vet_try_riemann(const struct bulla_riemann *riemann, const void *self)
+{
+    double rho = 1.2, p = 1e5, rho_E = 2.5e5 + 60.0, c = 341.6, u = 10.0, work[4];
+    double mass = (double)NAN, momentum = (double)NAN, energy = (double)NAN, speed = (double)NAN;
+    const struct bulla_side side = {&rho, &p, &rho_E, &c, (const double *[]){&u}, (const double *[]){&rho}, NULL};
+    const struct bulla_faces faces = {.n = 1,
+                                      .n_material = 1,
+                                      .n_velocity = 1,
+                                      .left = side,
+                                      .right = side,
+                                      .flux = {(double *[]){&mass}, (double *[]){&momentum}, &energy, &speed, NULL},
+                                      .work = {&work[0], &work[1], &work[2], &work[3]}};
+    riemann->solve(self, &faces);
+    return isfinite(mass) && isfinite(momentum) && isfinite(energy) && isfinite(speed);
+}
+
+int vet_instance(const struct bulla_module *module, const void *self)
+{
+    if (strcmp(module->kind, "limiter") == 0 && !vet_try_limiter(module->table, self))
+        return status_fail(STATUS_CASE, "limiter '%s' gives no finite slopes for differences of 1 and 0", module->name);
+    if (strcmp(module->kind, "riemann") == 0 && !vet_try_riemann(module->table, self))
+        return status_fail(STATUS_CASE, "riemann '%s' gives no finite fluxes for air that moves at 10 m/s",
+                           module->name);
+    return STATUS_OK;
+}

@@ -12,4 +12,8 @@
  * that is the end of a sentence about the file ("... has no function 'state'"). */
 int vet_module(const struct bulla_module *module, size_t space);
 
+/* Calls an instance once with harmless numbers: laws that give NaN even there are refused, because core's guard
+ * would quietly replace what they say. STATUS_CASE with a whole sentence. `self` is what `open` made. */
+int vet_instance(const struct bulla_module *module, const void *self);
+
 #endif

@@ -35,6 +35,7 @@ enum flaw {
     flush_to_zero,
     fast_math,
     open_fails,
+    aborts,
 };
 
 #define IS(name) (FLAW == (name))
@@ -51,6 +52,14 @@ extern double nobody_defines_this(double x);
 __attribute__((constructor)) static void hostile_flush(void)
 {
     _mm_setcsr(_mm_getcsr() | 0x8040u);
+}
+#endif
+
+#ifdef FLAW_ABORTS
+#include <stdlib.h>
+__attribute__((constructor)) static void hostile_abort(void)
+{
+    abort();
 }
 #endif
 

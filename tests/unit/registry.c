@@ -121,6 +121,7 @@ static const struct refusal refusals[] = {
     {"no_symbol", "no symbol bulla_module"},
     {"small_symbol", "is no module: its bulla_module has 4 bytes"},
     {"missing_function", "nobody_defines_this"},
+    {"aborts", "is damaged: trying to load it ended with SIGABRT"},
 #ifdef __SSE2__
     {"flush_to_zero", "changes the floating-point mode"},
 #endif
