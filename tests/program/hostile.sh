@@ -231,23 +231,25 @@ rm series.csv
 "$BULLA" run good.yaml --quiet -o whole
 newest=whole/checkpoints/good_000004.chk
 size=$(wc -c <"$newest")
-taken_up() { # WORDS FILE SETTINGS...
-    words=$1 file=$2
-    shift 2
-    for ranks in 1 2; do attempt "$file" "$ranks" 2 "$words" run good.yaml --quiet "--restart=$file" "$@"; done
+taken_up() { # RANKS WORDS FILE SETTINGS...
+    on=$1 words=$2 file=$3
+    shift 3
+    for ranks in $on; do attempt "$file" "$ranks" 2 "$words" run good.yaml --quiet "--restart=$file" "$@"; done
 }
 for length in 0 100 4095 4096 $((size - 1)); do
     head -c "$length" "$newest" >cut.chk
-    taken_up 'cut.chk: ' cut.chk
+    taken_up 1 'cut.chk: ' cut.chk
 done
 for place in 3 17 30 64 4090 4100 $((size / 2)) $((size - 1)); do
     cp "$newest" flipped.chk
     byte=$(od -An -tu1 -j "$place" -N 1 "$newest" | tr -d ' ')
     printf "\\$(printf %o $((byte ^ 4)))" | dd of=flipped.chk bs=1 seek="$place" conv=notrunc 2>/dev/null
-    taken_up 'flipped.chk: ' flipped.chk
+    taken_up 1 'flipped.chk: ' flipped.chk
 done
-taken_up 'another case' "$newest" --set 'domain.cells=[64]'
-taken_up 'another case' "$newest" --set materials.air.eos.gamma=1.3
+taken_up 2 'cut.chk: ' cut.chk
+taken_up 2 'flipped.chk: ' flipped.chk
+taken_up '1 2' 'another case' "$newest" --set 'domain.cells=[64]'
+taken_up 1 'another case' "$newest" --set materials.air.eos.gamma=1.3
 for file in pipe.yaml /dev/zero . nowhere zeros.yaml whole/history.csv whole/fields/good_000004.hdf; do
     attempt "--restart=$file" 1 2 'cannot restart' run good.yaml --quiet "--restart=$file"
 done
