@@ -19,7 +19,7 @@ static const struct setup SETUPS[] = {
      "levels: 3, tile: 8", "[30]", "[0.4]", "[0.85]", 0},
     {"plane", "{lower: [0, 0], upper: [1, 1], cells: [32, 32], " BOX2 "}", "levels: 2, tile: 8", "[200, -100]",
      "[0.4, 0.5]", "[0.8, 0.6]", -1},
-    {"space", "{lower: [0, 0, 0], upper: [1, 1, 1], cells: [12, 12, 12], " BOX3 "}", "levels: 2, tile: 4",
+    {"space", "{lower: [0, 0, 0], upper: [1, 1, 1], cells: [8, 8, 8], " BOX3 "}", "levels: 2, tile: 4",
      "[200, -100, 50]", "[0.4, 0.5, 0.5]", "[0.8, 0.6, 0.5]", -1},
     {"axisymmetric",
      "{geometry: axisymmetric, lower: [0, 0], upper: [1, 1], cells: [32, 32], "
@@ -34,7 +34,7 @@ static char *blast(const struct setup *setup, const char *more)
 {
     return mem_print(
         "bulla: 1\ntitle: conservation\ndomain: %s\n"
-        "mesh: {%s, regrid-every: 2, buffer: 2, patience: 1, %s, refine: [{interface: air}, "
+        "mesh: {%s, regrid-every: 2, buffer: 2, patience: 1, %s, refine: [{jump: alpha_air, above: 0.1}, "
         "{jump: pressure, above: 0.9, finest: 1}]}\n"
         "materials:\n" FLOW_WATER FLOW_AIR "initial:\n"
         "  - {everywhere: true, material: water, density: 1000, pressure: 1e5, velocity: %s}\n"
