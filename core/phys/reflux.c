@@ -152,8 +152,7 @@ void reflux_average(struct reflux *reflux, unsigned local, int axis)
     }
 }
 
-/* Calls for every cell of a source's patch: its index in the tile, and in the patch. */
-static size_t reflux_cell(const struct mesh *mesh, const struct link_face *source, size_t index)
+size_t reflux_cell(const struct mesh *mesh, const struct link_face *source, size_t index)
 {
     int across[2], axis = source->face / 2;
     size_t at[3] = {0}, half = (size_t)mesh->n[0] / 2;
@@ -221,30 +220,16 @@ static void reflux_change(const struct reflux *reflux, unsigned s, size_t i, dou
     for (unsigned l = 0; l < model->n_alpha; l++) change[l] -= coarse[(up->n_register + l) * step] * swept;
 }
 
-/* Gives a change of one cell to the column of n/2 cells behind the face, in proportion to mass. */
-static void reflux_spread(const struct reflux *reflux, const struct metric *metric, const struct link_face *source,
-                          size_t cell, const double *u, const double *change, double *delta)
+void reflux_source(const struct reflux *reflux, unsigned s, size_t index, const struct metric *metric, double dt,
+                   double *ret_change)
 {
-    const struct model *model = reflux->model;
-    const struct mesh *mesh = reflux->mesh;
-    int axis = source->face / 2, half = mesh->n[0] / 2;
-    size_t step = 1, n0 = (size_t)mesh->n[0], column[METRIC_CELLS];
-    double share[METRIC_CELLS], mass = 0.0;
-    for (int d = 0; d < axis; d++) step *= (size_t)mesh->n[d];
-    for (int k = 0; k < half; k++) { /* away from the face */
-        column[k] = source->face % 2 == 0 ? cell - (size_t)k * step : cell + (size_t)k * step;
-        double volume = mesh->beta ? metric->volume[column[k] % n0] : 1.0, rho = 0.0;
-        for (unsigned l = 0; l < model->n_material; l++) rho += u[(model->i_m + l) * mesh->n_cell + column[k]];
-        share[k] = rho;
-        mass += rho * volume;
-    }
-    double own = mesh->beta ? metric->volume[cell % n0] : 1.0;
-    for (int k = 0; k < half; k++)
-        for (unsigned q = 0; q < model->n_field; q++)
-            delta[q * mesh->n_cell + column[k]] += change[q] * own * share[k] / mass;
+    const struct link_face *source = &reflux->up->sources[s];
+    double sign = source->face % 2 == 0 ? -1.0 : 1.0; /* the cell lies on the lower or upper side of the face */
+    size_t cell = reflux_cell(reflux->mesh, source, index);
+    reflux_change(reflux, s, index, sign * reflux_area(reflux, metric, source, cell), dt, ret_change);
 }
 
-void reflux_delta(const struct reflux *reflux, unsigned local, double dt, const double *u, bool spread, double *delta)
+void reflux_delta(const struct reflux *reflux, unsigned local, double dt, double *delta)
 {
     const struct mesh *mesh = reflux->mesh;
     const struct link *up = reflux->up;
@@ -252,15 +237,10 @@ void reflux_delta(const struct reflux *reflux, unsigned local, double dt, const 
     double change[2 * SCENE_MATERIALS + 4];
     memset(delta, 0, reflux->model->n_field * mesh->n_cell * sizeof *delta);
     if (mesh->beta) metric_of_tile(mesh, reflux->level, &reflux->level->tiles[reflux->level->first + local], &metric);
-    for (unsigned s = up->source_from[local]; s < up->source_from[local + 1]; s++) {
-        const struct link_face *source = &up->sources[s];
-        double sign = source->face % 2 == 0 ? -1.0 : 1.0; /* the cell lies on the lower or upper side of the face */
+    for (unsigned s = up->source_from[local]; s < up->source_from[local + 1]; s++)
         for (size_t i = 0; i < up->face_cells; i++) {
-            size_t cell = reflux_cell(mesh, source, i);
-            reflux_change(reflux, s, i, sign * reflux_area(reflux, &metric, source, cell), dt, change);
-            if (spread) reflux_spread(reflux, &metric, source, cell, u, change, delta);
-            else
-                for (unsigned q = 0; q < reflux->model->n_field; q++) delta[q * mesh->n_cell + cell] += change[q];
+            size_t cell = reflux_cell(mesh, &up->sources[s], i);
+            reflux_source(reflux, s, i, &metric, dt, change);
+            for (unsigned q = 0; q < reflux->model->n_field; q++) delta[q * mesh->n_cell + cell] += change[q];
         }
-    }
 }

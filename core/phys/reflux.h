@@ -48,8 +48,14 @@ void reflux_commit(struct reflux *reflux, double dt);
 void reflux_clear(struct reflux *reflux);
 
 /* What refluxing adds to the conserved fields of local tile `local` after a step dt of this level and link_up:
- * delta[n_field][n_cell], zeroed here. With `spread`, each patch cell's share goes to the n/2 cells of its column
- * behind the face, by mass (u: the tile's conserved fields), because the one cell cannot take it. */
-void reflux_delta(const struct reflux *reflux, unsigned local, double dt, const double *u, bool spread, double *delta);
+ * delta[n_field][n_cell], zeroed here. */
+void reflux_delta(const struct reflux *reflux, unsigned local, double dt, double *delta);
+
+/* The part of it that one value `index` of the registers of a source asks for: ret_change[n_field]; metric: of the tile. */
+void reflux_source(const struct reflux *reflux, unsigned s, size_t index, const struct metric *metric, double dt,
+                   double *ret_change);
+
+/* The cell of the coarse tile that belongs to value `index` of a source's registers. */
+size_t reflux_cell(const struct mesh *mesh, const struct link_face *source, size_t index);
 
 #endif

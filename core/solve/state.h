@@ -17,7 +17,7 @@ struct state_counts {
     long long retries;     /* steps repeated with half the time step */
     long long regrids;     /* times that a level's tiles changed */
     long long limited;     /* coarse cells whose children got less than the full slopes */
-    long long spread;      /* refluxes that one cell could not take and its column got */
+    long long spread;      /* tiles where refluxing was more than one cell could take (spread.h) */
     double regrid_seconds; /* CPU time of this rank spent on regridding */
 };
 

@@ -97,7 +97,7 @@ static double refluxed_fraction(const struct flow *flow)
     for (int l = 0; l + 1 < mesh->n_level; l++) {
         const struct stage *stage = flow->state->stages[l];
         for (unsigned t = 0; t < mesh->levels[l].n_tile; t++) {
-            reflux_delta(stage->reflux, t, stage->dt, mesh->levels[l].u_old[t], false, delta);
+            reflux_delta(stage->reflux, t, stage->dt, delta);
             for (size_t i = 0; i < flow->state->model->n_alpha * mesh->n_cell; i++) worst = fmax(worst, fabs(delta[i]));
         }
     }
