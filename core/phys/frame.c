@@ -77,15 +77,34 @@ static inline void frame_blend(size_t n, double theta, const double *restrict be
     for (size_t i = 0; i < n; i++) target[i] = begin[i] + theta * (end[i] - begin[i]); /* equal values stay */
 }
 
-/* The two layers behind a coarse-fine face, of one field: linear in time between two strips. */
-static void frame_copy_strip(const struct frame *frame, double theta, const double *begin, const double *end, int to,
-                             double *w)
+/* The same for the density of a material that moves in or out meanwhile: alpha and alpha rho are linear in time. A
+ * density that belongs to a trace alone does not meet the fraction of the other end. */
+static inline void frame_blend_density(size_t n, double theta, const double *restrict begin, const double *restrict end,
+                                       const double *restrict alpha_begin, const double *restrict alpha_end,
+                                       double *restrict target)
 {
-    size_t slice = MESH_GHOST * frame->tile_inner, at = frame->outer_from * slice + frame->inner_from;
+    for (size_t i = 0; i < n; i++) {
+        double late = theta * alpha_end[i], all = (1.0 - theta) * alpha_begin[i] + late;
+        target[i] = begin[i] + (all > 0.0 ? late / all : theta) * (end[i] - begin[i]);
+    }
+}
+
+/* The two layers behind a coarse-fine face, of field q: linear in time between two strips. */
+static void frame_copy_strip(const struct frame_source *source, const struct link_face *face, unsigned q,
+                             const struct frame *frame, int to, double *w)
+{
+    size_t slice = MESH_GHOST * frame->tile_inner, block = frame->tile_outer * slice, n_alpha = source->mesh->n_alpha;
+    size_t at = frame->outer_from * slice + frame->inner_from;
+    double theta = source->link->theta;
+    const double *first = face->strip[0], *last = theta > 0.0 ? face->strip[1] : first;
     for (size_t o = 0; o < frame->outer; o++, at += slice)
         for (int row = 0; row < MESH_GHOST; row++) {
-            size_t from = at + (size_t)row * frame->tile_inner;
-            frame_blend(frame->inner, theta, begin + from, end + from, w + frame_at(frame, o, to + row));
+            size_t from = q * block + at + (size_t)row * frame->tile_inner, back = n_alpha * block;
+            double *target = w + frame_at(frame, o, to + row);
+            if (q < n_alpha || q >= 2 * n_alpha) frame_blend(frame->inner, theta, first + from, last + from, target);
+            else
+                frame_blend_density(frame->inner, theta, first + from, last + from, first + from - back,
+                                    last + from - back, target);
         }
 }
 
@@ -93,13 +112,10 @@ static void frame_coarse(const struct frame_source *source, unsigned index, cons
                          size_t pitch, double *w)
 {
     const struct link_face *face = &source->link->faces[index];
-    double theta = source->link->theta;
-    size_t block = frame->tile_outer * MESH_GHOST * frame->tile_inner;
     int to = side ? (int)frame->n : -MESH_GHOST;
     for (unsigned i = 0; i < source->n_field; i++) {
-        size_t q = frame_field(source, i);
-        const double *begin = face->strip[0] + q * block, *end = theta > 0.0 ? face->strip[1] + q * block : begin;
-        frame_copy_strip(frame, theta, begin, end, to, w + q * pitch);
+        unsigned q = frame_field(source, i);
+        frame_copy_strip(source, face, q, frame, to, w + q * pitch);
     }
 }
 
