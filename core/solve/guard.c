@@ -11,8 +11,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A partial density this far below zero, relative to rho, is what two stages leave behind a front
- * of traces (the midpoint rule keeps no sign); the material counts as absent there. */
+/* A partial density this far below zero, relative to rho or to the material's own density, is what two stages leave
+ * behind a front of traces (the midpoint rule keeps no sign); the material counts as absent there. */
 #define GUARD_ROUND_OFF 1e-8
 
 enum { GUARD_BATCH = 512 };
@@ -78,11 +78,13 @@ static BULLA_KERNEL void guard_mixture(size_t n, const double *restrict energy, 
 }
 
 static BULLA_KERNEL void guard_material(size_t n, const double *restrict m, const double *restrict alpha,
-                                        const double *restrict rho_c2, const double *restrict rho, double *restrict bad)
+                                        const double *restrict rho_c2, const double *restrict rho, double fill,
+                                        double *restrict bad)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double mass = m[i], a = alpha[i], s = rho_c2[i], r = rho[i], b = bad[i];
+        r = r > fill ? r : fill;
         double good = mass >= -GUARD_ROUND_OFF * r ? 1.0 : 0.0;
         double stiff = s > 0.0 ? 1.0 : 0.0;
         stiff = a > GUARD_PRESENT ? stiff : 1.0;
@@ -151,7 +153,7 @@ static double guard_judge(const struct guard *guard, const struct guard_tile *ti
     else guard_single(n, tile->u + model->i_m * n_cell + from, bad);
     for (unsigned l = 0; l < model->n_alpha; l++)
         guard_material(n, tile->u + (model->i_m + l) * n_cell + from, tile->w + l * n_cell + from,
-                       tile->rho_c2 + l * n_cell + from, rho, bad);
+                       tile->rho_c2 + l * n_cell + from, rho, model->eos[l].rho_fill, bad);
     for (size_t i = 0; i < n; i++) count += bad[i];
     return count;
 }
