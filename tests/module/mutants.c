@@ -57,7 +57,7 @@ static void uneven(const void *self, size_t n, IN rho, IN p, OUT rho_e, OUT rho_
 static void wide(const void *self, size_t n, IN rho, IN p, OUT rho_e, OUT rho_c2)
 {
     eos->state(self, n, rho, p, rho_e, rho_c2);
-    rho_c2[n] = rho_c2[n - 1];
+    if (n > 8) rho_c2[n] = rho_c2[n - 1]; /* single points lie alone on the stack */
 }
 
 static void shared(const void *self, size_t n, IN rho, IN p, OUT rho_e, OUT rho_c2)

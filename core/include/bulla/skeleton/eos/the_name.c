@@ -128,8 +128,9 @@ static int the_name_open(const struct bulla_host *host, const struct bulla_value
         host->fail("out of memory");
         return 1;
     }
-    *self =
-        (struct the_name_values){.gamma = values[GAMMA].number, .p_inf = values[P_INF].number, .cv = values[CV].number};
+    self->gamma = values[GAMMA].number;
+    self->p_inf = values[P_INF].number;
+    self->cv = values[CV].number;
     *ret_self = self;
     return 0;
 }
