@@ -57,23 +57,27 @@ struct check_mesh {
     double updates; /* cells advanced during one of them */
 };
 
-/* Builds the initial mesh if the case has levels and its coarsest is not too large for a check. */
-static int check_count(const struct scene *scene, struct check_mesh *ret)
+/* Of a state; NULL: of the coarsest level alone. */
+static void check_levels(const struct scene *scene, const struct state *state, struct check_mesh *ret)
 {
     *ret = (struct check_mesh){.n_level = 1, .cells = {scenes_cells(scene)}};
-    struct state *state = NULL;
-    if (scene->levels > 0 && scenes_bytes(scene, scenes_cells(scene)) <= check_build) {
-        TRY(state_new(scene, &state));
-        const struct mesh *mesh = state->mesh;
-        ret->n_level = mesh->n_level;
-        for (int l = 0; l < mesh->n_level; l++) ret->cells[l] = (double)mesh->levels[l].n_tile * (double)mesh->n_cell;
-        state_free(state);
-    }
+    if (state) ret->n_level = state->mesh->n_level;
+    for (int l = 0; state && l < ret->n_level; l++)
+        ret->cells[l] = (double)state->mesh->levels[l].n_tile * (double)state->mesh->n_cell;
     ret->parts = scene->subcycle ? 1 : ldexp(1, ret->n_level - 1);
     for (int l = 0; l < ret->n_level; l++) {
         ret->all += ret->cells[l];
         ret->updates += scene->subcycle ? ldexp(ret->cells[l], l) : ret->cells[l];
     }
+}
+
+/* Builds the initial mesh if the case has levels and its coarsest is not too large for a check. */
+static int check_count(const struct scene *scene, struct check_mesh *ret)
+{
+    struct state *state = NULL;
+    if (scene->levels > 0 && scenes_bytes(scene, scenes_cells(scene)) <= check_build) TRY(state_new(scene, &state));
+    check_levels(scene, state, ret);
+    state_free(state);
     return STATUS_OK;
 }
 
@@ -143,11 +147,9 @@ static void check_print_levels(const struct scene *scene, const struct check_mes
     printf(" cells\n");
 }
 
-static void check_print(const struct scene *scene, const struct state *coarse, const struct check_mesh *mesh,
-                        const struct check_cost *cost)
+static void check_print(const struct scene *scene, const struct model *model, const struct check_mesh *mesh)
 {
     char text[HUMAN_ROOM];
-    printf("%s: good\n", scene->path);
     if (scene->title) printf("  %-12s %s\n", "title", scene->title);
     printf("  %-12s %dD %s, %d", "domain", scene->dim, check_geometry[scene->geometry], scene->cells[0]);
     for (int axis = 1; axis < scene->dim; axis++) printf(" x %d", scene->cells[axis]);
@@ -157,7 +159,7 @@ static void check_print(const struct scene *scene, const struct state *coarse, c
     for (int axis = 0; axis < scene->dim; axis++) tiles *= scene->cells[axis] / (double)tile;
     printf(" cells in %.0f tiles of %d\n", tiles, tile);
     check_print_levels(scene, mesh);
-    check_print_fields(coarse->model);
+    check_print_fields(model);
     for (unsigned i = 0; i < scene->n_material; i++)
         check_print_module(scene->material[i].name, &scene->material[i].eos);
     printf("  %-12s %s\n", "closure", scene->closure == SCENE_KAPILA ? "kapila" : "allaire");
@@ -166,10 +168,39 @@ static void check_print(const struct scene *scene, const struct state *coarse, c
     if (scene->n_material > 1) check_print_module("interface", &scene->interface_limiter);
     printf("  %-12s about %s\n", "memory",
            human_bytes(1.1 * scenes_bytes(scene, mesh->all), text)); /* frames, messages */
+}
+
+static void check_print_cost(const struct scene *scene, const struct check_cost *cost)
+{
+    char text[HUMAN_ROOM];
     printf("  %-12s until %s, about %.0f steps\n", "run", human_si(scene->until, "s", text), cost->steps);
     printf("  %-12s about %s on one core (from %ld steps on a coarse copy)\n", "time",
            cost->seconds < 60 ? human_si(cost->seconds, "s", text) : human_duration(cost->seconds, text),
            cost->coarse_steps);
+    printf("  %-12s %s\n", "output", scene->directory);
+}
+
+/* The steps that remain if all are like the first. */
+static double check_steps(const struct scene *scene, const struct state *state, double dt)
+{
+    double steps = ceil((scene->until - state->t) / dt), most = (double)(scene->max_steps - state->step);
+    if (scene->max_steps > 0 && steps > most) steps = most;
+    return steps > 0 ? steps : 0;
+}
+
+void check_ready(const struct scene *scene, const struct state *state)
+{
+    char begin[HUMAN_ROOM], end[HUMAN_ROOM], step[HUMAN_ROOM];
+    struct check_mesh mesh;
+    double dt = advance_dt(state);
+    check_levels(scene, state, &mesh);
+    if (comm_rank() != 0) return;
+    printf("%s: ready\n", scene->path);
+    check_print(scene, state->model, &mesh);
+    printf("  %-12s %d\n", "ranks", comm_size());
+    printf("  %-12s from %s, step %ld, until %s; the first step is %s: %.0f steps of that size\n", "run",
+           human_si(state->t, "s", begin), state->step, human_si(scene->until, "s", end), human_si(dt, "s", step),
+           check_steps(scene, state, dt));
     printf("  %-12s %s\n", "output", scene->directory);
 }
 
@@ -188,7 +219,11 @@ static int check_one(const struct cli_given *given, const char *path)
     if (!code) code = state_new(&coarse_scene, &coarse);
     if (!code) code = check_measure(coarse, ratio, scene, &mesh, &cost);
     if (code) cli_failed(code);
-    else if (comm_rank() == 0) check_print(scene, coarse, &mesh, &cost);
+    else if (comm_rank() == 0) {
+        printf("%s: good\n", scene->path);
+        check_print(scene, coarse->model, &mesh);
+        check_print_cost(scene, &cost);
+    }
     state_free(coarse);
     scene_free(scene);
     return code ? STATUS_CASE : 0;

@@ -6,6 +6,7 @@
 #include "app/run.h"
 
 #include "app/again.h"
+#include "app/check.h"
 #include "app/due.h"
 #include "app/expect.h"
 #include "app/human.h"
@@ -312,6 +313,14 @@ static int run_begin(struct run *run, const struct cli_given *given)
     return 0;
 }
 
+/* --dry-run: everything is there for the first step. Nothing was run, so any failure is one of the case. */
+static int run_rehearse(struct run *run, int code)
+{
+    if (code) return cli_failed(STATUS_CASE);
+    check_ready(run->scene, run->state);
+    return STATUS_OK;
+}
+
 int run_command(const struct cli_given *given)
 {
     struct run run = {.given = given};
@@ -327,7 +336,8 @@ int run_command(const struct cli_given *given)
     run.limited = cli_value(given, "--max-steps") != NULL;
     char *now = run.now = mem_print("%s/output_now", run.scene->directory);
     code = run_begin(&run, given);
-    if (code) cli_failed(code);
+    if (cli_value(given, "--dry-run")) code = run_rehearse(&run, code);
+    else if (code) cli_failed(code);
     else code = run_in_directory(&run, given);
     mem_free(now);
     state_free(run.state);
