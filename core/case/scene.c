@@ -113,9 +113,7 @@ static void scene_build(struct draft *draft, struct node *root)
     draft->root = keys_read(&draft->keys, root, &scene_root_keys, "");
     if (draft->root) scene_fill(draft);
     if (diag_errors(draft->keys.diag)) return;
-    params_spare(draft->keys.params, tree_get(root, "variants"));
-    params_spare(draft->keys.params, tree_get(root, "quick"));
-    params_warn_unused(draft->keys.params);
+    scene_spare(draft, root);
     scene_resolve(draft, root);
 }
 

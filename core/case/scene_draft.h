@@ -33,6 +33,9 @@ void scene_output(struct draft *draft);
 void scene_history(struct draft *draft);
 void scene_expect(struct draft *draft);
 
+/* Warns about parameters that nothing uses, those of overlays that are not applied included. */
+void scene_spare(struct draft *draft, const struct node *root);
+
 /* A list of `dim` numbers into ret[3] (rest 0); false after a recorded error. */
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES]);
 
