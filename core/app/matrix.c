@@ -47,7 +47,7 @@ static void matrix_fill(const struct node *lists, const struct node *own_cells, 
     row->dim = cells && cells->count ? cells->count : 1;
 }
 
-static int matrix_build(const struct node *root, struct matrix *matrix)
+int matrix_combine(const struct node *root, struct matrix *ret_matrix)
 {
     const struct node *lists = tree_get(root, "matrix"), *title = tree_get(root, "title");
     const struct node *own_cells = tree_get(tree_get(root, "domain"), "cells");
@@ -59,12 +59,12 @@ static int matrix_build(const struct node *root, struct matrix *matrix)
         rows *= lists->items[k]->count;
         if (rows > MATRIX_ROWS) return status_fail(STATUS_CASE, "matrix: more than %d combinations", MATRIX_ROWS);
     }
-    matrix->title = mem_text(title && title->kind == TREE_SCALAR ? title->text : "");
-    matrix->count = matrix_cells(own_cells, NULL);
-    matrix->n_set = lists ? lists->count : 0;
-    matrix->n_row = rows;
-    matrix->rows = mem_new(rows, sizeof *matrix->rows);
-    for (unsigned i = 0; i < rows; i++) matrix_fill(lists, own_cells, i, &matrix->rows[i]);
+    *ret_matrix = (struct matrix){.title = mem_text(title && title->kind == TREE_SCALAR ? title->text : ""),
+                                  .count = matrix_cells(own_cells, NULL),
+                                  .n_set = lists ? lists->count : 0,
+                                  .n_row = rows,
+                                  .rows = mem_new(rows, sizeof *ret_matrix->rows)};
+    for (unsigned i = 0; i < rows; i++) matrix_fill(lists, own_cells, i, &ret_matrix->rows[i]);
     return STATUS_OK;
 }
 
@@ -73,12 +73,10 @@ int matrix_read(const char *path, const struct merge_options *options, struct ma
     static const struct merge_options none;
     struct forest *forest = tree_forest_new();
     struct diag *diag = diag_new();
-    struct matrix matrix = {0};
     const struct node *root = merge_case(forest, diag, path, options ? options : &none);
     int code = root && !diag_errors(diag) ? STATUS_OK : status_fail(STATUS_CASE, "%s cannot be read", path);
     if (code) diag_print(diag, stderr, false);
-    else if (matrix_build(root, &matrix)) code = status_wrap(STATUS_CASE, "%s: ", path);
-    if (!code) *ret_matrix = matrix;
+    else if (matrix_combine(root, ret_matrix)) code = status_wrap(STATUS_CASE, "%s: ", path);
     diag_free(diag);
     tree_forest_free(forest);
     return code;

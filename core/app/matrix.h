@@ -25,6 +25,9 @@ struct matrix {
 /* Reads a case file, with those it extends and `options` (NULL: none) laid over it, for these keys alone; mistakes in
  * the rest of the file are found when it runs. STATUS_CASE after printed errors. Release with matrix_done. */
 int matrix_read(const char *path, const struct merge_options *options, struct matrix *ret_matrix);
+
+/* The same for the tree of a case, or of anything else with a `matrix:`. The recorded message has no place. */
+int matrix_combine(const struct node *root, struct matrix *ret_matrix);
 void matrix_done(struct matrix *matrix);
 
 #endif

@@ -53,12 +53,22 @@ static void sweep_name_value(struct text *name, const char *value)
     if (name->length == begin) text_add(name, "-");
 }
 
-static char *sweep_name_row(const struct matrix *matrix, unsigned index)
+/* Is there more than one value of setting `k`? */
+static bool sweep_name_varies(const struct matrix *matrix, unsigned k)
+{
+    for (unsigned i = 1; i < matrix->n_row; i++)
+        if (strcmp(matrix->rows[i].sets[k], matrix->rows[0].sets[k]) != 0) return true;
+    return false;
+}
+
+static char *sweep_name_row(const struct matrix *matrix, unsigned index, bool varied)
 {
     struct text name = {0};
+    text_add(&name, "%s", "");
     for (unsigned k = 0; k < matrix->n_set; k++) {
         const char *key = sweep_name_key(matrix, k);
-        text_add(&name, "%s", k ? "," : "");
+        if (varied && !sweep_name_varies(matrix, k)) continue;
+        text_add(&name, "%s", name.length ? "," : "");
         for (; *key != '='; key++)
             text_add(&name, "%c", isalnum((unsigned char)*key) || strchr(".-_", *key) ? *key : '-');
         text_add(&name, "=");
@@ -66,6 +76,11 @@ static char *sweep_name_row(const struct matrix *matrix, unsigned index)
     }
     if (name.length > SWEEP_NAME_MOST) name.at[SWEEP_NAME_MOST] = '\0';
     return name.at;
+}
+
+char *sweep_name_varied(const struct matrix *matrix, unsigned index)
+{
+    return sweep_name_row(matrix, index, true);
 }
 
 static uint64_t sweep_name_sum(const struct matrix_row *row)
@@ -99,7 +114,7 @@ int sweep_name_all(const struct matrix *matrix, char ***ret_names)
     char **names = mem_new(n, sizeof *names);
     bool *taken = mem_new(n, sizeof *taken);
     int code = STATUS_OK;
-    for (unsigned i = 0; i < n; i++) names[i] = sweep_name_row(matrix, i);
+    for (unsigned i = 0; i < n; i++) names[i] = sweep_name_row(matrix, i, false);
     for (unsigned i = 0; i < n; i++) taken[i] = sweep_name_taken(names, i, n);
     for (unsigned i = 0; i < n; i++) {
         for (unsigned b = i + 1; taken[i] && b < n && !code; b++) code = sweep_name_equal(matrix, i, b);

@@ -11,4 +11,7 @@ const char *sweep_name_key(const struct matrix *matrix, unsigned k);
  * these get a checksum of their settings behind it. STATUS_CASE if rows are equal. Release each, then the array. */
 int sweep_name_all(const struct matrix *matrix, char ***ret_names);
 
+/* What a row has of the settings with more than one value: "limiter=mc,cells=64"; "" if there is none. */
+char *sweep_name_varied(const struct matrix *matrix, unsigned index);
+
 #endif
