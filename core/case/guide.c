@@ -75,7 +75,7 @@ static void guide_rows(struct guide *guide, const struct keys_section *section)
 
 static void guide_table(struct guide *guide, const struct keys_section *section)
 {
-    if (!section->keys && !section->base) return;
+    if ((!section->keys || !section->keys->name) && !section->base && !section->others) return;
     text_add(&guide->text, "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n");
     guide_rows(guide, section);
 }

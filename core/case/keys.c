@@ -241,7 +241,7 @@ static void keys_read_value(struct keys *keys, struct keys_value *value, const c
     if (value->node->broken && value->node->count == 0) return;
     bool entry = value->name != NULL || value->path[strlen(value->path) - 1] == ']';
     bool is_map = value->node->kind == TREE_MAP, is_list = value->node->kind == TREE_LIST;
-    if (key->type == KEYS_TREE) value->given = true;
+    if (key->type == KEYS_TREE && (entry || key->many != KEYS_NAMED || is_map)) value->given = true;
     else if (!entry && key->many == KEYS_LIST && !is_list)
         keys_refuse_many(keys, value, "a list", "a list is written as '%s: [%s]'");
     else if (!entry && key->many == KEYS_NAMED && !is_map)

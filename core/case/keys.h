@@ -22,6 +22,7 @@ enum keys_type {
     KEYS_INTEGER,
     KEYS_FLAG,
     KEYS_TEXT,
+    KEYS_FIELD,     /* a text: the name of a field */
     KEYS_NAME,      /* an identifier */
     KEYS_CHOICE,    /* one of `choices`; of a selector: one of the cases */
     KEYS_VALUE,     /* a quantity, or an expression of x, y, z, r, t */
@@ -62,6 +63,8 @@ struct keys_section {
     const struct key *others;                /* the row of all keys that are not in a table (their names are free) */
     const char *selector;                    /* the key that chooses a case, or NULL; its value may stand for the map */
     const struct keys_section *const *cases; /* ends with NULL */
+    const char *rules;                       /* what else the reader sees to, for the schema: a list of JSON Schemas
+                                                without its brackets, ' instead of "; or NULL */
     const char *kind;                        /* the cases are the modules of this kind */
     const struct bulla_module *module;       /* of a case that is a module */
 };

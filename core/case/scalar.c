@@ -55,6 +55,7 @@ const char *scalar_wanted(struct forest *forest, const struct key *key)
     case KEYS_NAME: return "an identifier (letters, digits and _)";
     case KEYS_CHOICE: return "a word";
     case KEYS_EVERY: return "a time or a number of steps ('20 ns', '10 steps')";
+    case KEYS_FIELD: return "the name of a field";
     case KEYS_SECTION: return "a map of keys";
     case KEYS_SCRIPT: return "an expression or a function in Lua";
     default: return "a text";
@@ -209,7 +210,7 @@ static void scalar_read_every(struct keys *keys, struct keys_value *value)
         return;
     }
     value->integer = number >= 1 && number < 9e15 ? (long)number : 0;
-    value->given = (double)value->integer == number;
+    value->given = value->integer > 0 && (double)value->integer == number;
     if (!value->given) keys_error(keys, value, "'%s' is no number of steps: 1 or more, and whole", text);
     else
         scalar_rewrite(keys, value,
@@ -252,7 +253,8 @@ static void scalar_read_text(struct keys *keys, struct keys_value *value)
 
 void scalar_read(struct keys *keys, struct keys_value *value, const char *const *choices)
 {
-    bool words = value->key->type == KEYS_TEXT || value->key->type == KEYS_NAME || value->key->type == KEYS_CHOICE;
+    enum keys_type type = value->key->type;
+    bool words = type == KEYS_TEXT || type == KEYS_FIELD || type == KEYS_NAME || type == KEYS_CHOICE;
     bool empty = value->node->kind == TREE_SCALAR && tree_is_null(value->node);
     if (value->node->kind != TREE_SCALAR || empty) {
         scalar_refuse(keys, value);
@@ -263,7 +265,7 @@ void scalar_read(struct keys *keys, struct keys_value *value, const char *const 
                    scalar_wanted(keys->forest, value->key));
         return;
     }
-    switch (value->key->type) {
+    switch (type) {
     case KEYS_NUMBER:
     case KEYS_PARAMETER: scalar_read_number(keys, value); break;
     case KEYS_INTEGER: scalar_read_integer(keys, value); break;

@@ -134,6 +134,11 @@ static const struct key scene_boundary_far[] = {
     {0},
 };
 
+/* What scene_boundary_read_inflow wants. */
+#define SCENE_BOUNDARY_INFLOW                                                                                         \
+    "{'required': ['density', 'pressure', 'velocity'], 'properties': {'temperature': false}, 'anyOf': [{'required': " \
+    "['material']}, {'required': ['fractions']}]}"
+
 static const struct keys_section scene_boundary_types[] = {
     {.name = "axis", .doc = "The axis or centre r = 0."},
     {.name = "symmetry", .doc = "Plane of symmetry."},
@@ -142,7 +147,7 @@ static const struct keys_section scene_boundary_types[] = {
     {.name = "outflow", .doc = "Zero gradient."},
     {.name = "non-reflecting", .keys = scene_boundary_far, .doc = "Outgoing waves leave, none comes in."},
     {.name = "periodic", .doc = "What leaves here enters at the opposite face."},
-    {.name = "inflow", .keys = scene_state_rows, .doc = "A fixed state flows in."},
+    {.name = "inflow", .keys = scene_state_rows, .rules = SCENE_BOUNDARY_INFLOW, .doc = "A fixed state flows in."},
     {.name = "incoming-wave",
      .keys = scene_boundary_wave,
      .selector = "pulse",

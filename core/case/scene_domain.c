@@ -15,9 +15,50 @@ static const struct key scene_domain_boundaries[] = {
     {0},
 };
 
+/* A boundary of one of some types, written as a word or as a map. */
+#define SCENE_DOMAIN_IS(types) \
+    "{'anyOf': [{'enum': [" types "]}, {'type': 'object', 'properties': {'type': {'enum': [" types "]}}}]}"
+#define SCENE_DOMAIN_AXIS SCENE_DOMAIN_IS("'axis'")
+#define SCENE_DOMAIN_CENTRE SCENE_DOMAIN_IS("'axis', 'symmetry'")
+#define SCENE_DOMAIN_PERIODIC SCENE_DOMAIN_IS("'periodic'")
+
+/* Faces that are periodic come in pairs; only x- can be an axis (scene_boundary.c). */
+#define SCENE_DOMAIN_PAIR(face, other)                                                                       \
+    "{'if': {'required': ['" face "', '" other "'], 'properties': {'" face "': " SCENE_DOMAIN_PERIODIC "}}," \
+    " 'then': {'properties': {'" other "': " SCENE_DOMAIN_PERIODIC "}}},"
+#define SCENE_DOMAIN_PAIRS(axis) SCENE_DOMAIN_PAIR(axis "-", axis "+") SCENE_DOMAIN_PAIR(axis "+", axis "-")
+
+static const char scene_domain_faces[] = SCENE_DOMAIN_PAIRS("x") SCENE_DOMAIN_PAIRS("y")
+    SCENE_DOMAIN_PAIRS("z") "{'patternProperties': {'^(x[+]|y|z)': {'not': " SCENE_DOMAIN_AXIS "}}}";
+
+/* Where the radius begins at 0 there is nothing to say but axis or symmetry; elsewhere x- is a face like others. */
+#define SCENE_DOMAIN_GEOMETRY                                                                             \
+    "{'if': {'properties': {'geometry': {'const': 'cartesian'}}}, 'then': {'properties': {'boundaries': " \
+    "{'required': ['x-'], 'properties': {'x-': {'not': " SCENE_DOMAIN_AXIS "}}}}},"                       \
+    " 'else': {'properties': {'lower': {'maxItems': 2, 'items': [{'minimum': 0}]}}}},"                    \
+    "{'if': {'required': ['geometry', 'lower'], 'properties': {'geometry': {'enum': ['axisymmetric', "    \
+    "'spherical']}, 'lower': {'items': [{'const': 0}]}}},"                                                \
+    " 'then': {'properties': {'boundaries': {'properties': {'x-': " SCENE_DOMAIN_CENTRE "}}}}},"          \
+    "{'if': {'required': ['geometry'], 'properties': {'geometry': {'const': 'spherical'}}},"              \
+    " 'then': {'properties': {'lower': {'maxItems': 1}}}},"
+
+/* The length of `lower` is the dimension, which all others follow; faces of axes that are not there are errors. */
+#define SCENE_DOMAIN_AXES(n, faces, none)                                                                              \
+    "{'if': {'required': ['lower'], 'properties': {'lower': {'minItems': " n ", 'maxItems': " n "}}}, 'then': "        \
+    "{'patternProperties': {'^(upper|cells)$': {'minItems': " n ", 'maxItems': " n "}}, 'properties': {'boundaries': " \
+    "{'required': [" faces "], 'properties': {" none "}}}}},"
+
+#define SCENE_DOMAIN_MOST "{'properties': {'lower': {'minItems': 1, 'maxItems': 3}}}"
+
+static const char scene_domain_rules[] =
+    SCENE_DOMAIN_GEOMETRY SCENE_DOMAIN_AXES("1", "'x+'", "'y-': false, 'y+': false, 'z-': false, 'z+': false")
+        SCENE_DOMAIN_AXES("2", "'x+', 'y-', 'y+'", "'z-': false, 'z+': false")
+            SCENE_DOMAIN_AXES("3", "'x+', 'y-', 'y+', 'z-', 'z+'", "") SCENE_DOMAIN_MOST;
+
 static const struct keys_section scene_domain_boundaries_keys = {.name = "boundaries",
                                                                  .doc = "What lies behind each face of the domain.",
-                                                                 .keys = scene_domain_boundaries};
+                                                                 .keys = scene_domain_boundaries,
+                                                                 .rules = scene_domain_faces};
 
 static const struct key scene_domain_rows[] = {
     {.name = "geometry",
@@ -49,7 +90,8 @@ static const struct key scene_domain_rows[] = {
 
 const struct keys_section scene_domain_keys = {.name = "domain",
                                                .doc = "The region, its cells and its boundaries.",
-                                               .keys = scene_domain_rows};
+                                               .keys = scene_domain_rows,
+                                               .rules = scene_domain_rules};
 
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES])
 {

@@ -93,6 +93,10 @@ enum {
 const struct scene_field *scene_field_all(struct draft *draft);
 const struct scene_field *scene_field_find(struct draft *draft, const char *name);
 
+/* For the schema: the fields of every case, and what with _MATERIAL is one. NULL-terminated, in the forest. */
+const char *const *scene_field_always(struct forest *forest);
+const char *const *scene_field_each(struct forest *forest);
+
 /* Why a field has one value in all cells of a level: "0 everywhere: ..."; NULL: it varies. */
 const char *scene_field_constant(struct draft *draft, const char *name);
 

@@ -47,10 +47,16 @@ static const struct key scene_expect_rows[] = {
     {0},
 };
 
+#define SCENE_EXPECT_RULES                                                                                      \
+    "{'anyOf': [{'required': ['at-most']}, {'required': ['at-least']}, {'required': ['equals']}, {'required': " \
+    "['order']}]},"                                                                                             \
+    "{'dependencies': {'norm': ['field', 'reference']}}"
+
 const struct keys_section scene_expect_keys = {.name = "expectation",
                                                .doc = "A bound on a value or on the distance to a reference.",
                                                .keys = scene_expect_rows,
-                                               .choose = 2};
+                                               .choose = 2,
+                                               .rules = SCENE_EXPECT_RULES};
 
 static char *scene_expect_text(const struct keys_value *value)
 {

@@ -78,6 +78,23 @@ const struct scene_field *scene_field_all(struct draft *draft)
     return list;
 }
 
+static const char *const *scene_field_list_names(struct forest *forest, const struct scene_field *fields, unsigned n)
+{
+    const char **names = tree_take(forest, (n + 1) * sizeof *names);
+    for (unsigned i = 0; i < n; i++) names[i] = fields[i].name;
+    return names;
+}
+
+const char *const *scene_field_always(struct forest *forest)
+{
+    return scene_field_list_names(forest, scene_field_plain, SCENE_FIELD_PLAIN);
+}
+
+const char *const *scene_field_each(struct forest *forest)
+{
+    return scene_field_list_names(forest, scene_field_by_material, SCENE_FIELD_EACH);
+}
+
 /* All names this scene has; NULL-terminated, in the forest. */
 static const char *const *scene_field_names(struct draft *draft)
 {

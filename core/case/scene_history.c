@@ -13,10 +13,10 @@ static const struct key scene_history_rows[] = {
     {.name = "volume", .type = KEYS_TEXT, .doc = "Volume of a material."},
     {.name = "mass", .type = KEYS_TEXT, .doc = "Mass of a material."},
     {.name = "centroid", .type = KEYS_TEXT, .doc = "Position of a material's centre of volume, `along` an axis."},
-    {.name = "min", .type = KEYS_TEXT, .doc = "Least value of a field."},
-    {.name = "max", .type = KEYS_TEXT, .doc = "Largest value of a field."},
-    {.name = "mean", .type = KEYS_TEXT, .doc = "Mean of a field over the volume."},
-    {.name = "integral", .type = KEYS_TEXT, .doc = "Integral of a field over the volume."},
+    {.name = "min", .type = KEYS_FIELD, .doc = "Least value of a field."},
+    {.name = "max", .type = KEYS_FIELD, .doc = "Largest value of a field."},
+    {.name = "mean", .type = KEYS_FIELD, .doc = "Mean of a field over the volume."},
+    {.name = "integral", .type = KEYS_FIELD, .doc = "Integral of a field over the volume."},
     {.name = "total",
      .type = KEYS_CHOICE,
      .choices = "mass|momentum_x|momentum_y|momentum_z|energy",
@@ -26,7 +26,7 @@ static const struct key scene_history_rows[] = {
      .doc = "How far a material's surface on the axis has moved, `along` an axis."},
     {.name = "equivalent-radius", .type = KEYS_TEXT, .doc = "Radius of the sphere (disc) of a material's volume."},
     {.name = "jet-speed", .type = KEYS_TEXT, .doc = "Largest speed towards a material's far side, `along` an axis."},
-    {.name = "isosurface-mean", .type = KEYS_TEXT, .doc = "Mean of a field over the surface of the material `in`."},
+    {.name = "isosurface-mean", .type = KEYS_FIELD, .doc = "Mean of a field over the surface of the material `in`."},
     {.name = "value", .type = KEYS_TREE, .doc = "An expression of t, columns further up, and parameters."},
     {.name = "in", .type = KEYS_TEXT, .doc = "Only in this material."},
     {.name = "where", .type = KEYS_SECTION, .section = &scene_shape_keys, .doc = "Only in this region."},
@@ -40,7 +40,8 @@ static const struct key scene_history_rows[] = {
 const struct keys_section scene_history_column_keys = {.name = "column",
                                                        .doc = "One measure per column.",
                                                        .keys = scene_history_rows,
-                                                       .choose = SCENE_HISTORY_MEASURES};
+                                                       .choose = SCENE_HISTORY_MEASURES,
+                                                       .rules = "{'dependencies': {'isosurface-mean': ['in']}}"};
 
 static bool scene_history_of_material(enum scene_measure measure)
 {

@@ -16,11 +16,26 @@ static const struct key scene_initial_rows[] = {
     {0},
 };
 
+/* A shape or `lua`; with a material a whole state; with `lua` none of its own (scene_initial_layer). */
+#define SCENE_INITIAL_RULES                                                                                            \
+    "{'if': {'not': {'required': ['lua']}}, 'then': {'oneOf': [{'required': ['everywhere']}, {'required': ['box']},"   \
+    "{'required': ['half-space']}, {'required': ['sphere']}, {'required': ['cylinder']}, {'required': ['ellipsoid']}," \
+    "{'required': ['ring']}, {'required': ['polygon']}, {'required': ['complement']}, {'required': ['union']},"        \
+    "{'required': ['intersection']}]},"                                                                                \
+    " 'else': {'properties': {'material': false, 'fractions': false, 'density': false, 'temperature': false,"          \
+    " 'pressure': false, 'velocity': false}}},"                                                                        \
+    "{'if': {'not': {'required': ['lua']}, 'anyOf': [{'required': ['material']}, {'required': ['fractions']}]},"       \
+    " 'then': {'required': ['pressure'], 'anyOf': [{'required': ['density']}, {'required': ['temperature']}]}},"       \
+    "{'not': {'required': ['density', 'temperature']}},"                                                               \
+    "{'if': {'required': ['fractions'], 'properties': {'fractions': {'minProperties': 2, 'additionalProperties': "     \
+    "{'type': 'number', 'exclusiveMinimum': 0}}}}, 'then': {'properties': {'density': {'type': 'object'}}}}"
+
 const struct keys_section scene_initial_keys = {.name = "layer",
                                                 .doc = "A region and the state in it; without a material only the "
                                                        "given fields change.",
                                                 .base = &scene_initial_state,
-                                                .keys = scene_initial_rows};
+                                                .keys = scene_initial_rows,
+                                                .rules = SCENE_INITIAL_RULES};
 
 /* r in expressions is measured from the centre of round shapes, else from the origin. */
 static void scene_initial_centre(struct scene_layer *layer)

@@ -60,7 +60,14 @@ static const struct key scene_mesh_rows[] = {
     {0},
 };
 
-const struct keys_section scene_mesh_keys = {.name = "mesh", .doc = "Tiles and refinement.", .keys = scene_mesh_rows};
+#define SCENE_MESH_RULES                                                                            \
+    "{'if': {'required': ['levels'], 'properties': {'levels': {'type': 'integer', 'minimum': 1}}}," \
+    " 'then': {'properties': {'tile': {'multipleOf': 2}}}}"
+
+const struct keys_section scene_mesh_keys = {.name = "mesh",
+                                             .doc = "Tiles and refinement.",
+                                             .keys = scene_mesh_rows,
+                                             .rules = SCENE_MESH_RULES};
 
 /* Axis of the first count that n does not divide, or -1. */
 static int scene_mesh_misfit(const struct scene *scene, int n)

@@ -15,7 +15,7 @@ static const struct key scene_output_snapshot_rows[] = {
      .required = true,
      .doc = "Time, or `N steps`, between two snapshots."},
     {.name = "fields",
-     .type = KEYS_TEXT,
+     .type = KEYS_FIELD,
      .many = KEYS_LIST,
      .fallback = "[density, velocity, pressure]",
      .doc = "The fields to write."},
@@ -46,13 +46,22 @@ static const struct key scene_output_history_rows[] = {
 
 static const struct key scene_output_probe_rows[] = {
     {.name = "at", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = true, .doc = "Where."},
-    {.name = "fields", .type = KEYS_TEXT, .many = KEYS_LIST, .required = true, .doc = "The fields to record there."},
+    {.name = "fields", .type = KEYS_FIELD, .many = KEYS_LIST, .required = true, .doc = "The fields to record there."},
     {0},
 };
 
+/* Names of columns: identifiers, and none that every history has already (scene_history.c). */
+#define SCENE_OUTPUT_COLUMNS                                                                                      \
+    "{'properties': {'columns': {'propertyNames': {'pattern': "                                                   \
+    "'^(?!(step|t|dt|guard_fallback|guard_relaxed|guard_clipped|guard_retries)$)[A-Za-z_][A-Za-z0-9_]{0,62}$',"   \
+    "'patternErrorMessage': 'The name of a column is an identifier (letters, digits and _), and none that every " \
+    "history has (step, t, dt, guard_...).'}}}}"
+#define SCENE_OUTPUT_AT "{'properties': {'at': {'minItems': 1, 'maxItems': 3}}}"
+
 static const struct keys_section scene_output_probe = {.name = "probe",
                                                        .doc = "Fields at a point, over time.",
-                                                       .keys = scene_output_probe_rows};
+                                                       .keys = scene_output_probe_rows,
+                                                       .rules = SCENE_OUTPUT_AT};
 
 static const struct key scene_output_probes_rows[] = {
     {.name = "every",
@@ -87,11 +96,16 @@ static const struct keys_section scene_output_snapshots = {.name = "snapshots",
                                                            .keys = scene_output_snapshot_rows};
 static const struct keys_section scene_output_history = {.name = "history",
                                                          .doc = "Scalars over time: history.csv.",
-                                                         .keys = scene_output_history_rows};
+                                                         .keys = scene_output_history_rows,
+                                                         .rules = SCENE_OUTPUT_COLUMNS};
 static const struct keys_section scene_output_probes = {.name = "probes",
                                                         .doc = "Fields at points over time: probes.csv.",
                                                         .keys = scene_output_probes_rows,
-                                                        .others = &scene_output_probe_row};
+                                                        .others = &scene_output_probe_row,
+                                                        .rules =
+                                                            "{'propertyNames': {'pattern': '^[A-Za-z_][A-Za-z0-9_]"
+                                                            "{0,62}$', 'patternErrorMessage': 'The name of a probe "
+                                                            "is an identifier (letters, digits and _).'}}"};
 static const struct keys_section scene_output_checkpoints = {.name = "checkpoints",
                                                              .doc = "Exact states to go on from.",
                                                              .keys = scene_output_checkpoint_rows};

@@ -15,14 +15,14 @@ enum { SCENE_REFINE_KINDS = SCENE_REFINE_REGION + 1 };
 
 static const struct key scene_refine_rows[] = {
     {.name = "gradient",
-     .type = KEYS_TEXT,
+     .type = KEYS_FIELD,
      .doc = "A field whose gradient asks for refinement: `above` with a unit per metre ('1 MPa/mm'), the steepest "
             "difference to a neighbouring cell over the distance; or `above` as a pure number, then as `jump`."},
     {.name = "jump",
-     .type = KEYS_TEXT,
+     .type = KEYS_FIELD,
      .doc = "A field whose jump to a neighbouring cell asks for refinement: `above` with the field's unit, or as a "
             "pure number: the jump over the larger of the two values (volume fractions and schlieren: over 1)."},
-    {.name = "value", .type = KEYS_TEXT, .doc = "A field that asks for refinement where it is `above` and `below`."},
+    {.name = "value", .type = KEYS_FIELD, .doc = "A field that asks for refinement where it is `above` and `below`."},
     {.name = "interface", .type = KEYS_TEXT, .doc = "A material whose surface is refined, on both sides."},
     {.name = "lua",
      .type = KEYS_SCRIPT,
@@ -45,11 +45,22 @@ static const struct key scene_refine_rows[] = {
     {0},
 };
 
+/* What goes with what: scene_refine_strangers and scene_refine_threshold. */
+#define SCENE_REFINE_RULES                                                                                  \
+    "{'if': {'anyOf': [{'required': ['gradient']}, {'required': ['jump']}]},"                               \
+    " 'then': {'required': ['above'], 'properties': {'below': false}}},"                                    \
+    "{'if': {'required': ['value']}, 'then': {'anyOf': [{'required': ['above']}, {'required': ['below']}]," \
+    " 'properties': {'relative': false}}},"                                                                 \
+    "{'if': {'anyOf': [{'required': ['interface']}, {'required': ['lua']}, {'required': ['region']}]},"     \
+    " 'then': {'properties': {'above': false, 'below': false, 'relative': false}}},"                        \
+    "{'if': {'required': ['region']}, 'then': {'properties': {'where': false}}}"
+
 const struct keys_section scene_refine_keys = {.name = "refine",
                                                .doc = "One criterion of refinement, which may be limited to a region, "
                                                       "to coarser levels and to a time window.",
                                                .keys = scene_refine_rows,
-                                               .choose = SCENE_REFINE_KINDS};
+                                               .choose = SCENE_REFINE_KINDS,
+                                               .rules = SCENE_REFINE_RULES};
 
 static bool scene_refine_differs(const struct scene_refine *refine)
 {

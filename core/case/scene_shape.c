@@ -48,10 +48,17 @@ static const struct key scene_shape_polygon[] = {
     {.name = "vertices", .type = KEYS_TREE, .required = true, .doc = "List of [x, y], in order around the region."},
     {0}};
 
-#define SHAPE(variable, word, text)                                                 \
-    static const struct keys_section scene_shape_##variable##_keys = {.name = word, \
-                                                                      .doc = text,  \
-                                                                      .keys = scene_shape_##variable};
+/* One number per axis of the domain; [x, y] of a polygon. */
+#define SCENE_SHAPE_RULES                                                                                              \
+    "{'properties': {'vertices': {'type': 'array', 'minItems': 3, 'items': {'type': 'array', 'minItems': 2, "          \
+    "'maxItems': 2}}}}, {'patternProperties': {'^(lower|upper|point|normal|center|from|to|semi-axes)$': {'minItems': " \
+    "1, 'maxItems': 3}}}"
+
+#define SHAPE(variable, word, text)                                                                   \
+    static const struct keys_section scene_shape_##variable##_keys = {.name = word,                   \
+                                                                      .doc = text,                    \
+                                                                      .keys = scene_shape_##variable, \
+                                                                      .rules = SCENE_SHAPE_RULES};
 
 SHAPE(box, "box", "A box along the axes.")
 SHAPE(half_space, "half-space", "All on one side of a plane.")
@@ -100,7 +107,8 @@ static const struct key scene_shape_rows[] = {
 const struct keys_section scene_shape_keys = {.name = "shape",
                                               .doc = "A region.",
                                               .keys = scene_shape_rows,
-                                              .choose = SHAPE_INTERSECTION + 1};
+                                              .choose = SHAPE_INTERSECTION + 1,
+                                              .rules = "{'properties': {'everywhere': {'const': true}}}"};
 
 static const char *const scene_shape_names[] = {"everywhere", "box",       "half-space",   "sphere",
                                                 "cylinder",   "ellipsoid", "ring",         "polygon",

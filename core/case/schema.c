@@ -7,6 +7,7 @@
 #include "case/schema.h"
 
 #include "base/mem.h"
+#include "base/text.h"
 #include "case/family.h"
 #include "case/scalar.h"
 #include "case/scene_draft.h"
@@ -15,9 +16,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A number with a unit, or an expression. */
-#define SCHEMA_QUANTITY "^ *=|^ *[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)? *[^ 0-9].*$"
-#define SCHEMA_STEPS "|^ *[0-9]+ *steps?$"
+/* Texts that the program takes for numbers: expressions, numbers (unit.c has the units behind them), steps. */
+#define SCHEMA_EXPRESSION "^[ \\n]*=(?!=)"
+#define SCHEMA_NUMBER "(?:(?:0|[1-9][0-9]*)(?:[.][0-9]*)?|[.][0-9]+)(?:[eE][-+]?[0-9]+)?"
+#define SCHEMA_STEPS "|^[+]?[1-9][0-9]*(?:[.]0*)?(?:[eE][+]?[0-9]+)? *steps?$"
 
 enum { SCHEMA_DEPTH = 8 };
 
@@ -50,16 +52,32 @@ static void schema_bounds(json_t *object, const struct key *key)
     if (key->max < KEYS_MOST) json_object_set_new(object, "maximum", json_real(key->max));
 }
 
+/* Texts with a unit of the key's dimension; without a minus sign where only positive numbers will do. */
+static json_t *schema_quantity(const struct key *key)
+{
+    struct text text = {0};
+    struct unit unit;
+    char bad[32];
+    bool known = key->unit && unit_parse(key->unit, &unit, bad);
+    bool warm = key->unit && strcmp(key->unit, "K") == 0; /* -10 degC is above 0 */
+    text_add(&text, SCHEMA_EXPRESSION "|^%s" SCHEMA_NUMBER "(?![0-9]) *", key->min > 0 && !warm ? "[+]?" : "[-+]?");
+    unit_pattern(known ? &unit : NULL, &text);
+    text_add(&text, "? *$%s", key->type == KEYS_EVERY ? SCHEMA_STEPS : "");
+    json_t *pattern = json_string(text.at);
+    text_done(&text);
+    return pattern;
+}
+
 static json_t *schema_number(struct schema *schema, const struct key *key)
 {
-    bool steps = key->type == KEYS_EVERY;
     json_t *object = schema_types("number", "string");
-    const char *wanted = scalar_wanted(schema->forest, key);
-    json_object_set_new(object, "pattern", json_string(steps ? SCHEMA_QUANTITY SCHEMA_STEPS : SCHEMA_QUANTITY));
-    json_object_set_new(object, "patternErrorMessage",
-                        json_sprintf("%s is needed here: a number%s%s, a number with a unit, or an expression '= ...'",
-                                     wanted, key->unit && strcmp(key->unit, "1") != 0 ? " in " : "",
-                                     key->unit && strcmp(key->unit, "1") != 0 ? key->unit : ""));
+    bool unit = key->unit && strcmp(key->unit, "1") != 0 && key->type != KEYS_EVERY;
+    json_object_set_new(object, "pattern", schema_quantity(key));
+    json_object_set_new(
+        object, "patternErrorMessage",
+        json_sprintf("%s%s is needed here: a number%s%s, a number with a unit, or an expression '= ...'",
+                     scalar_wanted(schema->forest, key), key->min > 0 ? " above 0" : "", unit ? " in " : "",
+                     unit ? key->unit : ""));
     schema_bounds(object, key);
     return object;
 }
@@ -67,7 +85,7 @@ static json_t *schema_number(struct schema *schema, const struct key *key)
 static json_t *schema_integer(const struct key *key)
 {
     json_t *object = schema_types("integer", "string");
-    json_object_set_new(object, "pattern", json_string("^ *="));
+    json_object_set_new(object, "pattern", json_string(SCHEMA_EXPRESSION "|^[-+]?(?:0|[1-9][0-9]*)$"));
     json_object_set_new(object, "patternErrorMessage", json_string("an integer is needed, or an expression '= ...'"));
     schema_bounds(object, key);
     return object;
@@ -92,6 +110,19 @@ static json_t *schema_part(struct schema *schema, const struct keys_section *sec
     return ref;
 }
 
+/* A field of every case, or one of a material. */
+static json_t *schema_field(struct schema *schema)
+{
+    struct text text = {0};
+    const char *const *each = scene_field_each(schema->forest);
+    for (unsigned i = 0; each[i]; i++) text_add(&text, "%s%s", i ? "|" : "^(?:", each[i]);
+    text_add(&text, ")_[A-Za-z_][A-Za-z0-9_]*$");
+    json_t *own = json_pack("{s:s,s:s,s:s}", "type", "string", "pattern", text.at, "patternErrorMessage",
+                            "There is no such field.");
+    text_done(&text);
+    return json_pack("{s:[{s:o},o]}", "anyOf", "enum", schema_words(scene_field_always(schema->forest)), own);
+}
+
 /* One value of a key, without its documentation. */
 static json_t *schema_one(struct schema *schema, const struct key *key)
 {
@@ -102,7 +133,8 @@ static json_t *schema_one(struct schema *schema, const struct key *key)
     case KEYS_EVERY: return schema_number(schema, key);
     case KEYS_INTEGER: return schema_integer(key);
     case KEYS_FLAG: return schema_types("boolean", NULL);
-    case KEYS_TEXT: return schema_types("string", "number");
+    case KEYS_TEXT: return json_pack("{s:[s,s,s]}", "type", "string", "number", "boolean");
+    case KEYS_FIELD: return schema_field(schema);
     case KEYS_SCRIPT: return schema_types("string", NULL);
     case KEYS_NAME: return json_pack("{s:s,s:s}", "type", "string", "pattern", "^[A-Za-z_][A-Za-z0-9_]*$");
     case KEYS_CHOICE:
@@ -137,17 +169,25 @@ static json_t *schema_many(struct schema *schema, const struct key *key)
 static const char *schema_doc(struct schema *schema, const struct key *key)
 {
     const char *doc = key->doc ? key->doc : "";
+    if (*doc && !strchr(".:", doc[strlen(doc) - 1])) doc = tree_print(schema->forest, "%s.", doc);
     if (key->unit && strcmp(key->unit, "1") != 0) doc = tree_print(schema->forest, "%s Unit: `%s`.", doc, key->unit);
     if (key->fallback) doc = tree_print(schema->forest, "%s Default: `%s`.", doc, key->fallback);
     if (key->later && !key->refused) doc = tree_print(schema->forest, "%s Not in this version.", doc);
     return doc;
 }
 
+/* What may stand at a key. */
+static json_t *schema_value(struct schema *schema, const struct key *key, const char *const *cases)
+{
+    if (key->later && !key->refused)
+        return json_pack("{s:{},s:s,s:b}", "not", "errorMessage", key->later, "doNotSuggest", 1);
+    return cases ? json_pack("{s:o}", "enum", schema_words(cases)) : schema_many(schema, key);
+}
+
 /* Schema of a key: value, documentation, default. `cases`: allowed words of a selector. */
 static json_t *schema_key(struct schema *schema, const struct key *key, const char *const *cases)
 {
-    json_t *object = cases ? json_pack("{s:o}", "enum", schema_words(cases)) : schema_many(schema, key);
-    object = schema_or_null(schema, object);
+    json_t *object = schema_or_null(schema, schema_value(schema, key, cases));
     json_object_set_new(object, "description", json_string(key->doc ? key->doc : ""));
     json_object_set_new(object, "markdownDescription", json_string(schema_doc(schema, key)));
     if (key->fallback && !strchr("[{", *key->fallback)) {
@@ -163,54 +203,84 @@ struct schema_rows {
     unsigned depth;
 };
 
-static void schema_properties(struct schema *schema, const struct keys_section *section, json_t *properties,
-                              json_t *required)
+/* What is gathered for one object. */
+struct schema_object {
+    json_t *properties, *required, *all;
+};
+
+/* What a table cannot say stands beside it, with ' for ". */
+static void schema_rules(const struct schema *schema, const struct keys_section *section, json_t *all)
 {
-    if (section->base) schema_properties(schema, section->base, properties, required);
+    if (!section->rules || schema->part) return;
+    char *text = mem_print("[%s]", section->rules);
+    for (char *at = text; *at; at++)
+        if (*at == '\'') *at = '"';
+    json_error_t error;
+    json_t *rules = json_loads(text, 0, &error);
+    if (!rules) rules = json_pack("[{s:s}]", "wrong-rules", error.text); /* the test looks for it */
+    json_array_extend(all, rules);
+    json_decref(rules);
+    mem_free(text);
+}
+
+static void schema_properties(struct schema *schema, const struct keys_section *section, struct schema_object *gathered)
+{
+    if (section->base) schema_properties(schema, section->base, gathered);
     for (const struct key *key = section->keys; key && key->name; key++) {
         bool selects = section->selector && strcmp(section->selector, key->name) == 0;
         const char *const *cases = selects ? family_names(schema->forest, section) : NULL;
-        json_object_set_new(properties, key->name, schema_key(schema, key, cases));
-        if (key->required && !schema->part) json_array_append_new(required, json_string(key->name));
+        json_object_set_new(gathered->properties, key->name, schema_key(schema, key, cases));
+        if (key->required && !schema->part) json_array_append_new(gathered->required, json_string(key->name));
     }
+    schema_rules(schema, section, gathered->all);
 }
 
-static json_t *schema_choice(struct schema *schema, const struct schema_rows *rows);
+/* Keys of a module may come from a preset instead. */
+static void schema_module(const struct keys_section *section, struct schema_object *gathered)
+{
+    if (!section->module || !section->module->presets || !json_array_size(gathered->required)) return;
+    json_t *either = json_pack("{s:{s:{s:[s]}},s:{s:o}}", "if", "not", "required", "preset", "then", "required",
+                               json_copy(gathered->required));
+    json_array_append_new(gathered->all, either);
+    json_array_clear(gathered->required);
+}
+
+static void schema_choice(struct schema *schema, const struct schema_rows *rows, json_t *all);
 
 /* An object with all keys along the rows, closed unless cases below add more. */
 static json_t *schema_object(struct schema *schema, const struct schema_rows *rows)
 {
     const struct keys_section *last = rows->path[rows->depth - 1];
-    json_t *properties = json_object(), *required = json_array(), *object = json_object();
+    struct schema_object gathered = {json_object(), json_array(), json_array()};
+    json_t *object = json_object();
     for (unsigned i = 0; i < rows->depth; i++) {
-        const struct keys_section *section = rows->path[i];
-        schema_properties(schema, section, properties, required);
-        if (section->module && section->module->presets) json_array_clear(required); /* a preset may give them all */
+        schema_properties(schema, rows->path[i], &gathered);
+        schema_module(rows->path[i], &gathered);
     }
     if (!last->selector)
         json_object_set_new(object, "additionalProperties",
                             last->others ? schema_key(schema, last->others, NULL) : json_false());
-    else json_object_set_new(object, "allOf", schema_choice(schema, rows));
-    json_object_set_new(object, "properties", properties);
-    if (json_array_size(required)) json_object_set(object, "required", required);
-    json_decref(required);
+    else schema_choice(schema, rows, gathered.all);
+    json_object_set_new(object, "properties", gathered.properties);
+    if (json_array_size(gathered.required)) json_object_set(object, "required", gathered.required);
+    if (json_array_size(gathered.all)) json_object_set(object, "allOf", gathered.all);
+    json_decref(gathered.required);
+    json_decref(gathered.all);
     if (last->doc) json_object_set_new(object, "description", json_string(last->doc));
     return object;
 }
 
 /* if {selector: case} then {all its keys}, for every case. */
-static json_t *schema_choice(struct schema *schema, const struct schema_rows *rows)
+static void schema_choice(struct schema *schema, const struct schema_rows *rows, json_t *all)
 {
     const struct keys_section *section = rows->path[rows->depth - 1];
-    json_t *list = json_array();
     for (const char *const *name = family_names(schema->forest, section); *name; name++) {
         struct schema_rows below = *rows;
         below.path[below.depth++] = family_find(schema->forest, section, *name);
         json_t *when = json_pack("{s:{s:{s:s}},s:[s]}", "properties", section->selector, "const", *name, "required",
                                  section->selector);
-        json_array_append_new(list, json_pack("{s:o,s:o}", "if", when, "then", schema_object(schema, &below)));
+        json_array_append_new(all, json_pack("{s:o,s:o}", "if", when, "then", schema_object(schema, &below)));
     }
-    return list;
 }
 
 /* [{"required": ["a"]}, {"required": ["b"]}] for the first rows of a section. */
@@ -220,6 +290,30 @@ static json_t *schema_one_of(const struct keys_section *section)
     for (unsigned i = 0; i < section->choose; i++)
         json_array_append_new(list, json_pack("{s:[s]}", "required", section->keys[i].name));
     return list;
+}
+
+/* Is the name of a case alone the whole of it? */
+static bool schema_is_word(const struct keys_section *one)
+{
+    bool word = !one->rules;
+    for (const struct key *key = one->keys; key && key->name; key++) word &= !key->required;
+    return word;
+}
+
+/* A text in the place of a map: {"enum": [...]} with a sentence that tells of the map, too. */
+static json_t *schema_alone(struct schema *schema, const struct keys_section *section)
+{
+    json_t *list = json_array();
+    const char *words = "", *all = "";
+    for (const char *const *name = family_names(schema->forest, section); *name; name++) {
+        all = tree_print(schema->forest, "%s%s%s", all, *all ? ", " : "", *name);
+        if (!schema_is_word(family_find(schema->forest, section, *name))) continue;
+        words = tree_print(schema->forest, "%s%s%s", words, *words ? ", " : "", *name);
+        json_array_append_new(list, json_string(*name));
+    }
+    json_t *error = json_sprintf("A word that needs no other keys (%s), or a map {%s: ..., ...} with one of: %s",
+                                 *words ? words : "there is none", section->selector, all);
+    return json_pack("{s:o,s:o}", "enum", list, "errorMessage", error);
 }
 
 static json_t *schema_section(struct schema *schema, const struct keys_section *section)
@@ -232,8 +326,7 @@ static json_t *schema_section(struct schema *schema, const struct keys_section *
         return object;
     }
     json_object_set_new(object, "type", json_pack("[s,s]", "object", "string"));
-    json_t *word = json_pack("{s:{s:s},s:{s:o}}", "if", "type", "string", "then", "enum",
-                             schema_words(family_names(schema->forest, section)));
+    json_t *word = json_pack("{s:{s:s},s:o}", "if", "type", "string", "then", schema_alone(schema, section));
     json_array_append_new(json_object_get(object, "allOf"), word);
     return object;
 }

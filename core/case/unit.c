@@ -289,3 +289,62 @@ void unit_guess(const char *bad, const struct unit *wanted, char ret_symbol[stat
         }
     }
 }
+
+/* The power of a symbol that gives a dimension, or 0. */
+static int unit_root(const struct unit_symbol *symbol, const struct unit *wanted)
+{
+    for (int size = 1; size <= 9; size++)
+        for (int power = size; power >= -size; power -= 2 * size) {
+            bool same = true;
+            for (int i = 0; i < UNIT_BASES; i++) same &= symbol->power[i] * power == wanted->power[i];
+            if (same) return power;
+        }
+    return 0;
+}
+
+static void unit_pattern_prefixes(struct text *text)
+{
+    text_add(text, "(?:");
+    for (int i = 0; i < UNIT_PREFIXES; i++) text_add(text, "%s%s", i ? "|" : "", unit_prefixes[i].name);
+    text_add(text, ")?");
+}
+
+/* Symbols that take prefixes or do not, with the power that gives the dimension (`wanted` NULL: all, with any). */
+static bool unit_pattern_symbols(const struct unit *wanted, bool prefixed, struct text *text)
+{
+    bool any = false;
+    for (int i = 0; i < UNIT_SYMBOLS; i++) {
+        int power = wanted ? unit_root(&unit_symbols[i], wanted) : 1;
+        if (unit_symbols[i].prefixed != prefixed || !power) continue;
+        if (any) text_add(text, "|");
+        else if (prefixed) unit_pattern_prefixes(text);
+        if (!any) text_add(text, "(?:");
+        text_add(text, "%s", unit_symbols[i].name);
+        if (wanted && power == 1) text_add(text, "(?:\\^?1)?");
+        if (wanted && power != 1) text_add(text, "\\^?%d", power);
+        any = true;
+    }
+    if (any) text_add(text, ")");
+    return any;
+}
+
+static void unit_pattern_either(const struct unit *wanted, struct text *text)
+{
+    if (unit_pattern_symbols(wanted, true, text)) text_add(text, "|");
+    if (!unit_pattern_symbols(wanted, false, text)) text_add(text, "(?!)");
+}
+
+void unit_pattern(const struct unit *wanted, struct text *text)
+{
+    bool warm = !wanted || (wanted->power[3] == 1 && unit_root(&unit_symbols[3], wanted) == 1);
+    text_add(text, "(?:");
+    if (wanted) unit_pattern_either(wanted, text);
+    if (wanted) text_add(text, "|(?=.*[^ ][*/. \xc2\xb7(])"); /* more than one symbol */
+    text_add(text, "(?:\\(?(?:");
+    unit_pattern_either(NULL, text);
+    text_add(text, ")\\)?(?:\\^?-?[1-9])?\\)?(?:\\^?-?[1-9])?(?: *[*/.\xc2\xb7] *(?=[^ ])| +(?=[^ ])|(?= *$)))+");
+    if (warm)
+        text_add(text, "|degC|\xc2\xb0"
+                       "C");
+    text_add(text, ")");
+}

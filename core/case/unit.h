@@ -8,6 +8,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+struct text;
+
 enum { UNIT_BASES = 5 }; /* m, kg, s, K, mol */
 
 /* SI value = number * 10^decimal * factor + offset. Powers of ten are kept apart so that
@@ -35,6 +37,10 @@ const char *unit_kind(const struct unit *unit, char *words, size_t size);
 
 /* Units that people use for a dimension: "Pa, kPa, MPa, GPa, bar, atm"; NULL if it has no list. */
 const char *unit_examples(const struct unit *unit);
+
+/* Adds a regular expression (of ECMA-262, as JSON Schema has them) for the unit texts of a dimension; NULL: of
+ * any. Products and quotients are judged by their symbols only, not by their dimension. */
+void unit_pattern(const struct unit *wanted, struct text *text);
 
 /* A known unit symbol that was probably meant by `bad`, preferably one of dimension `wanted`;
  * "" if there is none. Written to `ret_symbol`. */

@@ -44,7 +44,8 @@ static void keys_carry_their_table_rows(void **state)
     assert_true(json_number_value(at("definitions/scheme/properties/cfl/maximum")) == 1.0);
     assert_string_equal(text_at("definitions/domain/properties/geometry/enum/1"), "axisymmetric");
     assert_non_null(strstr(text_at("definitions/run/properties/until/markdownDescription"), "Unit: `s`"));
-    assert_non_null(strstr(text_at("definitions/run/properties/until/patternErrorMessage"), "a time is needed"));
+    assert_non_null(
+        strstr(text_at("definitions/run/properties/until/patternErrorMessage"), "a time above 0 is needed"));
     assert_true(json_is_false(at("definitions/domain/additionalProperties")));
     assert_string_equal(text_at("definitions/case/required/0"), "bulla");
     assert_null(json_object_get(at("definitions/case-part"), "required"));
@@ -85,6 +86,25 @@ static void every_reference_has_a_definition(void **state)
     free(text);
 }
 
+/* Rules that stand beside the tables are JSON, and each is there. */
+static void rules_are_read(void **state)
+{
+    (void)state;
+    char *text = json_dumps(schema, 0);
+    if (strstr(text, "wrong-rules")) fail_msg("rules that are no JSON: %.120s", strstr(text, "wrong-rules"));
+    free(text);
+    assert_string_equal(text_at("definitions/expectation/allOf/1/dependencies/norm/0"), "field");
+    assert_null(json_object_get(at("definitions/expectation-part"), "allOf"));
+}
+
+/* Keys that this version refuses are refused, with the sentence of the program. */
+static void later_keys_are_refused(void **state)
+{
+    (void)state;
+    assert_non_null(at("definitions/material/properties/constitutive/not"));
+    assert_non_null(strstr(text_at("definitions/material/properties/constitutive/errorMessage"), "fluids only"));
+}
+
 static void the_file_is_current(void **state)
 {
     (void)state;
@@ -102,10 +122,9 @@ static void the_file_is_current(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(keys_carry_their_table_rows),
-        cmocka_unit_test(modules_are_cases),
-        cmocka_unit_test(every_reference_has_a_definition),
-        cmocka_unit_test(the_file_is_current),
+        cmocka_unit_test(keys_carry_their_table_rows),      cmocka_unit_test(modules_are_cases),
+        cmocka_unit_test(every_reference_has_a_definition), cmocka_unit_test(rules_are_read),
+        cmocka_unit_test(later_keys_are_refused),           cmocka_unit_test(the_file_is_current),
     };
     if (registry_init()) return 1;
     char *text = schema_text();
