@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "case/guide.h"
 #include "case/schema.h"
+#include "io/dump_show.h"
 #include "io/info.h"
 #include "plug/describe.h"
 #include "plug/registry.h"
@@ -56,7 +57,9 @@ int inspect_modules(const struct cli_given *given)
 int inspect_info(const struct cli_given *given)
 {
     int code = 0;
-    for (int i = 0; i < given->n_word && !code && comm_rank() == 0; i++) code = info_print(stdout, given->words[i]);
+    bool replay = cli_value(given, "--replay") != NULL;
+    for (int i = 0; i < given->n_word && !code && comm_rank() == 0; i++)
+        code = (replay ? dump_show_replay : info_print)(stdout, given->words[i]);
     return cli_failed(code);
 }
 

@@ -9,11 +9,13 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/checkpoint.h"
+#include "io/dump.h"
 #include "io/history.h"
 #include "io/probes.h"
 #include "io/provenance.h"
 #include "io/resume.h"
 #include "io/snapshot.h"
+#include "solve/cost.h"
 
 #include <string.h>
 
@@ -109,13 +111,28 @@ static int record_note(const struct record *record, const struct state *state, s
     return probes_keep(record->probes, notes);
 }
 
-int record_save(struct record *record, const struct state *state)
+static int record_checkpoint(struct record *record, const struct state *state)
 {
     struct notes notes = {0};
     int code = record_note(record, state, &notes);
     if (!code) code = checkpoint_write(record->checkpoints, state, &notes);
     text_done(&notes.text);
     return code;
+}
+
+/* Does some writing, on the account of outputs. */
+static int record_timed(struct record *record, const struct state *state,
+                        int (*write)(struct record *record, const struct state *state))
+{
+    double begin = cost_cpu();
+    int code = write(record, state);
+    provenance_output(record->provenance, cost_cpu() - begin);
+    return code;
+}
+
+int record_save(struct record *record, const struct state *state)
+{
+    return record_timed(record, state, record_checkpoint);
 }
 
 const char *record_saved(const struct record *record)
@@ -125,14 +142,13 @@ const char *record_saved(const struct record *record)
 
 static int record_due_save(struct record *record, const struct state *state)
 {
-    TRY(record_save(record, state));
+    TRY(record_checkpoint(record, state));
     due_written(&record->checkpoint_due, state->t, state->step);
     return 0;
 }
 
-int record_due(struct record *record, const struct state *state)
+static int record_write_due(struct record *record, const struct state *state)
 {
-    provenance_watch(record->provenance, state);
     TRY(probes_record(record->probes, state));
     if (due_now(&record->history_due, state->t, state->step)) TRY(record_due_row(record, state));
     if (due_now(&record->snapshot_due, state->t, state->step)) TRY(record_due_snapshot(record, state));
@@ -140,12 +156,32 @@ int record_due(struct record *record, const struct state *state)
     return 0;
 }
 
-int record_last(struct record *record, const struct state *state)
+/* Most steps write nothing and do not even look at the clock. */
+int record_due(struct record *record, const struct state *state)
+{
+    const struct due *const dues[] = {&record->history_due, &record->snapshot_due, &record->checkpoint_due};
+    bool any = record->probes != NULL;
+    provenance_watch(record->provenance, state);
+    for (int i = 0; i < 3; i++) any = any || due_now(dues[i], state->t, state->step);
+    return any ? record_timed(record, state, record_write_due) : 0;
+}
+
+int record_dump(const struct record *record, const struct state *state, char **ret_path)
+{
+    return dump_write(state, provenance_text(record->provenance), ret_path);
+}
+
+static int record_write_last(struct record *record, const struct state *state)
 {
     if (!state->whole) return record_now(record, state); /* levels at different times: to look at, not to measure */
     TRY(probes_finish(record->probes, state));
     TRY(history_write(record->history, state));
     return record_now(record, state);
+}
+
+int record_last(struct record *record, const struct state *state)
+{
+    return record_timed(record, state, record_write_last);
 }
 
 int record_conclude(struct record *record, const struct state *state, const char *reason, int exit_code)

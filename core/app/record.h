@@ -27,6 +27,10 @@ int record_save(struct record *record, const struct state *state);
 /* The checkpoint written last, or NULL. */
 const char *record_saved(const struct record *record);
 
+/* After a step that could not be completed: writes a dump (io/dump.h); *ret_path, to be released with mem_free, is NULL if
+ * there is nothing to dump. */
+int record_dump(const struct record *record, const struct state *state, char **ret_path);
+
 /* Writes whatever this state lacks: the end of a run, whatever ended it. */
 int record_last(struct record *record, const struct state *state);
 

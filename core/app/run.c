@@ -209,6 +209,19 @@ static void run_say_unused(const struct run *run)
     mem_free(hits);
 }
 
+/* What a step that cannot be completed leaves to look at. */
+static void run_dump(const struct run *run)
+{
+    char *path;
+    if (record_dump(run->record, run->state, &path))
+        log_error("the failed step could not be dumped: %s", status_text());
+    else if (path)
+        log_error("what the step failed on is in %s: look at it with bulla info, try it again with bulla info "
+                  "--replay",
+                  path);
+    mem_free(path);
+}
+
 /* The loop, and what ends it. */
 static int run_until_end(struct run *run)
 {
@@ -219,6 +232,7 @@ static int run_until_end(struct run *run)
     if (code == STATUS_RUN) {
         run_because(run, "%s", status_text());
         cli_failed(code);
+        run_dump(run);
     }
     TRY(run_save(run, code));
     run_say_end(run, code);

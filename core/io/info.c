@@ -3,6 +3,8 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "io/dump_read.h"
+#include "io/dump_show.h"
 #include "io/read.h"
 #include "io/resume.h"
 
@@ -114,6 +116,7 @@ int info_print(FILE *out, const char *path)
 {
     struct snapshot *snapshot;
     if (seal_is(path)) return info_print_checkpoint(out, path);
+    if (dump_read_is(path)) return dump_show(out, path);
     TRY(read_snapshot(path, NULL, &snapshot));
     fprintf(out, "snapshot  %s\ncase      %s", path, snapshot->name);
     if (*snapshot->title) fprintf(out, ": %s", snapshot->title);

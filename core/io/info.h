@@ -1,4 +1,4 @@
-/* info.h - what is inside a snapshot or a checkpoint, as text for people (`bulla info FILE`). */
+/* info.h - what is inside a snapshot, a checkpoint or a dump, as text for people (`bulla info FILE`). */
 #ifndef INFO_H
 #define INFO_H
 

@@ -8,7 +8,9 @@
 #include "base/version.h"
 #include "io/ledger.h"
 #include "io/place.h"
+#include "io/provenance_host.h"
 #include "plug/registry.h"
+#include "solve/stage.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -28,7 +30,9 @@ struct provenance {
     double wall_0, cpu_0; /* at the start of the run [s] */
     long step_0;
     double before[4]; /* wall, CPU, CPU while running, CPU of regridding, of the runs that this one continues [s] */
-    int runs;         /* with this one */
+    double split[COST_PARTS + 1]; /* CPU time by parts, then that of outputs, of the runs before [s] */
+    double output;                /* CPU time of this rank spent on outputs [s] */
+    int runs;                     /* with this one */
     char started[32];
     unsigned peak[MESH_LEVELS]; /* most tiles of each level */
     struct ledger initial;
@@ -99,18 +103,6 @@ static json_t *provenance_command(const struct provenance *provenance)
     return command;
 }
 
-static json_t *provenance_environment(void)
-{
-    static const char *const names[] = {"BULLA_MODULE_PATH", "OMP_NUM_THREADS", "OMPI_COMM_WORLD_SIZE",
-                                        "SLURM_JOB_ID",      "LD_PRELOAD",      "LANG"};
-    json_t *environment = json_object();
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const char *value = getenv(names[i]);
-        if (value) json_object_set_new(environment, names[i], json_string(value));
-    }
-    return environment;
-}
-
 static void provenance_add_module(json_t *modules, const struct bulla_module *module)
 {
     if (!module) return;
@@ -171,15 +163,17 @@ static json_t *provenance_conservation(const struct provenance *provenance, cons
 /* Who ran what, where. */
 static json_t *provenance_origin(const struct provenance *provenance, const struct scene *scene)
 {
-    return json_pack("{s:s, s:s, s:s, s:s?, s:s?, s:s?, s:o, s:o, s:o, s:o, s:i}", "version", BULLA_VERSION, "commit",
-                     version_commit(), "compiler", __VERSION__, "case", scene->path, "name", scene->name, "title",
-                     scene->title, "command", provenance_command(provenance), "environment", provenance_environment(),
-                     "modules", provenance_modules(scene), "hosts", provenance_hosts(provenance), "ranks", comm_size());
+    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:s?, s:s?, s:s?, s:o, s:o, s:o, s:o, s:i}", "version", BULLA_VERSION,
+                     "commit", version_commit(), "compiler", __VERSION__, "compiled", provenance_host_flags(), "cpu",
+                     provenance_host_cpu(), "case", scene->path, "name", scene->name, "title", scene->title, "command",
+                     provenance_command(provenance), "environment", provenance_host_environment(), "modules",
+                     provenance_modules(scene), "hosts", provenance_hosts(provenance), "ranks", comm_size());
 }
 
 /* What it cost and how much there is, of all ranks. */
 struct provenance_cost {
     double wall, cpu, cpu_run, memory, regrid; /* s, s, s since the run began, bytes, s; sums over ranks but wall */
+    double split[COST_PARTS + 1];
     struct state_counts counts;
     struct ledger now;
 };
@@ -254,6 +248,22 @@ static json_t *provenance_guard(const struct state_counts *counts)
                      (json_int_t)counts->retries);
 }
 
+/* CPU time by parts. What is left of the whole is `other`: choosing time steps, progress, what starts and ends a run. */
+static json_t *provenance_split(const struct provenance_cost *cost)
+{
+    static const char *const names[COST_PARTS + 1] = {"exchange",   "gather", "faces", "update",
+                                                      "primitives", "levels", "output"};
+    double other = cost->cpu_run - cost->regrid;
+    json_t *split = json_object();
+    for (int part = 0; part <= COST_PARTS; part++) {
+        json_object_set_new(split, names[part], json_real(cost->split[part]));
+        other -= cost->split[part];
+    }
+    json_object_set_new(split, "regrid", json_real(cost->regrid));
+    json_object_set_new(split, "other", json_real(other > 0.0 ? other : 0.0));
+    return split;
+}
+
 static char *provenance_compose(const struct provenance *provenance, const struct state *state,
                                 const struct provenance_cost *cost, const char *reason, int exit_code)
 {
@@ -268,6 +278,7 @@ static char *provenance_compose(const struct provenance *provenance, const struc
     json_object_set_new(root, "conservation", provenance_conservation(provenance, state, &cost->now));
     json_object_set_new(root, "guard", provenance_guard(&cost->counts));
     json_object_set_new(root, "levels", provenance_levels(provenance, state));
+    json_object_set_new(root, "cpu_split_s", provenance_split(cost));
     json_object_set_new(root, "refinement", provenance_refinement(cost));
     json_object_set_new(root, "exit_reason", json_string(reason));
     json_object_set_new(root, "exit_code", strcmp(reason, "running") ? json_integer(exit_code) : json_null());
@@ -305,6 +316,21 @@ static void provenance_spent(const struct provenance *provenance, const struct s
     ret_spent[3] = provenance->before[3] + provenance_sum(state->counts.regrid_seconds);
 }
 
+/* CPU time by parts and that of outputs, of all ranks and all runs so far. Collective. */
+static void provenance_parts(const struct provenance *provenance, const struct state *state,
+                             double ret_split[COST_PARTS + 1])
+{
+    cost_total(&state->work->cost, ret_split);
+    ret_split[COST_PARTS] = provenance->output;
+    for (int part = 0; part <= COST_PARTS; part++)
+        ret_split[part] = provenance->split[part] + provenance_sum(ret_split[part]);
+}
+
+void provenance_output(struct provenance *provenance, double seconds)
+{
+    provenance->output += seconds;
+}
+
 int provenance_write(struct provenance *provenance, const struct state *state, const char *reason, int exit_code)
 {
     double spent[4];
@@ -315,6 +341,7 @@ int provenance_write(struct provenance *provenance, const struct state *state, c
                                    .memory = provenance_sum(mem_peak()),
                                    .regrid = spent[3],
                                    .counts = state_counts_total(state)};
+    provenance_parts(provenance, state, cost.split);
     ledger_take(state, &cost.now);
     char *text = comm_rank() == 0 ? provenance_compose(provenance, state, &cost, reason, exit_code) : NULL;
     mem_free(provenance->text);
@@ -342,12 +369,14 @@ int provenance_new(const struct state *state, int argc, char *const *argv, struc
 
 void provenance_keep(const struct provenance *provenance, const struct state *state, struct notes *notes)
 {
-    double spent[4], peak[MESH_LEVELS];
+    double spent[4], split[COST_PARTS + 1], peak[MESH_LEVELS];
     provenance_spent(provenance, state, spent);
+    provenance_parts(provenance, state, split);
     for (int l = 0; l < MESH_LEVELS; l++) peak[l] = provenance->peak[l];
     notes_put_text(notes, "provenance.started", provenance->started);
     notes_put_one(notes, "provenance.runs", provenance->runs);
     notes_put(notes, "provenance.spent", 4, spent);
+    notes_put(notes, "provenance.split", COST_PARTS + 1, split);
     notes_put(notes, "provenance.peak_tiles", MESH_LEVELS, peak);
     notes_put(notes, "provenance.initial", provenance->initial.n, provenance->initial.total);
 }
@@ -360,6 +389,7 @@ int provenance_recall(struct provenance *provenance, const struct state *state, 
     mem_free(started);
     if (notes_get(notes, "provenance.runs", 1, &runs)) provenance->runs += (int)runs;
     notes_get(notes, "provenance.spent", 4, provenance->before);
+    notes_get(notes, "provenance.split", COST_PARTS + 1, provenance->split);
     notes_get(notes, "provenance.peak_tiles", MESH_LEVELS, peak);
     for (int l = 0; l < MESH_LEVELS; l++)
         if (peak[l] > provenance->peak[l]) provenance->peak[l] = (unsigned)peak[l];

@@ -21,6 +21,9 @@ void provenance_watch(struct provenance *provenance, const struct state *state);
  * SIGTERM", or the message of the failure. Collective. */
 int provenance_write(struct provenance *provenance, const struct state *state, const char *reason, int exit_code);
 
+/* CPU time that this rank has spent on writing files [s]. */
+void provenance_output(struct provenance *provenance, double seconds);
+
 /* Notes what has been used and what there was at the start, and goes on counting from there: the figures are those
  * of all runs that follow each other. Collective. */
 void provenance_keep(const struct provenance *provenance, const struct state *state, struct notes *notes);

@@ -8,10 +8,15 @@
 #include "solve/advance.h"
 
 #include "base/comm.h"
+#include "base/mem.h"
 #include "base/status.h"
+#include "solve/blame.h"
 #include "solve/plan.h"
 #include "solve/regrid.h"
 #include "solve/sync.h"
+
+#include <stdio.h>
+#include <string.h>
 
 /* A finer level halves its step when the speeds have grown since the coarsest chose its own. */
 #define ADVANCE_EXCESS 1.25
@@ -31,6 +36,7 @@ static double advance_attempt(struct stage *stage, double *ret_signal)
     for (const struct plan_stage *step = plan_stages(); step->name; step++) step->run(stage);
     double found[3] = {(double)stage->guard->bad[0], (double)stage->guard->bad[1], stage->signal};
     comm_max(found, 3);
+    cost_lap(&stage->work->cost, COST_EXCHANGE);
     *ret_signal = found[2];
     if (found[0] > 0.0 || found[1] > 0.0) guard_settle(stage->guard, found[0] > 0.0);
     return found[0] > 0.0 ? found[0] : found[1];
@@ -43,6 +49,7 @@ static double advance_rounds(struct state *state, struct stage *stage, double *r
     stage->cells = stage->carried = stage->clipped = 0;
     guard_clear(stage->guard);
     for (int round = 0;; round++) {
+        stage->guard->last = strict || round == GUARD_ROUNDS;
         double bad = advance_attempt(stage, ret_signal);
         if (bad == 0.0 || strict || round == GUARD_ROUNDS) return bad;
         state->counts.fallback += stage->guard->bad[0] + stage->guard->bad[1];
@@ -64,28 +71,116 @@ static void advance_accept(struct state *state, struct stage *stage, double sign
     stage->clipped = 0;
 }
 
-/* The message of the first rank that found a bad cell, on all ranks. */
-static int advance_give_up(const struct state *state, const struct stage *stage)
+/* A place in the list of ranks: the first that has found something, or their number. */
+static int advance_culprit(bool found)
 {
-    const char *cause = stage->guard->cause;
+    double rank = found ? comm_rank() : comm_size();
+    comm_min(&rank, 1);
+    return (int)rank;
+}
+
+static void advance_stamp(const struct state *state, const struct stage *stage, struct blame *blame)
+{
+    static const double at[] = {0.0, 0.5, 1.0};
+    blame->facts.step = state->step + 1;
+    blame->facts.t = stage->t;
+    blame->facts.dt = stage->dt;
+    blame->facts.at = stage->t + at[blame->facts.stage] * stage->dt;
+}
+
+/* Repeats the last attempt, which failed, with an eye on its first bad cell: an attempt changes nothing that another
+ * one would see. A closure that is iterated may come out differently: then there is nothing to keep. */
+static void advance_watch(const struct state *state, struct stage *stage)
+{
+    struct guard_place was = stage->guard->found;
+    bool mine = advance_culprit(stage->guard->cause[0]) == comm_rank();
+    if (mine) {
+        stage->blame = blame_new(stage->model, stage->guard);
+        advance_stamp(state, stage, stage->blame);
+    }
+    guard_attempt(stage->guard);
+    for (const struct plan_stage *step = plan_stages(); step->name; step++) step->run(stage);
+    stage_reset(stage);
+    const struct guard_place *is = &stage->guard->found;
+    if (!mine) return;
+    stage->blame->turn = -1;
+    bool same = stage->guard->cause[0] && was.local == is->local && was.cell == is->cell && was.stage == is->stage;
+    if (same && stage->blame->whole) return;
+    blame_free(stage->blame);
+    stage->blame = NULL;
+}
+
+/* The message of the first rank that found a bad cell, on all ranks; the blame stays on that rank. */
+static int advance_give_up(const struct state *state, struct stage *stage)
+{
+    char cause[sizeof stage->guard->cause];
+    memcpy(cause, stage->guard->cause, sizeof cause);
     const char *tried = state->scene->guard == SCENE_GUARD_STRICT ? "guard: strict allows no repair"
                                                                   : "first-order fluxes and smaller steps did not help";
     int code = STATUS_OK;
+    advance_watch(state, stage);
     if (cause[0])
         code = status_fail(STATUS_RUN, "step %ld at t = %.9g s cannot be completed: %s (%s; dt = %.3g s)",
                            state->step + 1, stage->t, cause, tried, stage->dt);
     return comm_agree(code);
 }
 
+/* Which tile a script gave no boundary values for. */
+static void advance_say_blind(const struct stage *stage, size_t room, char *ret_text)
+{
+    const struct tile *tile = &stage->level->tiles[stage->level->first + (unsigned)stage->blind / 3];
+    const struct neighbour *sides = stage->level->neighbours[stage->blind / 3];
+    int axis = stage->blind % 3;
+    char name = "xyz"[axis];
+    bool lower = sides[2 * axis].kind == NEIGHBOUR_BOUNDARY, upper = sides[2 * axis + 1].kind == NEIGHBOUR_BOUNDARY;
+    snprintf(ret_text, room, ", tile (%d, %d, %d), boundary %c%s", tile->at[0], tile->at[1], tile->at[2], name,
+             lower && upper ? "- or +"
+             : lower        ? "-"
+                            : "+");
+}
+
+/* A script of a boundary failed on some rank: which step asked it, and for what. */
+static int advance_script(const struct state *state, const struct stage *stage)
+{
+    int status = stage->bound->status;
+    char place[128] = "";
+    if (status) {
+        char *message = mem_text(status_text());
+        if (stage->blind >= 0) advance_say_blind(stage, sizeof place, place);
+        status_fail(status, "%s; step %ld at t = %.9g s, level %d%s", message, state->step + 1, stage->t, stage->l,
+                    place);
+        mem_free(message);
+    }
+    return comm_agree(status);
+}
+
 /* One step of a level, from stage->t over stage->dt: STATUS_OK, or a script's failure. *ret_good: accepted. */
 static int advance_once(struct state *state, struct stage *stage, bool *ret_good)
 {
+    cost_open(&state->work->cost, COST_STEP);
     double signal = 0.0, bad = advance_rounds(state, stage, &signal);
-    int status = comm_agree(stage->bound->status);
+    int status = advance_script(state, stage);
     *ret_good = bad == 0.0 && !status;
     if (*ret_good) advance_accept(state, stage, signal);
     else stage_reset(stage);
+    cost_close(&state->work->cost, COST_STEP);
     return status;
+}
+
+/* After sync_up failed: the level whose guard has the words of the message holds the tile. */
+static void advance_blame_sync(const struct state *state, struct stage *coarse, struct stage *fine)
+{
+    struct stage *stages[] = {coarse, fine};
+    for (int i = 0; i < 2; i++) {
+        struct stage *stage = stages[i];
+        const char *words = stage->guard->found.words; /* survive the end of the synchronisation */
+        bool mine = advance_culprit(words[0] && strstr(status_text(), words)) == comm_rank();
+        if (!mine) continue;
+        stage->guard->found.stage = BLAME_FAILED_SYNC;
+        stage->blame = blame_new(stage->model, stage->guard);
+        advance_stamp(state, stage, stage->blame);
+        blame_keep(stage->blame, stage->model, stage->level->w[stage->blame->local], stage->guard->kept);
+    }
 }
 
 static int advance_through(struct state *state, int l, double t, double dt);
@@ -95,9 +190,18 @@ static int advance_finer(struct state *state, int l)
 {
     if (l + 1 >= state->mesh->n_level) return STATUS_OK;
     struct stage *coarse = state->stages[l], *fine = state->stages[l + 1];
+    struct cost *cost = &state->work->cost;
+    cost_open(cost, COST_SYNC);
     sync_down(coarse, fine);
+    cost_lap(cost, COST_LEVELS);
+    cost_close(cost, COST_SYNC);
     TRY(advance_through(state, l + 1, coarse->t, coarse->dt));
+    cost_open(cost, COST_SYNC);
+    coarse->guard->found.words[0] = fine->guard->found.words[0] = '\0';
     int status = sync_up(coarse, fine, &state->counts.spread);
+    cost_lap(cost, COST_LEVELS);
+    cost_close(cost, COST_SYNC);
+    if (status) advance_blame_sync(state, coarse, fine);
     state->counts.clipped += coarse->clipped;
     coarse->clipped = 0;
     return status;

@@ -37,6 +37,7 @@ void guard_free(struct guard *guard)
     for (unsigned t = 0; t < guard->n_local; t++) mem_free(guard->mask[t]);
     mem_free(guard->mask);
     halo_free(guard->halo);
+    mem_free(guard->kept);
     mem_free(guard);
 }
 
@@ -107,39 +108,115 @@ static void guard_density(const struct model *model, size_t n, size_t stride, co
         for (size_t i = 0; i < n; i++) rho[i] = (l ? rho[i] : 0.0) + u[(model->i_m + l) * stride + i];
 }
 
-/* Which field of a cell is wrong, and its value. */
-static void guard_name(const struct guard *guard, const struct guard_tile *tile, size_t cell, char *what, size_t room)
+/* What is wrong with a cell: name of a field, value, unit or a remark. */
+struct guard_fault {
+    char name[SCENE_NAME + 32];
+    double value;
+    char rest[SCENE_NAME + 128];
+};
+
+static void guard_say(struct guard_fault *fault, const char *name, double value, const char *rest)
+{
+    snprintf(fault->name, sizeof fault->name, "%s", name);
+    snprintf(fault->rest, sizeof fault->rest, "%s", rest);
+    fault->value = value;
+}
+
+/* The first evolved field that is no number: what all else follows from. */
+static bool guard_name_unfinite(const struct guard_tile *tile, size_t n_cell, size_t cell, struct guard_fault *fault)
 {
     const struct model *model = tile->model;
-    size_t n_cell = guard->mesh->n_cell;
-    double p = tile->w[model->i_E * n_cell + cell];
-    snprintf(what, room, "pressure = %.6g Pa in the mixture", p);
-    for (unsigned l = 0; l < model->n_material; l++) {
-        const char *name = model->scene->material[model->first + l].name;
-        double m = tile->u[(model->i_m + l) * n_cell + cell], alpha = model->n_alpha ? tile->w[l * n_cell + cell] : 1.0;
-        if (!(m >= 0.0) || (!model->n_alpha && !(m > 0.0))) {
-            snprintf(what, room, "partial_density_%s = %.6g kg/m3", name, m);
-            return;
-        }
-        if (alpha <= GUARD_PRESENT || tile->rho_c2[l * n_cell + cell] > 0.0) continue;
-        snprintf(what, room, "pressure = %.6g Pa, below what material '%s' (volume fraction %.3g) can bear", p, name,
-                 alpha);
-        return;
+    for (unsigned i = 0; i < model->n_active; i++) {
+        unsigned q = model->active[i];
+        double value = tile->u[q * n_cell + cell];
+        bool density = q >= model->i_m && q < model->i_u;
+        if (isfinite(value)) continue;
+        guard_say(fault, model->field_names[q], value,
+                  density           ? " kg/m3"
+                  : q == model->i_E ? " J/m3"
+                  : q < model->i_u  ? ""
+                                    : " kg/m2/s");
+        return true;
     }
+    return false;
+}
+
+/* One material: its mass, its stiffness. */
+static bool guard_name_material(const struct guard_tile *tile, size_t n_cell, size_t cell, unsigned l,
+                                struct guard_fault *fault)
+{
+    const struct model *model = tile->model;
+    const char *name = model->scene->material[model->first + l].name;
+    char text[sizeof fault->rest];
+    double m = tile->u[(model->i_m + l) * n_cell + cell], p = tile->w[model->i_E * n_cell + cell];
+    double alpha = model->n_alpha ? tile->w[l * n_cell + cell] : 1.0, rho_c2 = tile->rho_c2[l * n_cell + cell];
+    if (!(m >= 0.0) || (!model->n_alpha && !(m > 0.0))) {
+        guard_say(fault, model->field_names[model->i_m + l], m, " kg/m3");
+        return true;
+    }
+    if (alpha <= GUARD_PRESENT || rho_c2 > 0.0) return false;
+    if (isfinite(p) && isnan(rho_c2)) {
+        snprintf(text, sizeof text,
+                 " Pa of material '%s' (density times sound speed squared), from a pressure of %.6g Pa", name, p);
+        guard_say(fault, "rho_c2", rho_c2, text);
+        return true;
+    }
+    snprintf(text, sizeof text, " Pa, below what material '%s' (volume fraction %.3g) can bear", name, alpha);
+    guard_say(fault, "pressure", p, text);
+    return isfinite(p);
+}
+
+static void guard_name(const struct guard *guard, const struct guard_tile *tile, size_t cell, struct guard_fault *fault)
+{
+    size_t n_cell = guard->mesh->n_cell;
+    if (guard_name_unfinite(tile, n_cell, cell, fault)) return;
+    for (unsigned l = 0; l < tile->model->n_material; l++)
+        if (guard_name_material(tile, n_cell, cell, l, fault)) return;
+    guard_say(fault, "pressure", tile->w[tile->model->i_E * n_cell + cell], " Pa in the mixture");
 }
 
 static void guard_describe(struct guard *guard, const struct guard_tile *tile, size_t cell)
 {
     const struct mesh *mesh = guard->mesh;
     const struct level *level = guard->level;
+    const struct tile *at = &level->tiles[level->first + tile->local];
+    size_t i[3];
     double x[3];
-    char what[160];
-    mesh_corner(mesh, level, &level->tiles[level->first + tile->local], x);
-    for (size_t d = 0, rest = cell; d < 3; rest /= (size_t)mesh->n[d], d++)
-        x[d] = (int)d < mesh->dim ? x[d] + ((double)(rest % (size_t)mesh->n[d]) + 0.5) * level->h[d] : 0.0;
-    guard_name(guard, tile, cell, what, sizeof what);
-    snprintf(guard->cause, sizeof guard->cause, "%s, in the cell at (%.9g, %.9g, %.9g) m of level %d, after stage %d",
-             what, x[0], x[1], x[2], guard->l, tile->stage + 1);
+    struct guard_fault fault;
+    mesh_corner(mesh, level, at, x);
+    for (size_t d = 0, rest = cell; d < 3; rest /= (size_t)mesh->n[d], d++) {
+        i[d] = rest % (size_t)mesh->n[d];
+        x[d] = (int)d < mesh->dim ? x[d] + ((double)i[d] + 0.5) * level->h[d] : 0.0;
+    }
+    guard_name(guard, tile, cell, &fault);
+    snprintf(
+        guard->cause, sizeof guard->cause,
+        "%s = %.6g%s, in the cell at (%.9g, %.9g, %.9g) m of level %d (cell (%zu, %zu, %zu) of tile (%d, %d, %d)), "
+        "after stage %d",
+        fault.name, fault.value, fault.rest, x[0], x[1], x[2], guard->l, i[0], i[1], i[2], at->at[0], at->at[1],
+        at->at[2], tile->stage + 1);
+    guard->found = (struct guard_place){.local = tile->local,
+                                        .stage = tile->stage,
+                                        .pure = tile->model == guard->model ? -1 : (int)tile->model->first,
+                                        .cell = cell,
+                                        .value = fault.value};
+    memcpy(guard->found.field, fault.name, sizeof guard->found.field);
+    memcpy(guard->found.words, guard->cause, sizeof guard->found.words);
+}
+
+/* Has the tile a bad cell that is the first of the attempt? */
+static bool guard_is_first(const struct guard *guard, const struct guard_tile *tile)
+{
+    return !guard->cause[0] || tile->local < guard->found.local;
+}
+
+/* Keeps a tile as it came, before its first bad cell is touched. */
+static void guard_keep(struct guard *guard, const struct guard_tile *tile)
+{
+    size_t block = guard->model->n_field * guard->mesh->n_cell;
+    if (!guard->kept) guard->kept = mem_new(2 * block, sizeof *guard->kept);
+    memcpy(guard->kept, tile->u, block * sizeof *tile->u);
+    memcpy(guard->kept + block, tile->w, block * sizeof *tile->w);
 }
 
 /* The checks on n cells from `from`; bad[i] > 0 where one fails. Returns their sum. */
@@ -196,8 +273,8 @@ static bool guard_put_back(struct guard *guard, const struct guard_tile *tile, s
 
 void guard_settle(struct guard *guard, bool first)
 {
-    guard_allow_marks(guard);
-    for (unsigned t = 0; t < guard->n_local; t++)
+    if (!guard->last) guard_allow_marks(guard);
+    for (unsigned t = 0; guard->marked && t < guard->n_local; t++)
         for (size_t c = 0; c < guard->mesh->n_cell; c++)
             if (guard->mask[t][c] == GUARD_PENDING) guard->mask[t][c] = first ? 0.0 : 1.0;
     if (!first) return;
@@ -205,21 +282,31 @@ void guard_settle(struct guard *guard, bool first)
     if (!guard->bad[0]) guard->cause[0] = '\0';
 }
 
+/* A cell that stays bad: said, counted, marked for the next attempt. */
+static void guard_note(struct guard *guard, const struct guard_tile *tile, size_t cell)
+{
+    if (guard_is_first(guard, tile)) guard_describe(guard, tile, cell);
+    guard->bad[tile->stage]++;
+    if (guard->last) return;
+    guard_allow_marks(guard);
+    double *mark = &guard->mask[tile->local][cell];
+    if (*mark == 0.0) *mark = tile->stage ? GUARD_PENDING : 1.0;
+}
+
 void guard_check(struct guard *guard, const struct guard_tile *tile)
 {
     size_t n_cell = guard->mesh->n_cell;
+    bool kept = !guard_is_first(guard, tile);
     if (tile->stage && guard->bad[0]) return;
     for (size_t from = 0; from < n_cell; from += GUARD_BATCH) {
         size_t n = n_cell - from < GUARD_BATCH ? n_cell - from : GUARD_BATCH;
         double bad[GUARD_BATCH];
         if (guard_judge(guard, tile, from, n, bad) == 0.0) continue;
+        if (!kept) guard_keep(guard, tile);
+        kept = true;
         for (size_t i = 0; i < n; i++) {
             if (bad[i] == 0.0 || guard_repair(guard, tile, from + i) || guard_put_back(guard, tile, from + i)) continue;
-            if (!guard->cause[0]) guard_describe(guard, tile, from + i);
-            guard->bad[tile->stage]++;
-            guard_allow_marks(guard);
-            double *mark = &guard->mask[tile->local][from + i];
-            if (*mark == 0.0) *mark = tile->stage ? GUARD_PENDING : 1.0;
+            guard_note(guard, tile, from + i);
         }
     }
 }

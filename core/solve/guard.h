@@ -19,20 +19,33 @@ enum { GUARD_ROUNDS = 3, GUARD_RETRIES = 6 };
 /* Present enough that its state matters: below it a material rides along. */
 #define GUARD_PRESENT 1e-6
 
+/* The first bad cell of an attempt: in the tile that comes first in the list, whatever the order of work. */
+struct guard_place {
+    unsigned local;
+    int stage, pure; /* pure: the material the tile was advanced with alone, or -1 */
+    size_t cell;
+    char field[SCENE_NAME + 32]; /* which field is wrong */
+    double value;
+    char words[512]; /* as `cause`, but kept when the next attempt begins */
+};
+
 struct guard {
     const struct model *model;
     const struct mesh *mesh;
     const struct level *level;
     int l; /* its number, for messages */
     unsigned n_local;
-    double **mask;     /* [n_local][n_cell]: 1 in troubled cells of this step; NULL until a run has had one */
-    bool marked;       /* masks are there and may hold marks */
-    struct halo *halo; /* exchange of the masks */
-    bool masked;       /* some cell of some rank is marked */
-    bool repair;       /* relaxation is allowed (Kapila closure, guard not strict) */
-    long long relaxed; /* cells repaired in the present attempt */
-    long long bad[2];  /* inadmissible cells found after each stage of the present attempt */
-    char cause[512];   /* the first of them, in words (rank-local) */
+    double **mask;            /* [n_local][n_cell]: 1 in troubled cells of this step; NULL until a run has had one */
+    bool marked;              /* masks are there and may hold marks */
+    struct halo *halo;        /* exchange of the masks */
+    bool masked;              /* some cell of some rank is marked */
+    bool repair;              /* relaxation is allowed (Kapila closure, guard not strict) */
+    long long relaxed;        /* cells repaired in the present attempt */
+    long long bad[2];         /* inadmissible cells found after each stage of the present attempt */
+    char cause[512];          /* the first of them, in words (rank-local) */
+    struct guard_place found; /* and in numbers; only valid after something was found */
+    bool last; /* no attempt follows that would use marks: none are made, so that this one can be repeated as it was */
+    double *kept; /* [2][n_field][n_cell]: u and w of the tile of `found` as they came to be judged */
 };
 
 struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l);

@@ -45,7 +45,7 @@ void stage_work_free(struct stage_work *work)
 struct stage *stage_new(const struct model *model, struct mesh *mesh, int l, struct stage_work *work)
 {
     struct stage *stage = mem_new(1, sizeof *stage);
-    *stage = (struct stage){.model = model, .mesh = mesh, .l = l, .level = &mesh->levels[l], .work = work};
+    *stage = (struct stage){.model = model, .mesh = mesh, .l = l, .level = &mesh->levels[l], .work = work, .blind = -1};
     stage->census = (struct census){.model = model, .mesh = mesh, .level = stage->level};
     return stage;
 }
@@ -54,6 +54,7 @@ void stage_free(struct stage *stage)
 {
     if (!stage) return;
     guard_free(stage->guard);
+    blame_free(stage->blame);
     bound_free(stage->bound);
     reflux_free(stage->reflux);
     mem_free(stage->census.tiles);
@@ -71,20 +72,24 @@ void stage_exchange(struct stage *stage)
 {
     halo_start(stage->level->halo, stage->level->w);
     if (stage->guard->masked) halo_start(stage->guard->halo, stage->guard->mask);
+    cost_lap(&stage->work->cost, COST_EXCHANGE);
 }
 
 static void stage_finish_exchange(struct stage *stage)
 {
     halo_finish(stage->level->halo);
     if (stage->guard->masked) halo_finish(stage->guard->halo);
+    cost_lap(&stage->work->cost, COST_EXCHANGE);
 }
 
 void stage_ghosts(struct stage *stage)
 {
     if (stage->l + 1 >= stage->mesh->n_level) return;
     halo_finish(stage->level->halo);
+    cost_lap(&stage->work->cost, COST_EXCHANGE);
     stage->bound->t = stage->t;
     prolong_strips(stage->work->prolong, stage->mesh, stage->l, stage->bound, 0);
+    cost_lap(&stage->work->cost, COST_LEVELS);
 }
 
 /* Has a tile nothing to compute in this stage? Iterated closures, repeated steps and tiles whose fluxes another level
@@ -136,6 +141,7 @@ static void stage_sweep(struct stage *stage, const struct model *model, unsigned
     const struct level *level = stage->level;
     const struct guard *guard = stage->guard;
     struct face_work *faces = model == stage->model ? stage->work->faces : stage->work->faces_pure;
+    struct cost *cost = &stage->work->cost;
     bool concerned = stage->fluxes && reflux_concerns(stage->reflux, local);
     const struct frame_source fields = {.mesh = mesh,
                                         .level = level,
@@ -153,9 +159,14 @@ static void stage_sweep(struct stage *stage, const struct model *model, unsigned
         struct frame frame = frame_piece(mesh, axis, piece);
         frame_gather(&fields, local, &frame, FACE_ROOM, faces->frame);
         if (guard->masked) frame_gather(&marks, local, &frame, FACE_ROOM, faces->mask);
+        cost_lap(cost, COST_GATHER);
+        if (stage->bound->status && stage->blind < 0) stage->blind = 3 * (int)local + axis;
         face_solve(faces, &frame, guard->masked);
+        cost_lap(cost, COST_FACES);
+        if (blame_concerns(stage->blame, local)) blame_piece(stage->blame, model, &frame, faces);
         if (concerned) reflux_collect(stage->reflux, model, local, &frame, faces);
         update_add(model, level, metric, &frame, faces, mesh->n_cell, level->w[local], stage->work->rates);
+        cost_lap(cost, COST_UPDATE);
     }
     if (concerned) reflux_average(stage->reflux, local, axis);
 }
@@ -189,6 +200,8 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double dt, d
         .u_old = level->u_old[local], .w = level->w[local], .K = work->K, .rho_c2 = work->rho_c2, .rates = work->rates};
     stage->clipped += (long long)update_apply(model, n_cell, dt, &input, u);
     stage->cells += (long long)n_cell;
+    if (blame_concerns(stage->blame, local)) blame_rates(stage->blame, stage->model, &input);
+    cost_lap(&work->cost, COST_UPDATE);
 }
 
 /* Primitives of u, into w, and the guard's judgement; `before`: an earlier admissible state. */
@@ -200,6 +213,7 @@ static void stage_judge(struct stage *stage, unsigned local, int judged, const d
     mix_primitives(model, n_cell, n_cell, u, w);
     mix_stiffness(model, n_cell, n_cell, w, work->rho_c2);
     mix_speed2(model, n_cell, n_cell, w, work->rho_c2, work->c2);
+    if (blame_concerns(stage->blame, local)) blame_result(stage->blame, model, u, w);
     struct guard_tile tile = {.model = model,
                               .local = local,
                               .stage = judged,
@@ -210,6 +224,7 @@ static void stage_judge(struct stage *stage, unsigned local, int judged, const d
                               .c2 = work->c2};
     guard_check(stage->guard, &tile);
     census_note(&stage->census, local, u, w);
+    cost_lap(&work->cost, COST_PRIMITIVES);
 }
 
 static void stage_half_tile(struct stage *stage, unsigned local)
@@ -246,6 +261,7 @@ static void stage_tiles(struct stage *stage, double at, void (*work)(struct stag
 {
     const struct level *level = stage->level;
     stage->bound->t = stage->t + at * stage->dt;
+    if (stage->blame) stage->blame->turn = at > 0.0;
     if (level->link) level->link->theta = stage->from + at * stage->part;
     for (unsigned tile = 0; tile < level->n_local; tile++)
         if (!halo_is_remote(level, tile)) work(stage, tile);

@@ -14,7 +14,9 @@
 #include "phys/face.h"
 #include "phys/prolong.h"
 #include "phys/reflux.h"
+#include "solve/blame.h"
 #include "solve/census.h"
+#include "solve/cost.h"
 #include "solve/guard.h"
 
 /* Scratch of one rank, used by its levels in turn. */
@@ -23,6 +25,7 @@ struct stage_work {
     struct face_work *faces_pure; /* NULL for one material */
     struct prolong *prolong;
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
+    struct cost cost;                         /* where the time goes, of all levels */
 };
 
 struct stage_work *stage_work_new(const struct model *model, const struct mesh *mesh);
@@ -38,10 +41,12 @@ struct stage {
     struct guard *guard;
     struct reflux *reflux;
     struct census census;
-    double t, dt;      /* of the step under way */
-    double from, part; /* where it begins in the step of the coarser level, and how much of that it takes */
-    double signal;     /* largest of the local tiles */
-    bool fluxes;       /* the stage under way makes the step: coarse-fine fluxes are kept */
+    int blind;           /* tile whose boundary values a script could not give, times 3 plus the axis; -1: none */
+    struct blame *blame; /* a tile being watched while a failed attempt is repeated, and what was seen; or NULL */
+    double t, dt;        /* of the step under way */
+    double from, part;   /* where it begins in the step of the coarser level, and how much of that it takes */
+    double signal;       /* largest of the local tiles */
+    bool fluxes;         /* the stage under way makes the step: coarse-fine fluxes are kept */
     long long cells, carried, clipped; /* work done, rank-local */
 };
 

@@ -1,0 +1,103 @@
+/* blame.h - what a step that could not be completed failed on: one tile, with all that its update needed.
+ *
+ * When the guard gives up, the attempt is repeated with a watch on the tile that holds the first bad cell; so the
+ * facts cost nothing as long as all goes well, and are those of the very attempt that the message speaks of.
+ * blame_replay.h computes the tile again from these facts alone; io/dump.h writes them to a file. */
+#ifndef BLAME_H
+#define BLAME_H
+
+#include "phys/update.h"
+#include "solve/guard.h"
+
+enum { BLAME_FAILED_SYNC = 2, BLAME_COLUMNS = 9 * SCENE_MATERIALS + 16, BLAME_NAME = SCENE_NAME + 32 };
+
+/* Plain numbers and texts: they can be sent as they are. */
+struct blame_facts {
+    int rank;         /* which has the blocks */
+    long step;        /* under way, counted from 1 */
+    double t, dt, at; /* where the step of the level began [s], its size [s]; when the stage took boundary values [s] */
+    int level,
+        stage; /* stage: 0 midpoint, 1 new state, BLAME_FAILED_SYNC: after averages and fluxes of a finer level */
+    int tile[3], extent[3], covered; /* as in struct tile and struct level */
+    double h[3];
+    int n[3]; /* cells of the tile */
+    unsigned n_cell, cell;
+    int pure; /* the material the tile was advanced with alone, or -1 */
+    bool masked, repair;
+    char field[BLAME_NAME]; /* the first field that is wrong in the cell, and its value */
+    double value;
+    char verdict[512];
+};
+
+/* The blocks, [rows][columns]; components are rows, cells columns, x fastest. */
+enum blame_block {
+    BLAME_U_OLD,     /* conserved at the beginning of the step */
+    BLAME_W,         /* primitives at which the rates were taken */
+    BLAME_U,         /* what came out, before the guard changed anything */
+    BLAME_W_NEW,     /* its primitives */
+    BLAME_K,         /* of mix_closure; Kapila closure only */
+    BLAME_STIFFNESS, /* rho_l c_l^2 at w, likewise */
+    BLAME_FRAME_X,   /* w with two layers of neighbours along an axis: [field][outer][n + 4][inner] */
+    BLAME_FRAME_Y,
+    BLAME_FRAME_Z,
+    BLAME_MASK_X, /* marked cells of the same frames */
+    BLAME_MASK_Y,
+    BLAME_MASK_Z,
+    BLAME_FACES, /* lower and upper face of the cell along each axis: [2 dim][blame_columns] */
+    BLAME_BLOCKS
+};
+
+struct blame {
+    struct blame_facts facts;
+    double *block[BLAME_BLOCKS]; /* NULL: does not exist for this stage (blame_shape: 0 rows), or on another rank */
+    int turn;                    /* stage under way */
+    unsigned local;
+    bool whole; /* the watched stage has been seen to its end */
+};
+
+const char *blame_name(enum blame_block block);
+
+/* Name of a block and its shape; 0 rows: there is none. `model` is the whole one of the scene. */
+struct blame_shape {
+    const char *name;
+    unsigned rows;
+    size_t columns;
+};
+struct blame_shape blame_shape(const struct model *model, const struct blame_facts *facts, enum blame_block block);
+
+/* Names of the columns of BLAME_FACES; returns their number. */
+unsigned blame_columns(const struct model *model, const struct blame_facts *facts, char (*ret_names)[BLAME_NAME]);
+
+/* Starts to watch what the guard has found, with memory for all blocks. */
+struct blame *blame_new(const struct model *model, const struct guard *guard);
+
+/* An empty one with the blocks that the facts ask for. */
+struct blame *blame_like(const struct model *model, const struct blame_facts *facts);
+void blame_free(struct blame *blame); /* NULL is fine */
+
+/* Is this local tile, in the stage under way, the watched one? `blame` may be NULL. */
+static inline bool blame_concerns(const struct blame *blame, unsigned local)
+{
+    return blame && blame->local == local && blame->turn == blame->facts.stage;
+}
+
+/* For stage.c, of a watched tile: a piece after its fluxes were found; what the update is made of; what came out. */
+void blame_piece(struct blame *blame, const struct model *used, const struct frame *frame,
+                 const struct face_work *faces);
+void blame_rates(struct blame *blame, const struct model *model, const struct update_input *in);
+void blame_result(struct blame *blame, const struct model *used, const double *u, const double *w);
+
+/* Of a tile that failed after a synchronisation: w there now, and what the guard kept of it ([2][n_field][n_cell]). */
+void blame_keep(struct blame *blame, const struct model *model, const double *w, const double *kept);
+
+/* The other way: a piece of the frames, and of the marks, for the work space of a replay. */
+void blame_give(const struct blame *blame, const struct model *used, const struct frame *frame,
+                struct face_work *faces);
+
+struct state;
+
+/* After a failed step: is there a blame on any rank? Then its facts on all ranks, and, on facts.rank, the blame itself
+ * (else NULL), which belongs to the state. Collective. */
+bool blame_find(const struct state *state, struct blame_facts *ret_facts, const struct blame **ret_blame);
+
+#endif
