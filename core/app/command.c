@@ -76,6 +76,10 @@ static const struct cli_option *const command_module_options[] = {&command_param
 static const struct cli_option command_markdown = {"--markdown", NULL, NULL, "A page to read instead of a schema."};
 static const struct cli_option *const command_schema_options[] = {&command_markdown, NULL};
 
+static const struct cli_option command_replay = {"--replay", NULL, NULL,
+                                                 "Of a dump: computes the failed step of its tile again and compares."};
+static const struct cli_option *const command_info_options[] = {&command_replay, NULL};
+
 static const struct cli_command command_table[] = {
     {"run", "CASE.yaml", "Runs a case.", command_run_options, 1, 1, run_command},
     {"check", "CASE.yaml...", "Finds every mistake of a case and tells what it needs.", command_check_options, 1, -1,
@@ -91,7 +95,8 @@ static const struct cli_command command_table[] = {
      3, 3, module_new_command},
     {"module", "check FILE.so...", "Tests a module against the contract of its kind.", command_module_options, 2, -1,
      module_check_command},
-    {"info", "FILE...", "What is inside a snapshot or a checkpoint.", NULL, 1, -1, inspect_info},
+    {"info", "FILE...", "What is inside a snapshot, a checkpoint or the dump of a failed step.", command_info_options,
+     1, -1, inspect_info},
     {"plot", "DIR FIELD|history", "PNG pictures of snapshots and histories.", plot_option_table, 1, -1, plot_command},
     {"report", "DIR", "One HTML page about a run, pictures inside.", report_option_table, 1, 1, report_command},
     {"verify", "[ID...]", "Errors, orders and cost of the verification scenes (r09: r09a, r09b, ...; none: all).",
