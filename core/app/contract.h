@@ -12,7 +12,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { CONTRACT_WHERE = 160, CONTRACT_ROWS = 40, CONTRACT_FACTS = 8, CONTRACT_COSTS = 16, CONTRACT_NAME = 64 };
+enum {
+    CONTRACT_PROBE = 4,
+    CONTRACT_WHERE = 160,
+    CONTRACT_ROWS = 40,
+    CONTRACT_FACTS = 8,
+    CONTRACT_COSTS = 16,
+    CONTRACT_NAME = 64
+};
 
 struct contract_row {
     const char *check;          /* what must hold; static text */

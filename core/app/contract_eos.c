@@ -282,3 +282,11 @@ void contract_eos_run(struct contract *contract)
                                    .T = {range.T_min, range.T_max}};
     contract_eos_run_in(contract, &box);
 }
+
+void contract_eos_probe(const struct contract *contract, double out[static CONTRACT_PROBE])
+{
+    const struct bulla_eos *eos = contract->module->table;
+    const double rho = 900.0, p = 1e7;
+    eos->state(contract->self, 1, &rho, &p, &out[0], &out[1]);
+    eos->temperature(contract->self, 1, &rho, &p, &out[2]);
+}

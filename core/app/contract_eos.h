@@ -18,4 +18,7 @@ void contract_eos_run(struct contract *contract);
 /* The same in another box, e.g. one that reaches into the continuation. */
 void contract_eos_run_in(struct contract *contract, const struct contract_eos_box *box);
 
+/* A few values by which instances are told apart; `out` is 0 before. */
+void contract_eos_probe(const struct contract *contract, double out[static CONTRACT_PROBE]);
+
 #endif

@@ -144,3 +144,9 @@ void contract_limiter_run(struct contract *contract)
     contract_batch_run(contract, &slope);
     if (limiter->edges) contract_batch_run(contract, &edges);
 }
+
+void contract_limiter_probe(const struct contract *contract, double out[static CONTRACT_PROBE])
+{
+    out[0] = limiter_slope(contract, 1.0, 3.0);
+    out[1] = limiter_slope(contract, 2.0, 2.2);
+}

@@ -7,4 +7,7 @@
 /* All checks of one instance. */
 void contract_limiter_run(struct contract *contract);
 
+/* A few values by which instances are told apart; `out` is 0 before. */
+void contract_limiter_probe(const struct contract *contract, double out[static CONTRACT_PROBE]);
+
 #endif

@@ -116,6 +116,48 @@ static void module_ends(struct contract *contract, struct bulla_value *values)
     }
 }
 
+/* Other values than these: the last preset, or ends of ranges. */
+static struct bulla_value *module_other(const struct bulla_module *module, const struct bulla_value *values)
+{
+    unsigned count = instance_param_count(module);
+    struct bulla_value *other = mem_new(count + 1, sizeof *other);
+    const struct bulla_preset *preset = module->presets;
+    while (preset && preset->name && preset[1].name) preset++;
+    for (unsigned i = 0; i < count; i++) {
+        const struct bulla_param *row = &module->params[i];
+        bool low = values[i].number == row->min;
+        other[i].text = mem_text(values[i].text);
+        other[i].number = low ? row->max : row->min;
+        if (preset && preset->name && preset != module->presets) other[i].number = preset->values[i];
+    }
+    return other;
+}
+
+/* What one instance says before, beside and after another with other values: `open` may leave nothing in globals. */
+static void module_apart(struct contract *contract, const struct bulla_value *values)
+{
+    const struct bulla_module *module = contract->module;
+    struct bulla_value *other = module_other(module, values);
+    struct instance one = {0}, two = {0};
+    double said[3][CONTRACT_PROBE];
+    bool both = instance_open(module, values, &one) == STATUS_OK;
+    contract->self = one.self;
+    if (both) contract_suite_probe(contract, said[0]);
+    both = both && instance_open(module, other, &two) == STATUS_OK;
+    if (both) {
+        contract_suite_probe(contract, said[1]);
+        instance_done(&two);
+        contract_suite_probe(contract, said[2]);
+        contract_begin(contract, "instances with other values do not touch each other", 0.0);
+        for (int i = 0; i < CONTRACT_PROBE; i++)
+            contract_error(contract, !contract_same(said[0][i], said[1][i]) || !contract_same(said[0][i], said[2][i]),
+                           "%.9g alone, %.9g beside another, %.9g after it", said[0][i], said[1][i], said[2][i]);
+    }
+    instance_done(&one);
+    contract->self = NULL;
+    module_forget(module, other);
+}
+
 static void module_units(struct contract *contract)
 {
     for (unsigned i = 0; i < instance_param_count(contract->module); i++) {
@@ -144,6 +186,8 @@ static int module_all(struct contract *contract, const char *const *sets, struct
     contract->preset = "";
     module_units(contract);
     module_ends(contract, values);
+    contract_doing(contract, "two instances");
+    if (instance_param_count(module)) module_apart(contract, values);
     return STATUS_OK;
 }
 

@@ -286,3 +286,12 @@ void contract_riemann_run(struct contract *contract)
             contract_batch_run(contract, &call);
         }
 }
+
+void contract_riemann_probe(const struct contract *contract, double out[static CONTRACT_PROBE])
+{
+    uint64_t seed = 1;
+    struct contract_face face = contract_face_draw(&seed, riemann_shapes[0], 0.3);
+    struct contract_flux flux = contract_face_solve(contract, &face);
+    out[0] = flux.u;
+    out[1] = flux.rho_E;
+}

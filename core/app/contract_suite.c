@@ -11,9 +11,10 @@
 static const struct {
     const char *kind;
     void (*run)(struct contract *contract);
-} contract_suite_table[] = {{"eos", contract_eos_run},
-                            {"limiter", contract_limiter_run},
-                            {"riemann", contract_riemann_run}};
+    void (*probe)(const struct contract *contract, double out[static CONTRACT_PROBE]);
+} contract_suite_table[] = {{"eos", contract_eos_run, contract_eos_probe},
+                            {"limiter", contract_limiter_run, contract_limiter_probe},
+                            {"riemann", contract_riemann_run, contract_riemann_probe}};
 
 enum { SUITE_KINDS = sizeof contract_suite_table / sizeof *contract_suite_table };
 
@@ -21,6 +22,13 @@ void contract_suite_run(struct contract *contract)
 {
     for (int i = 0; i < SUITE_KINDS; i++)
         if (!strcmp(contract_suite_table[i].kind, contract->module->kind)) contract_suite_table[i].run(contract);
+}
+
+void contract_suite_probe(const struct contract *contract, double out[static CONTRACT_PROBE])
+{
+    memset(out, 0, CONTRACT_PROBE * sizeof *out);
+    for (int i = 0; i < SUITE_KINDS; i++)
+        if (!strcmp(contract_suite_table[i].kind, contract->module->kind)) contract_suite_table[i].probe(contract, out);
 }
 
 const char *const *contract_suite_kinds(void)

@@ -7,6 +7,9 @@
 /* Runs the suite of contract->module's kind on contract->self. */
 void contract_suite_run(struct contract *contract);
 
+/* A few values of contract->self, by which instances are told apart. */
+void contract_suite_probe(const struct contract *contract, double out[static CONTRACT_PROBE]);
+
 /* All kinds, NULL-terminated. */
 const char *const *contract_suite_kinds(void);
 

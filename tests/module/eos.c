@@ -158,7 +158,7 @@ static void test_contract_as_stated(void **state)
         struct contract contract = {.module = laws[i].instance.module};
         assert_int_equal(contract_module_run(&contract, NULL), 0);
         support_holds(&contract);
-        assert_int_equal(contract.n_row, 19);
+        assert_int_equal(contract.n_row, 20);
     }
 }
 

@@ -287,6 +287,46 @@ static void test_riemann(void **state)
     }
 }
 
+/* The classic mistake: values in a global, where the second material's replace the first one's. */
+
+static void *made[64], *newest;
+static size_t n_made;
+static const struct bulla_module *original;
+
+static int keep(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
+{
+    int code = original->open(host, values, ret_self);
+    newest = *ret_self;
+    assert_true(n_made < sizeof made / sizeof *made);
+    if (!code) made[n_made++] = newest;
+    return code;
+}
+
+static void global(const void *self, size_t n, IN rho, IN p, OUT T)
+{
+    (void)self;
+    eos->temperature(newest, n, rho, p, T);
+}
+
+static void test_instances(void **state)
+{
+    (void)state;
+    original = support_module("eos", "mnasg");
+    struct bulla_eos table = *eos;
+    struct bulla_module module = *original;
+    table.temperature = global;
+    module.table = &table;
+    module.open = keep;
+    module.close = NULL; /* here `newest` outlives its owner */
+    struct contract contract = {.module = &module};
+    assert_int_equal(contract_module_run(&contract, NULL), 0);
+    while (n_made) original->close(made[--n_made]);
+    assert_int_equal(contract_failed(&contract), 1);
+    const struct contract_row *last = &contract.rows[contract.n_row - 1];
+    assert_non_null(strstr(last->check, "do not touch each other"));
+    assert_true(last->worst > last->limit);
+}
+
 /* Settings by hand: units and ranges are looked at, a missing one is named. */
 static void test_settings(void **state)
 {
@@ -311,6 +351,7 @@ static void test_settings(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_eos), cmocka_unit_test(test_limiter),
-                                       cmocka_unit_test(test_riemann), cmocka_unit_test(test_settings)};
+                                       cmocka_unit_test(test_riemann), cmocka_unit_test(test_instances),
+                                       cmocka_unit_test(test_settings)};
     return cmocka_run_group_tests(tests, start, support_stop);
 }

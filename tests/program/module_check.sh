@@ -33,6 +33,8 @@ for file in "$BULLA_BUILD"/tests/hostile/*.so; do
     [ ! -s out ] && [ "$(wc -l <err)" = 1 ] || fail "$file: not one line"
     grep -q "${file##*/}" err || fail "$file: is not named"
 done
+judge 1 "$BULLA_BUILD/tests/hostile/nan/nan_eos.so"
+grep -q "well-posed in the stated range .* FAIL" out || fail "NaN is not found"
 judge 1 "$BULLA_BUILD/tests/hostile/none.so"
 grep -qE 'equal differences.* FAIL .* instead of ' out || fail "the worst value is not told"
 grep -q '^FAIL: 1 of' out || fail "no verdict"
