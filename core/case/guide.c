@@ -6,6 +6,7 @@
 #include "case/family.h"
 #include "case/scalar.h"
 #include "case/scene_draft.h"
+#include "plug/instance.h"
 
 #include <string.h>
 
@@ -80,6 +81,34 @@ static void guide_table(struct guide *guide, const struct keys_section *section)
     guide_rows(guide, section);
 }
 
+/* What a preset sets, key by key. */
+static void guide_presets(struct guide *guide, const struct bulla_module *module)
+{
+    unsigned count = instance_param_count(module);
+    const char *rule = "| --- | --- |";
+    if (!module->presets || !module->presets->name) return;
+    text_add(&guide->text, "\n| preset | what it is |");
+    for (unsigned i = 0; i < count; i++) {
+        text_add(&guide->text, " `%s` |", module->params[i].name);
+        rule = tree_print(guide->forest, "%s --- |", rule);
+    }
+    text_add(&guide->text, "\n%s\n", rule);
+    for (const struct bulla_preset *preset = module->presets; preset->name; preset++) {
+        text_add(&guide->text, "| `%s` | %s |", preset->name, preset->doc ? preset->doc : "");
+        for (unsigned i = 0; i < count; i++) {
+            const char *value = family_preset(guide->forest, module, preset->name, module->params[i].name);
+            text_add(&guide->text, " %s |", value ? value : "");
+        }
+        text_add(&guide->text, "\n");
+    }
+}
+
+static void guide_module(struct guide *guide, const struct bulla_module *module)
+{
+    guide_presets(guide, module);
+    if (module->cite && *module->cite) text_add(&guide->text, "\nSource: %s.\n", module->cite);
+}
+
 /* The cases of a section, each with the keys that it adds. */
 static void guide_cases(struct guide *guide, const struct keys_section *section)
 {
@@ -87,6 +116,7 @@ static void guide_cases(struct guide *guide, const struct keys_section *section)
         const struct keys_section *one = family_find(guide->forest, section, *name);
         text_add(&guide->text, "\n**`%s: %s`** %s\n", section->selector, *name, one->doc ? one->doc : "");
         guide_table(guide, one);
+        if (one->module) guide_module(guide, one->module);
         if (one->selector) guide_cases(guide, one);
     }
 }
@@ -120,9 +150,14 @@ static void guide_section(struct guide *guide, const struct keys_section *sectio
 char *guide_text(void)
 {
     struct guide guide = {.forest = tree_forest_new()};
-    text_add(&guide.text, "# Keys of a case file\n\nMade by `bulla schema --markdown` from the tables that read cases; "
-                          "[cases.md](cases.md) explains how cases work.\n");
+    struct text whole = {0};
     guide_section(&guide, &scene_root_keys);
+    text_add(&whole, "# Keys of a case file\n\nMade by `bulla schema --markdown` from the tables that read cases and "
+                     "from the loaded modules; [cases.md](cases.md) explains how cases work.\n\nSections:");
+    for (unsigned i = 0; i < guide.n_done; i++)
+        text_add(&whole, "%s[%s](#%s)", i ? ", " : " ", guide.done[i]->name, guide.done[i]->name);
+    text_add(&whole, ".\n%s", guide.text.at);
+    text_done(&guide.text);
     tree_forest_free(guide.forest);
-    return guide.text.at;
+    return whole.at;
 }

@@ -6,3 +6,21 @@ python3=/usr/bin/python3
     exit 77
 }
 "$python3" "$BULLA_SOURCE/tests/editor/judge.py" "$BULLA" "$BULLA_SOURCE"
+
+# A module on the path is in the schema and in the reference, with its own keys.
+BULLA_MODULE_PATH=$BULLA_BUILD/tests/plugin:$BULLA_MODULE_PATH "$BULLA" schema >plugin.json
+BULLA_MODULE_PATH=$BULLA_BUILD/tests/plugin:$BULLA_MODULE_PATH "$BULLA" schema --markdown >plugin.md
+"$python3" - plugin.json <<'END_OF_CHECK'
+import json, sys
+import jsonschema
+
+schema = jsonschema.Draft7Validator(json.load(open(sys.argv[1])))
+case = json.loads("""{"bulla": 1,
+  "domain": {"lower": [0], "upper": [1], "cells": [10], "boundaries": {"x-": "outflow", "x+": "outflow"}},
+  "materials": {"water": {"eos": {"type": "tait-murnaghan", "sound-speed": "1.5 km/s"}}},
+  "initial": [{"everywhere": true, "material": "water", "density": 998, "pressure": 1}], "run": {"until": 1}}""")
+assert schema.is_valid(case)
+case["materials"]["water"]["eos"]["sound-speed"] = "1.5 kg"
+assert not schema.is_valid(case)
+END_OF_CHECK
+grep -q '^\*\*`type: tait-murnaghan`\*\*' plugin.md
