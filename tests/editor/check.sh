@@ -25,8 +25,8 @@ trap 'exit 130' INT TERM
 server=${YAML_LANGUAGE_SERVER:-$place/node_modules/yaml-language-server/bin/yaml-language-server}
 if [ -z "${YAML_LANGUAGE_SERVER:-}" ]; then
     command -v npm >/dev/null 2>&1 || skip "npm is not installed"
-    npm install --silent --no-audit --no-fund --prefix "$place" "yaml-language-server@$version" >"$place/npm.log" 2>&1 ||
-        skip "npm cannot install yaml-language-server $version: $(tail -n 1 "$place/npm.log")"
+    npm install --loglevel=error --no-audit --no-fund --prefix "$place" "yaml-language-server@$version" >"$place/npm.log" 2>&1 ||
+        skip "npm cannot install yaml-language-server $version: $(head -n 1 "$place/npm.log")"
 fi
 "$bulla" schema >"$place/case.schema.json"
 node "$here/ask.mjs" "$server" "$place/case.schema.json" "$here/questions.txt"
