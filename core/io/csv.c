@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
 
@@ -79,6 +80,9 @@ static void csv_set_aside(const char *path)
 
 static int csv_start(struct csv *csv, const char *header, bool resume, double limit)
 {
+    struct stat about;
+    if (!stat(csv->path, &about) && S_ISFIFO(about.st_mode)) /* opening it would wait for a reader */
+        return status_fail(STATUS_RUN, "%s: cannot write: it is a pipe", csv->path);
     FILE *old = resume ? fopen(csv->path, "r") : NULL;
     long keep = old ? csv_past(old, header, limit) : 0;
     if (old) fclose(old);

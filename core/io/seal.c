@@ -72,10 +72,11 @@ int seal_bytes(int file, const char *path, uint64_t offset, uint64_t length, voi
 /* Adds the bytes [from, to) of a file to a checksum. */
 static int seal_sum(int file, const char *path, const uint64_t range[2], XXH64_state_t *sum)
 {
-    char *piece = mem_new(SEAL_PIECE, 1);
+    uint64_t most = range[1] - range[0] < SEAL_PIECE ? range[1] - range[0] : SEAL_PIECE;
+    char *piece = mem_new(most, 1);
     int code = STATUS_OK;
-    for (uint64_t at = range[0]; !code && at < range[1]; at += SEAL_PIECE) {
-        uint64_t length = range[1] - at < SEAL_PIECE ? range[1] - at : SEAL_PIECE;
+    for (uint64_t at = range[0]; !code && at < range[1]; at += most) {
+        uint64_t length = range[1] - at < most ? range[1] - at : most;
         code = seal_bytes(file, path, at, length, piece);
         if (!code) XXH64_update(sum, piece, length);
     }

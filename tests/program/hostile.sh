@@ -254,6 +254,11 @@ for file in pipe.yaml /dev/zero . nowhere zeros.yaml whole/history.csv whole/fie
     attempt "--restart=$file" 1 2 'cannot restart' run good.yaml --quiet "--restart=$file"
 done
 
+mkdir out out/checkpoints
+cp whole/checkpoints/good_000002.chk out/checkpoints
+mkfifo out/history.csv
+attempt out/history.csv 1 3 'it is a pipe' run good.yaml --quiet --restart
+
 # --- snapshots and what `info` is given ---
 snapshot=whole/fields/good_000004.hdf
 size=$(wc -c <"$snapshot")
