@@ -146,7 +146,7 @@ struct scene_expect {
 /* What becomes of the difference between coarse and fine fluxes (model.md 7). */
 enum scene_reflux {
     SCENE_REFLUX_CORRECTED, /* conserved fields and fractions; the free stream stays */
-    SCENE_REFLUX_PLAIN,     /* fractions without the term of div u: for comparison, a uniform alpha drifts */
+    SCENE_REFLUX_PLAIN,     /* fractions without the term of div u, put back to sum 1: for comparison */
     SCENE_REFLUX_OFF,       /* nothing: mass is lost; for comparison */
 };
 

@@ -6,7 +6,7 @@
  * delta = (sum over fine steps of dt F_fine) - dt F_coarse and the cell on the lower side of the face,
  *     conserved fields:  d q = -(A/V) delta(F)
  *     fractions:         d alpha = -(A/V) [delta(alpha* u*) - (alpha + K) delta(u*)],
- * alpha + K that of the coarse cell at the midpoint: without the second term a uniform alpha would drift. */
+ * alpha + K that of the coarse cell at the midpoint: without the second term a uniform alpha would be asked to drift. */
 #ifndef REFLUX_H
 #define REFLUX_H
 
