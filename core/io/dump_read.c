@@ -2,6 +2,7 @@
  * anything is computed from it: a file may come from anywhere. */
 #include "io/dump_read.h"
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/dump.h"
@@ -17,7 +18,8 @@ static bool dump_is_hdf5(const char *path)
 {
     static const unsigned char magic[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
     unsigned char head[sizeof magic];
-    FILE *stream = fopen(path, "rb");
+    const char *why;
+    FILE *stream = file_open(path, &why);
     if (!stream) return false;
     bool is = fread(head, 1, sizeof head, stream) == sizeof head && !memcmp(head, magic, sizeof magic);
     fclose(stream);
