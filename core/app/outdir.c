@@ -9,8 +9,10 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -128,10 +130,22 @@ int outdir_check(const char *path, bool overwrite)
     return comm_agree(comm_rank() == 0 ? outdir_check_here(path, overwrite) : 0);
 }
 
+/* A run has its directory to itself until its process ends, however it ends. File systems that know no such locks are
+ * taken on trust. */
+static int outdir_lock(const char *path)
+{
+    static int held = -1;
+    if (held >= 0) close(held);
+    held = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (held < 0 || !flock(held, LOCK_EX | LOCK_NB) || errno != EWOULDBLOCK) return STATUS_OK;
+    return status_fail(STATUS_CASE, "another run is at work in %s; -o DIR writes elsewhere", path);
+}
+
 static int outdir_prepare_here(const char *path)
 {
-    TRY(outdir_clear(path));
-    return outdir_make(path);
+    TRY(outdir_make(path));
+    TRY(outdir_lock(path));
+    return outdir_clear(path);
 }
 
 int outdir_prepare(const char *path)
@@ -141,7 +155,7 @@ int outdir_prepare(const char *path)
 
 static int outdir_go_on_here(const char *path)
 {
-    int code = 0;
+    int code = outdir_lock(path);
     for (int i = 0; i < FOLDERS && !code; i++) {
         char *name = mem_print("%s/%s", path, outdir_folders[i]);
         if (outdir_sweep(name, outdir_is_draft, true) < 0)

@@ -8,11 +8,11 @@
  * STATUS_CASE with a message that lists what is there. Collective, as all calls here; rank 0 acts. */
 int outdir_check(const char *path, bool overwrite);
 
-/* Makes the directory (and its parents) and removes the output of an older run. Files that are
- * not ours are never touched. */
+/* Makes the directory (and its parents), takes it for this process and removes the output of an older run. Files that
+ * are not ours are never touched. STATUS_CASE: another run is at work there. */
 int outdir_prepare(const char *path);
 
-/* Keeps what is there, for a run that goes on, but for drafts that a killed run left. */
+/* Takes the directory and keeps what is there, for a run that goes on, but for drafts that a killed run left. */
 int outdir_go_on(const char *path);
 
 /* Does a file lie in the folder `name` of the directory? */
