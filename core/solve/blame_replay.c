@@ -128,6 +128,7 @@ static void replay_judge(struct replay *replay, struct blame_outcome *outcome)
     mix_stiffness(replay->used, n_cell, n_cell, replay->w, replay->rho_c2);
     mix_speed2(replay->used, n_cell, n_cell, replay->w, replay->rho_c2, replay->c2);
     guard_check(&guard, &tile);
+    mem_free(guard.kept);
     outcome->value = guard.found.value;
     outcome->same_value = !memcmp(&guard.found.value, &facts->value, sizeof facts->value);
     outcome->same_verdict = !strcmp(guard.cause, facts->verdict);
