@@ -57,7 +57,8 @@ static bool is_covered(const struct flow *flow, int l, const int at[3])
         step *= (size_t)n;
     }
     int found = mesh_find(mesh, level, tile);
-    return found >= 0 && level->tiles[found].covered >> mesh_octant(mesh, cell) & 1u;
+    unsigned covered = found >= 0 ? level->tiles[found].covered : 0;
+    return covered >> mesh_octant(mesh, cell) & 1u;
 }
 
 /* Are all cells within REACH covered, and the cell itself in the domain? */
