@@ -2,6 +2,7 @@
  * between a finished run and its pictures. */
 #include "app/plot_case.h"
 
+#include "base/file.h"
 #include "base/mem.h"
 
 #include <stdio.h>
@@ -26,7 +27,8 @@ static char *case_of_document(yaml_document_t *document, const char *key)
 char *plot_case_scalar(const char *directory, const char *key)
 {
     char *path = mem_print("%s/case.yaml", directory);
-    FILE *file = fopen(path, "r");
+    const char *why;
+    FILE *file = file_open(path, &why);
     mem_free(path);
     char *value = NULL;
     yaml_parser_t parser;

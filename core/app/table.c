@@ -2,10 +2,10 @@
  * end, so that a file is read once and grows in one block. */
 #include "app/table.h"
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "base/status.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -125,8 +125,9 @@ static void table_transpose(struct table_reader *reader, struct table *table)
 
 int table_read(const char *path, struct table *ret_table)
 {
-    FILE *file = fopen(path, "r");
-    if (!file) return status_fail(STATUS_RUN, "cannot read %s: %s", path, strerror(errno));
+    const char *why;
+    FILE *file = file_open(path, &why);
+    if (!file) return status_fail(STATUS_RUN, "cannot read %s: %s", path, why);
     struct table_reader reader = {.path = path};
     char *line = NULL;
     size_t capacity = 0;

@@ -259,6 +259,11 @@ cp whole/checkpoints/good_000002.chk out/checkpoints
 mkfifo out/history.csv
 attempt out/history.csv 1 3 'it is a pipe' run good.yaml --quiet --restart
 
+# --- what `plot` is given: no history and no case that never ends ---
+mkdir piped
+mkfifo piped/history.csv piped/case.yaml
+attempt plot-history 1 3 'it is a pipe' plot piped history
+
 # --- snapshots and what `info` is given ---
 snapshot=whole/fields/good_000004.hdf
 size=$(wc -c <"$snapshot")
