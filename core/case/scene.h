@@ -64,6 +64,7 @@ struct scene_boundary {
 struct scene_material {
     char name[SCENE_NAME];
     struct instance eos;
+    struct instance constitutive; /* of a solid; module NULL: a fluid */
 };
 
 /* One layer of paint. Layers are applied in order; a later one covers an earlier one by its
@@ -76,9 +77,10 @@ struct scene_layer {
     struct scene_value temperature;
     struct scene_value pressure;
     struct scene_value velocity[SCENE_AXES];
-    const struct script *script; /* `lua:` layer: returns a table of named fields of (x, y, z) */
-    double centre[SCENE_AXES];   /* r in expressions is measured from here */
-    int line;                    /* in the case file, for messages */
+    struct scene_value stretch[6]; /* xx, yy, zz, xy, xz, yz; what is not given is that of the identity */
+    const struct script *script;   /* `lua:` layer: returns a table of named fields of (x, y, z) */
+    double centre[SCENE_AXES];     /* r in expressions is measured from here */
+    int line;                      /* in the case file, for messages */
 };
 
 enum scene_closure { SCENE_KAPILA, SCENE_ALLAIRE };
@@ -182,6 +184,7 @@ struct scene {
     char *title, *about, *cite;
     char *resolved; /* the fully resolved case as YAML text */
     int dim;        /* 1, 2, 3 */
+    int n_velocity; /* components of the velocity: dim, or more in a Cartesian scene with motion across its axes */
     enum scene_geometry geometry;
     double lower[SCENE_AXES], upper[SCENE_AXES];
     int cells[SCENE_AXES];                         /* 1 beyond dim */

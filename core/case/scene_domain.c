@@ -166,4 +166,5 @@ void scene_domain(struct draft *draft)
     scene_domain_corners(draft, domain);
     scene_domain_geometry(draft, domain);
     scene_domain_cells(draft, domain);
+    draft->scene->n_velocity = draft->scene->dim;
 }

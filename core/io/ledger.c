@@ -34,6 +34,6 @@ void ledger_name(const struct model *model, unsigned index, char *ret_name, size
 {
     unsigned l = index, axis = index - model->n_material;
     if (l < model->n_material) snprintf(ret_name, size, "mass_%s", model->scene->material[l].name);
-    else if (axis < (unsigned)model->dim) snprintf(ret_name, size, "momentum_%c", "xyz"[axis]);
+    else if (axis < model->n_velocity) snprintf(ret_name, size, "momentum_%c", "xyz"[axis]);
     else snprintf(ret_name, size, "energy");
 }

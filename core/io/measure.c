@@ -220,7 +220,7 @@ static const double *measure_content(struct measures *measures, const struct sce
     if (from->measure == SCENE_TOTAL && !strcmp(from->field, "energy")) return measure_evolved(measures, model->i_E);
     if (from->measure == SCENE_TOTAL && !strncmp(from->field, "momentum_", 9)) {
         int axis = from->field[9] - 'x';
-        return axis < model->dim ? measure_evolved(measures, model->i_u + (unsigned)axis) : NULL;
+        return axis < (int)model->n_velocity ? measure_evolved(measures, model->i_u + (unsigned)axis) : NULL;
     }
     if (from->measure == SCENE_MASS && from->material >= 0)
         return measure_evolved(measures, model->i_m + (unsigned)from->material);

@@ -287,8 +287,8 @@ static void bound_inflow(struct bound *bound, unsigned local, const struct frame
             *rho = model->eos[l].rho_fill;
             if (boundary->density[l].given) status = scene_value_at(&boundary->density[l], x, x[0], bound->t, rho);
         }
-        for (int d = 0; d < model->dim && !status; d++) {
-            double *u = &at[(model->i_u + (unsigned)d) * row->stride];
+        for (unsigned d = 0; d < model->n_velocity && !status; d++) {
+            double *u = &at[(model->i_u + d) * row->stride];
             *u = 0.0;
             if (boundary->velocity[d].given) status = scene_value_at(&boundary->velocity[d], x, x[0], bound->t, u);
         }
@@ -301,7 +301,7 @@ void bound_fill(void *data, unsigned local, const struct frame *frame, int side,
     struct bound *bound = data;
     const struct model *model = bound->model;
     const struct scene_boundary *boundary = bound_of(bound, frame, side);
-    double space[(2 * SCENE_MATERIALS + 4) * (size_t)BOUND_ROW];
+    double space[MODEL_FIELDS * (size_t)BOUND_ROW];
     struct bound_row row = {.n = frame->outer * frame->inner, .stride = BOUND_ROW, .w = space};
     switch (boundary->type) {
     case SCENE_AXIS:

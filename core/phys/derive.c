@@ -62,7 +62,8 @@ static void derive_pressure(const struct derive_tile *tile, double *out)
 static void derive_velocity_axis(const struct derive_tile *tile, double *out)
 {
     int axis = tile->field->index;
-    if (axis < tile->mesh->dim) memcpy(out, derive_w(tile, tile->model->i_u + (unsigned)axis), tile->n * sizeof *out);
+    if (axis < (int)tile->model->n_velocity)
+        memcpy(out, derive_w(tile, tile->model->i_u + (unsigned)axis), tile->n * sizeof *out);
     else memset(out, 0, tile->n * sizeof *out);
 }
 
@@ -77,8 +78,8 @@ static void derive_velocity(const struct derive_tile *tile, double *out)
 static double derive_speed2(const struct derive_tile *tile, size_t i)
 {
     double sum = 0.0;
-    for (int d = 0; d < tile->mesh->dim; d++) {
-        double u = derive_w(tile, tile->model->i_u + (unsigned)d)[i];
+    for (unsigned d = 0; d < tile->model->n_velocity; d++) {
+        double u = derive_w(tile, tile->model->i_u + d)[i];
         sum += u * u;
     }
     return sum;
@@ -259,7 +260,7 @@ static void derive_vorticity(const struct derive_tile *tile, double *out)
     double *slope = mem_new(tile->n, sizeof *slope);
     memset(out, 0, 3 * tile->n * sizeof *out);
     for (int axis = 0; axis < dim; axis++)
-        for (int of = 0; of < dim; of++) {
+        for (int of = 0; of < (int)tile->model->n_velocity; of++) {
             if (of == axis) continue;
             int component = 3 - axis - of;
             double sign = (axis + 1) % 3 == of ? 1.0 : -1.0;

@@ -39,8 +39,8 @@ static void face_split(const struct model *model, double *block, double **alpha,
 {
     for (unsigned l = 0; l < model->n_alpha; l++) alpha[l] = block + l * FACE_ROOM;
     for (unsigned l = 0; l < model->n_material; l++) m[l] = block + (model->n_alpha + l) * FACE_ROOM;
-    for (int d = 0; d < model->dim; d++)
-        momentum[d] = block + (model->n_alpha + model->n_material + (unsigned)d) * FACE_ROOM;
+    for (unsigned d = 0; d < model->n_velocity; d++)
+        momentum[d] = block + (model->n_alpha + model->n_material + d) * FACE_ROOM;
 }
 
 struct face_work *face_new(const struct model *model)
@@ -49,7 +49,7 @@ struct face_work *face_new(const struct model *model)
     struct face_own *own = work->own = mem_new(1, sizeof *own);
     unsigned n = model->n_material;
     work->model = model;
-    own->n_flux = model->n_alpha + n + (unsigned)model->dim + 2;
+    own->n_flux = model->n_alpha + n + model->n_velocity + 2;
     work->frame = face_row(model->n_field);
     work->mask = face_row(1);
     own->difference = face_row(1);
@@ -68,7 +68,7 @@ struct face_work *face_new(const struct model *model)
     work->alpha = face_row(own->n_flux);
     work->m = work->alpha + model->n_alpha * FACE_ROOM;
     work->momentum = work->m + n * FACE_ROOM;
-    work->energy = work->momentum + model->dim * FACE_ROOM;
+    work->energy = work->momentum + model->n_velocity * FACE_ROOM;
     work->u = work->energy + FACE_ROOM;
     work->carried = face_row(2 * model->n_alpha);
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
@@ -131,7 +131,7 @@ static void face_limit(const struct face_work *work, unsigned q, size_t cells, s
 {
     const struct model *model = work->model;
     const struct face_own *own = work->own;
-    const struct model_limiter *limiter = q < model->n_alpha ? &model->limiter_alpha : &model->limiter;
+    const struct model_limiter *limiter = model_is_fraction(model, q) ? &model->limiter_alpha : &model->limiter;
     double *lower = upper + cells;
     if (limiter->law->edges) {
         limiter->law->edges(limiter->self, cells, step, w, lower, upper);
@@ -176,7 +176,7 @@ static void face_reconstruct(struct face_work *work, const struct frame *frame, 
         const double *w = work->frame + q * FACE_ROOM + step;
         double *upper = own->state + 2 * q * FACE_ROOM;
         face_limit(work, q, cells, step, w, upper);
-        if (q < model->n_alpha && !model->kapila) {
+        if (model_is_fraction(model, q) && !model->kapila) {
             face_temper(cells, w, upper);
             face_temper(cells, w, upper + cells);
         }
@@ -203,8 +203,10 @@ static void face_normalise(struct face_work *work, size_t n)
     struct face_own *own = work->own;
     if (model->n_alpha < 3) return;
     memset(own->term, 0, n * sizeof *own->term);
-    for (unsigned l = 0; l < model->n_alpha; l++) face_sum(n, own->state + 2 * l * FACE_ROOM, own->term);
-    for (unsigned l = 0; l < model->n_alpha; l++) face_divide(n, own->term, own->state + 2 * l * FACE_ROOM);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        face_sum(n, own->state + 2 * (model->i_alpha + l) * FACE_ROOM, own->term);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        face_divide(n, own->term, own->state + 2 * (model->i_alpha + l) * FACE_ROOM);
 }
 
 /* One material's share: m = alpha rho, and its parts of rho, rho e and rho c_f^2; the first
@@ -259,12 +261,13 @@ static void face_complete(struct face_work *work, size_t n)
     struct face_own *own = work->own;
     const double *p = own->state + 2 * model->i_E * FACE_ROOM, *u[3] = {own->zero, own->zero, own->zero};
     const double *rho = model->n_alpha ? own->rho : own->state + 2 * model->i_m * FACE_ROOM; /* one material: rho_l */
-    for (int d = 0; d < model->dim; d++) u[d] = own->state + 2 * (model->i_u + (unsigned)d) * FACE_ROOM;
+    for (unsigned d = 0; d < model->n_velocity; d++) u[d] = own->state + 2 * (model->i_u + d) * FACE_ROOM;
     if (!model->n_alpha) {
         model->eos[0].law->state(model->eos[0].self, n, rho, p, own->energy, own->c);
     }
     for (unsigned l = 0; l < model->n_alpha; l++) {
-        const double *rho_l = own->state + 2 * (model->i_m + l) * FACE_ROOM, *alpha = own->state + 2 * l * FACE_ROOM;
+        const double *rho_l = own->state + 2 * (model->i_m + l) * FACE_ROOM,
+                     *alpha = own->state + 2 * (model->i_alpha + l) * FACE_ROOM;
         double *m = own->m + 2 * l * FACE_ROOM, *stiffness = own->stiffness;
         model->eos[l].law->state(model->eos[l].self, n, rho_l, p, own->term, stiffness);
         if (l == 0) face_first_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
@@ -281,16 +284,17 @@ static void face_point(struct face_work *work, const struct frame *frame, size_t
     faces->n = cells - frame->inner;
     faces->n_material = model->n_material;
     faces->n_alpha = model->n_alpha;
-    faces->n_velocity = (unsigned)model->dim;
+    faces->n_velocity = model->n_velocity;
     faces->mixed = model->mixed;
     for (unsigned side = 0; side < 2; side++) {
         size_t from = side ? cells + frame->inner : 0; /* right: the lower edge of the cell behind the face */
-        for (unsigned d = 0; d < (unsigned)model->dim; d++)
+        for (unsigned d = 0; d < model->n_velocity; d++)
             own->side_u[side][d] = own->state + 2 * (model->i_u + frame_component(frame->axis, d)) * FACE_ROOM + from;
         const double *rho = model->n_alpha ? own->rho : own->state + 2 * model->i_m * FACE_ROOM;
         own->side_m[side][0] = rho + from;
         for (unsigned l = 0; l < model->n_alpha; l++) own->side_m[side][l] = own->m + 2 * l * FACE_ROOM + from;
-        for (unsigned l = 0; l < model->n_alpha; l++) own->side_alpha[side][l] = own->state + 2 * l * FACE_ROOM + from;
+        for (unsigned l = 0; l < model->n_alpha; l++)
+            own->side_alpha[side][l] = own->state + 2 * (model->i_alpha + l) * FACE_ROOM + from;
         struct bulla_side *states = side ? &faces->right : &faces->left;
         *states = (struct bulla_side){.rho = rho + from,
                                       .p = own->state + 2 * model->i_E * FACE_ROOM + from,

@@ -229,8 +229,7 @@ static void mix_primitives_batch(const struct model *model, size_t n, size_t str
     for (unsigned l = 0; l < model->n_material; l++) mix_add(n, u + (i_m + l) * stride, rho.value);
     if (model->n_alpha) mix_fractions(model, n, stride, u, MIX_NOTHING, -HUGE_VAL, w);
     else memcpy(w + i_m * stride, u + i_m * stride, n * sizeof *w);
-    for (int d = 0; d < model->dim; d++) {
-        unsigned q = model->i_u + (unsigned)d;
+    for (unsigned q = model->i_u; q < model->i_E; q++) {
         mix_velocity(n, u + q * stride, rho.value, w + q * stride, twice.value);
     }
     struct mix_budget budget = {u + model->i_E * stride, twice.value};
@@ -264,8 +263,7 @@ static void mix_conserved_batch(const struct model *model, size_t n, size_t stri
             energy.value[i] += alpha * e.value[i];
         }
     }
-    for (int d = 0; d < model->dim; d++) {
-        unsigned q = model->i_u + (unsigned)d;
+    for (unsigned q = model->i_u; q < model->i_E; q++) {
         for (size_t i = 0; i < n; i++) {
             double v = w[q * stride + i];
             u[q * stride + i] = rho.value[i] * v;

@@ -2,10 +2,14 @@
 #include "phys/model.h"
 
 #include "base/mem.h"
+#include "phys/elastic.h"
 #include "plug/registry.h"
 
 #include <math.h>
 #include <stddef.h>
+
+/* Components of symmetric tensors in the order of elastic.h. */
+static const char *const MODEL_TENSOR[] = {"xx", "yy", "zz", "xy", "xz", "yz"};
 
 /* A density for points where the material is absent: any well-posed value serves, because its
  * weight is zero there; the first density the case gives keeps tables and Newton at home. */
@@ -31,8 +35,9 @@ static void model_name_fields(struct model *model)
         model->field_names[at++] = mem_print("alpha_%s", model->scene->material[l].name);
     for (unsigned l = 0; l < model->n_material; l++)
         model->field_names[at++] = mem_print("partial_density_%s", model->scene->material[l].name);
-    for (int d = 0; d < model->dim; d++) model->field_names[at++] = mem_text(momentum[d]);
-    model->field_names[at] = mem_text("total_energy");
+    for (unsigned d = 0; d < model->n_velocity; d++) model->field_names[at++] = mem_text(momentum[d]);
+    model->field_names[at++] = mem_text("total_energy");
+    for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = mem_print("stretch_%s", MODEL_TENSOR[c]);
 }
 
 /* Names that derive.c understands for this scene. */
@@ -54,23 +59,58 @@ static void model_name_derived(struct model *model)
     }
 }
 
-/* The model of a region that holds nothing but material l: works on the same blocks, leaves the
- * fractions and the other materials' components alone, and gives bitwise what the full model would. */
-static struct model *model_purify(const struct model *model, unsigned l)
+/* The model of a region that holds nothing but the n materials from `first`: works on the same blocks, leaves the
+ * other materials' components alone, and the stretch where none of them is a solid; gives bitwise what the full model
+ * would. One material alone needs no fractions either. */
+static struct model *model_narrow(const struct model *model, unsigned first, unsigned n)
 {
-    struct model *pure = mem_new(1, sizeof *pure);
-    *pure = *model;
-    pure->n_material = 1;
-    pure->n_alpha = 0;
-    pure->first = l;
-    pure->i_m = model->i_m + l;
-    pure->kapila = false;
-    pure->eos[0] = model->eos[l];
-    pure->linear = model->eos[l].law->linear != NULL;
-    pure->n_active = 0;
-    pure->active[pure->n_active++] = pure->i_m;
-    for (unsigned q = model->i_u; q < model->n_field; q++) pure->active[pure->n_active++] = q;
-    return pure;
+    struct model *narrow = mem_new(1, sizeof *narrow);
+    *narrow = *model;
+    narrow->n_material = n;
+    narrow->n_alpha = n > 1 ? n : 0;
+    narrow->first = first;
+    narrow->i_alpha = model->i_alpha + (n > 1 ? first : 0);
+    narrow->i_m = model->i_m + first;
+    narrow->kapila = model->kapila && n > 1;
+    narrow->linear = true;
+    narrow->n_solid = narrow->n_active = 0;
+    for (unsigned l = 0; l < n; l++) {
+        narrow->eos[l] = model->eos[first + l];
+        narrow->linear = narrow->linear && narrow->eos[l].law->linear;
+    }
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        unsigned l = model->solids[s].material - first; /* wraps where it stands before */
+        if (l >= n) continue;
+        narrow->solids[narrow->n_solid] = model->solids[s];
+        narrow->solids[narrow->n_solid++].material = l;
+    }
+    if (narrow->n_solid == 0) narrow->n_stretch = 0;
+    for (unsigned l = 0; l < narrow->n_alpha; l++) narrow->active[narrow->n_active++] = narrow->i_alpha + l;
+    for (unsigned l = 0; l < n; l++) narrow->active[narrow->n_active++] = narrow->i_m + l;
+    for (unsigned q = model->i_u; q < model->i_V + narrow->n_stretch; q++) narrow->active[narrow->n_active++] = q;
+    return narrow;
+}
+
+/* The solids of a scene. */
+static void model_solids(struct model *model)
+{
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const struct instance *instance = &model->scene->material[l].constitutive;
+        if (!instance->module) continue;
+        model->solids[model->n_solid++] = (struct model_solid){instance->module->table, instance->self, l};
+    }
+    model->elastic = model->n_solid > 0;
+}
+
+/* The fluids alone, if they stand together: they need neither the stretch nor the solids' components. */
+static struct model *model_liquefy(const struct model *model)
+{
+    unsigned from = 0, n = model->n_material - model->n_solid;
+    while (from < model->n_material && model->scene->material[from].constitutive.module) from++;
+    if (!model->elastic || n < 2) return NULL;
+    for (unsigned l = from; l < from + n; l++)
+        if (l >= model->n_material || model->scene->material[l].constitutive.module) return NULL;
+    return model_narrow(model, from, n);
 }
 
 struct model *model_new(const struct scene *scene)
@@ -84,8 +124,12 @@ struct model *model_new(const struct scene *scene)
     model->i_alpha = 0;
     model->i_m = model->n_alpha;
     model->i_u = model->i_m + model->n_material;
-    model->i_E = model->i_u + (unsigned)scene->dim;
-    model->n_field = model->i_E + 1;
+    model->n_velocity = (unsigned)scene->n_velocity;
+    model->i_E = model->i_u + model->n_velocity;
+    model->i_V = model->i_E + 1;
+    model_solids(model);
+    model->n_stretch = model->elastic ? elastic_count(model->n_velocity) : 0;
+    model->n_field = model->i_V + model->n_stretch;
     model->kapila = scene->closure == SCENE_KAPILA && model->n_alpha > 0;
     model->linear = true;
     for (unsigned l = 0; l < model->n_material; l++) {
@@ -105,7 +149,8 @@ struct model *model_new(const struct scene *scene)
     model->robust = robust ? robust->module->table : model->riemann;
     model->mixed = model->n_alpha > 0;
     for (unsigned q = 0; q < model->n_field; q++) model->active[model->n_active++] = q;
-    for (unsigned l = 0; l < model->n_alpha; l++) model->pure[l] = model_purify(model, l);
+    for (unsigned l = 0; l < model->n_alpha; l++) model->pure[l] = model_narrow(model, l, 1);
+    model->fluids = model_liquefy(model);
     model_name_fields(model);
     model_name_derived(model);
     return model;
@@ -121,6 +166,7 @@ void model_free(struct model *model)
 {
     if (!model) return;
     for (unsigned l = 0; l < model->n_alpha; l++) mem_free(model->pure[l]);
+    mem_free(model->fluids);
     model_free_names(model->names);
     model_free_names(model->field_names);
     mem_free(model);

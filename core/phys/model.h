@@ -1,10 +1,12 @@
 /* model.h - which fields exist and the laws behind them: built once from a scene.
  *
  * Conserved fields u, in this order: alpha_l (N of them, none if N = 1), m_l = alpha_l rho_l,
- * rho u_i (dim), rho E. Primitives w, same count: alpha_l, rho_l, u_i, p. For N = 1 m is rho. */
+ * rho u_i (n_velocity), rho E and, in a scene with a solid, the stretch V (n_stretch: xx, yy, zz, then xy, then xz,
+ * yz, as far as n_velocity reaches). Primitives w, same count: alpha_l, rho_l, u_i, p, V. For N = 1 m is rho. */
 #ifndef MODEL_H
 #define MODEL_H
 
+#include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/limiter.h"
 #include "bulla/riemann.h"
@@ -18,17 +20,33 @@ struct model_eos {
     double rho_fill; /* density that stands in where the material is absent */
 };
 
+/* The elastic law of one solid. */
+struct model_solid {
+    const struct bulla_constitutive *law;
+    const void *self;
+    unsigned material; /* index into the materials of the same model */
+};
+
+/* Most evolved fields a scene can have: fractions, densities, velocities, energy, stretch. */
+enum { MODEL_FIELDS = 2 * SCENE_MATERIALS + 3 + 1 + 6 };
+
 struct model {
     const struct scene *scene;
     int dim, beta;
+    unsigned n_velocity;              /* >= dim */
+    unsigned n_solid, n_stretch, i_V; /* stretch: first index; n_stretch 0 in paths without a solid */
+    struct model_solid solids[SCENE_MATERIALS];
     unsigned n_material, n_alpha, n_field;
-    unsigned i_alpha, i_m, i_u, i_E; /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
-    unsigned n_active, active[2 * SCENE_MATERIALS + 4]; /* components that evolve; all, but in a pure model */
-    unsigned first;                      /* material of the scene that eos[0] is: 0, but in a pure model */
-    bool mixed;                          /* the scene has several materials */
-    struct model *pure[SCENE_MATERIALS]; /* the same scene where only material l is present (NULL for N = 1): one
+    unsigned i_alpha, i_m, i_u, i_E;         /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
+    unsigned n_active, active[MODEL_FIELDS]; /* components that evolve; all, but in a pure model */
+    unsigned first;                          /* material of the scene that eos[0] is: 0, but in a pure model */
+    bool mixed;                              /* the scene has several materials */
+    bool elastic;                            /* the scene has a solid (this path need not) */
+    struct model *pure[SCENE_MATERIALS];     /* the same scene where only material l is present (NULL for N = 1): one
                                             material, no fractions, indices into the same storage */
-    bool kapila, linear;                 /* linear: every law is linear in p, closed-form mixture pressure */
+    struct model *fluids; /* the same scene where only its fluids are present; NULL without a solid, with less
+                                            than two fluids, or if they do not stand together in the list of materials */
+    bool kapila, linear;  /* linear: every law is linear in p, closed-form mixture pressure */
     struct model_eos eos[SCENE_MATERIALS];
     struct model_limiter {
         const struct bulla_limiter *law;
@@ -40,6 +58,12 @@ struct model {
     char **names;                       /* derived field names, NULL-terminated (derive.h) */
     char **field_names;                 /* names of the evolved fields, for messages and ledgers */
 };
+
+/* Is component q a volume fraction of this path? */
+static inline bool model_is_fraction(const struct model *model, unsigned q)
+{
+    return q - model->i_alpha < model->n_alpha; /* wraps below i_alpha */
+}
 
 struct model *model_new(const struct scene *scene);
 void model_free(struct model *model);

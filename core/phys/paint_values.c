@@ -53,7 +53,7 @@ void paint_values_of(const struct model *model, unsigned index, struct paint_val
     const struct scene_layer *layer = &scene->layers[index];
     bool varying = layer->script || layer->temperature.script || layer->pressure.script;
     for (unsigned l = 0; l < scene->n_material && layer->density; l++) varying = varying || layer->density[l].script;
-    for (int d = 0; d < scene->dim; d++) varying = varying || layer->velocity[d].script;
+    for (int d = 0; d < scene->n_velocity; d++) varying = varying || layer->velocity[d].script;
     *ret_values = (struct paint_values){.model = model, .layer = layer, .number = index + 1, .varying = varying};
     ret_values->whole = layer->has_material && !layer->script;
     if (layer->script) ret_values->names = paint_values_names(scene);
@@ -219,15 +219,15 @@ int paint_values_at(const struct paint_values *values, const double x[3], const 
     const struct model *model = values->model;
     struct paint_said said;
     TRY(values->layer->script ? paint_values_hear(values, x, &said) : paint_values_read(values, x, &said));
-    for (int d = 0; d < model->dim; d++) {
-        double below = before ? before[model->i_u + (unsigned)d] : 0.0;
-        w[model->i_u + (unsigned)d] = isnan(said.velocity[d]) ? below : said.velocity[d];
+    for (unsigned d = 0; d < model->n_velocity; d++) {
+        double below = before ? before[model->i_u + d] : 0.0;
+        w[model->i_u + d] = isnan(said.velocity[d]) ? below : said.velocity[d];
     }
-    for (int d = model->dim; d < SCENE_AXES; d++) {
+    for (unsigned d = model->n_velocity; d < SCENE_AXES; d++) {
         char what[96];
         if (isnan(said.velocity[d]) || said.velocity[d] == 0.0) continue;
-        snprintf(what, sizeof what, "velocity_%c is %.10g m/s, but the scene has %d dimension%s", PAINT_VALUES_AXIS[d],
-                 said.velocity[d], model->dim, model->dim == 1 ? "" : "s");
+        snprintf(what, sizeof what, "velocity_%c is %.10g m/s, but velocities have %u component%s here",
+                 PAINT_VALUES_AXIS[d], said.velocity[d], model->n_velocity, model->n_velocity == 1 ? "" : "s");
         return paint_values_fail(values, x, what);
     }
     if (isnan(said.pressure) && !before) return paint_values_fail(values, x, "the pressure is missing");

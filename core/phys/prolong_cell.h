@@ -9,7 +9,7 @@
 
 #include "phys/model.h"
 
-enum { PROLONG_CHILDREN = 8, PROLONG_FIELDS = 2 * SCENE_MATERIALS + 4 };
+enum { PROLONG_CHILDREN = 8, PROLONG_FIELDS = MODEL_FIELDS };
 
 /* Coarse cells and their face neighbours: component q at w + q * pitch. */
 struct prolong_cells {

@@ -234,7 +234,7 @@ void reflux_delta(const struct reflux *reflux, unsigned local, double dt, double
     const struct mesh *mesh = reflux->mesh;
     const struct link *up = reflux->up;
     struct metric metric;
-    double change[2 * SCENE_MATERIALS + 4];
+    double change[MODEL_FIELDS];
     memset(delta, 0, reflux->model->n_field * mesh->n_cell * sizeof *delta);
     if (mesh->beta) metric_of_tile(mesh, reflux->level, &reflux->level->tiles[reflux->level->first + local], &metric);
     for (unsigned s = up->source_from[local]; s < up->source_from[local + 1]; s++)

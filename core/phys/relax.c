@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { RELAX_FIELDS = 2 * SCENE_MATERIALS + 4, RELAX_ROUNDS = 80, RELAX_NEWTON = 30 };
+enum { RELAX_FIELDS = MODEL_FIELDS, RELAX_ROUNDS = 80, RELAX_NEWTON = 30 };
 
 /* A material that was a trace in a liquid under tension starts just above its least pressure: this
  * share of its distance from the old pressure. */
@@ -50,11 +50,11 @@ static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
     relax->floor = -HUGE_VAL;
     for (unsigned l = 0; l < model->n_material; l++) {
         const struct model_eos *eos = &model->eos[l];
-        double m = relax->u[model->i_m + l], alpha = relax->u[l], rho, least, slope, rho_e, rho_c2;
+        double m = relax->u[model->i_m + l], alpha = relax->u[model->i_alpha + l], rho, least, slope, rho_e, rho_c2;
         relax->m[l] = m;
         relax->present[l] = alpha > MIX_ABSENT && m > (alpha < RELAX_TRACE ? RELAX_VOID * rho_all : 0.0);
         if (!relax->present[l]) continue;
-        bool own = before[l] > 0.0 && old[model->i_m + l] > 0.5 * m && old[model->i_m + l] < 2.0 * m;
+        bool own = before[model->i_alpha + l] > 0.0 && old[model->i_m + l] > 0.5 * m && old[model->i_m + l] < 2.0 * m;
         rho = own ? before[model->i_m + l] : m / alpha;
         eos->law->p_min(eos->self, 1, &rho, &least);
         if (least > relax->floor) relax->floor = least;
@@ -120,8 +120,9 @@ static double relax_pressure(struct relax *relax)
 static void relax_normalise(struct relax *relax)
 {
     double sum = 0.0;
-    for (unsigned l = 0; l < relax->model->n_alpha; l++) sum += relax->u[l];
-    for (unsigned l = 0; l < relax->model->n_alpha; l++) relax->u[l] /= sum;
+    double *alpha = relax->u + relax->model->i_alpha;
+    for (unsigned l = 0; l < relax->model->n_alpha; l++) sum += alpha[l];
+    for (unsigned l = 0; l < relax->model->n_alpha; l++) alpha[l] /= sum;
 }
 
 /* Mixture pressure that the conserved energy gives with the present fractions. */
@@ -146,29 +147,29 @@ static unsigned relax_extreme(const struct relax *relax, const double *rho_e, bo
 static void relax_shift(struct relax *relax, double p)
 {
     const struct model *model = relax->model;
-    double kinetic = 0.0, rho = 0.0;
+    double kinetic = 0.0, rho = 0.0, *alpha = relax->u + model->i_alpha;
     for (unsigned l = 0; l < model->n_material; l++) rho += relax->u[model->i_m + l];
-    for (int d = 0; d < model->dim; d++) {
-        double q = relax->u[model->i_u + (unsigned)d];
+    for (unsigned d = 0; d < model->n_velocity; d++) {
+        double q = relax->u[model->i_u + d];
         kinetic += 0.5 * q * q / rho;
     }
     for (int i = 0; i < RELAX_NEWTON; i++) {
         double rho_e[SCENE_MATERIALS], slope, excess = kinetic - relax->u[model->i_E], most = 0.0;
         for (unsigned l = 0; l < model->n_material; l++) {
             if (!relax->present[l]) continue;
-            rho_e[l] = relax_energy(&model->eos[l], relax->m[l] / relax->u[l], p, &slope);
-            excess += relax->u[l] * rho_e[l];
+            rho_e[l] = relax_energy(&model->eos[l], relax->m[l] / alpha[l], p, &slope);
+            excess += alpha[l] * rho_e[l];
         }
         unsigned to = relax_extreme(relax, rho_e, excess > 0.0), from = to;
         for (unsigned l = 0; l < model->n_material; l++) {
-            double room = relax->present[l] ? relax->u[l] * fabs(rho_e[l] - rho_e[to]) : 0.0;
+            double room = relax->present[l] ? alpha[l] * fabs(rho_e[l] - rho_e[to]) : 0.0;
             if (room > most) most = room, from = l;
         }
         double shift = fabs(excess / (rho_e[from] - rho_e[to]));
         if (!isfinite(shift)) return;
-        if (shift > 0.5 * relax->u[from]) shift = 0.5 * relax->u[from];
-        relax->u[from] -= shift;
-        relax->u[to] += shift;
+        if (shift > 0.5 * alpha[from]) shift = 0.5 * alpha[from];
+        alpha[from] -= shift;
+        alpha[to] += shift;
         if (shift < 1e-15) return;
     }
 }
@@ -186,14 +187,16 @@ bool relax_cell(const struct model *model, size_t stride, const double *u_old, d
     if (!isfinite(p)) return false;
     double resolved = relax.floor + RELAX_RESOLVED * relax.stiffest;
     p = p > resolved ? p : resolved;
-    for (unsigned l = 0; l < model->n_alpha; l++) relax.u[l] = relax.present[l] ? relax.m[l] * relax.v[l] : 0.0;
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        relax.u[model->i_alpha + l] = relax.present[l] ? relax.m[l] * relax.v[l] : 0.0;
     relax_normalise(&relax);
     if (!(relax_close(&relax) - relax.floor > 0.5 * (p - relax.floor))) {
         relax_shift(&relax, p);
         relax_normalise(&relax);
         relax_close(&relax);
     }
-    for (unsigned q = 0; q < model->n_field; q++) {
+    for (unsigned i = 0; i < model->n_active; i++) {
+        unsigned q = model->active[i];
         u[q * stride] = relax.u[q];
         w[q * stride] = relax.w[q];
     }

@@ -15,7 +15,7 @@ enum { SPREAD_SWEEPS = 4 };
 
 /* A change on its way: per volume of the cell that it comes from. */
 struct spread_load {
-    double change[2 * SCENE_MATERIALS + 4], volume;
+    double change[MODEL_FIELDS], volume;
     double left; /* part that has no place yet */
 };
 

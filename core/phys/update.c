@@ -65,14 +65,14 @@ static void update_span_add(const struct update_target *target, const struct upd
     const struct face_work *work = target->work;
     const double *pressure = target->w + model->i_E * target->n_cell;
     for (unsigned l = 0; l < model->n_alpha; l++) {
-        update_component(target, span, work->alpha + l * FACE_ROOM, l, NULL);
+        update_component(target, span, work->alpha + l * FACE_ROOM, model->i_alpha + l, NULL);
         if (!model->kapila) continue;
         update_component(target, span, work->carried + l * FACE_ROOM, model->n_field + 1 + l, NULL);
         update_component(target, span, work->strained + l * FACE_ROOM, model->n_field + 1 + model->n_alpha + l, NULL);
     }
     for (unsigned l = 0; l < model->n_material; l++)
         update_component(target, span, work->m + l * FACE_ROOM, model->i_m + l, NULL);
-    for (unsigned d = 0; d < (unsigned)model->dim; d++)
+    for (unsigned d = 0; d < model->n_velocity; d++)
         update_component(target, span, work->momentum + d * FACE_ROOM, model->i_u + frame_component(target->axis, d),
                          d == 0 ? pressure : NULL);
     update_component(target, span, work->energy, model->i_E, NULL);
@@ -222,20 +222,22 @@ static size_t update_relax(const struct model *model, size_t n_cell, size_t from
         *sums[] = {misfit.sum, misfit.compliance, misfit.rho, misfit.stiffness, misfit.speed2, cut};
     const double *w = in->w + from, *rho_c2 = in->rho_c2 + from, *rates = in->rates + from;
     const double *carried = rates + (model->n_field + 1) * n_cell, *strained = carried + model->n_alpha * n_cell;
+    const double *moved = rates + model->i_alpha * n_cell;
     size_t clipped = 0;
     for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) memset(sums[i], 0, n * sizeof *cut);
     u_new += from;
-    for (int d = 0; d < model->dim; d++) update_speed2(n, w + (model->i_u + (unsigned)d) * n_cell, misfit.speed2);
+    double *alpha = u_new + model->i_alpha * n_cell;
+    for (unsigned d = 0; d < model->n_velocity; d++) update_speed2(n, w + (model->i_u + d) * n_cell, misfit.speed2);
     for (unsigned l = 0; l < model->n_alpha; l++) {
-        update_own_misfit(n, dt, carried + l * n_cell, strained + l * n_cell, rates + l * n_cell,
+        update_own_misfit(n, dt, carried + l * n_cell, strained + l * n_cell, moved + l * n_cell,
                           w + model->i_E * n_cell, rho_c2 + l * n_cell, misfit.own[l], misfit.sum);
-        update_mixture(n, u_new + l * n_cell, w + (model->i_m + l) * n_cell, rho_c2 + l * n_cell, misfit.rho,
+        update_mixture(n, alpha + l * n_cell, w + (model->i_m + l) * n_cell, rho_c2 + l * n_cell, misfit.rho,
                        misfit.stiffness, misfit.compliance);
     }
     update_share(n, misfit.speed2, misfit.rho, misfit.stiffness, misfit.compliance, misfit.share);
     for (unsigned l = 0; l < model->n_alpha; l++)
         update_close(n, dt, in->K + l * n_cell + from, rates + model->n_field * n_cell, rho_c2 + l * n_cell, &misfit,
-                     misfit.own[l], u_new + l * n_cell, cut);
+                     misfit.own[l], alpha + l * n_cell, cut);
     for (size_t i = 0; i < n; i++) clipped += cut[i] > 0.0;
     return clipped;
 }
@@ -248,16 +250,16 @@ size_t update_apply(const struct model *model, size_t n_cell, double dt, const s
         update_step(n_cell, dt, in->u_old + at, in->rates + at, u_new + at);
     }
     for (size_t from = 0; model->n_alpha && from < n_cell; from += UPDATE_BATCH) {
-        size_t n = n_cell - from < UPDATE_BATCH ? n_cell - from : UPDATE_BATCH;
-        double sum[UPDATE_BATCH];
+        size_t n = n_cell - from < UPDATE_BATCH ? n_cell - from : UPDATE_BATCH, first = model->i_alpha * n_cell + from;
+        double sum[UPDATE_BATCH], *alpha = u_new + first;
         const double *div = in->rates + model->n_field * n_cell + from;
-        for (unsigned l = 0; l < model->n_alpha; l++)
-            update_transport(n, dt, in->u_old + l * n_cell + from, in->w + l * n_cell + from,
-                             in->rates + l * n_cell + from, div, u_new + l * n_cell + from);
+        for (size_t l = 0; l < model->n_alpha; l++)
+            update_transport(n, dt, in->u_old + first + l * n_cell, in->w + first + l * n_cell,
+                             in->rates + first + l * n_cell, div, alpha + l * n_cell);
         memset(sum, 0, n * sizeof *sum);
         if (model->kapila) clipped += update_relax(model, n_cell, from, n, dt, in, u_new);
-        for (unsigned l = 0; l < model->n_alpha; l++) update_sum(n, u_new + l * n_cell + from, sum);
-        for (unsigned l = 0; l < model->n_alpha; l++) update_normalise(n, sum, u_new + l * n_cell + from);
+        for (size_t l = 0; l < model->n_alpha; l++) update_sum(n, alpha + l * n_cell, sum);
+        for (size_t l = 0; l < model->n_alpha; l++) update_normalise(n, sum, alpha + l * n_cell);
     }
     return clipped;
 }

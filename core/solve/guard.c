@@ -149,7 +149,8 @@ static bool guard_name_material(const struct guard_tile *tile, size_t n_cell, si
     const char *name = model->scene->material[model->first + l].name;
     char text[sizeof fault->rest];
     double m = tile->u[(model->i_m + l) * n_cell + cell], p = tile->w[model->i_E * n_cell + cell];
-    double alpha = model->n_alpha ? tile->w[l * n_cell + cell] : 1.0, rho_c2 = tile->rho_c2[l * n_cell + cell];
+    double alpha = model->n_alpha ? tile->w[(model->i_alpha + l) * n_cell + cell] : 1.0,
+           rho_c2 = tile->rho_c2[l * n_cell + cell];
     if (!(m >= 0.0) || (!model->n_alpha && !(m > 0.0))) {
         guard_say(fault, model->field_names[model->i_m + l], m, " kg/m3");
         return true;
@@ -229,7 +230,7 @@ static double guard_judge(const struct guard *guard, const struct guard_tile *ti
     if (model->n_alpha) guard_density(model, n, n_cell, tile->u + from, rho);
     else guard_single(n, tile->u + model->i_m * n_cell + from, bad);
     for (unsigned l = 0; l < model->n_alpha; l++)
-        guard_material(n, tile->u + (model->i_m + l) * n_cell + from, tile->w + l * n_cell + from,
+        guard_material(n, tile->u + (model->i_m + l) * n_cell + from, tile->w + (model->i_alpha + l) * n_cell + from,
                        tile->rho_c2 + l * n_cell + from, rho, model->eos[l].rho_fill, bad);
     for (size_t i = 0; i < n; i++) count += bad[i];
     return count;

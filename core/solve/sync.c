@@ -149,7 +149,7 @@ static void sync_write_rest(const struct stage *stage, unsigned local, const str
 {
     const struct link *up = stage->reflux->up;
     const struct mesh *mesh = stage->mesh;
-    double change[2 * SCENE_MATERIALS + 4], *shares = mem_new(mesh->n_cell, sizeof *shares);
+    double change[MODEL_FIELDS], *shares = mem_new(mesh->n_cell, sizeof *shares);
     for (int write = 0; write < 2; write++)
         for (unsigned s = up->source_from[local]; s < up->source_from[local + 1]; s++)
             for (size_t i = 0; i < up->face_cells; i++) {
@@ -226,7 +226,7 @@ static bool sync_take_cell(const struct stage *fine, const struct spread *spread
     const struct mesh *mesh = fine->mesh;
     size_t cells = fine->level->link->face_cells, n = (size_t)mesh->n[0], half = n / 2;
     int axis = face->face / 2, a = axis == 0, b = axis == 2 ? 1 : 2; /* the other axes */
-    double amount[2 * SCENE_MATERIALS + 4], any = 0.0, units = 1 << mesh->dim;
+    double amount[MODEL_FIELDS], any = 0.0, units = 1 << mesh->dim;
     if (mesh->beta) units = 1 << (mesh->dim - 1); /* a metric's volume holds that of the first axis */
     for (unsigned q = 0; q < fine->model->n_field; q++) {
         amount[q] = units / (1 << (mesh->dim - 1)) * face->strip[0][q * cells + i];

@@ -23,7 +23,7 @@
 
 #include <cmocka.h>
 
-enum { FLOW_FIELDS = 2 * SCENE_MATERIALS + 4 };
+enum { FLOW_FIELDS = MODEL_FIELDS };
 
 #define FLOW_WATER "  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}\n"
 #define FLOW_AIR "  air: {eos: {type: ideal-gas, gamma: 1.4}}\n"

@@ -342,7 +342,7 @@ static void says_what_is_wrong(void **state)
         {"{lua: 'function(x) return {alpha = {water = 0.5}, density = 4, pressure = 1} end'}",
          "more than one material is there"},
         {"{lua: 'function(x) return {alpha = {water = 1}, density = 4, pressure = 1, velocity = {0, 2}} end'}",
-         "velocity_y is 2 m/s, but the scene has 1 dimension"},
+         "velocity_y is 2 m/s, but velocities have 1 component here"},
         {"{lua: 'function(x) return {presure = 4} end'}", "did you mean 'pressure'"},
         {"{lua: 'function(x) return x.y.z end'}", "attempt to index a number value"},
     };

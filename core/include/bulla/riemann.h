@@ -9,6 +9,10 @@
  * stands in div u; so a solver returns alpha* (bounded by the two sides, summing to 1) and u*.
  * c is the frozen sound speed of the mixture, c_f^2 = sum_l Y_l c_l^2: alpha is frozen across
  * the acoustic waves, and Wood's speed here makes water-air flows fail.
+ * In a scene with a solid the sides carry stress s = -p I + s': then `p` is the normal traction -s_nn, `c` the fastest
+ * elastic signal, and `solid` is set with what acts along the face. All formulas of fluids hold with that p and c; what
+ * is added is the traction s_nt, which goes into the momentum and (with u_t) energy fluxes, and u*_t. A side with
+ * c_s = 0 is a fluid and slips. Where both are fluids the fluxes must be those of a scene without solids, bitwise.
  * At uniform p and u on both sides the momentum flux must be (rho u) u + p, u* = u and the
  * energy flux u (rho E* + p), each to round-off, for any jump of alpha and densities.
  */
@@ -24,9 +28,9 @@ extern "C" {
 /* One side of the faces. Arrays of n doubles. */
 struct bulla_side {
     const double *rho;          /* mixture density, sum of m_l */
-    const double *p;            /* pressure */
+    const double *p;            /* pressure; with a solid the normal traction -s_nn */
     const double *rho_E;        /* total energy per volume */
-    const double *c;            /* frozen sound speed */
+    const double *c;            /* frozen sound speed; with a solid the fastest elastic signal */
     const double *const *u;     /* [n_velocity] velocity; u[0] is normal to the face */
     const double *const *m;     /* [n_material] partial densities alpha_l rho_l */
     const double *const *alpha; /* [n_alpha] volume fractions */
@@ -41,6 +45,12 @@ struct bulla_flux {
     double *const *alpha;    /* [n_alpha] face volume fractions alpha* */
 };
 
+/* What one side carries along the face, in scenes with a solid. Arrays of n doubles. */
+struct bulla_shear {
+    const double *c_s;      /* shear wave speed; 0: this side is a fluid */
+    const double *const *s; /* [n_velocity - 1] tractions s_nt along tangents 1, 2 */
+};
+
 struct bulla_faces {
     size_t n;
     unsigned n_material; /* >= 1 */
@@ -51,11 +61,19 @@ struct bulla_faces {
     double *work[4]; /* scratch of n doubles each */
     unsigned mixed;  /* the scene has several materials. Where only one is present on both sides core may list it
                         alone (n_material = 1, n_alpha = 0); the fluxes must be those of the full list, bitwise */
+
+    /* Scenes with a solid; all unset (0, NULL) else. */
+    unsigned solid;
+    struct bulla_shear shear_left, shear_right;
+    /* [n_velocity - 1] tangential face velocity u*_t, written by the solver, as the cell on the left and the one on the
+     * right see it: they differ where the sides slip. The stretch of each cell follows its own. */
+    double *const *slide_left, *const *slide_right;
 };
 
 struct bulla_riemann {
     uint32_t size; /* sizeof(struct bulla_riemann) */
     void (*solve)(const void *self, const struct bulla_faces *faces);
+    uint32_t solids; /* 1: understands `solid`; a solver without is refused in scenes with a solid */
 };
 
 #ifdef __cplusplus

@@ -1,0 +1,89 @@
+/* elastic.h - solids on batches of points: energy, stress, wave speeds, and the motion of the stretch.
+ *
+ * V is the symmetric unimodular left stretch, B = V V the left Cauchy-Green tensor (model.md 3). Blocks of V have
+ * n_stretch components in the order of ELASTIC_XX ...: component c at V + c * stride. m: [n_solid] rows of partial
+ * densities alpha_l rho_l of the solids of the model. Batches of any length. A fluid has m = 0, hence no elastic part
+ * at all, bitwise. */
+#ifndef ELASTIC_H
+#define ELASTIC_H
+
+#include "phys/model.h"
+
+#include <stddef.h>
+
+enum elastic_index { ELASTIC_XX, ELASTIC_YY, ELASTIC_ZZ, ELASTIC_XY, ELASTIC_XZ, ELASTIC_YZ };
+
+/* Position of component (i, j) of a symmetric tensor in a block. */
+static inline unsigned elastic_component(unsigned i, unsigned j)
+{
+    return i == j ? i : i + j + 2;
+}
+
+/* Components that a scene with so many velocities has: 3, 4 or 6. */
+static inline unsigned elastic_count(unsigned n_velocity)
+{
+    return n_velocity == 1 ? 3 : n_velocity == 2 ? 4 : 6;
+}
+
+/* Elastic energy per volume, sum over solids of m_l e_l^s [J/m3]. */
+void elastic_energy(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
+                    double *restrict rho_es);
+
+/* Deviatoric stress s' [Pa], a block of n_stretch rows with the same stride; s = -p I + s'. */
+void elastic_stress(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
+                    double *s);
+
+/* Invariants I1, I2 of B. */
+void elastic_invariants(const struct model *model, size_t n, size_t stride, const double *V, double *restrict I1,
+                        double *restrict I2);
+
+/* What a face normal to `axis` needs of one side; rows of n doubles. */
+struct elastic_side {
+    double *energy;   /* rho e^s [J/m3] */
+    double *normal;   /* s'_nn [Pa] */
+    double *shear[2]; /* s_nt along tangents 1 and 2 in the order of frame_component [Pa]; n_velocity - 1 of them */
+    double *stiff;    /* rho (c^2 - c_f^2): what elasticity adds to the stiffness of the fastest wave [Pa] */
+    double *rigid;    /* rho c_s^2 [Pa] */
+};
+
+/* Diagonal and fastest eigenvalue of the acoustic tensor (model.md 3): rho c_f^2 in `stiffness`. */
+void elastic_sides(const struct model *model, int axis, size_t n, size_t stride, const double *V,
+                   const double *const *m, const double *stiffness, const struct elastic_side *ret);
+
+/* c^2 of the fastest wave in any direction of the mesh from the frozen c_f^2, in place; rho: mixture density. */
+void elastic_speed2(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
+                    const double *rho, double *c2);
+
+/* Rates that move the stretch of n cells: `carried`, the block -div(V* u*); `div`, -div u*; `gradient`,
+ * [n_velocity * dim] rows of -d_k u*_i at i * dim + k; all with the same stride. */
+struct elastic_rates {
+    const double *carried, *div, *gradient;
+};
+
+/* V_new from V_old after dt with rates taken at V (model.md 2): half of the deformation, the transport, the other half,
+ *     V' = polar(E V_old) + dt [-div(V* u*) + V div u*],  V_new = polar(E V'),  E = (1 - dt L/4)^-1 (1 + dt L/4),
+ * polar(M) = (M M^T)^(1/2), then det 1. The Cayley form turns a rigid rotation into an exact one. V_new may be V_old. */
+void elastic_advance(const struct model *model, size_t n, size_t stride, double dt, const double *V_old,
+                     const double *V, const struct elastic_rates *rates, double *V_new);
+
+/* det V = 1, in place; where V is no stretch any more (not positive, not finite) the identity. */
+void elastic_unimodular(const struct model *model, size_t n, size_t stride, double *V);
+
+/* Bounds the stretch where there is little solid: |V - 1| <= (phi/ELASTIC_FADE)^2, phi the fraction of solid; the
+ * identity where there is none. Idempotent, so a step more or less does not matter. Total energy is not touched. */
+void elastic_fade(const struct model *model, size_t n, size_t stride, const double *alpha, double *V);
+
+#define ELASTIC_FADE 1e-2
+
+/* What refluxing adds to V of one cell at a face normal to `axis`, from the differences (fine - coarse, times dt A/V and
+ * the sign of the side) of V* u*, of u*, and of the face velocity components over the cell size. Scalar. */
+struct elastic_correction {
+    const double *V;        /* [n_stretch] of the cell at the midpoint */
+    const double *carried;  /* [n_stretch] change asked for by V* u* */
+    double swept;           /* the same of u* : what div u changes by, with its sign */
+    const double *velocity; /* [n_velocity] change of d_axis u_i */
+    int axis;
+};
+void elastic_correct(const struct model *model, const struct elastic_correction *in, double *ret_dV);
+
+#endif
