@@ -14,6 +14,14 @@ static const struct key scene_root_run[] = {
      .min = 0,
      .max = 9e15,
      .doc = "Ends the run after so many steps of the coarsest level; 0: no limit."},
+    {.name = "script-time",
+     .type = KEYS_NUMBER,
+     .unit = "s",
+     .min = 1e-3,
+     .max = 1000,
+     .fallback = "0.2 s",
+     .doc = "CPU time that one call of a Lua function may take; many calls, one after the other, may take a 200th of "
+            "it in the mean."},
     {0},
 };
 

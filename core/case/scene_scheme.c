@@ -79,4 +79,5 @@ void scene_scheme(struct draft *draft)
     scene_material_open(draft, keys_at(scheme, "interface-limiter"), &scene->interface_limiter);
     scene->until = keys_at(run, "until")->number;
     scene->max_steps = keys_at(run, "max-steps")->integer;
+    script_limit(scene->host, keys_at(run, "script-time")->number);
 }

@@ -60,8 +60,20 @@ struct script_host *script_host_new(void)
         fprintf(stderr, "bulla: error: out of memory: cannot start Lua\n");
         comm_abort(STATUS_RUN);
     }
+    host->limit = SCRIPT_TIME;
     script_guard_new();
     return host;
+}
+
+void script_limit(struct script_host *host, double seconds)
+{
+    host->limit = seconds;
+}
+
+/* Of the guard, in microseconds: a call ends after one to two of them. */
+static int script_tick(const struct script_host *host)
+{
+    return (int)(0.5e6 * host->limit);
 }
 
 void script_host_free(struct script_host *host)
@@ -81,13 +93,28 @@ void script_host_free(struct script_host *host)
 
 /* Messages */
 
-/* The message on top of the stack as a status, popped: file:line: what happened. `struck`: line where the guard
- * ended the call, or 0. */
-static int script_fail_lua(lua_State *lua, const char *file, int line, int struck)
+static void script_say_struck(struct text *text, const struct script_host *host, const char *file,
+                              struct script_guard_end end)
 {
+    if (end.many)
+        text_add(text,
+                 "%s:%d: the scripts of the case ran for too long: calls that take more than %.3g s each, one after "
+                 "the other; simpler ones, or a larger run.script-time (now %g s)",
+                 file, end.line, host->limit / 200.0, host->limit);
+    else
+        text_add(text,
+                 "%s:%d: the script ran for too long: a loop without end? If not, run.script-time (now %g s) allows "
+                 "calls to take longer",
+                 file, end.line, host->limit);
+}
+
+/* The message on top of the stack as a status, popped: file:line: what happened. */
+static int script_fail_lua(const struct script_host *host, const char *file, int line, struct script_guard_end end)
+{
+    lua_State *lua = host->lua;
     const char *message = lua_type(lua, -1) == LUA_TSTRING ? lua_tostring(lua, -1) : "the error is not a text";
     struct text text = {0};
-    if (struck) text_add(&text, "%s:%d: the script ran for too long: a loop without end?", file, struck);
+    if (end.line) script_say_struck(&text, host, file, end);
     else if (*message != SCRIPT_CHUNK[1]) text_add(&text, "%s:%d: %s", file, line, message);
     else
         for (; *message; message++)
@@ -195,12 +222,12 @@ static int script_run(const struct script_source *source, const char *file, int 
     struct script_host *host = source->host;
     lua_pushcfunction(host->lua, script_run_chunk);
     lua_pushlightuserdata(host->lua, (void *)(uintptr_t)source);
-    script_guard_enter(host->lua);
+    script_guard_enter(host->lua, script_tick(host));
     host->loading = true;
     int failed = lua_pcall(host->lua, 1, source->load ? 0 : 1, 0);
     host->loading = false;
-    int struck = script_guard_leave(host->lua);
-    return failed ? script_fail_lua(host->lua, file, line, struck) : STATUS_OK;
+    struct script_guard_end end = script_guard_leave(host->lua);
+    return failed ? script_fail_lua(host, file, line, end) : STATUS_OK;
 }
 
 /* Newlines so that what follows begins at `line`, then the parts. Free with text_done. */
@@ -276,7 +303,7 @@ static int script_new(struct script_host *host, const char *arguments, const cha
     }
     lua_pushcfunction(host->lua, script_keep);
     lua_insert(host->lua, -2);
-    if (lua_pcall(host->lua, 1, 1, 0)) return script_fail_lua(host->lua, file, line, 0);
+    if (lua_pcall(host->lua, 1, 1, 0)) return script_fail_lua(host, file, line, (struct script_guard_end){0});
     struct script *script = mem_new(1, sizeof *script);
     *script = (struct script){host, host->scripts, mem_text(file), mem_text(arguments), line, 0, false};
     script->function = (int)lua_tointeger(host->lua, -1);
@@ -348,15 +375,19 @@ bool script_is_constant(const struct script *script)
 
 int script_begin(const struct script *script, const double *in, unsigned n_in, unsigned n_out)
 {
-    lua_State *lua = script->host->lua;
+    struct script_host *host = script->host;
+    lua_State *lua = host->lua;
+    if (host->ended == script)
+        return status_fail(STATUS_CASE, "%s:%d: the script ran for too long before", script->file, script->line);
     lua_checkstack(lua, 2 * SCRIPT_ARGUMENTS);
     lua_rawgeti(lua, LUA_REGISTRYINDEX, script->function);
     for (unsigned i = 0; i < n_in; i++) lua_pushnumber(lua, in[i]);
-    script_guard_enter(lua);
+    script_guard_enter(lua, script_tick(host));
     int failed = lua_pcall(lua, (int)n_in, (int)n_out, 0);
-    int struck = script_guard_leave(lua);
+    struct script_guard_end end = script_guard_leave(lua);
     if (!failed) return STATUS_OK;
-    script_fail_lua(lua, script->file, script->line, struck);
+    if (end.line) host->ended = script;
+    script_fail_lua(host, script->file, script->line, end);
     return script_fail_at(script, in, n_in);
 }
 

@@ -1,9 +1,11 @@
 /* script_guard.c - see script_guard.h and docs/decisions/script-sandbox.md.
  *
- * The signal handler does three async-safe things: compare two counters, lua_sethook (made for
- * handlers: the manual's "can be called asynchronously"), timer_settime. The timer runs only
- * while scripts do: after a tick without any call it is left to lapse, and the next call starts
- * it again. A POSIX timer, unlike setitimer, does not survive exec into another program. */
+ * The signal handler does async-safe things only: arithmetic on its own counters, lua_sethook
+ * (made for handlers: the manual's "can be called asynchronously"), timer_settime. The timer
+ * runs only while scripts do: after a tick without any call it is left to lapse, and the next
+ * call starts it again. A POSIX timer, unlike setitimer, does not survive exec into another
+ * program. The debt is a sample: a tick that finds a call under way counts as one tick spent in
+ * scripts, one that does not as one tick of other work. */
 #include "case/script_guard.h"
 
 #include <errno.h>
@@ -13,9 +15,10 @@
 #include <time.h>
 
 enum {
-    SCRIPT_GUARD_TICK = 200000000, /* ns of CPU time; a call is ended after one to two ticks */
-    SCRIPT_GUARD_HALVINGS = 7,     /* of the tick, one per call that was ended: many endless scripts end soon, too */
-    SCRIPT_GUARD_COUNT = 50000000, /* instructions, where there is no timer */
+    SCRIPT_GUARD_HALVINGS = 6,     /* of the tick, one per call that was ended: many endless scripts end soon, too */
+    SCRIPT_GUARD_COUNT = 25000000, /* instructions, where there is no timer */
+    SCRIPT_GUARD_BASE = 4,         /* ticks that all calls together may take at least */
+    SCRIPT_GUARD_SHARE = 100,      /* and so many calls one tick more */
 };
 
 static struct {
@@ -25,6 +28,10 @@ static struct {
     volatile sig_atomic_t calls, seen; /* calls begun so far; the same at the last tick */
     volatile sig_atomic_t ticking;     /* the timer is set */
     volatile sig_atomic_t line;        /* where the guard struck */
+    volatile sig_atomic_t debt;        /* ticks in scripts less those in other work */
+    volatile sig_atomic_t since;       /* calls when there was no debt */
+    volatile sig_atomic_t tick;        /* microseconds of CPU time; a call is ended after one to two ticks */
+    volatile sig_atomic_t many;        /* it struck because of all calls, not of the last one */
     int strikes;                       /* calls ended since the first user came */
     int timeless;                      /* no timer to be had: count instructions, slower */
 } script_guard;
@@ -40,9 +47,17 @@ static void script_guard_strike(lua_State *lua, lua_Debug *where)
 
 static void script_guard_set(void)
 {
-    struct itimerspec once = {.it_value = {.tv_nsec = SCRIPT_GUARD_TICK >> script_guard.strikes}};
+    long tick = (long)script_guard.tick >> script_guard.strikes;
+    struct itimerspec once = {.it_value = {.tv_sec = tick / 1000000, .tv_nsec = tick % 1000000 * 1000 + 1}};
     script_guard.ticking = 1;
     timer_settime(script_guard.timer, 0, &once, NULL);
+}
+
+/* Have the calls since there was no debt taken too long in the mean? */
+static int script_guard_overdrawn(void)
+{
+    unsigned calls = (unsigned)script_guard.calls - (unsigned)script_guard.since;
+    return script_guard.debt > SCRIPT_GUARD_BASE + (int)(calls / SCRIPT_GUARD_SHARE);
 }
 
 static void script_guard_tick(int signal)
@@ -50,9 +65,15 @@ static void script_guard_tick(int signal)
     (void)signal;
     int keep = errno;
     int same = script_guard.calls == script_guard.seen;
-    if (script_guard.busy && same) lua_sethook(script_guard.busy, script_guard_strike, LUA_MASKCOUNT, 1);
+    lua_State *busy = script_guard.busy;
     script_guard.seen = script_guard.calls;
-    if (script_guard.busy || !same) script_guard_set();
+    script_guard.debt += busy ? 1 : script_guard.debt > 0 ? -1 : 0;
+    if (script_guard.debt == 0) script_guard.since = script_guard.calls;
+    if (busy && (same || script_guard_overdrawn())) {
+        script_guard.many = !same;
+        lua_sethook(busy, script_guard_strike, LUA_MASKCOUNT, 1);
+    }
+    if (busy || !same) script_guard_set();
     else script_guard.ticking = 0;
     errno = keep;
 }
@@ -76,23 +97,33 @@ void script_guard_free(void)
     script_guard.ticking = 0;
 }
 
-void script_guard_enter(lua_State *lua)
+void script_guard_enter(lua_State *lua, int tick)
 {
     script_guard.calls = (sig_atomic_t)((unsigned)script_guard.calls + 1u);
     script_guard.busy = lua;
-    if (!script_guard.ticking) script_guard_set();
+    if (!script_guard.ticking || script_guard.tick != tick) {
+        script_guard.tick = tick;
+        script_guard.debt = 0;
+        script_guard.since = script_guard.calls;
+        script_guard_set();
+    }
     if (script_guard.timeless) lua_sethook(lua, script_guard_strike, LUA_MASKCOUNT, SCRIPT_GUARD_COUNT);
 }
 
-int script_guard_leave(lua_State *lua)
+struct script_guard_end script_guard_leave(lua_State *lua)
 {
     script_guard.busy = NULL;
-    if (!lua_gethookmask(lua)) return 0;
+    if (!lua_gethookmask(lua)) return (struct script_guard_end){0};
     lua_sethook(lua, NULL, 0, 0);
-    if (script_guard.strikes < SCRIPT_GUARD_HALVINGS) script_guard.strikes++;
-    int line = (int)script_guard.line;
+    struct script_guard_end end = {(int)script_guard.line, script_guard.many != 0};
+    if (end.line) {
+        if (script_guard.strikes < SCRIPT_GUARD_HALVINGS) script_guard.strikes++;
+        script_guard.debt = 0;
+        script_guard.since = script_guard.calls;
+    }
     script_guard.line = 0;
-    return line;
+    script_guard.many = 0;
+    return end;
 }
 
 bool script_guard_struck(void)

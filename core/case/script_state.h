@@ -10,10 +10,12 @@ struct script_table;
 
 struct script_host {
     lua_State *lua;
-    size_t used;  /* bytes that Lua holds */
-    int globals;  /* registry: the numbers and libraries that all scripts see */
-    int frozen;   /* registry: the same behind glass, the environment of expressions */
-    bool loading; /* a chunk is being run: its globals can be written */
+    size_t used;                /* bytes that Lua holds */
+    int globals;                /* registry: the numbers and libraries that all scripts see */
+    int frozen;                 /* registry: the same behind glass, the environment of expressions */
+    bool loading;               /* a chunk is being run: its globals can be written */
+    double limit;               /* seconds of CPU time that a call may take */
+    const struct script *ended; /* by the guard, the last one: not called again */
     struct script *scripts;
     struct script_table *tables;
 };

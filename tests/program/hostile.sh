@@ -147,7 +147,7 @@ for body in "$loop" "while true do pcall(function() $loop end) end" 'repeat loca
     'local function f() pcall(f) return f() end return f()' '::a:: goto a'; do
     attempt "$body" 1 2 'error' run good.yaml --quiet --set "initial.0.pressure== (function() $body end)()"
 done
-for body in 'local s = string.rep("x", 1e6) while true do s = s .. s end' 'local t = {} for i = 1, 1e9 do t[i] = {} end' \
+for body in 'local s = string.rep("x", 1e6) while true do s = s .. s end' 'local t, s = {}, string.rep(1, 1e5) for i = 1, 1e9 do t[i] = s .. i end' \
     'return string.rep("x", 1e18)' 'return #table.concat({}, "x", 1, 1e15)' 'return table.unpack({}, 1, 1e8)' \
     'local function f() return 1 + f() end return f()' 'return string.format("%99999999d", 1)' \
     'return os.execute("touch taken")' 'return io.open("taken", "w")' 'return require("os")' 'return load("x")' \
@@ -166,6 +166,9 @@ done
 } >loops.yaml
 once 2 'ran for too long' check loops.yaml
 
+echo 'return function(x) for i = 1, 1500000 do end return {pressure = 1e5} end' >slow.lua
+both 2 'the scripts of the case ran for too long' --set domain.cells=[4096] --set 'initial.1={lua: slow.lua}'
+
 # --- Lua while the run goes: each rank may see it alone ---
 wave() {
     printf 'domain.boundaries.x-={type: incoming-wave, pulse: lua, lua: "function(t, x) if t > 0 then %s end return 0 end"}' "$1"
@@ -173,7 +176,7 @@ wave() {
 both 3 'ran for too long' --set "$(wave "$loop")"
 both 3 'gives nan' --set "$(wave 'return 0/0')"
 both 3 'not a text' --set "$(wave 'error({})')"
-both 3 'not enough memory' --set "$(wave 'local t = {} for i = 1, 1e9 do t[i] = {} end')"
+both 3 'not enough memory' --set "$(wave 'local t, s = {}, string.rep(1, 1e5) for i = 1, 1e9 do t[i] = s .. i end')"
 both 3 'ran for too long' --set "output.history.columns.q={value: 't > 0 and (function() $loop end)() or 1'}"
 both 2 'ran for too long' --set "initial.0.pressure== x > 0.9 and (function() $loop end)() or 1e5"
 both 2 'gives nan' --set 'initial.0.pressure== x > 0.9 and 0/0 or 1e5'

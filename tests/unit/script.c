@@ -133,6 +133,31 @@ static void ends_what_does_not_end(void **state)
     assert_true(value_of("1 + 1") == 2.0);
 }
 
+/* Calls that each take a few milliseconds are ended sooner or later, many that take little never; a script that was
+ * ended is not called again, and the next one starts afresh. */
+static void ends_what_takes_too_long_in_all(void **state)
+{
+    (void)state;
+    const struct script *slow, *quick;
+    const char *loop =
+        "(function() local s = 0 for i = 1, 1e9 do if i > x then break end s = s + i end return s end)()";
+    double in = 4e5, out;
+    int calls = 0;
+    assert_int_equal(script_compile(host, loop, "x", "case.yaml", 4, &slow), 0);
+    assert_int_equal(script_compile(host, "x + 1", "x", "case.yaml", 5, &quick), 0);
+    while (calls < 100000 && script_call(slow, &in, 1, &out, 1) == STATUS_OK) calls++;
+    assert_true(calls > 1 && calls < 100000);
+    assert_says("case.yaml:4: the scripts of the case ran for too long: calls that take more than 0.001 s each");
+    assert_int_equal(script_call(slow, &in, 1, &out, 1), STATUS_CASE);
+    assert_says("case.yaml:4: the script ran for too long before");
+    for (int i = 0; i < 1000000; i++) assert_int_equal(script_call(quick, &in, 1, &out, 1), 0);
+    script_limit(host, 1000.0);
+    assert_int_equal(script_compile(host, loop, "x", "case.yaml", 6, &slow), 0);
+    for (int i = 0; i < calls + 20; i++)
+        if (script_call(slow, &in, 1, &out, 1)) fail_msg("%s", status_text());
+    script_limit(host, SCRIPT_TIME);
+}
+
 /* A table whose keys 1, 2, 4, ... 2^62 make Lua believe that it has 2^62 elements. */
 static void expects_long_list(const char *action)
 {
@@ -150,7 +175,8 @@ static void ends_bombs(void **state)
     expects("string.rep('', 1e18) == '' and error('came back')", "came back");
     expects("string.rep('x', 1e18, 'y')", "rep: the text would be longer");
     expects("(function() local s = string.rep('x', 1e6) while true do s = s .. s end end)()", "not enough memory");
-    expects("(function() local t = {} for i = 1, 1e9 do t[i] = {} end end)()", "not enough memory");
+    expects("(function() local t, s = {}, string.rep('x', 1e5) for i = 1, 1e9 do t[i] = s .. i end end)()",
+            "not enough memory");
     expects_long_list("table.insert(t, 1, 0)");
     expects_long_list("table.remove(t, 1)");
     expects("#table.concat({}, 'x', 1, 1e15)", "invalid value");
@@ -312,6 +338,7 @@ static void keeps_hosts_apart(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ends_what_takes_too_long_in_all), /* first: after each call that was ended, less is allowed */
         cmocka_unit_test(evaluates),
         cmocka_unit_test(says_what_is_wrong),
         cmocka_unit_test(refuses_the_outside),
