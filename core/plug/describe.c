@@ -118,14 +118,14 @@ static void describe_presets(const struct bulla_module *module, struct text *tex
     }
 }
 
-/* How a case names it: an equation of state belongs to a material, the rest to the scheme. */
+/* How a case names it: laws belong to a material, the rest to the scheme. */
 static void describe_use(const struct bulla_module *module, struct text *text)
 {
-    if (strcmp(module->kind, "eos") != 0) {
+    if (strcmp(module->kind, "eos") != 0 && strcmp(module->kind, "constitutive") != 0) {
         text_add(text, "\n  in a case\n  scheme: {%s: %s}\n", module->kind, module->name);
         return;
     }
-    text_add(text, "\n  in a case\n  materials: {NAME: {eos: {type: %s", module->name);
+    text_add(text, "\n  in a case\n  materials: {NAME: {%s: {type: %s", module->kind, module->name);
     if (module->presets && module->presets->name) text_add(text, ", preset: %s}}}\n", module->presets->name);
     else text_add(text, ", ...}}}\n");
 }

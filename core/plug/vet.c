@@ -3,6 +3,7 @@
 #include "plug/vet.h"
 
 #include "base/status.h"
+#include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/limiter.h"
 #include "bulla/riemann.h"
@@ -32,6 +33,9 @@ struct vet_kind {
     }
 
 static const struct vet_kind vet_kinds[] = {
+    {"constitutive",
+     sizeof(struct bulla_constitutive),
+     {VET_SLOT(bulla_constitutive, energy), VET_SLOT(bulla_constitutive, range)}},
     {"eos",
      sizeof(struct bulla_eos),
      {VET_SLOT(bulla_eos, state), VET_SLOT(bulla_eos, derivatives), VET_SLOT(bulla_eos, temperature),
@@ -89,7 +93,7 @@ static int vet_table(const struct bulla_module *module)
     for (int i = 0; i < VET_KINDS; i++)
         if (module->kind && strcmp(module->kind, vet_kinds[i].name) == 0) kind = &vet_kinds[i];
     if (!kind)
-        return status_fail(STATUS_CASE, "is of the unknown kind '%s'; kinds are eos, limiter, riemann",
+        return status_fail(STATUS_CASE, "is of the unknown kind '%s'; kinds are constitutive, eos, limiter, riemann",
                            module->kind ? module->kind : "");
     if (!module->table) return status_fail(STATUS_CASE, "has no table of functions");
     uint32_t size;
@@ -228,10 +232,31 @@ static bool vet_try_riemann(const struct bulla_riemann *riemann, const void *sel
     return isfinite(mass) && isfinite(momentum) && isfinite(energy) && isfinite(speed);
 }
 
+/* A solid at rest, and stretched to twice and to four times its length. */
+static bool vet_try_constitutive(const struct bulla_constitutive *law, const void *self)
+{
+    enum { N = 3 };
+    const double I1[N] = {3.0, 5.0, 16.5}, I2[N] = {3.0, 4.25, 8.0625}, nan = (double)NAN;
+    double e[N] = {nan, nan, nan}, e_1[N] = {nan, nan, nan}, e_2[N] = {nan, nan, nan}, sum = 0.0;
+    law->energy(self, N, I1, I2, e, e_1, e_2);
+    for (int i = 0; i < N; i++) sum += e[i] + e_1[i] + e_2[i];
+    bool good = isfinite(sum);
+    for (int i = 0; i < N; i++) good &= e_1[i] + e_2[i] > 0.0;
+    if (!law->second) return good;
+    double e_11[N] = {nan, nan, nan}, e_12[N] = {nan, nan, nan}, e_22[N] = {nan, nan, nan};
+    law->second(self, N, I1, I2, e_11, e_12, e_22);
+    for (int i = 0; i < N; i++) sum += e_11[i] + e_12[i] + e_22[i];
+    return good && isfinite(sum);
+}
+
 int vet_instance(const struct bulla_module *module, const void *self)
 {
     if (strcmp(module->kind, "limiter") == 0 && !vet_try_limiter(module->table, self))
         return status_fail(STATUS_CASE, "limiter '%s' gives no finite slopes for differences of 1 and 0", module->name);
+    if (strcmp(module->kind, "constitutive") == 0 && !vet_try_constitutive(module->table, self))
+        return status_fail(STATUS_CASE,
+                           "constitutive '%s' gives no finite energy that rises at stretches of 1, 2 and 4",
+                           module->name);
     if (strcmp(module->kind, "riemann") == 0 && !vet_try_riemann(module->table, self))
         return status_fail(STATUS_CASE, "riemann '%s' gives no finite fluxes for air that moves at 10 m/s",
                            module->name);
