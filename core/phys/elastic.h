@@ -62,15 +62,17 @@ struct elastic_rates {
 
 /* V_new from V_old after dt with rates taken at V (model.md 2): half of the deformation, the transport, the other half,
  *     V' = polar(E V_old) + dt [-div(V* u*) + V div u*],  V_new = polar(E V'),  E = (1 - dt L/4)^-1 (1 + dt L/4),
- * polar(M) = (M M^T)^(1/2), then det 1. The Cayley form turns a rigid rotation into an exact one. V_new may be V_old. */
+ * polar(M) = (M M^T)^(1/2). The Cayley form turns a rigid rotation into an exact one. det V = 1 is left to
+ * elastic_unimodular, which also stands for the trace of L. V_new and V_old may not overlap. */
 void elastic_advance(const struct model *model, size_t n, size_t stride, double dt, const double *V_old,
                      const double *V, const struct elastic_rates *rates, double *V_new);
 
-/* det V = 1, in place; where V is no stretch any more (not positive, not finite) the identity. */
+/* det V = 1, in place; NaN where det V <= 0: no stretch any more, which the guard will see. */
 void elastic_unimodular(const struct model *model, size_t n, size_t stride, double *V);
 
-/* Bounds the stretch where there is little solid: |V - 1| <= (phi/ELASTIC_FADE)^2, phi the fraction of solid; the
- * identity where there is none. Idempotent, so a step more or less does not matter. Total energy is not touched. */
+/* Bounds the stretch where there is little solid: |V - 1| <= (phi/ELASTIC_FADE)^2, phi = alpha the fraction of all solids;
+ * the identity where there is none. Idempotent, so a step more or less does not matter; total energy is not touched, so
+ * that the elastic energy lost becomes heat. Call before elastic_unimodular. */
 void elastic_fade(const struct model *model, size_t n, size_t stride, const double *alpha, double *V);
 
 #define ELASTIC_FADE 1e-2

@@ -1,0 +1,423 @@
+/* elastic.c - see elastic.h: what a stretch means (energy, stress, speeds). How it moves is in elastic_advance.c.
+ *
+ * With B = V V and I1, I2 its invariants, every isotropic law comes down to two moduli per point,
+ *     G1 = sum_l 2 m_l (e_1 + I1 e_2),   G2 = sum_l 2 m_l e_2,   s' = G1 dev B - G2 dev B^2,
+ * and their derivatives for wave speeds. Laws of I1 alone with constant slope (neo-Hookean) take the short path,
+ * G2 = 0 and constant G1. */
+#include "phys/elastic.h"
+
+#include "phys/elastic_tensor.h"
+#include "phys/frame.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { ELASTIC_BATCH = 512 };
+
+/* Arrays of one batch: invariants and moduli. */
+struct elastic_batch {
+    double I1[ELASTIC_BATCH], I2[ELASTIC_BATCH], energy[ELASTIC_BATCH], G1[ELASTIC_BATCH], G2[ELASTIC_BATCH];
+    double H11[ELASTIC_BATCH], H12[ELASTIC_BATCH], H22[ELASTIC_BATCH]; /* sum_l 2 m_l e_11 ... */
+};
+
+#define ELASTIC_INVARIANTS(nv)                                                                             \
+    static BULLA_KERNEL void elastic_invariants_##nv(size_t n, struct elastic_rows V, double *restrict I1, \
+                                                     double *restrict I2)                                  \
+    {                                                                                                      \
+        ELASTIC_LOCAL(V);                                                                                  \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                 \
+        {                                                                                                  \
+            struct elastic_tensor B = elastic_square(ELASTIC_AT(i, nv));                                   \
+            double trace = elastic_trace(B);                                                               \
+            I1[i] = trace;                                                                                 \
+            I2[i] = 0.5 * (trace * trace - elastic_norm2(B));                                              \
+        }                                                                                                  \
+    }
+ELASTIC_INVARIANTS(1)
+ELASTIC_INVARIANTS(2)
+ELASTIC_INVARIANTS(3)
+
+void elastic_invariants(const struct model *model, size_t n, size_t stride, const double *V, double *restrict I1,
+                        double *restrict I2)
+{
+    struct elastic_rows rows = elastic_rows(V, stride, model->n_stretch);
+    ELASTIC_CHOOSE(model->n_velocity, elastic_invariants, n, rows, I1, I2);
+}
+
+/* One solid's part of the energy and of the moduli. */
+static BULLA_KERNEL void elastic_add(size_t n, const double *restrict m, const double *restrict I1,
+                                     const double *restrict e, const double *restrict e_1, const double *restrict e_2,
+                                     double *restrict energy, double *restrict G1, double *restrict G2)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double mass = m[i], sum = energy[i], g1 = G1[i], g2 = G2[i], first = e_1[i], second = e_2[i];
+        energy[i] = sum + mass * e[i];
+        G1[i] = g1 + 2.0 * mass * (first + I1[i] * second);
+        G2[i] = g2 + 2.0 * mass * second;
+    }
+}
+
+static BULLA_KERNEL void elastic_add_second(size_t n, const double *restrict m, const double *restrict e_11,
+                                            const double *restrict e_12, const double *restrict e_22,
+                                            double *restrict H11, double *restrict H12, double *restrict H22)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double twice = 2.0 * m[i], h11 = H11[i], h12 = H12[i], h22 = H22[i];
+        H11[i] = h11 + twice * e_11[i];
+        H12[i] = h12 + twice * e_12[i];
+        H22[i] = h22 + twice * e_22[i];
+    }
+}
+
+/* Energy and moduli of all solids at n <= ELASTIC_BATCH points of which the invariants are there. */
+static void elastic_moduli(const struct model *model, size_t n, size_t from, const double *const *m,
+                           struct elastic_batch *batch)
+{
+    double e[ELASTIC_BATCH], e_1[ELASTIC_BATCH], e_2[ELASTIC_BATCH];
+    double *sums[] = {batch->energy, batch->G1, batch->G2};
+    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) memset(sums[i], 0, n * sizeof *e);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        const struct model_solid *solid = &model->solids[s];
+        solid->law->energy(solid->self, n, batch->I1, batch->I2, e, e_1, e_2);
+        elastic_add(n, m[s] + from, batch->I1, e, e_1, e_2, batch->energy, batch->G1, batch->G2);
+    }
+}
+
+static void elastic_curvature(const struct model *model, size_t n, size_t from, const double *const *m,
+                              struct elastic_batch *batch)
+{
+    double e_11[ELASTIC_BATCH], e_12[ELASTIC_BATCH], e_22[ELASTIC_BATCH];
+    double *sums[] = {batch->H11, batch->H12, batch->H22};
+    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) memset(sums[i], 0, n * sizeof *e_11);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        const struct model_solid *solid = &model->solids[s];
+        if (!solid->law->second) continue;
+        solid->law->second(solid->self, n, batch->I1, batch->I2, e_11, e_12, e_22);
+        elastic_add_second(n, m[s] + from, e_11, e_12, e_22, batch->H11, batch->H12, batch->H22);
+    }
+}
+
+/* Do all solids have a constant G1 and no G2? */
+static bool elastic_is_plain(const struct model *model)
+{
+    for (unsigned s = 0; s < model->n_solid; s++)
+        if (model->solids[s].law->second || !model->solids[s].law->first_only) return false;
+    return true;
+}
+
+static size_t elastic_part(size_t n, size_t from)
+{
+    return n - from < ELASTIC_BATCH ? n - from : ELASTIC_BATCH;
+}
+
+void elastic_energy(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
+                    double *restrict rho_es)
+{
+    struct elastic_batch batch;
+    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
+        size_t part = elastic_part(n, from);
+        elastic_invariants(model, part, stride, V + from, batch.I1, batch.I2);
+        elastic_moduli(model, part, from, m, &batch);
+        memcpy(rho_es + from, batch.energy, part * sizeof *rho_es);
+    }
+}
+
+/* dev of G1 B - G2 B^2, component by component. */
+ELASTIC_BODY struct elastic_tensor elastic_deviator(struct elastic_tensor V, double G1, double G2)
+{
+    struct elastic_tensor B = elastic_square(V), C = elastic_square(B);
+    double mean = (G1 * elastic_trace(B) - G2 * elastic_trace(C)) / 3.0;
+    return (struct elastic_tensor){(G1 * B.xx - G2 * C.xx) - mean, (G1 * B.yy - G2 * C.yy) - mean,
+                                   (G1 * B.zz - G2 * C.zz) - mean, G1 * B.xy - G2 * C.xy,
+                                   G1 * B.xz - G2 * C.xz,          G1 * B.yz - G2 * C.yz};
+}
+
+/* Scalar points: stress is asked for by output and boundaries, not by the solver's rows. */
+static void elastic_stress_part(const struct model *model, size_t n, size_t stride, const double *V,
+                                const struct elastic_batch *batch, double *s)
+{
+    for (size_t i = 0; i < n; i++) {
+        double at[6] = {0}, out[6];
+        for (unsigned c = 0; c < model->n_stretch; c++) at[c] = V[c * stride + i];
+        struct elastic_tensor here = {at[0], at[1], at[2], at[3], at[4], at[5]};
+        struct elastic_tensor dev = elastic_deviator(here, batch->G1[i], batch->G2[i]);
+        memcpy(out, (double[]){dev.xx, dev.yy, dev.zz, dev.xy, dev.xz, dev.yz}, sizeof out);
+        for (unsigned c = 0; c < model->n_stretch; c++) s[c * stride + i] = out[c];
+    }
+}
+
+void elastic_stress(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
+                    double *s)
+{
+    struct elastic_batch batch;
+    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
+        size_t part = elastic_part(n, from);
+        elastic_invariants(model, part, stride, V + from, batch.I1, batch.I2);
+        elastic_moduli(model, part, from, m, &batch);
+        elastic_stress_part(model, part, stride, V + from, &batch, s + from);
+    }
+}
+
+/* Largest eigenvalue of [a b; b d] with b^2 given; exactly a where b = 0 and d <= a. */
+ELASTIC_BODY double elastic_fastest(double a, double d, double b2)
+{
+    double half = 0.5 * (a - d), spread = fabs(half) + sqrt(half * half + b2), more = b2 / spread;
+    return (a > d ? a : d) + (spread > 0.0 ? more : 0.0);
+}
+
+struct elastic_face {
+    double normal, shear_1, shear_2, stiff, rigid;
+};
+
+/* Neo-Hookean kind: rho A_nn = rho c_f^2 + G [2/9 B_nn + 5/9 (B_t1t1 + B_t2t2)], A_tt = G B_nn, A_nt = -2/3 G B_nt.
+ * Tensors in the frame of the face: x normal, y and z tangential. */
+ELASTIC_BODY struct elastic_face elastic_plain(struct elastic_tensor V, double G, double fluid)
+{
+    struct elastic_tensor B = elastic_square(V);
+    double along = B.yy + B.zz, a = fluid + G * ((2.0 / 9.0) * B.xx + (5.0 / 9.0) * along), d = G * B.xx;
+    double b2 = (4.0 / 9.0) * (G * G) * (B.xy * B.xy + B.xz * B.xz);
+    return (struct elastic_face){.normal = G * ((2.0 / 3.0) * B.xx - along / 3.0),
+                                 .shear_1 = G * B.xy,
+                                 .shear_2 = G * B.xz,
+                                 .stiff = elastic_fastest(a, d, b2) - fluid,
+                                 .rigid = d};
+}
+
+struct elastic_slopes {
+    double G1, G2, H11, H12, H22, I1;
+};
+
+/* Change of s'_ij and of the moduli with it, for the part that all directions share: changes of I1, I2 at dev B, dev C. */
+ELASTIC_BODY double elastic_stiffen(struct elastic_slopes g, double dI1, double dI2, double dev_B, double dev_C)
+{
+    double k1 = g.H11 + g.I1 * g.H12 + g.G2, k2 = g.H12 + g.I1 * g.H22; /* d G1 = k1 d I1 + k2 d I2 */
+    return (k1 * dI1 + k2 * dI2) * dev_B - (g.H12 * dI1 + g.H22 * dI2) * dev_C;
+}
+
+/* Any law. A strain a (x) n changes B by a b' + b a' - (2/3)(a.n) B with b = B n, C = B^2 by the product rule, the
+ * invariants with them, densities by -(a.n); what the traction on n changes by along a' is rho A_aa'. Tensors in
+ * the frame of the face. A bound of the tangential block (its larger diagonal entry plus the other one) stands for d. */
+ELASTIC_BODY struct elastic_face elastic_general(struct elastic_tensor V, struct elastic_slopes g, double fluid)
+{
+    struct elastic_tensor B = elastic_square(V), C = elastic_square(B);
+    double trace = elastic_trace(C), dev_B = B.xx - g.I1 / 3.0, dev_C = C.xx - trace / 3.0;
+    double normal = g.G1 * dev_B - g.G2 * dev_C;
+    double n1 = 2.0 * B.xx - (2.0 / 3.0) * g.I1, n2 = g.I1 * n1 - (2.0 * C.xx - (2.0 / 3.0) * trace);  /* a = n */
+    double p1 = 2.0 * B.xy, p2 = g.I1 * p1 - 2.0 * C.xy, q1 = 2.0 * B.xz, q2 = g.I1 * q1 - 2.0 * C.xz; /* t1, t2 */
+    double dC = (2.0 / 3.0) * C.xx + 2.0 * B.xx * B.xx, dtrace = 4.0 * C.xx - (4.0 / 3.0) * trace;
+    double nn = g.G1 * ((4.0 / 3.0) * B.xx - n1 / 3.0) - g.G2 * (dC - dtrace / 3.0) +
+                elastic_stiffen(g, n1, n2, dev_B, dev_C) - normal;
+    double np =
+        -g.G1 * (p1 / 3.0) - g.G2 * (2.0 * B.xx * B.xy - (4.0 / 3.0) * C.xy) + elastic_stiffen(g, p1, p2, dev_B, dev_C);
+    double nq =
+        -g.G1 * (q1 / 3.0) - g.G2 * (2.0 * B.xx * B.xz - (4.0 / 3.0) * C.xz) + elastic_stiffen(g, q1, q2, dev_B, dev_C);
+    double pp = g.G1 * B.xx - g.G2 * (C.xx + B.xx * B.yy + B.xy * B.xy) + elastic_stiffen(g, p1, p2, B.xy, C.xy);
+    double qq = g.G1 * B.xx - g.G2 * (C.xx + B.xx * B.zz + B.xz * B.xz) + elastic_stiffen(g, q1, q2, B.xz, C.xz);
+    double pq = -g.G2 * (B.xx * B.yz + B.xy * B.xz) + elastic_stiffen(g, q1, q2, B.xy, C.xy);
+    double d = (pp > qq ? pp : qq), a = fluid + nn, bound = d + fabs(pq);
+    return (struct elastic_face){.normal = normal,
+                                 .shear_1 = g.G1 * B.xy - g.G2 * C.xy,
+                                 .shear_2 = g.G1 * B.xz - g.G2 * C.xz,
+                                 .stiff = elastic_fastest(a, bound, np * np + nq * nq) - fluid,
+                                 .rigid = d > 0.0 ? d : 0.0};
+}
+
+/* Where a row of faces puts what it finds. */
+struct elastic_out {
+    double *normal, *shear_1, *shear_2, *stiff, *rigid;
+};
+
+#define ELASTIC_SIDES(nv)                                                                                             \
+    static BULLA_KERNEL void elastic_plain_##nv(size_t n, struct elastic_rows V, const struct elastic_batch *batch,   \
+                                                const double *restrict fluid, struct elastic_out out)                 \
+    {                                                                                                                 \
+        double *restrict normal = out.normal, *restrict stiff = out.stiff, *restrict rigid = out.rigid;               \
+        double *restrict shear_1 = out.shear_1, *restrict shear_2 = out.shear_2;                                      \
+        const double *restrict G1 = batch->G1;                                                                        \
+        ELASTIC_LOCAL(V);                                                                                             \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                            \
+        {                                                                                                             \
+            struct elastic_face face = elastic_plain(ELASTIC_AT(i, nv), G1[i], fluid[i]);                             \
+            normal[i] = face.normal;                                                                                  \
+            stiff[i] = face.stiff;                                                                                    \
+            rigid[i] = face.rigid;                                                                                    \
+            if ((nv) > 1) shear_1[i] = face.shear_1;                                                                  \
+            if ((nv) > 2) shear_2[i] = face.shear_2;                                                                  \
+        }                                                                                                             \
+    }                                                                                                                 \
+    static BULLA_KERNEL void elastic_general_##nv(size_t n, struct elastic_rows V, const struct elastic_batch *batch, \
+                                                  const double *restrict fluid, struct elastic_out out)               \
+    {                                                                                                                 \
+        double *restrict normal = out.normal, *restrict stiff = out.stiff, *restrict rigid = out.rigid;               \
+        double *restrict shear_1 = out.shear_1, *restrict shear_2 = out.shear_2;                                      \
+        const double *restrict G1 = batch->G1, *restrict G2 = batch->G2, *restrict I1 = batch->I1;                    \
+        const double *restrict H11 = batch->H11, *restrict H12 = batch->H12, *restrict H22 = batch->H22;              \
+        ELASTIC_LOCAL(V);                                                                                             \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                            \
+        {                                                                                                             \
+            struct elastic_slopes slopes = {G1[i], G2[i], H11[i], H12[i], H22[i], I1[i]};                             \
+            struct elastic_face face = elastic_general(ELASTIC_AT(i, nv), slopes, fluid[i]);                          \
+            normal[i] = face.normal;                                                                                  \
+            stiff[i] = face.stiff;                                                                                    \
+            rigid[i] = face.rigid;                                                                                    \
+            if ((nv) > 1) shear_1[i] = face.shear_1;                                                                  \
+            if ((nv) > 2) shear_2[i] = face.shear_2;                                                                  \
+        }                                                                                                             \
+    }
+ELASTIC_SIDES(1)
+ELASTIC_SIDES(2)
+ELASTIC_SIDES(3)
+
+/* The tensor with its axes renamed: the normal of the face first, then the tangents. */
+static struct elastic_rows elastic_turn(const struct model *model, int axis, size_t stride, const double *V)
+{
+    unsigned a = frame_component(axis, 0), b = frame_component(axis, 1), c = frame_component(axis, 2);
+    unsigned order[6] = {a, b, c, elastic_component(a, b), elastic_component(a, c), elastic_component(b, c)};
+    struct elastic_rows rows;
+    for (unsigned i = 0; i < 6; i++) rows.row[i] = V + (order[i] < model->n_stretch ? order[i] : 0) * stride;
+    return rows;
+}
+
+void elastic_sides(const struct model *model, int axis, size_t n, size_t stride, const double *V,
+                   const double *const *m, const double *stiffness, const struct elastic_side *ret)
+{
+    struct elastic_batch batch;
+    bool plain = elastic_is_plain(model);
+    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
+        size_t part = elastic_part(n, from);
+        struct elastic_rows rows = elastic_turn(model, axis, stride, V + from);
+        struct elastic_out out = {.normal = ret->normal + from, .stiff = ret->stiff + from, .rigid = ret->rigid + from};
+        if (model->n_velocity > 1) out.shear_1 = ret->shear[0] + from;
+        if (model->n_velocity > 2) out.shear_2 = ret->shear[1] + from;
+        elastic_invariants(model, part, stride, V + from, batch.I1, batch.I2);
+        elastic_moduli(model, part, from, m, &batch);
+        if (ret->energy) memcpy(ret->energy + from, batch.energy, part * sizeof *batch.energy);
+        if (!plain) elastic_curvature(model, part, from, m, &batch);
+        if (plain) ELASTIC_CHOOSE(model->n_velocity, elastic_plain, part, rows, &batch, stiffness + from, out);
+        else ELASTIC_CHOOSE(model->n_velocity, elastic_general, part, rows, &batch, stiffness + from, out);
+    }
+}
+
+static BULLA_KERNEL void elastic_quicken(size_t n, const double *restrict stiff, double *restrict most)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double s = stiff[i], m = most[i];
+        most[i] = s > m ? s : m;
+    }
+}
+
+static BULLA_KERNEL void elastic_speed(size_t n, const double *restrict most, const double *restrict rho,
+                                       double *restrict c2)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) c2[i] += most[i] / rho[i];
+}
+
+void elastic_speed2(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
+                    const double *rho, double *c2)
+{
+    double most[ELASTIC_BATCH], fluid[ELASTIC_BATCH], normal[ELASTIC_BATCH], stiff[ELASTIC_BATCH], rigid[ELASTIC_BATCH];
+    double shear[2][ELASTIC_BATCH];
+    struct elastic_side side = {.normal = normal, .shear = {shear[0], shear[1]}, .stiff = stiff, .rigid = rigid};
+    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
+        size_t part = elastic_part(n, from);
+        const double *masses[SCENE_MATERIALS];
+        for (unsigned s = 0; s < model->n_solid; s++) masses[s] = m[s] + from;
+        for (size_t i = 0; i < part; i++) fluid[i] = rho[from + i] * c2[from + i];
+        memset(most, 0, part * sizeof *most);
+        for (int axis = 0; axis < model->dim; axis++) {
+            elastic_sides(model, axis, part, stride, V + from, masses, fluid, &side);
+            elastic_quicken(part, stiff, most);
+        }
+        elastic_speed(part, most, rho + from, c2 + from);
+    }
+}
+
+/* d^(-1/3) for 1/8 < d < 8 to round-off, by the series of (1 - e)^(-1/3) with e = 1 - d x^3; NaN for d <= 0. Farther
+ * out det V comes nearer to 1 by each call. */
+ELASTIC_BODY double elastic_cube_root(double d)
+{
+    double x = 2.0 / (1.0 + d);
+    for (int round = 0; round < 4; round++) {
+        double e = 1.0 - d * x * x * x;
+        x = x * (1.0 + e * (1.0 / 3.0 + e * (2.0 / 9.0 + e * (14.0 / 81.0))));
+    }
+    return d > 0.0 ? x : (double)NAN;
+}
+
+#define ELASTIC_UNIMODULAR(nv)                                                                             \
+    static BULLA_KERNEL void elastic_to_one_##nv(size_t n, struct elastic_rows V, double *restrict factor) \
+    {                                                                                                      \
+        ELASTIC_LOCAL(V);                                                                                  \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++) factor[i] =                                     \
+            elastic_cube_root(elastic_det(ELASTIC_AT(i, nv)));                                             \
+    }
+ELASTIC_UNIMODULAR(1)
+ELASTIC_UNIMODULAR(2)
+ELASTIC_UNIMODULAR(3)
+
+static BULLA_KERNEL void elastic_scale(size_t n, const double *restrict factor, double *restrict V)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) V[i] *= factor[i];
+}
+
+void elastic_unimodular(const struct model *model, size_t n, size_t stride, double *V)
+{
+    double factor[ELASTIC_BATCH];
+    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
+        size_t part = elastic_part(n, from);
+        struct elastic_rows rows = elastic_rows(V + from, stride, model->n_stretch);
+        ELASTIC_CHOOSE(model->n_velocity, elastic_to_one, part, rows, factor);
+        for (unsigned c = 0; c < model->n_stretch; c++) elastic_scale(part, factor, V + c * stride + from);
+    }
+}
+
+/* Square of |V - 1|, component by component: weight 2 off the diagonal. */
+static BULLA_KERNEL void elastic_distance(size_t n, double one, double weight, const double *restrict V,
+                                          double *restrict square)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double e = V[i] - one, s = square[i];
+        square[i] = s + weight * e * e;
+    }
+}
+
+/* How much of V - 1 stays: 1 within the bound, 0 without solid. */
+static BULLA_KERNEL void elastic_share(size_t n, const double *restrict alpha, double *restrict square)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double phi = alpha[i] / ELASTIC_FADE, bound = phi * phi, size = sqrt(square[i]), cut = bound / size;
+        double share = size > bound ? cut : 1.0;
+        square[i] = phi > 0.0 ? share : 0.0;
+    }
+}
+
+static BULLA_KERNEL void elastic_shrink(size_t n, double one, const double *restrict share, double *restrict V)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double v = V[i], s = share[i], less = one + s * (v - one);
+        less = s < 1.0 ? less : v;
+        V[i] = s > 0.0 ? less : one;
+    }
+}
+
+void elastic_fade(const struct model *model, size_t n, size_t stride, const double *alpha, double *V)
+{
+    double share[ELASTIC_BATCH];
+    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
+        size_t part = elastic_part(n, from);
+        for (size_t i = 0; i < part; i++) share[i] = 0.0;
+        for (unsigned c = 0; c < model->n_stretch; c++)
+            elastic_distance(part, c < 3 ? 1.0 : 0.0, c < 3 ? 1.0 : 2.0, V + c * stride + from, share);
+        elastic_share(part, alpha + from, share);
+        for (unsigned c = 0; c < model->n_stretch; c++)
+            elastic_shrink(part, c < 3 ? 1.0 : 0.0, share, V + c * stride + from);
+    }
+}

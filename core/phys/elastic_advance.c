@@ -1,0 +1,218 @@
+/* elastic_advance.c - see elastic.h: how the stretch moves.
+ *
+ * d V/dt = L V holds for a deformation gradient, so M = (what the step makes of V) is not symmetric. Only B = M M^T
+ * matters (model.md 2): M is turned back to V = M R^T, R the rotation in M, which in a plane is
+ *     tan(angle) = (M_yx - M_xy)/(M_xx + M_yy)
+ * and in space follows from (tr V 1 - V) phi = axial(M - M^T), repeated as rotations of one step are small. The trace of L
+ * needs no term of its own: it scales M, and det V = 1 takes that out. */
+#include "phys/elastic.h"
+
+#include "phys/elastic_tensor.h"
+
+#include <math.h>
+
+/* A step may not shear or stretch by more than this at once: |dt L/4| is cut there (the guard's step sizes are below). */
+#define MOVE_MOST 0.5
+
+/* A general 3 x 3 matrix. */
+struct move_matrix {
+    double xx, xy, xz, yx, yy, yz, zx, zy, zz;
+};
+
+/* Rows of one batch: -d_k u_i at index 3 i + k (those that a scene does not have are zeros), -div u, and the
+ * components of V_old, V, -div(V* u*) and V_new. */
+struct move_rows {
+    const double *gradient[9], *div, *old[6], *at[6], *carried[6];
+    double *out[6];
+};
+
+ELASTIC_BODY struct move_matrix move_product(struct move_matrix a, struct move_matrix b)
+{
+    return (struct move_matrix){a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy,
+                                a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.yx + a.yz * b.zx,
+                                a.yx * b.xy + a.yy * b.yy + a.yz * b.zy, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
+                                a.zx * b.xx + a.zy * b.yx + a.zz * b.zx, a.zx * b.xy + a.zy * b.yy + a.zz * b.zy,
+                                a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
+}
+
+ELASTIC_BODY struct move_matrix move_general(struct elastic_tensor t)
+{
+    return (struct move_matrix){t.xx, t.xy, t.xz, t.xy, t.yy, t.yz, t.xz, t.yz, t.zz};
+}
+
+/* 2 (1 - A)^-1 - 1 = (1 - A)^-1 (1 + A), by cofactors. */
+ELASTIC_BODY struct move_matrix move_cayley(struct move_matrix A)
+{
+    double a = 1.0 - A.xx, e = 1.0 - A.yy, i = 1.0 - A.zz, b = -A.xy, c = -A.xz, d = -A.yx, f = -A.yz, g = -A.zx,
+           h = -A.zy;
+    double ei = e * i - f * h, di = d * i - f * g, dh = d * h - e * g;
+    double twice = 2.0 / (a * ei - b * di + c * dh);
+    return (struct move_matrix){twice * ei - 1.0, -twice * (b * i - c * h),      twice * (b * f - c * e),
+                                -twice * di,      twice * (a * i - c * g) - 1.0, -twice * (a * f - c * d),
+                                twice * dh,       -twice * (a * h - b * g),      twice * (a * e - b * d) - 1.0};
+}
+
+/* V = M R^T in the x-y plane; zz stands alone. Written so that mirrored and exchanged axes give mirrored bits. */
+ELASTIC_BODY struct elastic_tensor move_polar_plane(struct move_matrix M)
+{
+    double t = M.xx + M.yy, s = M.yx - M.xy, per = 1.0 / sqrt(t * t + s * s), c = t * per, w = s * per;
+    double xy = M.xx * w + M.xy * c, yx = M.yx * c - M.yy * w;
+    return (struct elastic_tensor){M.xx * c - M.xy * w, M.yx * w + M.yy * c, M.zz, 0.5 * (xy + yx), 0.0, 0.0};
+}
+
+/* One turn towards a symmetric M: M R^T with R from (tr V 1 - V) phi = axial(M - M^T), V the symmetric part. */
+ELASTIC_BODY struct move_matrix move_turn(struct move_matrix M)
+{
+    double xy = 0.5 * (M.xy + M.yx), xz = 0.5 * (M.xz + M.zx), yz = 0.5 * (M.yz + M.zy);
+    double a = M.yy + M.zz, e = M.xx + M.zz, i = M.xx + M.yy, rx = M.zy - M.yz, ry = M.xz - M.zx, rz = M.yx - M.xy;
+    double c_xx = e * i - yz * yz, c_xy = xy * i + yz * xz, c_xz = xy * yz + e * xz;
+    double c_yy = a * i - xz * xz, c_yz = a * yz + xy * xz, c_zz = a * e - xy * xy;
+    double half = 0.5 / (a * c_xx - xy * c_xy - xz * c_xz);
+    double x = half * (c_xx * rx + c_xy * ry + c_xz * rz), y = half * (c_xy * rx + c_yy * ry + c_yz * rz);
+    double z = half * (c_xz * rx + c_yz * ry + c_zz * rz);
+    double square = x * x + y * y + z * z, per = 1.0 / (1.0 + square), diagonal = (1.0 - square) * per;
+    per *= 2.0;
+    struct move_matrix R = {diagonal + per * (x * x), per * (x * y - z),        per * (x * z + y),
+                            per * (x * y + z),        diagonal + per * (y * y), per * (y * z - x),
+                            per * (x * z - y),        per * (y * z + x),        diagonal + per * (z * z)};
+    struct move_matrix back = {R.xx, R.yx, R.zx, R.xy, R.yy, R.zy, R.xz, R.yz, R.zz};
+    return move_product(M, back);
+}
+
+ELASTIC_BODY struct elastic_tensor move_polar(struct move_matrix M, int nv)
+{
+    if (nv < 2) return (struct elastic_tensor){M.xx, M.yy, M.zz, 0.0, 0.0, 0.0};
+    if (nv < 3) return move_polar_plane(M);
+    M = move_turn(move_turn(move_turn(M)));
+    return (struct elastic_tensor){M.xx, M.yy, M.zz, 0.5 * (M.xy + M.yx), 0.5 * (M.xz + M.zx), 0.5 * (M.yz + M.zy)};
+}
+
+ELASTIC_BODY double move_cut(double a)
+{
+    a = a < MOVE_MOST ? a : MOVE_MOST;
+    return a > -MOVE_MOST ? a : -MOVE_MOST;
+}
+
+/* How the hoop strain is made: its share of what div u has beyond the gradient, and whether y and z get it. */
+struct move_hoop {
+    double share, y, z;
+};
+
+/* dt L/4 with hoop stretching. G: gradient, negative, without entries of its own where the hoop goes. */
+ELASTIC_BODY struct move_matrix move_strain(struct move_matrix G, double div, double quarter, struct move_hoop to,
+                                            int nv)
+{
+    double hoop = to.share * ((div - G.xx) - G.yy), yy = G.yy + to.y * hoop, zz = G.zz + to.z * hoop;
+    return (struct move_matrix){move_cut(-quarter * G.xx),
+                                nv > 1 ? move_cut(-quarter * G.xy) : 0.0,
+                                nv > 2 ? move_cut(-quarter * G.xz) : 0.0,
+                                nv > 1 ? move_cut(-quarter * G.yx) : 0.0,
+                                move_cut(-quarter * yy),
+                                nv > 2 ? move_cut(-quarter * G.yz) : 0.0,
+                                nv > 2 ? move_cut(-quarter * G.zx) : 0.0,
+                                nv > 2 ? move_cut(-quarter * G.zy) : 0.0,
+                                move_cut(-quarter * zz)};
+}
+
+/* One point: half of the deformation, the transport, the other half. */
+ELASTIC_BODY struct elastic_tensor move_point(struct move_matrix A, struct elastic_tensor old,
+                                              struct elastic_tensor step, int nv)
+{
+    struct move_matrix E = move_cayley(A);
+    struct elastic_tensor half = move_polar(move_product(E, move_general(old)), nv);
+    half = (struct elastic_tensor){half.xx + step.xx, half.yy + step.yy, half.zz + step.zz,
+                                   half.xy + step.xy, half.xz + step.xz, half.yz + step.yz};
+    return move_polar(move_product(E, move_general(half)), nv);
+}
+
+/* dt (-div(V* u*) + V div u*) of one component; both rates are negative. */
+ELASTIC_BODY double move_transport(double dt, double carried, double V, double div)
+{
+    return dt * (carried - V * div);
+}
+
+/* Value of an optional row. */
+#define MOVE_IF(there, row) ((there) ? (row)[(there) ? i : 0] : 0.0)
+
+#define MOVE_KERNEL(nv)                                                                                          \
+    static BULLA_KERNEL void move_##nv(size_t n, double dt, struct move_hoop hoop, const struct move_rows *rows) \
+    {                                                                                                            \
+        const double *restrict g0 = rows->gradient[0], *restrict g1 = rows->gradient[1],                         \
+                               *restrict g2 = rows->gradient[2];                                                 \
+        const double *restrict g3 = rows->gradient[3], *restrict g4 = rows->gradient[4],                         \
+                               *restrict g5 = rows->gradient[5];                                                 \
+        const double *restrict g6 = rows->gradient[6], *restrict g7 = rows->gradient[7],                         \
+                               *restrict g8 = rows->gradient[8];                                                 \
+        const double *restrict o0 = rows->old[0], *restrict o1 = rows->old[1], *restrict o2 = rows->old[2];      \
+        const double *restrict o3 = rows->old[3], *restrict o4 = rows->old[4], *restrict o5 = rows->old[5];      \
+        const double *restrict a0 = rows->at[0], *restrict a1 = rows->at[1], *restrict a2 = rows->at[2];         \
+        const double *restrict a3 = rows->at[3], *restrict a4 = rows->at[4], *restrict a5 = rows->at[5];         \
+        const double *restrict c0 = rows->carried[0], *restrict c1 = rows->carried[1],                           \
+                               *restrict c2 = rows->carried[2];                                                  \
+        const double *restrict c3 = rows->carried[3], *restrict c4 = rows->carried[4],                           \
+                               *restrict c5 = rows->carried[5];                                                  \
+        double *restrict r0 = rows->out[0], *restrict r1 = rows->out[1], *restrict r2 = rows->out[2];            \
+        double *restrict r3 = rows->out[3], *restrict r4 = rows->out[4], *restrict r5 = rows->out[5];            \
+        const double *restrict div = rows->div;                                                                  \
+        const double quarter = 0.25 * dt;                                                                        \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                       \
+        {                                                                                                        \
+            double d = div[i];                                                                                   \
+            struct move_matrix G = {g0[i],                                                                       \
+                                    MOVE_IF((nv) > 1, g1),                                                       \
+                                    MOVE_IF((nv) > 2, g2),                                                       \
+                                    MOVE_IF((nv) > 1, g3),                                                       \
+                                    MOVE_IF((nv) > 1, g4),                                                       \
+                                    MOVE_IF((nv) > 2, g5),                                                       \
+                                    MOVE_IF((nv) > 2, g6),                                                       \
+                                    MOVE_IF((nv) > 2, g7),                                                       \
+                                    MOVE_IF((nv) > 2, g8)};                                                      \
+            struct elastic_tensor old = {                                                                        \
+                o0[i], o1[i], o2[i], MOVE_IF((nv) > 1, o3), MOVE_IF((nv) > 2, o4), MOVE_IF((nv) > 2, o5)};       \
+            struct elastic_tensor step = {                                                                       \
+                move_transport(dt, c0[i], a0[i], d),                                                             \
+                move_transport(dt, c1[i], a1[i], d),                                                             \
+                move_transport(dt, c2[i], a2[i], d),                                                             \
+                (nv) > 1 ? move_transport(dt, MOVE_IF((nv) > 1, c3), MOVE_IF((nv) > 1, a3), d) : 0.0,            \
+                (nv) > 2 ? move_transport(dt, MOVE_IF((nv) > 2, c4), MOVE_IF((nv) > 2, a4), d) : 0.0,            \
+                (nv) > 2 ? move_transport(dt, MOVE_IF((nv) > 2, c5), MOVE_IF((nv) > 2, a5), d) : 0.0};           \
+            struct elastic_tensor V = move_point(move_strain(G, d, quarter, hoop, nv), old, step, nv);           \
+            r0[i] = V.xx, r1[i] = V.yy, r2[i] = V.zz;                                                            \
+            if ((nv) > 1) r3[i] = V.xy;                                                                          \
+            if ((nv) > 2) r4[i] = V.xz, r5[i] = V.yz;                                                            \
+        }                                                                                                        \
+    }
+MOVE_KERNEL(1)
+MOVE_KERNEL(2)
+MOVE_KERNEL(3)
+
+enum { MOVE_BATCH = 512 };
+
+static const double move_zero[MOVE_BATCH];
+
+void elastic_advance(const struct model *model, size_t n, size_t stride, double dt, const double *V_old,
+                     const double *V, const struct elastic_rates *rates, double *V_new)
+{
+    unsigned count = model->n_stretch, dim = (unsigned)model->dim;
+    struct move_hoop hoop = {.share = model->beta ? 1.0 / model->beta : 0.0,
+                             .y = model->beta == 2,
+                             .z = model->beta > 0};
+    for (size_t from = 0; from < n; from += MOVE_BATCH) {
+        size_t part = n - from < MOVE_BATCH ? n - from : MOVE_BATCH;
+        struct move_rows rows = {.div = rates->div + from};
+        for (unsigned i = 0; i < 3; i++)
+            for (unsigned k = 0; k < 3; k++)
+                rows.gradient[3 * i + k] =
+                    i < model->n_velocity && k < dim ? rates->gradient + (i * dim + k) * stride + from : move_zero;
+        for (unsigned c = 0; c < 6; c++) {
+            size_t at = (c < count ? c : 0) * stride + from;
+            rows.old[c] = V_old + at;
+            rows.at[c] = V + at;
+            rows.carried[c] = rates->carried + at;
+            rows.out[c] = V_new + at;
+        }
+        if (model->n_velocity == 1) move_1(part, dt, hoop, &rows);
+        else if (model->n_velocity == 2) move_2(part, dt, hoop, &rows);
+        else move_3(part, dt, hoop, &rows);
+    }
+}
