@@ -93,7 +93,7 @@ enum {
 const struct scene_field *scene_field_all(struct draft *draft);
 const struct scene_field *scene_field_find(struct draft *draft, const char *name);
 
-/* For the schema: the fields of every case, and what with _MATERIAL is one. NULL-terminated, in the forest. */
+/* For the schema: the fields of every case and of those with a solid, and what with _MATERIAL is one. NULL-terminated, in the forest. */
 const char *const *scene_field_always(struct forest *forest);
 const char *const *scene_field_each(struct forest *forest);
 

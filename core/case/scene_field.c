@@ -38,16 +38,56 @@ enum {
     SCENE_FIELD_EACH = sizeof scene_field_by_material / sizeof *scene_field_by_material
 };
 
-static const char *const scene_field_of_solids[] = {"stress_xx",     "stress_yy",  "stress_zz",  "stress_xy",
-                                                    "stress_xz",     "stress_yz",  "sigma_max",  "sigma_min",
-                                                    "sigma_shear",   "von_mises",  "stretch_xx", "stretch_yy",
-                                                    "stretch_zz",    "stretch_xy", "stretch_xz", "stretch_yz",
-                                                    "strain_energy", NULL};
+/* In scenes with a solid (derive_stress.h). */
+static const struct scene_field scene_field_solid[] = {
+    {"stress_xx", "Pa", 0},
+    {"stress_yy", "Pa", 0},
+    {"stress_zz", "Pa", 0},
+    {"stress_xy", "Pa", SCENE_FIELD_VANISHING},
+    {"stress_xz", "Pa", SCENE_FIELD_VANISHING},
+    {"stress_yz", "Pa", SCENE_FIELD_VANISHING},
+    {"stretch_xx", "1", SCENE_FIELD_POSITIVE},
+    {"stretch_yy", "1", SCENE_FIELD_POSITIVE},
+    {"stretch_zz", "1", SCENE_FIELD_POSITIVE},
+    {"stretch_xy", "1", SCENE_FIELD_VANISHING},
+    {"stretch_xz", "1", SCENE_FIELD_VANISHING},
+    {"stretch_yz", "1", SCENE_FIELD_VANISHING},
+    {"stretch_max", "1", SCENE_FIELD_POSITIVE},
+    {"sigma_max", "Pa", 0},
+    {"sigma_min", "Pa", 0},
+    {"sigma_shear", "Pa", SCENE_FIELD_VANISHING},
+    {"sigma_max_dev", "Pa", SCENE_FIELD_VANISHING},
+    {"sigma_min_dev", "Pa", SCENE_FIELD_VANISHING},
+    {"principal_max", "Pa", 0},
+    {"principal_min", "Pa", 0},
+    {"principal_shear", "Pa", SCENE_FIELD_VANISHING},
+    {"principal_max_dev", "Pa", SCENE_FIELD_VANISHING},
+    {"principal_min_dev", "Pa", SCENE_FIELD_VANISHING},
+    {"von_mises", "Pa", SCENE_FIELD_VANISHING},
+    {"strain_energy", "J/m3", SCENE_FIELD_VANISHING},
+    {"invariant_1", "1", SCENE_FIELD_POSITIVE},
+    {"invariant_2", "1", SCENE_FIELD_POSITIVE},
+};
+enum { SCENE_FIELD_SOLID = sizeof scene_field_solid / sizeof *scene_field_solid };
 
 static bool scene_field_in(const char *name, const char *const *names)
 {
     for (; *names; names++)
         if (strcmp(*names, name) == 0) return true;
+    return false;
+}
+
+static bool scene_field_is_solid(const char *name)
+{
+    for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++)
+        if (strcmp(scene_field_solid[i].name, name) == 0) return true;
+    return false;
+}
+
+static bool scene_field_has_solid(const struct scene *scene)
+{
+    for (unsigned l = 0; l < scene->n_material; l++)
+        if (scene->material[l].constitutive.module) return true;
     return false;
 }
 
@@ -66,10 +106,13 @@ const struct scene_field *scene_field_all(struct draft *draft)
 {
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
-    struct scene_field *list =
-        tree_take(forest, (SCENE_FIELD_PLAIN + SCENE_FIELD_EACH * scene->n_material + 1) * sizeof *list);
-    unsigned count = SCENE_FIELD_PLAIN;
+    unsigned count = SCENE_FIELD_PLAIN, most = count + SCENE_FIELD_SOLID + SCENE_FIELD_EACH * scene->n_material;
+    struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
     memcpy(list, scene_field_plain, sizeof scene_field_plain);
+    if (scene_field_has_solid(scene)) {
+        memcpy(list + count, scene_field_solid, sizeof scene_field_solid);
+        count += SCENE_FIELD_SOLID;
+    }
     for (unsigned i = 0; i < scene->n_material; i++)
         for (unsigned k = 0; k < SCENE_FIELD_EACH; k++) {
             list[count] = scene_field_by_material[k];
@@ -78,21 +121,19 @@ const struct scene_field *scene_field_all(struct draft *draft)
     return list;
 }
 
-static const char *const *scene_field_list_names(struct forest *forest, const struct scene_field *fields, unsigned n)
-{
-    const char **names = tree_take(forest, (n + 1) * sizeof *names);
-    for (unsigned i = 0; i < n; i++) names[i] = fields[i].name;
-    return names;
-}
-
 const char *const *scene_field_always(struct forest *forest)
 {
-    return scene_field_list_names(forest, scene_field_plain, SCENE_FIELD_PLAIN);
+    const char **names = tree_take(forest, (SCENE_FIELD_PLAIN + SCENE_FIELD_SOLID + 1) * sizeof *names);
+    for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++) names[i] = scene_field_plain[i].name;
+    for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++) names[SCENE_FIELD_PLAIN + i] = scene_field_solid[i].name;
+    return names;
 }
 
 const char *const *scene_field_each(struct forest *forest)
 {
-    return scene_field_list_names(forest, scene_field_by_material, SCENE_FIELD_EACH);
+    const char **names = tree_take(forest, (SCENE_FIELD_EACH + 1) * sizeof *names);
+    for (unsigned i = 0; i < SCENE_FIELD_EACH; i++) names[i] = scene_field_by_material[i].name;
+    return names;
 }
 
 /* All names this scene has; NULL-terminated, in the forest. */
@@ -134,8 +175,8 @@ bool scene_field(struct draft *draft, const struct keys_value *value, char ret_n
         snprintf(ret_name, SCENE_NAME, "%s", value->text);
         return true;
     }
-    if (scene_field_in(value->text, scene_field_of_solids)) {
-        keys_error(&draft->keys, value, "'%s' is a field of solids, and this version computes fluids only",
+    if (scene_field_is_solid(value->text)) {
+        keys_error(&draft->keys, value, "'%s' is a field of solids, and no material has a 'constitutive' law",
                    value->text);
         return false;
     }

@@ -47,9 +47,18 @@ static void model_name_derived(struct model *model)
                                         "velocity_y", "velocity_z",      "temperature",  "sound_speed",
                                         "mach",       "internal_energy", "total_energy", "vorticity",
                                         "schlieren",  "level",           "rank",         "cost"};
+    static const char *const solid[] = {"stress_xx",       "stress_yy",         "stress_zz",         "stress_xy",
+                                        "stress_xz",       "stress_yz",         "stretch_xx",        "stretch_yy",
+                                        "stretch_zz",      "stretch_xy",        "stretch_xz",        "stretch_yz",
+                                        "stretch_max",     "sigma_max",         "sigma_min",         "sigma_shear",
+                                        "sigma_max_dev",   "sigma_min_dev",     "principal_max",     "principal_min",
+                                        "principal_shear", "principal_max_dev", "principal_min_dev", "von_mises",
+                                        "strain_energy",   "invariant_1",       "invariant_2"};
     size_t n_plain = sizeof plain / sizeof *plain, n_each = 4, at = 0;
-    model->names = mem_new(n_plain + n_each * model->n_material + 1, sizeof *model->names);
+    size_t n_solid = model->elastic ? sizeof solid / sizeof *solid : 0;
+    model->names = mem_new(n_plain + n_solid + n_each * model->n_material + 1, sizeof *model->names);
     for (size_t i = 0; i < n_plain; i++) model->names[at++] = mem_text(plain[i]);
+    for (size_t i = 0; i < n_solid; i++) model->names[at++] = mem_text(solid[i]);
     for (unsigned l = 0; l < model->n_material; l++) {
         const char *name = model->scene->material[l].name;
         model->names[at++] = mem_print("alpha_%s", name);
