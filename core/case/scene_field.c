@@ -154,13 +154,23 @@ const struct scene_field *scene_field_find(struct draft *draft, const char *name
     return NULL;
 }
 
+/* Velocities that a scene needs for a shear component of a tensor not to be 0; 0 for other fields. */
+static int scene_field_shear(const char *name)
+{
+    if (strncmp(name, "stress_", 7) != 0 && strncmp(name, "stretch_", 8) != 0) return 0;
+    const char *component = strchr(name, '_') + 1;
+    return strcmp(component, "xy") == 0 ? 2 : strcmp(component, "xz") == 0 || strcmp(component, "yz") == 0 ? 3 : 0;
+}
+
 const char *scene_field_constant(struct draft *draft, const char *name)
 {
     const struct scene *scene = draft->scene;
     bool one = scene->n_material == 1, y = strcmp(name, "velocity_y") == 0, z = strcmp(name, "velocity_z") == 0;
     if (strcmp(name, "level") == 0) return "the same in all cells of a level";
     if (strcmp(name, "rank") == 0) return "a matter of how many ranks compute, on which results do not depend";
-    if ((y && scene->dim < 2) || (z && scene->dim < 3)) return "0 everywhere: the domain has no such axis";
+    if ((y && scene->n_velocity < 2) || (z && scene->n_velocity < 3))
+        return "0 everywhere: the domain has no such axis";
+    if (scene->n_velocity < scene_field_shear(name)) return "0 everywhere: nothing moves across these axes";
     if (strcmp(name, "vorticity") == 0 && scene->dim == 1) return "0 everywhere: the domain has one axis";
     if (one && (strcmp(name, "cost") == 0 || strncmp(name, "alpha_", 6) == 0))
         return "1 everywhere: there is one material";
