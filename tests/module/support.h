@@ -28,7 +28,7 @@ static inline const struct bulla_module *support_module(const char *kind, const 
 /* Opens with numbers in table order. */
 static inline struct instance support_open(const struct bulla_module *module, const double *numbers)
 {
-    struct bulla_value values[16] = {{0}};
+    struct bulla_value values[32] = {{0}};
     for (unsigned i = 0; i < instance_param_count(module); i++) values[i].number = numbers[i];
     struct instance instance = {0};
     if (instance_open(module, values, &instance)) fail_msg("%s", status_text());

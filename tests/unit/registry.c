@@ -40,9 +40,20 @@ static int stop(void **state)
 
 /* All that is built in, sorted as the registry sorts. */
 static const char *const builtin[][2] = {
-    {"constitutive", "neo-hookean"}, {"eos", "ideal-gas"},    {"eos", "mnasg"},      {"eos", "nasg"},
-    {"eos", "stiffened-gas"},        {"limiter", "mc"},       {"limiter", "minmod"}, {"limiter", "superbee"},
-    {"limiter", "van-albada"},       {"limiter", "van-leer"}, {"riemann", "hll"},    {"riemann", "hllc"},
+    {"constitutive", "neo-hookean"},
+    {"eos", "ideal-gas"},
+    {"eos", "mnasg"},
+    {"eos", "modified-tait"},
+    {"eos", "nasg"},
+    {"eos", "stiffened-gas"},
+    {"eos", "tait"},
+    {"limiter", "mc"},
+    {"limiter", "minmod"},
+    {"limiter", "superbee"},
+    {"limiter", "van-albada"},
+    {"limiter", "van-leer"},
+    {"riemann", "hll"},
+    {"riemann", "hllc"},
     {"riemann", "rusanov"},
 };
 enum { BUILTIN = sizeof builtin / sizeof *builtin };
