@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { LAW_SHEAR_MODULUS, LAW_REFERENCE_DENSITY, LAW_OWN };
 
@@ -19,6 +20,18 @@ struct law {
     double own; /* the third parameter of the law, if it has one */
 };
 
+/* Moduli of tissues and gels; the arguments are what the law wants to know besides. */
+#define LAW_PRESETS(...)                                                                       \
+    {"liver", "liver, 1.8 kPa", (const double[]){1.8e3, 1060.0, __VA_ARGS__}},                 \
+        {"gallbladder", "gall bladder, 85 kPa", (const double[]){8.5e4, 1060.0, __VA_ARGS__}}, \
+        {"bile-duct", "bile duct, 166 kPa", (const double[]){1.66e5, 1060.0, __VA_ARGS__}},    \
+    {                                                                                          \
+        "agarose", "agarose gel, 7.23 kPa", (const double[])                                   \
+        {                                                                                      \
+            7.23e3, 1010.0, __VA_ARGS__                                                        \
+        }                                                                                      \
+    }
+
 #define LAW_PARAMS                                                                                             \
     {"shear-modulus", "Pa", 1e-6, 1e13, NAN, "shear modulus of small strains", BULLA_NUMBER, NULL},            \
     {                                                                                                          \
@@ -27,17 +40,20 @@ struct law {
             BULLA_NUMBER, NULL                                                                                 \
     }
 
-/* Makes an instance; `own` as the module wants to keep it. */
-static inline int law_open(const struct bulla_host *host, const struct bulla_value *values, double own, void **ret_self)
+static inline struct law law_make(const struct bulla_value *values, double own)
 {
-    struct law *self = malloc(sizeof *self);
+    return (struct law){0.5 * values[LAW_SHEAR_MODULUS].number / values[LAW_REFERENCE_DENSITY].number, own};
+}
+
+/* Keeps a copy of `size` bytes as the instance. */
+static inline int law_keep(const struct bulla_host *host, const void *par, size_t size, void **ret_self)
+{
+    void *self = malloc(size);
     if (!self) {
         host->fail("out of memory");
         return 1;
     }
-    self->k = 0.5 * values[LAW_SHEAR_MODULUS].number / values[LAW_REFERENCE_DENSITY].number;
-    self->own = own;
-    *ret_self = self;
+    *ret_self = memcpy(self, par, size);
     return 0;
 }
 

@@ -4,17 +4,12 @@
 
 static const struct bulla_param neo_hookean_params[] = {LAW_PARAMS, {0}};
 
-static const struct bulla_preset neo_hookean_presets[] = {
-    {"liver", "liver, 1.8 kPa", (const double[]){1.8e3, 1060.0}},
-    {"gallbladder", "gall bladder, 85 kPa", (const double[]){8.5e4, 1060.0}},
-    {"bile-duct", "bile duct, 166 kPa", (const double[]){1.66e5, 1060.0}},
-    {"agarose", "agarose gel, 7.23 kPa", (const double[]){7.23e3, 1010.0}},
-    {0},
-};
+static const struct bulla_preset neo_hookean_presets[] = {LAW_PRESETS(), {0}};
 
 static int neo_hookean_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
 {
-    return law_open(host, values, 0.0, ret_self);
+    struct law par = law_make(values, 0.0);
+    return law_keep(host, &par, sizeof par, ret_self);
 }
 
 BULLA_KERNEL static void neo_hookean_energy(const void *self, size_t n, const double *BULLA_RESTRICT I1,
