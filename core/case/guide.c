@@ -66,8 +66,8 @@ static void guide_rows(struct guide *guide, const struct keys_section *section)
     if (section->base) guide_rows(guide, section->base);
     for (const struct key *key = section->keys; key && key->name; key++) {
         const char *fallback = key->required ? "required" : key->fallback && *key->fallback != '{' ? key->fallback : "";
-        text_add(&guide->text, "| `%s` | %s | %s | %s%s |\n", key->name, guide_kind(guide, key, section), fallback,
-                 key->doc ? key->doc : "", key->later && !key->refused ? " *Not in this version.*" : "");
+        text_add(&guide->text, "| `%s` | %s | %s | %s |\n", key->name, guide_kind(guide, key, section), fallback,
+                 key->doc ? key->doc : "");
     }
     if (section->others)
         text_add(&guide->text, "| *NAME* | %s |  | %s |\n", guide_kind(guide, section->others, section),

@@ -301,10 +301,6 @@ static void keys_read_row(struct keys *keys, struct keys_map *map, const struct 
         if (key->required && !rows->list[i].meant && !preset && !map->node->broken) keys_missing(keys, map, key);
         return;
     }
-    if (at >= 0 && key->later && !key->refused) {
-        diag_error(keys->diag, &map->node->keys[at]->mark, "%s: %s", value->path, key->later);
-        return;
-    }
     if (at < 0) tree_set(keys->forest, map->node, key->name, value->node);
     keys_read_value(keys, value, rows->list[i].selects ? family_names(keys->forest, rows->list[i].selects) : NULL);
 }

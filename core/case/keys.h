@@ -48,8 +48,6 @@ struct key {
     const char *fallback; /* default, as it would stand in the file; NULL: none */
     const char *choices;  /* "a|b|c" */
     const struct keys_section *section;
-    const char *later;   /* this version cannot do it: the sentence that says so ... */
-    const char *refused; /* ... of this word of a choice alone, if given */
     const char *doc;
 };
 

@@ -227,10 +227,6 @@ static void scalar_read_choice(struct keys *keys, struct keys_value *value, cons
         value->given = true;
         return;
     }
-    if (value->key->refused && strcmp(value->key->refused, value->text) == 0) {
-        keys_error(keys, value, "%s", value->key->later);
-        return;
-    }
     keys_error(keys, value, "there is no '%s' here", value->text);
     if (choices[0]) diag_suggest(keys->diag, value->text, choices);
     else diag_help(keys->diag, "no modules of this kind were found: look at BULLA_MODULE_PATH and 'bulla modules'");

@@ -240,7 +240,10 @@ void scene_free(struct scene *scene)
         mem_free(scene->refines[i].uses);
     }
     mem_free(scene->refines);
-    for (unsigned i = 0; i < scene->n_material; i++) instance_done(&scene->material[i].eos);
+    for (unsigned i = 0; i < scene->n_material; i++) {
+        instance_done(&scene->material[i].eos);
+        instance_done(&scene->material[i].constitutive);
+    }
     instance_done(&scene->riemann);
     instance_done(&scene->limiter);
     instance_done(&scene->interface_limiter);

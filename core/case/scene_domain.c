@@ -32,21 +32,22 @@ static const char scene_domain_faces[] = SCENE_DOMAIN_PAIRS("x") SCENE_DOMAIN_PA
     SCENE_DOMAIN_PAIRS("z") "{'patternProperties': {'^(x[+]|y|z)': {'not': " SCENE_DOMAIN_AXIS "}}}";
 
 /* Where the radius begins at 0 there is nothing to say but axis or symmetry; elsewhere x- is a face like others. */
-#define SCENE_DOMAIN_GEOMETRY                                                                             \
-    "{'if': {'properties': {'geometry': {'const': 'cartesian'}}}, 'then': {'properties': {'boundaries': " \
-    "{'required': ['x-'], 'properties': {'x-': {'not': " SCENE_DOMAIN_AXIS "}}}}},"                       \
-    " 'else': {'properties': {'lower': {'maxItems': 2, 'items': [{'minimum': 0}]}}}},"                    \
-    "{'if': {'required': ['geometry', 'lower'], 'properties': {'geometry': {'enum': ['axisymmetric', "    \
-    "'spherical']}, 'lower': {'items': [{'const': 0}]}}},"                                                \
-    " 'then': {'properties': {'boundaries': {'properties': {'x-': " SCENE_DOMAIN_CENTRE "}}}}},"          \
-    "{'if': {'required': ['geometry'], 'properties': {'geometry': {'const': 'spherical'}}},"              \
+#define SCENE_DOMAIN_GEOMETRY                                                                                        \
+    "{'if': {'properties': {'geometry': {'const': 'cartesian'}}}, 'then': {'properties': {'boundaries': "            \
+    "{'required': ['x-'], 'properties': {'x-': {'not': " SCENE_DOMAIN_AXIS "}}}}},"                                  \
+    " 'else': {'properties': {'lower': {'maxItems': 2, 'items': [{'minimum': 0}]}, 'velocity-components': false}}}," \
+    "{'if': {'required': ['geometry', 'lower'], 'properties': {'geometry': {'enum': ['axisymmetric', "               \
+    "'spherical']}, 'lower': {'items': [{'const': 0}]}}},"                                                           \
+    " 'then': {'properties': {'boundaries': {'properties': {'x-': " SCENE_DOMAIN_CENTRE "}}}}},"                     \
+    "{'if': {'required': ['geometry'], 'properties': {'geometry': {'const': 'spherical'}}},"                         \
     " 'then': {'properties': {'lower': {'maxItems': 1}}}},"
 
 /* The length of `lower` is the dimension, which all others follow; faces of axes that are not there are errors. */
-#define SCENE_DOMAIN_AXES(n, faces, none)                                                                              \
-    "{'if': {'required': ['lower'], 'properties': {'lower': {'minItems': " n ", 'maxItems': " n "}}}, 'then': "        \
-    "{'patternProperties': {'^(upper|cells)$': {'minItems': " n ", 'maxItems': " n "}}, 'properties': {'boundaries': " \
-    "{'required': [" faces "], 'properties': {" none "}}}}},"
+#define SCENE_DOMAIN_AXES(n, faces, none)                                                                       \
+    "{'if': {'required': ['lower'], 'properties': {'lower': {'minItems': " n ", 'maxItems': " n "}}}, 'then': " \
+    "{'patternProperties': {'^(upper|cells)$': {'minItems': " n ", 'maxItems': " n "}}, 'properties': {"        \
+    "'velocity-components': {'minimum': " n "}, "                                                               \
+    "'boundaries': {'required': [" faces "], 'properties': {" none "}}}}},"
 
 #define SCENE_DOMAIN_MOST "{'properties': {'lower': {'minItems': 1, 'maxItems': 3}}}"
 
@@ -80,6 +81,12 @@ static const struct key scene_domain_rows[] = {
      .max = 1 << 24,
      .required = true,
      .doc = "Cells of the coarsest level along each axis."},
+    {.name = "velocity-components",
+     .type = KEYS_INTEGER,
+     .min = 1,
+     .max = 3,
+     .doc = "Components of velocities, from the number of axes (the default) to 3: with more, matter in a cartesian "
+            "domain also moves across its axes, as in the shear waves of a line."},
     {.name = "boundaries",
      .type = KEYS_SECTION,
      .section = &scene_domain_boundaries_keys,
@@ -159,6 +166,21 @@ static void scene_domain_cells(struct draft *draft, const struct keys_map *domai
     scene->cells_place = mem_print("%s:%d:%d", mark->source->name, mark->line, mark->column);
 }
 
+/* As many components as axes, or more where the geometry has no curvature to turn them. */
+static void scene_domain_velocity(struct draft *draft, const struct keys_map *domain)
+{
+    struct scene *scene = draft->scene;
+    const struct keys_value *velocity = keys_at(domain, "velocity-components");
+    scene->n_velocity = scene->dim;
+    if (!velocity->given || scene->dim == 0) return;
+    if (scene->geometry != SCENE_CARTESIAN)
+        keys_error(&draft->keys, velocity, "only in cartesian domains matter moves across the axes");
+    else if (velocity->integer < scene->dim)
+        keys_error(&draft->keys, velocity, "%ld component%s less than the domain has axes, %d", velocity->integer,
+                   velocity->integer == 1 ? " is" : "s are", scene->dim);
+    else scene->n_velocity = (int)velocity->integer;
+}
+
 void scene_domain(struct draft *draft)
 {
     const struct keys_map *domain = keys_at(draft->root, "domain")->map;
@@ -166,5 +188,5 @@ void scene_domain(struct draft *draft)
     scene_domain_corners(draft, domain);
     scene_domain_geometry(draft, domain);
     scene_domain_cells(draft, domain);
-    draft->scene->n_velocity = draft->scene->dim;
+    scene_domain_velocity(draft, domain);
 }

@@ -42,6 +42,10 @@ bool scene_domain_vector(struct draft *draft, const struct keys_value *value, do
 /* Index of a material, or -1 after a recorded error with a suggestion. */
 int scene_material_index(struct draft *draft, const struct keys_value *value);
 
+/* Has a material a constitutive law, be it right or wrong? The name of the first one that has, or NULL. */
+bool scene_material_is_solid(const struct draft *draft, unsigned material);
+const char *scene_material_solid(const struct draft *draft);
+
 /* Opens the module that a section names; nothing happens if the section is wrong. */
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);
 

@@ -84,13 +84,6 @@ static bool scene_field_is_solid(const char *name)
     return false;
 }
 
-static bool scene_field_has_solid(const struct scene *scene)
-{
-    for (unsigned l = 0; l < scene->n_material; l++)
-        if (scene->material[l].constitutive.module) return true;
-    return false;
-}
-
 /* What people write on paper. */
 static const char *scene_field_of_symbol(const char *symbol)
 {
@@ -109,7 +102,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     unsigned count = SCENE_FIELD_PLAIN, most = count + SCENE_FIELD_SOLID + SCENE_FIELD_EACH * scene->n_material;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
     memcpy(list, scene_field_plain, sizeof scene_field_plain);
-    if (scene_field_has_solid(scene)) {
+    if (scene_material_solid(draft)) {
         memcpy(list + count, scene_field_solid, sizeof scene_field_solid);
         count += SCENE_FIELD_SOLID;
     }
@@ -169,9 +162,9 @@ const char *scene_field_constant(struct draft *draft, const char *name)
     if (strcmp(name, "level") == 0) return "the same in all cells of a level";
     if (strcmp(name, "rank") == 0) return "a matter of how many ranks compute, on which results do not depend";
     if ((y && scene->n_velocity < 2) || (z && scene->n_velocity < 3))
-        return "0 everywhere: the domain has no such axis";
+        return "0 everywhere: velocities have no such component";
     if (scene->n_velocity < scene_field_shear(name)) return "0 everywhere: nothing moves across these axes";
-    if (strcmp(name, "vorticity") == 0 && scene->dim == 1) return "0 everywhere: the domain has one axis";
+    if (strcmp(name, "vorticity") == 0 && scene->n_velocity == 1) return "0 everywhere: velocities have one component";
     if (one && (strcmp(name, "cost") == 0 || strncmp(name, "alpha_", 6) == 0))
         return "1 everywhere: there is one material";
     return NULL;

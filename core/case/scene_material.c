@@ -12,11 +12,22 @@ static const struct key scene_material_law[] = {
     {0},
 };
 
+static const struct key scene_material_elastic[] = {
+    {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "The elastic law."},
+    {0},
+};
+
 static const struct keys_section scene_material_eos = {.name = "eos",
                                                        .doc = "An equation of state and its numbers.",
                                                        .keys = scene_material_law,
                                                        .selector = "type",
                                                        .kind = "eos"};
+
+static const struct keys_section scene_material_constitutive = {.name = "constitutive",
+                                                                .doc = "The elastic law of a solid and its numbers.",
+                                                                .keys = scene_material_elastic,
+                                                                .selector = "type",
+                                                                .kind = "constitutive"};
 
 static const struct key scene_material_rows[] = {
     {.name = "eos",
@@ -25,9 +36,9 @@ static const struct key scene_material_rows[] = {
      .required = true,
      .doc = "The equation of state."},
     {.name = "constitutive",
-     .type = KEYS_TREE,
-     .later = "this version computes fluids only; a constitutive law (a solid) is not possible yet",
-     .doc = "The elastic law of a solid."},
+     .type = KEYS_SECTION,
+     .section = &scene_material_constitutive,
+     .doc = "The elastic law, which makes the material a solid; its pressure is that of the equation of state."},
     {0},
 };
 
@@ -57,6 +68,19 @@ int scene_material_index(struct draft *draft, const struct keys_value *value)
     keys_error(&draft->keys, value, "there is no material '%s'", name);
     diag_suggest(draft->keys.diag, name, scene_material_names(draft));
     return -1;
+}
+
+const char *scene_material_solid(const struct draft *draft)
+{
+    const struct keys_value *materials = keys_at(draft->root, "materials");
+    for (unsigned i = 0; i < draft->scene->n_material; i++)
+        if (scene_material_is_solid(draft, i)) return materials->list[i].name;
+    return NULL;
+}
+
+bool scene_material_is_solid(const struct draft *draft, unsigned material)
+{
+    return keys_at(keys_at(draft->root, "materials")->list[material].map, "constitutive")->node != NULL;
 }
 
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance)
@@ -93,5 +117,6 @@ void scene_material(struct draft *draft)
                        "materials: '%s' is no identifier (letters, digits and _, at most %d)", entry->name,
                        SCENE_NAME / 2);
         scene_material_open(draft, keys_at(entry->map, "eos"), &material->eos);
+        scene_material_open(draft, keys_at(entry->map, "constitutive"), &material->constitutive);
     }
 }

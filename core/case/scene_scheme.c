@@ -1,18 +1,21 @@
 /* scene_scheme.c - the numerical method. */
 #include "case/scene_draft.h"
 
-#define MODULE_SECTION(kind_name, what, word, why)                                                                 \
-    static const struct key scene_scheme_##kind_name##_type[] = {                                                  \
-        {.name = "type", .type = KEYS_CHOICE, .required = true, .refused = word, .later = why, .doc = what}, {0}}; \
-    static const struct keys_section scene_scheme_##kind_name = {.name = #kind_name,                               \
-                                                                 .doc = what,                                      \
-                                                                 .keys = scene_scheme_##kind_name##_type,          \
-                                                                 .selector = "type",                               \
+#include "bulla/riemann.h"
+
+#include <stddef.h>
+
+#define MODULE_SECTION(kind_name, what)                                                                   \
+    static const struct key scene_scheme_##kind_name##_type[] = {                                         \
+        {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = what}, {0}};                       \
+    static const struct keys_section scene_scheme_##kind_name = {.name = #kind_name,                      \
+                                                                 .doc = what,                             \
+                                                                 .keys = scene_scheme_##kind_name##_type, \
+                                                                 .selector = "type",                      \
                                                                  .kind = #kind_name};
 
-MODULE_SECTION(riemann, "The Riemann solver.", "hlld",
-               "hlld is for solids, and this version computes fluids only: use hllc")
-MODULE_SECTION(limiter, "The slope limiter.", NULL, NULL)
+MODULE_SECTION(riemann, "The Riemann solver.")
+MODULE_SECTION(limiter, "The slope limiter.")
 
 static const struct key scene_scheme_rows[] = {
     {.name = "closure",
@@ -23,8 +26,9 @@ static const struct key scene_scheme_rows[] = {
     {.name = "riemann",
      .type = KEYS_SECTION,
      .section = &scene_scheme_riemann,
-     .fallback = "hllc",
-     .doc = "The Riemann solver: a name, or {type: NAME, ...} with its keys."},
+     .doc =
+         "The Riemann solver: a name, or {type: NAME, ...} with its keys. Default: hlld where a material is a solid, "
+         "else hllc."},
     {.name = "limiter",
      .type = KEYS_SECTION,
      .section = &scene_scheme_limiter,
@@ -66,6 +70,45 @@ const struct keys_section scene_scheme_keys = {.name = "scheme",
                                                .doc = "The numerical method.",
                                                .keys = scene_scheme_rows};
 
+/* The solver that a case without a word about it gets; it stands in the resolved case. */
+static struct keys_value scene_scheme_default(struct draft *draft, const struct keys_value *absent,
+                                              const struct node *scheme)
+{
+    struct keys_value value = *absent;
+    struct forest *forest = draft->keys.forest;
+    value.node = tree_scalar(forest, &scheme->mark, TREE_PLAIN, scene_material_solid(draft) ? "hlld" : "hllc");
+    value.map = keys_read(&draft->keys, value.node, &scene_scheme_riemann, value.path);
+    return value;
+}
+
+/* A scene with a solid needs a solver that knows of stress. Tables of older modules end before they say so. */
+static void scene_scheme_solid(struct draft *draft, const struct keys_value *riemann)
+{
+    const struct bulla_module *module = draft->scene->riemann.module;
+    const char *solid = scene_material_solid(draft);
+    if (!solid || !module) return;
+    const struct bulla_riemann *table = module->table;
+    bool told = table->size >= offsetof(struct bulla_riemann, solids) + sizeof table->solids;
+    if (told && table->solids) return;
+    keys_error(&draft->keys, riemann, "'%s' computes fluids only, but '%s' is a solid", module->name, solid);
+    diag_help(draft->keys.diag, "'riemann: hlld' transmits shear waves too");
+}
+
+static void scene_scheme_riemann_open(struct draft *draft, const struct keys_map *scheme)
+{
+    const struct keys_value *riemann = keys_at(scheme, "riemann");
+    struct keys_value value = *riemann;
+    if (!scheme) return;
+    if (!riemann->node && !riemann->meant) {
+        value = scene_scheme_default(draft, riemann, scheme->node);
+        tree_set(draft->keys.forest, scheme->node, "riemann", value.node);
+        tree_first(scheme->node, scheme->node->count - 1); /* in the order of the table */
+        tree_first(scheme->node, (unsigned)tree_find(scheme->node, "closure"));
+    }
+    scene_material_open(draft, &value, &draft->scene->riemann);
+    scene_scheme_solid(draft, &value);
+}
+
 void scene_scheme(struct draft *draft)
 {
     const struct keys_map *scheme = keys_at(draft->root, "scheme")->map, *run = keys_at(draft->root, "run")->map;
@@ -74,7 +117,7 @@ void scene_scheme(struct draft *draft)
     scene->guard = (enum scene_guard)keys_at(scheme, "guard")->integer;
     scene->cfl = keys_at(scheme, "cfl")->number;
     scene->dt_fixed = keys_at(scheme, "dt")->number;
-    scene_material_open(draft, keys_at(scheme, "riemann"), &scene->riemann);
+    scene_scheme_riemann_open(draft, scheme);
     scene_material_open(draft, keys_at(scheme, "limiter"), &scene->limiter);
     scene_material_open(draft, keys_at(scheme, "interface-limiter"), &scene->interface_limiter);
     scene->until = keys_at(run, "until")->number;

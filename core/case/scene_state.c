@@ -33,11 +33,7 @@ const struct key scene_state_rows[] = {
      .type = KEYS_VALUE,
      .many = KEYS_LIST,
      .unit = "m/s",
-     .doc = "Velocity, one component per axis."},
-    {.name = "stretch",
-     .type = KEYS_TREE,
-     .doc = "Initial stretch of a solid.",
-     .later = "this version computes fluids only; a stretch is for solids"},
+     .doc = "Velocity, one component per axis, or as many as `domain.velocity-components` says."},
     {0},
 };
 
@@ -129,14 +125,18 @@ struct scene_value *scene_state_density(struct draft *draft, const struct keys_m
 void scene_state_velocity(struct draft *draft, const struct keys_map *map, struct scene_value ret[SCENE_AXES])
 {
     const struct keys_value *velocity = keys_at(map, "velocity");
-    int dim = draft->scene->dim;
+    int n = draft->scene->n_velocity, dim = draft->scene->dim;
     if (!velocity->given || dim == 0) return;
-    if (velocity->count != (unsigned)dim) {
-        keys_error(&draft->keys, velocity, "%d component%s needed, one per axis, not %u", dim,
-                   dim == 1 ? " is" : "s are", velocity->count);
+    if (velocity->count != (unsigned)n) {
+        keys_error(&draft->keys, velocity, "%d component%s needed, %s, not %u", n, n == 1 ? " is" : "s are",
+                   n == dim ? "one per axis" : "as 'domain.velocity-components' says", velocity->count);
+        if (n == dim && velocity->count <= SCENE_AXES && velocity->count > (unsigned)n &&
+            draft->scene->geometry == SCENE_CARTESIAN)
+            diag_help(draft->keys.diag, "for motion across the axes give the domain 'velocity-components: %u'",
+                      velocity->count);
         return;
     }
-    for (int axis = 0; axis < dim; axis++) ret[axis] = scene_state_value(&velocity->list[axis]);
+    for (int axis = 0; axis < n; axis++) ret[axis] = scene_state_value(&velocity->list[axis]);
 }
 
 /* Is the state of one material one that its law knows? A forgotten sign or prefix shows here. */

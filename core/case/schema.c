@@ -172,15 +172,12 @@ static const char *schema_doc(struct schema *schema, const struct key *key)
     if (*doc && !strchr(".:", doc[strlen(doc) - 1])) doc = tree_print(schema->forest, "%s.", doc);
     if (key->unit && strcmp(key->unit, "1") != 0) doc = tree_print(schema->forest, "%s Unit: `%s`.", doc, key->unit);
     if (key->fallback) doc = tree_print(schema->forest, "%s Default: `%s`.", doc, key->fallback);
-    if (key->later && !key->refused) doc = tree_print(schema->forest, "%s Not in this version.", doc);
     return doc;
 }
 
 /* What may stand at a key. */
 static json_t *schema_value(struct schema *schema, const struct key *key, const char *const *cases)
 {
-    if (key->later && !key->refused)
-        return json_pack("{s:{},s:s,s:b}", "not", "errorMessage", key->later, "doNotSuggest", 1);
     return cases ? json_pack("{s:o}", "enum", schema_words(cases)) : schema_many(schema, key);
 }
 
