@@ -84,13 +84,16 @@ static struct keys_value scene_scheme_default(struct draft *draft, const struct 
 /* A scene with a solid needs a solver that knows of stress. Tables of older modules end before they say so. */
 static void scene_scheme_solid(struct draft *draft, const struct keys_value *riemann)
 {
-    const struct bulla_module *module = draft->scene->riemann.module;
-    const char *solid = scene_material_solid(draft);
-    if (!solid || !module) return;
+    const struct scene *scene = draft->scene;
+    const struct bulla_module *module = scene->riemann.module;
+    unsigned solid = 0;
+    while (solid < scene->n_material && !scene->material[solid].constitutive.module) solid++;
+    if (solid == scene->n_material || !module) return;
     const struct bulla_riemann *table = module->table;
     bool told = table->size >= offsetof(struct bulla_riemann, solids) + sizeof table->solids;
     if (told && table->solids) return;
-    keys_error(&draft->keys, riemann, "'%s' computes fluids only, but '%s' is a solid", module->name, solid);
+    keys_error(&draft->keys, riemann, "'%s' computes fluids only, but '%s' is a solid", module->name,
+               scene->material[solid].name);
     diag_help(draft->keys.diag, "'riemann: hlld' transmits shear waves too");
 }
 
