@@ -6,3 +6,8 @@ const char *version_commit(void)
 {
     return BULLA_COMMIT;
 }
+
+const char *version_flags(void)
+{
+    return BULLA_FLAGS;
+}

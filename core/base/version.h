@@ -5,4 +5,7 @@
 /* The commit the program was built from (40 hexadecimal digits), or "unknown". */
 const char *version_commit(void);
 
+/* The flags of the compiler: "-O3 -DNDEBUG ...". */
+const char *version_flags(void);
+
 #endif

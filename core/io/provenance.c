@@ -5,6 +5,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "io/ledger.h"
 #include "io/place.h"
@@ -14,6 +15,7 @@
 
 #include <jansson.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -96,10 +98,25 @@ static json_t *provenance_hosts(const struct provenance *provenance)
     return hosts;
 }
 
+/* A text as JSON. Names of files need not be UTF-8: what is not becomes %FF. */
+static json_t *provenance_word(const char *word)
+{
+    json_t *json = word ? json_string(word) : json_null();
+    if (json) return json;
+    struct text plain = {0};
+    for (const char *at = word; *at; at++) {
+        bool odd = *at < ' ' || *at > '~';
+        text_add(&plain, odd ? "%%%02X" : "%c", (unsigned char)*at);
+    }
+    json = json_string(plain.at);
+    text_done(&plain);
+    return json;
+}
+
 static json_t *provenance_command(const struct provenance *provenance)
 {
     json_t *command = json_array();
-    for (int i = 0; i < provenance->argc; i++) json_array_append_new(command, json_string(provenance->argv[i]));
+    for (int i = 0; i < provenance->argc; i++) json_array_append_new(command, provenance_word(provenance->argv[i]));
     return command;
 }
 
@@ -117,9 +134,9 @@ static void provenance_add_module(json_t *modules, const struct bulla_module *mo
     const struct registry_entry *entry = registry_find(module->kind, module->name);
     char hash[32] = "";
     if (entry) snprintf(hash, sizeof hash, "%016llx", (unsigned long long)entry->hash);
-    json_array_append_new(modules, json_pack("{s:s, s:s, s:s, s:s, s:s}", "kind", module->kind, "name", module->name,
-                                             "version", module->version ? module->version : "", "path",
-                                             entry ? entry->path : "", "xxh64", hash));
+    json_array_append_new(modules, json_pack("{s:s, s:s, s:o, s:o, s:s}", "kind", module->kind, "name", module->name,
+                                             "version", provenance_word(module->version ? module->version : ""), "path",
+                                             provenance_word(entry ? entry->path : ""), "xxh64", hash));
 }
 
 static json_t *provenance_modules(const struct scene *scene)
@@ -163,11 +180,12 @@ static json_t *provenance_conservation(const struct provenance *provenance, cons
 /* Who ran what, where. */
 static json_t *provenance_origin(const struct provenance *provenance, const struct scene *scene)
 {
-    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:s?, s:s?, s:s?, s:o, s:o, s:o, s:o, s:i}", "version", BULLA_VERSION,
+    return json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:i}", "version", BULLA_VERSION,
                      "commit", version_commit(), "compiler", __VERSION__, "compiled", provenance_host_flags(), "cpu",
-                     provenance_host_cpu(), "case", scene->path, "name", scene->name, "title", scene->title, "command",
-                     provenance_command(provenance), "environment", provenance_host_environment(), "modules",
-                     provenance_modules(scene), "hosts", provenance_hosts(provenance), "ranks", comm_size());
+                     provenance_host_cpu(), "case", provenance_word(scene->path), "name", provenance_word(scene->name),
+                     "title", provenance_word(scene->title), "command", provenance_command(provenance), "environment",
+                     provenance_host_environment(), "modules", provenance_modules(scene), "hosts",
+                     provenance_hosts(provenance), "ranks", comm_size());
 }
 
 /* What it cost and how much there is, of all ranks. */

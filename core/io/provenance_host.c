@@ -1,6 +1,8 @@
 /* provenance_host.c - see provenance_host.h. */
 #include "io/provenance_host.h"
 
+#include "base/version.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -99,7 +101,9 @@ json_t *provenance_host_cpu(void)
 #error "results would depend on the optimiser: -ffast-math is not allowed"
 #endif
 
-const char *provenance_host_flags(void)
+json_t *provenance_host_flags(void)
 {
-    return PROVENANCE_HOST_OPTIMISED PROVENANCE_HOST_ASSERT PROVENANCE_HOST_SANITIZED PROVENANCE_HOST_TARGET;
+    return json_sprintf(PROVENANCE_HOST_OPTIMISED PROVENANCE_HOST_ASSERT PROVENANCE_HOST_SANITIZED
+                            PROVENANCE_HOST_TARGET ": %s",
+                        version_flags());
 }

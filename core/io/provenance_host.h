@@ -11,7 +11,7 @@ json_t *provenance_host_environment(void);
 /* {model, processors}: of the machine of rank 0. */
 json_t *provenance_host_cpu(void);
 
-/* How the program was compiled, as far as the compiler tells it: "optimised, without assertions". */
-const char *provenance_host_flags(void);
+/* How the program was compiled: "optimised, without assertions: -O3 -DNDEBUG ...". */
+json_t *provenance_host_flags(void);
 
 #endif

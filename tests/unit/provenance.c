@@ -3,6 +3,8 @@
 
 #include "io/ledger.h"
 #include "levels_io.h"
+#include "solve/cost.h"
+#include "solve/stage.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -91,6 +93,94 @@ static void test_end(void **state)
     small_stop(&small);
 }
 
+/* The environment that matters, the processor, the flags of the compiler. */
+static void test_surroundings(void **state)
+{
+    (void)state;
+    struct small small;
+    struct provenance *provenance;
+    char program[] = "bulla", odd[] = "--set=\xff", *argv[] = {program, odd, NULL};
+    setenv("OMP_NUM_THREADS", "3", 1);
+    setenv("BULLA_TEST_ODD", "\xff", 1);
+    setenv("OMPI_MCA_orte_secret", "1", 1);
+    setenv("SOME_PASSWORD", "1", 1);
+    small_start(&small, SMALL_AXISYMMETRIC);
+    assert_int_equal(provenance_new(small.state, 2, argv, &provenance), 0);
+    json_t *root = load(&small), *environment = json_object_get(root, "environment"),
+           *cpu = json_object_get(root, "cpu");
+    assert_string_equal(text_of(environment, "OMP_NUM_THREADS"), "3");
+    assert_true(json_is_null(json_object_get(environment, "BULLA_TEST_ODD"))); /* JSON has no place for it */
+    assert_null(json_object_get(environment, "OMPI_MCA_orte_secret"));
+    assert_null(json_object_get(environment, "SOME_PASSWORD"));
+    assert_true(json_integer_value(json_object_get(cpu, "processors")) >= 1);
+    assert_non_null(text_of(cpu, "model"));
+    assert_non_null(strstr(text_of(root, "compiled"), "-ffp-contract=off"));
+    assert_non_null(strstr(text_of(root, "compiled"), "optimised"));
+    assert_null(strstr(text_of(root, "compiled"), "-ffast-math"));
+    assert_string_equal(json_string_value(json_array_get(json_object_get(root, "command"), 1)), "--set=%FF");
+    json_decref(root);
+    provenance_free(provenance);
+    small_stop(&small);
+    unsetenv("BULLA_TEST_ODD");
+    unsetenv("OMPI_MCA_orte_secret");
+    unsetenv("SOME_PASSWORD");
+}
+
+static double split_of(json_t *root, const char *part)
+{
+    json_t *value = json_object_get(json_object_get(root, "cpu_split_s"), part);
+    if (!json_is_real(value)) fail_msg("no part %s", part);
+    return json_real_value(value);
+}
+
+/* CPU time by stages: what was sampled, scaled to all steps; outputs; the rest is `other`. A run that goes on adds what
+ * was noted of the one before. */
+static void test_split(void **state)
+{
+    (void)state;
+    static const char *const parts[] = {"exchange", "gather", "faces",  "update", "primitives",
+                                        "levels",   "output", "regrid", "other"};
+    struct small small;
+    struct provenance *provenance, *second;
+    char program[] = "bulla", *argv[] = {program, NULL};
+    struct notes notes = {0};
+    small_start(&small, SMALL_AXISYMMETRIC);
+    struct cost *cost = &small.state->work->cost;
+    assert_int_equal(provenance_new(small.state, 1, argv, &provenance), 0);
+    cost->n[COST_STEP] = 74;
+    cost->sampled[COST_STEP] = 2;
+    cost->sum[COST_STEP][COST_FACES] = 1e-9;
+    cost->sum[COST_STEP][COST_EXCHANGE] = 2e-9;
+    provenance_output(provenance, 3e-9);
+    small.state->counts.regrid_seconds = 4e-9;
+    for (double end = cost_cpu() + 0.02; cost_cpu() < end;) continue;
+    small.state->counts.cells = 1000;
+    assert_int_equal(provenance_write(provenance, small.state, "finished", 0), 0);
+    json_t *root = load(&small);
+    assert_true(fabs(split_of(root, "faces") / 37e-9 - 1.0) < 1e-12);
+    assert_true(fabs(split_of(root, "exchange") / 74e-9 - 1.0) < 1e-12);
+    assert_true(split_of(root, "gather") == 0.0 && split_of(root, "output") == 3e-9);
+    assert_true(split_of(root, "regrid") == 4e-9);
+    double sum = 0.0, run = 1e-9 * 1000 * json_number_value(json_object_get(root, "cpu_ns_per_cell_stage"));
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sum += split_of(root, parts[i]);
+    assert_true(run >= 0.02 && fabs(sum / run - 1.0) < 1e-9); /* nothing is left out or counted twice */
+    json_decref(root);
+    provenance_keep(provenance, small.state, &notes);
+    provenance_free(provenance);
+    memset(cost, 0, sizeof *cost);
+    small.state->counts.regrid_seconds = 0.0;
+    assert_int_equal(provenance_new(small.state, 1, argv, &second), 0);
+    assert_int_equal(provenance_recall(second, small.state, &notes), 0);
+    root = load(&small);
+    assert_int_equal(json_integer_value(json_object_get(root, "runs")), 2);
+    assert_true(fabs(split_of(root, "faces") / 37e-9 - 1.0) < 1e-12 && split_of(root, "output") == 3e-9);
+    assert_true(split_of(root, "regrid") == 4e-9);
+    json_decref(root);
+    text_done(&notes.text);
+    provenance_free(second);
+    small_stop(&small);
+}
+
 static bool near(const double *x)
 {
     return hypot(x[0], x[1]) < 0.85e-3;
@@ -109,6 +199,10 @@ static void test_levels(void **state)
     levels_add(small.state, near);
     provenance_watch(provenance, small.state);
     small.state->counts.regrids = 1;
+    small.state->counts.limited = 5;
+    small.state->counts.spread = 7;
+    small.state->counts.carried = 256;
+    small.state->level_steps[1] = 12;
     small.state->counts.regrid_seconds = 1e-9;
     assert_int_equal(provenance_write(provenance, small.state, "finished", 0), 0);
     json_t *root = load(&small), *fine = json_array_get(json_object_get(root, "levels"), 1);
@@ -119,6 +213,11 @@ static void test_levels(void **state)
     json_t *refinement = json_object_get(root, "refinement");
     assert_int_equal(json_integer_value(json_object_get(refinement, "regrids")), 1);
     assert_true(json_number_value(json_object_get(refinement, "regrid_share")) > 0.0);
+    assert_int_equal(json_integer_value(json_object_get(refinement, "limited_cells")), 5);
+    assert_int_equal(json_integer_value(json_object_get(refinement, "spread_refluxes")), 7);
+    assert_int_equal(json_integer_value(json_object_get(fine, "steps")), 12);
+    assert_true(json_real_value(json_object_get(fine, "width")) == small.state->mesh->levels[1].h[0]);
+    assert_int_equal(json_integer_value(json_object_get(root, "cells_carried")), 256);
     json_decref(root);
     mesh_replace(small.state->mesh, 1, NULL, 0, &change); /* gone again */
     mesh_change_free(&change);
@@ -158,10 +257,8 @@ static void test_ledger(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_running),
-        cmocka_unit_test(test_end),
-        cmocka_unit_test(test_ledger),
-        cmocka_unit_test(test_levels),
+        cmocka_unit_test(test_running), cmocka_unit_test(test_end),    cmocka_unit_test(test_surroundings),
+        cmocka_unit_test(test_split),   cmocka_unit_test(test_ledger), cmocka_unit_test(test_levels),
     };
     if (registry_init()) return 1;
     return cmocka_run_group_tests(tests, NULL, NULL);
