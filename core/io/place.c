@@ -5,8 +5,10 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/room.h"
+#include "io/seal.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -55,23 +57,24 @@ static int place_write(const char *path, const char *text)
     return bad ? room_fail(path, "write") : STATUS_OK;
 }
 
-int place_text(const char *path, const char *text)
+/* Without it a power failure may leave the new name and no content. */
+static int place_last(const char *draft, const char *path)
 {
-    char *draft = place_draft(path);
-    int code = comm_agree(comm_rank() == 0 ? place_write(draft, text) : STATUS_OK);
-    mem_free(draft);
-    return code ? code : place_accept(path);
+    int file = open(draft, O_RDONLY | O_CLOEXEC);
+    if (file < 0) return room_fail(path, "open");
+    int bad = fsync(file);
+    return close(file) || bad ? room_fail(path, "make it lasting") : STATUS_OK;
 }
 
-int place_accept(const char *path)
+static int place_rename(const char *draft, const char *path)
 {
-    int code = STATUS_OK;
-    if (comm_rank() == 0) {
-        char *draft = place_draft(path);
-        if (rename(draft, path)) code = room_fail(path, "rename to it");
-        mem_free(draft);
-    }
-    return comm_agree(code);
+    TRY(place_last(draft, path));
+    if (rename(draft, path)) return room_fail(path, "rename to it");
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? mem_text_n(path, (size_t)(slash - path)) : mem_text(".");
+    int code = seal_sync_folder(folder);
+    mem_free(folder);
+    return code;
 }
 
 void place_reject(const char *path)
@@ -82,4 +85,27 @@ void place_reject(const char *path)
     (void)kept;
     remove(draft);
     mem_free(draft);
+}
+
+int place_accept(const char *path)
+{
+    int code = STATUS_OK;
+    if (comm_rank() == 0) {
+        char *draft = place_draft(path);
+        code = place_rename(draft, path);
+        mem_free(draft);
+    }
+    code = comm_agree(code);
+    if (code) place_reject(path);
+    return code;
+}
+
+int place_text(const char *path, const char *text)
+{
+    char *draft = place_draft(path);
+    int code = comm_agree(comm_rank() == 0 ? place_write(draft, text) : STATUS_OK);
+    mem_free(draft);
+    if (!code) return place_accept(path);
+    place_reject(path);
+    return code;
 }

@@ -14,7 +14,8 @@ int place_text(const char *path, const char *text);
 /* The temporary name of a file: release with mem_free. */
 char *place_draft(const char *path);
 
-/* Renames the draft of a file, which is complete, to its name. */
+/* Renames the draft of a file, which is complete, to its name, and makes file and name lasting (fsync). A draft that
+ * cannot be renamed is removed. */
 int place_accept(const char *path);
 
 /* Removes the draft of a file after a failure; keeps the recorded message. */
