@@ -160,10 +160,27 @@ static void scene_try_overlays(const struct scene *scene, struct diag *diag)
     }
 }
 
+/* Outputs are named after the case, and listed by these names. */
+static int scene_check_name(const char *path)
+{
+    char *name = scene_base_name(path), *plain = mem_text(name);
+    text_line(plain, strlen(plain) + 4);
+    int code = strcmp(name, plain) == 0
+                   ? STATUS_OK
+                   : status_fail(STATUS_CASE,
+                                 "%s: outputs are named after the case: rename the file so that its name is UTF-8 "
+                                 "without control characters",
+                                 path);
+    mem_free(name);
+    mem_free(plain);
+    return code;
+}
+
 int scene_read(const char *path, const struct scene_options *options, struct scene **ret_scene)
 {
     static const struct scene_options none;
     if (!options) options = &none;
+    TRY(scene_check_name(path));
     TRY(registry_init());
     if (registry_count() == 0)
         return status_fail(STATUS_CASE, "no modules were found: without them there are no equations of state; look at "

@@ -115,6 +115,9 @@ sed 's/^bulla: 1/&\nextends: pipe.yaml/' good.yaml >extends.yaml
 once 2 'extends.yaml:2:10: error: cannot read' check extends.yaml
 sed 's/^bulla: 1/&\nextends: extends.yaml/' good.yaml >extends.yaml
 once 2 'extends itself' check extends.yaml
+odd=$(printf 'b\377d.yaml')
+cp good.yaml "$odd"
+once 2 'rename the file' run --quiet "$odd"
 
 # --- numbers ---
 for value in .nan .NaN nan inf -.inf 0x10 1_000 '1,5' 1e999 -1e999 "1e$(repeat 40 9)" "$(repeat 5000 9)" 1e-400 "''"; do
