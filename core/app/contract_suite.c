@@ -1,6 +1,7 @@
 /* contract_suite.c - see contract_suite.h. */
 #include "app/contract_suite.h"
 
+#include "app/contract_constitutive.h"
 #include "app/contract_eos.h"
 #include "app/contract_limiter.h"
 #include "app/contract_riemann.h"
@@ -12,7 +13,8 @@ static const struct {
     const char *kind;
     void (*run)(struct contract *contract);
     void (*probe)(const struct contract *contract, double out[static CONTRACT_PROBE]);
-} contract_suite_table[] = {{"eos", contract_eos_run, contract_eos_probe},
+} contract_suite_table[] = {{"constitutive", contract_constitutive_run, contract_constitutive_probe},
+                            {"eos", contract_eos_run, contract_eos_probe},
                             {"limiter", contract_limiter_run, contract_limiter_probe},
                             {"riemann", contract_riemann_run, contract_riemann_probe}};
 
