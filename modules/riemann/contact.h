@@ -9,11 +9,11 @@
  *
  * The including module defines CONTACT_SPEEDS, one of the functions of wave.h, and CONTACT_SHEAR:
  * 1 to diffuse jumps of tangential velocity as the two-wave average does (a remedy against the
- * carbuncle), 0 to keep them sharp. */
+ * carbuncle), 0 to keep them sharp; and CONTACT_SLOW for solids (shear.h). */
 #ifndef CONTACT_H
 #define CONTACT_H
 
-#include "wave.h"
+#include "shear.h"
 
 /* What a face carries: densities of side K go through with velocity `carrier`. */
 struct contact {
@@ -107,16 +107,53 @@ BULLA_KERNEL static void contact_tangential(const struct bulla_faces *faces, uns
     }
 }
 
+/* The same with solids; impedances in work[0] and work[3]. Two fluids are left as above. */
+BULLA_KERNEL static void contact_traction(const struct bulla_faces *faces, unsigned k)
+{
+    const double *restrict t_l = faces->left.u[k], *restrict t_r = faces->right.u[k];
+    const double *restrict s_l = faces->shear_left.s[k - 1], *restrict s_r = faces->shear_right.s[k - 1];
+    const double *restrict z_l = faces->work[0], *restrict z_r = faces->work[3];
+    const double *restrict u = faces->flux.u, *restrict mass = faces->work[1], *restrict resist = faces->work[2];
+    double *restrict momentum = faces->flux.momentum[k], *restrict energy = faces->flux.rho_E;
+    double *restrict slide_l = faces->slide_left[k - 1], *restrict slide_r = faces->slide_right[k - 1];
+    const size_t n = faces->n;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        struct shear_side left = {t_l[i], s_l[i], z_l[i]}, right = {t_r[i], s_r[i], z_r[i]};
+        struct shear_face face = shear_at(left, right, mass[i], u[i] >= 0.0);
+        double flux = face.momentum, work = face.work;
+        if (CONTACT_SHEAR) {
+            double stress = left.z + right.z > 0.0 ? 0.0 : resist[i] * (right.u - left.u);
+            work += stress * (0.5 * (left.u + right.u));
+            flux -= stress;
+        }
+        momentum[i] = flux;
+        energy[i] -= work;
+        slide_l[i] = face.slide_left;
+        slide_r[i] = face.slide_right;
+    }
+}
+
+static void contact_along(const struct bulla_faces *faces)
+{
+    if (faces->n_velocity == 1) return;
+    if (faces->solid) shear_impedance(faces, faces->work[0], faces->work[3]);
+    for (unsigned k = 1; k < faces->n_velocity; k++) {
+        if (faces->solid) contact_traction(faces, k);
+        else contact_tangential(faces, k);
+    }
+}
+
 static void contact_solve(const struct bulla_faces *faces)
 {
     const struct bulla_side *left = &faces->left, *right = &faces->right;
     const struct bulla_flux *flux = &faces->flux;
     contact_normal(faces);
-    for (unsigned k = 1; k < faces->n_velocity; k++) contact_tangential(faces, k);
     for (unsigned l = 0; l < faces->n_material; l++)
         contact_mass(faces->n, left->m[l], right->m[l], flux->u, faces->work[0], flux->m[l]);
     for (unsigned l = 0; l < faces->n_alpha; l++)
         contact_fraction(faces->n, left->alpha[l], right->alpha[l], flux->u, flux->alpha[l]);
+    contact_along(faces); /* last: impedances take the place of the carrier */
 }
 
 #endif

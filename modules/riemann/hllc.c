@@ -1,6 +1,8 @@
-/* hllc.c - HLLC with the signal speeds of Davis: contacts, shear and material interfaces stay sharp. */
+/* hllc.c - HLLC with the signal speeds of Davis: contacts, shear of fluids and material interfaces stay
+ * sharp. In solids shear is smeared by the fast waves: hlld.c. */
 #define CONTACT_SPEEDS wave_davis
 #define CONTACT_SHEAR 0
+#define CONTACT_SLOW 0
 #include "contact.h"
 
 static void hllc_solve(const void *self, const struct bulla_faces *faces)
@@ -9,7 +11,7 @@ static void hllc_solve(const void *self, const struct bulla_faces *faces)
     contact_solve(faces);
 }
 
-static const struct bulla_riemann hllc_table = {.size = sizeof(struct bulla_riemann), .solve = hllc_solve};
+static const struct bulla_riemann hllc_table = {.size = sizeof(struct bulla_riemann), .solve = hllc_solve, .solids = 1};
 
 BULLA_EXPORT const struct bulla_module bulla_module = {
     .magic = BULLA_MAGIC,

@@ -12,11 +12,15 @@
  * as in contact.h, with the signals of the solver; what is left of its diffusion acts on
  * shear, which is what these solvers are chosen for in two and three dimensions.
  *
+ * Solids: one material averages tractions too, with -s_nt in F of momentum and -s_nt u_t in F of energy; several do as
+ * shear.h says. The velocity that moves the stretch is that of shear.h in both cases.
+ *
  * The including module defines CONTACT_SPEEDS (wave.h). */
 #ifndef TWO_WAVE_H
 #define TWO_WAVE_H
 
 #define CONTACT_SHEAR 1
+#define CONTACT_SLOW 0
 #include "contact.h"
 
 /* F from the two fluxes and the jump of U. */
@@ -84,6 +88,51 @@ BULLA_KERNEL static void two_wave_tangential(const struct bulla_faces *faces, un
     }
 }
 
+/* Adds what tractions along tangent k - 1 take of momentum and energy. */
+BULLA_KERNEL static void two_wave_traction(const struct bulla_faces *faces, unsigned k)
+{
+    const double *restrict t_l = faces->left.u[k], *restrict t_r = faces->right.u[k];
+    const double *restrict s_l = faces->shear_left.s[k - 1], *restrict s_r = faces->shear_right.s[k - 1];
+    const double *restrict tilt = faces->work[0];
+    double *restrict momentum = faces->flux.momentum[k], *restrict energy = faces->flux.rho_E;
+    const size_t n = faces->n;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double left = s_l[i], right = s_r[i], sigma = tilt[i];
+        momentum[i] -= two_wave_flux(left, right, 0.0, sigma, 0.0);
+        energy[i] -= two_wave_flux(left * t_l[i], right * t_r[i], 0.0, sigma, 0.0);
+    }
+}
+
+/* Face velocity along tangent k - 1; impedances in work[2] and work[3]. */
+BULLA_KERNEL static void two_wave_slide(const struct bulla_faces *faces, unsigned k)
+{
+    const double *restrict t_l = faces->left.u[k], *restrict t_r = faces->right.u[k];
+    const double *restrict s_l = faces->shear_left.s[k - 1], *restrict s_r = faces->shear_right.s[k - 1];
+    const double *restrict z_l = faces->work[2], *restrict z_r = faces->work[3];
+    const double *restrict u = faces->flux.u, *restrict rho_l = faces->left.rho, *restrict rho_r = faces->right.rho;
+    double *restrict slide_l = faces->slide_left[k - 1], *restrict slide_r = faces->slide_right[k - 1];
+    const size_t n = faces->n;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        struct shear_side left = {t_l[i], s_l[i], z_l[i]}, right = {t_r[i], s_r[i], z_r[i]};
+        double velocity = u[i], before = rho_l[i], after = rho_r[i];
+        int from_left = velocity >= 0.0;
+        struct shear_face face = shear_at(left, right, (from_left ? before : after) * velocity, from_left);
+        slide_l[i] = face.slide_left;
+        slide_r[i] = face.slide_right;
+    }
+}
+
+static void two_wave_solid(const struct bulla_faces *faces)
+{
+    shear_impedance(faces, faces->work[2], faces->work[3]);
+    for (unsigned k = 1; k < faces->n_velocity; k++) {
+        two_wave_traction(faces, k);
+        two_wave_slide(faces, k);
+    }
+}
+
 static void two_wave_solve(const void *self, const struct bulla_faces *faces)
 {
     (void)self;
@@ -94,8 +143,11 @@ static void two_wave_solve(const void *self, const struct bulla_faces *faces)
     two_wave_normal(faces);
     for (unsigned k = 1; k < faces->n_velocity; k++) two_wave_tangential(faces, k);
     for (unsigned l = 0; l < faces->n_material; l++) two_wave_mass(faces, l);
+    if (faces->solid) two_wave_solid(faces);
 }
 
-static const struct bulla_riemann two_wave_table = {.size = sizeof(struct bulla_riemann), .solve = two_wave_solve};
+static const struct bulla_riemann two_wave_table = {.size = sizeof(struct bulla_riemann),
+                                                    .solve = two_wave_solve,
+                                                    .solids = 1};
 
 #endif

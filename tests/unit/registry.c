@@ -58,6 +58,7 @@ static const char *const builtin[][2] = {
     {"limiter", "van-leer"},
     {"riemann", "hll"},
     {"riemann", "hllc"},
+    {"riemann", "hlld"},
     {"riemann", "rusanov"},
 };
 /* clang-format on */
@@ -86,8 +87,9 @@ static void test_names(void **state)
     const char *const *names = registry_names("riemann");
     assert_string_equal(names[0], "hll");
     assert_string_equal(names[1], "hllc");
-    assert_string_equal(names[2], "rusanov");
-    assert_null(names[3]);
+    assert_string_equal(names[2], "hlld");
+    assert_string_equal(names[3], "rusanov");
+    assert_null(names[4]);
     assert_null(registry_names("weather")[0]);
 }
 
