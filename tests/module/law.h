@@ -87,18 +87,19 @@ static inline double law_pressure(const struct law *law, double rho, double rho_
     return p;
 }
 
-/* (rho, p) -> e -> p from a guess that is off by a factor, to 1e-12 and what the energy resolves. */
+/* (rho, p) -> e -> p from a guess that is off by a factor, to 1e-12 and what the energy and, where large
+ * terms cancel in p, the pressure resolve: some units in the last place of rho e/(de/dp) and of rho c^2. */
 static inline void law_round_trip(const struct law *law, double rho, double p)
 {
     struct law_point at = law_at(law, rho, p);
-    double back = law_pressure(law, rho, at.rho_e, at.p_min + 3.0 * (p - at.p_min) + 1e5);
-    support_near("p of e", back, p, 1e-12, fabs(p) + 4.0 * 2.2e-16 / 1e-12 * fabs(at.rho_e) / at.de_dp);
+    double back = law_pressure(law, rho, at.rho_e, at.p_min + 3.0 * (p - at.p_min) + 1e5), eps = 2.2e-16 / 1e-12;
+    support_near("p of e", back, p, 1e-12, fabs(p) + eps * (4.0 * fabs(at.rho_e) / at.de_dp + 8.0 * at.stiffness));
 }
 
 /* Along dp/drho = c^2 the entropy stays; `span` is the ratio of the last density to the first. */
 static inline void law_isentrope(const struct law *law, double rho, double p, double span, double scale)
 {
-    enum { STEPS = 2000 };
+    enum { STEPS = 4000 };
     double s = law_at(law, rho, p).s, h = log(span) / STEPS;
     for (int i = 0; i < STEPS; i++) {
         double half = rho * exp(0.5 * h), full = rho * exp(h);
@@ -113,7 +114,7 @@ static inline void law_isentrope(const struct law *law, double rho, double p, do
 /* Nothing infinite, d(rho e)/dp > 0, c^2 > 0, T > 0 for densities from 1e-3 and pressures from p_min to 1e11. */
 static inline void law_sweep(const struct law *law, double rho_most)
 {
-    for (double rho = 1e-3; rho < rho_most; rho *= 1.0 + 2.0e-3) {
+    for (double rho = 1e-3; rho < rho_most; rho *= 1.005) {
         double least = law_at(law, rho, 1e5).p_min;
         for (double above = 1e-2; above <= 1e11; above *= 3.7) {
             double p = least + above;

@@ -49,6 +49,8 @@ static const char *const builtin[][2] = {
     {"eos", "mnasg"},
     {"eos", "modified-tait"},
     {"eos", "nasg"},
+    {"eos", "peng-robinson"},
+    {"eos", "rkpr"},
     {"eos", "stiffened-gas"},
     {"eos", "tait"},
     {"limiter", "mc"},

@@ -1,0 +1,126 @@
+/* eos_cubic.c - Peng-Robinson and RKPR air against reference points of 15 digits, along an isentrope, as potentials,
+ * and beyond the co-volume and below the coldest temperature. */
+#include "law.h"
+
+/* Columns: rho, T, p, e, s, h, cv, cp, c2, Gamma, de/dp, de/drho per mass. */
+static void check_point(const struct law *law, const double *column)
+{
+    double rho = column[0], T = column[1], p = column[2], e = column[3], s = column[4], c2 = column[8];
+    double e_p = column[10], e_rho = column[11];
+    if (rho > 1105.5) return; /* the law without its continuation */
+    struct law_point at = law_at(law, rho, p);
+    support_near("T", at.T, T, 1e-11, T);
+    support_near("e", at.rho_e / rho, e, 1e-11, fabs(e));
+    support_near("s", at.s, s, 1e-11, fabs(s) + 1e3);
+    support_near("c2", at.c2, c2, 1e-11, c2);
+    support_near("de_dp", at.de_dp, rho * e_p, 1e-11, rho * e_p);
+    support_near("de_drho", at.de_drho, e + rho * e_rho, 1e-11, fabs(e) + fabs(rho * e_rho));
+    support_near("rho(p, T)", law_density(law, p, T), rho, 1e-11, rho);
+}
+
+/* Beyond rho = 0.98/b; columns: rho, T, p, e, c2, cv, Gamma. */
+static void check_continuation(const struct law *law, const double *column)
+{
+    double rho = column[0], T = column[1], p = column[2], e = column[3], c2 = column[4], G = column[6];
+    struct law_point at = law_at(law, rho, p);
+    support_near("T", at.T, T, 1e-11, T);
+    support_near("e", at.rho_e / rho, e, 1e-11, fabs(e));
+    support_near("c2", at.c2, c2, 1e-11, c2);
+    support_near("Gamma", 1.0 / at.de_dp, G, 1e-11, G);
+}
+
+static void test_points(void **state)
+{
+    (void)state;
+    struct law pr = law_preset("peng-robinson", "air"), rkpr = law_preset("rkpr", "air");
+    assert_in_range(law_rows("air_pr_points.csv", 12, check_point, &pr), 30, 1000);
+    assert_in_range(law_rows("air_rkpr_points.csv", 12, check_point, &rkpr), 30, 1000);
+    assert_in_range(law_rows("rkpr_continuation.csv", 7, check_continuation, &rkpr), 20, 1000);
+    instance_done(&pr.instance);
+    instance_done(&rkpr.instance);
+}
+
+/* Isentropic compression from 300 K, 1 bar: T, rho, c of Lemmon, RKPR and PR behind p. */
+static void check_isentrope(const struct law *law, const double *column, size_t first, double s)
+{
+    double p = column[0], T = column[first], rho = column[first + 1], c = column[first + 2];
+    struct law_point at = law_at(law, rho, p);
+    support_near("T", at.T, T, 1e-8, T);
+    support_near("c", sqrt(at.c2), c, 1e-8, c);
+    support_near("s", at.s, s, 2e-6, 1000.0);
+}
+
+static void check_isentrope_rkpr(const struct law *law, const double *column)
+{
+    check_isentrope(law, column, 4, law_at(law, law_density(law, 1e5, 300.0), 1e5).s);
+}
+
+static void check_isentrope_pr(const struct law *law, const double *column)
+{
+    check_isentrope(law, column, 7, law_at(law, law_density(law, 1e5, 300.0), 1e5).s);
+}
+
+static void test_isentrope(void **state)
+{
+    (void)state;
+    struct law pr = law_preset("peng-robinson", "air"), rkpr = law_preset("rkpr", "air");
+    assert_in_range(law_rows("air_isentrope_300K_1bar.csv", 10, check_isentrope_rkpr, &rkpr), 20, 100);
+    assert_in_range(law_rows("air_isentrope_300K_1bar.csv", 10, check_isentrope_pr, &pr), 20, 100);
+    instance_done(&pr.instance);
+    instance_done(&rkpr.instance);
+}
+
+static void test_contract(void **state)
+{
+    (void)state;
+    law_contract("peng-robinson");
+    law_contract("rkpr");
+}
+
+static void test_properties(void **state)
+{
+    (void)state;
+    static const char *const laws[] = {"peng-robinson", "rkpr"};
+    for (size_t i = 0; i < 2; i++) {
+        struct law law = law_preset(laws[i], "air");
+        law_sweep(&law, 3.0 / 7.8e-4);
+        law_isentrope(&law, 1.2, 1e5, 300.0, 1000.0);
+        law_isentrope(&law, 900.0, 5e9, 1.2, 1000.0);
+        law_isentrope(&law, 1300.0, 5e10, 1.05, 13000.0); /* beyond the edge of the co-volume */
+        for (double rho = 1e-3; rho < 3800.0; rho *= 1.31)
+            for (double p = 1.0; p < 1e11; p *= 7.3)
+                if (p > law_at(&law, rho, p).p_min) law_round_trip(&law, rho, p);
+        for (double rho = 0.01; rho < 1000.0; rho *= 1.7) { /* across the coldest isotherm */
+            double low = -1e9, high = 1e10;
+            for (int k = 0; k < 200; k++) {
+                double mean = 0.5 * (low + high);
+                if (law_at(&law, rho, mean).T < 100.0) low = mean;
+                else high = mean;
+            }
+            law_no_jump(&law, rho, high, 700.0);
+        }
+        instance_done(&law.instance);
+    }
+}
+
+/* A law that is ill-posed at its coldest temperature is refused with the state. */
+static void test_refused(void **state)
+{
+    (void)state;
+    const struct bulla_module *module = support_module("eos", "rkpr");
+    struct bulla_value values[32] = {{0}};
+    for (unsigned i = 0; i < instance_param_count(module); i++) values[i].number = module->presets->values[i];
+    values[11].number = 50.0;
+    struct instance instance = {0};
+    assert_int_not_equal(instance_open(module, values, &instance), 0);
+    assert_non_null(strstr(status_text(), "raise t-min"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_points),     cmocka_unit_test(test_isentrope), cmocka_unit_test(test_contract),
+        cmocka_unit_test(test_properties), cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, support_start, support_stop);
+}
