@@ -296,7 +296,7 @@ struct link *link_new(const struct mesh *mesh, int fine_level)
                                .link = link,
                                .nested = true};
     link->fine_level = fine_level;
-    link->n_register = mesh->n_field + (mesh->n_alpha > 0 ? 1 : 0);
+    link->n_register = mesh->n_field + mesh->n_face_u;
     link->face_cells = link->octant_cells = 1;
     for (int d = 0; d < mesh->dim; d++) link->octant_cells *= (size_t)mesh->n[d] / 2;
     link->face_cells = link->octant_cells / ((size_t)mesh->n[0] / 2);

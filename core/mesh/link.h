@@ -31,7 +31,8 @@ struct link_child {
 
 struct link {
     int fine_level;
-    unsigned n_register; /* components of a register: the fields, and u_n where there are fractions */
+    unsigned n_register; /* components of a register: the fields; u_n where there are fractions or a solid; with a
+                            solid the velocities along the face too, in the order of the axes */
     size_t face_cells;   /* (n/2)^(d-1) */
     size_t strip_doubles, octant_cells;
     double theta; /* where between the two strips the fine level stands: set before each of its stages */

@@ -133,6 +133,9 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
     mesh->beta = (int)scene->geometry;
     mesh->n_field = n_field;
     mesh->n_alpha = n_alpha;
+    mesh->n_face_u = n_alpha > 0;
+    for (unsigned l = 0; l < scene->n_material; l++)
+        if (scene->material[l].constitutive.module) mesh->n_face_u = (unsigned)scene->n_velocity;
     mesh->most_level = scene->levels;
     mesh_measure(mesh, scene, n);
     mesh->pool = pool_new(n_field * mesh->n_cell);

@@ -63,6 +63,8 @@ struct mesh {
     size_t n_cell;     /* cells of a tile */
     unsigned n_field;  /* evolved fields */
     unsigned n_alpha;  /* volume fractions among them (the first), for the sizes of registers */
+    unsigned n_face_u; /* components of the face velocity that registers keep: all with a solid, the normal one with
+                          fractions, else none */
     int n_level;       /* levels in use: none of them is empty */
     int most_level;    /* finest level the case allows */
     unsigned revision; /* counts changes of any level's tiles or owners (mesh_replace): who keeps something per

@@ -77,15 +77,21 @@ void elastic_fade(const struct model *model, size_t n, size_t stride, const doub
 
 #define ELASTIC_FADE 1e-2
 
-/* What refluxing adds to V of one cell at a face normal to `axis`, from the differences (fine - coarse, times dt A/V and
- * the sign of the side) of V* u*, of u*, and of the face velocity components over the cell size. Scalar. */
+/* The stretch of n points whose fields (conserved or primitive) were averaged or interpolated: det 1, then faded. What
+ * is unimodular to round-off keeps its bits, so that a uniform stretch stays uniform. */
+void elastic_settle(const struct model *model, size_t n, size_t stride, double *fields);
+
+/* What refluxing adds to V of one cell at a face normal to `axis`. delta: fine - coarse, sum of dt times face value; s:
+ * -1 for the cell on the lower side of the face, else 1. */
 struct elastic_correction {
     const double *V;        /* [n_stretch] of the cell at the midpoint */
-    const double *carried;  /* [n_stretch] change asked for by V* u* */
-    double swept;           /* the same of u* : what div u changes by, with its sign */
-    const double *velocity; /* [n_velocity] change of d_axis u_i */
+    const double *carried;  /* [n_stretch] s A/V delta(V* u*): change asked for by the transport */
+    double swept;           /* s A/V delta(u*): what -div u changes by */
+    const double *velocity; /* [n_velocity] -s/h delta(u_i): what d_axis u_i changes by, as the cell sees the face */
     int axis;
 };
+
+/* dV = carried - V swept + what the change of the velocity gradient stretches V by; exactly 0 if nothing changes. */
 void elastic_correct(const struct model *model, const struct elastic_correction *in, double *ret_dV);
 
 #endif

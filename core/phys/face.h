@@ -19,6 +19,8 @@ struct face_work {
     double *alpha, *m, *momentum, *energy, *u; /* the fluxes: blocks with pitch FACE_ROOM; momentum[0] normal,
                                                   alpha: alpha* u*, u: u* */
     double *carried;                           /* [n_alpha] alpha* u* times the pressure of the side it comes from */
+    double *stretch;                           /* [n_stretch] V* u*, the face's upwind stretch times u* */
+    double *slide_left, *slide_right;          /* [n_velocity - 1] velocity along the face (bulla/riemann.h) */
     double *strained;                          /* [n_alpha] alpha* u* times the compression on the way to the face */
     void *own;                                 /* scratch of face.c */
 };

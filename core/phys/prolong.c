@@ -9,8 +9,9 @@
 #include "base/mem.h"
 #include "mesh/metric.h"
 #include "mesh/post.h"
-#include "phys/prolong_cell.h"
+#include "phys/elastic.h"
 #include "phys/mix.h"
+#include "phys/prolong_cell.h"
 
 #include <string.h>
 
@@ -25,6 +26,7 @@ struct prolong {
     double *frame;                   /* [n_field][pitch]: a line of cells with all beside it along an axis */
     size_t pitch;
     double *w, *u, *rho_c2, *stiffness; /* blocks: primitives, conserved, rho c_f^2 and that of each material */
+    double *elastic;                    /* elastic energy per volume; NULL without a solid */
 };
 
 static void prolong_edges(const struct mesh *mesh, int axis, struct prolong *prolong)
@@ -59,6 +61,7 @@ struct prolong *prolong_new(const struct model *model, const struct mesh *mesh)
     prolong->u = mem_new(model->n_field * prolong->cells, sizeof(double));
     prolong->stiffness = mem_new(model->n_material * prolong->cells, sizeof(double));
     prolong->rho_c2 = mem_new(prolong->cells, sizeof(double));
+    if (model->n_stretch) prolong->elastic = mem_new(prolong->cells, sizeof(double));
     return prolong;
 }
 
@@ -71,6 +74,7 @@ void prolong_free(struct prolong *prolong)
     mem_free(prolong->u);
     mem_free(prolong->stiffness);
     mem_free(prolong->rho_c2);
+    mem_free(prolong->elastic);
     mem_free(prolong);
 }
 
@@ -238,6 +242,7 @@ static void prolong_strip(const struct prolong *prolong, const struct mesh *mesh
                                      k * prolong->stride[2],
                                  strip + q * size + 2 * j * row.fine[across] + 2 * k * row.fine[2]);
     if (model->n_alpha > 2) prolong_normalise(size, model->n_alpha, strip);
+    elastic_settle(model, size, size, strip);
 }
 
 /* The coarse cells that a strip is made from. */
@@ -306,6 +311,17 @@ static struct post *prolong_post(const struct mesh *mesh, const struct prolong_b
     return post;
 }
 
+static void prolong_strain(struct prolong *prolong)
+{
+    const struct model *model = prolong->model;
+    const double *m[SCENE_MATERIALS];
+    if (!prolong->elastic) return;
+    for (unsigned s = 0; s < model->n_solid; s++)
+        m[s] = prolong->u + (model->i_m + model->solids[s].material) * prolong->cells;
+    elastic_energy(model, prolong->cells, prolong->cells, prolong->u + model->i_V * prolong->cells, m,
+                   prolong->elastic);
+}
+
 /* The block of a coarse tile as source of children. Corners are filled, because laws are called on them too. */
 static void prolong_prepare(struct prolong *prolong, const struct mesh *mesh, const struct level *level, unsigned local,
                             struct bound *bound)
@@ -324,6 +340,7 @@ static void prolong_prepare(struct prolong *prolong, const struct mesh *mesh, co
         for (unsigned l = 0; l < model->n_material; l++) rho += prolong->u[(model->i_m + l) * prolong->cells + c];
         prolong->rho_c2[c] *= rho;
     }
+    prolong_strain(prolong);
 }
 
 /* r of the middle of the volume between a and b. */
@@ -378,7 +395,7 @@ static long long prolong_child(const struct prolong *prolong, const struct mesh 
     const struct model *model = prolong->model;
     const struct level *coarse = &mesh->levels[l - 1], *fine = &mesh->levels[l];
     const struct tile *tile = &fine->tiles[birth->child];
-    struct prolong_cells source = {model, prolong->cells, {0}, prolong->w, prolong->u, prolong->rho_c2};
+    struct prolong_cells source = {model, prolong->cells, {0}, prolong->w, prolong->u, prolong->rho_c2, prolong->elastic};
     const double *u_old = coarse->u_old[birth->parent - coarse->first];
     double columns[METRIC_CELLS / 2][2], mean[PROLONG_FIELDS];
     long long limited = 0;

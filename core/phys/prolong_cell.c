@@ -1,12 +1,13 @@
 /* prolong_cell.c - see prolong_cell.h.
  *
  * Ranges are widened by what is noise: round-off on the scale of rho c and rho c^2 (in a stiff liquid p is a small
- * difference of large numbers), fractions that do not matter, and for p the energy of motion between the
- * children, which a conservative interpolation of momentum and energy takes from p: without it a shear flow at
- * uniform p would get no slopes. A fraction or partial density never falls below half its least neighbour, so that
+ * difference of large numbers), fractions that do not matter, and for p the energy of motion and of strain between the
+ * children, which a conservative interpolation of momentum and energy takes from p: without it a shear flow or a bent
+ * solid at uniform p would get no slopes. A fraction or partial density never falls below half its least neighbour, so that
  * absent stays absent. */
 #include "phys/prolong_cell.h"
 
+#include "phys/elastic.h"
 #include "phys/mix.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@
 /* A partial density below zero by less than this times rho is what the step leaves behind fronts of traces. */
 #define CELL_DEFICIT 1e-8
 
-/* Part of |p| by which the energy of motion may move p out of its range. */
+/* Part of |p| by which the energy of motion and strain may move p out of its range. */
 #define CELL_PART 0.1
 
 struct cell_range {
@@ -52,6 +53,7 @@ static double cell_slack(const struct prolong_cells *source, size_t at, unsigned
 {
     const struct model *model = source->model;
     double stiffness = source->rho_c2[at], rho = 0.0;
+    if (q >= model->i_V) return CELL_ROUND_OFF;
     if (model->n_alpha && q < model->i_m) return CELL_TRACE;
     if (model->n_alpha && q < model->i_u) return CELL_TRACE * source->w[q * source->pitch + at];
     for (unsigned l = 0; l < model->n_material; l++) rho += source->u[(model->i_m + l) * source->pitch + at];
@@ -82,17 +84,45 @@ static double cell_share(const struct prolong_cells *source, size_t at, unsigned
     return phi;
 }
 
-/* c + phi ((+-x) + (+-y)) + +-z: mirrors and the exchange of x and y keep the bits. What must not be negative
- * may have become so by a rounding. */
+/* give times the differences along all axes: mirrors and the exchange of x and y keep the bits. */
+static double cell_step(const double give[3][2], const double difference[3], int o)
+{
+    double x = give[0][o & 1] * difference[0], y = give[1][o >> 1 & 1] * difference[1];
+    return (x + y) + give[2][o >> 2] * difference[2];
+}
+
+/* Mean and slopes. What must not be negative may have become so by a rounding. */
 static void cell_fill(const struct model *model, const double *mean, const cell_difference difference,
                       const double give[3][2], double phi, struct prolong_children *ret)
 {
     for (unsigned q = 0; q < model->n_field; q++)
         for (int o = 0; o < 1 << model->dim; o++) {
-            double x = give[0][o & 1] * difference[q][0], y = give[1][o >> 1 & 1] * difference[q][1];
-            double value = mean[q] + phi * ((x + y) + give[2][o >> 2] * difference[q][2]);
+            double value = mean[q] + phi * cell_step(give, difference[q], o);
             ret->u[q][o] = q < model->i_u && mean[q] >= 0.0 && value < 0.0 ? 0.0 : value;
         }
+    elastic_settle(model, (size_t)1 << model->dim, PROLONG_CHILDREN, ret->u[0]);
+}
+
+static void cell_differ(const struct prolong_cells *source, const double *values, double ret_difference[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        ret_difference[axis] = values[source->stride[axis]] - *(values - source->stride[axis]);
+}
+
+/* The children's elastic energy against that of the coarse cells, interpolated as the total energy is. */
+static void cell_strain(const struct prolong_cells *source, size_t at, const double give[3][2], double phi,
+                        struct prolong_children *children)
+{
+    const struct model *model = source->model;
+    double difference[3], energy[PROLONG_CHILDREN];
+    const double *m[SCENE_MATERIALS];
+    memset(children->strain, 0, sizeof children->strain);
+    if (!source->elastic) return;
+    for (unsigned s = 0; s < model->n_solid; s++) m[s] = children->u[model->i_m + model->solids[s].material];
+    elastic_energy(model, (size_t)1 << model->dim, PROLONG_CHILDREN, children->u[model->i_V], m, energy);
+    cell_differ(source, source->elastic + at, difference);
+    for (int o = 0; o < 1 << model->dim; o++)
+        children->strain[o] = fabs(energy[o] - (source->elastic[at] + phi * cell_step(give, difference, o)));
 }
 
 /* Is rho_l of child o within its range, and the material well-posed? */
@@ -115,7 +145,7 @@ static bool cell_pressure(const struct prolong_cells *source, size_t at, int o, 
     const struct model *model = source->model;
     const double *pressures = source->w + model->i_E * source->pitch;
     struct cell_range range = cell_range(source, at, pressures, NULL);
-    double p = children->w[model->i_E][o], motion = 0.0, most = CELL_PART * fabs(pressures[at]);
+    double p = children->w[model->i_E][o], motion = 4.0 * children->strain[o], most = CELL_PART * fabs(pressures[at]);
     for (unsigned q = model->i_u; q < model->i_E; q++) {
         double du = children->w[q][o] - source->w[q * source->pitch + at];
         motion += 2.0 * rho * du * du;
@@ -140,12 +170,16 @@ static bool cell_child(const struct prolong_cells *source, size_t at, int o,
     return cell_pressure(source, at, o, rho, children);
 }
 
-/* The primitives of the children; iterated closures start from the coarse pressure. */
-static void cell_convert(const struct prolong_cells *source, size_t at, struct prolong_children *children)
+/* Children with slopes times phi and their primitives; iterated closures start from the coarse pressure. */
+static void cell_make(const struct prolong_cells *source, size_t at, const double *mean,
+                      const cell_difference difference, const double give[3][2], double phi,
+                      struct prolong_children *ret)
 {
     const struct model *model = source->model;
-    for (int o = 0; o < PROLONG_CHILDREN; o++) children->w[model->i_E][o] = source->w[model->i_E * source->pitch + at];
-    mix_primitives(model, (size_t)1 << model->dim, PROLONG_CHILDREN, children->u[0], children->w[0]);
+    cell_fill(model, mean, difference, give, phi, ret);
+    cell_strain(source, at, give, phi, ret);
+    for (int o = 0; o < PROLONG_CHILDREN; o++) ret->w[model->i_E][o] = source->w[model->i_E * source->pitch + at];
+    mix_primitives(model, (size_t)1 << model->dim, PROLONG_CHILDREN, ret->u[0], ret->w[0]);
 }
 
 static bool cell_good(const struct prolong_cells *source, size_t at, const struct prolong_children *children)
@@ -168,18 +202,14 @@ double prolong_cell_children(const struct prolong_cells *source, size_t at, cons
     cell_difference difference;
     double most = 1.0;
     for (unsigned q = 0; q < model->n_field; q++) {
-        const double *u = source->u + q * source->pitch + at;
-        for (int axis = 0; axis < 3; axis++)
-            difference[q][axis] = u[source->stride[axis]] - *(u - source->stride[axis]);
+        cell_differ(source, source->u + q * source->pitch + at, difference[q]);
         double phi = cell_share(source, at, q, mean[q], give, difference[q]);
         most = phi < most ? phi : most;
     }
     for (size_t i = 0; i < sizeof tries / sizeof *tries; i++) {
-        cell_fill(model, mean, difference, give, tries[i] * most, ret);
-        cell_convert(source, at, ret);
+        cell_make(source, at, mean, difference, give, tries[i] * most, ret);
         if (cell_good(source, at, ret)) return tries[i] * most;
     }
-    cell_fill(model, mean, difference, give, 0.0, ret);
-    cell_convert(source, at, ret);
+    cell_make(source, at, mean, difference, give, 0.0, ret);
     return 0.0;
 }

@@ -2,9 +2,16 @@
 #include "phys/reflux.h"
 
 #include "base/mem.h"
+#include "phys/elastic.h"
 #include "phys/restrict.h"
 
 #include <string.h>
+
+/* Rows of the coarse side of a face: its registers, then what is kept of the cell. */
+static unsigned reflux_rows(const struct model *model, const struct link *up)
+{
+    return up->n_register + model->n_alpha + model->n_stretch;
+}
 
 struct reflux *reflux_new(const struct model *model, const struct mesh *mesh, int l)
 {
@@ -16,7 +23,7 @@ struct reflux *reflux_new(const struct model *model, const struct mesh *mesh, in
     size_t plane = mesh->n_cell / (size_t)mesh->n[0];
     if (down) reflux->fine = mem_new(down->n_face * down->n_register * down->face_cells, sizeof(double));
     if (down) reflux->plane = mem_new(2 * down->n_register * plane, sizeof(double));
-    if (up) reflux->coarse = mem_new(up->n_source * (up->n_register + model->n_alpha) * up->face_cells, sizeof(double));
+    if (up) reflux->coarse = mem_new(up->n_source * reflux_rows(model, up) * up->face_cells, sizeof(double));
     return reflux;
 }
 
@@ -41,18 +48,35 @@ bool reflux_concerns(const struct reflux *reflux, unsigned local)
     return reflux_sources(reflux, local) > 0;
 }
 
-/* Flux of register component q in a solved row; NULL: no such flux, where the material is absent. */
-static const double *reflux_row(const struct model *model, const struct model *used, const struct face_work *work,
-                                int axis, unsigned q)
+/* A face velocity after u*: along the face, as the cell below (`left`) or above it sees it. Where nobody feels shear the
+ * sides slip. */
+static const double *reflux_slide(const struct model *used, const struct face_work *work, unsigned tangent, bool left)
 {
-    bool whole = used->n_alpha == model->n_alpha;
-    if (q < model->n_alpha) return whole ? work->alpha + q * FACE_ROOM : q == used->first ? work->u : NULL;
+    if (used->n_stretch) return (left ? work->slide_left : work->slide_right) + tangent * FACE_ROOM;
+    return (left ? &work->faces.left : &work->faces.right)->u[1 + tangent];
+}
+
+/* Flux of register component q in a solved row; NULL: no such flux, where the material is absent. What a narrowed path
+ * leaves out is as the whole one would find it: without a solid V is the identity. left: the coarse cell lies below. */
+static const double *reflux_row(const struct model *model, const struct model *used, const struct face_work *work,
+                                int axis, unsigned q, bool left)
+{
+    if (q < model->n_alpha) {
+        unsigned l = q - used->first; /* wraps below */
+        if (l >= used->n_material) return NULL;
+        return used->n_alpha ? work->alpha + l * FACE_ROOM : work->u;
+    }
     if (q < model->i_u) {
-        unsigned l = q - model->i_m;
-        return whole ? work->m + l * FACE_ROOM : l == used->first ? work->m : NULL;
+        unsigned l = q - model->i_m - used->first;
+        return l < used->n_material ? work->m + l * FACE_ROOM : NULL;
     }
     if (q == model->i_E) return work->energy;
     if (q == model->n_field) return work->u;
+    if (q > model->n_field) return reflux_slide(used, work, q - model->n_field - 1, left);
+    if (q >= model->i_V) {
+        unsigned c = q - model->i_V;
+        return used->n_stretch ? work->stretch + c * FACE_ROOM : c <= ELASTIC_ZZ ? work->u : NULL;
+    }
     unsigned a = q - model->i_u, normal = (unsigned)axis; /* the inverse of frame_component */
     return work->momentum + (a == normal ? 0 : a < normal ? a + 1 : a) * FACE_ROOM;
 }
@@ -100,7 +124,7 @@ static void reflux_copy(const struct mesh *mesh, const struct frame *frame, cons
 static double *reflux_coarse(const struct reflux *reflux, unsigned source)
 {
     const struct link *up = reflux->up;
-    return reflux->coarse + source * (up->n_register + reflux->model->n_alpha) * up->face_cells;
+    return reflux->coarse + source * reflux_rows(reflux->model, up) * up->face_cells;
 }
 
 static void reflux_collect_fine(struct reflux *reflux, const struct model *used, unsigned local,
@@ -112,7 +136,7 @@ static void reflux_collect_fine(struct reflux *reflux, const struct model *used,
         if (reflux->level->neighbours[local][2 * frame->axis + side].kind != NEIGHBOUR_COARSE) continue;
         struct reflux_patch patch = {.layer = side ? mesh->n[frame->axis] : 0, .cells = mesh->n[0]};
         for (unsigned q = 0; q < reflux->down->n_register; q++)
-            reflux_copy(mesh, frame, reflux_row(reflux->model, used, work, frame->axis, q), &patch,
+            reflux_copy(mesh, frame, reflux_row(reflux->model, used, work, frame->axis, q, side == 0), &patch,
                         reflux->plane + ((size_t)side * reflux->down->n_register + q) * plane);
     }
 }
@@ -131,7 +155,8 @@ void reflux_collect(struct reflux *reflux, const struct model *used, unsigned lo
         struct reflux_patch patch = {.layer = source->layer + (source->face % 2 == 0), .cells = mesh->n[0] / 2};
         memcpy(patch.from, source->from, sizeof patch.from);
         for (unsigned q = 0; q < up->n_register; q++)
-            reflux_copy(mesh, frame, reflux_row(reflux->model, used, work, frame->axis, q), &patch,
+            reflux_copy(mesh, frame,
+                        reflux_row(reflux->model, used, work, frame->axis, q, source->face % 2 == 0), &patch,
                         reflux_coarse(reflux, s) + q * up->face_cells);
     }
 }
@@ -166,18 +191,29 @@ size_t reflux_cell(const struct mesh *mesh, const struct link_face *source, size
     return at[0] + (size_t)mesh->n[0] * (at[1] + (size_t)mesh->n[1] * at[2]);
 }
 
-void reflux_keep(struct reflux *reflux, unsigned local, const double *w, const double *K)
+/* Value q of what is kept of a cell: alpha + K, with K where the path knows of it, then V. */
+static double reflux_kept(const struct reflux *reflux, const struct model *used, unsigned q, const double *w,
+                          const double *K, size_t cell)
 {
-    const struct mesh *mesh = reflux->mesh;
+    const struct model *model = reflux->model;
+    size_t n_cell = reflux->mesh->n_cell;
+    unsigned l = q - used->first, c = q - model->n_alpha;
+    if (q < model->n_alpha) return w[q * n_cell + cell] + (K && l < used->n_material ? K[l * n_cell + cell] : 0.0);
+    if (used->n_stretch) return w[(model->i_V + c) * n_cell + cell];
+    return c <= ELASTIC_ZZ ? 1.0 : 0.0;
+}
+
+void reflux_keep(struct reflux *reflux, const struct model *used, unsigned local, const double *w, const double *K)
+{
     const struct link *up = reflux->up;
-    for (unsigned s = up ? up->source_from[local] : 0; up && s < up->source_from[local + 1]; s++)
-        for (unsigned l = 0; l < reflux->model->n_alpha; l++) {
-            double *kept = reflux_coarse(reflux, s) + (up->n_register + l) * up->face_cells;
-            for (size_t i = 0; i < up->face_cells; i++) {
-                size_t cell = l * mesh->n_cell + reflux_cell(mesh, &up->sources[s], i);
-                kept[i] = w[cell] + (K ? K[cell] : 0.0);
-            }
+    for (unsigned s = up ? up->source_from[local] : 0; up && s < up->source_from[local + 1]; s++) {
+        double *kept = reflux_coarse(reflux, s) + up->n_register * up->face_cells;
+        for (size_t i = 0; i < up->face_cells; i++) {
+            size_t cell = reflux_cell(reflux->mesh, &up->sources[s], i);
+            for (unsigned q = 0; q < reflux->model->n_alpha + reflux->model->n_stretch; q++)
+                kept[q * up->face_cells + i] = reflux_kept(reflux, used, q, w, K, cell);
         }
+    }
 }
 
 void reflux_commit(struct reflux *reflux, double dt)
@@ -206,27 +242,50 @@ static double reflux_area(const struct reflux *reflux, const struct metric *metr
     return metric->area[i + (source->face % 2 == 0)] / metric->volume[i];
 }
 
-/* Change of all fields of one cell, from its registers. */
-static void reflux_change(const struct reflux *reflux, unsigned s, size_t i, double scale, double dt, double *change)
+/* Values of one place of a face, register by register. */
+struct reflux_value {
+    const double *fine, *coarse;
+    size_t step;
+    double dt;
+};
+
+static double reflux_difference(const struct reflux_value *value, unsigned q)
+{
+    return value->fine[q * value->step] - value->dt * value->coarse[q * value->step];
+}
+
+/* The stretch's part of the corrected change. s: -1 for a cell on the lower side of the face, else 1. */
+static void reflux_stretch(const struct reflux *reflux, const struct reflux_value *value, int axis, double s,
+                           double swept, double *change)
 {
     const struct model *model = reflux->model;
-    const struct link *up = reflux->up;
-    const double *fine = up->sources[s].flux + i, *coarse = reflux_coarse(reflux, s) + i;
-    bool corrected = model->scene->reflux == SCENE_REFLUX_CORRECTED;
-    size_t step = up->face_cells;
-    for (unsigned q = 0; q < model->n_field; q++) change[q] = scale * (fine[q * step] - dt * coarse[q * step]);
-    if (!corrected || !model->n_alpha) return;
-    double swept = scale * (fine[model->n_field * step] - dt * coarse[model->n_field * step]);
-    for (unsigned l = 0; l < model->n_alpha; l++) change[l] -= coarse[(up->n_register + l) * step] * swept;
+    double V[6], carried[6], velocity[3], per_h = s / reflux->level->h[axis];
+    unsigned kept = reflux->up->n_register + model->n_alpha;
+    for (unsigned c = 0; c < model->n_stretch; c++) {
+        V[c] = value->coarse[(kept + c) * value->step];
+        carried[c] = change[model->i_V + c];
+    }
+    for (unsigned d = 0; d < model->n_velocity; d++)
+        velocity[frame_component(axis, d)] = -per_h * reflux_difference(value, model->n_field + d);
+    const struct elastic_correction in = {V, carried, swept, velocity, axis};
+    elastic_correct(model, &in, change + model->i_V);
 }
 
 void reflux_source(const struct reflux *reflux, unsigned s, size_t index, const struct metric *metric, double dt,
                    double *ret_change)
 {
+    const struct model *model = reflux->model;
     const struct link_face *source = &reflux->up->sources[s];
+    const struct reflux_value value = {source->flux + index, reflux_coarse(reflux, s) + index, reflux->up->face_cells,
+                                       dt};
     double sign = source->face % 2 == 0 ? -1.0 : 1.0; /* the cell lies on the lower or upper side of the face */
-    size_t cell = reflux_cell(reflux->mesh, source, index);
-    reflux_change(reflux, s, index, sign * reflux_area(reflux, metric, source, cell), dt, ret_change);
+    double scale = sign * reflux_area(reflux, metric, source, reflux_cell(reflux->mesh, source, index));
+    for (unsigned q = 0; q < model->n_field; q++) ret_change[q] = scale * reflux_difference(&value, q);
+    if (model->scene->reflux != SCENE_REFLUX_CORRECTED || !reflux->mesh->n_face_u) return;
+    double swept = scale * reflux_difference(&value, model->n_field);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        ret_change[l] -= value.coarse[(reflux->up->n_register + l) * value.step] * swept;
+    if (model->n_stretch) reflux_stretch(reflux, &value, source->face / 2, sign, swept, ret_change);
 }
 
 void reflux_delta(const struct reflux *reflux, unsigned local, double dt, double *delta)

@@ -6,7 +6,11 @@
  * delta = (sum over fine steps of dt F_fine) - dt F_coarse and the cell on the lower side of the face,
  *     conserved fields:  d q = -(A/V) delta(F)
  *     fractions:         d alpha = -(A/V) [delta(alpha* u*) - (alpha + K) delta(u*)],
- * alpha + K that of the coarse cell at the midpoint: without the second term a uniform alpha would be asked to drift. */
+ *     stretch:           d V = -(A/V) [delta(V* u*) - V delta(u*)] + what dL = delta(u) n/h stretches V by
+ *                              (elastic_correct),
+ * alpha + K and V those of the coarse cell at the midpoint: without the second terms a uniform alpha or V would be asked
+ * to drift. Registers hold, beside all fluxes, u* and in scenes with a solid the face's other velocity components, as
+ * the coarse cell sees them where the sides slip. `plain`: the first terms alone. */
 #ifndef REFLUX_H
 #define REFLUX_H
 
@@ -21,7 +25,8 @@ struct reflux {
     const struct level *level;
     struct link *down, *up; /* to the coarser and from the finer level, or NULL */
     double *fine;           /* [down->n_face][n_register][face_cells] of the last full stage */
-    double *coarse;         /* [up->n_source][n_register + n_alpha][face_cells]: fluxes, then alpha + K */
+    double *coarse;         /* [up->n_source][n_register + n_alpha + n_stretch][face_cells]: fluxes, then alpha + K,
+                               then V, of the cell at the midpoint */
     double *plane;          /* scratch: both fine faces of an axis, [2][n_register][n^(d-1)] */
 };
 
@@ -38,8 +43,9 @@ void reflux_collect(struct reflux *reflux, const struct model *used, unsigned lo
 /* After all pieces of an axis: means over sub-faces of the tile's own coarse-fine faces. */
 void reflux_average(struct reflux *reflux, unsigned local, int axis);
 
-/* Keeps alpha + K of the cells behind finer faces; w: the tile's primitives, K: of mix_closure or NULL (K = 0). */
-void reflux_keep(struct reflux *reflux, unsigned local, const double *w, const double *K);
+/* Keeps alpha + K and V of the cells behind finer faces; w: the tile's primitives, K: of mix_closure, of the materials
+ * of the path `used`, or NULL (K = 0). */
+void reflux_keep(struct reflux *reflux, const struct model *used, unsigned local, const double *w, const double *K);
 
 /* The step of this level was accepted: adds dt times its fine fluxes to the registers of the link below. */
 void reflux_commit(struct reflux *reflux, double dt);

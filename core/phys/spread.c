@@ -91,9 +91,11 @@ static double spread_total(const struct spread_ring *ring)
     return sum;
 }
 
-static void spread_add(const struct spread *spread, size_t cell, double factor, const double *change, double *delta)
+/* Of the first n fields. */
+static void spread_add(const struct spread *spread, size_t cell, unsigned n, double factor, const double *change,
+                       double *delta)
 {
-    for (unsigned q = 0; q < spread->model->n_field; q++) delta[q * spread->mesh->n_cell + cell] += factor * change[q];
+    for (unsigned q = 0; q < n; q++) delta[q * spread->mesh->n_cell + cell] += factor * change[q];
 }
 
 /* Places what it can of a load in a ring. */
@@ -103,7 +105,7 @@ static void spread_place(const struct spread *spread, const struct spread_ring *
     double total = spread_total(ring), share = total > load->left ? load->left / total : 1.0;
     for (size_t i = 0; i < ring->n; i++) {
         double factor = share * ring->room[i] * load->volume / spread_volume(spread, ring->cells[i]);
-        if (factor > 0.0) spread_add(spread, ring->cells[i], factor, load->change, delta);
+        if (factor > 0.0) spread_add(spread, ring->cells[i], spread->model->i_V, factor, load->change, delta);
     }
     load->left = total > load->left ? 0.0 : load->left - total;
 }
@@ -128,7 +130,7 @@ static void spread_keep(const struct spread *spread, size_t cell, double part, s
     double keep = part * spread_room(spread, cell, load->change, 1.0, delta);
     if (spread->trouble[cell] != SPREAD_HALF) return;
     keep = keep < load->left ? keep : load->left;
-    spread_add(spread, cell, keep, load->change, delta);
+    spread_add(spread, cell, spread->model->n_field, keep, load->change, delta);
     load->left -= keep;
 }
 
@@ -147,7 +149,7 @@ static bool spread_cell(const struct spread *spread, size_t cell, struct spread_
     spread_keep(spread, cell, SPREAD_PART, &load, delta);
     spread_around(spread, cell, 1, &load, ring, delta);
     spread_keep(spread, cell, 1.0, &load, delta);
-    for (unsigned q = 0; q < spread->model->n_field; q++) rest[q * n_cell + cell] = load.left * load.change[q];
+    for (unsigned q = 0; q < spread->model->i_V; q++) rest[q * n_cell + cell] = load.left * load.change[q];
     return load.left > 0.0;
 }
 
@@ -206,7 +208,7 @@ static void spread_scatter(const struct spread *spread, size_t cell, const struc
                            double *delta)
 {
     const struct model *model = spread->model;
-    for (unsigned q = model->n_field; q-- > model->i_m;) { /* masses last: they are the weights */
+    for (unsigned q = model->i_V; q-- > model->i_m;) { /* masses last: they are the weights */
         double amount = load->left * load->change[q];
         bool mass = q < model->i_u;
         if (amount == 0.0) continue;
@@ -219,7 +221,7 @@ void spread_amount(const struct spread *spread, size_t cell, const double *amoun
 {
     struct spread_ring ring = spread_ring_new(spread->mesh->n_cell);
     struct spread_load load = {.volume = 1.0, .left = 1.0};
-    memcpy(load.change, amount, spread->model->n_field * sizeof *amount);
+    memcpy(load.change, amount, spread->model->i_V * sizeof *amount);
     spread_around(spread, cell, 0, &load, &ring, delta);
     if (load.left > 0.0) spread_scatter(spread, cell, &load, ring.room, delta);
     spread_ring_free(&ring);

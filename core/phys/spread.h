@@ -3,7 +3,8 @@
  * Such a cell takes only a part of its change, and the cells around it that hold what is wanting take the rest: ring
  * by ring, until all is placed, each by what it has room for. A part is one of all fields, so that a
  * change at uniform p and u, which only exchanges materials, leaves both uniform wherever it goes; volumes weigh, so
- * that sums are conserved. Leaves of the same tile come first, which is local and equal on any number of ranks; what they
+ * that sums are conserved. The stretch is nobody's to conserve: a cell's own changes by the part that the cell keeps,
+ * those around keep theirs. Leaves of the same tile come first, which is local and equal on any number of ranks; what they
  * cannot take belongs to the finer cells behind the face, which have taken too much. */
 #ifndef SPREAD_H
 #define SPREAD_H

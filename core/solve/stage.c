@@ -195,7 +195,7 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double dt, d
         mix_stiffness(model, n_cell, n_cell, level->w[local], work->rho_c2);
         mix_closure(model, n_cell, n_cell, level->w[local], work->rho_c2, work->K);
     }
-    if (stage->fluxes) reflux_keep(stage->reflux, local, level->w[local], model->kapila ? work->K : NULL);
+    if (stage->fluxes) reflux_keep(stage->reflux, model, local, level->w[local], model->kapila ? work->K : NULL);
     struct update_input input = {
         .u_old = level->u_old[local], .w = level->w[local], .K = work->K, .rho_c2 = work->rho_c2, .rates = work->rates};
     stage->clipped += (long long)update_apply(model, n_cell, dt, &input, u);

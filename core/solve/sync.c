@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "mesh/halo.h"
+#include "phys/elastic.h"
 #include "phys/restrict.h"
 #include "phys/spread.h"
 
@@ -31,6 +32,14 @@ void sync_down(struct stage *coarse, struct stage *fine)
 static const struct tile *sync_tile(const struct stage *stage, unsigned local)
 {
     return &stage->level->tiles[stage->level->first + local];
+}
+
+/* Closes a tile whose fields were averaged or moved: averages of stretches are none yet. */
+static void sync_touch(struct stage *stage, unsigned local)
+{
+    size_t n_cell = stage->mesh->n_cell;
+    elastic_settle(stage->model, n_cell, n_cell, stage->level->u_old[local]);
+    stage_touch(stage, local);
 }
 
 /* Fractions back into [0, 1] and to sum 1 where refluxing has moved them. */
@@ -101,7 +110,7 @@ static long long sync_add(struct stage *stage, unsigned local, const struct sync
     guard_attempt(stage->guard);
     for (size_t i = 0; i < model->n_field * n_cell; i++) u[i] = work->before[i] + work->delta[i];
     long long clipped = sync_bound_fractions(model, n_cell, work->delta, u);
-    stage_touch(stage, local);
+    sync_touch(stage, local);
     if (stage->guard->bad[1] == 0) stage->clipped += clipped;
     return stage->guard->bad[1];
 }
@@ -189,7 +198,7 @@ static int sync_tile_faces(struct stage *stage, unsigned local, struct sync_work
     memcpy(work->before, stage->level->u_old[local],
            stage->model->n_field * stage->mesh->n_cell * sizeof *work->before);
     if (stage->model->scene->reflux == SCENE_REFLUX_OFF) {
-        stage_touch(stage, local);
+        sync_touch(stage, local);
         return STATUS_OK;
     }
     reflux_delta(stage->reflux, local, stage->dt, work->delta);
@@ -214,7 +223,7 @@ static int sync_tiles(struct stage *stage, struct sync_work *work)
         bool faces = link->source_from[tile] < link->source_from[tile + 1];
         guard_attempt(stage->guard);
         if (faces) status = sync_tile_faces(stage, tile, work);
-        else if (sync_tile(stage, tile)->covered) stage_touch(stage, tile);
+        else if (sync_tile(stage, tile)->covered) sync_touch(stage, tile);
     }
     return status;
 }
@@ -282,7 +291,7 @@ static int sync_take(struct stage *coarse, struct stage *fine, struct sync_work 
     link_up(link);
     restrict_take(coarse->mesh, fine->l);
     for (unsigned tile = 0; tile < coarse->level->n_local; tile++)
-        if (sync_tile(coarse, tile)->covered) stage_touch(coarse, tile);
+        if (sync_tile(coarse, tile)->covered) sync_touch(coarse, tile);
     return status;
 }
 
