@@ -106,7 +106,7 @@ static int dump_facts(struct dump *dump)
     TRY(dump_whole(dump, "stage", 1, BLAME_FAILED_SYNC + 1, &stage));
     facts->stage = stage - 1;
     TRY(dump_place(dump));
-    TRY(dump_whole(dump, "pure", -1, SCENE_MATERIALS - 1, &facts->pure));
+    TRY(dump_whole(dump, "pure", -1, SCENE_MATERIALS, &facts->pure));
     TRY(dump_whole(dump, "marked", 0, 1, &masked));
     TRY(dump_whole(dump, "repair", 0, 1, &repair));
     facts->masked = masked;
@@ -131,7 +131,7 @@ static int dump_blocks(struct dump *dump, struct h5 *file)
         TRY(h5in_shape(file, path, &rows, &columns));
         bool cells = i < BLAME_FRAME_X, frame = !cells && i != BLAME_FACES;
         size_t most = frame ? (size_t)dump->facts.n_cell * (1 + 2 * MESH_GHOST) : BLAME_COLUMNS;
-        if (rows == 0 || rows > 2 * SCENE_MATERIALS + 8 || (cells && columns != dump->facts.n_cell) ||
+        if (rows == 0 || rows > MODEL_FIELDS || (cells && columns != dump->facts.n_cell) ||
             (!cells && (columns == 0 || columns > most)))
             return dump_lacks(dump, shape->name);
         shape->rows = (unsigned)rows;

@@ -79,7 +79,8 @@ static void dump_show_place(FILE *out, const struct dump *dump)
             facts->masked ? ", with first-order fluxes at marked cells" : "");
     fprintf(out, "level     %d, cells of %.6g m\n", facts->level, facts->h[0]);
     fprintf(out, "tile      (%d, %d, %d)", facts->tile[0], facts->tile[1], facts->tile[2]);
-    if (facts->pure >= 0) fprintf(out, ", advanced as material %d alone", facts->pure);
+    if (facts->pure == SCENE_MATERIALS) fprintf(out, ", advanced as fluids alone");
+    else if (facts->pure >= 0) fprintf(out, ", advanced as material %d alone", facts->pure);
     fprintf(out, "\ncell      (%u, %u, %u) of the tile\n", facts->cell % n0, facts->cell / n0 % n1,
             facts->cell / n0 / n1);
     fprintf(out, "field     %s = %.17g\nverdict   %s\n", facts->field, facts->value, facts->verdict);
@@ -105,7 +106,7 @@ static void dump_show_cell(FILE *out, const struct dump *dump)
     fprintf(out, "%-28s  %22s  %22s\n", "primitives", "where rates were taken", "after");
     for (unsigned q = 0; q < dump->n_field; q++) {
         dump_word(fields, q, sizeof name, name);
-        const char *of = q + 1 == dump->n_field ? "pressure" : name;
+        const char *of = !strcmp(name, "total_energy") ? "pressure" : name;
         if (!strncmp(of, "partial_", 8)) of += 8; /* of the material itself */
         bool velocity = !strncmp(of, "momentum_", 9);
         fprintf(out, "%s%-*s  %22.15g  %22.15g\n", velocity ? "velocity_" : "", velocity ? 19 : 28,
@@ -181,7 +182,7 @@ static int dump_scene(const struct dump *dump, struct scene **ret_scene)
 static int dump_fits(const struct dump *dump, const struct model *model)
 {
     const struct blame_facts *facts = &dump->facts;
-    bool fits = (unsigned)model->dim == dump->dim && facts->pure < (int)model->n_alpha;
+    bool fits = (unsigned)model->dim == dump->dim && model_numbered(model, facts->pure);
     for (int d = model->dim; d < 3; d++) fits = fits && facts->n[d] == 1;
     for (int i = 0; fits && i < BLAME_BLOCKS; i++) {
         struct blame_shape shape = blame_shape(model, facts, (enum blame_block)i);

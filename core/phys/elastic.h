@@ -77,8 +77,8 @@ void elastic_fade(const struct model *model, size_t n, size_t stride, const doub
 
 #define ELASTIC_FADE 1e-2
 
-/* The stretch of n points whose fields (conserved or primitive) were averaged or interpolated: det 1, then faded. What
- * is unimodular to round-off keeps its bits, so that a uniform stretch stays uniform. */
+/* The stretch of n points whose fields (conserved or primitive) were averaged or interpolated: faded, then det 1. What
+ * this would change by round-off alone keeps its bits, so that a uniform stretch stays uniform. */
 void elastic_settle(const struct model *model, size_t n, size_t stride, double *fields);
 
 /* What refluxing adds to V of one cell at a face normal to `axis`. delta: fine - coarse, sum of dt times face value; s:

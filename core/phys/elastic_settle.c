@@ -7,40 +7,48 @@
 
 enum { SETTLE_BATCH = 128 };
 
-/* Is det V = 1 up to the rounding of its own terms? */
-static bool settle_is_unimodular(const struct model *model, size_t stride, const double *V)
+/* What rounding can do to the components of V on the way to det V = 1: as much as to its determinant. */
+static double settle_round_off(const double V[6])
 {
-    double at[6] = {0};
-    for (unsigned c = 0; c < model->n_stretch; c++) at[c] = V[c * stride];
-    double xx = at[ELASTIC_XX], yy = at[ELASTIC_YY], zz = at[ELASTIC_ZZ];
-    double xy = at[ELASTIC_XY], xz = at[ELASTIC_XZ], yz = at[ELASTIC_YZ];
-    double det = (xx * yy - xy * xy) * zz + (2.0 * (xy * xz * yz) - (xx * yz * yz + yy * xz * xz));
-    double size = (fabs(xx * yy) + xy * xy) * fabs(zz) + (2.0 * fabs(xy * xz * yz) + fabs(xx * yz * yz + yy * xz * xz));
-    return fabs(det - 1.0) <= 8.0 * DBL_EPSILON * size;
+    double xx = fabs(V[ELASTIC_XX]), yy = fabs(V[ELASTIC_YY]), zz = fabs(V[ELASTIC_ZZ]);
+    double xy = fabs(V[ELASTIC_XY]), xz = fabs(V[ELASTIC_XZ]), yz = fabs(V[ELASTIC_YZ]);
+    double terms = (xx * yy + xy * xy) * zz + (2.0 * (xy * xz * yz) + (xx * yz * yz + yy * xz * xz));
+    return 8.0 * DBL_EPSILON * terms * ((xx + yy) + (zz + (xy + (xz + yz))));
 }
 
-/* det V = 1 of n <= SETTLE_BATCH points; those that have it already keep their bits. */
-static void settle_batch(const struct model *model, size_t n, size_t stride, double *V)
+/* Fraction of all solids at n points. */
+static void settle_solids(const struct model *model, size_t n, size_t stride, const double *alpha, double *phi)
 {
-    double before[6][SETTLE_BATCH];
-    bool keep[SETTLE_BATCH], all = true;
-    for (size_t i = 0; i < n; i++) {
-        keep[i] = settle_is_unimodular(model, stride, V + i);
-        all = all && keep[i];
-    }
-    if (all) return;
+    memset(phi, 0, n * sizeof *phi);
+    for (unsigned s = 0; s < model->n_solid; s++)
+        for (size_t i = 0; i < n; i++) phi[i] += alpha[model->solids[s].material * stride + i];
+}
+
+/* n <= SETTLE_BATCH points; alpha NULL: nothing but solid. */
+static void settle_batch(const struct model *model, size_t n, size_t stride, const double *alpha, double *V)
+{
+    double before[6][SETTLE_BATCH] = {{0}}, phi[SETTLE_BATCH];
     for (unsigned c = 0; c < model->n_stretch; c++) memcpy(before[c], V + c * stride, n * sizeof *V);
+    if (alpha) settle_solids(model, n, stride, alpha, phi);
+    if (alpha) elastic_fade(model, n, stride, phi, V);
     elastic_unimodular(model, n, stride, V);
-    for (unsigned c = 0; c < model->n_stretch; c++)
-        for (size_t i = 0; i < n; i++)
-            if (keep[i]) V[c * stride + i] = before[c][i];
+    for (size_t i = 0; i < n; i++) {
+        double was[6], most = 0.0;
+        for (unsigned c = 0; c < 6; c++) was[c] = before[c][i];
+        for (unsigned c = 0; c < model->n_stretch; c++) {
+            double moved = fabs(V[c * stride + i] - was[c]);
+            most = moved <= most ? most : moved; /* a NaN stays one */
+        }
+        if (!(most <= settle_round_off(was))) continue;
+        for (unsigned c = 0; c < model->n_stretch; c++) V[c * stride + i] = was[c];
+    }
 }
 
 void elastic_settle(const struct model *model, size_t n, size_t stride, double *fields)
 {
-    double *V = fields + model->i_V * stride;
     if (!model->n_stretch) return;
     for (size_t from = 0; from < n; from += SETTLE_BATCH)
-        settle_batch(model, n - from < SETTLE_BATCH ? n - from : SETTLE_BATCH, stride, V + from);
-    if (model->n_alpha) elastic_fade(model, n, stride, fields + model->i_alpha * stride, V);
+        settle_batch(model, n - from < SETTLE_BATCH ? n - from : SETTLE_BATCH, stride,
+                     model->n_alpha ? fields + model->i_alpha * stride + from : NULL,
+                     fields + model->i_V * stride + from);
 }

@@ -65,6 +65,20 @@ static inline bool model_is_fraction(const struct model *model, unsigned q)
     return q - model->i_alpha < model->n_alpha; /* wraps below i_alpha */
 }
 
+/* Number of a path for files: -1 the scene's model, l its material l alone, SCENE_MATERIALS its fluids. */
+static inline int model_number(const struct model *path)
+{
+    if (path->n_material == path->scene->n_material) return -1;
+    return path->n_alpha ? SCENE_MATERIALS : (int)path->first;
+}
+
+/* The path of that number; NULL: there is none. */
+static inline const struct model *model_numbered(const struct model *model, int number)
+{
+    if (number < 0) return model;
+    return number == SCENE_MATERIALS ? model->fluids : number < (int)model->n_alpha ? model->pure[number] : NULL;
+}
+
 struct model *model_new(const struct scene *scene);
 void model_free(struct model *model);
 

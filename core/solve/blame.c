@@ -19,7 +19,7 @@ const char *blame_name(enum blame_block block)
 
 static const struct model *blame_used(const struct model *model, const struct blame_facts *facts)
 {
-    return facts->pure < 0 ? model : model->pure[facts->pure];
+    return model_numbered(model, facts->pure);
 }
 
 /* Cells of the whole frame of the tile along an axis. */
@@ -80,7 +80,7 @@ static const char *blame_material(const struct model *used, unsigned l)
     return used->scene->material[used->first + l].name;
 }
 
-static const char *const blame_axes[] = {"x", "y", "z"};
+static const char *const blame_axes[] = {"x", "y", "z"}, *const blame_tangents[] = {"1", "2"};
 
 /* Component of vectors at the faces of an axis that points along axis `e` of space. */
 static unsigned blame_component(int axis, unsigned e)
@@ -103,7 +103,7 @@ static void blame_list_side(struct blame_list *list, const struct model *used, i
     blame_add(list, side->p, group, "pressure", "");
     blame_add(list, side->rho_E, group, "energy", "");
     blame_add(list, side->c, group, "sound_speed", "");
-    for (unsigned e = 0; e < (unsigned)used->dim; e++)
+    for (unsigned e = 0; e < used->n_velocity; e++)
         blame_add(list, blame_row(side->u, blame_component(axis, e)), group, "velocity", blame_axes[e]);
     for (unsigned l = 0; l < used->n_material; l++)
         blame_add(list, blame_row(side->m, l), group, "partial_density", blame_material(used, l));
@@ -111,11 +111,34 @@ static void blame_list_side(struct blame_list *list, const struct model *used, i
         blame_add(list, blame_row(side->alpha, l), group, "alpha", blame_material(used, l));
 }
 
+/* What a solid adds to a side. */
+static void blame_list_shear(struct blame_list *list, const struct model *used, const char *group,
+                             const struct bulla_shear *shear)
+{
+    if (!used->n_stretch) return;
+    blame_add(list, shear->c_s, group, "shear_speed", "");
+    for (unsigned d = 1; d < used->n_velocity; d++)
+        blame_add(list, blame_row(shear->s, d - 1), group, "traction", blame_tangents[d - 1]);
+}
+
 static void blame_list_block(struct blame_list *list, const struct model *used, const double *block, const char *name,
                              unsigned n)
 {
     for (unsigned l = 0; l < n; l++)
         blame_add(list, block ? block + l * FACE_ROOM : NULL, "flux", name, blame_material(used, l));
+}
+
+/* What moves the stretch of the cells beside a face. */
+static void blame_list_stretch(struct blame_list *list, const struct model *used, const struct face_work *faces)
+{
+    for (unsigned c = 0; c < used->n_stretch; c++)
+        blame_add(list, faces->stretch ? faces->stretch + c * FACE_ROOM : NULL, "flux",
+                  used->field_names[used->i_V + c], "");
+    for (unsigned d = 1; used->n_stretch && d < used->n_velocity; d++) {
+        const char *name = blame_tangents[d - 1];
+        blame_add(list, faces->slide_left ? faces->slide_left + (d - 1) * FACE_ROOM : NULL, "left", "slide", name);
+        blame_add(list, faces->slide_right ? faces->slide_right + (d - 1) * FACE_ROOM : NULL, "right", "slide", name);
+    }
 }
 
 /* All columns; without `faces` names alone. */
@@ -126,8 +149,10 @@ static void blame_list_all(struct blame_list *list, const struct model *used, in
     list->n = 0;
     blame_list_side(list, used, axis, "left", &faces->faces.left);
     blame_list_side(list, used, axis, "right", &faces->faces.right);
+    blame_list_shear(list, used, "left", &faces->faces.shear_left);
+    blame_list_shear(list, used, "right", &faces->faces.shear_right);
     blame_list_block(list, used, faces->m, "mass", used->n_material);
-    for (unsigned e = 0; e < (unsigned)used->dim; e++)
+    for (unsigned e = 0; e < used->n_velocity; e++)
         blame_add(list, faces->momentum ? faces->momentum + blame_component(axis, e) * FACE_ROOM : NULL, "flux",
                   "momentum", blame_axes[e]);
     blame_add(list, faces->energy, "flux", "energy", "");
@@ -135,6 +160,7 @@ static void blame_list_all(struct blame_list *list, const struct model *used, in
     blame_list_block(list, used, faces->alpha, "alpha", used->n_alpha);
     blame_list_block(list, used, faces->carried, "carried", used->n_alpha);
     blame_list_block(list, used, faces->strained, "strained", used->n_alpha);
+    blame_list_stretch(list, used, faces);
 }
 
 unsigned blame_columns(const struct model *model, const struct blame_facts *facts, char (*ret_names)[BLAME_NAME])

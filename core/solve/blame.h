@@ -9,7 +9,7 @@
 #include "phys/update.h"
 #include "solve/guard.h"
 
-enum { BLAME_FAILED_SYNC = 2, BLAME_COLUMNS = 9 * SCENE_MATERIALS + 16, BLAME_NAME = SCENE_NAME + 32 };
+enum { BLAME_FAILED_SYNC = 2, BLAME_COLUMNS = 9 * SCENE_MATERIALS + 40, BLAME_NAME = SCENE_NAME + 32 };
 
 /* Plain numbers and texts: they can be sent as they are. */
 struct blame_facts {
@@ -22,7 +22,7 @@ struct blame_facts {
     double h[3];
     int n[3]; /* cells of the tile */
     unsigned n_cell, cell;
-    int pure; /* the material the tile was advanced with alone, or -1 */
+    int pure; /* model_number of the path that the tile was advanced with */
     bool masked, repair;
     char field[BLAME_NAME]; /* the first field that is wrong in the cell, and its value */
     double value;

@@ -50,7 +50,7 @@ static struct replay *replay_new(const struct model *model, const struct blame *
     struct replay *replay = mem_new(1, sizeof *replay);
     size_t n_cell = blame->facts.n_cell;
     replay->model = model;
-    replay->used = blame->facts.pure < 0 ? model : model->pure[blame->facts.pure];
+    replay->used = model_numbered(model, blame->facts.pure);
     replay->blame = blame;
     replay_mesh(replay);
     replay->again = blame_like(model, &blame->facts);

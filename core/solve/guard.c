@@ -198,7 +198,7 @@ static void guard_describe(struct guard *guard, const struct guard_tile *tile, s
         at->at[2], tile->stage + 1);
     guard->found = (struct guard_place){.local = tile->local,
                                         .stage = tile->stage,
-                                        .pure = tile->model == guard->model ? -1 : (int)tile->model->first,
+                                        .pure = model_number(tile->model),
                                         .cell = cell,
                                         .value = fault.value};
     memcpy(guard->found.field, fault.name, sizeof guard->found.field);

@@ -22,7 +22,7 @@ enum { GUARD_ROUNDS = 3, GUARD_RETRIES = 6 };
 /* The first bad cell of an attempt: in the tile that comes first in the list, whatever the order of work. */
 struct guard_place {
     unsigned local;
-    int stage, pure; /* pure: the material the tile was advanced with alone, or -1 */
+    int stage, pure; /* pure: model_number of the path the tile was advanced with */
     size_t cell;
     char field[SCENE_NAME + 32]; /* which field is wrong */
     double value;
