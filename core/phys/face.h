@@ -19,10 +19,11 @@ struct face_work {
     double *alpha, *m, *momentum, *energy, *u; /* the fluxes: blocks with pitch FACE_ROOM; momentum[0] normal,
                                                   alpha: alpha* u*, u: u* */
     double *carried;                           /* [n_alpha] alpha* u* times the pressure of the side it comes from */
-    double *stretch;                           /* [n_stretch] V* u*, the face's upwind stretch times u* */
-    double *slide_left, *slide_right;          /* [n_velocity - 1] velocity along the face (bulla/riemann.h) */
     double *strained;                          /* [n_alpha] alpha* u* times the compression on the way to the face */
-    void *own;                                 /* scratch of face.c */
+    double *stretch;                           /* [n_stretch] V* u*, V* of the side it comes from */
+    double *slide_left,
+        *slide_right; /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */
+    void *own;        /* scratch of face.c */
 };
 
 struct face_work *face_new(const struct model *model);

@@ -395,7 +395,8 @@ static long long prolong_child(const struct prolong *prolong, const struct mesh 
     const struct model *model = prolong->model;
     const struct level *coarse = &mesh->levels[l - 1], *fine = &mesh->levels[l];
     const struct tile *tile = &fine->tiles[birth->child];
-    struct prolong_cells source = {model, prolong->cells, {0}, prolong->w, prolong->u, prolong->rho_c2, prolong->elastic};
+    struct prolong_cells source = {model,           prolong->cells,  {0}, prolong->w, prolong->u,
+                                   prolong->rho_c2, prolong->elastic};
     const double *u_old = coarse->u_old[birth->parent - coarse->first];
     double columns[METRIC_CELLS / 2][2], mean[PROLONG_FIELDS];
     long long limited = 0;

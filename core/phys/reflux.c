@@ -155,9 +155,8 @@ void reflux_collect(struct reflux *reflux, const struct model *used, unsigned lo
         struct reflux_patch patch = {.layer = source->layer + (source->face % 2 == 0), .cells = mesh->n[0] / 2};
         memcpy(patch.from, source->from, sizeof patch.from);
         for (unsigned q = 0; q < up->n_register; q++)
-            reflux_copy(mesh, frame,
-                        reflux_row(reflux->model, used, work, frame->axis, q, source->face % 2 == 0), &patch,
-                        reflux_coarse(reflux, s) + q * up->face_cells);
+            reflux_copy(mesh, frame, reflux_row(reflux->model, used, work, frame->axis, q, source->face % 2 == 0),
+                        &patch, reflux_coarse(reflux, s) + q * up->face_cells);
     }
 }
 
