@@ -4,7 +4,7 @@
 
 #include "app/formula.h"
 #include "app/norm.h"
-#include "app/table.h"
+#include "case/table.h"
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
@@ -54,7 +54,7 @@ static int expect_open(struct expect_run *run)
     unsigned n = 0;
     for (int i = 0; i < 2; i++) {
         char *path = mem_print("%s/%s", run->directory, files[i]);
-        int code = access(path, F_OK) == 0 ? table_read(path, &run->tables[i]) : STATUS_OK;
+        int code = access(path, F_OK) == 0 ? table_read(path, TABLE_OF_RUN, &run->tables[i]) : STATUS_OK;
         mem_free(path);
         TRY(code);
         unsigned more = run->tables[i].n_column;

@@ -3,7 +3,7 @@
  * is noted in the parser and freed at the end, whichever way it ends. */
 #include "app/formula.h"
 
-#include "app/table.h"
+#include "case/table.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"

@@ -3,7 +3,7 @@
 #include "app/norm.h"
 
 #include "app/overlap.h"
-#include "app/table.h"
+#include "case/table.h"
 #include "app/tube.h"
 #include "base/mem.h"
 #include "base/status.h"
@@ -122,6 +122,21 @@ static int norm_against_exact(const struct scene *scene, const char *name, const
     return STATUS_OK;
 }
 
+int norm_check(const struct scene *scene)
+{
+    for (unsigned i = 0; i < scene->n_expect; i++) {
+        const struct scene_expect *expect = &scene->expects[i];
+        struct tube tube;
+        int value;
+        bool flip;
+        if (!expect->norm || !norm_is_reference(expect, "exact-riemann")) continue;
+        int code = tube_of_scene(scene, &tube);
+        if (!code) code = norm_exact_value(scene, &tube, expect->field, &value, &flip);
+        if (code) return status_wrap(STATUS_CASE, "%s:%d: expect: ", scene->path, expect->line);
+    }
+    return STATUS_OK;
+}
+
 static void norm_visit(void *data, double size, double one, double other)
 {
     norm_add(data, size, one - other);
@@ -143,43 +158,25 @@ static int norm_against_initial(const char *name, const struct snapshot *last, c
     return code;
 }
 
-static int norm_column(const struct table *table, const struct scene_expect *expect, const char *name,
-                       const double **ret)
+/* The two columns of the reference; release `table`. `coordinate` if the case names none. */
+static int norm_reference(const struct scene_expect *expect, const char *coordinate, struct table_pair *ret)
 {
-    *ret = table_column(table, name);
-    if (*ret) return STATUS_OK;
-    struct text known = {0};
-    for (unsigned c = 0; c < table->n_column; c++) text_add(&known, " %s", table->names[c]);
-    int code = status_fail(STATUS_CASE, "%s has no column '%s'; it has%s", expect->reference, name, known.at);
-    text_done(&known);
-    return code;
-}
-
-/* Opens the reference and finds its two columns; on success the caller releases the table. */
-static int norm_reference(const struct scene_expect *expect, const char *coordinate, struct table *table,
-                          const double **ret_x, const double **ret_y)
-{
-    TRY(table_read(expect->reference, table));
-    int code = norm_column(table, expect, expect->coordinate ? expect->coordinate : coordinate, ret_x);
-    if (!code) code = norm_column(table, expect, expect->column ? expect->column : expect->field, ret_y);
-    if (!code && table->n_row < 2) code = status_fail(STATUS_CASE, "%s has less than two rows", expect->reference);
-    if (code) table_done(table);
-    return code;
+    return table_reference(expect->reference, expect->coordinate ? expect->coordinate : coordinate,
+                           expect->column ? expect->column : expect->field, ret);
 }
 
 static int norm_against_profile(const struct scene_expect *expect, const struct snapshot *last, struct norm *norm)
 {
     struct norm_cells cells;
-    struct table table;
-    const double *x, *y;
+    struct table_pair wanted;
     if (last->dim != 1) return status_fail(STATUS_CASE, "a CSV profile is a reference for 1D scenes only");
     TRY(norm_cells_of(last, expect->field, &cells));
-    TRY(norm_reference(expect, "x", &table, &x, &y));
+    TRY(norm_reference(expect, "x", &wanted));
     for (size_t i = 0; i < last->n_cell; i++) {
-        double wanted = table_average(table.n_row, x, y, last->lower[i][0], last->upper[i][0]);
-        norm_add(norm, norm_weight(last, i), cells.data[i * cells.stride] - wanted);
+        double mean = table_average(wanted.table.n_row, wanted.x, wanted.y, last->lower[i][0], last->upper[i][0]);
+        norm_add(norm, norm_weight(last, i), cells.data[i * cells.stride] - mean);
     }
-    table_done(&table);
+    table_done(&wanted.table);
     return STATUS_OK;
 }
 
@@ -205,16 +202,17 @@ int norm_of_field(const struct scene *scene, const struct scene_expect *expect, 
 
 int norm_of_trace(const struct scene_expect *expect, const struct trace *trace, double *ret_norm)
 {
-    struct table table;
+    struct table_pair wanted;
     struct norm norm = {0};
-    const double *t, *y;
-    TRY(norm_reference(expect, "t", &table, &t, &y));
+    TRY(norm_reference(expect, "t", &wanted));
+    const double *t = wanted.x;
+    size_t n = wanted.table.n_row;
     for (size_t i = 0; i < trace->n; i++) {
-        if (trace->t[i] < t[0] || trace->t[i] > t[table.n_row - 1]) continue;
+        if (trace->t[i] < t[0] || trace->t[i] > t[n - 1]) continue;
         double before = i > 0 ? trace->t[i - 1] : trace->t[i], after = i + 1 < trace->n ? trace->t[i + 1] : trace->t[i];
-        norm_add(&norm, (after - before) / 2, trace->v[i] - table_interpolate(table.n_row, t, y, trace->t[i]));
+        norm_add(&norm, (after - before) / 2, trace->v[i] - table_interpolate(n, t, wanted.y, trace->t[i]));
     }
-    table_done(&table);
+    table_done(&wanted.table);
     if (!(norm.weight > 0))
         return status_fail(STATUS_CASE, "%s covers none of the times of the run", expect->reference);
     *ret_norm = norm_value(&norm, expect);

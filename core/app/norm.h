@@ -12,6 +12,10 @@
 #include "app/formula.h"
 #include "case/scene.h"
 
+/* Before the run: has the scene an exact solution, where one is asked for, and does it have that field? STATUS_CASE with
+ * the line of the case. (CSV files are looked at when the case is read.) */
+int norm_check(const struct scene *scene);
+
 /* The norm that `expect` asks for, divided by its scale, for a field of the snapshots in `directory`. */
 int norm_of_field(const struct scene *scene, const struct scene_expect *expect, const char *directory,
                   double *ret_norm);

@@ -7,7 +7,7 @@
 #include "app/plot_case.h"
 #include "app/plot_profile.h"
 #include "app/plot_unit.h"
-#include "app/table.h"
+#include "case/table.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
@@ -31,7 +31,7 @@ static int history_read(const char *directory, const char *name, struct table *t
 {
     char *path = mem_print("%s/%s", directory, name);
     int code = STATUS_OK;
-    if (access(path, F_OK) == 0) code = table_read(path, table);
+    if (access(path, F_OK) == 0) code = table_read(path, TABLE_OF_RUN, table);
     mem_free(path);
     return code;
 }

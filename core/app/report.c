@@ -6,7 +6,7 @@
 #include "app/plot_picture.h"
 #include "app/report_facts.h"
 #include "app/report_html.h"
-#include "app/table.h"
+#include "case/table.h"
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
@@ -124,7 +124,7 @@ static int report_table(struct text *page, const char *directory, const char *na
     const char *columns[REPORT_COLUMNS];
     unsigned n = 0;
     char *path = mem_print("%s/%s", directory, name);
-    int code = access(path, F_OK) == 0 ? table_read(path, &table) : STATUS_OK;
+    int code = access(path, F_OK) == 0 ? table_read(path, TABLE_OF_RUN, &table) : STATUS_OK;
     for (unsigned c = 0; c < table.n_column && n < REPORT_COLUMNS; c++) {
         const char *column = table.names[c];
         if (strcmp(column, "t") && strcmp(column, "step") && strcmp(column, "dt") && strncmp(column, "guard_", 6))

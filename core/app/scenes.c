@@ -2,6 +2,7 @@
 #include "app/scenes.h"
 
 #include "app/human.h"
+#include "app/norm.h"
 #include "base/mem.h"
 #include "base/status.h"
 
@@ -51,6 +52,7 @@ int scenes_read(const struct cli_given *given, const char *path, struct scene **
     mem_free(sets);
     if (code) return options.json ? code : cli_failed(code);
     code = scenes_limit(*ret_scene, cli_value(given, "--max-memory"));
+    if (!code) code = norm_check(*ret_scene);
     if (!code) return STATUS_OK;
     scene_free(*ret_scene);
     *ret_scene = NULL;

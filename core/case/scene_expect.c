@@ -1,8 +1,9 @@
 /* scene_expect.c - what a case says its result must satisfy. */
 #include "case/scene_draft.h"
 
-#include "base/file.h"
 #include "base/mem.h"
+#include "base/status.h"
+#include "case/table.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -127,14 +128,47 @@ static bool scene_expect_is_column(const struct scene *scene, const char *name)
     return false;
 }
 
-static void scene_expect_reference(struct draft *draft, struct scene_expect *expect, const struct keys_value *reference)
+/* What would be found only after the run, and what would not be found at all. */
+static void scene_expect_table(struct draft *draft, const struct scene_expect *expect,
+                               const struct keys_value *reference, bool over_time)
+{
+    const struct scene *scene = draft->scene;
+    struct table_pair pair;
+    if (!over_time && scene->dim > 1) {
+        keys_error(&draft->keys, reference, "a CSV profile can be compared with fields of 1D scenes only");
+        return;
+    }
+    if (table_reference(expect->reference, expect->coordinate, expect->column, &pair)) {
+        keys_error(&draft->keys, reference, "%s", status_text());
+        return;
+    }
+    double first = pair.x[0], last = pair.x[pair.table.n_row - 1], begin = over_time ? 0.0 : scene->lower[0],
+           end = over_time ? scene->until : scene->upper[0];
+    if (first >= end || last <= begin)
+        keys_error(&draft->keys, reference, "'%s' goes from %.6g to %.6g in '%s', outside of the %s, %.6g to %.6g",
+                   expect->coordinate, first, last, expect->reference, over_time ? "run" : "domain", begin, end);
+    table_done(&pair.table);
+}
+
+static void scene_expect_reference(struct draft *draft, struct scene_expect *expect, const struct keys_value *reference,
+                                   bool over_time)
 {
     bool word = scene_expect_word(reference->text);
     expect->reference = mem_text(word ? reference->text : scene_file(draft, reference));
-    const char *why = "";
-    FILE *file = word ? NULL : file_open(expect->reference, &why);
-    if (!word && !file) keys_error(&draft->keys, reference, "'%s' cannot be read: %s", expect->reference, why);
-    if (file) fclose(file);
+    if (!word) scene_expect_table(draft, expect, reference, over_time);
+}
+
+/* Is a field, or the vector that it is a component of, in the snapshots? */
+static bool scene_expect_is_written(const struct scene *scene, const char *name)
+{
+    size_t length = strlen(name), vector = length > 2 && name[length - 2] == '_' ? length - 2 : length;
+    bool component = vector < length && name[length - 1] >= 'x' && name[length - 1] <= 'z';
+    for (unsigned i = 0; i < scene->n_snapshot_field; i++) {
+        const char *written = scene->snapshot_fields[i];
+        if (!strcmp(written, name) || (component && strlen(written) == vector && !strncmp(written, name, vector)))
+            return true;
+    }
+    return scene->n_snapshot_field == 0; /* then those that make sense: found out when they are written */
 }
 
 static void scene_expect_norm(struct draft *draft, struct scene_expect *expect, const struct keys_map *map)
@@ -148,12 +182,16 @@ static void scene_expect_norm(struct draft *draft, struct scene_expect *expect, 
     char name[SCENE_NAME];
     bool over_time = scene_expect_is_column(draft->scene, field->text);
     if (!over_time) scene_field(draft, field, name);
+    if (!over_time && !scene_expect_is_written(draft->scene, field->text)) {
+        keys_error(&draft->keys, field, "'%s' is not among the fields of the snapshots", field->text);
+        diag_help(draft->keys.diag, "add it to output.snapshots.fields");
+    }
     expect->norm = scene_expect_text(norm);
     expect->field = mem_text(field->text);
     expect->column = mem_text(column->given ? column->text : field->text);
     expect->coordinate = scene_expect_text(keys_at(map, "coordinate"));
     if (!expect->coordinate) expect->coordinate = mem_text(over_time ? "t" : "x");
-    scene_expect_reference(draft, expect, reference);
+    scene_expect_reference(draft, expect, reference, over_time);
 }
 
 static void scene_expect_bounds(struct draft *draft, struct scene_expect *expect, const struct keys_map *map)

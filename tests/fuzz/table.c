@@ -1,6 +1,6 @@
 /* table.c - tables in files: measured series, reference data and histories, lists of snapshots, a history that is
  * taken up again. */
-#include "app/table.h"
+#include "case/table.h"
 #include "case/series.h"
 #include "fuzz.h"
 #include "io/csv.h"
@@ -19,7 +19,12 @@ static void table_try_series(void)
 static void table_try_table(void)
 {
     struct table table;
-    if (table_read("input", &table)) return;
+    struct table_pair pair;
+    if (table_reference("input", "t", "p", &pair) == 0) {
+        table_average(pair.table.n_row, pair.x, pair.y, 0.25, 0.5);
+        table_done(&pair.table);
+    }
+    if (table_read("input", TABLE_OF_RUN, &table)) return;
     const double *t = table_column(&table, "t");
     if (t && table.n_row) table_interpolate(table.n_row, t, table.columns[table.n_column - 1], 0.5);
     table_done(&table);

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "app/formula.h"
-#include "app/table.h"
+#include "case/table.h"
 #include "base/status.h"
 
 static const double t[] = {0, 1, 2, 4}, V[] = {8, 2, 4, 6}, p[] = {-1, 3, -5, 2}, bad[] = {1, NAN, 2, 3};
@@ -136,14 +136,14 @@ static void test_refusals(void **state)
     assert_non_null(strstr(status_text(), "deep"));
 }
 
-static void read_text(const char *text, int code, struct table *table)
+static void read_text(const char *text, enum table_kind kind, int code, struct table *table)
 {
     char path[] = "/tmp/bulla-table-XXXXXX";
     int fd = mkstemp(path);
     assert_true(fd >= 0);
     assert_int_equal(write(fd, text, strlen(text)), strlen(text));
     close(fd);
-    int got = table_read(path, table);
+    int got = table_read(path, kind, table);
     unlink(path);
     assert_int_equal(got, code);
 }
@@ -153,7 +153,7 @@ static void test_tables(void **state)
     (void)state;
     struct table table;
     read_text("# R06\n# columns: x, rho, p at the wall[Pa], T (nan: no cv), t/tc\n0,1,2,nan,3\n1,4,5,nan,6\n",
-              STATUS_OK, &table);
+              TABLE_OF_RUN, STATUS_OK, &table);
     assert_int_equal(table.n_row, 2);
     assert_int_equal(table.n_column, 5);
     assert_true(table_column(&table, "p")[1] == 5);
@@ -161,17 +161,52 @@ static void test_tables(void **state)
     assert_true(table_column(&table, "t/tc")[1] == 6);
     assert_null(table_column(&table, "nope"));
     table_done(&table);
-    read_text("step,t,V\n0,0,1.5\n1,0.25,-2e3\n2,0.", STATUS_OK, &table); /* killed while writing */
+    read_text("step,t,V\n0,0,1.5\n1,0.25,-2e3\n2,0.", TABLE_OF_RUN, STATUS_OK, &table); /* killed while writing */
     assert_int_equal(table.n_row, 2);
     assert_true(table_column(&table, "V")[1] == -2000);
     table_done(&table);
-    read_text("step,t,V\n", STATUS_OK, &table);
+    read_text("step,t,V\n0,0.5,77\n1,0.6", TABLE_OF_RUN, STATUS_OK, &table); /* and as long as the row before */
+    assert_int_equal(table.n_row, 1);
+    table_done(&table);
+    read_text("t,V\n0,0.5\n1,0.625", TABLE_OF_RUN, STATUS_OK, &table); /* more digits were to come */
+    assert_int_equal(table.n_row, 1);
+    table_done(&table);
+    read_text("t,V\n0,0.5\n1,0.625", TABLE_GIVEN, STATUS_OK, &table); /* an editor that ends no last line */
+    assert_int_equal(table.n_row, 2);
+    assert_int_equal(table.lines[1], 3);
+    table_done(&table);
+    read_text("t,p,V\n0,0.5,1\n1,0.6", TABLE_GIVEN, STATUS_RUN, &table);
+    assert_non_null(strstr(status_text(), ":3: not a row of 3 numbers"));
+    read_text("step,t,V\n", TABLE_OF_RUN, STATUS_OK, &table);
     assert_int_equal(table.n_row, 0);
     table_done(&table);
-    read_text("x,y\n0,1\n0,oops\n1,2\n", STATUS_RUN, &table);
+    read_text("x,y\n0,1\n0,oops\n1,2\n", TABLE_GIVEN, STATUS_RUN, &table);
     assert_non_null(strstr(status_text(), ":3:"));
-    read_text("1,2\n", STATUS_RUN, &table);
-    read_text("", STATUS_RUN, &table);
+    read_text("1,2\n", TABLE_GIVEN, STATUS_RUN, &table);
+    read_text("", TABLE_GIVEN, STATUS_RUN, &table);
+}
+
+/* A file that is no text, or one endless line, is no reason to take all memory. */
+static void test_no_text(void **state)
+{
+    (void)state;
+    struct table table;
+    char path[] = "/tmp/bulla-table-XXXXXX";
+    int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    assert_int_equal(ftruncate(fd, (off_t)20 << 30), 0);
+    assert_int_equal(table_read(path, TABLE_GIVEN, &table), STATUS_RUN);
+    assert_non_null(strstr(status_text(), ":1: "));
+    assert_int_equal(ftruncate(fd, 0), 0);
+    char *line = malloc(2 << 20);
+    assert_non_null(line);
+    memset(line, '1', 2 << 20);
+    assert_int_equal(pwrite(fd, line, 2 << 20, 0), 2 << 20);
+    assert_int_equal(table_read(path, TABLE_GIVEN, &table), STATUS_RUN);
+    assert_non_null(strstr(status_text(), "longer than"));
+    free(line);
+    close(fd);
+    unlink(path);
 }
 
 static void test_interpolation(void **state)
@@ -192,8 +227,9 @@ static void test_interpolation(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values), cmocka_unit_test(test_nan_is_never_skipped), cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_tables), cmocka_unit_test(test_interpolation),
+        cmocka_unit_test(test_values),   cmocka_unit_test(test_nan_is_never_skipped),
+        cmocka_unit_test(test_refusals), cmocka_unit_test(test_tables),
+        cmocka_unit_test(test_no_text),  cmocka_unit_test(test_interpolation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
