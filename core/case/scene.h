@@ -100,6 +100,7 @@ enum scene_measure {
     SCENE_MAX,
     SCENE_MEAN,
     SCENE_INTEGRAL,
+    SCENE_PLANE_INTEGRAL,
     SCENE_TOTAL,
     SCENE_PENETRATION,
     SCENE_EQUIVALENT_RADIUS,
@@ -112,11 +113,11 @@ struct scene_column {
     char name[SCENE_NAME]; /* history.csv header; an identifier */
     enum scene_measure measure;
     int material; /* volume, mass, centroid, penetration, equivalent-radius, ...: the material; else -1 */
-    char
-        field[SCENE_NAME]; /* min, max, mean, integral, isosurface-mean: a field; total: mass | momentum_x.. | energy */
-    int in;                /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
-    struct shape *where;   /* restrict to a region, or NULL */
-    int along;             /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
+    char field
+        [SCENE_NAME];    /* min, max, mean, integrals, isosurface-mean: a field; total: mass | momentum_x.. | energy */
+    int in;              /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
+    struct shape *where; /* restrict to a region, or NULL */
+    int along;           /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
     const struct script *script; /* value: an expression of other columns */
     char (*uses)[SCENE_NAME];    /* value: its arguments, in order: "t" or columns further up */
     unsigned n_use;

@@ -17,15 +17,21 @@ static const struct key scene_history_rows[] = {
     {.name = "max", .type = KEYS_FIELD, .doc = "Largest value of a field."},
     {.name = "mean", .type = KEYS_FIELD, .doc = "Mean of a field over the volume."},
     {.name = "integral", .type = KEYS_FIELD, .doc = "Integral of a field over the volume."},
+    {.name = "plane-integral",
+     .type = KEYS_FIELD,
+     .doc = "Integral of a field over the plane of r and z, without the 2 pi r of `integral`."},
     {.name = "total",
      .type = KEYS_CHOICE,
      .choices = "mass|momentum_x|momentum_y|momentum_z|energy",
      .doc = "Total of a conserved quantity."},
     {.name = "penetration",
      .type = KEYS_TEXT,
-     .doc = "How far a material's surface on the axis has moved, `along` an axis."},
+     .doc = "How far a material's surface on the axis has moved into it, `along` an axis; negative: it was pulled "
+            "out."},
     {.name = "equivalent-radius", .type = KEYS_TEXT, .doc = "Radius of the sphere (disc) of a material's volume."},
-    {.name = "jet-speed", .type = KEYS_TEXT, .doc = "Largest speed towards a material's far side, `along` an axis."},
+    {.name = "jet-speed",
+     .type = KEYS_TEXT,
+     .doc = "Velocity `along` an axis of largest magnitude in a material, with its sign."},
     {.name = "isosurface-mean", .type = KEYS_FIELD, .doc = "Mean of a field over the surface of the material `in`."},
     {.name = "value", .type = KEYS_TREE, .doc = "An expression of t, columns further up, and parameters."},
     {.name = "in", .type = KEYS_TEXT, .doc = "Only in this material."},
@@ -126,8 +132,8 @@ static const struct keys_value *scene_history_chosen(struct draft *draft, const 
     }
     if (chosen) return chosen;
     diag_error(draft->keys.diag, &map->node->mark, "%s: nothing is measured", map->path);
-    diag_help(draft->keys.diag, "one of volume, mass, centroid, min, max, mean, integral, total, penetration, "
-                                "equivalent-radius, jet-speed, isosurface-mean, value");
+    diag_help(draft->keys.diag, "one of volume, mass, centroid, min, max, mean, integral, plane-integral, total, "
+                                "penetration, equivalent-radius, jet-speed, isosurface-mean, value");
     return NULL;
 }
 

@@ -72,23 +72,28 @@ static void line_join(struct line *line)
     *line = (struct line){(size_t)total, all};
 }
 
-/* Place of the first crossing from one end; NaN if there is none. */
-static double line_search(const struct line *line, bool from_above)
+/* Place of the first crossing from one end; NaN if there is none. *ret_into: 1 if the material lies above it, -1 if it
+ * lies below. */
+static double line_search(const struct line *line, bool from_above, int *ret_into)
 {
+    *ret_into = 1;
     for (size_t i = 1; i < line->n; i++) {
         const struct line_cell *here = &line->cells[from_above ? line->n - i : i - 1];
         const struct line_cell *next = from_above ? here - 1 : here + 1;
         double a = here->alpha - 0.5, b = next->alpha - 0.5;
-        if ((a >= 0.0) != (b >= 0.0)) return here->x + (next->x - here->x) * a / (a - b);
+        if ((a >= 0.0) == (b >= 0.0)) continue;
+        *ret_into = (b > a) == (next->x > here->x) ? 1 : -1;
+        return here->x + (next->x - here->x) * a / (a - b);
     }
     return NAN;
 }
 
-double line_crossing(const struct state *state, unsigned material, int axis)
+double line_crossing(const struct state *state, unsigned material, int axis, int *ret_into)
 {
     const struct mesh *mesh = state->mesh;
     const struct model *model = state->model;
     struct line line = {0};
+    *ret_into = 1;
     if (!model->n_alpha) return NAN;
     for (int l = 0; l < mesh->n_level; l++) {
         const struct level *level = &mesh->levels[l];
@@ -98,7 +103,7 @@ double line_crossing(const struct state *state, unsigned material, int axis)
     }
     line_join(&line);
     bool from_above = line.cells[0].alpha < 0.5 && line.cells[line.n - 1].alpha >= 0.5;
-    double place = line_search(&line, from_above);
+    double place = line_search(&line, from_above, ret_into);
     mem_free(line.cells);
     return place;
 }

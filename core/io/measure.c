@@ -23,7 +23,7 @@ struct measure_column {
     struct region *where; /* or NULL */
     int field;            /* in `fields`, or -1 */
     int axis;
-    double origin; /* penetration */
+    double start[2]; /* penetration: where the material ended at the start, and which way it lay from there, 1 or -1 */
 };
 
 struct measures {
@@ -49,7 +49,7 @@ struct measures {
 static bool measure_wants_field(enum scene_measure measure)
 {
     return measure == SCENE_MIN || measure == SCENE_MAX || measure == SCENE_MEAN || measure == SCENE_INTEGRAL ||
-           measure == SCENE_ISOSURFACE_MEAN;
+           measure == SCENE_PLANE_INTEGRAL || measure == SCENE_ISOSURFACE_MEAN;
 }
 
 static int measure_find_field(struct measures *measures, const struct model *model, const char *name)
@@ -68,8 +68,11 @@ static int measure_prepare_column(struct measures *measures, const struct state 
     column->field = -1;
     column->axis = from->along >= 0 && from->along < state->mesh->dim ? from->along : state->mesh->dim - 1;
     if (from->where) column->where = region_new(state->mesh, from->where);
-    if (from->measure == SCENE_PENETRATION)
-        column->origin = line_crossing(state, (unsigned)from->material, column->axis);
+    if (from->measure == SCENE_PENETRATION) {
+        int into;
+        column->start[0] = line_crossing(state, (unsigned)from->material, column->axis, &into);
+        column->start[1] = into;
+    }
     if (!measure_wants_field(from->measure)) return STATUS_OK;
     column->field = measure_find_field(measures, state->model, from->field);
     return column->field < 0 ? status_wrap(STATUS_CASE, "output.history.columns.%s: ", from->name) : STATUS_OK;
@@ -131,7 +134,7 @@ void measure_keep(const struct measures *measures, struct notes *notes)
         const struct measure_column *column = &measures->columns[i];
         if (column->from->measure != SCENE_PENETRATION) continue;
         char *name = measure_origin_name(column);
-        notes_put_one(notes, name, column->origin);
+        notes_put(notes, name, 2, column->start);
         mem_free(name);
     }
 }
@@ -140,7 +143,8 @@ void measure_recall(struct measures *measures, const struct notes *notes)
 {
     for (unsigned i = 0; i < measures->n; i++) {
         char *name = measure_origin_name(&measures->columns[i]);
-        notes_get(notes, name, 1, &measures->columns[i].origin);
+        double *start = measures->columns[i].start;
+        if (!notes_get(notes, name, 2, start)) notes_get(notes, name, 1, start);
         mem_free(name);
     }
 }
@@ -240,13 +244,22 @@ static const double *measure_weigh(struct measures *measures, const double *cove
     return measures->weight;
 }
 
+/* Product of the sides of a cell of the level, whatever the geometry. */
+static double measure_extent(const struct measures *measures)
+{
+    double product = 1.0;
+    for (int axis = 0; axis < measures->state->mesh->dim; axis++) product *= measures->level->h[axis];
+    return product;
+}
+
 static void measure_sum(struct measures *measures, const struct measure_column *column, double *sums)
 {
     const struct scene_column *from = column->from;
     size_t n = measures->state->mesh->n_cell;
     const double *cover = measure_cover(measures, column), *content = NULL;
     if (!cover) return;
-    const double *weight = measure_weigh(measures, cover), *alpha = measure_alpha(measures, from->material);
+    const double *weight = from->measure == SCENE_PLANE_INTEGRAL ? NULL : measure_weigh(measures, cover),
+                 *alpha = measure_alpha(measures, from->material);
     switch (from->measure) {
     case SCENE_VOLUME:
     case SCENE_EQUIVALENT_RADIUS: sums[0] = tally_row(n, alpha, weight); break;
@@ -260,6 +273,9 @@ static void measure_sum(struct measures *measures, const struct measure_column *
         for (size_t i = 0; i < n; i++) measures->work[i] *= alpha[i];
         sums[0] = tally_row(n, measures->work, weight);
         sums[1] = tally_row(n, alpha, weight);
+        break;
+    case SCENE_PLANE_INTEGRAL:
+        sums[0] = measure_extent(measures) * tally_row(n, measure_field(measures, column->field), cover);
         break;
     case SCENE_MEAN:
     case SCENE_INTEGRAL:
@@ -311,6 +327,14 @@ static double measure_radius(const struct mesh *mesh, double volume)
     return mesh->dim == 2 ? sqrt(volume / M_PI) : 0.5 * volume;
 }
 
+/* How far the surface has moved into the material. */
+static double measure_penetration(const struct state *state, const struct measure_column *column)
+{
+    int into;
+    double place = line_crossing(state, (unsigned)column->from->material, column->axis, &into);
+    return column->start[1] * (place - column->start[0]);
+}
+
 /* The number of a column from its sums and extremes. */
 static double measure_result(struct measures *measures, const struct measure_column *column, const double *sums,
                              const double *extremes)
@@ -325,7 +349,7 @@ static double measure_result(struct measures *measures, const struct measure_col
     case SCENE_MIN: return empty ? NAN : -extremes[1];
     case SCENE_MAX: return empty ? NAN : extremes[0];
     case SCENE_JET_SPEED: return empty ? NAN : extremes[0] >= extremes[1] ? extremes[0] : -extremes[1];
-    case SCENE_PENETRATION: return line_crossing(state, (unsigned)from->material, column->axis) - column->origin;
+    case SCENE_PENETRATION: return measure_penetration(state, column);
     case SCENE_ISOSURFACE_MEAN:
         return surface_mean(state, (unsigned)from->in, &measures->fields[column->field], column->where);
     case SCENE_VALUE: return NAN;

@@ -7,11 +7,13 @@
  *   mass                sum m_l b f V; without a material: of all
  *   centroid            sum a x b f V / sum a b f V; x: centroid of the cell along `along`
  *   mean, integral      sum q b f V (/ sum b f V)
+ *   plane-integral      sum q b f S, S the product of the sides of a cell (dr dz in axisymmetric scenes)
  *   total               sum of rho, rho u_i or rho E times b f V
  *   min, max            of q over the cells with b >= 0.5 and f >= 0.5
  *   equivalent-radius   of the ball (axisymmetric, spherical, 3D), disc (2D) or half-width (1D) with
  *                       that volume
- *   penetration         line_crossing along `along`, less its value when the measures were made
+ *   penetration         how far line_crossing along `along` has moved into the material since the measures
+ *                       were made; negative: the material has been pulled out
  *   jet-speed           velocity along `along` of largest magnitude, with its sign, over the cells
  *                       with a >= 0.5 (b, f likewise)
  *   isosurface-mean     surface_mean of q on b = 0.5

@@ -10,6 +10,7 @@
  * ones; a fine cell and a coarse one are no pair. */
 #include "io/surface.h"
 
+#include "base/comm.h"
 #include "base/mem.h"
 #include "io/tally.h"
 #include "mesh/halo.h"
@@ -18,10 +19,12 @@
 #include "phys/frame.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* Components of the work arrays: alpha, the field, how much `where` covers, 1 in leaves, the gradient of alpha. */
-enum { SURFACE_ALPHA, SURFACE_FIELD, SURFACE_COVER, SURFACE_LEAF, SURFACE_SLOPE };
+/* Components of the work arrays: alpha, the field times its weight, the weight (1, or the fraction of the material that
+ * the field belongs to), how much `where` covers, 1 in leaves, the gradient of alpha. */
+enum { SURFACE_ALPHA, SURFACE_FIELD, SURFACE_WEIGHT, SURFACE_COVER, SURFACE_LEAF, SURFACE_SLOPE };
 
 struct surface {
     const struct state *state;
@@ -33,6 +36,9 @@ struct surface {
     int *side; /* of each local tile: all below 1/2 (-1), all above (1), both (0) */
     struct halo *halo;
     double *frame; /* [n][FRAME_CELLS] */
+    bool keep;     /* every crossing as a piece */
+    size_t n_piece;
+    struct surface_piece *pieces;
 };
 
 /* Copies alpha, marks leaves; which side of 1/2 the tile lies on: -1, 1, or 0 for both. */
@@ -68,9 +74,13 @@ static void surface_fill(struct surface *surface, unsigned local, const struct d
     const double *fractions = NULL;
     enum region_cover cover = where ? region_tile(where, surface->l, local, &fractions) : REGION_ALL;
     derive_tile(surface->state->model, surface->mesh, surface->l, local, surface->state->t, field, values);
+    const struct model *model = surface->state->model;
+    int material = model->n_alpha ? derive_material(field) : -1;
+    const double *own = surface->level->u_old[local] + (model->i_alpha + (unsigned)(material < 0 ? 0 : material)) * n;
     for (size_t i = 0; i < n; i++) {
-        double x = values[i], y = values[n + i], z = values[2 * n + i];
-        to[SURFACE_FIELD * n + i] = field->components == 3 ? sqrt(x * x + y * y + z * z) : x;
+        double x = values[i], y = values[n + i], z = values[2 * n + i], weight = material < 0 ? 1.0 : own[i];
+        to[SURFACE_FIELD * n + i] = weight * (field->components == 3 ? sqrt(x * x + y * y + z * z) : x);
+        to[SURFACE_WEIGHT * n + i] = weight;
         to[SURFACE_COVER * n + i] = cover == REGION_PART ? fractions[i] : cover == REGION_ALL;
     }
     mem_free(values);
@@ -157,10 +167,28 @@ static double surface_area(const struct surface *surface, const struct metric *m
     return area;
 }
 
+/* Keeps a crossing behind frame cell `at` (cell `cell` of the tile) for surface_pieces. */
+static void surface_keep(struct surface *surface, unsigned local, int axis, size_t cell, double share,
+                         struct surface_piece piece)
+{
+    const struct mesh *mesh = surface->mesh;
+    mesh_corner(mesh, surface->level, &surface->level->tiles[surface->level->first + local], piece.x);
+    for (int d = 0; d < mesh->dim; d++) {
+        size_t n = (size_t)mesh->n[d];
+        double way = (double)(cell % n) + 0.5 + (d == axis ? share : 0.0);
+        piece.x[d] += way * surface->level->h[d];
+        piece.h[d] = surface->level->h[d];
+        cell /= n;
+    }
+    surface->pieces = mem_grow(surface->pieces, surface->n_piece, surface->n_piece + 1, sizeof *surface->pieces);
+    surface->pieces[surface->n_piece++] = piece;
+}
+
 /* Adds area times field, and area, of the crossings of a frame to data[0], data[1]. */
 static void surface_cross(struct surface *surface, unsigned local, const struct frame *frame, double *data)
 {
     const double *alpha = surface->frame, *field = alpha + SURFACE_FIELD * FRAME_CELLS;
+    const double *weight = alpha + SURFACE_WEIGHT * FRAME_CELLS;
     const double *cover = alpha + SURFACE_COVER * FRAME_CELLS, *leaf = alpha + SURFACE_LEAF * FRAME_CELLS;
     size_t pairs = frame->n - surface_is_jump(surface, local, frame, 1);
     struct metric metric;
@@ -172,11 +200,16 @@ static void surface_cross(struct surface *surface, unsigned local, const struct 
                 if (leaf[at] + leaf[next] < 0.5) continue;
                 if ((alpha[at] >= 0.5) == (alpha[next] >= 0.5)) continue;
                 double share = (0.5 - alpha[at]) / (alpha[next] - alpha[at]);
-                if (cover[at] + share * (cover[next] - cover[at]) < 0.5) continue;
-                double area = surface_area(surface, &metric, frame, frame_tile_at(frame, o, i) + j) *
-                              surface_normal(surface, frame, at);
-                data[0] += area * (field[at] + share * (field[next] - field[at]));
+                double part = weight[at] + share * (weight[next] - weight[at]);
+                if (cover[at] + share * (cover[next] - cover[at]) < 0.5 || !(part > 0.0)) continue;
+                size_t cell = frame_tile_at(frame, o, i) + j;
+                double area = surface_area(surface, &metric, frame, cell) * surface_normal(surface, frame, at);
+                double value = (field[at] + share * (field[next] - field[at])) / part;
+                data[0] += area * value;
                 data[1] += area;
+                if (surface->keep)
+                    surface_keep(surface, local, frame->axis, cell, share,
+                                 (struct surface_piece){.area = area, .value = value});
             }
 }
 
@@ -212,20 +245,62 @@ static void surface_of_level(struct surface *surface, unsigned material, const s
     mem_free(surface->arrays);
 }
 
+/* Looks at all levels; `sums` has two numbers per local tile. */
+static void surface_look(struct surface *surface, const struct state *state, unsigned material,
+                         const struct derive *field, const struct region *where, double *sums)
+{
+    surface->state = state;
+    surface->mesh = state->mesh;
+    surface->n = SURFACE_SLOPE + (unsigned)state->mesh->dim;
+    surface->frame = mem_new((size_t)surface->n * FRAME_CELLS, sizeof *surface->frame);
+    for (surface->l = 0; surface->l < state->mesh->n_level; surface->l++) {
+        surface->level = &state->mesh->levels[surface->l];
+        surface_of_level(surface, material, field, where, sums);
+        sums += 2 * (size_t)surface->level->n_local;
+    }
+    mem_free(surface->frame);
+}
+
 double surface_mean(const struct state *state, unsigned material, const struct derive *field,
                     const struct region *where)
 {
-    struct surface surface = {.state = state, .mesh = state->mesh, .n = SURFACE_SLOPE + (unsigned)state->mesh->dim};
+    struct surface surface = {0};
     if (!state->model->n_alpha) return NAN;
-    double *sums = mem_new(2 * (tally_tiles(state->mesh) + 1), sizeof *sums), *at = sums, totals[2];
-    surface.frame = mem_new((size_t)surface.n * FRAME_CELLS, sizeof *surface.frame);
-    for (surface.l = 0; surface.l < state->mesh->n_level; surface.l++) {
-        surface.level = &state->mesh->levels[surface.l];
-        surface_of_level(&surface, material, field, where, at);
-        at += 2 * (size_t)surface.level->n_local;
-    }
+    double *sums = mem_new(2 * (tally_tiles(state->mesh) + 1), sizeof *sums), totals[2];
+    surface_look(&surface, state, material, field, where, sums);
     tally_add(state->mesh, 2, sums, totals);
-    mem_free(surface.frame);
     mem_free(sums);
     return totals[0] / totals[1];
+}
+
+enum { SURFACE_PIECE = sizeof(struct surface_piece) / sizeof(double) };
+
+/* Any order will do that the ranks have no part in. */
+static int surface_compare(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    for (int i = 0; i < SURFACE_PIECE; i++)
+        if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
+    return 0;
+}
+
+struct surface_piece *surface_pieces(const struct state *state, unsigned material, const struct derive *field,
+                                     const struct region *where, size_t *ret_n)
+{
+    struct surface surface = {.keep = true};
+    *ret_n = 0;
+    if (!state->model->n_alpha) return NULL;
+    double *sums = mem_new(2 * (tally_tiles(state->mesh) + 1), sizeof *sums);
+    surface_look(&surface, state, material, field, where, sums);
+    double own = (double)surface.n_piece, *counts = mem_new((size_t)comm_size(), sizeof *counts), total = 0.0;
+    comm_join(&own, 1, counts);
+    for (int rank = 0; rank < comm_size(); rank++) total += counts[rank];
+    struct surface_piece *all = mem_new((size_t)total + 1, sizeof *all);
+    comm_join((const double *)surface.pieces, SURFACE_PIECE * (int)surface.n_piece, (double *)all);
+    qsort(all, (size_t)total, sizeof *all, surface_compare);
+    mem_free(surface.pieces);
+    mem_free(counts);
+    mem_free(sums);
+    *ret_n = (size_t)total;
+    return all;
 }

@@ -1,4 +1,4 @@
-/* surface.h - the mean of a field over the interface of a material, its surface alpha = 0.5. */
+/* surface.h - a field on the interface of a material, its surface alpha = 0.5: its mean, and piece by piece. */
 #ifndef SURFACE_H
 #define SURFACE_H
 
@@ -6,10 +6,22 @@
 #include "phys/derive.h"
 #include "solve/state.h"
 
+/* A crossing of the surface between two cells. */
+struct surface_piece {
+    double x[3]; /* where [m] */
+    double h[3]; /* sizes of the cells there [m]; 0 beyond the dimension */
+    double area, value;
+};
+
 /* Area-weighted mean of a field (prepared for the present time) on the surface; of a vector, its
- * magnitude; `where` (or NULL) restricts it to cells covered by half. NaN if there is no surface.
- * Collective. */
+ * magnitude; `where` (or NULL) restricts it to cells covered by half. A field that belongs to a material
+ * (derive_material) counts with its volume fraction on both sides, and not at all where the material is absent. NaN if
+ * there is no surface. Collective. */
 double surface_mean(const struct state *state, unsigned material, const struct derive *field,
                     const struct region *where);
+
+/* All pieces, of all ranks, in an order that does not depend on the ranks; release with mem_free. Collective. */
+struct surface_piece *surface_pieces(const struct state *state, unsigned material, const struct derive *field,
+                                     const struct region *where, size_t *ret_n);
 
 #endif

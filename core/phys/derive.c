@@ -244,6 +244,12 @@ int derive_find(const struct model *model, const char *name, struct derive *ret_
                        near ? "'?" : "");
 }
 
+int derive_material(const struct derive *field)
+{
+    void (*compute)(const struct derive_view *, double *) = derive_table[field->what].compute;
+    return compute == derive_material_density || compute == derive_material_temperature ? field->index : -1;
+}
+
 const char *const *derive_names(const struct model *model)
 {
     return (const char *const *)model->names;

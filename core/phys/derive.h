@@ -17,6 +17,10 @@ struct derive {
  * (velocity_x) are fields of one component. */
 int derive_find(const struct model *model, const char *name, struct derive *ret_field);
 
+/* The material of a field that says nothing where the material is absent (density_M, temperature_M are 0 there), so
+ * that between cells it counts with the volume fraction; -1: other fields. */
+int derive_material(const struct derive *field);
+
 /* NULL-terminated list of all names this scene offers; valid as long as the model. */
 const char *const *derive_names(const struct model *model);
 

@@ -16,6 +16,9 @@ static const char columns[] =
     "      speed: {max: velocity, in: water}\n"
     "      mass: {total: mass}\n      pz: {total: momentum_y}\n      jet: {jet-speed: air}\n"
     "      depth: {penetration: air}\n      surface: {isosurface-mean: pressure, in: air}\n"
+    "      flat: {plane-integral: pressure}\n"
+    "      skin: {isosurface-mean: temperature_air, in: water}\n"
+    "      warm: {mean: temperature_air, in: air}\n"
     "      nothing: {max: pressure, where: {sphere: {center: [0.9 mm, 0], radius: 1 um}}}\n"
     "      ratio: {value: above / V + t}\n";
 
@@ -35,6 +38,9 @@ enum {
     JET,
     DEPTH,
     SURFACE,
+    FLAT,
+    SKIN,
+    WARM,
     NOTHING,
     RATIO,
     COUNT
@@ -81,7 +87,9 @@ static void test_painted(void **state)
     close_to(values[JET], -3.0, 1e-9);
     assert_true(values[DEPTH] == 0.0);
     assert_true(isnan(values[NOTHING]));
-    assert_true(isnan(values[RATIO])); /* left to history.c */
+    close_to(values[FLAT], 1e5 * 2e-6, 1e-5);   /* r counts like z; energies mix in cut cells */
+    close_to(values[SKIN], values[WARM], 1e-3); /* not cooled by the zeros of water */
+    assert_true(isnan(values[RATIO]));          /* left to history.c */
     measure_free(measures);
     small_stop(&small);
 }
@@ -154,6 +162,40 @@ static void test_crossing(void **state)
     small_stop(&small);
 }
 
+/* Depths are counted into the material: a surface that moves up goes into what is above and out of what is below. */
+static void test_depth(void **state)
+{
+    (void)state;
+    struct small small;
+    struct measures *measures;
+    double values[3];
+    small_start(&small,
+                "bulla: 1\ndomain: {lower: [0], upper: [1], cells: [40], boundaries: {x-: outflow, x+: outflow}}\n"
+                "mesh: {tile: 8}\n" SMALL_MATERIALS
+                "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: 1e5}\n"
+                "  - {box: {lower: [0.5], upper: [1]}, material: air, density: 1, pressure: 1e5}\n"
+                "run: {until: 1 ms}\n"
+                "output: {history: {columns: {w: {penetration: water}, a: {penetration: air, along: x},"
+                " p: {plane-integral: pressure, in: air}}}}\n");
+    assert_int_equal(measure_new(small.state, &measures), 0);
+    measure_take(measures, small.state, values);
+    assert_true(values[0] == 0.0 && values[1] == 0.0);
+    close_to(values[2], 0.5e5, 1e-12);
+    const struct level *level = &small.state->mesh->levels[0];
+    for (unsigned i = 0; i < level->n_local; i++)
+        for (size_t cell = 0; cell < 8; cell++) {
+            double x = (8 * level->tiles[level->first + i].at[0] + (double)cell + 0.5) / 40;
+            level->u_old[i][8 + cell] = x < 0.57 ? 0.0 : x < 0.6 ? 0.75 : 1.0; /* air */
+            level->u_old[i][cell] = 1.0 - level->u_old[i][8 + cell];
+        }
+    measure_take(measures, small.state, values);
+    double moved = 0.5875 - 0.025 / 3.0 - 0.5; /* between the centres 0.5625 (0) and 0.5875 (0.75) */
+    close_to(values[1], moved, 1e-12);
+    close_to(values[0], -moved, 1e-12);
+    measure_free(measures);
+    small_stop(&small);
+}
+
 /* Rows as they must stand in the file; each step once; values from the columns before. */
 static void test_file(void **state)
 {
@@ -168,9 +210,10 @@ static void test_file(void **state)
     }
     history_free(history);
     char *text = small_text(&small, "history.csv");
-    assert_non_null(strstr(text,
-                           "step,t,dt,V,m,R,z,r,above,pmax,pmin,pmean,speed,mass,pz,jet,depth,surface,nothing,ratio,"
-                           "guard_fallback,guard_relaxed,guard_clipped,guard_retries\n0,0,"));
+    assert_non_null(
+        strstr(text,
+               "step,t,dt,V,m,R,z,r,above,pmax,pmin,pmean,speed,mass,pz,jet,depth,surface,flat,skin,warm,nothing,ratio,"
+               "guard_fallback,guard_relaxed,guard_clipped,guard_retries\n0,0,"));
     assert_non_null(strstr(text, "\n3,0.375,0.125,"));
     assert_null(strstr(text, "\n4,"));
     assert_non_null(strstr(text, ",nan,"));
@@ -237,7 +280,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_painted), cmocka_unit_test(test_surface), cmocka_unit_test(test_crossing),
-        cmocka_unit_test(test_file),    cmocka_unit_test(test_resume),  cmocka_unit_test(test_failure),
+        cmocka_unit_test(test_depth),   cmocka_unit_test(test_file),    cmocka_unit_test(test_resume),
+        cmocka_unit_test(test_failure),
     };
     if (registry_init()) return 1;
     return cmocka_run_group_tests(tests, NULL, NULL);
