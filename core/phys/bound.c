@@ -11,6 +11,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "case/pulse.h"
+#include "phys/elastic.h"
 #include "phys/mix.h"
 #include "phys/paint.h"
 
@@ -150,13 +151,22 @@ void bound_copy(void *data, unsigned local, const struct frame *frame, int side,
     bound_layers(frame, side, false, 1.0, w);
 }
 
+/* Is this component of the stretch one of those that a mirror across `axis` turns round? */
+static bool bound_is_crossed(const struct model *model, int axis, unsigned q)
+{
+    unsigned n = (unsigned)axis;
+    if (q < model->i_V + 3) return false;
+    return q == model->i_V + elastic_component(n, (n + 1) % 3) || q == model->i_V + elastic_component(n, (n + 2) % 3);
+}
+
 static void bound_mirror(const struct model *model, const struct frame *frame, int side, bool no_slip, size_t pitch,
                          double *w)
 {
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
         bool velocity = q >= model->i_u && q < model->i_E;
-        bool reversed = velocity && (no_slip || q == model->i_u + (unsigned)frame->axis);
+        bool reversed = velocity ? no_slip || q == model->i_u + (unsigned)frame->axis
+                                 : !no_slip && bound_is_crossed(model, frame->axis, q);
         bound_layers(frame, side, true, reversed ? -1.0 : 1.0, w + q * pitch);
     }
 }
@@ -292,6 +302,7 @@ static void bound_inflow(struct bound *bound, unsigned local, const struct frame
             *u = 0.0;
             if (boundary->velocity[d].given) status = scene_value_at(&boundary->velocity[d], x, x[0], bound->t, u);
         }
+        for (unsigned v = 0; v < model->n_stretch; v++) at[(model->i_V + v) * row->stride] = v < 3 ? 1.0 : 0.0;
         if (status && !bound->status) bound->status = status;
     }
 }

@@ -160,6 +160,30 @@ void elastic_stress(const struct model *model, size_t n, size_t stride, const do
     }
 }
 
+/* zz stands alone in curved geometries: B_zz = V_zz^2, and tr B^2 = I1^2 - 2 I2. */
+static BULLA_KERNEL void elastic_hoop_part(size_t n, const double *restrict V_zz, const struct elastic_batch *batch,
+                                           const double *restrict p, double *restrict ret)
+{
+    const double *restrict I1 = batch->I1, *restrict I2 = batch->I2, *restrict G1 = batch->G1, *restrict G2 = batch->G2;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double v = V_zz[i], first = I1[i], B = v * v, C = first * first - 2.0 * I2[i];
+        ret[i] = p[i] - (G1[i] * (B - first / 3.0) - G2[i] * (B * B - C / 3.0));
+    }
+}
+
+void elastic_hoop(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
+                  const double *p, double *ret)
+{
+    struct elastic_batch batch;
+    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
+        size_t part = elastic_part(n, from);
+        elastic_invariants(model, part, stride, V + from, batch.I1, batch.I2);
+        elastic_moduli(model, part, from, m, &batch);
+        elastic_hoop_part(part, V + ELASTIC_ZZ * stride + from, &batch, p + from, ret + from);
+    }
+}
+
 /* Largest eigenvalue of [a b; b d] with b^2 given; exactly a where b = 0 and d <= a. */
 ELASTIC_BODY double elastic_fastest(double a, double d, double b2)
 {

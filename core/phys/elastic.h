@@ -50,6 +50,10 @@ struct elastic_side {
 void elastic_sides(const struct model *model, int axis, size_t n, size_t stride, const double *V,
                    const double *const *m, const double *stiffness, const struct elastic_side *ret);
 
+/* What balances the hoop stress of a cell in curved geometry (model.md 4): -s_thth = p - s'_zz [Pa]; exactly p in a fluid. */
+void elastic_hoop(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
+                  const double *p, double *ret);
+
 /* c^2 of the fastest wave in any direction of the mesh from the frozen c_f^2, in place; rho: mixture density. */
 void elastic_speed2(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
                     const double *rho, double *c2);

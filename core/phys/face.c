@@ -9,6 +9,7 @@
 #include "phys/face.h"
 
 #include "base/mem.h"
+#include "phys/face_stress.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,6 +28,7 @@ struct face_own {
     double *flux_m[SCENE_MATERIALS], *flux_u[3], *flux_alpha[SCENE_MATERIALS];
     double *robust_m[SCENE_MATERIALS], *robust_u[3], *robust_alpha[SCENE_MATERIALS];
     unsigned n_flux;
+    struct face_stress *stress; /* NULL without a solid */
 };
 
 static double *face_row(size_t components)
@@ -43,13 +45,35 @@ static void face_split(const struct model *model, double *block, double **alpha,
         momentum[d] = block + (model->n_alpha + model->n_material + d) * FACE_ROOM;
 }
 
+/* Rows that a solver needs for the tangential face velocities. */
+static unsigned face_slides(const struct model *model)
+{
+    return model->n_stretch ? 2 * (model->n_velocity - 1) : 0;
+}
+
+/* The slides stand behind u in the flux blocks. */
+static void face_slide(struct face_work *work, const struct model *model)
+{
+    struct face_own *own = work->own;
+    unsigned half = face_slides(model) / 2, at = own->n_flux - 2 * half;
+    work->slide_left = work->alpha + at * FACE_ROOM;
+    work->slide_right = work->slide_left + half * FACE_ROOM;
+    for (unsigned k = 0; k < half; k++) {
+        own->stress->slide_left[k] = work->slide_left + k * FACE_ROOM;
+        own->stress->slide_right[k] = work->slide_right + k * FACE_ROOM;
+        own->stress->robust_left[k] = own->robust + (at + k) * FACE_ROOM;
+        own->stress->robust_right[k] = own->robust + (at + half + k) * FACE_ROOM;
+    }
+}
+
 struct face_work *face_new(const struct model *model)
 {
     struct face_work *work = mem_new(1, sizeof *work);
     struct face_own *own = work->own = mem_new(1, sizeof *own);
     unsigned n = model->n_material;
     work->model = model;
-    own->n_flux = model->n_alpha + n + model->n_velocity + 2;
+    own->n_flux = model->n_alpha + n + model->n_velocity + 2 + face_slides(model);
+    own->stress = face_stress_new(model);
     work->frame = face_row(model->n_field);
     work->mask = face_row(1);
     own->difference = face_row(1);
@@ -70,10 +94,12 @@ struct face_work *face_new(const struct model *model)
     work->momentum = work->m + n * FACE_ROOM;
     work->energy = work->momentum + model->n_velocity * FACE_ROOM;
     work->u = work->energy + FACE_ROOM;
+    work->stretch = model->n_stretch ? face_row(model->n_stretch) : NULL;
     work->carried = face_row(2 * model->n_alpha);
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
     face_split(model, work->alpha, own->flux_alpha, own->flux_m, own->flux_u);
     face_split(model, own->robust, own->robust_alpha, own->robust_m, own->robust_u);
+    face_slide(work, model);
     for (int i = 0; i < 4; i++) work->faces.work[i] = face_row(1);
     return work;
 }
@@ -102,8 +128,10 @@ void face_free(struct face_work *work)
                       work->faces.work[3],
                       work->carried,
                       own->origin,
-                      own->strain};
+                      own->strain,
+                      work->stretch};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) mem_free(rows[i]);
+    face_stress_free(own->stress);
     mem_free(own);
     mem_free(work);
 }
@@ -254,8 +282,22 @@ static BULLA_KERNEL void face_finish(size_t n, const double *restrict rho, const
     }
 }
 
-/* Partial densities, total energy and frozen speed of n edges. */
-static void face_complete(struct face_work *work, size_t n)
+/* Elastic energy, stress and speeds of n edges. */
+static void face_load(struct face_work *work, const struct frame *frame, size_t n, const double *rho)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    const double *m[SCENE_MATERIALS];
+    if (!model->n_stretch) return;
+    for (unsigned s = 0; s < model->n_solid; s++)
+        m[s] = model->n_alpha ? own->m + 2 * model->solids[s].material * FACE_ROOM : rho;
+    struct face_stress_edges edges = {
+        .frame = frame, .n = n, .state = own->state, .m = m, .rho = rho, .energy = own->energy, .rho_c2 = own->c};
+    face_stress_complete(own->stress, model, &edges);
+}
+
+/* Partial densities, total energy and fastest speed of n edges. */
+static void face_complete(struct face_work *work, const struct frame *frame, size_t n)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
@@ -273,6 +315,7 @@ static void face_complete(struct face_work *work, size_t n)
         if (l == 0) face_first_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
         else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
     }
+    face_load(work, frame, n, rho);
     face_finish(n, rho, u[0], u[1], u[2], own->energy, own->c);
 }
 
@@ -304,6 +347,7 @@ static void face_point(struct face_work *work, const struct frame *frame, size_t
                                       .m = own->side_m[side],
                                       .alpha = own->side_alpha[side]};
     }
+    face_stress_point(model->n_stretch ? own->stress : NULL, model, cells + frame->inner, faces);
     faces->flux = (struct bulla_flux){
         .m = own->flux_m, .momentum = own->flux_u, .rho_E = work->energy, .u = work->u, .alpha = own->flux_alpha};
 }
@@ -313,9 +357,13 @@ static void face_solve_robust(struct face_work *work, const struct frame *frame,
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
-    double *energy = own->robust + (own->n_flux - 2) * FACE_ROOM, *u = energy + FACE_ROOM;
+    double *energy = own->robust + (size_t)(work->energy - work->alpha), *u = energy + FACE_ROOM;
     work->faces.flux = (struct bulla_flux){
         .m = own->robust_m, .momentum = own->robust_u, .rho_E = energy, .u = u, .alpha = own->robust_alpha};
+    if (model->n_stretch) {
+        work->faces.slide_left = own->stress->robust_left;
+        work->faces.slide_right = own->stress->robust_right;
+    }
     model->robust->solve(NULL, &work->faces);
     const double *mask = work->mask + frame->inner;
     for (size_t i = 0; i < n; i++) {
@@ -326,11 +374,12 @@ static void face_solve_robust(struct face_work *work, const struct frame *frame,
 
 /* The fluid at a face came from the side that u* points away from, and was compressed on the way
  * by (u_L - u*)/c_L or (u* - u_R)/c_R. */
-static BULLA_KERNEL void face_trace(size_t n, const double *restrict u, const struct bulla_side *left,
+static BULLA_KERNEL void face_trace(size_t n, const double *restrict u, const double *restrict p_left,
+                                    const double *restrict p_right, const struct bulla_side *left,
                                     const struct bulla_side *right, double *restrict origin, double *restrict strain)
 {
-    const double *restrict p_left = left->p, *restrict p_right = right->p, *restrict c_left = left->c,
-                           *restrict c_right = right->c, *restrict u_left = left->u[0], *restrict u_right = right->u[0];
+    const double *restrict c_left = left->c, *restrict c_right = right->c, *restrict u_left = left->u[0],
+                           *restrict u_right = right->u[0];
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double v = u[i], pl = p_left[i], pr = p_right[i], cl = c_left[i], cr = c_right[i];
@@ -355,12 +404,14 @@ static BULLA_KERNEL void face_carry(size_t n, const double *restrict u, const do
 }
 
 /* Volume fluxes and what they carry. */
-static void face_transport(struct face_work *work)
+static void face_transport(struct face_work *work, size_t right)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
+    if (model->n_stretch) face_stress_carry(model, work->faces.n, right, own->state, work->u, work->stretch);
     if (!model->n_alpha) return;
-    face_trace(work->faces.n, work->u, &work->faces.left, &work->faces.right, own->origin, own->strain);
+    const double *p = own->state + 2 * model->i_E * FACE_ROOM;
+    face_trace(work->faces.n, work->u, p, p + right, &work->faces.left, &work->faces.right, own->origin, own->strain);
     for (unsigned l = 0; l < model->n_alpha; l++)
         face_carry(work->faces.n, work->u, own->origin, own->strain, work->alpha + l * FACE_ROOM,
                    work->carried + l * FACE_ROOM, work->strained + l * FACE_ROOM);
@@ -372,9 +423,9 @@ void face_solve(struct face_work *work, const struct frame *frame, bool masked)
     size_t cells = frame->count - 2 * frame->inner;
     face_reconstruct(work, frame, cells, masked);
     face_normalise(work, 2 * cells);
-    face_complete(work, 2 * cells);
+    face_complete(work, frame, 2 * cells);
     face_point(work, frame, cells);
     model->riemann->solve(model->riemann_self, &work->faces);
     if (masked) face_solve_robust(work, frame, work->faces.n);
-    face_transport(work);
+    face_transport(work, cells + frame->inner);
 }

@@ -6,6 +6,8 @@
  * point, and its weight alpha_l = 0 removes it. */
 #include "phys/mix.h"
 
+#include "phys/elastic.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -217,6 +219,32 @@ static void mix_fractions(const struct model *model, size_t n, size_t stride, co
                       w + (model->i_alpha + l) * stride, w + (model->i_m + l) * stride);
 }
 
+/* Rows of the partial densities of the solids in a conserved block. */
+static void mix_solids(const struct model *model, size_t stride, const double *u, const double **ret_m)
+{
+    for (unsigned s = 0; s < model->n_solid; s++) ret_m[s] = u + (model->i_m + model->solids[s].material) * stride;
+}
+
+static BULLA_KERNEL void mix_subtract(size_t n, const double *restrict a, const double *restrict b,
+                                      double *restrict rest)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) rest[i] = a[i] - b[i];
+}
+
+/* The stretch is a primitive as it is; total energy without the elastic one. */
+static void mix_unload(const struct model *model, size_t n, size_t stride, const double *u, double *w,
+                       struct mix_row *ret_rest)
+{
+    struct mix_row elastic;
+    const double *m[SCENE_MATERIALS];
+    mix_solids(model, stride, u, m);
+    for (unsigned q = model->i_V; q < model->i_V + model->n_stretch; q++)
+        memcpy(w + q * stride, u + q * stride, n * sizeof *w);
+    elastic_energy(model, n, stride, u + model->i_V * stride, m, elastic.value);
+    mix_subtract(n, u + model->i_E * stride, elastic.value, ret_rest->value);
+}
+
 /* The pressure is closed with all there is of every material, since the conserved energy holds it: a trace
  * of 1e-12 of water weighs 1e-3 J/m3. Only then traces are dropped from what fluxes will see. */
 static void mix_primitives_batch(const struct model *model, size_t n, size_t stride, const double *u, double *w)
@@ -233,6 +261,11 @@ static void mix_primitives_batch(const struct model *model, size_t n, size_t str
         mix_velocity(n, u + q * stride, rho.value, w + q * stride, twice.value);
     }
     struct mix_budget budget = {u + model->i_E * stride, twice.value};
+    struct mix_row rest;
+    if (model->n_stretch) {
+        mix_unload(model, n, stride, u, w, &rest);
+        budget.energy = rest.value;
+    }
     if (model->linear) mix_close_linear(model, n, stride, &budget, w);
     else mix_close_newton(model, n, stride, &budget, w);
     for (unsigned l = 0; l < model->n_alpha; l++)
@@ -244,6 +277,18 @@ void mix_primitives(const struct model *model, size_t n, size_t stride, const do
 {
     for (size_t i = 0; i < n; i += MIX_BATCH)
         mix_primitives_batch(model, n - i < MIX_BATCH ? n - i : MIX_BATCH, stride, u + i, w + i);
+}
+
+/* Copies the stretch and adds the elastic energy; u has its partial densities. */
+static void mix_load(const struct model *model, size_t n, size_t stride, const double *w, double *u, double *energy)
+{
+    struct mix_row elastic;
+    const double *m[SCENE_MATERIALS];
+    mix_solids(model, stride, u, m);
+    for (unsigned q = model->i_V; q < model->i_V + model->n_stretch; q++)
+        memcpy(u + q * stride, w + q * stride, n * sizeof *u);
+    elastic_energy(model, n, stride, w + model->i_V * stride, m, elastic.value);
+    mix_add(n, elastic.value, energy);
 }
 
 static void mix_conserved_batch(const struct model *model, size_t n, size_t stride, const double *w, double *u)
@@ -270,6 +315,7 @@ static void mix_conserved_batch(const struct model *model, size_t n, size_t stri
             energy.value[i] += 0.5 * rho.value[i] * v * v;
         }
     }
+    if (model->n_stretch) mix_load(model, n, stride, w, u, energy.value);
     memcpy(u + model->i_E * stride, energy.value, n * sizeof *u);
 }
 
@@ -311,12 +357,50 @@ void mix_stiffness(const struct model *model, size_t n, size_t stride, const dou
     }
 }
 
+/* Partial densities alpha_l rho_l of the solids from primitives; one material alone has them at hand. */
+static void mix_solid_densities(const struct model *model, size_t n, size_t stride, const double *w,
+                                struct mix_row *masses, const double **ret_m)
+{
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        unsigned l = model->solids[s].material;
+        const double *rho = w + (model->i_m + l) * stride;
+        ret_m[s] = rho;
+        if (!model->n_alpha) continue;
+        mix_zero(n, &masses[s]);
+        mix_add_product(n, w + (model->i_alpha + l) * stride, rho, masses[s].value);
+        ret_m[s] = masses[s].value;
+    }
+}
+
+/* What elasticity adds to c^2. */
+static void mix_quicken(const struct model *model, size_t n, size_t stride, const double *w, const double *rho,
+                        double *c2)
+{
+    struct mix_row masses[SCENE_MATERIALS];
+    const double *m[SCENE_MATERIALS];
+    if (!model->n_stretch) return;
+    mix_solid_densities(model, n, stride, w, masses, m);
+    elastic_speed2(model, n, stride, w + model->i_V * stride, m, rho, c2);
+}
+
+void mix_hoop(const struct model *model, size_t n, size_t stride, const double *w, double *ret)
+{
+    struct mix_row masses[SCENE_MATERIALS];
+    const double *m[SCENE_MATERIALS];
+    for (size_t i = 0; i < n; i += MIX_BATCH) {
+        size_t part = n - i < MIX_BATCH ? n - i : MIX_BATCH;
+        mix_solid_densities(model, part, stride, w + i, masses, m);
+        elastic_hoop(model, part, stride, w + model->i_V * stride + i, m, w + model->i_E * stride + i, ret + i);
+    }
+}
+
 static void mix_speed2_batch(const struct model *model, size_t n, size_t stride, const double *w, const double *rho_c2,
                              double *c2)
 {
     struct mix_row rho, sum;
     if (!model->n_alpha) {
         mix_divide(n, rho_c2, w + model->i_m * stride, c2);
+        mix_quicken(model, n, stride, w, w + model->i_m * stride, c2);
         return;
     }
     mix_zero(n, &rho);
@@ -325,6 +409,7 @@ static void mix_speed2_batch(const struct model *model, size_t n, size_t stride,
         mix_stiffen(n, w + (model->i_alpha + l) * stride, w + (model->i_m + l) * stride, rho_c2 + l * stride, rho.value,
                     sum.value);
     mix_divide(n, sum.value, rho.value, c2);
+    mix_quicken(model, n, stride, w, rho.value, c2);
 }
 
 void mix_speed2(const struct model *model, size_t n, size_t stride, const double *w, const double *rho_c2, double *c2)

@@ -13,8 +13,8 @@
  * the fill value. Keeps numerical fronts of 1e-300 from spreading. */
 #define MIX_ABSENT 1e-12
 
-/* Primitives (alpha_l, rho_l, u_i, p) from conserved fields (alpha_l, m_l, rho u_i, rho E): the
- * pressure that solves sum_l alpha_l rho_l e_l(rho_l, p) = rho E - rho |u|^2/2. Closed form when
+/* Primitives (alpha_l, rho_l, u_i, p, V) from conserved fields (alpha_l, m_l, rho u_i, rho E, V): the
+ * pressure that solves sum_l alpha_l rho_l e_l(rho_l, p) = rho E - rho |u|^2/2 - sum_l m_l e_l^s(V). Closed form when
  * all laws are linear in p, else a safeguarded Newton started from the pressures already in w. */
 void mix_primitives(const struct model *model, size_t n, size_t stride, const double *u, double *w);
 
@@ -24,7 +24,8 @@ void mix_conserved(const struct model *model, size_t n, size_t stride, const dou
 /* Per material rho_l c_l^2: block of n_material components. Inadmissible states show as values <= 0. */
 void mix_stiffness(const struct model *model, size_t n, size_t stride, const double *w, double *rho_c2);
 
-/* Frozen sound speed of the mixture squared, c_f^2 = sum_l Y_l c_l^2 = sum_l alpha_l rho_l c_l^2 / rho. */
+/* Square of the fastest signal: the frozen sound speed of the mixture, c_f^2 = sum_l Y_l c_l^2 =
+ * sum_l alpha_l rho_l c_l^2 / rho, and with a solid the largest of the elastic speeds along the axes (elastic.h). */
 void mix_speed2(const struct model *model, size_t n, size_t stride, const double *w, const double *rho_c2, double *c2);
 
 /* The closure's K_l = alpha_l (rho c_w^2 / (rho_l c_l^2) - 1), 1/(rho c_w^2) = sum alpha_l/(rho_l c_l^2);
@@ -33,5 +34,8 @@ void mix_closure(const struct model *model, size_t n, size_t stride, const doubl
 
 /* Temperature of each material (block of n_material) where it is present, else 0. */
 void mix_temperatures(const struct model *model, size_t n, size_t stride, const double *w, double *T);
+
+/* -s_thth = p - s'_thth of cells in curved geometry (model.md 4) [Pa]; for models with a stretch. */
+void mix_hoop(const struct model *model, size_t n, size_t stride, const double *w, double *ret);
 
 #endif

@@ -1,6 +1,7 @@
 /* relax.c - see relax.h. Scalar code: it runs in a handful of cells. */
 #include "phys/relax.h"
 
+#include "phys/elastic.h"
 #include "phys/mix.h"
 
 #include <math.h>
@@ -142,6 +143,17 @@ static unsigned relax_extreme(const struct relax *relax, const double *rho_e, bo
     return found;
 }
 
+/* Elastic energy of the cell, which volume moved between materials does not change. */
+static double relax_elastic(const struct relax *relax)
+{
+    const struct model *model = relax->model;
+    const double *m[SCENE_MATERIALS];
+    double energy = 0.0;
+    for (unsigned s = 0; s < model->n_solid; s++) m[s] = &relax->u[model->i_m + model->solids[s].material];
+    if (model->n_stretch) elastic_energy(model, 1, 1, relax->u + model->i_V, m, &energy);
+    return energy;
+}
+
 /* Moves volume to the material of least or most energy per volume until the energy held at p* is the conserved one;
  * from the material that has most to give, which need not be the other extreme: that may be a trace. */
 static void relax_shift(struct relax *relax, double p)
@@ -153,8 +165,9 @@ static void relax_shift(struct relax *relax, double p)
         double q = relax->u[model->i_u + d];
         kinetic += 0.5 * q * q / rho;
     }
+    double elastic = relax_elastic(relax);
     for (int i = 0; i < RELAX_NEWTON; i++) {
-        double rho_e[SCENE_MATERIALS], slope, excess = kinetic - relax->u[model->i_E], most = 0.0;
+        double rho_e[SCENE_MATERIALS], slope, excess = kinetic + elastic - relax->u[model->i_E], most = 0.0;
         for (unsigned l = 0; l < model->n_material; l++) {
             if (!relax->present[l]) continue;
             rho_e[l] = relax_energy(&model->eos[l], relax->m[l] / alpha[l], p, &slope);

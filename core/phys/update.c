@@ -1,6 +1,8 @@
 /* update.c - see update.h. */
 #include "phys/update.h"
 
+#include "phys/elastic.h"
+
 enum { UPDATE_BATCH = 512 };
 
 #include <string.h>
@@ -40,7 +42,7 @@ struct update_target {
     const struct model *model;
     const struct metric *metric;
     const struct face_work *work;
-    const double *w;
+    const double *hoop;
     double *rates;
     size_t n_cell;
     double a;    /* 1/h of the axis */
@@ -59,11 +61,28 @@ static void update_component(const struct update_target *target, const struct up
     else update_row(span->n, target->a, flux + span->face, flux + span->face + span->step, rate);
 }
 
+/* The stretch that comes in, and the velocity gradient along the axis: plain differences in all geometries. Tangential
+ * velocities are those that the cell itself sees, as the right neighbour of its lower face and the left one of its upper. */
+static void update_strain(const struct update_target *target, const struct update_span *span)
+{
+    const struct model *model = target->model;
+    const struct face_work *work = target->work;
+    size_t lower = span->face, upper = span->face + span->step;
+    for (unsigned c = 0; c < model->n_stretch; c++)
+        update_component(target, span, work->stretch + c * FACE_ROOM, model->i_V + c, NULL);
+    for (unsigned d = 0; d < model->n_velocity; d++) {
+        unsigned i = frame_component(target->axis, d);
+        size_t q = update_gradient(model) + i * (unsigned)model->dim + (unsigned)target->axis;
+        const double *below = d ? work->slide_right + (d - 1) * FACE_ROOM : work->u;
+        const double *above = d ? work->slide_left + (d - 1) * FACE_ROOM : work->u;
+        update_row(span->n, target->a, below + lower, above + upper, target->rates + q * target->n_cell + span->cell);
+    }
+}
+
 static void update_span_add(const struct update_target *target, const struct update_span *span)
 {
     const struct model *model = target->model;
     const struct face_work *work = target->work;
-    const double *pressure = target->w + model->i_E * target->n_cell;
     for (unsigned l = 0; l < model->n_alpha; l++) {
         update_component(target, span, work->alpha + l * FACE_ROOM, model->i_alpha + l, NULL);
         if (!model->kapila) continue;
@@ -74,18 +93,20 @@ static void update_span_add(const struct update_target *target, const struct upd
         update_component(target, span, work->m + l * FACE_ROOM, model->i_m + l, NULL);
     for (unsigned d = 0; d < model->n_velocity; d++)
         update_component(target, span, work->momentum + d * FACE_ROOM, model->i_u + frame_component(target->axis, d),
-                         d == 0 ? pressure : NULL);
+                         d == 0 ? target->hoop : NULL);
     update_component(target, span, work->energy, model->i_E, NULL);
-    if (model->n_alpha) update_component(target, span, work->u, model->n_field, NULL);
+    if (model->n_alpha | model->n_stretch) update_component(target, span, work->u, model->n_field, NULL);
+    if (model->n_stretch) update_strain(target, span);
 }
 
 void update_add(const struct model *model, const struct level *level, const struct metric *metric,
-                const struct frame *frame, const struct face_work *work, size_t n_cell, const double *w, double *rates)
+                const struct frame *frame, const struct face_work *work, size_t n_cell, const double *hoop,
+                double *rates)
 {
     struct update_target target = {.model = model,
                                    .metric = metric,
                                    .work = work,
-                                   .w = w,
+                                   .hoop = hoop,
                                    .rates = rates,
                                    .n_cell = n_cell,
                                    .a = 1.0 / level->h[frame->axis],
@@ -242,10 +263,30 @@ static size_t update_relax(const struct model *model, size_t n_cell, size_t from
     return clipped;
 }
 
+/* The stretch of a tile: moved, faded where its solids are not, unimodular. */
+static void update_stretch(const struct model *model, size_t n_cell, double dt, const struct update_input *in,
+                           double *u_new)
+{
+    size_t first = model->i_V * n_cell;
+    const struct elastic_rates rates = {.carried = in->rates + first,
+                                        .div = in->rates + model->n_field * n_cell,
+                                        .gradient = in->rates + update_gradient(model) * n_cell};
+    elastic_advance(model, n_cell, n_cell, dt, in->u_old + first, in->w + first, &rates, u_new + first);
+    for (size_t from = 0; model->n_alpha && from < n_cell; from += UPDATE_BATCH) {
+        size_t n = n_cell - from < UPDATE_BATCH ? n_cell - from : UPDATE_BATCH;
+        double solid[UPDATE_BATCH];
+        memset(solid, 0, n * sizeof *solid);
+        for (unsigned s = 0; s < model->n_solid; s++)
+            update_sum(n, u_new + (model->i_alpha + model->solids[s].material) * n_cell + from, solid);
+        elastic_fade(model, n, n_cell, solid, u_new + first + from);
+    }
+    elastic_unimodular(model, n_cell, n_cell, u_new + first);
+}
+
 size_t update_apply(const struct model *model, size_t n_cell, double dt, const struct update_input *in, double *u_new)
 {
     size_t clipped = 0;
-    for (unsigned i = model->n_alpha; i < model->n_active; i++) {
+    for (unsigned i = model->n_alpha; i < model->n_active - model->n_stretch; i++) {
         size_t at = model->active[i] * n_cell;
         update_step(n_cell, dt, in->u_old + at, in->rates + at, u_new + at);
     }
@@ -261,5 +302,6 @@ size_t update_apply(const struct model *model, size_t n_cell, double dt, const s
         for (size_t l = 0; l < model->n_alpha; l++) update_sum(n, alpha + l * n_cell, sum);
         for (size_t l = 0; l < model->n_alpha; l++) update_normalise(n, sum, alpha + l * n_cell);
     }
+    if (model->n_stretch) update_stretch(model, n_cell, dt, in, u_new);
     return clipped;
 }

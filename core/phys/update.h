@@ -1,7 +1,8 @@
 /* update.h - from fluxes to the rate of change of a tile, and from rates to a new state.
  *
- * Rates are blocks of components of n_cell: n_field for the evolved fields, one for div u, and, for the
- * Kapila closure, n_alpha for the pressure that volume brings along (update_rates in all). Geometry enters here
+ * Rates are blocks of components of n_cell: n_field for the evolved fields, one for div u, for the
+ * Kapila closure 2 n_alpha for the pressure and the strain that volume brings along, and with a solid
+ * n_velocity * dim for the velocity gradient (update_rates in all). Geometry enters here
  * alone (model.md 4): exact areas and volumes of metric.h; the radial momentum sees p relative to
  * the cell's own pressure, so that the hoop term beta p / r is balanced and a state at rest
  * stays at rest to round-off. */
@@ -11,15 +12,23 @@
 #include "mesh/metric.h"
 #include "phys/face.h"
 
-/* Components of the rates of a model. */
-static inline unsigned update_rates(const struct model *model)
+/* First component of the velocity gradient: -d_k u_i stands i dim + k further. */
+static inline unsigned update_gradient(const struct model *model)
 {
     return model->n_field + 1 + (model->kapila ? 2 * model->n_alpha : 0);
 }
 
-/* Adds the divergence of the fluxes of one piece to the rates of its cells. w: the tile's primitives. */
+/* Components of the rates of a model. */
+static inline unsigned update_rates(const struct model *model)
+{
+    return update_gradient(model) + (model->n_stretch ? model->n_velocity * (unsigned)model->dim : 0);
+}
+
+/* Adds the divergence of the fluxes of one piece to the rates of its cells. hoop: what the radial momentum is taken relative
+ * to in curved geometry, a row of n_cell: the tile's pressure, or elastic_hoop. */
 void update_add(const struct model *model, const struct level *level, const struct metric *metric,
-                const struct frame *frame, const struct face_work *work, size_t n_cell, const double *w, double *rates);
+                const struct frame *frame, const struct face_work *work, size_t n_cell, const double *hoop,
+                double *rates);
 
 /* Blocks of a tile that a stage combines. */
 struct update_input {

@@ -73,7 +73,7 @@ static void replay_free(struct replay *replay)
     mem_free(replay);
 }
 
-static void replay_sweep(struct replay *replay, int axis, const struct metric *metric)
+static void replay_sweep(struct replay *replay, int axis, const struct metric *metric, const double *hoop)
 {
     const struct blame *blame = replay->blame;
     for (size_t piece = 0; piece < frame_pieces(&replay->mesh, axis); piece++) {
@@ -82,7 +82,7 @@ static void replay_sweep(struct replay *replay, int axis, const struct metric *m
         face_solve(replay->faces, &frame, blame->facts.masked);
         blame_piece(replay->again, replay->used, &frame, replay->faces);
         update_add(replay->used, replay->level, metric, &frame, replay->faces, blame->facts.n_cell,
-                   blame->block[BLAME_W], replay->rates);
+                   hoop, replay->rates);
     }
 }
 
@@ -95,7 +95,12 @@ static void replay_update(struct replay *replay)
     const double *w = blame->block[BLAME_W];
     struct metric metric;
     if (replay->mesh.beta) metric_of_tile(&replay->mesh, replay->level, &replay->tile, &metric);
-    for (int axis = 0; axis < replay->mesh.dim; axis++) replay_sweep(replay, axis, &metric);
+    const double *hoop = w + used->i_E * n_cell;
+    if (used->beta && used->n_stretch) {
+        mix_hoop(used, n_cell, n_cell, w, replay->c2); /* free until the new state is judged */
+        hoop = replay->c2;
+    }
+    for (int axis = 0; axis < replay->mesh.dim; axis++) replay_sweep(replay, axis, &metric, hoop);
     if (used->kapila) {
         mix_stiffness(used, n_cell, n_cell, w, replay->rho_c2);
         mix_closure(used, n_cell, n_cell, w, replay->rho_c2, replay->K);

@@ -34,26 +34,34 @@ unsigned census_materials(const struct model *model, size_t n_cell, const double
     return present;
 }
 
-/* Does what lies behind a face hold the same materials? Of other ranks that is not known here. */
-static bool census_alike(const struct census *census, unsigned local, int face)
+/* Does what lies behind a face hold nothing but these materials? Of other ranks that is not known here. */
+static bool census_within(const struct census *census, unsigned local, int face, unsigned materials)
 {
     const struct neighbour *neighbour = &census->level->neighbours[local][face];
-    unsigned present = census->tiles[local].present;
-    if (neighbour->kind == NEIGHBOUR_LOCAL) return census->tiles[neighbour->index].present == present;
-    if (neighbour->kind == NEIGHBOUR_COARSE) return census->behind[neighbour->index] == present;
+    if (neighbour->kind == NEIGHBOUR_LOCAL) return !(census->tiles[neighbour->index].present & ~materials);
+    if (neighbour->kind == NEIGHBOUR_COARSE) return !(census->behind[neighbour->index] & ~materials);
     return neighbour->kind == NEIGHBOUR_BOUNDARY &&
            census->model->scene->boundary[face / 2][face % 2].type != SCENE_INFLOW;
+}
+
+/* Can a tile make do with a narrowed path? */
+static bool census_fits(const struct census *census, unsigned local, const struct model *path)
+{
+    unsigned materials = ((1u << path->n_material) - 1u) << path->first;
+    if (census->tiles[local].present & ~materials) return false;
+    for (int face = 0; face < 2 * path->dim; face++)
+        if (!census_within(census, local, face, materials)) return false;
+    return true;
 }
 
 const struct model *census_choose(const struct census *census, unsigned local)
 {
     const struct model *model = census->model;
     unsigned present = census->tiles[local].present, l = 0;
-    if (!model->mixed || !present || (present & (present - 1))) return model;
-    for (int face = 0; face < 2 * model->dim; face++)
-        if (!census_alike(census, local, face)) return model;
-    while (present >> (l + 1)) l++;
-    return model->pure[l];
+    if (!model->mixed || !present) return model;
+    while (!(present >> l & 1)) l++;
+    if (present >> l == 1 && census_fits(census, local, model->pure[l])) return model->pure[l];
+    return model->fluids && census_fits(census, local, model->fluids) ? model->fluids : model;
 }
 
 /* Is a tile of one material uniform and at rest, to the bit (+0, not -0)? */
@@ -64,8 +72,9 @@ static bool census_is_still(const struct model *model, size_t n_cell, const doub
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
         const double *row = w + q * n_cell;
-        bool velocity = q >= model->i_u && q < model->i_E;
+        bool velocity = q >= model->i_u && q < model->i_E, stretch = q >= model->i_V;
         if (velocity && memcmp(row, &zero, sizeof zero)) return false;
+        if (stretch && *row != (q < model->i_V + 3 ? 1.0 : 0.0)) return false; /* mirrors and hoops feel it */
         if (memcmp(row, row + 1, (n_cell - 1) * sizeof *row)) return false;
     }
     return true;
@@ -99,8 +108,8 @@ void census_note(struct census *census, unsigned local, const double *u, const d
 {
     struct census_tile *tile = &census->tiles[local];
     size_t n_cell = census->mesh->n_cell;
-    bool whole = tile->path == census->model;
-    tile->present_next = whole ? census_materials(census->model, n_cell, u) : tile->present;
+    bool mixed = tile->path->n_alpha || !census->model->mixed;
+    tile->present_next = mixed ? census_materials(census->model, n_cell, u) : tile->present;
     tile->still_next = census_is_still(tile->path, n_cell, w);
 }
 

@@ -18,7 +18,9 @@ struct stage_work *stage_work_new(const struct model *model, const struct mesh *
 {
     struct stage_work *work = mem_new(1, sizeof *work);
     work->faces = face_new(model);
-    if (model->mixed) work->faces_pure = face_new(model->pure[0]);
+    if (model->mixed) work->faces_pure = face_new(model->pure[model->elastic ? model->solids[0].material : 0]);
+    if (model->fluids) work->faces_fluids = face_new(model->fluids);
+    if (model->elastic && model->beta) work->hoop = mem_new(mesh->n_cell, sizeof(double));
     work->prolong = prolong_new(model, mesh);
     work->rates = mem_new(update_rates(model) * mesh->n_cell, sizeof(double));
     work->K = mem_new(model->n_material * mesh->n_cell, sizeof(double));
@@ -33,6 +35,8 @@ void stage_work_free(struct stage_work *work)
     if (!work) return;
     face_free(work->faces);
     face_free(work->faces_pure);
+    face_free(work->faces_fluids);
+    mem_free(work->hoop);
     prolong_free(work->prolong);
     mem_free(work->rates);
     mem_free(work->K);
@@ -118,29 +122,49 @@ static void stage_carry(struct stage *stage, unsigned local, const double *from,
     stage->carried += (long long)stage->mesh->n_cell;
 }
 
-/* Copies the components that a pure model leaves alone. The fractions are the same constants in all
- * three arrays, so that after three stages they need no copying. */
+/* Copies the components that a narrowed path leaves alone. Its fractions and stretch are the same constants in all
+ * three arrays, so that after three stages they need no copying; densities are not. */
 static void stage_keep(struct stage *stage, unsigned local, const double *from, double *to)
 {
     struct census_tile *tile = &stage->census.tiles[local];
     size_t n_cell = stage->mesh->n_cell;
-    if (tile->path == stage->model) {
-        tile->streak = 0;
-        return;
+    const struct model *model = stage->model, *path = tile->path;
+    if (path != tile->kept) tile->streak = 0;
+    tile->kept = path;
+    if (path == model) return;
+    for (unsigned q = 0, active = 0; q < model->n_field; q++) {
+        bool density = q >= model->i_m && q < model->i_u;
+        bool evolved = active < path->n_active && path->active[active] == q;
+        active += evolved;
+        if (!evolved && (density || tile->streak < 3)) memcpy(to + q * n_cell, from + q * n_cell, n_cell * sizeof *to);
     }
-    for (unsigned q = tile->streak < 3 ? 0 : stage->model->i_m; q < stage->model->i_u; q++)
-        if (q != tile->path->i_m) memcpy(to + q * n_cell, from + q * n_cell, n_cell * sizeof *to);
     if (tile->streak < 3) tile->streak++;
+}
+
+static struct face_work *stage_faces(const struct stage *stage, const struct model *path)
+{
+    if (path == stage->model) return stage->work->faces;
+    return path == stage->model->fluids ? stage->work->faces_fluids : stage->work->faces_pure;
+}
+
+/* What the radial momentum of a tile is taken relative to: p, or -s_thth with a solid. */
+static const double *stage_hoop(struct stage *stage, const struct model *model, const double *w)
+{
+    size_t n_cell = stage->mesh->n_cell;
+    const double *p = w + model->i_E * n_cell;
+    if (!model->beta || !model->n_stretch) return p;
+    mix_hoop(model, n_cell, n_cell, w, stage->work->hoop);
+    return stage->work->hoop;
 }
 
 /* One axis of one tile: gather, reconstruct, solve, add the divergence. */
 static void stage_sweep(struct stage *stage, const struct model *model, unsigned local, int axis,
-                        const struct metric *metric)
+                        const struct metric *metric, const double *hoop)
 {
     const struct mesh *mesh = stage->mesh;
     const struct level *level = stage->level;
     const struct guard *guard = stage->guard;
-    struct face_work *faces = model == stage->model ? stage->work->faces : stage->work->faces_pure;
+    struct face_work *faces = stage_faces(stage, model);
     struct cost *cost = &stage->work->cost;
     bool concerned = stage->fluxes && reflux_concerns(stage->reflux, local);
     const struct frame_source fields = {.mesh = mesh,
@@ -165,7 +189,7 @@ static void stage_sweep(struct stage *stage, const struct model *model, unsigned
         cost_lap(cost, COST_FACES);
         if (blame_concerns(stage->blame, local)) blame_piece(stage->blame, model, &frame, faces);
         if (concerned) reflux_collect(stage->reflux, model, local, &frame, faces);
-        update_add(model, level, metric, &frame, faces, mesh->n_cell, level->w[local], stage->work->rates);
+        update_add(model, level, metric, &frame, faces, mesh->n_cell, hoop, stage->work->rates);
         cost_lap(cost, COST_UPDATE);
     }
     if (concerned) reflux_average(stage->reflux, local, axis);
@@ -176,7 +200,8 @@ static void stage_clear_rates(struct stage *stage, const struct model *model)
     size_t n_cell = stage->mesh->n_cell, more = update_rates(model) - model->n_field;
     for (unsigned i = 0; i < model->n_active; i++)
         memset(stage->work->rates + model->active[i] * n_cell, 0, n_cell * sizeof(double));
-    if (model->n_alpha) memset(stage->work->rates + model->n_field * n_cell, 0, more * n_cell * sizeof(double));
+    if (model->n_alpha | model->n_stretch)
+        memset(stage->work->rates + model->n_field * n_cell, 0, more * n_cell * sizeof(double));
 }
 
 /* u = u_old + dt L(w) of one tile; of a pure tile the active components only. */
@@ -190,7 +215,8 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double dt, d
     struct metric metric;
     if (mesh->beta) metric_of_tile(mesh, level, &level->tiles[level->first + local], &metric);
     stage_clear_rates(stage, model);
-    for (int axis = 0; axis < mesh->dim; axis++) stage_sweep(stage, model, local, axis, &metric);
+    const double *hoop = stage_hoop(stage, model, level->w[local]);
+    for (int axis = 0; axis < mesh->dim; axis++) stage_sweep(stage, model, local, axis, &metric, hoop);
     if (model->kapila) {
         mix_stiffness(model, n_cell, n_cell, level->w[local], work->rho_c2);
         mix_closure(model, n_cell, n_cell, level->w[local], work->rho_c2, work->K);

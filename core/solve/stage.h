@@ -22,9 +22,11 @@
 /* Scratch of one rank, used by its levels in turn. */
 struct stage_work {
     struct face_work *faces;
-    struct face_work *faces_pure; /* NULL for one material */
+    struct face_work *faces_pure;   /* of paths of one material; NULL if the scene has no more */
+    struct face_work *faces_fluids; /* of the path of all fluids, or NULL */
     struct prolong *prolong;
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
+    double *hoop;                             /* likewise, in curved scenes with a solid; else NULL */
     struct cost cost;                         /* where the time goes, of all levels */
 };
 
