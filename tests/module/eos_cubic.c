@@ -103,6 +103,84 @@ static void test_properties(void **state)
     }
 }
 
+/* RKPR air from a table. */
+static struct law rkpr_table(const char *interpolation, double size)
+{
+    const struct bulla_module *module = support_module("eos", "rkpr");
+    struct bulla_value values[32] = {{0}};
+    for (unsigned i = 0; i < instance_param_count(module); i++) values[i].number = module->presets->values[i];
+    values[13].text = "table";
+    values[14].text = interpolation;
+    values[15].number = size;
+    struct law law = {.eos = module->table};
+    assert_int_equal(instance_open(module, values, &law.instance), 0);
+    return law;
+}
+
+/* Largest errors of T, of p at a given energy and of c at random states from 1e-3 kg/m3 to 0.979/b, 180 K to 20000 K. */
+static void table_errors(const struct law *table, const struct law *law, double worst[3])
+{
+    uint64_t seed = 3;
+    for (int i = 0; i < 20000; i++) {
+        double u = contract_random(&seed, -13.9, 3.84), rho = 1128.116 / (1.0 + exp(-u));
+        double p = exp(contract_random(&seed, log(rho * 287.0 * 180.0), log(rho * 287.0 * 2e4)));
+        p += rho * p / (1129.0 - rho);
+        struct law_point at = law_at(table, rho, p), exact = law_at(law, rho, p);
+        if (exact.T < 180.0 || exact.T > 2e4) continue;
+        double error[3] = {at.T / exact.T - 1.0, (at.rho_e - exact.rho_e) / (exact.de_dp * p),
+                           sqrt(at.c2 / exact.c2) - 1.0};
+        for (int l = 0; l < 3; l++) worst[l] = fabs(error[l]) > worst[l] ? fabs(error[l]) : worst[l];
+    }
+}
+
+/* Twice the errors that an independent program saw with tables of these sizes. */
+static void test_table_errors(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *interpolation;
+        double size, most[3];
+    } tables[] = {{"bicubic", 64, {4e-6, 2e-5, 2e-5}},
+                  {"bicubic", 128, {2.4e-7, 1.4e-6, 1.6e-6}},
+                  {"bilinear", 64, {1.7e-3, 8e-3, 4.6e-3}},
+                  {"bilinear", 128, {4.2e-4, 2e-3, 1.3e-3}}};
+    struct law law = law_preset("rkpr", "air");
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        struct law table = rkpr_table(tables[i].interpolation, tables[i].size);
+        double worst[3] = {0.0, 0.0, 0.0};
+        table_errors(&table, &law, worst);
+        for (int l = 0; l < 3; l++) support_near("error of a table", worst[l], 0.0, 1.0, tables[i].most[l]);
+        assert_true(worst[0] > 0.0 && worst[1] > 0.0 && worst[2] > 0.0); /* it is a table */
+        instance_done(&table.instance);
+    }
+    instance_done(&law.instance);
+}
+
+/* Coarse or fine, a table is well-posed, leads over to the law without jumps and gives back pressures. */
+static void test_table_properties(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"bicubic", "bilinear"};
+    for (size_t i = 0; i < 2; i++) {
+        struct law table = rkpr_table(names[i], 24);
+        law_sweep(&table, 3.0 / 7.8e-4);
+        for (double rho = 1e-3; rho < 3800.0; rho *= 1.31)
+            for (double p = 1.0; p < 1e11; p *= 7.3)
+                if (p > law_at(&table, rho, p).p_min) law_round_trip(&table, rho, p);
+        for (double rho = 0.01; rho < 1000.0; rho *= 1.7) /* monotone through both bands */
+            for (double p = 40.0 * rho, last = -INFINITY; p < 1e7 * rho; p *= 1.001) {
+                double e = law_at(&table, rho, p).rho_e;
+                if (!(e > last)) fail_msg("%s: rho e falls at rho %g, p %g", names[i], rho, p);
+                last = e;
+            }
+        instance_done(&table.instance);
+    }
+    struct contract contract = {.module = support_module("eos", "rkpr")};
+    const char *const settings[] = {"eval=table", "table-size=256", NULL};
+    assert_int_equal(contract_module_run(&contract, settings), 0);
+    support_holds(&contract);
+}
+
 /* A law that is ill-posed at its coldest temperature is refused with the state. */
 static void test_refused(void **state)
 {
@@ -119,8 +197,9 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points),     cmocka_unit_test(test_isentrope), cmocka_unit_test(test_contract),
-        cmocka_unit_test(test_properties), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_points),     cmocka_unit_test(test_isentrope),    cmocka_unit_test(test_contract),
+        cmocka_unit_test(test_properties), cmocka_unit_test(test_table_errors), cmocka_unit_test(test_table_properties),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, support_start, support_stop);
 }
