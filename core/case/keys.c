@@ -265,6 +265,28 @@ static bool keys_shorthand(struct keys *keys, struct node *node, const struct ke
     return true;
 }
 
+/* A list may stand for a map of the first rows. */
+static bool keys_positional(struct keys *keys, struct node *node, const struct keys_section *section)
+{
+    if (node->kind != TREE_LIST || section->positional == 0 || node->count != section->positional) return false;
+    struct node *map = tree_map(keys->forest, &node->mark);
+    for (unsigned i = 0; i < node->count; i++) tree_set(keys->forest, map, section->keys[i].name, node->items[i]);
+    *node = *map;
+    return true;
+}
+
+/* What stands where a map should is neither one nor short for one. */
+static void keys_no_map(struct keys *keys, const struct node *node, const struct keys_section *section,
+                        const char *path)
+{
+    const char *list =
+        section->positional ? tree_print(keys->forest, "a list of %u values or ", section->positional) : "";
+    const char *what = tree_describe(node);
+    if (node->kind == TREE_LIST && *list) what = tree_print(keys->forest, "a list of %u", node->count);
+    diag_error(keys->diag, &node->mark, "%s: %sa map of keys is needed, not %s", path, list, what);
+    if (tree_is_null(node)) diag_help(keys->diag, "keys that belong to it are indented deeper than it is");
+}
+
 static struct node *keys_fallback(struct keys *keys, const struct keys_map *map, const struct key *key)
 {
     const char *text = key->fallback;
@@ -322,9 +344,8 @@ static void keys_sort(struct node *map, const struct keys_rows *rows)
 
 struct keys_map *keys_read(struct keys *keys, struct node *node, const struct keys_section *section, const char *path)
 {
-    if (node->kind != TREE_MAP && !keys_shorthand(keys, node, section)) {
-        diag_error(keys->diag, &node->mark, "%s: a map of keys is needed, not %s", path, tree_describe(node));
-        if (tree_is_null(node)) diag_help(keys->diag, "keys that belong to it are indented deeper than it is");
+    if (node->kind != TREE_MAP && !keys_shorthand(keys, node, section) && !keys_positional(keys, node, section)) {
+        keys_no_map(keys, node, section, path);
         return NULL;
     }
     struct keys_rows rows = {.forest = keys->forest};

@@ -58,6 +58,7 @@ struct keys_section {
     const struct key *keys;                  /* ends with name NULL; may be NULL */
     unsigned choose;                         /* exactly one of the first so many rows stands in it (who reads it sees
                                                 to that, the schema says it); 0: any */
+    unsigned positional;                     /* a list of so many values stands for the first rows; 0: no list does */
     const struct key *others;                /* the row of all keys that are not in a table (their names are free) */
     const char *selector;                    /* the key that chooses a case, or NULL; its value may stand for the map */
     const struct keys_section *const *cases; /* ends with NULL */

@@ -17,7 +17,7 @@ struct draft {
 extern const struct keys_section scene_root_keys;
 extern const struct keys_section scene_domain_keys, scene_mesh_keys, scene_refine_keys, scene_boundary_keys;
 extern const struct keys_section scene_material_keys, scene_scheme_keys;
-extern const struct keys_section scene_shape_keys, scene_initial_keys;
+extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_stretch_keys;
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
 extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_expect_keys;
 
@@ -75,6 +75,9 @@ void scene_state_check(struct draft *draft, const struct keys_map *map, const do
                        const struct scene_value *density);
 
 void scene_state_velocity(struct draft *draft, const struct keys_map *map, struct scene_value ret[SCENE_AXES]);
+
+/* stretch: of a layer whose fractions are known. */
+void scene_stretch(struct draft *draft, struct scene_layer *layer, const struct keys_value *value);
 
 /* The shape that a map names by its key (`ret_value`); NULL if it names none (an error if one is
  * wanted), or after a recorded error. */

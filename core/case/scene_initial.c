@@ -10,6 +10,10 @@ static const struct keys_section scene_initial_state = {.name = "state",
                                                         .keys = scene_state_rows};
 
 static const struct key scene_initial_rows[] = {
+    {.name = "stretch",
+     .type = KEYS_SECTION,
+     .section = &scene_stretch_keys,
+     .doc = "Initial stretch of a solid: [xx, yy, zz] or a map of components."},
     {.name = "lua",
      .type = KEYS_TEXT,
      .doc = "File or block: function(x, y, z) that returns a table of named fields, {pressure = ..., alpha = {...}}."},
@@ -23,7 +27,7 @@ static const struct key scene_initial_rows[] = {
     "{'required': ['ring']}, {'required': ['polygon']}, {'required': ['complement']}, {'required': ['union']},"        \
     "{'required': ['intersection']}]},"                                                                                \
     " 'else': {'properties': {'material': false, 'fractions': false, 'density': false, 'temperature': false,"          \
-    " 'pressure': false, 'velocity': false}}},"                                                                        \
+    " 'pressure': false, 'velocity': false, 'stretch': false}}},"                                                      \
     "{'if': {'not': {'required': ['lua']}, 'anyOf': [{'required': ['material']}, {'required': ['fractions']}]},"       \
     " 'then': {'required': ['pressure'], 'anyOf': [{'required': ['density']}, {'required': ['temperature']}]}},"       \
     "{'not': {'required': ['density', 'temperature']}},"                                                               \
@@ -86,13 +90,17 @@ static void scene_initial_complete(struct draft *draft, struct scene_layer *laye
         scene_initial_need(draft, map, "the pressure is missing", "give 'pressure: 101325 Pa'");
 }
 
+static void scene_initial_lua_alone(struct draft *draft, const struct keys_map *map, const char *name)
+{
+    if (keys_at(map, name)->node)
+        keys_error(&draft->keys, keys_at(map, name), "a layer that is made by 'lua' has no '%s' of its own", name);
+}
+
 static void scene_initial_lua(struct draft *draft, struct scene_layer *layer, const struct keys_map *map)
 {
     layer->script = scene_file_lua(draft, keys_at(map, "lua"));
-    for (const struct key *row = scene_state_rows; row->name; row++)
-        if (keys_at(map, row->name)->node)
-            keys_error(&draft->keys, keys_at(map, row->name), "a layer that is made by 'lua' has no '%s' of its own",
-                       row->name);
+    for (const struct key *row = scene_state_rows; row->name; row++) scene_initial_lua_alone(draft, map, row->name);
+    scene_initial_lua_alone(draft, map, "stretch");
 }
 
 static void scene_initial_layer(struct draft *draft, struct scene_layer *layer, const struct keys_map *map)
@@ -113,6 +121,7 @@ static void scene_initial_layer(struct draft *draft, struct scene_layer *layer, 
     layer->temperature = scene_state_value(keys_at(map, "temperature"));
     layer->pressure = scene_state_value(keys_at(map, "pressure"));
     scene_state_velocity(draft, map, layer->velocity);
+    scene_stretch(draft, layer, keys_at(map, "stretch"));
     scene_initial_complete(draft, layer, map);
     scene_state_check(draft, map, layer->fractions, layer->density);
 }

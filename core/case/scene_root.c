@@ -105,7 +105,8 @@ static const struct key scene_root[] = {
     {0},
 };
 
-/* Names of parameters and materials, lists of the matrix: params.c, scene_material.c, scene.c. */
+/* Names of parameters and materials, lists of the matrix, stretches: params.c, scene_material.c, scene.c,
+ * scene_stretch.c. */
 #define SCENE_ROOT_RULES                                                                                              \
     "{'properties': {'parameters': {'propertyNames': {'pattern': '^(?!([xyzrt]|and|or|not|true|false|nil|function|"   \
     "return|end|if|then|else|elseif|local|for|while|do|in|repeat|until|break|goto|math|string|table)$)[A-Za-z_]"      \
@@ -114,7 +115,9 @@ static const struct key scene_root[] = {
     "'materials': {'minProperties': 1, 'maxProperties': 16, 'propertyNames': {'pattern': '^[A-Za-z_][A-Za-z0-9_]"     \
     "{0,31}$', 'patternErrorMessage': 'The name of a material is an identifier (letters, digits and _).'}},"          \
     "'matrix': {'additionalProperties': {'type': 'array', 'minItems': 1, 'errorMessage': 'A list of values is "       \
-    "needed.'}}}}"
+    "needed.'}}}},"                                                                                                   \
+    "{'if': {'required': ['materials'], 'properties': {'materials': {'additionalProperties': {'not': {'required': "   \
+    "['constitutive']}}}}}, 'then': {'properties': {'initial': {'items': {'properties': {'stretch': false}}}}}}"
 
 const struct keys_section scene_root_keys = {.name = "case",
                                              .doc = "A case of bulla.",

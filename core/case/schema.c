@@ -318,6 +318,13 @@ static json_t *schema_section(struct schema *schema, const struct keys_section *
     struct schema_rows rows = {{section}, 1};
     json_t *object = schema_object(schema, &rows);
     if (section->choose && !schema->part) json_object_set_new(object, "oneOf", schema_one_of(section));
+    if (section->positional) {
+        json_object_set_new(object, "type", json_pack("[s,s]", "object", "array"));
+        json_object_set_new(object, "items", schema_one(schema, section->keys));
+        json_object_set_new(object, "minItems", json_integer(section->positional));
+        json_object_set_new(object, "maxItems", json_integer(section->positional));
+        return object;
+    }
     if (!section->selector) {
         json_object_set_new(object, "type", json_string("object"));
         return object;

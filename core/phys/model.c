@@ -8,8 +8,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Components of symmetric tensors in the order of elastic.h. */
-static const char *const MODEL_TENSOR[] = {"xx", "yy", "zz", "xy", "xz", "yz"};
+const char *const model_tensor[] = {"xx", "yy", "zz", "xy", "xz", "yz"};
 
 /* A density for points where the material is absent: any well-posed value serves, because its
  * weight is zero there; the first density the case gives keeps tables and Newton at home. */
@@ -37,7 +36,7 @@ static void model_name_fields(struct model *model)
         model->field_names[at++] = mem_print("partial_density_%s", model->scene->material[l].name);
     for (unsigned d = 0; d < model->n_velocity; d++) model->field_names[at++] = mem_text(momentum[d]);
     model->field_names[at++] = mem_text("total_energy");
-    for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = mem_print("stretch_%s", MODEL_TENSOR[c]);
+    for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = mem_print("stretch_%s", model_tensor[c]);
 }
 
 /* Names that derive.c understands for this scene. */

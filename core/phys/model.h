@@ -79,6 +79,9 @@ static inline const struct model *model_numbered(const struct model *model, int 
     return number == SCENE_MATERIALS ? model->fluids : number < (int)model->n_alpha ? model->pure[number] : NULL;
 }
 
+/* Components of symmetric tensors in the order of elastic.h: "xx", "yy", ... */
+extern const char *const model_tensor[6];
+
 struct model *model_new(const struct scene *scene);
 void model_free(struct model *model);
 

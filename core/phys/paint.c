@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "case/shape.h"
 #include "phys/mix.h"
+#include "phys/paint_stretch.h"
 #include "phys/paint_values.h"
 
 #include <math.h>
@@ -19,7 +20,7 @@
 enum { PAINT_GAUSS = 4, PAINT_POINTS = PAINT_GAUSS * PAINT_GAUSS * PAINT_GAUSS };
 
 struct paint_block {
-    double at[PAINT_VALUES_FIELDS][PAINT_POINTS];
+    double at[MODEL_FIELDS][PAINT_POINTS];
 };
 
 /* A tile while it is painted. */
@@ -69,8 +70,11 @@ static double paint_cover_tile(const struct paint *paint)
 /* u = (1 - f) u + f layer in one cell; `layer` holds its fields `stride` apart. */
 static void paint_mix(struct paint *paint, size_t cell, double fraction, const double *layer, size_t stride)
 {
+    const struct model *model = paint->model;
     size_t n_cell = paint->mesh->n_cell;
-    for (unsigned q = 0; q < paint->model->n_field; q++) {
+    struct paint_stretch_layer stretch = {fraction, paint->covered[cell], layer, stride};
+    if (model->n_stretch) paint_stretch_mix(model, &stretch, n_cell, paint->u + cell);
+    for (unsigned q = 0; q < model->i_V; q++) {
         double *u = paint->u + q * n_cell + cell;
         *u = fraction < 1.0 ? (1.0 - fraction) * *u + fraction * layer[q * stride] : layer[q * stride];
     }
@@ -80,10 +84,12 @@ static void paint_mix(struct paint *paint, size_t cell, double fraction, const d
 /* Primitives of a cell before the layer, if it has a state. Its pressure starts from that of 1 bar. */
 static const double *paint_before(const struct paint *paint, size_t cell, double *w)
 {
-    double u[PAINT_VALUES_FIELDS];
+    double u[MODEL_FIELDS];
     if (!(paint->covered[cell] > 0.0)) return NULL;
-    for (unsigned q = 0; q < paint->model->n_field; q++)
-        u[q] = paint->u[q * paint->mesh->n_cell + cell] / paint->covered[cell];
+    for (unsigned q = 0; q < paint->model->n_field; q++) {
+        double part = q < paint->model->i_V ? paint->covered[cell] : 1.0; /* the stretch is a mean already */
+        u[q] = paint->u[q * paint->mesh->n_cell + cell] / part;
+    }
     w[paint->model->i_E] = 1e5;
     mix_primitives(paint->model, 1, 1, u, w);
     return w;
@@ -128,10 +134,26 @@ static double paint_sum(const double *value, unsigned n)
     return fold[0];
 }
 
+/* Means of the conserved fields over the points that count; of the stretch over their solid. */
+static void paint_mean(const struct paint *paint, const double *weight, unsigned n, double *ret_mean)
+{
+    const struct model *model = paint->model;
+    double part[PAINT_POINTS], used[PAINT_POINTS];
+    memcpy(part, weight, n * sizeof *part);
+    for (unsigned q = 0; q < model->n_field; q++) {
+        for (unsigned k = 0, at = 0; k < n && q == model->i_V; k++)
+            if (weight[k] > 0.0) part[k] *= paint_stretch_share(model, &paint->conserved.at[0][at++], PAINT_POINTS);
+        for (unsigned k = 0, at = 0; k < n; k++)
+            used[k] = weight[k] > 0.0 ? part[k] * paint->conserved.at[q][at++] : 0.0;
+        double whole = paint_sum(part, n);
+        ret_mean[q] = whole > 0.0 ? paint_sum(used, n) / whole : q < model->i_V + 3 ? 1.0 : 0.0;
+    }
+}
+
 static int paint_varying(struct paint *paint, const struct paint_cell *cell, double fraction)
 {
-    double x[PAINT_POINTS][3], weight[PAINT_POINTS], used[PAINT_POINTS], below[PAINT_VALUES_FIELDS];
-    double w[PAINT_VALUES_FIELDS], mean[PAINT_VALUES_FIELDS];
+    double x[PAINT_POINTS][3], weight[PAINT_POINTS], below[MODEL_FIELDS];
+    double w[MODEL_FIELDS], mean[MODEL_FIELDS];
     const double *before = paint->values.whole ? NULL : paint_before(paint, cell->index, below);
     unsigned n = paint_points(paint, cell, fraction < 1.0, x, weight), n_field = paint->model->n_field;
     size_t count = 0;
@@ -142,12 +164,7 @@ static int paint_varying(struct paint *paint, const struct paint_cell *cell, dou
         count++;
     }
     mix_conserved(paint->model, count, PAINT_POINTS, paint->w.at[0], paint->conserved.at[0]);
-    double whole = paint_sum(weight, n);
-    for (unsigned q = 0; q < n_field; q++) {
-        count = 0;
-        for (unsigned k = 0; k < n; k++) used[k] = weight[k] > 0.0 ? weight[k] * paint->conserved.at[q][count++] : 0.0;
-        mean[q] = paint_sum(used, n) / whole;
-    }
+    paint_mean(paint, weight, n, mean);
     paint_mix(paint, cell->index, fraction, mean, 1);
     return STATUS_OK;
 }
@@ -155,7 +172,7 @@ static int paint_varying(struct paint *paint, const struct paint_cell *cell, dou
 /* A layer of constant values over a state: one point tells all. */
 static int paint_overlay(struct paint *paint, const struct paint_cell *cell, double fraction)
 {
-    double below[PAINT_VALUES_FIELDS], w[PAINT_VALUES_FIELDS], u[PAINT_VALUES_FIELDS], x[3];
+    double below[MODEL_FIELDS], w[MODEL_FIELDS], u[MODEL_FIELDS], x[3];
     for (int d = 0; d < 3; d++) x[d] = 0.5 * (cell->lower[d] + cell->upper[d]);
     TRY(paint_values_at(&paint->values, x, paint_before(paint, cell->index, below), w));
     mix_conserved(paint->model, 1, 1, w, u);
@@ -167,7 +184,7 @@ static int paint_layer(struct paint *paint)
 {
     const struct paint_values *values = &paint->values;
     const struct mesh *mesh = paint->mesh;
-    double w[PAINT_VALUES_FIELDS], u[PAINT_VALUES_FIELDS], cover = paint_cover_tile(paint);
+    double w[MODEL_FIELDS], u[MODEL_FIELDS], cover = paint_cover_tile(paint);
     bool constant = values->whole && !values->varying;
     if (cover == 0.0) return STATUS_OK;
     if (constant) {
@@ -229,6 +246,7 @@ int paint_tile(const struct model *model, const struct mesh *mesh, const struct 
             paint->edges[d][i] = (mesh->lower[d] * (cells - first - i) + mesh->upper[d] * (first + i)) / cells;
     }
     int code = paint_layers(paint);
+    if (!code && model->n_stretch) paint_stretch_finish(model, mesh->n_cell, mesh->n_cell, u);
     for (int d = 0; d < mesh->dim; d++) mem_free(paint->edges[d]);
     mem_free(paint->covered);
     mem_free(paint);

@@ -8,6 +8,8 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "case/script_table.h"
+#include "phys/elastic.h"
+#include "phys/paint_stretch.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -17,16 +19,16 @@
 /* What a layer says at a point; NaN: nothing. */
 struct paint_said {
     double alpha[SCENE_MATERIALS], density[SCENE_MATERIALS], mixture; /* mixture: density without a material's name */
-    double temperature, pressure, velocity[SCENE_AXES];
+    double temperature, pressure, velocity[SCENE_AXES], stretch[6];
 };
 
-enum { PAINT_VALUES_PLAIN = 3, PAINT_VALUES_NAMES = PAINT_VALUES_PLAIN + 2 * SCENE_AXES + 4 * SCENE_MATERIALS };
+enum { PAINT_VALUES_PLAIN = 3, PAINT_VALUES_NAMES = PAINT_VALUES_PLAIN + 2 * SCENE_AXES + 4 * SCENE_MATERIALS + 12 };
 
 static const char PAINT_VALUES_AXIS[] = "xyz";
 
-/* The fields of a Lua table: three plain ones, two spellings of each velocity, two spellings of alpha and density by
- * material. paint_values_hear reads them in the same order. */
-static const struct script_table *paint_values_names(const struct scene *scene)
+/* The fields of a Lua table: three plain ones, two spellings of each velocity, of alpha and density by material and,
+ * with a solid, of the components of the stretch. paint_values_hear reads them in the same order. */
+static const struct script_table *paint_values_names(const struct scene *scene, bool elastic)
 {
     char buffer[PAINT_VALUES_NAMES][SCENE_NAME + 16];
     const char *names[PAINT_VALUES_NAMES] = {"pressure", "temperature", "density"};
@@ -43,6 +45,11 @@ static const struct script_table *paint_values_names(const struct scene *scene)
         snprintf(buffer[n + 3], sizeof *buffer, "density.%s", scene->material[l].name);
         n += 4;
     }
+    for (unsigned c = 0; c < 6 && elastic; c++) {
+        snprintf(buffer[n], sizeof *buffer, "stretch_%s", model_tensor[c]);
+        snprintf(buffer[n + 1], sizeof *buffer, "stretch.%s", model_tensor[c]);
+        n += 2;
+    }
     for (unsigned i = PAINT_VALUES_PLAIN; i < n; i++) names[i] = buffer[i];
     return script_table(scene->host, names, n);
 }
@@ -54,9 +61,10 @@ void paint_values_of(const struct model *model, unsigned index, struct paint_val
     bool varying = layer->script || layer->temperature.script || layer->pressure.script;
     for (unsigned l = 0; l < scene->n_material && layer->density; l++) varying = varying || layer->density[l].script;
     for (int d = 0; d < scene->n_velocity; d++) varying = varying || layer->velocity[d].script;
+    for (unsigned c = 0; c < 6; c++) varying = varying || layer->stretch[c].script;
     *ret_values = (struct paint_values){.model = model, .layer = layer, .number = index + 1, .varying = varying};
     ret_values->whole = layer->has_material && !layer->script;
-    if (layer->script) ret_values->names = paint_values_names(scene);
+    if (layer->script) ret_values->names = paint_values_names(scene, model->elastic);
 }
 
 /* "case.yaml:12: layer 2 of initial, at (1e-05, 0): " before a message. */
@@ -94,6 +102,7 @@ static int paint_values_read(const struct paint_values *values, const double x[3
         if (layer->density) TRY(paint_values_ask(&layer->density[l], x, r, &said->density[l]));
     }
     for (int d = 0; d < SCENE_AXES; d++) TRY(paint_values_ask(&layer->velocity[d], x, r, &said->velocity[d]));
+    for (unsigned c = 0; c < 6; c++) TRY(paint_values_ask(&layer->stretch[c], x, r, &said->stretch[c]));
     return STATUS_OK;
 }
 
@@ -116,6 +125,8 @@ static int paint_values_hear(const struct paint_values *values, const double x[3
         said->alpha[l] = paint_values_either(at, 1);
         said->density[l] = paint_values_either(at + 2, 1);
     }
+    for (unsigned c = 0; c < 6; c++, at += 2)
+        said->stretch[c] = values->model->elastic ? paint_values_either(at, 1) : (double)NAN;
     return STATUS_OK;
 }
 
@@ -214,6 +225,49 @@ static int paint_values_materials(const struct paint_values *values, const doubl
     return STATUS_OK;
 }
 
+/* The components of the stretch must be those of one, and be there. */
+static int paint_values_stretch_check(const struct paint_values *values, const double x[3], const double V[6])
+{
+    const struct model *model = values->model;
+    char what[256];
+    for (unsigned c = model->n_stretch; c < 6; c++) {
+        if (V[c] == 0.0) continue;
+        snprintf(what, sizeof what, "stretch_%s is %.10g, but velocities have %u component%s here", model_tensor[c],
+                 V[c], model->n_velocity, model->n_velocity == 1 ? "" : "s");
+        return paint_values_fail(values, x, what);
+    }
+    if (!(paint_stretch_det(V) > 0.0)) {
+        snprintf(what, sizeof what,
+                 "the stretch %.6g, %.6g, %.6g is none: it has principal values that are not above 0", V[ELASTIC_XX],
+                 V[ELASTIC_YY], V[ELASTIC_ZZ]);
+        return paint_values_fail(values, x, what);
+    }
+    if (model->beta < 2 || fabs(V[ELASTIC_YY] - V[ELASTIC_ZZ]) <= 1e-12 * V[ELASTIC_YY]) return STATUS_OK;
+    snprintf(what, sizeof what,
+             "stretch_yy and stretch_zz both stand around the centre and are equal, not %.10g and %.10g", V[ELASTIC_YY],
+             V[ELASTIC_ZZ]);
+    return paint_values_fail(values, x, what);
+}
+
+/* Where there is a solid its stretch is what is said, with the rest of the identity, or that below. */
+static int paint_values_stretch(const struct paint_values *values, const double x[3], const struct paint_said *said,
+                                const double *before, double *w)
+{
+    const struct model *model = values->model;
+    double V[6] = {1.0, 1.0, 1.0};
+    bool told = false;
+    for (unsigned c = 0; c < 6; c++) told = told || !isnan(said->stretch[c]);
+    if (paint_stretch_share(model, w, 1) > 0.0 && told) {
+        for (unsigned c = 0; c < 6; c++) V[c] = isnan(said->stretch[c]) ? V[c] : said->stretch[c];
+        TRY(paint_values_stretch_check(values, x, V));
+        paint_stretch_unimodular(model, V);
+    } else if (paint_stretch_share(model, w, 1) > 0.0 && before) {
+        memcpy(V, before + model->i_V, model->n_stretch * sizeof *V);
+    }
+    memcpy(w + model->i_V, V, model->n_stretch * sizeof *V);
+    return STATUS_OK;
+}
+
 int paint_values_at(const struct paint_values *values, const double x[3], const double *before, double *w)
 {
     const struct model *model = values->model;
@@ -232,5 +286,6 @@ int paint_values_at(const struct paint_values *values, const double x[3], const 
     }
     if (isnan(said.pressure) && !before) return paint_values_fail(values, x, "the pressure is missing");
     w[model->i_E] = isnan(said.pressure) ? before[model->i_E] : said.pressure;
-    return paint_values_materials(values, x, &said, before, w);
+    TRY(paint_values_materials(values, x, &said, before, w));
+    return model->n_stretch ? paint_values_stretch(values, x, &said, before, w) : STATUS_OK;
 }

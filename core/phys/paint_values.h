@@ -4,8 +4,6 @@
 
 #include "phys/model.h"
 
-enum { PAINT_VALUES_FIELDS = 2 * SCENE_MATERIALS + SCENE_AXES + 1 }; /* most fields of a model */
-
 struct script_table;
 
 /* A layer of the scene, ready to be asked. */
