@@ -235,7 +235,12 @@ static void the_design_case_is_understood(void **state)
     assert_true(bubble->density[1].number == 1.225);
     assert_false(bubble->density[0].given);
     assert_true(scene->snapshots.time == 20e-9);
-    assert_int_equal(scene->n_snapshot_field, 4);
+    assert_int_equal(scene->n_snapshot_field, 5);
+    assert_string_equal(scene->riemann.module->name, "hlld");
+    const struct instance *law = &scene->material[2].constitutive;
+    assert_string_equal(law->module->name, "neo-hookean");
+    assert_true(law->values[instance_param_find(law->module, "shear-modulus")].number == 85e3);
+    assert_null(scene->material[0].constitutive.module);
     assert_int_equal(scene->columns[1].in, 2);
     assert_int_equal(scene->columns[2].along, 1);
     assert_string_equal(scene->probes[0].fields[0], "pressure");
