@@ -166,8 +166,10 @@ static void check_print(const struct scene *scene, const struct model *model, co
     check_print_module("riemann", &scene->riemann);
     check_print_module("limiter", &scene->limiter);
     if (scene->n_material > 1) check_print_module("interface", &scene->interface_limiter);
-    printf("  %-12s about %s\n", "memory",
-           human_bytes(1.1 * scenes_bytes(scene, mesh->all), text)); /* frames, messages */
+    double bytes = SCENES_BESIDE * scenes_bytes(scene, mesh->all);
+    printf("  %-12s about %s", "memory", human_bytes(bytes, text));
+    if (bytes > mem_machine()) printf(": more than this machine has, %s", human_bytes(mem_machine(), text));
+    putchar('\n');
 }
 
 static void check_print_cost(const struct scene *scene, const struct check_cost *cost)

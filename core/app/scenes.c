@@ -3,6 +3,7 @@
 
 #include "app/human.h"
 #include "app/norm.h"
+#include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
 
@@ -20,18 +21,34 @@ static char *scenes_setting(const char *option, const char *value)
     return !strcmp(option, "--set") ? mem_text(value) : NULL;
 }
 
-/* The coarsest level is there from the start, whatever is refined. */
-static int scenes_limit(struct scene *scene, const char *size)
+/* Memory of all machines that take part, as far as processes may have it. */
+static double scenes_machine(void)
 {
-    char text[HUMAN_ROOM];
-    double bytes = scenes_bytes(scene, scenes_cells(scene));
-    if (!size) return STATUS_OK;
-    if (human_read_bytes(size, &scene->memory_limit)) return status_wrap(STATUS_CASE, "--max-memory: ");
-    if (bytes <= scene->memory_limit) return STATUS_OK;
+    double here = comm_neighbours(), own = here * mem_allowed(), all = mem_machine();
+    double least = (own < all ? own : all) / here * comm_size();
+    comm_min(&least, 1);
+    return least;
+}
+
+/* The coarsest level is there from the start, whatever is refined. Without a limit of its own a run may have what there
+ * is: more would end it where nothing can be saved. `only_look`: the case may be meant for another machine. */
+static int scenes_limit(struct scene *scene, const char *size, bool only_look)
+{
+    char text[HUMAN_ROOM], most[HUMAN_ROOM];
+    double bytes = scenes_bytes(scene, scenes_cells(scene)), machine = scenes_machine();
+    scene->memory_limit = machine / SCENES_BESIDE;
+    if (size && human_read_bytes(size, &scene->memory_limit)) return status_wrap(STATUS_CASE, "--max-memory: ");
+    if (bytes <= scene->memory_limit || (only_look && !size)) return STATUS_OK;
+    if (size)
+        return status_fail(STATUS_CASE,
+                           "--max-memory %s: the coarsest level alone takes %s; fewer domain.cells, or more "
+                           "memory",
+                           size, human_bytes(bytes, text));
     return status_fail(STATUS_CASE,
-                       "--max-memory %s: the coarsest level alone takes %s; fewer domain.cells, or more "
-                       "memory",
-                       size, human_bytes(bytes, text));
+                       "%s: the coarsest level alone, %.4g cells, takes %s, but there are only %s here; fewer "
+                       "domain.cells, more machines, or --max-memory to try nevertheless",
+                       scene->path, scenes_cells(scene), human_bytes(SCENES_BESIDE * bytes, text),
+                       human_bytes(machine, most));
 }
 
 int scenes_read(const struct cli_given *given, const char *path, struct scene **ret_scene)
@@ -51,7 +68,7 @@ int scenes_read(const struct cli_given *given, const char *path, struct scene **
     for (int i = 0; i < n; i++) mem_free(sets[i]);
     mem_free(sets);
     if (code) return options.json ? code : cli_failed(code);
-    code = scenes_limit(*ret_scene, cli_value(given, "--max-memory"));
+    code = scenes_limit(*ret_scene, cli_value(given, "--max-memory"), strcmp(given->command->name, "run") != 0);
     if (!code) code = norm_check(*ret_scene);
     if (!code) return STATUS_OK;
     scene_free(*ret_scene);

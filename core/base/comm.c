@@ -56,6 +56,17 @@ MPI_Comm comm_world(void)
     return MPI_COMM_WORLD;
 }
 
+int comm_neighbours(void)
+{
+    MPI_Comm here;
+    int count = 1;
+    if (!comm_is_active) return count;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+    MPI_Comm_size(here, &count);
+    MPI_Comm_free(&here);
+    return count;
+}
+
 void comm_abort(int code)
 {
     if (comm_is_active && comm_size() > 1) MPI_Abort(MPI_COMM_WORLD, code);

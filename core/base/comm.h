@@ -22,6 +22,9 @@ int comm_rank(void);
 int comm_size(void);
 MPI_Comm comm_world(void);
 
+/* Ranks on this machine, with this one. Collective. */
+int comm_neighbours(void);
+
 /* Ends all ranks now with this exit code. */
 void comm_abort(int code) __attribute__((noreturn));
 

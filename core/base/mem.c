@@ -4,6 +4,7 @@
 #include "base/comm.h"
 #include "base/status.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -11,6 +12,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 enum { MEM_ALIGN = 64, MEM_LARGE = 2 << 20 };
 
@@ -91,4 +93,31 @@ double mem_peak(void)
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     return 1024.0 * (double)usage.ru_maxrss;
+}
+
+/* A limit that the system writes as a number into a file; HUGE_VAL where there is none. */
+static double mem_limit_in(const char *path)
+{
+    double bytes = HUGE_VAL;
+    FILE *file = fopen(path, "r");
+    if (file && (fscanf(file, "%lf", &bytes) != 1 || bytes <= 0)) bytes = HUGE_VAL; /* "max": none */
+    if (file) fclose(file);
+    return bytes;
+}
+
+double mem_machine(void)
+{
+    static const char *const groups[] = {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"};
+    double bytes = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    for (int i = 0; i < 2; i++) {
+        double limit = mem_limit_in(groups[i]);
+        if (limit < bytes) bytes = limit;
+    }
+    return bytes;
+}
+
+double mem_allowed(void)
+{
+    struct rlimit limit;
+    return getrlimit(RLIMIT_AS, &limit) || limit.rlim_cur == RLIM_INFINITY ? HUGE_VAL : (double)limit.rlim_cur;
 }

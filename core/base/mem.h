@@ -36,4 +36,10 @@ void mem_free(void *block);
 /* Peak resident memory of this process so far [bytes]. */
 double mem_peak(void);
 
+/* Memory of this machine, or what the group of processes that this one belongs to may have of it [bytes]. */
+double mem_machine(void);
+
+/* What this process may have (ulimit -v) [bytes]; HUGE_VAL: no limit. */
+double mem_allowed(void);
+
 #endif

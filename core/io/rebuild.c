@@ -130,8 +130,10 @@ static int rebuild_affords(const struct rebuild *rebuild, double tiles)
     double limit = rebuild->scene->memory_limit;
     double bytes = 3.0 * tiles * (double)(rebuild->n_field * rebuild->n_cell * sizeof(double));
     if (limit <= 0.0 || bytes <= limit) return STATUS_OK;
-    return status_fail(STATUS_CASE, "%s: cannot restart: its mesh takes %.4g GiB, and --max-memory allows %.4g GiB",
-                       rebuild->from->path, bytes / 0x1p30, limit / 0x1p30);
+    return status_fail(
+        STATUS_CASE,
+        "%s: cannot restart: its mesh takes %.4g GiB, and may take %.4g GiB (--max-memory, else what the machine has)",
+        rebuild->from->path, bytes / 0x1p30, limit / 0x1p30);
 }
 
 /* Do the tiles make a mesh of the scene? Asked of a mesh that has nothing but its lists: links and memory of

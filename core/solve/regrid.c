@@ -205,8 +205,8 @@ int regrid_verdict(const struct state *state)
     if (state->starved <= 0.0) return STATUS_OK;
     return status_fail(
         STATUS_RUN,
-        "at t = %.9g s refinement asks for %.0f tiles, %.4g GiB, but --max-memory allows %.4g GiB: allow "
-        "more, or fewer levels, or a higher threshold",
+        "at t = %.9g s refinement asks for %.0f tiles, %.4g GiB, but may take %.4g GiB (--max-memory, else what the "
+        "machine has): allow more, or fewer levels, or a higher threshold",
         state->t, state->starved, mesh_bytes(state->mesh, state->starved) / 1073741824.0,
         state->scene->memory_limit / 1073741824.0);
 }

@@ -25,8 +25,27 @@ fail() {
 code=0
 "$BULLA" run grow.yaml --max-memory 1500KiB >said 2>&1 || code=$?
 [ "$code" -eq 3 ] || fail "a regrid beyond the limit ended with $code: $(cat said)"
-grep -q 'refinement asks for .* tiles, .* but --max-memory allows' said || fail "no reason: $(cat said)"
+grep -q 'refinement asks for .* tiles, .* but may take .* (--max-memory' said || fail "no reason: $(cat said)"
 ls out/checkpoints/*.chk >/dev/null || fail "no checkpoint was left"
 "$BULLA" run grow.yaml --restart >said 2>&1 || fail "the run did not go on: $(cat said)"
 grep -q 'mesh.refine\[1\] (line 7): .* has not tagged a single cell' said || fail "the idle criterion goes unnamed: $(cat said)"
 if grep -q 'mesh.refine\[0\]' said; then fail "a criterion that tags is complained about"; fi
+
+# A domain that no machine has the memory for is a mistake in the case: said at once, before anything is taken or written.
+for ranks in 1 2; do
+    code=0
+    "$BULLA" run grow.yaml -o vast --set 'domain.cells=[1600000, 1600000]' -n $ranks >said 2>&1 || code=$?
+    [ "$code" -eq 2 ] || fail "an impossible domain ended with $code: $(cat said)"
+    grep -q 'error: .*the coarsest level alone, 2.56e+12 cells, takes .* TiB, but there are only .* here' said ||
+        fail "no sizes: $(cat said)"
+    [ "$(grep -c error said)" = 1 ] || fail "said more than once: $(cat said)"
+    [ ! -e vast ] || fail "something was written"
+done
+"$BULLA" check grow.yaml --set 'domain.cells=[1600000, 1600000]' >said
+grep -q '^  memory .* TiB: more than this machine has, ' said || fail "check does not say so: $(cat said)"
+
+# Nor does a limit of the process end in the middle of something.
+code=0
+(ulimit -v 1000000 && "$BULLA" run grow.yaml -o vast --set 'domain.cells=[8000, 8000]' >said 2>&1) || code=$?
+[ "$code" -eq 2 ] || fail "a domain beyond ulimit -v ended with $code: $(cat said)"
+grep -q 'there are only 977 MiB here' said || fail "$(cat said)"
