@@ -118,6 +118,16 @@ static void eos_linear(const struct eos_suite *suite, double rho, double p, cons
     contract_holds(suite->contract, a * p + b == point.rho_e && a == point.de_dp, where);
 }
 
+static void eos_energy(const struct eos_suite *suite, double rho, double p, const char *where)
+{
+    if (!BULLA_EOS_HAS(suite->eos, energy)) return;
+    double rho_e = NAN, de_dp = NAN;
+    contract_begin(suite->contract, "energy: what state and derivatives give, bitwise", 0.0);
+    suite->eos->energy(suite->self, 1, &rho, &p, &rho_e, &de_dp);
+    struct eos_point point = eos_at(suite, rho, p);
+    contract_holds(suite->contract, rho_e == point.rho_e && de_dp == point.de_dp, where);
+}
+
 static bool eos_well_posed(struct eos_point point)
 {
     bool finite = isfinite(point.rho_e) && isfinite(point.c2) && isfinite(point.T) && isfinite(point.s) &&
@@ -149,6 +159,7 @@ static void eos_states(const struct eos_suite *suite)
         eos_differences(suite, rho, p, where);
         eos_inverse(suite, rho, p, where);
         eos_linear(suite, rho, p, where);
+        eos_energy(suite, rho, p, where);
     }
 }
 
@@ -236,6 +247,7 @@ EOS_RUN(entropy, in[1], out[0])
 EOS_RUN(density, in[1], out[0])
 EOS_RUN(p_min, out[0])
 EOS_RUN(linear, out[0], out[1])
+EOS_RUN(energy, in[1], out[0], out[1])
 
 static void eos_rows(const struct eos_suite *suite)
 {
@@ -247,9 +259,13 @@ static void eos_rows(const struct eos_suite *suite)
         {"density", 2, 1, eos_run_density, eos_draw_pT, suite},
         {"p_min", 2, 1, eos_run_p_min, eos_draw_state, suite},
         {"linear", 2, 2, eos_run_linear, eos_draw_state, suite},
+        {"energy", 2, 2, eos_run_energy, eos_draw_state, suite},
     };
-    for (size_t i = 0; i < sizeof calls / sizeof *calls; i++)
-        if (calls[i].run != eos_run_linear || suite->eos->linear) contract_batch_run(suite->contract, &calls[i]);
+    for (size_t i = 0; i < sizeof calls / sizeof *calls; i++) {
+        if (calls[i].run == eos_run_linear && !suite->eos->linear) continue;
+        if (calls[i].run == eos_run_energy && !BULLA_EOS_HAS(suite->eos, energy)) continue;
+        contract_batch_run(suite->contract, &calls[i]);
+    }
 }
 
 void contract_eos_run_in(struct contract *contract, const struct contract_eos_box *box)

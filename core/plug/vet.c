@@ -37,7 +37,7 @@ static const struct vet_kind vet_kinds[] = {
      sizeof(struct bulla_constitutive),
      {VET_SLOT(bulla_constitutive, energy), VET_SLOT(bulla_constitutive, range)}},
     {"eos",
-     sizeof(struct bulla_eos),
+     offsetof(struct bulla_eos, energy), /* what came later is optional */
      {VET_SLOT(bulla_eos, state), VET_SLOT(bulla_eos, derivatives), VET_SLOT(bulla_eos, temperature),
       VET_SLOT(bulla_eos, entropy), VET_SLOT(bulla_eos, density), VET_SLOT(bulla_eos, p_min),
       VET_SLOT(bulla_eos, range)}},

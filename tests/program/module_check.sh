@@ -19,7 +19,7 @@ for file in "$BULLA_BUILD"/lib/bulla/modules/*.so "$BULLA_BUILD"/tests/plugin/*.
     judge 0 "$file"
     grep -q '^pass: all [0-9]* checks hold' out || fail "$file: no verdict"
     grep -q 'ns per point' out || fail "$file: no cost"
-    [ ! -s err ] || fail "$file: something on stderr"
+    ! grep -v '^[a-z0-9-]*: table of ' err || fail "$file: something on stderr" # but what a law says of its tables
     count=$((count + 1))
 done
 [ $count -ge 16 ] || fail "only $count modules found"

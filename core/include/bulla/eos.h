@@ -60,7 +60,22 @@ struct bulla_eos {
 
     /* Validity of the formulas as given. */
     void (*range)(const void *self, struct bulla_eos_range *ret_range);
+
+    /* Slots from here on came later: a table whose `size` ends before them has none of them. */
+
+    /* Optional (NULL: core calls state and derivatives): rho e and d(rho e)/dp in one pass, bit by bit what
+     * those two give. It is what Newton's method for the mixture pressure asks for. */
+    void (*energy)(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
+                   double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT de_dp);
+
+    /* Optional (NULL: nothing is counted): at how many of the n points a continuation stands in for the formulas.
+     * Those may reach farther than `range`, which says where data back them. */
+    size_t (*count_outside)(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                            const double *BULLA_RESTRICT p);
 };
+
+/* Whether a law has a slot that came later. */
+#define BULLA_EOS_HAS(eos, slot) ((eos)->size > offsetof(struct bulla_eos, slot) && (eos)->slot)
 
 #ifdef __cplusplus
 }
