@@ -5,7 +5,7 @@
 
 #include "app/contract.h"
 
-enum { CONTRACT_BATCH_IN = 36, CONTRACT_BATCH_OUT = 16 };
+enum { CONTRACT_BATCH_IN = 40, CONTRACT_BATCH_OUT = 20 };
 
 /* One function of a module as rows in, rows out. */
 struct contract_call {

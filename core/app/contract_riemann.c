@@ -7,6 +7,8 @@
 #include "app/contract_riemann.h"
 
 #include "app/contract_face.h"
+#include "app/contract_solid.h"
+#include "bulla/riemann.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,34 +20,37 @@ enum { RIEMANN_FACES = 200 };
 static const struct contract_shape riemann_shapes[] = {
     {.n_material = 1}, {.n_material = 2}, {.n_material = 3}, {.n_material = 5}, {.n_material = 1, .mixed = true}};
 
+/* The same with solids. */
+static const struct contract_shape riemann_solids[] = {{.n_material = 1, .solid = true},
+                                                       {.n_material = 2, .solid = true},
+                                                       {.n_material = 3, .solid = true},
+                                                       {.n_material = 1, .mixed = true, .solid = true}};
+
 /* The names of facts and of checks that several places share. */
 #define RIEMANN_CONTACT "keeps contacts of one material sharp"
 #define RIEMANN_SHEAR "keeps shear sharp"
 #define RIEMANN_UPWIND "takes the upwind side alone in supersonic flow"
 #define RIEMANN_REST "with several materials nothing moves in a fluid at rest"
 
-static void riemann_where(const struct contract_face *face, char where[static CONTRACT_NAME])
-{
-    snprintf(where, CONTRACT_NAME, "materials %u, velocities %u, Mach %.3g and %.3g", face->shape.n_material,
-             face->shape.n_velocity, face->left.u[0] / face->left.c, face->right.u[0] / face->right.c);
-}
-
 /* The errors of all fluxes under the check at work. */
 static void riemann_compare(struct contract *contract, const struct contract_face *face,
                             const struct contract_flux *got, const struct contract_flux *want)
 {
-    static const char *const names[] = {"m", "momentum", "energy", "u*", "alpha*"};
-    static const unsigned ends[] = {CONTRACT_FACE_MATERIALS, CONTRACT_FACE_MATERIALS + CONTRACT_FACE_AXES,
+    static const char *const names[] = {"m", "momentum", "energy", "u*", "alpha*", "u*_t"};
+    static const unsigned ends[] = {CONTRACT_FACE_MATERIALS,
+                                    CONTRACT_FACE_MATERIALS + CONTRACT_FACE_AXES,
                                     CONTRACT_FACE_MATERIALS + CONTRACT_FACE_AXES + 1,
-                                    CONTRACT_FACE_MATERIALS + CONTRACT_FACE_AXES + 2, sizeof *got / sizeof(double)};
+                                    CONTRACT_FACE_MATERIALS + CONTRACT_FACE_AXES + 2,
+                                    2 * CONTRACT_FACE_MATERIALS + CONTRACT_FACE_AXES + 2,
+                                    sizeof *got / sizeof(double)};
     struct contract_flux scale = contract_face_scale(face);
     double g[sizeof *got / sizeof(double)], w[sizeof *got / sizeof(double)], s[sizeof *got / sizeof(double)];
     char state[CONTRACT_NAME], where[2 * CONTRACT_NAME];
     memcpy(g, got, sizeof *got);
     memcpy(w, want, sizeof *want);
     memcpy(s, &scale, sizeof scale);
-    riemann_where(face, state);
-    for (unsigned i = 0, kind = 0; i < ends[4]; i++) {
+    contract_face_where(face, state);
+    for (unsigned i = 0, kind = 0; i < ends[5]; i++) {
         while (i >= ends[kind]) kind++;
         snprintf(where, sizeof where, "%s, %s", state, names[kind]);
         contract_near(contract, g[i], w[i], s[i], where);
@@ -70,11 +75,20 @@ static void riemann_mirror(struct contract *contract, struct contract_face face)
     image.right = face.left;
     image.left.u[0] = -image.left.u[0];
     image.right.u[0] = -image.right.u[0];
+    for (unsigned k = 0; k + 1 < CONTRACT_FACE_AXES; k++) {
+        image.left.s[k] = -image.left.s[k];
+        image.right.s[k] = -image.right.s[k];
+    }
     struct contract_flux got = contract_face_solve(contract, &face), seen = contract_face_solve(contract, &image);
     seen.u = -seen.u;
     seen.rho_E = -seen.rho_E;
     for (unsigned k = 1; k < face.shape.n_velocity; k++) seen.momentum[k] = -seen.momentum[k];
     for (unsigned l = 0; l < face.shape.n_material; l++) seen.m[l] = -seen.m[l];
+    for (unsigned k = 0; k + 1 < CONTRACT_FACE_AXES; k++) {
+        double slide = seen.slide_left[k];
+        seen.slide_left[k] = seen.slide_right[k];
+        seen.slide_right[k] = slide;
+    }
     contract_begin(contract, "mirrored sides give mirrored fluxes", contract->strict ? 0.0 : 1e-13);
     riemann_compare(contract, &face, &got, &seen);
 }
@@ -84,6 +98,7 @@ static void riemann_wall(struct contract *contract, struct contract_face face)
 {
     face.right = face.left;
     face.right.u[0] = -face.left.u[0];
+    for (unsigned k = 0; k + 1 < CONTRACT_FACE_AXES; k++) face.right.s[k] = -face.left.s[k];
     if (fabs(face.left.u[0]) >= face.left.c) return; /* the signals do not enclose the face: no wall flow */
     struct contract_flux got = contract_face_solve(contract, &face), want = got;
     want.u = want.rho_E = 0.0;
@@ -91,6 +106,14 @@ static void riemann_wall(struct contract *contract, struct contract_face face)
     memset(want.momentum + 1, 0, sizeof want.momentum - sizeof *want.momentum);
     contract_begin(contract, "nothing but pressure goes through a wall", contract->strict ? 0.0 : 1e-14);
     riemann_compare(contract, &face, &got, &want);
+}
+
+/* Tractions that do not jump; where one side is a fluid there are none. */
+static void riemann_even(struct contract_face *face)
+{
+    bool both = face->left.c_s > 0.0 && face->right.c_s > 0.0;
+    if (!both) memset(face->left.s, 0, sizeof face->left.s);
+    memcpy(face->right.s, face->left.s, sizeof face->left.s);
 }
 
 /* Uniform p and u, any jump of alpha and densities (and with several materials of energy, whatever the laws). */
@@ -108,12 +131,24 @@ static void riemann_level(struct contract_face *face, uint64_t *seed)
     }
 }
 
+/* Adds what the tractions of the left side do to momentum and energy, and how their face moves. */
+static void riemann_pull(const struct contract_face *face, struct contract_flux *flux)
+{
+    const struct contract_side *side = &face->left;
+    for (unsigned k = 1; face->shape.solid && k < face->shape.n_velocity; k++) {
+        flux->momentum[k] -= side->s[k - 1];
+        flux->rho_E -= side->s[k - 1] * side->u[k];
+        flux->slide_left[k - 1] = flux->slide_right[k - 1] = side->u[k];
+    }
+}
+
 /* u* is u, momentum goes with the mass, and mass, fraction and energy are those of one state between
  * the sides (rho E*, m*, alpha*): mostly the upwind one. One material: diffused mass takes its kinetic
  * energy along and leaves p alone. */
 static void riemann_equilibrium(struct contract *contract, struct contract_face face, uint64_t *seed)
 {
     riemann_level(&face, seed);
+    riemann_even(&face);
     const struct contract_side *l = &face.left, *r = &face.right;
     struct contract_flux got = contract_face_solve(contract, &face), want = {.u = l->u[0]};
     double u = l->u[0], mass = 0.0, kinetic = 0.5 * u * u;
@@ -135,6 +170,7 @@ static void riemann_equilibrium(struct contract *contract, struct contract_face 
         const struct contract_side *from = u >= 0.0 ? l : r;
         contract_fact(contract, RIEMANN_CONTACT, fabs(got.m[0] - from->rho * u) <= 1e-12 * fabs(from->rho * u));
     }
+    riemann_pull(&face, &want);
     contract_begin(contract, "uniform p and u stay so, whatever jumps beside them", 1e-13);
     riemann_compare(contract, &face, &got, &want);
 }
@@ -146,8 +182,10 @@ static void riemann_rest(struct contract *contract, struct contract_face face)
     memset(face.left.u, 0, sizeof face.left.u);
     memset(face.right.u, 0, sizeof face.right.u);
     face.right.p = face.left.p;
+    riemann_even(&face);
     struct contract_flux got = contract_face_solve(contract, &face), want = {.momentum = {face.left.p}};
     memcpy(want.alpha, got.alpha, sizeof want.alpha);
+    riemann_pull(&face, &want);
     contract_begin(contract, RIEMANN_REST, contract->strict ? 0.0 : 1e-14);
     riemann_compare(contract, &face, &got, &want);
 }
@@ -166,7 +204,7 @@ static void riemann_fractions(struct contract *contract, struct contract_face fa
         outside = beyond > outside ? beyond : outside;
         sum += got.alpha[l];
     }
-    riemann_where(&face, where);
+    contract_face_where(&face, where);
     contract_begin(contract, "alpha* lies between its sides", contract->strict ? 0.0 : 1e-15);
     contract_error(contract, outside, "%s", where);
     contract_begin(contract, "alpha* sums to 1", 4e-15);
@@ -203,12 +241,14 @@ static void riemann_alone(struct contract *contract, struct contract_face face)
         sides[i]->alpha[0] = 1.0;
     }
     struct contract_face single = face;
-    single.shape = (struct contract_shape){1, face.shape.n_velocity, true};
+    single.shape = (struct contract_shape){1, face.shape.n_velocity, true, face.shape.solid};
     struct contract_flux full = contract_face_solve(contract, &face), one = contract_face_solve(contract, &single);
     bool same = full.rho_E == one.rho_E && full.u == one.u && full.m[0] == one.m[0];
     for (unsigned k = 0; k < face.shape.n_velocity; k++) same &= full.momentum[k] == one.momentum[k];
+    for (unsigned k = 0; k + 1 < CONTRACT_FACE_AXES; k++)
+        same &= full.slide_left[k] == one.slide_left[k] && full.slide_right[k] == one.slide_right[k];
     char where[CONTRACT_NAME];
-    riemann_where(&face, where);
+    contract_face_where(&face, where);
     contract_begin(contract, "one material listed alone (mixed): as in the full list, bitwise", 0.0);
     contract_holds(contract, same && full.alpha[0] == 1.0, where);
 }
@@ -217,7 +257,7 @@ static void riemann_alone(struct contract *contract, struct contract_face face)
  * taking the mean velocity's work along. */
 static void riemann_shear(struct contract *contract, struct contract_face face)
 {
-    if (face.shape.n_velocity < 2) return;
+    if (face.shape.n_velocity < 2 || face.shape.solid) return;
     for (int k = 0; k < CONTRACT_FACE_AXES; k++) {
         face.left.rho_E -= 0.5 * face.left.rho * face.left.u[k] * face.left.u[k];
         face.left.u[k] = 0.0;
@@ -230,7 +270,7 @@ static void riemann_shear(struct contract *contract, struct contract_face face)
     struct contract_flux got = contract_face_solve(contract, &face);
     struct contract_flux scale = contract_face_scale(&face);
     char where[CONTRACT_NAME];
-    riemann_where(&face, where);
+    contract_face_where(&face, where);
     contract_begin(contract, "shear is diffused downhill, with the work of its mean", 1e-14);
     contract_error(contract, got.momentum[1] < 0.0, "%s: momentum %.3g", where, got.momentum[1]);
     contract_near(contract, got.rho_E, got.momentum[1] * 1.0, scale.rho_E, where);
@@ -270,21 +310,33 @@ static void riemann_checks(struct contract *contract, struct contract_shape shap
         riemann_alone(contract, face);
         riemann_shear(contract, face);
         riemann_supersonic(contract, face);
+        if (shape.solid) contract_solid_face(contract, &face);
+    }
+}
+
+/* All checks on scenes of the given kinds, and rows of such faces. */
+static void riemann_scenes(struct contract *contract, const struct contract_shape *shapes, size_t n, uint64_t *seed)
+{
+    for (size_t i = 0; i < n * CONTRACT_FACE_AXES; i++) {
+        struct contract_shape shape = shapes[i / CONTRACT_FACE_AXES];
+        shape.n_velocity = 1 + (unsigned)(i % CONTRACT_FACE_AXES);
+        contract_doing(contract, "single faces");
+        riemann_checks(contract, shape, seed);
+        struct contract_call call = contract_face_call(&shape);
+        contract_batch_run(contract, &call);
     }
 }
 
 void contract_riemann_run(struct contract *contract)
 {
+    const struct bulla_riemann *riemann = contract->module->table;
     uint64_t seed = 11;
-    for (size_t i = 0; i < sizeof riemann_shapes / sizeof *riemann_shapes; i++)
-        for (unsigned n_velocity = 1; n_velocity <= CONTRACT_FACE_AXES; n_velocity++) {
-            struct contract_shape shape = riemann_shapes[i];
-            shape.n_velocity = n_velocity;
-            contract_doing(contract, "single faces");
-            riemann_checks(contract, shape, &seed);
-            struct contract_call call = contract_face_call(&shape);
-            contract_batch_run(contract, &call);
-        }
+    riemann_scenes(contract, riemann_shapes, sizeof riemann_shapes / sizeof *riemann_shapes, &seed);
+    contract_fact(contract, "knows solids", riemann->solids == 1);
+    contract_begin(contract, "solids is 0 or 1", 0.0);
+    contract_error(contract, riemann->solids > 1, "solids = %u", riemann->solids);
+    if (riemann->solids)
+        riemann_scenes(contract, riemann_solids, sizeof riemann_solids / sizeof *riemann_solids, &seed);
 }
 
 void contract_riemann_probe(const struct contract *contract, double out[static CONTRACT_PROBE])

@@ -1,14 +1,11 @@
 /* mutants.c - the contract suites can fail: a good module of each kind with one thing wrong at a time, each
  * found by the check that is there for it. Wrong functions call the good one and spoil what it gives. */
-#include "support.h"
+#include "mutants.h"
 
-#include "app/contract_module.h"
-#include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/limiter.h"
 #include "bulla/riemann.h"
 
-static const struct bulla_constitutive *fung, *mooney;
 static const struct bulla_eos *eos;
 static const struct bulla_limiter *limiter;
 static const struct bulla_riemann *riemann;
@@ -16,165 +13,10 @@ static const struct bulla_riemann *riemann;
 static int start(void **state)
 {
     if (support_start(state)) return 1;
-    fung = support_module("constitutive", "fung")->table;
-    mooney = support_module("constitutive", "mooney-rivlin")->table;
     eos = support_module("eos", "mnasg")->table;
     limiter = support_module("limiter", "mc")->table;
     riemann = support_module("riemann", "hllc")->table;
     return 0;
-}
-
-/* A copy of a built-in module with another table of functions fails exactly in a check that begins with `check`. */
-static void finds(const char *kind, const char *name, const void *table, const char *check)
-{
-    struct bulla_module module = *support_module(kind, name);
-    module.table = table;
-    struct contract contract = {.module = &module};
-    assert_int_equal(contract_module_run(&contract, NULL), 0);
-    for (unsigned i = 0; i < contract.n_row; i++) {
-        const struct contract_row *row = &contract.rows[i];
-        if (strncmp(row->check, check, strlen(check)) != 0) continue;
-        if (row->points > 0 && !(row->worst <= row->limit) && *row->where) return;
-    }
-    struct text text = {0};
-    contract_table(&contract, &text);
-    fail_msg("nothing wrong found with '%s':\n%s", check, text.at);
-}
-
-#define IN const double *BULLA_RESTRICT
-#define OUT double *BULLA_RESTRICT
-
-/* Elastic laws: one with a continuation and second derivatives, one of both invariants. */
-
-static void lifted(const void *self, size_t n, IN I1, IN I2, OUT e, OUT e_1, OUT e_2)
-{
-    fung->energy(self, n, I1, I2, e, e_1, e_2);
-    for (size_t i = 0; i < n; i++) e[i] += 1e-9;
-}
-
-static void tilted(const void *self, size_t n, IN I1, IN I2, OUT e, OUT e_1, OUT e_2)
-{
-    fung->energy(self, n, I1, I2, e, e_1, e_2);
-    for (size_t i = 0; i < n; i++) e_1[i] *= 1.0 + 1e-5;
-}
-
-static void crossed(const void *self, size_t n, IN I1, IN I2, OUT e, OUT e_1, OUT e_2)
-{
-    mooney->energy(self, n, I1, I2, e, e_1, e_2);
-    for (size_t i = 0; i < n; i++) e_2[i] = e_1[i];
-}
-
-static void bowed(const void *self, size_t n, IN I1, IN I2, OUT e, OUT e_1, OUT e_2)
-{
-    mooney->energy(self, n, I1, I2, e, e_1, e_2);
-    for (size_t i = 0; i < n; i++) {
-        e[i] += 1e-3 * (I1[i] - 3.0) * (I1[i] - 3.0);
-        e_1[i] += 2e-3 * (I1[i] - 3.0);
-    }
-}
-
-static void softened(const void *self, size_t n, IN I1, IN I2, OUT e, OUT e_1, OUT e_2)
-{
-    mooney->energy(self, n, I1, I2, e, e_1, e_2);
-    for (size_t i = 0; i < n; i++) {
-        double J = I1[i] - 3.0, k = 0.5 * (e_1[i] + e_2[i]);
-        e[i] -= k * J * J / (J + 1e2);
-        e_1[i] -= k * (J * J + 2e2 * J) / ((J + 1e2) * (J + 1e2)) + 1.2 * k * (J > 1e3);
-    }
-}
-
-static void sunk(const void *self, size_t n, IN I1, IN I2, OUT e, OUT e_1, OUT e_2)
-{
-    mooney->energy(self, n, I1, I2, e, e_1, e_2);
-    for (size_t i = 0; i < n; i++) {
-        double k = 1.1 * e_2[i];
-        e[i] -=
-            k * (I2[i] - 3.0); /* e_2 < 0, e_1 + e_2 still above 0: equal stretch in two directions gives energy back */
-        e_2[i] -= k;
-    }
-}
-
-static void burst(const void *self, size_t n, IN I1, IN I2, OUT e, OUT e_1, OUT e_2)
-{
-    fung->energy(self, n, I1, I2, e, e_1, e_2);
-    for (size_t i = 0; i < n; i++)
-        if (I1[i] > 1e5) e[i] = (double)INFINITY;
-}
-
-static void jumping(const void *self, size_t n, IN I1, IN I2, OUT e, OUT e_1, OUT e_2)
-{
-    struct bulla_constitutive_range range;
-    fung->range(self, &range);
-    fung->energy(self, n, I1, I2, e, e_1, e_2);
-    for (size_t i = 0; i < n; i++)
-        if (I1[i] > range.I1_max) e_1[i] *= 1.01;
-}
-
-static void patched(const void *self, size_t n, IN I1, IN I2, OUT e, OUT e_1, OUT e_2)
-{
-    fung->energy(self, n, I1, I2, e, e_1, e_2);
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(e[i])) e[i] = 0.0;
-}
-
-static void straying(const void *self, size_t n, IN I1, IN I2, OUT e, OUT e_1, OUT e_2)
-{
-    fung->energy(self, n, I1, I2, e, e_1, e_2);
-    if (n > 8) e[8] *= 1.0 + 0x1p-52;
-}
-
-static void curved(const void *self, size_t n, IN I1, IN I2, OUT e_11, OUT e_12, OUT e_22)
-{
-    fung->second(self, n, I1, I2, e_11, e_12, e_22);
-    for (size_t i = 0; i < n; i++) e_11[i] *= 1.001;
-}
-
-static void mixed(const void *self, size_t n, IN I1, IN I2, OUT e_11, OUT e_12, OUT e_22)
-{
-    fung->second(self, n, I1, I2, e_11, e_12, e_22);
-    for (size_t i = 0; i < n; i++) e_12[i] = e_11[i];
-}
-
-static void narrow(const void *self, struct bulla_constitutive_range *ret_range)
-{
-    fung->range(self, ret_range);
-    ret_range->I1_max = 3.0;
-}
-
-static void test_constitutive(void **state)
-{
-    (void)state;
-    const struct {
-        const char *law, *check;
-        struct bulla_constitutive wrong;
-        bool only; /* says wrongly that I2 does not matter, or that there are no second derivatives */
-    } mutants[] = {
-        {"fung", "no energy in", {.energy = lifted}, false},
-        {"fung", "e_1 is the slope", {.energy = tilted}, false},
-        {"mooney-rivlin", "e_2 is the slope", {.energy = crossed}, false},
-        {"mooney-rivlin", "second derivatives", {.energy = bowed}, false},
-        {"fung", "second derivatives", {.second = curved}, false},
-        {"fung", "second derivatives", {.second = NULL}, true},
-        {"mooney-rivlin", "first_only", {.energy = NULL}, true},
-        {"fung", "first_only", {.second = mixed}, false},
-        {"mooney-rivlin", "e_1 + e_2 > 0", {.energy = softened}, false},
-        {"mooney-rivlin", "energy grows", {.energy = sunk}, false},
-        {"fung", "finite", {.energy = burst}, false},
-        {"fung", "energy and stress are continuous", {.energy = jumping}, false},
-        {"fung", "NaN does not", {.energy = patched}, false},
-        {"fung", "a row gives", {.energy = straying}, false},
-        {"fung", "the stated range", {.range = narrow}, false},
-    };
-    for (size_t i = 0; i < sizeof mutants / sizeof *mutants; i++) {
-        bool is_fung = strcmp(mutants[i].law, "fung") == 0;
-        struct bulla_constitutive table = is_fung ? *fung : *mooney;
-        if (mutants[i].wrong.energy) table.energy = mutants[i].wrong.energy;
-        if (mutants[i].wrong.second) table.second = mutants[i].wrong.second;
-        if (mutants[i].wrong.range) table.range = mutants[i].wrong.range;
-        if (mutants[i].only) table.second = NULL;
-        if (mutants[i].only) table.first_only = 1;
-        finds("constitutive", mutants[i].law, &table, mutants[i].check);
-    }
 }
 
 /* Equations of state. */
@@ -487,8 +329,8 @@ static void test_settings(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_constitutive), cmocka_unit_test(test_eos),
-                                       cmocka_unit_test(test_limiter),      cmocka_unit_test(test_riemann),
-                                       cmocka_unit_test(test_instances),    cmocka_unit_test(test_settings)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_eos), cmocka_unit_test(test_limiter),
+                                       cmocka_unit_test(test_riemann), cmocka_unit_test(test_instances),
+                                       cmocka_unit_test(test_settings)};
     return cmocka_run_group_tests(tests, start, support_stop);
 }
