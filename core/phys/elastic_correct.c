@@ -7,6 +7,7 @@
  * as its material. */
 #include "phys/elastic.h"
 
+#include <math.h>
 #include <string.h>
 
 typedef double correct_matrix[3][3];
@@ -34,7 +35,7 @@ static void correct_gradient(const struct model *model, const struct elastic_cor
     for (int i = 0; i < 3; i++) M[i][i] -= mean;
 }
 
-/* Solves (tr V - V) w = z. */
+/* Solves (tr V - V) w = z; 0 where V is none, as before the first step. */
 static void correct_spin(const correct_matrix V, const double z[3], double w[3])
 {
     double a = V[1][1] + V[2][2], b = V[0][0] + V[2][2], c = V[0][0] + V[1][1];
@@ -42,6 +43,7 @@ static void correct_spin(const correct_matrix V, const double z[3], double w[3])
     double A = b * c - h * h, B = a * c - g * g, C = a * b - f * f;
     double F = g * h - f * c, G = f * h - g * b, H = f * g - h * a;
     double det = c * C + (2.0 * (f * g * h) - (a * h * h + b * g * g));
+    det = det > 0.0 ? det : HUGE_VAL;
     w[0] = (A * z[0] + F * z[1] + G * z[2]) / det;
     w[1] = (F * z[0] + B * z[1] + H * z[2]) / det;
     w[2] = (G * z[0] + H * z[1] + C * z[2]) / det;
