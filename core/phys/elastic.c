@@ -44,6 +44,29 @@ void elastic_invariants(const struct model *model, size_t n, size_t stride, cons
     ELASTIC_CHOOSE(model->n_velocity, elastic_invariants, n, rows, I1, I2);
 }
 
+/* I1 alone, which is all that plain laws ask for. */
+#define ELASTIC_FIRST(nv)                                                                                            \
+    static BULLA_KERNEL void elastic_first_##nv(size_t n, struct elastic_rows V, double *restrict I1)                \
+    {                                                                                                                \
+        ELASTIC_LOCAL(V);                                                                                            \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++) I1[i] = elastic_trace(elastic_square(ELASTIC_AT(i, nv))); \
+    }
+ELASTIC_FIRST(1)
+ELASTIC_FIRST(2)
+ELASTIC_FIRST(3)
+
+/* One plain solid's part of the energy and of G1. */
+static BULLA_KERNEL void elastic_add_plain(size_t n, const double *restrict m, const double *restrict e,
+                                           const double *restrict e_1, double *restrict energy, double *restrict G1)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double mass = m[i], sum = energy[i], g1 = G1[i];
+        energy[i] = sum + mass * e[i];
+        G1[i] = g1 + 2.0 * mass * e_1[i];
+    }
+}
+
 /* One solid's part of the energy and of the moduli. */
 static BULLA_KERNEL void elastic_add(size_t n, const double *restrict m, const double *restrict I1,
                                      const double *restrict e, const double *restrict e_1, const double *restrict e_2,
@@ -71,17 +94,30 @@ static BULLA_KERNEL void elastic_add_second(size_t n, const double *restrict m, 
     }
 }
 
-/* Energy and moduli of all solids at n <= ELASTIC_BATCH points of which the invariants are there. */
-static void elastic_moduli(const struct model *model, size_t n, size_t from, const double *const *m,
-                           struct elastic_batch *batch)
+/* Do all solids have a constant G1 and no G2? */
+static bool elastic_is_plain(const struct model *model)
+{
+    for (unsigned s = 0; s < model->n_solid; s++)
+        if (model->solids[s].law->second || !model->solids[s].law->first_only) return false;
+    return true;
+}
+
+/* Invariants, energy and moduli of all solids at n <= ELASTIC_BATCH points from `from` of the rows m. */
+static void elastic_moduli(const struct model *model, size_t n, size_t stride, const double *V, size_t from,
+                           const double *const *m, struct elastic_batch *batch)
 {
     double e[ELASTIC_BATCH], e_1[ELASTIC_BATCH], e_2[ELASTIC_BATCH];
     double *sums[] = {batch->energy, batch->G1, batch->G2};
-    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) memset(sums[i], 0, n * sizeof *e);
+    bool plain = elastic_is_plain(model);
+    struct elastic_rows rows = elastic_rows(V, stride, model->n_stretch);
+    for (size_t i = 0; i < (plain ? 2 : 3); i++) memset(sums[i], 0, n * sizeof *e);
+    if (plain) ELASTIC_CHOOSE(model->n_velocity, elastic_first, n, rows, batch->I1);
+    else ELASTIC_CHOOSE(model->n_velocity, elastic_invariants, n, rows, batch->I1, batch->I2);
     for (unsigned s = 0; s < model->n_solid; s++) {
         const struct model_solid *solid = &model->solids[s];
-        solid->law->energy(solid->self, n, batch->I1, batch->I2, e, e_1, e_2);
-        elastic_add(n, m[s] + from, batch->I1, e, e_1, e_2, batch->energy, batch->G1, batch->G2);
+        solid->law->energy(solid->self, n, batch->I1, plain ? batch->I1 : batch->I2, e, e_1, e_2);
+        if (plain) elastic_add_plain(n, m[s] + from, e, e_1, batch->energy, batch->G1);
+        else elastic_add(n, m[s] + from, batch->I1, e, e_1, e_2, batch->energy, batch->G1, batch->G2);
     }
 }
 
@@ -99,14 +135,6 @@ static void elastic_curvature(const struct model *model, size_t n, size_t from, 
     }
 }
 
-/* Do all solids have a constant G1 and no G2? */
-static bool elastic_is_plain(const struct model *model)
-{
-    for (unsigned s = 0; s < model->n_solid; s++)
-        if (model->solids[s].law->second || !model->solids[s].law->first_only) return false;
-    return true;
-}
-
 static size_t elastic_part(size_t n, size_t from)
 {
     return n - from < ELASTIC_BATCH ? n - from : ELASTIC_BATCH;
@@ -118,8 +146,7 @@ void elastic_energy(const struct model *model, size_t n, size_t stride, const do
     struct elastic_batch batch;
     for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
         size_t part = elastic_part(n, from);
-        elastic_invariants(model, part, stride, V + from, batch.I1, batch.I2);
-        elastic_moduli(model, part, from, m, &batch);
+        elastic_moduli(model, part, stride, V + from, from, m, &batch);
         memcpy(rho_es + from, batch.energy, part * sizeof *rho_es);
     }
 }
@@ -138,11 +165,12 @@ ELASTIC_BODY struct elastic_tensor elastic_deviator(struct elastic_tensor V, dou
 static void elastic_stress_part(const struct model *model, size_t n, size_t stride, const double *V,
                                 const struct elastic_batch *batch, double *s)
 {
+    bool plain = elastic_is_plain(model);
     for (size_t i = 0; i < n; i++) {
         double at[6] = {0}, out[6];
         for (unsigned c = 0; c < model->n_stretch; c++) at[c] = V[c * stride + i];
         struct elastic_tensor here = {at[0], at[1], at[2], at[3], at[4], at[5]};
-        struct elastic_tensor dev = elastic_deviator(here, batch->G1[i], batch->G2[i]);
+        struct elastic_tensor dev = elastic_deviator(here, batch->G1[i], plain ? 0.0 : batch->G2[i]);
         memcpy(out, (double[]){dev.xx, dev.yy, dev.zz, dev.xy, dev.xz, dev.yz}, sizeof out);
         for (unsigned c = 0; c < model->n_stretch; c++) s[c * stride + i] = out[c];
     }
@@ -154,13 +182,23 @@ void elastic_stress(const struct model *model, size_t n, size_t stride, const do
     struct elastic_batch batch;
     for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
         size_t part = elastic_part(n, from);
-        elastic_invariants(model, part, stride, V + from, batch.I1, batch.I2);
-        elastic_moduli(model, part, from, m, &batch);
+        elastic_moduli(model, part, stride, V + from, from, m, &batch);
         elastic_stress_part(model, part, stride, V + from, &batch, s + from);
     }
 }
 
-/* zz stands alone in curved geometries: B_zz = V_zz^2, and tr B^2 = I1^2 - 2 I2. */
+/* zz stands alone in curved geometries: B_zz = V_zz^2, and tr B^2 = I1^2 - 2 I2. Plain laws have no G2. */
+static BULLA_KERNEL void elastic_hoop_plain(size_t n, const double *restrict V_zz, const struct elastic_batch *batch,
+                                            const double *restrict p, double *restrict ret)
+{
+    const double *restrict I1 = batch->I1, *restrict G1 = batch->G1;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double v = V_zz[i];
+        ret[i] = p[i] - G1[i] * (v * v - I1[i] / 3.0);
+    }
+}
+
 static BULLA_KERNEL void elastic_hoop_part(size_t n, const double *restrict V_zz, const struct elastic_batch *batch,
                                            const double *restrict p, double *restrict ret)
 {
@@ -178,9 +216,10 @@ void elastic_hoop(const struct model *model, size_t n, size_t stride, const doub
     struct elastic_batch batch;
     for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
         size_t part = elastic_part(n, from);
-        elastic_invariants(model, part, stride, V + from, batch.I1, batch.I2);
-        elastic_moduli(model, part, from, m, &batch);
-        elastic_hoop_part(part, V + ELASTIC_ZZ * stride + from, &batch, p + from, ret + from);
+        elastic_moduli(model, part, stride, V + from, from, m, &batch);
+        const double *zz = V + ELASTIC_ZZ * stride + from;
+        if (elastic_is_plain(model)) elastic_hoop_plain(part, zz, &batch, p + from, ret + from);
+        else elastic_hoop_part(part, zz, &batch, p + from, ret + from);
     }
 }
 
@@ -315,8 +354,7 @@ void elastic_sides(const struct model *model, int axis, size_t n, size_t stride,
         struct elastic_out out = {.normal = ret->normal + from, .stiff = ret->stiff + from, .rigid = ret->rigid + from};
         if (model->n_velocity > 1) out.shear_1 = ret->shear[0] + from;
         if (model->n_velocity > 2) out.shear_2 = ret->shear[1] + from;
-        elastic_invariants(model, part, stride, V + from, batch.I1, batch.I2);
-        elastic_moduli(model, part, from, m, &batch);
+        elastic_moduli(model, part, stride, V + from, from, m, &batch);
         if (ret->energy) memcpy(ret->energy + from, batch.energy, part * sizeof *batch.energy);
         if (!plain) elastic_curvature(model, part, from, m, &batch);
         if (plain) ELASTIC_CHOOSE(model->n_velocity, elastic_plain, part, rows, &batch, stiffness + from, out);
@@ -340,108 +378,59 @@ static BULLA_KERNEL void elastic_speed(size_t n, const double *restrict most, co
     for (size_t i = 0; i < n; i++) c2[i] += most[i] / rho[i];
 }
 
+/* A bound for all directions of plain laws, exact at B = 1: the larger diagonal entry plus the other one of the acoustic
+ * tensor, G [larger of 5/9 I1 - 1/3 least B_nn and largest B_nn, + 2/3 sum |B_nt|]. */
+#define ELASTIC_BOUND(nv)                                                                                           \
+    static BULLA_KERNEL void elastic_bound_##nv(size_t n, struct elastic_rows V, const struct elastic_batch *batch, \
+                                                double *restrict most)                                              \
+    {                                                                                                               \
+        const double *restrict G1 = batch->G1, *restrict I1 = batch->I1;                                            \
+        ELASTIC_LOCAL(V);                                                                                           \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                          \
+        {                                                                                                           \
+            struct elastic_tensor B = elastic_square(ELASTIC_AT(i, nv));                                            \
+            double x = B.xx, y = B.yy, z = B.zz, least = x < y ? x : y, largest = x < y ? y : x;                    \
+            least = least < z ? least : z;                                                                          \
+            largest = largest < z ? z : largest;                                                                    \
+            double across = fabs(B.xy) + fabs(B.xz) + fabs(B.yz), along = (5.0 / 9.0) * I1[i] - least / 3.0;        \
+            along = along < largest ? largest : along;                                                              \
+            most[i] = G1[i] * (along + (2.0 / 3.0) * across);                                                       \
+        }                                                                                                           \
+    }
+ELASTIC_BOUND(1)
+ELASTIC_BOUND(2)
+ELASTIC_BOUND(3)
+
+/* The largest of the axes, for any law. */
+static void elastic_bound_general(const struct model *model, size_t n, size_t stride, const double *V,
+                                  const double *const *m, const double *fluid, double *most)
+{
+    double normal[ELASTIC_BATCH], stiff[ELASTIC_BATCH], rigid[ELASTIC_BATCH], shear[2][ELASTIC_BATCH];
+    struct elastic_side side = {.normal = normal, .shear = {shear[0], shear[1]}, .stiff = stiff, .rigid = rigid};
+    memset(most, 0, n * sizeof *most);
+    for (int axis = 0; axis < model->dim; axis++) {
+        elastic_sides(model, axis, n, stride, V, m, fluid, &side);
+        elastic_quicken(n, stiff, most);
+    }
+}
+
 void elastic_speed2(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
                     const double *rho, double *c2)
 {
-    double most[ELASTIC_BATCH], fluid[ELASTIC_BATCH], normal[ELASTIC_BATCH], stiff[ELASTIC_BATCH], rigid[ELASTIC_BATCH];
-    double shear[2][ELASTIC_BATCH];
-    struct elastic_side side = {.normal = normal, .shear = {shear[0], shear[1]}, .stiff = stiff, .rigid = rigid};
+    double most[ELASTIC_BATCH], fluid[ELASTIC_BATCH];
+    struct elastic_batch batch;
     for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
         size_t part = elastic_part(n, from);
         const double *masses[SCENE_MATERIALS];
         for (unsigned s = 0; s < model->n_solid; s++) masses[s] = m[s] + from;
-        for (size_t i = 0; i < part; i++) fluid[i] = rho[from + i] * c2[from + i];
-        memset(most, 0, part * sizeof *most);
-        for (int axis = 0; axis < model->dim; axis++) {
-            elastic_sides(model, axis, part, stride, V + from, masses, fluid, &side);
-            elastic_quicken(part, stiff, most);
+        if (elastic_is_plain(model)) {
+            struct elastic_rows rows = elastic_rows(V + from, stride, model->n_stretch);
+            elastic_moduli(model, part, stride, V + from, 0, masses, &batch);
+            ELASTIC_CHOOSE(model->n_velocity, elastic_bound, part, rows, &batch, most);
+        } else {
+            for (size_t i = 0; i < part; i++) fluid[i] = rho[from + i] * c2[from + i];
+            elastic_bound_general(model, part, stride, V + from, masses, fluid, most);
         }
         elastic_speed(part, most, rho + from, c2 + from);
-    }
-}
-
-/* d^(-1/3) for 1/8 < d < 8 to round-off, by the series of (1 - e)^(-1/3) with e = 1 - d x^3; NaN for d <= 0. Farther
- * out det V comes nearer to 1 by each call. */
-ELASTIC_BODY double elastic_cube_root(double d)
-{
-    double x = 2.0 / (1.0 + d);
-    for (int round = 0; round < 4; round++) {
-        double e = 1.0 - d * x * x * x;
-        x = x * (1.0 + e * (1.0 / 3.0 + e * (2.0 / 9.0 + e * (14.0 / 81.0))));
-    }
-    return d > 0.0 ? x : (double)NAN;
-}
-
-#define ELASTIC_UNIMODULAR(nv)                                                                             \
-    static BULLA_KERNEL void elastic_to_one_##nv(size_t n, struct elastic_rows V, double *restrict factor) \
-    {                                                                                                      \
-        ELASTIC_LOCAL(V);                                                                                  \
-        _Pragma("omp simd") for (size_t i = 0; i < n; i++) factor[i] =                                     \
-            elastic_cube_root(elastic_det(ELASTIC_AT(i, nv)));                                             \
-    }
-ELASTIC_UNIMODULAR(1)
-ELASTIC_UNIMODULAR(2)
-ELASTIC_UNIMODULAR(3)
-
-static BULLA_KERNEL void elastic_scale(size_t n, const double *restrict factor, double *restrict V)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) V[i] *= factor[i];
-}
-
-void elastic_unimodular(const struct model *model, size_t n, size_t stride, double *V)
-{
-    double factor[ELASTIC_BATCH];
-    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
-        size_t part = elastic_part(n, from);
-        struct elastic_rows rows = elastic_rows(V + from, stride, model->n_stretch);
-        ELASTIC_CHOOSE(model->n_velocity, elastic_to_one, part, rows, factor);
-        for (unsigned c = 0; c < model->n_stretch; c++) elastic_scale(part, factor, V + c * stride + from);
-    }
-}
-
-/* Square of |V - 1|, component by component: weight 2 off the diagonal. */
-static BULLA_KERNEL void elastic_distance(size_t n, double one, double weight, const double *restrict V,
-                                          double *restrict square)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double e = V[i] - one, s = square[i];
-        square[i] = s + weight * e * e;
-    }
-}
-
-/* How much of V - 1 stays: 1 within the bound, 0 without solid. */
-static BULLA_KERNEL void elastic_share(size_t n, const double *restrict alpha, double *restrict square)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double phi = alpha[i] / ELASTIC_FADE, bound = phi * phi, size = sqrt(square[i]), cut = bound / size;
-        double share = size > bound ? cut : 1.0;
-        square[i] = phi > 0.0 ? share : 0.0;
-    }
-}
-
-static BULLA_KERNEL void elastic_shrink(size_t n, double one, const double *restrict share, double *restrict V)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double v = V[i], s = share[i], less = one + s * (v - one);
-        less = s < 1.0 ? less : v;
-        V[i] = s > 0.0 ? less : one;
-    }
-}
-
-void elastic_fade(const struct model *model, size_t n, size_t stride, const double *alpha, double *V)
-{
-    double share[ELASTIC_BATCH];
-    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
-        size_t part = elastic_part(n, from);
-        for (size_t i = 0; i < part; i++) share[i] = 0.0;
-        for (unsigned c = 0; c < model->n_stretch; c++)
-            elastic_distance(part, c < 3 ? 1.0 : 0.0, c < 3 ? 1.0 : 2.0, V + c * stride + from, share);
-        elastic_share(part, alpha + from, share);
-        for (unsigned c = 0; c < model->n_stretch; c++)
-            elastic_shrink(part, c < 3 ? 1.0 : 0.0, share, V + c * stride + from);
     }
 }

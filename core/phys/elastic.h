@@ -54,7 +54,8 @@ void elastic_sides(const struct model *model, int axis, size_t n, size_t stride,
 void elastic_hoop(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
                   const double *p, double *ret);
 
-/* c^2 of the fastest wave in any direction of the mesh from the frozen c_f^2, in place; rho: mixture density. */
+/* A bound of c^2 of the fastest wave along any axis from the frozen c_f^2, in place, exact where there is no stretch;
+ * rho: mixture density. */
 void elastic_speed2(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
                     const double *rho, double *c2);
 
