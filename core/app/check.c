@@ -18,6 +18,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { CHECK_COARSE = 32, CHECK_STEPS = 500 }; /* most cells along an axis of the coarse copy; most steps there */
 static const double check_moment = 0.2;        /* most seconds spent on them */
@@ -36,10 +37,29 @@ static void check_print_module(const char *what, const struct instance *instance
     printf("  %-12s %s:%s", what, module->kind, module->name);
     for (unsigned i = 0; i < instance_param_count(module); i++) {
         const struct bulla_param *param = &module->params[i];
-        if (param->type == BULLA_NUMBER) printf("  %s %g %s", param->name, instance->values[i].number, param->unit);
+        bool pure = !param->unit || strcmp(param->unit, "1") == 0;
+        if (param->type == BULLA_NUMBER)
+            printf("  %s %g%s%s", param->name, instance->values[i].number, pure ? "" : " ", pure ? "" : param->unit);
         else if (instance->values[i].text) printf("  %s %s", param->name, instance->values[i].text);
     }
     putchar('\n');
+}
+
+/* A material, and what makes it a solid. */
+static void check_print_material(const struct scene *scene, const struct model *model, unsigned l)
+{
+    const struct scene_material *material = &scene->material[l];
+    const struct instance *solid = &material->constitutive;
+    char modulus[HUMAN_ROOM], speed[HUMAN_ROOM];
+    double unstretched = 3, e, e_1, e_2, rho = model->eos[l].rho_fill;
+    check_print_module(material->name, &material->eos);
+    if (!solid->module) return;
+    const struct bulla_constitutive *law = solid->module->table;
+    law->energy(solid->self, 1, &unstretched, &unstretched, &e, &e_1, &e_2);
+    double c2 = 2 * (e_1 + e_2); /* of shear waves, whatever the density (elastic.h) */
+    check_print_module("", solid);
+    printf("  %-12s a solid: shear modulus %s at %g kg/m3, shear waves at %s\n", "", human_si(rho * c2, "Pa", modulus),
+           rho, human_si(sqrt(c2), "m/s", speed));
 }
 
 static void check_print_fields(const struct model *model)
@@ -157,11 +177,12 @@ static void check_print(const struct scene *scene, const struct model *model, co
     int tile = mesh_tile_size(scene);
     double tiles = 1;
     for (int axis = 0; axis < scene->dim; axis++) tiles *= scene->cells[axis] / (double)tile;
-    printf(" cells in %.0f tiles of %d\n", tiles, tile);
+    printf(" cells in %.0f tiles of %d", tiles, tile);
+    if (scene->n_velocity > scene->dim) printf("; velocities with %d components", scene->n_velocity);
+    putchar('\n');
     check_print_levels(scene, mesh);
     check_print_fields(model);
-    for (unsigned i = 0; i < scene->n_material; i++)
-        check_print_module(scene->material[i].name, &scene->material[i].eos);
+    for (unsigned i = 0; i < scene->n_material; i++) check_print_material(scene, model, i);
     printf("  %-12s %s\n", "closure", scene->closure == SCENE_KAPILA ? "kapila" : "allaire");
     check_print_module("riemann", &scene->riemann);
     check_print_module("limiter", &scene->limiter);

@@ -94,6 +94,7 @@ enum {
     SCENE_FIELD_POSITIVE = 2,  /* everywhere above 0 */
     SCENE_FIELD_VANISHING = 4, /* 0 in fluid at rest, or where a material is absent */
     SCENE_FIELD_FRACTION = 8,  /* from 0 to 1 */
+    SCENE_FIELD_SIGNED = 16,   /* VANISHING, with either sign */
 };
 
 /* All fields of the scene, ended by a NULL name; one of them, or NULL. In the forest. */

@@ -138,10 +138,8 @@ static bool scene_refine_fits(struct draft *draft, const struct keys_value *numb
 /* Largest relative difference that two neighbouring cells can have. */
 static double scene_refine_most(const struct scene_field *field)
 {
-    return field->is & (SCENE_FIELD_POSITIVE | SCENE_FIELD_FRACTION | SCENE_FIELD_VANISHING) &&
-                   !(field->is & SCENE_FIELD_VECTOR) && strncmp(field->name, "velocity", 8) != 0
-               ? 1
-               : 2;
+    bool one_sign = field->is & (SCENE_FIELD_POSITIVE | SCENE_FIELD_FRACTION | SCENE_FIELD_VANISHING);
+    return one_sign && !(field->is & (SCENE_FIELD_VECTOR | SCENE_FIELD_SIGNED)) ? 1 : 2;
 }
 
 static void scene_refine_relative(struct draft *draft, const struct scene_field *field, const struct keys_value *above)
@@ -208,7 +206,7 @@ static void scene_refine_window(struct draft *draft, const struct scene_refine *
     }
     if (good && refine->has_above && field->is & SCENE_FIELD_FRACTION && refine->above >= 1)
         keys_error(&draft->keys, above, "'%s' is never above 1", field->name);
-    if (good && refine->has_below && field->is && !(field->is & SCENE_FIELD_VANISHING) && refine->below <= 0)
+    if (good && refine->has_below && field->is & (SCENE_FIELD_POSITIVE | SCENE_FIELD_FRACTION) && refine->below <= 0)
         keys_error(&draft->keys, below, "'%s' is never below 0", field->name);
 }
 

@@ -23,7 +23,7 @@ struct vet_slot {
 
 struct vet_kind {
     const char *name;
-    size_t size; /* of the table of functions */
+    size_t size; /* of the table of functions, as it was in the first version that modules may come from */
     struct vet_slot slots[VET_SLOTS];
 };
 
@@ -42,7 +42,7 @@ static const struct vet_kind vet_kinds[] = {
       VET_SLOT(bulla_eos, entropy), VET_SLOT(bulla_eos, density), VET_SLOT(bulla_eos, p_min),
       VET_SLOT(bulla_eos, range)}},
     {"limiter", sizeof(struct bulla_limiter), {VET_SLOT(bulla_limiter, slope)}},
-    {"riemann", sizeof(struct bulla_riemann), {VET_SLOT(bulla_riemann, solve)}},
+    {"riemann", offsetof(struct bulla_riemann, solids), {VET_SLOT(bulla_riemann, solve)}},
 };
 
 enum { VET_KINDS = sizeof vet_kinds / sizeof *vet_kinds };
