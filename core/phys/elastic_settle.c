@@ -39,7 +39,7 @@ static void settle_batch(const struct model *model, size_t n, size_t stride, con
             double moved = fabs(V[c * stride + i] - was[c]);
             most = moved <= most ? most : moved; /* a NaN stays one */
         }
-        if (!(most <= settle_round_off(was))) continue;
+        if (!(most <= settle_round_off(was)) || (alpha && !(phi[i] > 0.0))) continue;
         for (unsigned c = 0; c < model->n_stretch; c++) V[c * stride + i] = was[c];
     }
 }

@@ -229,7 +229,7 @@ static void face_normalise(struct face_work *work, size_t n)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
-    if (model->n_alpha < 3) return;
+    if (!model->n_alpha || model->scene->n_material < 3) return; /* two of three are scaled as all three would be */
     memset(own->term, 0, n * sizeof *own->term);
     for (unsigned l = 0; l < model->n_alpha; l++)
         face_sum(n, own->state + 2 * (model->i_alpha + l) * FACE_ROOM, own->term);
