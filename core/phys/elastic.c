@@ -27,10 +27,10 @@ struct elastic_batch {
         ELASTIC_LOCAL(V);                                                                                  \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                 \
         {                                                                                                  \
-            struct elastic_tensor B = elastic_square(ELASTIC_AT(i, nv));                                   \
-            double trace = elastic_trace(B);                                                               \
+            struct elastic_tensor B = elastic_tensor_square(ELASTIC_AT(i, nv));                            \
+            double trace = elastic_tensor_trace(B);                                                        \
             I1[i] = trace;                                                                                 \
-            I2[i] = 0.5 * (trace * trace - elastic_norm2(B));                                              \
+            I2[i] = 0.5 * (trace * trace - elastic_tensor_norm2(B));                                       \
         }                                                                                                  \
     }
 ELASTIC_INVARIANTS(1)
@@ -40,16 +40,17 @@ ELASTIC_INVARIANTS(3)
 void elastic_invariants(const struct model *model, size_t n, size_t stride, const double *V, double *restrict I1,
                         double *restrict I2)
 {
-    struct elastic_rows rows = elastic_rows(V, stride, model->n_stretch);
+    struct elastic_rows rows = elastic_tensor_rows(V, stride, model->n_stretch);
     ELASTIC_CHOOSE(model->n_velocity, elastic_invariants, n, rows, I1, I2);
 }
 
 /* I1 alone, which is all that plain laws ask for. */
-#define ELASTIC_FIRST(nv)                                                                                            \
-    static BULLA_KERNEL void elastic_first_##nv(size_t n, struct elastic_rows V, double *restrict I1)                \
-    {                                                                                                                \
-        ELASTIC_LOCAL(V);                                                                                            \
-        _Pragma("omp simd") for (size_t i = 0; i < n; i++) I1[i] = elastic_trace(elastic_square(ELASTIC_AT(i, nv))); \
+#define ELASTIC_FIRST(nv)                                                                             \
+    static BULLA_KERNEL void elastic_first_##nv(size_t n, struct elastic_rows V, double *restrict I1) \
+    {                                                                                                 \
+        ELASTIC_LOCAL(V);                                                                             \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++) I1[i] =                                    \
+            elastic_tensor_trace(elastic_tensor_square(ELASTIC_AT(i, nv)));                           \
     }
 ELASTIC_FIRST(1)
 ELASTIC_FIRST(2)
@@ -109,7 +110,7 @@ static void elastic_moduli(const struct model *model, size_t n, size_t stride, c
     double e[ELASTIC_BATCH], e_1[ELASTIC_BATCH], e_2[ELASTIC_BATCH];
     double *sums[] = {batch->energy, batch->G1, batch->G2};
     bool plain = elastic_is_plain(model);
-    struct elastic_rows rows = elastic_rows(V, stride, model->n_stretch);
+    struct elastic_rows rows = elastic_tensor_rows(V, stride, model->n_stretch);
     for (size_t i = 0; i < (plain ? 2 : 3); i++) memset(sums[i], 0, n * sizeof *e);
     if (plain) ELASTIC_CHOOSE(model->n_velocity, elastic_first, n, rows, batch->I1);
     else ELASTIC_CHOOSE(model->n_velocity, elastic_invariants, n, rows, batch->I1, batch->I2);
@@ -152,10 +153,10 @@ void elastic_energy(const struct model *model, size_t n, size_t stride, const do
 }
 
 /* dev of G1 B - G2 B^2, component by component. */
-ELASTIC_BODY struct elastic_tensor elastic_deviator(struct elastic_tensor V, double G1, double G2)
+static ELASTIC_BODY struct elastic_tensor elastic_deviator(struct elastic_tensor V, double G1, double G2)
 {
-    struct elastic_tensor B = elastic_square(V), C = elastic_square(B);
-    double mean = (G1 * elastic_trace(B) - G2 * elastic_trace(C)) / 3.0;
+    struct elastic_tensor B = elastic_tensor_square(V), C = elastic_tensor_square(B);
+    double mean = (G1 * elastic_tensor_trace(B) - G2 * elastic_tensor_trace(C)) / 3.0;
     return (struct elastic_tensor){(G1 * B.xx - G2 * C.xx) - mean, (G1 * B.yy - G2 * C.yy) - mean,
                                    (G1 * B.zz - G2 * C.zz) - mean, G1 * B.xy - G2 * C.xy,
                                    G1 * B.xz - G2 * C.xz,          G1 * B.yz - G2 * C.yz};
@@ -224,7 +225,7 @@ void elastic_hoop(const struct model *model, size_t n, size_t stride, const doub
 }
 
 /* Largest eigenvalue of [a b; b d] with b^2 given; exactly a where b = 0 and d <= a. */
-ELASTIC_BODY double elastic_fastest(double a, double d, double b2)
+static ELASTIC_BODY double elastic_fastest(double a, double d, double b2)
 {
     double half = 0.5 * (a - d), spread = fabs(half) + sqrt(half * half + b2), more = b2 / spread;
     return (a > d ? a : d) + (spread > 0.0 ? more : 0.0);
@@ -236,9 +237,9 @@ struct elastic_face {
 
 /* Neo-Hookean kind: rho A_nn = rho c_f^2 + G [2/9 B_nn + 5/9 (B_t1t1 + B_t2t2)], A_tt = G B_nn, A_nt = -2/3 G B_nt.
  * Tensors in the frame of the face: x normal, y and z tangential. */
-ELASTIC_BODY struct elastic_face elastic_plain(struct elastic_tensor V, double G, double fluid)
+static ELASTIC_BODY struct elastic_face elastic_plain(struct elastic_tensor V, double G, double fluid)
 {
-    struct elastic_tensor B = elastic_square(V);
+    struct elastic_tensor B = elastic_tensor_square(V);
     double along = B.yy + B.zz, a = fluid + G * ((2.0 / 9.0) * B.xx + (5.0 / 9.0) * along), d = G * B.xx;
     double b2 = (4.0 / 9.0) * (G * G) * (B.xy * B.xy + B.xz * B.xz);
     return (struct elastic_face){.normal = G * ((2.0 / 3.0) * B.xx - along / 3.0),
@@ -253,7 +254,7 @@ struct elastic_slopes {
 };
 
 /* Change of s'_ij and of the moduli with it, for the part that all directions share: changes of I1, I2 at dev B, dev C. */
-ELASTIC_BODY double elastic_stiffen(struct elastic_slopes g, double dI1, double dI2, double dev_B, double dev_C)
+static ELASTIC_BODY double elastic_stiffen(struct elastic_slopes g, double dI1, double dI2, double dev_B, double dev_C)
 {
     double k1 = g.H11 + g.I1 * g.H12 + g.G2, k2 = g.H12 + g.I1 * g.H22; /* d G1 = k1 d I1 + k2 d I2 */
     return (k1 * dI1 + k2 * dI2) * dev_B - (g.H12 * dI1 + g.H22 * dI2) * dev_C;
@@ -262,10 +263,10 @@ ELASTIC_BODY double elastic_stiffen(struct elastic_slopes g, double dI1, double 
 /* Any law. A strain a (x) n changes B by a b' + b a' - (2/3)(a.n) B with b = B n, C = B^2 by the product rule, the
  * invariants with them, densities by -(a.n); what the traction on n changes by along a' is rho A_aa'. Tensors in
  * the frame of the face. A bound of the tangential block (its larger diagonal entry plus the other one) stands for d. */
-ELASTIC_BODY struct elastic_face elastic_general(struct elastic_tensor V, struct elastic_slopes g, double fluid)
+static ELASTIC_BODY struct elastic_face elastic_general(struct elastic_tensor V, struct elastic_slopes g, double fluid)
 {
-    struct elastic_tensor B = elastic_square(V), C = elastic_square(B);
-    double trace = elastic_trace(C), dev_B = B.xx - g.I1 / 3.0, dev_C = C.xx - trace / 3.0;
+    struct elastic_tensor B = elastic_tensor_square(V), C = elastic_tensor_square(B);
+    double trace = elastic_tensor_trace(C), dev_B = B.xx - g.I1 / 3.0, dev_C = C.xx - trace / 3.0;
     double normal = g.G1 * dev_B - g.G2 * dev_C;
     double n1 = 2.0 * B.xx - (2.0 / 3.0) * g.I1, n2 = g.I1 * n1 - (2.0 * C.xx - (2.0 / 3.0) * trace);  /* a = n */
     double p1 = 2.0 * B.xy, p2 = g.I1 * p1 - 2.0 * C.xy, q1 = 2.0 * B.xz, q2 = g.I1 * q1 - 2.0 * C.xz; /* t1, t2 */
@@ -388,7 +389,7 @@ static BULLA_KERNEL void elastic_speed(size_t n, const double *restrict most, co
         ELASTIC_LOCAL(V);                                                                                           \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                          \
         {                                                                                                           \
-            struct elastic_tensor B = elastic_square(ELASTIC_AT(i, nv));                                            \
+            struct elastic_tensor B = elastic_tensor_square(ELASTIC_AT(i, nv));                                     \
             double x = B.xx, y = B.yy, z = B.zz, least = x < y ? x : y, largest = x < y ? y : x;                    \
             least = least < z ? least : z;                                                                          \
             largest = largest < z ? z : largest;                                                                    \
@@ -424,7 +425,7 @@ void elastic_speed2(const struct model *model, size_t n, size_t stride, const do
         const double *masses[SCENE_MATERIALS];
         for (unsigned s = 0; s < model->n_solid; s++) masses[s] = m[s] + from;
         if (elastic_is_plain(model)) {
-            struct elastic_rows rows = elastic_rows(V + from, stride, model->n_stretch);
+            struct elastic_rows rows = elastic_tensor_rows(V + from, stride, model->n_stretch);
             elastic_moduli(model, part, stride, V + from, 0, masses, &batch);
             ELASTIC_CHOOSE(model->n_velocity, elastic_bound, part, rows, &batch, most);
         } else {
@@ -432,5 +433,51 @@ void elastic_speed2(const struct model *model, size_t n, size_t stride, const do
             elastic_bound_general(model, part, stride, V + from, masses, fluid, most);
         }
         elastic_speed(part, most, rho + from, c2 + from);
+    }
+}
+
+/* Square of |V - 1|, component by component: weight 2 off the diagonal. */
+static BULLA_KERNEL void elastic_distance(size_t n, double one, double weight, const double *restrict V,
+                                          double *restrict square)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double e = V[i] - one, s = square[i];
+        square[i] = s + weight * e * e;
+    }
+}
+
+/* How much of V - 1 stays: 1 within the bound, 0 without solid. */
+static BULLA_KERNEL void elastic_share(size_t n, const double *restrict alpha, double *restrict square)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double phi = alpha[i] / ELASTIC_FADE, bound = phi * phi, size = sqrt(square[i]), cut = bound / size;
+        double share = size > bound ? cut : 1.0;
+        square[i] = phi > 0.0 ? share : 0.0;
+    }
+}
+
+static BULLA_KERNEL void elastic_shrink(size_t n, double one, const double *restrict share, double *restrict V)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double v = V[i], s = share[i], less = one + s * (v - one);
+        less = s < 1.0 ? less : v;
+        V[i] = s > 0.0 ? less : one;
+    }
+}
+
+void elastic_fade(const struct model *model, size_t n, size_t stride, const double *alpha, double *V)
+{
+    double share[ELASTIC_BATCH];
+    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
+        size_t part = elastic_part(n, from);
+        for (size_t i = 0; i < part; i++) share[i] = 0.0;
+        for (unsigned c = 0; c < model->n_stretch; c++)
+            elastic_distance(part, c < 3 ? 1.0 : 0.0, c < 3 ? 1.0 : 2.0, V + c * stride + from, share);
+        elastic_share(part, alpha + from, share);
+        for (unsigned c = 0; c < model->n_stretch; c++)
+            elastic_shrink(part, c < 3 ? 1.0 : 0.0, share, V + c * stride + from);
     }
 }

@@ -26,7 +26,7 @@ struct move_rows {
     double *out[6];
 };
 
-ELASTIC_BODY struct move_matrix move_product(struct move_matrix a, struct move_matrix b)
+static ELASTIC_BODY struct move_matrix move_product(struct move_matrix a, struct move_matrix b)
 {
     return (struct move_matrix){a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy,
                                 a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.yx + a.yz * b.zx,
@@ -35,13 +35,13 @@ ELASTIC_BODY struct move_matrix move_product(struct move_matrix a, struct move_m
                                 a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
 }
 
-ELASTIC_BODY struct move_matrix move_general(struct elastic_tensor t)
+static ELASTIC_BODY struct move_matrix move_general(struct elastic_tensor t)
 {
     return (struct move_matrix){t.xx, t.xy, t.xz, t.xy, t.yy, t.yz, t.xz, t.yz, t.zz};
 }
 
 /* 2 (1 - A)^-1 - 1 = (1 - A)^-1 (1 + A), by cofactors. */
-ELASTIC_BODY struct move_matrix move_cayley(struct move_matrix A)
+static ELASTIC_BODY struct move_matrix move_cayley(struct move_matrix A)
 {
     double a = 1.0 - A.xx, e = 1.0 - A.yy, i = 1.0 - A.zz, b = -A.xy, c = -A.xz, d = -A.yx, f = -A.yz, g = -A.zx,
            h = -A.zy;
@@ -53,7 +53,7 @@ ELASTIC_BODY struct move_matrix move_cayley(struct move_matrix A)
 }
 
 /* V = M R^T in the x-y plane; zz stands alone. Written so that mirrored and exchanged axes give mirrored bits. */
-ELASTIC_BODY struct elastic_tensor move_polar_plane(struct move_matrix M)
+static ELASTIC_BODY struct elastic_tensor move_polar_plane(struct move_matrix M)
 {
     double t = M.xx + M.yy, s = M.yx - M.xy, per = 1.0 / sqrt(t * t + s * s), c = t * per, w = s * per;
     double xy = M.xx * w + M.xy * c, yx = M.yx * c - M.yy * w;
@@ -61,7 +61,7 @@ ELASTIC_BODY struct elastic_tensor move_polar_plane(struct move_matrix M)
 }
 
 /* One turn towards a symmetric M: M R^T with R from (tr V 1 - V) phi = axial(M - M^T), V the symmetric part. */
-ELASTIC_BODY struct move_matrix move_turn(struct move_matrix M)
+static ELASTIC_BODY struct move_matrix move_turn(struct move_matrix M)
 {
     double xy = 0.5 * (M.xy + M.yx), xz = 0.5 * (M.xz + M.zx), yz = 0.5 * (M.yz + M.zy);
     double a = M.yy + M.zz, e = M.xx + M.zz, i = M.xx + M.yy, rx = M.zy - M.yz, ry = M.xz - M.zx, rz = M.yx - M.xy;
@@ -79,7 +79,7 @@ ELASTIC_BODY struct move_matrix move_turn(struct move_matrix M)
     return move_product(M, back);
 }
 
-ELASTIC_BODY struct elastic_tensor move_polar(struct move_matrix M, int nv)
+static ELASTIC_BODY struct elastic_tensor move_polar(struct move_matrix M, int nv)
 {
     if (nv < 2) return (struct elastic_tensor){M.xx, M.yy, M.zz, 0.0, 0.0, 0.0};
     if (nv < 3) return move_polar_plane(M);
@@ -87,7 +87,7 @@ ELASTIC_BODY struct elastic_tensor move_polar(struct move_matrix M, int nv)
     return (struct elastic_tensor){M.xx, M.yy, M.zz, 0.5 * (M.xy + M.yx), 0.5 * (M.xz + M.zx), 0.5 * (M.yz + M.zy)};
 }
 
-ELASTIC_BODY double move_cut(double a)
+static ELASTIC_BODY double move_cut(double a)
 {
     a = a < MOVE_MOST ? a : MOVE_MOST;
     return a > -MOVE_MOST ? a : -MOVE_MOST;
@@ -99,8 +99,8 @@ struct move_hoop {
 };
 
 /* dt L/4 with hoop stretching. G: gradient, negative, without entries of its own where the hoop goes. */
-ELASTIC_BODY struct move_matrix move_strain(struct move_matrix G, double div, double quarter, struct move_hoop to,
-                                            int nv)
+static ELASTIC_BODY struct move_matrix move_strain(struct move_matrix G, double div, double quarter,
+                                                   struct move_hoop to, int nv)
 {
     double hoop = to.share * ((div - G.xx) - G.yy), yy = G.yy + to.y * hoop, zz = G.zz + to.z * hoop;
     return (struct move_matrix){move_cut(-quarter * G.xx),
@@ -115,8 +115,8 @@ ELASTIC_BODY struct move_matrix move_strain(struct move_matrix G, double div, do
 }
 
 /* One point: half of the deformation, the transport, the other half. */
-ELASTIC_BODY struct elastic_tensor move_point(struct move_matrix A, struct elastic_tensor old,
-                                              struct elastic_tensor step, int nv)
+static ELASTIC_BODY struct elastic_tensor move_point(struct move_matrix A, struct elastic_tensor old,
+                                                     struct elastic_tensor step, int nv)
 {
     struct move_matrix E = move_cayley(A);
     struct elastic_tensor half = move_polar(move_product(E, move_general(old)), nv);
@@ -126,7 +126,7 @@ ELASTIC_BODY struct elastic_tensor move_point(struct move_matrix A, struct elast
 }
 
 /* dt (-div(V* u*) + V div u*) of one component; both rates are negative. */
-ELASTIC_BODY double move_transport(double dt, double carried, double V, double div)
+static ELASTIC_BODY double move_transport(double dt, double carried, double V, double div)
 {
     return dt * (carried - V * div);
 }

@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 /* The body of a kernel, compiled into each instance of it. */
-#define ELASTIC_BODY static inline __attribute__((always_inline))
+#define ELASTIC_BODY inline __attribute__((always_inline))
 
 /* Calls KERNEL(1, ...), (2, ...) or (3, ...). */
 #define ELASTIC_CHOOSE(n_velocity, kernel, ...)              \
@@ -27,7 +27,7 @@ struct elastic_rows {
     const double *row[6];
 };
 
-static inline struct elastic_rows elastic_rows(const double *V, size_t stride, unsigned count)
+static inline struct elastic_rows elastic_tensor_rows(const double *V, size_t stride, unsigned count)
 {
     struct elastic_rows rows;
     for (unsigned c = 0; c < 6; c++) rows.row[c] = V + (c < count ? c : 0) * stride;
@@ -45,25 +45,25 @@ static inline struct elastic_rows elastic_rows(const double *V, size_t stride, u
                              (nv) > 2 ? v_xz[(nv) > 2 ? (i) : 0] : 0.0, (nv) > 2 ? v_yz[(nv) > 2 ? (i) : 0] : 0.0})
 
 /* t t for a symmetric t. */
-ELASTIC_BODY struct elastic_tensor elastic_square(struct elastic_tensor t)
+static ELASTIC_BODY struct elastic_tensor elastic_tensor_square(struct elastic_tensor t)
 {
     return (struct elastic_tensor){t.xx * t.xx + t.xy * t.xy + t.xz * t.xz, t.xy * t.xy + t.yy * t.yy + t.yz * t.yz,
                                    t.xz * t.xz + t.yz * t.yz + t.zz * t.zz, t.xx * t.xy + t.xy * t.yy + t.xz * t.yz,
                                    t.xx * t.xz + t.xy * t.yz + t.xz * t.zz, t.xy * t.xz + t.yy * t.yz + t.yz * t.zz};
 }
 
-ELASTIC_BODY double elastic_trace(struct elastic_tensor t)
+static ELASTIC_BODY double elastic_tensor_trace(struct elastic_tensor t)
 {
     return t.xx + t.yy + t.zz;
 }
 
 /* t : t */
-ELASTIC_BODY double elastic_norm2(struct elastic_tensor t)
+static ELASTIC_BODY double elastic_tensor_norm2(struct elastic_tensor t)
 {
     return (t.xx * t.xx + t.yy * t.yy + t.zz * t.zz) + 2.0 * (t.xy * t.xy + t.xz * t.xz + t.yz * t.yz);
 }
 
-ELASTIC_BODY double elastic_det(struct elastic_tensor t)
+static ELASTIC_BODY double elastic_tensor_det(struct elastic_tensor t)
 {
     double minor = t.xx * t.yy - t.xy * t.xy;
     return t.zz * minor + (2.0 * t.xy * t.xz * t.yz - t.xx * t.yz * t.yz - t.yy * t.xz * t.xz);

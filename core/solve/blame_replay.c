@@ -81,8 +81,8 @@ static void replay_sweep(struct replay *replay, int axis, const struct metric *m
         blame_give(blame, replay->used, &frame, replay->faces);
         face_solve(replay->faces, &frame, blame->facts.masked);
         blame_piece(replay->again, replay->used, &frame, replay->faces);
-        update_add(replay->used, replay->level, metric, &frame, replay->faces, blame->facts.n_cell,
-                   hoop, replay->rates);
+        update_add(replay->used, replay->level, metric, &frame, replay->faces, blame->facts.n_cell, hoop,
+                   replay->rates);
     }
 }
 
