@@ -5,13 +5,13 @@
 #include "case/scene_draft.h"
 
 static const struct key scene_stretch_rows[] = {
-#define DIAGONAL(word, text)                                                                                \
-    {                                                                                                       \
-        .name = word, .type = KEYS_VALUE, .unit = "1", .min = KEYS_POSITIVE, .max = KEYS_MOST, .doc = text, \
+#define DIAGONAL(word, text)                                                                 \
+    {                                                                                        \
+        .name = word, .type = KEYS_VALUE, .unit = "1", .min = 1e-6, .max = 1e6, .doc = text, \
     }
     DIAGONAL("xx", "Along the first axis (the radius in curved geometries)."),
-    DIAGONAL("yy", "Along the second axis; across it in one dimension; around the centre in spherical geometry."),
-    DIAGONAL("zz", "Along the third axis, or across the plane; around the axis in curved geometries."),
+    DIAGONAL("yy", "Along the second axis, or across a line; around the centre in spherical geometry, equal to zz."),
+    DIAGONAL("zz", "Along the third axis, or across a plane; around the axis or the centre in curved geometries."),
 #undef DIAGONAL
     {.name = "xy", .type = KEYS_VALUE, .unit = "1", .doc = "Shear, where velocities have two components."},
     {.name = "xz", .type = KEYS_VALUE, .unit = "1", .doc = "Shear, where velocities have three components."},

@@ -13,7 +13,7 @@ double paint_stretch_det(const double V[6])
 {
     double xx = V[ELASTIC_XX], yy = V[ELASTIC_YY], zz = V[ELASTIC_ZZ];
     double xy = V[ELASTIC_XY], xz = V[ELASTIC_XZ], yz = V[ELASTIC_YZ], minor = xx * yy - xy * xy;
-    double det = minor * zz - xx * yz * yz + 2.0 * xy * xz * yz - yy * xz * xz;
+    double det = minor * zz - (xx * yz * yz + yy * xz * xz) + 2.0 * xy * (xz * yz); /* x and y in equal parts */
     return xx > 0.0 && minor > 0.0 ? det : -1.0;
 }
 

@@ -236,10 +236,10 @@ static int paint_values_stretch_check(const struct paint_values *values, const d
                  V[c], model->n_velocity, model->n_velocity == 1 ? "" : "s");
         return paint_values_fail(values, x, what);
     }
-    if (!(paint_stretch_det(V) > 0.0)) {
+    if (!(paint_stretch_det(V) > 0.0) || isinf(paint_stretch_det(V))) {
         snprintf(what, sizeof what,
-                 "the stretch %.6g, %.6g, %.6g is none: it has principal values that are not above 0", V[ELASTIC_XX],
-                 V[ELASTIC_YY], V[ELASTIC_ZZ]);
+                 "the stretch %.6g, %.6g, %.6g is none: it has principal values that are not above 0, or too large",
+                 V[ELASTIC_XX], V[ELASTIC_YY], V[ELASTIC_ZZ]);
         return paint_values_fail(values, x, what);
     }
     if (model->beta < 2 || fabs(V[ELASTIC_YY] - V[ELASTIC_ZZ]) <= 1e-12 * V[ELASTIC_YY]) return STATUS_OK;

@@ -179,6 +179,9 @@ static void what_is_no_stretch_is_refused(void **state)
                    "principal values that are not above 0");
     expect_refusal(PLANE "initial:\n  - {everywhere: true, " GEL ", stretch: {xy: \"= 2 * x\"}}\n",
                    "principal values that are not above 0");
+    expect_refusal(PLANE "initial:\n  - {everywhere: true, " GEL
+                         ", stretch: {xx: \"= 1e200 + x\", yy: \"= 1e200 + y\"}}\n",
+                   "not above 0, or too large");
     expect_refusal(BALL "initial:\n  - {everywhere: true, " GEL ", stretch: [1, \"= 1 + x\", 1]}\n",
                    "both stand around the centre and are equal");
     expect_refusal(BALL "initial:\n  - {lua: \"return function() return {pressure = 1e5, alpha_gel = 1, density = 1000,"
