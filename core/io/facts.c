@@ -8,14 +8,15 @@
 #include <string.h>
 
 /* A law with its values in the order of its table: "stiffened-gas gamma=4.4 p-inf=6e8". */
-static void facts_put_law(const struct scene_material *material, struct notes *notes)
+static void facts_put_law(const char *material, const char *kind, const struct instance *instance, struct notes *notes)
 {
-    const struct bulla_module *module = material->eos.module;
-    char *name = mem_print("materials.%s.eos", material->name);
+    const struct bulla_module *module = instance->module;
+    if (!module) return;
+    char *name = mem_print("materials.%s.%s", material, kind);
     struct text law = {0};
     text_add(&law, "%s", module->name);
     for (unsigned i = 0; i < instance_param_count(module); i++) {
-        const struct bulla_value *value = &material->eos.values[i];
+        const struct bulla_value *value = &instance->values[i];
         text_add(&law, " %s=", module->params[i].name);
         if (module->params[i].type == BULLA_NUMBER) text_double(&law, value->number);
         else text_add(&law, "%s", value->text ? value->text : "");
@@ -57,7 +58,11 @@ void facts_put(const struct scene *scene, const struct model *model, int tile, s
     notes_put(notes, "domain.upper", dim, scene->upper);
     notes_put_one(notes, "mesh.tile", tile);
     facts_put_names(notes, "materials", scene->n_material, facts_material, scene);
-    for (unsigned l = 0; l < scene->n_material; l++) facts_put_law(&scene->material[l], notes);
+    for (unsigned l = 0; l < scene->n_material; l++) {
+        const struct scene_material *material = &scene->material[l];
+        facts_put_law(material->name, "eos", &material->eos, notes);
+        facts_put_law(material->name, "constitutive", &material->constitutive, notes);
+    }
     facts_put_names(notes, "fields", model->n_field, facts_field, model);
 }
 

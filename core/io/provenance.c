@@ -142,7 +142,11 @@ static void provenance_add_module(json_t *modules, const struct bulla_module *mo
 static json_t *provenance_modules(const struct scene *scene)
 {
     json_t *modules = json_array();
-    for (unsigned l = 0; l < scene->n_material; l++) provenance_add_module(modules, scene->material[l].eos.module);
+    for (unsigned l = 0; l < scene->n_material; l++) {
+        provenance_add_module(modules, scene->material[l].eos.module);
+        if (scene->material[l].constitutive.module)
+            provenance_add_module(modules, scene->material[l].constitutive.module);
+    }
     provenance_add_module(modules, scene->limiter.module);
     provenance_add_module(modules, scene->interface_limiter.module);
     provenance_add_module(modules, scene->riemann.module);

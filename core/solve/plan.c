@@ -21,8 +21,12 @@ const struct plan_stage *plan_stages(void)
 
 static void plan_laws(const struct scene *scene, struct text *text)
 {
-    for (unsigned l = 0; l < scene->n_material; l++)
-        text_add(text, "%s%s: %s", l ? ", " : "", scene->material[l].name, scene->material[l].eos.module->name);
+    for (unsigned l = 0; l < scene->n_material; l++) {
+        const struct scene_material *material = &scene->material[l];
+        const struct bulla_module *solid = material->constitutive.module;
+        text_add(text, "%s%s: %s%s%s", l ? ", " : "", material->name, material->eos.module->name, solid ? " + " : "",
+                 solid ? solid->name : "");
+    }
 }
 
 static void plan_line(const struct scene *scene, const char *doc, struct text *text)

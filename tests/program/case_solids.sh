@@ -20,12 +20,21 @@ grep -q '^  riemann  *riemann:hlld$' out.txt
 run 0 check "$good/minimal.yaml"
 grep -q '^  riemann  *riemann:hllc$' out.txt
 
+run 0 plan "$good/solid-shear-line.yaml"
+grep -q 'tissue: stiffened-gas + neo-hookean' out.txt
+
 # A quarter of a period of a wave that travels: it keeps its momentum and, nearly, its height of 0.0895 m/s.
 run 0 run "$good/solid-shear-line.yaml" -o wave --set run.until='= 0.25e-2 / c' --set 'domain.cells=[32]' \
     --set 'output.snapshots=null' --set 'output.history.columns={side: {total: momentum_y}, v: {max: velocity_y}}' \
     --quiet
 awk -F, 'NR > 1 && ($4 > 1e-9 || $4 < -1e-9) { bad = 1 } END { exit bad || NR < 10 || $5 < 0.085 || $5 > 0.09 }' wave/history.csv ||
     { tail -n 2 wave/history.csv; exit 1; }
+
+# Provenance names the law, and a checkpoint is of that law.
+run 0 run "$good/solid-still.yaml" -o still --set 'output={checkpoints: {every: 1 us}}' --quiet
+grep -q '"name": "neo-hookean"' still/provenance.json
+run 2 run "$good/solid-still.yaml" -o still --restart --until 2e-6 --set materials.gel.constitutive.preset=liver
+grep -q "of another case: materials.gel.constitutive is 'neo-hookean shear-modulus=7.23e+03" err.txt
 
 # Solvers that do not say that they know solids: one of today, and one from before they could say it.
 "$BULLA" new module riemann roe >/dev/null
