@@ -16,6 +16,7 @@
 #include "phys/paint.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { BOUND_ROW = FRAME_CELLS / (2 * MESH_GHOST) }; /* most face cells of a frame */
@@ -109,6 +110,7 @@ struct bound *bound_paint(const struct model *model, const struct mesh *mesh, co
         memcpy(bound->reference + (size_t)t * MESH_FACES, old, MESH_FACES * sizeof *old);
         memset(old, 0, MESH_FACES * sizeof *old);
     }
+    if (bound->status) bound->message = mem_text(status_text());
     mem_free(u);
     bound_free(before);
     return bound;
@@ -119,6 +121,7 @@ void bound_free(struct bound *bound)
     if (!bound) return;
     for (size_t i = 0; i < (size_t)bound->n_local * MESH_FACES; i++) mem_free(bound->reference[i]);
     mem_free(bound->reference);
+    mem_free(bound->message);
     mem_free(bound);
 }
 
@@ -218,6 +221,25 @@ static void bound_position(const struct bound *bound, unsigned local, const stru
     ret_x[frame->axis] = side ? mesh->upper[frame->axis] : mesh->lower[frame->axis];
 }
 
+/* Keeps the first failure: of which value, at which point, beside which cell of the tile. */
+static void bound_fail(struct bound *bound, unsigned local, int status, const char *what, const double x[3])
+{
+    const struct mesh *mesh = bound->mesh;
+    const struct level *level = bound->level;
+    double corner[3];
+    int cell[3] = {0};
+    if (bound->status) return;
+    bound->status = status;
+    bound->message = mem_text(status_text());
+    mesh_corner(mesh, level, &level->tiles[level->first + local], corner);
+    for (int d = 0; d < mesh->dim; d++) {
+        int at = (int)floor((x[d] - corner[d]) / level->h[d]);
+        cell[d] = at < 0 ? 0 : at < mesh->n[d] ? at : mesh->n[d] - 1;
+    }
+    snprintf(bound->blind, sizeof bound->blind, "%s at (%.9g, %.9g, %.9g) m, beside cell (%d, %d, %d)", what, x[0],
+             x[1], x[2], cell[0], cell[1], cell[2]);
+}
+
 /* rho_l moved along its isentrope by dp: midpoint rule on d rho / dp = 1/c^2. */
 static void bound_isentrope(const struct model_eos *eos, size_t n, const double *p, const double *p_new, double *rho,
                             double *scratch)
@@ -242,10 +264,13 @@ static void bound_targets(struct bound *bound, unsigned local, const struct fram
         bound_position(bound, local, frame, side, c, x);
         int status = STATUS_OK;
         if (boundary->pressure.given) status = scene_value_at(&boundary->pressure, x, x[0], bound->t, &ret_far[c]);
+        if (status) bound_fail(bound, local, status, "far-field pressure", x);
         ret_wave[c] = 0.0;
         if (!status && boundary->type == SCENE_INCOMING_WAVE)
             status = pulse_pressure(boundary, bound->t, x, &ret_wave[c]);
-        if (status && !bound->status) bound->status = status;
+        if (!status) continue;
+        bound_fail(bound, local, status, "pressure of the wave", x);
+        ret_wave[c] = (double)NAN;
     }
 }
 
@@ -282,28 +307,41 @@ static void bound_characteristic(struct bound *bound, unsigned local, const stru
         bound_isentrope(&model->eos[l], n, old, p, row->w + (model->i_m + l) * row->stride, scratch);
 }
 
+/* A value of an inflow into `ret`; NaN where its script fails. False then. */
+static bool bound_ask(struct bound *bound, unsigned local, const struct scene_value *value, const char *what,
+                      const double x[3], double *ret)
+{
+    int status = scene_value_at(value, x, x[0], bound->t, ret);
+    if (!status) return true;
+    bound_fail(bound, local, status, what, x);
+    *ret = (double)NAN;
+    return false;
+}
+
 static void bound_inflow(struct bound *bound, unsigned local, const struct frame *frame, int side,
                          struct bound_row *row)
 {
+    static const char *const velocity[] = {"velocity_x", "velocity_y", "velocity_z"};
     const struct model *model = bound->model;
     const struct scene_boundary *boundary = bound_of(bound, frame, side);
     for (size_t c = 0; c < row->n; c++) {
         double x[3], *at = row->w + c;
         bound_position(bound, local, frame, side, c, x);
-        int status = scene_value_at(&boundary->pressure, x, x[0], bound->t, &at[model->i_E * row->stride]);
-        for (unsigned l = 0; l < model->n_material && !status; l++) {
+        bool good = bound_ask(bound, local, &boundary->pressure, "pressure", x, &at[model->i_E * row->stride]);
+        for (unsigned l = 0; l < model->n_material; l++) {
             if (model->n_alpha) at[(model->i_alpha + l) * row->stride] = boundary->fractions[l];
             double *rho = &at[(model->i_m + l) * row->stride];
             *rho = model->eos[l].rho_fill;
-            if (boundary->density[l].given) status = scene_value_at(&boundary->density[l], x, x[0], bound->t, rho);
+            if (boundary->density[l].given && good)
+                good = bound_ask(bound, local, &boundary->density[l], "density", x, rho);
         }
-        for (unsigned d = 0; d < model->n_velocity && !status; d++) {
+        for (unsigned d = 0; d < model->n_velocity; d++) {
             double *u = &at[(model->i_u + d) * row->stride];
             *u = 0.0;
-            if (boundary->velocity[d].given) status = scene_value_at(&boundary->velocity[d], x, x[0], bound->t, u);
+            if (boundary->velocity[d].given && good)
+                good = bound_ask(bound, local, &boundary->velocity[d], velocity[d], x, u);
         }
         for (unsigned v = 0; v < model->n_stretch; v++) at[(model->i_V + v) * row->stride] = v < 3 ? 1.0 : 0.0;
-        if (status && !bound->status) bound->status = status;
     }
 }
 

@@ -17,7 +17,9 @@ struct bound {
     double t; /* [s] at which time-dependent values are taken; set before each stage */
     unsigned n_local;
     double **reference; /* [n_local * MESH_FACES]: p then u_n of the boundary cells, or NULL */
-    int status;         /* first failure of a script since bound_new; the message is in status.h */
+    int status;         /* first failure of a script since bound_new */
+    char *message;      /* of it; NULL: none */
+    char blind[192];    /* of what and where it was: "pressure at (0, 0.1) m, beside cell (0, 3, 0)" */
 };
 
 /* For one level; takes the references from the level's primitives w as they are. */
@@ -30,7 +32,7 @@ struct bound *bound_paint(const struct model *model, const struct mesh *mesh, co
                           struct bound *before, const int *from);
 void bound_free(struct bound *bound);
 
-/* Callback for frame_source: primitives of all fields. `data` is a struct bound. */
+/* Callback for frame_source: primitives of all fields. `data` is a struct bound. Where a script fails they are NaN. */
 void bound_fill(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);
 
 /* Callback for fields that only need a neighbour of the same value (masks): copies. */

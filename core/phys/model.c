@@ -157,10 +157,10 @@ struct model *model_new(const struct scene *scene)
     model->robust = robust ? robust->module->table : model->riemann;
     model->mixed = model->n_alpha > 0;
     for (unsigned q = 0; q < model->n_field; q++) model->active[model->n_active++] = q;
-    for (unsigned l = 0; l < model->n_alpha; l++) model->pure[l] = model_narrow(model, l, 1);
-    model->fluids = model_liquefy(model);
     model_name_fields(model);
     model_name_derived(model);
+    for (unsigned l = 0; l < model->n_alpha; l++) model->pure[l] = model_narrow(model, l, 1); /* with the names */
+    model->fluids = model_liquefy(model);
     return model;
 }
 

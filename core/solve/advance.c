@@ -29,29 +29,33 @@ double advance_dt(const struct state *state)
 }
 
 /* Runs the plan once; returns the number of inadmissible cells of all ranks (in the first stage
- * that has any) and, through *ret_signal, the signal speed of the new state. */
-static double advance_attempt(struct stage *stage, double *ret_signal)
+ * that has any) and, through *ret_signal, the signal speed of the new state; *ret_blind: a script of a boundary failed
+ * on some rank. */
+static double advance_attempt(struct stage *stage, double *ret_signal, bool *ret_blind)
 {
     guard_attempt(stage->guard);
     for (const struct plan_stage *step = plan_stages(); step->name; step++) step->run(stage);
-    double found[3] = {(double)stage->guard->bad[0], (double)stage->guard->bad[1], stage->signal};
-    comm_max(found, 3);
+    double blind = stage->bound->status ? 1.0 : 0.0;
+    double found[4] = {(double)stage->guard->bad[0], (double)stage->guard->bad[1], stage->signal, blind};
+    comm_max(found, 4);
     cost_lap(&stage->work->cost, COST_EXCHANGE);
     *ret_signal = found[2];
+    *ret_blind = found[3] > 0.0;
     if (found[0] > 0.0 || found[1] > 0.0) guard_settle(stage->guard, found[0] > 0.0);
     return found[0] > 0.0 ? found[0] : found[1];
 }
 
-/* Attempts with the given dt: plain, then with more and more marked cells. 0, or the last count. */
-static double advance_rounds(struct state *state, struct stage *stage, double *ret_signal)
+/* Attempts with the given dt: plain, then with more and more marked cells. 0, or the last count. What a script does not
+ * give is in vain tried again. */
+static double advance_rounds(struct state *state, struct stage *stage, double *ret_signal, bool *ret_blind)
 {
     bool strict = state->scene->guard == SCENE_GUARD_STRICT;
     stage->cells = stage->carried = stage->clipped = 0;
     guard_clear(stage->guard);
     for (int round = 0;; round++) {
         stage->guard->last = strict || round == GUARD_ROUNDS;
-        double bad = advance_attempt(stage, ret_signal);
-        if (bad == 0.0 || strict || round == GUARD_ROUNDS) return bad;
+        double bad = advance_attempt(stage, ret_signal, ret_blind);
+        if (bad == 0.0 || strict || round == GUARD_ROUNDS || *ret_blind) return bad;
         state->counts.fallback += stage->guard->bad[0] + stage->guard->bad[1];
         stage->guard->masked = true;
         stage_reset(stage);
@@ -125,7 +129,7 @@ static int advance_give_up(const struct state *state, struct stage *stage)
     return comm_agree(code);
 }
 
-/* Which tile a script gave no boundary values for. */
+/* What a script did not give, and where. */
 static void advance_say_blind(const struct stage *stage, size_t room, char *ret_text)
 {
     const struct tile *tile = &stage->level->tiles[stage->level->first + (unsigned)stage->blind / 3];
@@ -133,24 +137,26 @@ static void advance_say_blind(const struct stage *stage, size_t room, char *ret_
     int axis = stage->blind % 3;
     char name = "xyz"[axis];
     bool lower = sides[2 * axis].kind == NEIGHBOUR_BOUNDARY, upper = sides[2 * axis + 1].kind == NEIGHBOUR_BOUNDARY;
-    snprintf(ret_text, room, ", tile (%d, %d, %d), boundary %c%s", tile->at[0], tile->at[1], tile->at[2], name,
+    snprintf(ret_text, room, ", tile (%d, %d, %d), boundary %c%s: %s", tile->at[0], tile->at[1], tile->at[2], name,
              lower && upper ? "- or +"
              : lower        ? "-"
-                            : "+");
+                            : "+",
+             stage->bound->blind);
 }
 
-/* A script of a boundary failed on some rank: which step asked it, and for what. */
-static int advance_script(const struct state *state, const struct stage *stage)
+/* A script of a boundary failed on some rank: which step asked it, for what, and where. The cells that met its NaN are
+ * kept as those of any failed step. */
+static int advance_script(const struct state *state, struct stage *stage)
 {
     int status = stage->bound->status;
-    char place[128] = "";
-    if (status) {
-        char *message = mem_text(status_text());
-        if (stage->blind >= 0) advance_say_blind(stage, sizeof place, place);
-        status_fail(status, "%s; step %ld at t = %.9g s, level %d%s", message, state->step + 1, stage->t, stage->l,
-                    place);
-        mem_free(message);
-    }
+    char place[320] = "";
+    if (status && stage->blind >= 0) advance_say_blind(stage, sizeof place, place);
+    guard_clear(stage->guard);
+    stage->guard->last = true; /* no marks, which would make the repetition another attempt */
+    advance_watch(state, stage);
+    if (status)
+        status_fail(status, "%s; step %ld at t = %.9g s, level %d%s", stage->bound->message, state->step + 1, stage->t,
+                    stage->l, place);
     return comm_agree(status);
 }
 
@@ -158,13 +164,13 @@ static int advance_script(const struct state *state, const struct stage *stage)
 static int advance_once(struct state *state, struct stage *stage, bool *ret_good)
 {
     cost_open(&state->work->cost, COST_STEP);
-    double signal = 0.0, bad = advance_rounds(state, stage, &signal);
-    int status = advance_script(state, stage);
-    *ret_good = bad == 0.0 && !status;
+    double signal = 0.0;
+    bool blind = false, bad = advance_rounds(state, stage, &signal, &blind) > 0.0;
+    *ret_good = !bad && !blind;
     if (*ret_good) advance_accept(state, stage, signal);
     else stage_reset(stage);
     cost_close(&state->work->cost, COST_STEP);
-    return status;
+    return blind ? advance_script(state, stage) : STATUS_OK;
 }
 
 /* After sync_up failed: the level whose guard has the words of the message holds the tile. */

@@ -132,10 +132,10 @@ static bool guard_name_unfinite(const struct guard_tile *tile, size_t n_cell, si
         bool density = q >= model->i_m && q < model->i_u;
         if (isfinite(value)) continue;
         guard_say(fault, model->field_names[q], value,
-                  density           ? " kg/m3"
-                  : q == model->i_E ? " J/m3"
-                  : q < model->i_u  ? ""
-                                    : " kg/m2/s");
+                  density                             ? " kg/m3"
+                  : q == model->i_E                   ? " J/m3"
+                  : q < model->i_u || q >= model->i_V ? ""
+                                                      : " kg/m2/s");
         return true;
     }
     return false;

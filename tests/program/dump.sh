@@ -223,12 +223,22 @@ cp "$law" other.so
 "$BULLA" info --replay other/dump_*.h5 >out 2>&1 || fail "the replay gives something else"
 has 'brittle .*another file here'
 
-# A boundary whose script gives no number from a time on: no cell, but step, level, tile and face.
-case_file script 0 "" '= t < 5e-4 and 1e5 or 0/0' 1e12
-"$BULLA" run script.yaml --quiet >out 2>&1 && fail "it finished"
-has 'nan, not a finite number'
-has 'step [0-9]* at t = 0.00050*[0-9]* s, level 0, tile (0, [01], 0), boundary x-'
-ls script.out | grep dump && fail "a dump without a cell"
+# A boundary whose script gives no number from a time on: step, level, tile, side, value, place and cell, the first
+# time that it is asked; the cell beside it is dumped.
+case_file script 0 "" '= (t < 5e-4 or y < 0.3) and 1e5 or 0/0' 1e12
+for ranks in 1 2; do
+    rm -rf script.out
+    "$BULLA" run script.yaml --quiet -n $ranks >out 2>&1 && fail "it finished"
+    [ "$(grep -c 'not a finite number' out)" = 1 ] || fail "not said once"
+    has 'script.yaml:11: the script gives -*nan, not a finite number (called with x,y,z,r,t = 0, 0.328125, 0, 0, 0.0005'
+    has 'step [0-9]* at t = 0.00[0-9]* s, level 0, tile (0, 1, 0), boundary x-: pressure at (0, 0.328125, 0) m, beside cell (0, 2, 0)'
+    has 'the last good state .* is saved as script.out/checkpoints/'
+    "$BULLA" info script.out/dump_*.h5 >out 2>&1 || fail "info refuses it"
+    has '^tile  *(0, 1, 0)'
+    has '^cell  *(0, 2, 0) of the tile'
+    has '^left.pressure  *-*nan'
+    "$BULLA" info --replay script.out/dump_*.h5 >out 2>&1 || fail "the replay gives something else"
+done
 
 # Other files are not replayed.
 "$BULLA" info --replay energy.out/provenance.json >out 2>&1 && fail "a text was replayed"
