@@ -122,6 +122,7 @@ static void test_fan(void **state)
     for (unsigned j = 0; j < 20000; j++) {
         struct face face = draw_face(&seed, shape, j % 3 ? 0.01 : 4.0);
         if (j % 2) face.right.p = face.left.p * random_between(&seed, 0.999, 1.001);
+        if (j % 7 == 0) face.left.c_s *= 4.0; /* faster than the fast wave, at times: bounded by it */
         check_fan(&face, shape, hits);
     }
     for (unsigned i = 0; i < 6; i++) assert_true(hits[i] > 500);
