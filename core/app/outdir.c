@@ -19,9 +19,9 @@
 /* What a run writes; folders only with files that end in one of ours. */
 static const char *const outdir_files[] = {"case.yaml",  "provenance.json", "history.csv",
                                            "probes.csv", "expect.json",     "log.txt"};
-static const char *const outdir_folders[] = {"fields", "checkpoints"};
-static const char *const outdir_endings[] = {".hdf", ".hdf.series", ".chk", ".tmp"};
-enum { FILES = 6, FOLDERS = 2, ENDINGS = 4 };
+static const char *const outdir_folders[] = {"fields", "checkpoints", "maps"};
+static const char *const outdir_endings[] = {".hdf", ".hdf.series", ".chk", ".csv", ".tmp"};
+enum { FILES = 6, FOLDERS = 3, ENDINGS = 5 };
 
 static bool outdir_is_ours(const char *name)
 {

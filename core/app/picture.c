@@ -27,7 +27,8 @@ struct picture_plan {
 /* Size of the data box: true to scale within limits, beyond 1:12 a strip of its own proportions. */
 static void picture_box(const struct picture *picture, struct picture_rect *box)
 {
-    double aspect = (picture->axis[1].hi - picture->axis[1].lo) / (picture->axis[0].hi - picture->axis[0].lo);
+    double true_to_scale = (picture->axis[1].hi - picture->axis[1].lo) / (picture->axis[0].hi - picture->axis[0].lo);
+    double aspect = picture->aspect > 0.0 ? picture->aspect : true_to_scale;
     if (aspect >= 1.0) {
         box->w = aspect > 1.25 ? 400.0 / aspect : 320.0;
         if (box->w < 80.0) box->w = aspect > 12.0 ? 50.0 : 80.0 - 30.0 * (aspect - 5.0) / 7.0;

@@ -29,6 +29,7 @@ struct picture_lines {
 struct picture {
     const char *title, *note;     /* first line; second line on the left (the time) */
     struct picture_scale axis[2]; /* lo, hi: what part of the plane is shown */
+    double aspect;                /* height of the box over its width; 0: true to scale */
     unsigned n_layer;             /* 1; 2: colour bars side by side below (left and right half) */
     struct picture_layer layer[PICTURE_LAYERS];
     unsigned n_lines;

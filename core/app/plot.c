@@ -4,6 +4,7 @@
 #include "app/picture_canvas.h"
 #include "app/plot_case.h"
 #include "app/plot_history.h"
+#include "app/plot_map.h"
 #include "app/plot_picture.h"
 #include "base/comm.h"
 #include "base/mem.h"
@@ -165,9 +166,10 @@ static int plot_run(const struct cli_given *given, const char *directory)
     const char *what = given->n_word > 1 ? given->words[1] : NULL;
     if (!what && !option.left)
         return status_fail(STATUS_CASE,
-                           "which field? bulla plot %s pressure, or history; `bulla info` lists the fields", directory);
-    bool history = what && strcmp(what, "history") == 0;
-    if (!history && given->n_word > 2)
+                           "which field? bulla plot %s pressure, or history, or map; `bulla info` lists the fields",
+                           directory);
+    bool history = what && strcmp(what, "history") == 0, map = what && strcmp(what, "map") == 0;
+    if (!history && !map && given->n_word > 2)
         return status_fail(STATUS_CASE, "plot does not know what to do with '%s'; several fields go by comma: %s,%s",
                            given->words[2], what, given->words[2]);
     if (option.left && what)
@@ -175,6 +177,7 @@ static int plot_run(const struct cli_given *given, const char *directory)
     if (!plot_is_directory(directory))
         return status_fail(STATUS_CASE, "no directory %s: plot wants the output directory of a run", directory);
     if (history) return plot_history_write(directory, given->words + 2, (unsigned)(given->n_word - 2), &option);
+    if (map) return plot_map_write(directory, given->words + 2, (unsigned)(given->n_word - 2), &option);
     return plot_snapshots(directory, what, &option);
 }
 

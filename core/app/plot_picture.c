@@ -44,8 +44,7 @@ static void picture_note(const struct plot_view *view, const struct plot_picture
     snprintf(ret_note, size, PICTURE_ITALIC "t" PICTURE_UPRIGHT " = %s%s%s", time, *view->note ? ", " : "", view->note);
 }
 
-/* Ends of the scale of a field: --range, or what the field calls for, or its extremes in the window. */
-static int picture_range(const struct plot_option *option, const char *name, const char *map, double extremes[2])
+int plot_picture_range(const struct plot_option *option, const char *name, const char *map, double extremes[2])
 {
     bool fraction = strcmp(name, "schlieren") == 0 || strncmp(name, "alpha_", 6) == 0;
     if (option->range.given) {
@@ -82,7 +81,7 @@ static int picture_layer(const struct plot_view *view, const struct plot_picture
     else plot_view_range(view, values, window, option->log, extremes);
     const char *map = option->map ? option->map : colormap_for_field(picture->fields[index], extremes[0], extremes[1]);
     TRY(colormap_find(map, &layer->map));
-    TRY(picture_range(option, picture->fields[index], map, extremes));
+    TRY(plot_picture_range(option, picture->fields[index], map, extremes));
     picture_scale_init(&layer->scale, &(struct picture_scale_inp){.name = field.label,
                                                                   .unit = field.field->unit,
                                                                   .lo = extremes[0],

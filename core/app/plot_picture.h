@@ -26,6 +26,10 @@ int plot_picture_shape(const struct snapshot *snapshot, const struct plot_option
 /* Widens `extremes` by what the picture of this snapshot would show. */
 int plot_picture_extremes(const struct snapshot *snapshot, struct plot_picture *picture);
 
+/* Ends of the scale of a field in colours `map`: --range, or what the field calls for, or else `extremes` as they are;
+ * STATUS_CASE if these are those of nothing. */
+int plot_picture_range(const struct plot_option *option, const char *name, const char *map, double extremes[2]);
+
 /* Draws the picture; the caller destroys the image. STATUS_CASE: unknown fields or materials, windows outside
  * of the domain, and the like. */
 int plot_picture_draw(const struct snapshot *snapshot, const struct plot_picture *picture, cairo_surface_t **ret_image);

@@ -1,8 +1,8 @@
 /* record.c - see record.h. Snapshots and history rows at times make the run cut its steps; rows of
- * probes are interpolated between steps and do not, nor do checkpoints: the numbers of a run must not
- * depend on how often it is saved. A checkpoint comes after all else that is due, so that it knows what
- * has been written; what ends a run is written after its checkpoint and is cut off again when the
- * run goes on. */
+ * probes are interpolated between steps and do not, nor do maps, whose rows are those of steps, nor checkpoints: the
+ * numbers of a run must not depend on how often it is saved. A checkpoint comes after all else that is due, so that it
+ * knows what has been written; what ends a run is written after its checkpoint and is cut off again when the run goes
+ * on. */
 #include "app/record.h"
 
 #include "app/due.h"
@@ -11,6 +11,7 @@
 #include "io/checkpoint.h"
 #include "io/dump.h"
 #include "io/history.h"
+#include "io/maps.h"
 #include "io/probes.h"
 #include "io/provenance.h"
 #include "io/resume.h"
@@ -23,6 +24,7 @@ struct record {
     struct snapshots *snapshots;
     struct history *history;
     struct probes *probes; /* NULL: the case has none */
+    struct maps *maps;     /* NULL: the case has none */
     struct checkpoints *checkpoints;
     struct provenance *provenance;
     struct due snapshot_due, history_due, checkpoint_due;
@@ -33,6 +35,7 @@ static int record_open_files(struct record *record, const struct state *state, i
     TRY(snapshot_new(state, &record->snapshots));
     TRY(history_new(state, &record->history));
     TRY(probes_new(state, &record->probes));
+    TRY(maps_new(state, &record->maps));
     record->checkpoints = checkpoint_new(state->scene);
     return provenance_new(state, argc, argv, &record->provenance);
 }
@@ -55,6 +58,7 @@ static int record_recall(struct record *record, const struct state *state, const
     snapshot_recall(record->snapshots, notes);
     int code = history_recall(record->history, notes, origin);
     if (!code) code = probes_recall(record->probes, notes, origin);
+    if (!code) code = maps_recall(record->maps, notes, origin);
     if (!code) code = provenance_recall(record->provenance, state, notes);
     mem_free(origin);
     return code;
@@ -108,6 +112,7 @@ static int record_note(const struct record *record, const struct state *state, s
     snapshot_keep(record->snapshots, notes);
     provenance_keep(record->provenance, state, notes);
     TRY(history_keep(record->history, notes));
+    TRY(maps_keep(record->maps, notes));
     return probes_keep(record->probes, notes);
 }
 
@@ -150,6 +155,7 @@ static int record_due_save(struct record *record, const struct state *state)
 static int record_write_due(struct record *record, const struct state *state)
 {
     TRY(probes_record(record->probes, state));
+    TRY(maps_record(record->maps, state));
     if (due_now(&record->history_due, state->t, state->step)) TRY(record_due_row(record, state));
     if (due_now(&record->snapshot_due, state->t, state->step)) TRY(record_due_snapshot(record, state));
     if (due_now(&record->checkpoint_due, state->t, state->step)) TRY(record_due_save(record, state));
@@ -160,7 +166,7 @@ static int record_write_due(struct record *record, const struct state *state)
 int record_due(struct record *record, const struct state *state)
 {
     const struct due *const dues[] = {&record->history_due, &record->snapshot_due, &record->checkpoint_due};
-    bool any = record->probes != NULL;
+    bool any = record->probes || record->maps;
     provenance_watch(record->provenance, state);
     for (int i = 0; i < 3; i++) any = any || due_now(dues[i], state->t, state->step);
     return any ? record_timed(record, state, record_write_due) : 0;
@@ -173,6 +179,7 @@ int record_dump(const struct record *record, const struct state *state, char **r
 
 static int record_write_last(struct record *record, const struct state *state)
 {
+    TRY(maps_finish(record->maps, state));
     if (!state->whole) return record_now(record, state); /* levels at different times: to look at, not to measure */
     TRY(probes_finish(record->probes, state));
     TRY(history_write(record->history, state));
@@ -195,6 +202,7 @@ void record_close(struct record *record)
     snapshot_free(record->snapshots);
     history_free(record->history);
     probes_free(record->probes);
+    maps_free(record->maps);
     checkpoint_free(record->checkpoints);
     provenance_free(record->provenance);
     mem_free(record);

@@ -85,6 +85,7 @@ static void scene_fill(struct draft *draft)
     scene_initial(draft);
     scene_output(draft);
     scene_history(draft);
+    scene_map(draft);
     scene_expect(draft);
 }
 
@@ -238,6 +239,7 @@ static void scene_free_output(struct scene *scene)
     mem_free(scene->snapshot_fields);
     mem_free(scene->columns);
     mem_free(scene->probes);
+    scene_map_done(scene);
     mem_free(scene->expects);
 }
 

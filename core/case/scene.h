@@ -130,6 +130,20 @@ struct scene_probe {
     unsigned n_field;
 };
 
+/* Fields over time at places in a row. */
+struct scene_map {
+    char name[SCENE_NAME];
+    unsigned n_point;
+    int axis;                 /* the coordinate that tells places apart, 0..2; -1: the distance from the first */
+    double *place;            /* [n_point] m, ascending along an axis or not */
+    double (*at)[SCENE_AXES]; /* [n_point] points; NULL: of a surface */
+    int material;             /* its surface; else -1 */
+    double width;             /* of a surface: that part of it counts at a place which lies within half of this */
+    struct shape *where;      /* of a surface: restrict to a region, or NULL */
+    char (*fields)[SCENE_NAME];
+    unsigned n_field;
+};
+
 struct scene_expect {
     char *value; /* expression over history and probe columns; NULL for a norm */
     bool has_at_most, has_at_least, has_equals;
@@ -211,14 +225,15 @@ struct scene {
     double until;    /* s */
     long max_steps;  /* 0: no limit */
     char *directory; /* output directory, resolved against the working directory */
-    struct scene_every snapshots, history, probes_every, checkpoints;
+    struct scene_every snapshots, history, probes_every, maps_every, checkpoints;
     int checkpoints_keep;
     char (*snapshot_fields)[SCENE_NAME];
     unsigned n_snapshot_field;
     bool snapshot_double; /* float64 instead of float32 */
-    unsigned n_column, n_probe, n_expect;
+    unsigned n_column, n_probe, n_map, n_expect;
     struct scene_column *columns;
     struct scene_probe *probes;
+    struct scene_map *maps;
     struct scene_expect *expects;
     struct script_host *host; /* the Lua state all scripts live in */
     unsigned n_variant, n_setting;

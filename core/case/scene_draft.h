@@ -19,7 +19,7 @@ extern const struct keys_section scene_domain_keys, scene_mesh_keys, scene_refin
 extern const struct keys_section scene_material_keys, scene_scheme_keys;
 extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_stretch_keys;
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
-extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_expect_keys;
+extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_map_list_keys, scene_expect_keys;
 
 /* In the order in which they are called; each reads its section of draft->root. */
 void scene_domain(struct draft *draft);
@@ -31,7 +31,14 @@ void scene_boundary(struct draft *draft);
 void scene_initial(struct draft *draft);
 void scene_output(struct draft *draft);
 void scene_history(struct draft *draft);
+void scene_map(struct draft *draft);
 void scene_expect(struct draft *draft);
+
+/* Axis 0..2 that an `along:` names, or -1, perhaps after a recorded error. */
+int scene_history_axis(struct draft *draft, const struct keys_value *along);
+
+/* Releases the maps of a scene. */
+void scene_map_done(struct scene *scene);
 
 /* Warns about parameters that nothing uses, those of overlays that are not applied included. */
 void scene_spare(struct draft *draft, const struct node *root);

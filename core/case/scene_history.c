@@ -60,8 +60,7 @@ static bool scene_history_directed(enum scene_measure measure)
     return measure == SCENE_CENTROID || measure == SCENE_PENETRATION || measure == SCENE_JET_SPEED;
 }
 
-/* Axis 0..2 of `along:`, or -1. */
-static int scene_history_axis(struct draft *draft, const struct keys_value *along)
+int scene_history_axis(struct draft *draft, const struct keys_value *along)
 {
     const struct scene *scene = draft->scene;
     if (!along->given || scene->dim == 0) return -1;

@@ -108,23 +108,30 @@ int csv_open(const char *path, const char *header, bool resume, double limit, st
     return code;
 }
 
-static int csv_put(struct csv *csv, unsigned n, const double *values)
+static int csv_put(struct csv *csv, unsigned rows, unsigned n, const double *values)
 {
-    struct text line = {0};
-    for (unsigned i = 0; i < n; i++) {
-        const char *comma = i ? "," : "";
-        if (isnan(values[i])) text_add(&line, "%snan", comma);
-        else text_add(&line, "%s%.17g", comma, values[i]);
+    struct text lines = {0};
+    for (unsigned row = 0; row < rows; row++, values += n) {
+        for (unsigned i = 0; i < n; i++) {
+            const char *comma = i ? "," : "";
+            if (isnan(values[i])) text_add(&lines, "%snan", comma);
+            else text_add(&lines, "%s%.17g", comma, values[i]);
+        }
+        text_add(&lines, "\n");
     }
-    text_add(&line, "\n");
-    int code = csv_add(csv, line.at, line.length);
-    text_done(&line);
+    int code = csv_add(csv, lines.at, lines.length);
+    text_done(&lines);
     return code;
 }
 
 int csv_row(struct csv *csv, unsigned n, const double *values)
 {
-    return comm_agree(comm_rank() == 0 ? csv_put(csv, n, values) : STATUS_OK);
+    return csv_rows(csv, 1, n, values);
+}
+
+int csv_rows(struct csv *csv, unsigned rows, unsigned n, const double *values)
+{
+    return comm_agree(comm_rank() == 0 ? csv_put(csv, rows, n, values) : STATUS_OK);
 }
 
 /* Length and checksum, the latter in two halves: a double holds 53 bits. */

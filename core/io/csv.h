@@ -16,6 +16,9 @@ int csv_open(const char *path, const char *header, bool resume, double limit, st
 /* Appends a row; whole numbers are written as such. */
 int csv_row(struct csv *csv, unsigned n, const double *values);
 
+/* Appends several rows of n numbers each at once. */
+int csv_rows(struct csv *csv, unsigned rows, unsigned n, const double *values);
+
 /* Makes all rows lasting, and notes under `name` how long the file is and what its checksum. */
 int csv_keep(struct csv *csv, const char *name, struct notes *notes);
 

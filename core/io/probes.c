@@ -1,6 +1,4 @@
-/* probes.c - see probes.h. The cells around a point are found once per mesh; at a sample each rank fills in
- * those that it holds, a maximum over the ranks brings them together, and every rank interpolates
- * the same numbers in the same way. */
+/* probes.c - see probes.h. What the points see is sample.c's; here are the times and the file. */
 #include "io/probes.h"
 
 #include "base/comm.h"
@@ -9,97 +7,30 @@
 #include "base/text.h"
 #include "io/csv.h"
 #include "io/place.h"
+#include "io/sample.h"
 #include "phys/derive.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { PROBES_CORNERS = 8 };
-
-/* The cells around a probe, x fastest: up to 2 per axis. */
-struct probes_point {
-    int level;
-    int at[PROBES_CORNERS][3]; /* cell of the level */
-    double weight[PROBES_CORNERS];
-};
-
 /* One field of one probe. */
 struct probes_trace {
-    unsigned point, first; /* first: its first column */
+    unsigned point, first, part; /* first: its first column; part: where its parts are */
     struct derive field;
 };
 
 struct probes {
     struct csv *csv;
     char *header;
-    unsigned n_corner, n_trace, n_value; /* n_value: columns after t */
-    struct probes_point *points;
-    unsigned revision; /* of the mesh in which points were found */
+    unsigned n_trace, n_value, n_part; /* n_value: columns after t */
+    struct sample *sample;             /* the places of all probes */
     struct probes_trace *traces;
-    double *corners, *tile;     /* [n_value][n_corner]; [3][cells of a tile] */
+    double *parts;              /* [n_part] of sample_collect */
     double *before, *now, *row; /* [n_value], [n_value], [1 + n_value] */
     double t_before, t_row;     /* of the last sample, of the last row; -infinity: none */
     long next, step;            /* next row is due at next * every; last step sampled */
     struct scene_every every;
 };
-
-/* Lower of the two cells of a level around a coordinate, and the share of the upper one. */
-static int probes_bracket(const struct mesh *mesh, const struct level *level, int axis, double x, double *ret_share)
-{
-    int cells = level->extent[axis] * mesh->n[axis];
-    double place = (x - mesh->lower[axis]) / level->h[axis] - 0.5, below = floor(place);
-    *ret_share = place - below;
-    if (mesh->periodic[axis]) return (int)below;
-    if (below < 0.0) *ret_share = 0.0;
-    if (below >= cells - 1) *ret_share = 0.0;
-    return below < 0.0 ? 0 : below >= cells - 1 ? cells - 1 : (int)below;
-}
-
-/* The tile of a level that holds a cell, or -1; ret_cell: the cell in it. */
-static int probes_tile(const struct mesh *mesh, const struct level *level, const int at[3], size_t *ret_cell)
-{
-    const int *n = mesh->n, tile[3] = {at[0] / n[0], at[1] / n[1], at[2] / n[2]};
-    *ret_cell = (size_t)(at[0] % n[0] + n[0] * (at[1] % n[1] + n[1] * (at[2] % n[2])));
-    return mesh_find(mesh, level, tile);
-}
-
-/* The cells of a level around x; false if one of them is not there. */
-static bool probes_surround(const struct mesh *mesh, int l, const double x[3], struct probes_point *point)
-{
-    const struct level *level = &mesh->levels[l];
-    int below[3] = {0};
-    double share[3] = {0};
-    bool there = true;
-    point->level = l;
-    for (int axis = 0; axis < mesh->dim; axis++) below[axis] = probes_bracket(mesh, level, axis, x[axis], &share[axis]);
-    for (int corner = 0; corner < 1 << mesh->dim; corner++) {
-        size_t cell;
-        point->weight[corner] = 1.0;
-        for (int axis = 0; axis < 3; axis++) {
-            bool upper = corner >> axis & 1;
-            int cells = level->extent[axis] * mesh->n[axis];
-            int at = below[axis] + (upper && (share[axis] > 0.0));
-            point->at[corner][axis] = (at + cells) % cells;
-            if (axis < mesh->dim) point->weight[corner] *= upper ? share[axis] : 1.0 - share[axis];
-        }
-        there = there && probes_tile(mesh, level, point->at[corner], &cell) >= 0;
-    }
-    return there;
-}
-
-/* Finds the cells around every probe: at the start, and again when tiles have come or gone. */
-static void probes_look(struct probes *probes, const struct state *state)
-{
-    const struct mesh *mesh = state->mesh;
-    for (unsigned i = 0; i < state->scene->n_probe; i++) {
-        size_t cell;
-        int l;
-        mesh_locate(mesh, state->scene->probes[i].at, &l, &cell);
-        if (!probes_surround(mesh, l, state->scene->probes[i].at, &probes->points[i]))
-            probes_surround(mesh, l - 1, state->scene->probes[i].at, &probes->points[i]);
-    }
-    probes->revision = mesh->revision;
-}
 
 static int probes_check(const struct mesh *mesh, const struct scene_probe *probe)
 {
@@ -116,9 +47,10 @@ static int probes_find_fields(struct probes *probes, const struct state *state, 
     const struct scene_probe *probe = &state->scene->probes[index];
     for (unsigned i = 0; i < probe->n_field; i++) {
         struct probes_trace *trace = &probes->traces[probes->n_trace++];
-        *trace = (struct probes_trace){.point = index, .first = probes->n_value};
+        *trace = (struct probes_trace){.point = index, .first = probes->n_value, .part = probes->n_part};
         int code = derive_find(state->model, probe->fields[i], &trace->field);
         if (code) return status_wrap(code, "output.probes.%s.fields: ", probe->name);
+        probes->n_part += sample_room(probes->sample, &trace->field);
         for (unsigned q = 0; q < trace->field.components; q++, probes->n_value++) {
             text_add(header, ",%s.%s", probe->name, probe->fields[i]);
             if (trace->field.components > 1) text_add(header, "_%c", "xyz"[q]);
@@ -127,22 +59,30 @@ static int probes_find_fields(struct probes *probes, const struct state *state, 
     return STATUS_OK;
 }
 
+static int probes_place(struct probes *probes, const struct state *state)
+{
+    const struct scene *scene = state->scene;
+    double(*at)[3] = mem_new(scene->n_probe, sizeof *at);
+    int code = STATUS_OK;
+    for (unsigned i = 0; !code && i < scene->n_probe; i++) {
+        code = probes_check(state->mesh, &scene->probes[i]);
+        memcpy(at[i], scene->probes[i].at, sizeof at[i]);
+    }
+    if (!code) probes->sample = sample_new(state->mesh, scene->n_probe, (const double(*)[3])at);
+    mem_free(at);
+    return code;
+}
+
 static int probes_prepare(struct probes *probes, const struct state *state, struct text *header)
 {
     const struct scene *scene = state->scene;
     unsigned n_trace = 0;
     for (unsigned i = 0; i < scene->n_probe; i++) n_trace += scene->probes[i].n_field;
-    probes->points = mem_new(scene->n_probe, sizeof *probes->points);
     probes->traces = mem_new(n_trace, sizeof *probes->traces);
-    probes->n_corner = 1u << state->mesh->dim;
+    TRY(probes_place(probes, state));
     text_add(header, "t");
-    for (unsigned i = 0; i < scene->n_probe; i++) {
-        TRY(probes_check(state->mesh, &scene->probes[i]));
-        TRY(probes_find_fields(probes, state, i, header));
-    }
-    probes_look(probes, state);
-    probes->corners = mem_new(probes->n_value * probes->n_corner, sizeof(double));
-    probes->tile = mem_new(3 * state->mesh->n_cell, sizeof(double));
+    for (unsigned i = 0; i < scene->n_probe; i++) TRY(probes_find_fields(probes, state, i, header));
+    probes->parts = mem_new(probes->n_part, sizeof(double));
     probes->before = mem_new(probes->n_value, sizeof(double));
     probes->now = mem_new(probes->n_value, sizeof(double));
     probes->row = mem_new(probes->n_value + 1u, sizeof(double));
@@ -178,10 +118,9 @@ void probes_free(struct probes *probes)
     if (!probes) return;
     csv_close(probes->csv);
     mem_free(probes->header);
-    mem_free(probes->points);
+    sample_free(probes->sample);
     mem_free(probes->traces);
-    mem_free(probes->corners);
-    mem_free(probes->tile);
+    mem_free(probes->parts);
     mem_free(probes->before);
     mem_free(probes->now);
     mem_free(probes->row);
@@ -221,46 +160,18 @@ int probes_recall(struct probes *probes, const struct notes *notes, const char *
     return code;
 }
 
-/* Values of a field in those cells around its point that this rank holds. */
-static void probes_collect(struct probes *probes, const struct state *state, const struct probes_trace *trace)
-{
-    const struct mesh *mesh = state->mesh;
-    const struct probes_point *point = &probes->points[trace->point];
-    const struct level *level = &mesh->levels[point->level];
-    int derived = -1; /* the tile that is in probes->tile */
-    for (unsigned corner = 0; corner < probes->n_corner; corner++) {
-        size_t cell;
-        int tile = probes_tile(mesh, level, point->at[corner], &cell);
-        if (level->tiles[tile].rank != comm_rank()) continue;
-        if (tile != derived)
-            derive_tile(state->model, mesh, point->level, (unsigned)tile - level->first, state->t, &trace->field,
-                        probes->tile);
-        derived = tile;
-        for (unsigned q = 0; q < trace->field.components; q++)
-            probes->corners[(trace->first + q) * probes->n_corner + corner] = probes->tile[q * mesh->n_cell + cell];
-    }
-}
-
 static void probes_sample(struct probes *probes, const struct state *state)
 {
-    unsigned n = probes->n_value * probes->n_corner;
-    for (unsigned i = 0; i < n; i++) probes->corners[i] = -INFINITY;
-    if (probes->revision != state->mesh->revision) probes_look(probes, state);
     for (unsigned i = 0; i < probes->n_trace; i++) {
-        derive_prepare(state->model, state->mesh, state->t, &probes->traces[i].field);
-        probes_collect(probes, state, &probes->traces[i]);
+        struct probes_trace *trace = &probes->traces[i];
+        derive_prepare(state->model, state->mesh, state->t, &trace->field);
+        sample_collect(probes->sample, state, &trace->field, trace->point, 1, probes->parts + trace->part);
     }
-    comm_max(probes->corners, (int)n);
+    comm_max(probes->parts, (int)probes->n_part);
     for (unsigned i = 0; i < probes->n_trace; i++) {
         const struct probes_trace *trace = &probes->traces[i];
-        for (unsigned q = trace->first; q < trace->first + trace->field.components; q++) {
-            double sum = 0.0;
-            for (unsigned corner = 0; corner < probes->n_corner; corner++) {
-                double weight = probes->points[trace->point].weight[corner];
-                if (weight > 0.0) sum += weight * probes->corners[q * probes->n_corner + corner];
-            }
-            probes->now[q] = isinf(sum) ? NAN : sum; /* a NaN is lost in the maximum */
-        }
+        sample_blend(probes->sample, &trace->field, trace->point, 1, probes->parts + trace->part, 0,
+                     probes->now + trace->first);
     }
 }
 

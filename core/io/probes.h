@@ -1,11 +1,7 @@
 /* probes.h - probes.csv: fields at points over time, `t,<probe>.<field>...` (velocity as
  * <probe>.velocity_x, ...).
  *
- * In space, values are interpolated linearly along each axis between the centres of the cells
- * around the point, across tiles and ranks; beyond the last centre before a boundary they stay
- * constant, across a periodic boundary they go on. These cells are those of the finest level at the point,
- * or, where that ends beside it, of the next coarser one, which holds averages under finer cells: always
- * cells of one level, so second order and within their range. In time, rows stand at the times that the
+ * In space, values are those of sample.h. In time, rows stand at the times that the
  * case asks for (multiples of `every`), linear between the steps around them; with `every: N
  * steps` at every N-th step. Without `every` each step makes a row. */
 #ifndef PROBES_H

@@ -1,0 +1,234 @@
+/* plot_map.c - see plot_map.h. The table is what a run writes as it goes, so that running and killed runs have
+ * pictures too; a value fills the space half way to the places and times around it. */
+#include "app/plot_map.h"
+
+#include "app/picture.h"
+#include "app/picture_canvas.h"
+#include "app/picture_text.h"
+#include "app/plot_case.h"
+#include "app/plot_picture.h"
+#include "app/plot_unit.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+#include "case/table.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+struct map {
+    const char *name;
+    struct table table;
+    size_t n_place, n_time;
+    struct raster_cell *cells; /* [n_time * n_place], as the rows of the table */
+    double edge[2][2];         /* of all cells */
+    struct scene *scene;       /* or NULL */
+};
+
+/* The maps that a directory has, for messages. */
+static void map_list(const char *directory, struct text *list)
+{
+    char *folder = mem_print("%s/maps", directory);
+    DIR *stream = opendir(folder);
+    for (struct dirent *entry; stream && (entry = readdir(stream));) {
+        const char *end = strrchr(entry->d_name, '.');
+        if (end && !strcmp(end, ".csv"))
+            text_add(list, "%s%.*s", list->length ? ", " : "", (int)(end - entry->d_name), entry->d_name);
+    }
+    if (stream) closedir(stream);
+    mem_free(folder);
+}
+
+static int map_missing(const char *directory, const char *name)
+{
+    struct text list = {0};
+    map_list(directory, &list);
+    int code = !list.length ? status_fail(STATUS_CASE, "no maps in %s: output.maps asks a run for them", directory)
+               : name       ? status_fail(STATUS_CASE, "no map '%s' in %s; there are: %s", name, directory, list.at)
+                            : status_fail(STATUS_CASE, "which map and field? There are: %s", list.at);
+    text_done(&list);
+    return code;
+}
+
+/* Edges of the cells around n ascending or descending values, `step` apart in the table: [n + 1]. */
+static double *map_edges(const double *values, size_t n, size_t step)
+{
+    double *edges = mem_new(n + 1, sizeof *edges);
+    for (size_t i = 1; i < n; i++) edges[i] = 0.5 * (values[(i - 1) * step] + values[i * step]);
+    edges[0] = values[0];
+    edges[n] = values[(n - 1) * step];
+    return edges;
+}
+
+static void map_cells(struct map *map)
+{
+    double *time = map_edges(map->table.columns[0], map->n_time, map->n_place);
+    double *place = map_edges(map->table.columns[1], map->n_place, 1);
+    map->cells = mem_new(map->n_time * map->n_place, sizeof *map->cells);
+    for (size_t i = 0; i < map->n_time; i++)
+        for (size_t k = 0; k < map->n_place; k++) {
+            double a = place[k], b = place[k + 1];
+            map->cells[i * map->n_place + k] =
+                (struct raster_cell){{{a < b ? a : b, a < b ? b : a}, {time[i], time[i + 1]}}};
+        }
+    double a = place[0], b = place[map->n_place];
+    map->edge[0][0] = a < b ? a : b;
+    map->edge[0][1] = a < b ? b : a;
+    map->edge[1][0] = time[0];
+    map->edge[1][1] = time[map->n_time];
+    mem_free(time);
+    mem_free(place);
+}
+
+static int map_open(const char *directory, const char *name, struct map *map)
+{
+    char *path = mem_print("%s/maps/%s.csv", directory, name);
+    int code = access(path, R_OK) ? map_missing(directory, name) : STATUS_OK;
+    map->name = name;
+    if (!code && table_read(path, TABLE_OF_RUN, &map->table)) code = status_fail(STATUS_CASE, "%s", status_text());
+    mem_free(path);
+    if (code) return code;
+    const struct table *table = &map->table;
+    while (map->n_place < table->n_row && table->columns[0][map->n_place] == table->columns[0][0]) map->n_place++;
+    map->n_time = map->n_place ? table->n_row / map->n_place : 0;
+    if (map->n_time < 2 || map->n_place < 2)
+        return status_fail(STATUS_CASE, "map %s has %zu times and %zu places: two of each make a picture", name,
+                           map->n_time, map->n_place);
+    map_cells(map);
+    map->scene = plot_unit_scene(directory);
+    return STATUS_OK;
+}
+
+static void map_close(struct map *map)
+{
+    table_done(&map->table);
+    mem_free(map->cells);
+    scene_free(map->scene);
+}
+
+static int map_column(const struct map *map, const char *field, const double **ret_values)
+{
+    struct text list = {0};
+    for (unsigned c = 2; c < map->table.n_column; c++) {
+        if (!strcmp(map->table.names[c], field)) *ret_values = map->table.columns[c];
+        text_add(&list, "%s%s", c > 2 ? ", " : "", map->table.names[c]);
+    }
+    int code = *ret_values ? STATUS_OK
+                           : status_fail(STATUS_CASE, "map %s has no field '%s'; there are: %s", map->name, field,
+                                         list.at ? list.at : "none");
+    text_done(&list);
+    return code;
+}
+
+/* Least and largest finite value in the window; of positive ones for a logarithmic scale. */
+static void map_extremes(const struct map *map, const double *values, const double window[2][2], bool log,
+                         double extremes[2])
+{
+    for (size_t i = 0; i < map->n_time * map->n_place; i++) {
+        const struct raster_cell *cell = &map->cells[i];
+        bool inside = true;
+        for (int axis = 0; axis < 2; axis++)
+            inside = inside && cell->at[axis][1] > window[axis][0] && cell->at[axis][0] < window[axis][1];
+        if (!inside || !isfinite(values[i]) || (log && !(values[i] > 0.0))) continue;
+        if (values[i] < extremes[0]) extremes[0] = values[i];
+        if (values[i] > extremes[1]) extremes[1] = values[i];
+    }
+}
+
+static int map_window(const struct map *map, const struct plot_option *option, double ret_window[2][2])
+{
+    memcpy(ret_window, map->edge, sizeof map->edge);
+    for (int axis = 0; axis < 2; axis++) {
+        const struct plot_option_span *limit = &option->limit[axis];
+        if (!limit->given) continue;
+        if (limit->hi <= map->edge[axis][0] || limit->lo >= map->edge[axis][1])
+            return status_fail(STATUS_CASE, "--%clim %g,%g: the map reaches from %g to %g", 'x' + axis, limit->lo,
+                               limit->hi, map->edge[axis][0], map->edge[axis][1]);
+        ret_window[axis][0] = limit->lo;
+        ret_window[axis][1] = limit->hi;
+    }
+    return STATUS_OK;
+}
+
+/* Axes: the coordinate by its symbol, and t. */
+static void map_axes(const struct map *map, const double window[2][2], struct picture *drawn)
+{
+    bool round = map->scene && map->scene->geometry != SCENE_CARTESIAN;
+    const char *column = map->table.names[1], *symbol = column;
+    if (round && *column == 'x') symbol = "r";
+    if (round && *column == 'y') symbol = "z";
+    char *place = mem_print(PICTURE_ITALIC "%s" PICTURE_UPRIGHT, symbol);
+    const struct picture_scale_inp axes[] = {
+        {.name = place, .unit = "m", .lo = window[0][0], .hi = window[0][1]},
+        {.name = PICTURE_ITALIC "t" PICTURE_UPRIGHT, .unit = "s", .lo = window[1][0], .hi = window[1][1]},
+    };
+    for (int axis = 0; axis < 2; axis++) picture_scale_init(&drawn->axis[axis], &axes[axis]);
+    mem_free(place);
+}
+
+static int map_layer(const struct map *map, const char *field, const struct plot_option *option,
+                     const double window[2][2], struct picture_layer *layer)
+{
+    double extremes[2] = {INFINITY, -INFINITY};
+    layer->cells = map->cells;
+    layer->n = map->n_time * map->n_place;
+    TRY(map_column(map, field, &layer->values));
+    map_extremes(map, layer->values, window, option->log, extremes);
+    const char *colours = option->map ? option->map : colormap_for_field(field, extremes[0], extremes[1]);
+    TRY(colormap_find(colours, &layer->map));
+    TRY(plot_picture_range(option, field, colours, extremes));
+    char *column = mem_print("%s.%s", map->name, field), *label = mem_text(field);
+    for (char *c = label; *c; c++)
+        if (*c == '_') *c = ' ';
+    picture_scale_init(&layer->scale, &(struct picture_scale_inp){.name = label,
+                                                                  .unit = plot_unit_of(map->scene, column),
+                                                                  .lo = extremes[0],
+                                                                  .hi = extremes[1],
+                                                                  .log = option->log});
+    mem_free(column);
+    mem_free(label);
+    return STATUS_OK;
+}
+
+static int map_draw(const struct map *map, const char *directory, const char *field, const struct plot_option *option)
+{
+    char *title = plot_case_title(directory), *path = NULL;
+    struct picture drawn = {.title = title, .note = map->name, .n_layer = 1, .aspect = 0.8};
+    double window[2][2];
+    cairo_surface_t *image = NULL;
+    int code = map_window(map, option, window);
+    if (!code) code = map_layer(map, field, option, window, &drawn.layer[0]);
+    if (!code) map_axes(map, window, &drawn);
+    if (!code) code = picture_draw(&drawn, option->width, &image);
+    if (!code) {
+        path = option->output ? mem_text(option->output)
+                              : mem_print("%s/plots/map_%s_%s.png", directory, map->name, field);
+        code = picture_canvas_write(image, path);
+    }
+    if (!code) printf("%s\n", path);
+    if (image) cairo_surface_destroy(image);
+    mem_free(path);
+    mem_free(title);
+    return code;
+}
+
+int plot_map_write(const char *directory, const char *const *words, unsigned n, const struct plot_option *option)
+{
+    struct map map = {0};
+    if (n < 1) return map_missing(directory, NULL);
+    if (n != 2)
+        return status_fail(STATUS_CASE, "a map and a field are needed: bulla plot %s map %s FIELD", directory,
+                           words[0]);
+    int code = map_open(directory, words[0], &map);
+    if (!code && strchr(words[1], ',') && option->output)
+        code = status_fail(STATUS_CASE, "-o %s: one file for several fields", option->output);
+    char *list = mem_text(words[1]);
+    for (char *field = strtok(list, ","); !code && field; field = strtok(NULL, ","))
+        code = map_draw(&map, directory, field, option);
+    mem_free(list);
+    map_close(&map);
+    return code;
+}

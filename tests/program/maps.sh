@@ -1,0 +1,77 @@
+# Space-time maps: tables and arrays do not depend on the ranks while tiles come and go, go on after a restart without a
+# row twice or missing, also in another directory, and hold what the fields are.
+set -eu
+cat >map.yaml <<'END'
+bulla: 1
+title: A pulse meets a bubble above a wall
+domain:
+  geometry: axisymmetric
+  lower: [0, 0]
+  upper: [0.4 mm, 0.8 mm]
+  cells: [16, 32]
+  boundaries: {x-: axis, x+: outflow, y-: reflecting, y+: {type: incoming-wave, pulse: lithotripter, amplitude: 30 MPa}}
+mesh: {levels: 1, tile: 8, refine: [{interface: air}]}
+materials:
+  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
+  air: {eos: {type: ideal-gas, gamma: 1.4}}
+initial:
+  - {everywhere: true, material: water, density: 998, pressure: = 1e5 + 1e9 * x}
+  - {sphere: {center: [0, 0.3 mm], radius: 0.1 mm}, material: air, density: 1.2, pressure: 1e5}
+run: {until: 0.6 us}
+output:
+  maps:
+    every: 20 ns
+    wall: {boundary: y-, fields: [pressure, temperature]}
+    axis: {line: {from: [0, 0], to: [0, 0.8 mm]}, points: 65, fields: [pressure, velocity, alpha_air]}
+    slant: {line: {from: [0, 0], to: [0.3 mm, 0.4 mm]}, points: 26, fields: [alpha_air]}
+    skin: {isosurface: air, along: axis, from: 0.15 mm, to: 0.45 mm, points: 30, fields: [temperature_air]}
+  checkpoints: {every: 30 steps, keep: 100}
+END
+go() # DIRECTORY OPTIONS...
+{
+    out=$1
+    shift
+    ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" "$BULLA" run map.yaml -o "$out" --quiet "$@"
+}
+same() # DIRECTORY: its tables are those of `alone`
+{
+    for map in wall axis slant skin; do
+        cmp "alone/maps/$map.csv" "$1/maps/$map.csv" || { echo "$1: maps/$map.csv is another"; exit 1; }
+        [ -s "$1/maps/$map.hdf" ] || { echo "$1: there is no maps/$map.hdf"; exit 1; }
+    done
+}
+go alone
+go two -n 2
+same two
+go three -n 3 --max-steps 70
+go three --restart -n 2
+same three
+first=$(ls alone/checkpoints/*.chk | head -n 1)
+go elsewhere --restart "$first"
+same elsewhere
+
+# 31 times: the start, each multiple of 20 ns (at the first step after it), of which the end is one. The wall at the start: 1e5 + 1e9 r,
+# but for the metric of cell averages (h^2/12r) and the ends, where values stay constant.
+awk -F, 'NR > 1 && $1 != t { n++; t = $1 }
+         NR > 1 && $1 == 0 && $2 > 0.03e-3 && $2 < 0.38e-3 { d = $3 - 1e5 - 1e9 * $2; if (d * d > 4e6 || $4 < 100) bad = 1 }
+         NR == 1 && $0 != "t,x,pressure,temperature" { bad = 1 }
+         END { if (n != 31 || (NR - 1) % 31 || bad) { print "wall: " n " times, " NR " lines"; exit 1 } }' t=-1 alone/maps/wall.csv
+# The axis is in the bubble from 0.2 to 0.4 mm; the surface has its places there and only there, at the gas's temperature.
+awk -F, 'NR > 1 && $1 == 0 { inside = $2 > 0.2e-3 + 20e-6 && $2 < 0.4e-3 - 20e-6; if (inside && $7 < 0.99) bad = 1
+                             outside = $2 < 0.2e-3 - 20e-6 || $2 > 0.4e-3 + 20e-6; if (outside && $7 > 0.01) bad = 1 }
+         END { if (bad) { print "axis: the bubble is elsewhere"; exit 1 } }' alone/maps/axis.csv
+awk -F, 'NR > 1 && $1 == 0 && $3 != "nan" { n++; if ($2 < 0.19e-3 || $2 > 0.41e-3 || $3 < 280 || $3 > 320) bad = 1 }
+         END { if (n < 20 || n > 24 || bad) { print "skin: " n " places"; exit 1 } }' alone/maps/skin.csv
+head -n 1 alone/maps/slant.csv | grep -qx 't,s,alpha_air'
+
+# Pictures of them.
+"$BULLA" plot alone map axis pressure >said
+[ -s "$(cat said)" ] && grep -q 'plots/map_axis_pressure.png' said
+"$BULLA" plot alone map skin temperature_air -o skin.png --range 250,400 --width 400 >said
+[ -s skin.png ]
+for wrong in 'map' 'map side pressure' 'map wall density'; do
+    code=0
+    # shellcheck disable=SC2086
+    "$BULLA" plot alone $wrong >/dev/null 2>said || code=$?
+    [ "$code" -eq 2 ] && [ -s said ] || { echo "plot $wrong: exit $code"; exit 1; }
+done
