@@ -123,7 +123,8 @@ HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_find(const struct helmholtz_gri
                                       .step = grid->step_l,
                                       .low = (low - grid->l_0) * grid->per_l - j,
                                       .high = (grid->l_high - grid->l_0) * grid->per_l - j};
-    double z = helmholtz_step(&search, gas, helmholtz_step(&search, gas, helmholtz_step(&search, gas, up - j)));
+    double z =
+        helmholtz_step(&search, gas, helmholtz_step(&search, gas, up - j)); /* the third is in helmholtz_answer */
     struct helmholtz_spot spot = helmholtz_spot(grid, &line, j, z, T);
     spot = gas ? helmholtz_with_gas(spot, rho, grid->R * spot.T) : spot;
     double here = rho * rho * spot.a_r;

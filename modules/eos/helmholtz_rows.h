@@ -222,19 +222,21 @@ static void helmholtz_entropy(const void *instance, size_t n, const double *BULL
     }
 }
 
-/* rho with temperature(rho, p) = T: Newton with dT/drho = -T p_r/p_l, in a bracket, as T falls when rho grows. */
+/* rho with temperature(rho, p) = T: T falls when rho grows, so there is a bracket. Inside the domain Newton's method with
+ * dT/drho = -T p_r/p_l, else halving. */
 static double helmholtz_density_at(const struct helmholtz *self, double p, double T)
 {
     double low = self->ends.thin, high = 3.0 * self->ends.dense, rho = HELMHOLTZ_GAS ? p / (self->grid.R * T) : 1000.0;
-    for (int round = 0; round < 200; round++) {
+    for (int round = 0; round < 200 && high - low > 2e-16 * high; round++) {
         if (!(rho > low && rho < high)) rho = low > 1e-3 * high ? 0.5 * (low + high) : sqrt(low * high);
         struct helmholtz_point point = helmholtz_at(self, self->analytic, rho, p);
         double off = helmholtz_T(self, point) - T, square = rho * rho;
         double slope = -point.spot.T * (2.0 * rho * point.spot.a_r + square * point.spot.a_rr) / point.answer.p_l;
+        int inside = point.rho == rho && point.spot.side == 0.0;
+        double next = inside ? rho - off / slope : 0.0;
+        if (inside && !(fabs(next - rho) > 2e-16 * rho)) break;
         if (off > 0.0) low = rho;
         else high = rho;
-        double next = rho - off / slope;
-        if (!(fabs(next - rho) > 2e-16 * rho) || !(high - low > 2e-16 * high)) return rho;
         rho = next;
     }
     return rho;

@@ -17,7 +17,7 @@
 static const struct bulla_param iapws95_params[] = HELMHOLTZ_PARAMS(256.0);
 
 static const struct bulla_preset iapws95_presets[] = {
-    {"water", "ordinary water", (const double[]){256.0, 0.0}},
+    {"water", "ordinary water", (const double[]){256.0, NAN}},
     {0},
 };
 

@@ -203,7 +203,8 @@ static int check_points(const struct law *law, const char *name, struct bound st
         double rho = column[RHO], p = column[P], back;
         if (count_outside(law, rho, p)) continue;
         struct bound bound = stated;
-        if (p < 1e3 && stated.T > 1e-9) bound = (struct bound){30 * stated.T, 30 * stated.c, 30 * stated.e};
+        if (rho > 600.0 && p < 1e3 && stated.T > 1e-9)
+            bound = (struct bound){30 * stated.T, 30 * stated.c, 30 * stated.e};
         struct point point = at(law, rho, p);
         double heat = column[CV] * column[TEMPERATURE];
         support_near("T", point.T, column[TEMPERATURE], bound.T, column[TEMPERATURE]);
@@ -219,6 +220,27 @@ static int check_points(const struct law *law, const char *name, struct bound st
     }
     fclose(file);
     return count;
+}
+
+/* Air: the whole of its range, from 3e-2 kg/m3 to 1350, and 159 K to 2400 K. */
+static void test_points_of_air(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *eval;
+        double size;
+        struct bound bound;
+    } ways[] = {
+        {"analytic", 128, {1e-10, 1e-10, 1e-10}},
+        {"table", 64, {2e-7, 6e-5, 2e-6}},
+        {"table", 128, {1e-8, 2e-6, 2e-8}},
+        {"table", 256, {2e-9, 4e-7, 4e-9}},
+    };
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        struct law law = open_law("helmholtz-air", ways[i].eval, ways[i].size);
+        assert_true(check_points(&law, "air_lemmon_points.csv", ways[i].bound) >= 38);
+        instance_done(&law.instance);
+    }
 }
 
 static void test_points_of_water(void **state)
@@ -303,11 +325,14 @@ static void check_identities_inside(const struct law *law, const struct helmholt
 static void test_identities(void **state)
 {
     (void)state;
-    const double rho[2] = {470, 1700}, T[2] = {300, 3000};
+    const double water[2] = {470, 1700}, air[2] = {1e-2, 1800}, warm[2] = {300, 3000}, hot[2] = {145, 15000};
     for (int way = 0; way < 2; way++) {
-        struct law law = open_law("iapws95", way ? "analytic" : "table", 128);
-        check_identities_inside(&law, &iapws95_fluid, rho, T);
+        const char *eval = way ? "analytic" : "table";
+        struct law law = open_law("iapws95", eval, 128), gas = open_law("helmholtz-air", eval, 128);
+        check_identities_inside(&law, &iapws95_fluid, water, warm);
+        check_identities_inside(&gas, &lemmon_air_fluid, air, hot);
         instance_done(&law.instance);
+        instance_done(&gas.instance);
     }
 }
 
@@ -353,7 +378,12 @@ static void test_continuation(void **state)
     (void)state;
     for (int way = 0; way < 2; way++) {
         struct law law = open_law("iapws95", way ? "analytic" : "table", 128);
-        if (!way) check_sweep(&law, 4600.0);
+        if (!way) {
+            struct law gas = open_law("helmholtz-air", "table", 128);
+            check_sweep(&law, 4600.0);
+            check_sweep(&gas, 6000.0);
+            instance_done(&gas.instance);
+        }
         for (double p = -5e8; p < 3e10; p += 1.3e9) {
             check_seam(&law, 467.0, p);
             check_seam(&law, 1720.0, p);
@@ -411,10 +441,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_official_values), cmocka_unit_test(test_official_saturation),
-        cmocka_unit_test(test_formulas),        cmocka_unit_test(test_points_of_water),
-        cmocka_unit_test(test_isentrope),       cmocka_unit_test(test_identities),
-        cmocka_unit_test(test_continuation),    cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_energy_slot),
+        cmocka_unit_test(test_formulas),        cmocka_unit_test(test_points_of_air),
+        cmocka_unit_test(test_points_of_water), cmocka_unit_test(test_isentrope),
+        cmocka_unit_test(test_identities),      cmocka_unit_test(test_continuation),
+        cmocka_unit_test(test_round_trip),      cmocka_unit_test(test_energy_slot),
     };
     return cmocka_run_group_tests(tests, support_start, support_stop);
 }

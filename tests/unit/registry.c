@@ -45,6 +45,7 @@ static const char *const builtin[][2] = {
     {"constitutive", "gent"},
     {"constitutive", "mooney-rivlin"},
     {"constitutive", "neo-hookean"},
+    {"eos", "helmholtz-air"},
     {"eos", "iapws95"},
     {"eos", "ideal-gas"},
     {"eos", "mnasg"},
