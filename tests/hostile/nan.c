@@ -1,5 +1,7 @@
 /* nan.c - laws in good order that give NaN when they are used, for program/hostile.sh. Built once per kind with
- * -DNAN_EOS, -DNAN_LIMITER or -DNAN_RIEMANN. The gas is an ideal one up to 3 bar. */
+ * -DNAN_CONSTITUTIVE, -DNAN_EOS, -DNAN_LIMITER or -DNAN_RIEMANN. The gas is an ideal one up to 3 bar, the solid neo-Hookean
+ * up to I1 = 18. */
+#include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/limiter.h"
 #include "bulla/riemann.h"
@@ -64,6 +66,30 @@ static const struct bulla_eos nan_table = {.size = sizeof nan_table,
                                            .density = nan_ratio,
                                            .p_min = nan_zero,
                                            .range = nan_range};
+#elif defined(NAN_CONSTITUTIVE)
+#define NAN_KIND "constitutive"
+
+static void nan_energy(const void *self, size_t n, const double *BULLA_RESTRICT I1, const double *BULLA_RESTRICT I2,
+                       double *BULLA_RESTRICT e, double *BULLA_RESTRICT e_1, double *BULLA_RESTRICT e_2)
+{
+    (void)self, (void)I2;
+    for (size_t i = 0; i < n; i++) {
+        e[i] = 100.0 * (I1[i] - 3.0);
+        e_1[i] = I1[i] > 18.0 ? (double)NAN : 100.0;
+        e_2[i] = 0.0;
+    }
+}
+
+static void nan_range(const void *self, struct bulla_constitutive_range *ret_range)
+{
+    (void)self;
+    *ret_range = (struct bulla_constitutive_range){(double)INFINITY, (double)INFINITY};
+}
+
+static const struct bulla_constitutive nan_table = {.size = sizeof nan_table,
+                                                    .energy = nan_energy,
+                                                    .range = nan_range,
+                                                    .first_only = 1};
 #elif defined(NAN_LIMITER)
 #define NAN_KIND "limiter"
 

@@ -16,7 +16,7 @@ refused() { # CODE PATTERN ARGS...
     grep -qE -- "$pattern" out || fail "new $*: does not say '$pattern'"
 }
 
-for kind in eos limiter riemann; do
+for kind in constitutive eos limiter riemann; do
     "$BULLA" new module $kind my-$kind >out 2>&1 || fail "no $kind was made"
     for file in Makefile README.md case.yaml my_$kind.c my_${kind}_test.c; do
         [ -s my-$kind/$file ] || fail "my-$kind/$file is not there"
@@ -34,6 +34,20 @@ sed -i 's/de_drho\[i\] = 0.0/de_drho[i] = 5.0/' my-eos/my_eos.c
 code=0
 make -C my-eos check >out 2>&1 || code=$?
 [ $code != 0 ] && grep -q 'd(rho e)/drho is the slope of rho e .* FAIL' out || fail "a wrong derivative passed"
+
+sed -i 's/e_1\[i\] = par.k \* (1.0/e_1[i] = par.k * (1.1/' my-constitutive/my_constitutive.c
+code=0
+make -C my-constitutive check >out 2>&1 || code=$?
+[ $code != 0 ] && grep -q 'pull: .* instead of 385000' out || fail "a wrong stress passed its test"
+"$BULLA" module check my-constitutive/constitutive-my-constitutive.so >out 2>&1 && fail "a wrong stress passed"
+grep -q 'e_1 is the slope of e along I1 .* FAIL' out || fail "a wrong stress was not found"
+
+# One that pulls the wrong way is refused before any run.
+sed -i 's/e_1\[i\] = par.k/e_1[i] = -par.k/' my-constitutive/my_constitutive.c
+make -C my-constitutive >out 2>&1 || fail "it does not build"
+code=0
+(cd my-constitutive && "$BULLA" run case.yaml --overwrite --quiet) >out 2>&1 || code=$?
+[ $code = 2 ] && grep -q "'my-constitutive' gives no finite energy that rises" out || fail "it was let in"
 
 # A folder that is there stays as it is.
 refused 2 'my-eos is there already' module eos my-eos
