@@ -42,8 +42,8 @@ static double relax_energy(const struct model_eos *eos, double rho, double p, do
 static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
 {
     const struct model *model = relax->model;
-    double old[RELAX_FIELDS], before[RELAX_FIELDS] = {0};
-    for (unsigned q = 0; q < model->n_field; q++) old[q] = u_old[q * stride];
+    double old[RELAX_FIELDS] = {0}, before[RELAX_FIELDS] = {0};
+    for (unsigned i = 0; i < model->n_active; i++) old[model->active[i]] = u_old[model->active[i] * stride];
     mix_primitives(model, 1, 1, old, before);
     double rho_all = 0.0;
     for (unsigned l = 0; l < model->n_material; l++) rho_all += relax->u[model->i_m + l];
@@ -191,7 +191,8 @@ bool relax_cell(const struct model *model, size_t stride, const double *u_old, d
 {
     struct relax relax = {.model = model};
     if (!model->n_alpha) return false;
-    for (unsigned q = 0; q < model->n_field; q++) {
+    for (unsigned i = 0; i < model->n_active; i++) { /* a narrowed path has nothing in the others */
+        unsigned q = model->active[i];
         relax.u[q] = u[q * stride];
         if (!isfinite(relax.u[q])) return false;
     }

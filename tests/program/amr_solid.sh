@@ -59,7 +59,7 @@ run() { # FOLDER CASE OPTIONS...: in a folder of its own, so that the outputs ha
     (cd "$folder" && "$BULLA" run "$name.yaml" --quiet "$@" </dev/null)
 }
 
-rm -rf one-* two-* three-* part-*
+rm -rf one-* two-* three-* part-* fails-*
 for name in plane round; do
     run one-$name $name -n 1
     run two-$name $name -n 2
@@ -80,3 +80,15 @@ for name in plane round; do
 done
 "$BULLA" info one-plane/out/checkpoints/$(cd one-plane/out/checkpoints && ls | tail -n 1) >info
 grep -q 'stretch_yz' info || { echo "a checkpoint does not name the stretch"; cat info; exit 1; }
+
+# A step that fails, in tiles with and without the solid, is dumped and fails again to the bit.
+for kind in plane round; do
+    sed 's/^run:/scheme: {dt: 2}\nrun:/; s/max-steps: [0-9]*/max-steps: 2/' $kind.yaml >$kind-fails.yaml
+    code=0
+    run fails-$kind $kind-fails || code=$?
+    [ $code = 3 ] || { echo "$kind-fails ends with $code"; exit 1; }
+    "$BULLA" info --replay fails-$kind/out/dump_000001.h5 >info
+    grep -q '^replay *0 of [0-9]* quantities at the faces of the cell differ, 0 of [0-9]* cells' info || { cat info; exit 1; }
+done
+"$BULLA" info fails-round/out/dump_000001.h5 >info
+grep -q 'flux.stretch_yy' info || { echo "a dump does not show the stretch at faces"; cat info; exit 1; }
