@@ -211,10 +211,9 @@ enum { DERIVE_ROWS = sizeof derive_table / sizeof *derive_table };
 /* Axis, component or material that the part after a row's prefix names, or -1. */
 static int derive_suffix(const struct model *model, const struct derive_quantity *row, const char *suffix)
 {
-    static const char *const tensor[] = {"xx", "yy", "zz", "xy", "xz", "yz"}; /* the order of elastic.h */
     if (row->form == DERIVE_AXIS) return strlen(suffix) == 1 && strchr("xyz", *suffix) ? *suffix - 'x' : -1;
     for (int c = 0; row->form == DERIVE_TENSOR && c < 6; c++)
-        if (!strcmp(suffix, tensor[c])) return c;
+        if (!strcmp(suffix, model_tensor[c])) return c;
     if (row->form == DERIVE_TENSOR) return -1;
     for (unsigned l = 0; l < model->n_material; l++)
         if (!strcmp(suffix, model->scene->material[l].name)) return (int)l;
