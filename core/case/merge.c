@@ -2,6 +2,7 @@
 #include "case/merge.h"
 
 #include "case/parse.h"
+#include "case/show.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -23,19 +24,23 @@ static bool merge_type_changes(const struct node *base, const struct node *over)
     return both && strcmp(was->text, is->text) != 0;
 }
 
-/* Lays `over` onto the map `base`. */
-static void merge_onto(struct forest *forest, struct node *base, const struct node *over)
+/* Lays `over` onto the map `base`. What null would delete must be there. */
+static void merge_onto(struct merge *merge, struct node *base, const struct node *over)
 {
+    struct forest *forest = merge->forest;
     for (unsigned i = 0; i < over->count; i++) {
         struct node *item = over->items[i];
         int at = tree_find(base, over->keys[i]->text);
-        if (tree_is_null(item) && at >= 0) {
-            tree_remove(base, (unsigned)at);
+        if (tree_is_null(item)) {
+            if (at >= 0) tree_remove(base, (unsigned)at);
+            else
+                diag_error(merge->diag, &over->keys[i]->mark, "there is no '%s' here that null could delete",
+                           over->keys[i]->text);
             continue;
         }
         bool maps = at >= 0 && item->kind == TREE_MAP && base->items[at]->kind == TREE_MAP;
         if (maps && !merge_type_changes(base->items[at], item)) {
-            merge_onto(forest, base->items[at], item);
+            merge_onto(merge, base->items[at], item);
             continue;
         }
         if (at >= 0) tree_remove(base, (unsigned)at);
@@ -65,7 +70,7 @@ static struct node *merge_extend(struct merge *merge, struct node *root)
     struct node *base = merge_file(merge, merge_beside(merge, name), &name->mark);
     if (!base) return NULL;
     tree_remove(root, (unsigned)at);
-    merge_onto(merge->forest, base, root);
+    merge_onto(merge, base, root);
     base->mark = root->mark;
     return base;
 }
@@ -140,7 +145,7 @@ static void merge_variant(struct merge *merge, struct node *root, const char *va
                    fixed[i]);
         return;
     }
-    merge_onto(merge->forest, root, over);
+    merge_onto(merge, root, over);
 }
 
 /* One step of a path: "initial", "1", "[1]". Moves `at` on; false if the path is malformed. */
@@ -216,6 +221,20 @@ static void merge_delete(struct merge *merge, struct node *root, const char *pat
     else diag_error(merge->diag, mark, "there is nothing at '%s' that null could delete", path);
 }
 
+/* The item of the case's own matrix that a setting is, or NULL. It knows its line, and the folder of its files. */
+static struct node *merge_row(struct merge *merge, const struct node *root, const char *path, const char *value)
+{
+    const struct node *list = tree_get(tree_get(root, "matrix"), path);
+    for (unsigned i = 0; list && list->kind == TREE_LIST && i < list->count; i++) {
+        struct text text = {0};
+        show_value(list->items[i], &text);
+        bool same = text.at && strcmp(text.at, value) == 0;
+        text_done(&text);
+        if (same) return tree_copy(merge->forest, list->items[i]);
+    }
+    return NULL;
+}
+
 static void merge_set(struct merge *merge, struct node *root, const char *set)
 {
     const char *equals = strchr(set, '=');
@@ -227,7 +246,9 @@ static void merge_set(struct merge *merge, struct node *root, const char *set)
         return;
     }
     const char *path = tree_print(merge->forest, "%.*s", (int)(equals - set), set);
-    struct node *value = parse_source(merge->forest, merge->diag, source);
+    struct node *value = merge_row(merge, root, path, source->text);
+    if (value) mark = value->mark;
+    else value = parse_source(merge->forest, merge->diag, source);
     if (!value) return;
     if (tree_is_null(value)) {
         merge_delete(merge, root, path, &mark);

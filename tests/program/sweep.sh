@@ -134,3 +134,14 @@ expect_code 0 "$BULLA" sweep base.yaml --dry-run -o names --set 'matrix[paramete
 printf 'a file' >taken
 expect_code 3 "$BULLA" sweep base.yaml -o taken/here
 says 'taken'
+
+# Files in a matrix are found beside the case that holds it, wherever the sweep is started; those of --set from here.
+mkdir waves
+printf '0,1\n1e-6,2\n' | tee waves/weak.csv >waves/strong.csv
+sed -e 's/x-: outflow/x-: {type: incoming-wave, pulse: series, file: weak.csv}/' -e '/^matrix:/,$d' base.yaml >waves/wave.yaml
+echo 'matrix: {domain.boundaries.x-.file: [weak.csv, strong.csv]}' >>waves/wave.yaml
+expect_code 0 "$BULLA" sweep waves/wave.yaml -o waves/out
+[ "$(wc -l <waves/out/table.csv)" = 3 ]
+grep -q "file: .*waves/strong.csv" waves/out/file=strong.csv/case.yaml || { cat waves/out/*/case.yaml; exit 1; }
+expect_code 2 "$BULLA" run waves/wave.yaml --set domain.boundaries.x-.file=nowhere.csv
+says 'nowhere.csv: No such file'
