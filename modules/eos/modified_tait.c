@@ -12,12 +12,6 @@
 
 enum { BLOCK = 128, ROUNDS = 20 };
 
-ELEMENTARY_INLINE double modified_tait_inside(const struct modified_tait *par, double rho)
-{
-    double high = rho > par->rho_max ? par->rho_max : rho;
-    return high < par->rho_min ? par->rho_min : high;
-}
-
 /* Where Newton begins: p taken as linear in T between its ends. */
 BULLA_KERNEL static void modified_tait_guess(const struct modified_tait *self, size_t n,
                                              const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
@@ -26,7 +20,7 @@ BULLA_KERNEL static void modified_tait_guess(const struct modified_tait *self, s
     const struct modified_tait par = *self;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double density = modified_tait_inside(&par, rho[i]), pressure = p[i];
+        double density = continuation_inside(&par.ends, rho[i]), pressure = p[i];
         double x = elementary_log(density / par.rho0), T_max = modified_tait_T_max(&par, density);
         double low = modified_tait_pressure(modified_tait_cold(&par, x));
         double high = modified_tait_pressure(modified_tait_heat(&par, x, T_max));
@@ -49,7 +43,7 @@ BULLA_KERNEL static double modified_tait_step(const struct modified_tait *self, 
     double going = 0.0;
 #pragma omp simd reduction(+ : going)
     for (size_t i = 0; i < n; i++) {
-        double density = modified_tait_inside(&par, rho[i]), pressure = p[i], old = T[i], moves = moving[i];
+        double density = continuation_inside(&par.ends, rho[i]), pressure = p[i], old = T[i], moves = moving[i];
         double T_max = modified_tait_T_max(&par, density);
         struct modified_tait_heat heat = modified_tait_heat(&par, log_x[i], old);
         double next = old + (pressure - modified_tait_pressure(heat)) / modified_tait_p_T(&par, heat, old);
@@ -74,31 +68,11 @@ static void modified_tait_solve(const struct modified_tait *par, size_t n, const
         if (modified_tait_step(par, n, rho, p, log_x, T, moving) == 0.0) break;
 }
 
-/* A state with its continuations; energies per mass. */
-struct modified_tait_state {
-    double e, e_p, c2, de_drho, T, cv, stretch; /* stretch: de/dp over that at the end of the densities */
-};
-
-ELEMENTARY_INLINE struct modified_tait_state modified_tait_state_at(const struct modified_tait *par, double rho,
-                                                                    double p, double log_x, double T)
+ELEMENTARY_INLINE struct continuation_point modified_tait_at(const struct modified_tait *par, double rho, double log_x,
+                                                             double T)
 {
-    double inside = modified_tait_inside(par, rho), v = 1.0 / rho;
-    struct modified_tait_point at = modified_tait_point(par, modified_tait_heat(par, log_x, T), inside, T);
-    double beyond = p - at.p, slope = 1.0 / (inside * at.G), least = beyond < 0.0 ? 0.2 : 0.0;
-    double stiffening = at.stiffening < least ? least : at.stiffening;
-    double e = at.e + beyond * slope, c2 = at.c2 + beyond / inside * stiffening;
-    double warm = T + beyond * slope / at.cv;
-    int thin = rho < inside;
-    double k = thin ? par->thin.k : par->dense.k, P = thin ? par->thin.P : par->dense.P;
-    double away = v - (thin ? par->thin.v : par->dense.v), e_p = slope + k * away, e_v = k * (p + P);
-    double far_c2 = v * v * (e_v + p) / e_p, far_e = e + away * e_v;
-    int within = rho == inside;
-    double stretch = within ? 1.0 : e_p / slope;
-    warm *= stretch;
-    warm = warm < MODIFIED_TAIT_COLDEST ? MODIFIED_TAIT_COLDEST : warm;
-    double de_drho = within ? e + p * v - c2 / at.G : far_e - v * e_v;
-    return (struct modified_tait_state){
-        within ? e : far_e, within ? slope : e_p, within ? c2 : far_c2, de_drho, warm, at.cv, stretch};
+    double inside = continuation_inside(&par->ends, rho);
+    return modified_tait_point(par, modified_tait_heat(par, log_x, T), inside, T);
 }
 
 BULLA_KERNEL static void modified_tait_state_block(const struct modified_tait *self, size_t n,
@@ -111,7 +85,8 @@ BULLA_KERNEL static void modified_tait_state_block(const struct modified_tait *s
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double density = rho[i];
-        struct modified_tait_state state = modified_tait_state_at(&par, density, p[i], log_x[i], T[i]);
+        struct continuation_point at = modified_tait_at(&par, density, log_x[i], T[i]);
+        struct continuation_state state = continuation_state(&par.ends, at, density, p[i], T[i]);
         rho_e[i] = density * state.e;
         rho_c2[i] = density * state.c2;
     }
@@ -127,7 +102,8 @@ BULLA_KERNEL static void modified_tait_derivatives_block(const struct modified_t
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double density = rho[i];
-        struct modified_tait_state state = modified_tait_state_at(&par, density, p[i], log_x[i], T[i]);
+        struct continuation_point at = modified_tait_at(&par, density, log_x[i], T[i]);
+        struct continuation_state state = continuation_state(&par.ends, at, density, p[i], T[i]);
         de_dp[i] = density * state.e_p;
         de_drho[i] = state.de_drho;
     }
@@ -144,11 +120,12 @@ BULLA_KERNEL static void modified_tait_thermal_block(const struct modified_tait 
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double density = rho[i], potential = T[i];
-        struct modified_tait_state state = modified_tait_state_at(&par, density, p[i], log_x[i], potential);
+        struct continuation_point at = modified_tait_at(&par, density, log_x[i], potential);
+        struct continuation_state state = continuation_state(&par.ends, at, density, p[i], potential);
         struct modified_tait_heat heat = modified_tait_heat(&par, log_x[i], potential);
-        double entropy = modified_tait_entropy(&par, heat, modified_tait_inside(&par, density), potential);
+        double entropy = modified_tait_entropy(&par, heat, continuation_inside(&par.ends, density), potential);
         warm[i] = state.T;
-        s[i] = entropy + state.cv * elementary_log(state.T / potential);
+        s[i] = entropy + at.cv * elementary_log(state.T / potential);
     }
 }
 
@@ -228,16 +205,12 @@ BULLA_KERNEL static void modified_tait_p_min(const void *self, size_t n, const d
                                              double *BULLA_RESTRICT p)
 {
     const struct modified_tait par = *(const struct modified_tait *)self;
-    const double far_thin = -par.thin.k * par.thin.P / (1.0 + par.thin.k);
-    const double far_dense = -par.dense.k * par.dense.P / (1.0 + par.dense.k);
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double density = rho[i], inside = modified_tait_inside(&par, density);
+        double density = rho[i], inside = continuation_inside(&par.ends, density);
         struct modified_tait_heat heat = modified_tait_cold(&par, elementary_log(inside / par.rho0));
-        struct modified_tait_point at = modified_tait_point(&par, heat, inside, par.T_min);
-        double stiffening = at.stiffening < 0.2 ? 0.2 : at.stiffening, low = at.p - inside * at.c2 / stiffening;
-        low = density < inside ? far_thin : low;
-        p[i] = density > inside ? far_dense : low;
+        struct continuation_point at = modified_tait_point(&par, heat, inside, par.T_min);
+        p[i] = continuation_p_min(&par.ends, at, density);
     }
 }
 
@@ -303,7 +276,7 @@ static const struct bulla_preset modified_tait_presets[] = {
     {0},
 };
 
-static struct modified_tait_point modified_tait_corner(const struct modified_tait *par, double rho, double T)
+static struct continuation_point modified_tait_corner(const struct modified_tait *par, double rho, double T)
 {
     return modified_tait_point(par, modified_tait_heat(par, elementary_log(rho / par->rho0), T), rho, T);
 }
@@ -320,7 +293,7 @@ static int modified_tait_check(const struct bulla_host *host, const struct modif
         for (int j = 0; j <= 60; j++) {
             double rho = par->rho_min * pow(par->rho_max / par->rho_min, i / 60.0);
             double T = par->T_min + j / 60.0 * (modified_tait_T_max(par, rho) - par->T_min);
-            struct modified_tait_point at = modified_tait_corner(par, rho, T);
+            struct continuation_point at = modified_tait_corner(par, rho, T);
             if (at.cv > 0.0 && at.G > 0.0 && at.c2 > 0.0) continue;
             snprintf(text, sizeof text,
                      "at %.5g kg/m3, %.5g K the law has cv %.3g, Grueneisen coefficient %.3g, c^2 %.3g: narrow "
@@ -332,18 +305,6 @@ static int modified_tait_check(const struct bulla_host *host, const struct modif
     return 0;
 }
 
-/* k and P of the stiffened gas beyond an end: c continuous at temperature T there (thin side: where the
- * linear continuation from T reaches 1e5 Pa). */
-static void modified_tait_set_end(const struct modified_tait *par, double rho, double T, double k,
-                                  struct modified_tait_end *ret_end)
-{
-    struct modified_tait_point at = modified_tait_corner(par, rho, T);
-    double p = at.p < 1e5 ? 1e5 : at.p, stiffening = at.stiffening > 0.0 ? at.stiffening : 0.0;
-    double c2 = at.c2 + (p - at.p) / rho * stiffening;
-    double P = (rho * c2 / at.G - (1.0 + k) * p) / k;
-    *ret_end = (struct modified_tait_end){rho, 1.0 / rho, k, P > 1e6 ? P : 1e6};
-}
-
 static void modified_tait_set_ends(struct modified_tait *par)
 {
     double most = 0.0;
@@ -352,9 +313,10 @@ static void modified_tait_set_ends(struct modified_tait *par)
         double G = modified_tait_corner(par, par->rho_max, T).G;
         most = G > most ? G : most;
     }
-    double thin = modified_tait_corner(par, par->rho_min, par->T_max).G;
-    modified_tait_set_end(par, par->rho_max, par->T_min, 0.9 / most, &par->dense);
-    modified_tait_set_end(par, par->rho_min, par->T_max, 1.0 / thin, &par->thin);
+    struct continuation_point thin = modified_tait_corner(par, par->rho_min, par->T_max);
+    struct continuation_point dense = modified_tait_corner(par, par->rho_max, par->T_min);
+    par->ends.thin = continuation_end(thin, par->rho_min, 1.0 / thin.G, 1e5);
+    par->ends.dense = continuation_end(dense, par->rho_max, 0.9 / most, 1e5);
 }
 
 static int modified_tait_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)

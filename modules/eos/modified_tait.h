@@ -8,24 +8,13 @@
  * ln(B f^-n) and ln(B/f) in T.
  *
  * (rho, p) -> T is a Newton iteration, as p grows with T in the rectangle of densities and temperatures
- * that `open` has checked. T ends at its sides; what p asks for beyond goes linearly,
- *     e = e_b + (p - p_b)/(rho G_b),   T = T_b + (e - e_b)/cv_b,   c^2 = c_b^2 + (p - p_b)/rho (1 + G_b + dlnG_b/dln rho).
- * Beyond the densities rho_b the law is that of a stiffened gas put on their isochore,
- *     e(v, p) = e(v_b, p) + k (v - v_b)(p + P),   c^2 = v^2 ((1 + k) p + k P)/(de/dp),
- * with k at most the least 1/G there on the dense side, so that de/dp > 0; P makes c continuous at 1e5 Pa
- * or on the cold side. */
+ * that `open` has checked; beyond it the rules of continuation.h hold. */
 #ifndef MODIFIED_TAIT_H
 #define MODIFIED_TAIT_H
 
-#include "elementary.h"
+#include "continuation.h"
 
-#define MODIFIED_TAIT_COLDEST 1.0 /* K: where the linear continuation would fall below */
 #define MODIFIED_TAIT_START 273.16
-
-/* Beyond one end of the densities. */
-struct modified_tait_end {
-    double rho, v, k, P;
-};
 
 /* What depends on T alone or enters with y. */
 struct modified_tait_heat {
@@ -36,13 +25,8 @@ struct modified_tait {
     double A, s, n, rho0, b, T1, T2, C[4], reduced, h0, s0;
     double T_min, T_max, T_dense; /* T_max falls to T_dense over the last 15 % of densities */
     double rho_min, rho_max;
-    struct modified_tait_end thin, dense;
+    struct continuation_ends ends;
     struct modified_tait_heat cold; /* at T_min and rho0 */
-};
-
-/* A state of the potential. */
-struct modified_tait_point {
-    double p, e, cv, G, c2, stiffening; /* 1 + G + dlnG/dln rho at constant T */
 };
 
 ELEMENTARY_INLINE struct modified_tait_heat modified_tait_heat(const struct modified_tait *par, double log_x, double T)
@@ -109,8 +93,8 @@ ELEMENTARY_INLINE double modified_tait_entropy(const struct modified_tait *par, 
     return modified_tait_S(par, T) + par->s0 - work;
 }
 
-ELEMENTARY_INLINE struct modified_tait_point modified_tait_point(const struct modified_tait *par,
-                                                                 struct modified_tait_heat heat, double rho, double T)
+ELEMENTARY_INLINE struct continuation_point modified_tait_point(const struct modified_tait *par,
+                                                                struct modified_tait_heat heat, double rho, double T)
 {
     double n1 = par->n - 1.0, cold = heat.B * heat.y / (n1 * rho), rest = heat.B / rho;
     double L = heat.L1 * heat.L1 + heat.L2, M = heat.M1 * heat.M1 + heat.M2, s = par->s;
@@ -120,12 +104,12 @@ ELEMENTARY_INLINE struct modified_tait_point modified_tait_point(const struct mo
     double p_rho = par->n * heat.B * heat.y / rho;
     double steeper = par->n * heat.B * heat.L1 * heat.y / p_T;
     double lazier = (cold * n1 * L * T - rest * s * (s + 1.0) / T) / cv; /* -dln cv/dln rho */
-    return (struct modified_tait_point){.p = modified_tait_pressure(heat),
-                                        .e = e + modified_tait_H(par, T) + par->h0,
-                                        .cv = cv,
-                                        .G = G,
-                                        .c2 = p_rho + T * p_T * p_T / (rho * rho * cv),
-                                        .stiffening = G + steeper + lazier};
+    return (struct continuation_point){.p = modified_tait_pressure(heat),
+                                       .e = e + modified_tait_H(par, T) + par->h0,
+                                       .cv = cv,
+                                       .G = G,
+                                       .c2 = p_rho + T * p_T * p_T / (rho * rho * cv),
+                                       .stiffening = G + steeper + lazier};
 }
 
 /* The upper end of T at a density. */
