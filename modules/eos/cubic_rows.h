@@ -106,6 +106,20 @@ BULLA_KERNEL static void cubic_rows_derivatives_block(const struct cubic *self, 
     }
 }
 
+BULLA_KERNEL static void cubic_rows_energy_block(const struct cubic *self, size_t n, const double *const *in,
+                                                 double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT de_dp)
+{
+    const struct cubic par = *self;
+    const double *BULLA_RESTRICT rho = in[0], *BULLA_RESTRICT p = in[1], *BULLA_RESTRICT T = in[2];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double density = rho[i];
+        struct cubic_state state = cubic_state_at(&par, density, p[i], T[i]);
+        rho_e[i] = density * state.e;
+        de_dp[i] = density * state.e_p;
+    }
+}
+
 /* Temperature, and entropy: that of the potential where it ends, from there with cv. */
 BULLA_KERNEL static void cubic_rows_thermal_block(const struct cubic *self, size_t n, const double *const *in,
                                                   double *BULLA_RESTRICT warm, double *BULLA_RESTRICT s)
@@ -154,6 +168,14 @@ static void cubic_rows_derivatives(const void *self, size_t n, const double *BUL
 {
     cubic_rows_run(self, n, (const double *const[2]){rho, p}, (double *const[2]){de_dp, de_drho},
                    cubic_rows_derivatives_block);
+}
+
+static void cubic_rows_energy(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                              const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e,
+                              double *BULLA_RESTRICT de_dp)
+{
+    cubic_rows_run(self, n, (const double *const[2]){rho, p}, (double *const[2]){rho_e, de_dp},
+                   cubic_rows_energy_block);
 }
 
 static void cubic_rows_temperature(const void *self, size_t n, const double *BULLA_RESTRICT rho,
@@ -223,6 +245,20 @@ BULLA_KERNEL static void cubic_rows_p_min(const void *self, size_t n, const doub
         stiffening = stiffening < CUBIC_STIFFENING ? CUBIC_STIFFENING : stiffening;
         p[i] = cubic_pressure(&par, room, pull.a, T) - c2 / (v * stiffening);
     }
+}
+
+/* Beyond the edge of the co-volume, or colder than T_min. */
+static size_t cubic_rows_count_outside(const void *instance, size_t n, const double *BULLA_RESTRICT rho,
+                                       const double *BULLA_RESTRICT p)
+{
+    const struct cubic *self = instance;
+    double a = CUBIC_ATTRACTION(self, self->T_min).a;
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+        int within = rho[i] * self->vx <= 1.0 && p[i] >= cubic_pressure(self, cubic_room(self, rho[i]), a, self->T_min);
+        count += !within;
+    }
+    return count;
 }
 
 /* Up to where the co-volume takes over; from above the critical point, where one density belongs to p and T,

@@ -88,6 +88,17 @@ static void family_rows_p_min(const void *self, size_t n, const double *BULLA_RE
     for (size_t i = 0; i < n; i++) p[i] = -par->p_inf;
 }
 
+/* Beyond the edge of the co-volume. */
+static size_t family_rows_count_outside(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                        const double *BULLA_RESTRICT p)
+{
+    const struct family *par = self;
+    size_t count = 0;
+    (void)p;
+    for (size_t i = 0; i < n; i++) count += par->b * rho[i] > FAMILY_EDGE;
+    return count;
+}
+
 /* Makes an instance; the caller's `par` needs no `inverse`. */
 static int family_rows_open(const struct bulla_host *host, struct family par, void **ret_self)
 {
@@ -111,7 +122,8 @@ static void family_rows_close(void *self)
     {                                                                                                           \
         .size = sizeof(struct bulla_eos), .state = family_rows_state, .derivatives = family_rows_derivatives,   \
         .temperature = family_rows_temperature, .entropy = family_rows_entropy, .density = family_rows_density, \
-        .p_min = family_rows_p_min, .linear = family_rows_linear, .range = (range_function)                     \
+        .p_min = family_rows_p_min, .linear = family_rows_linear, .range = (range_function),                    \
+        .count_outside = family_rows_count_outside                                                              \
     }
 
 #endif

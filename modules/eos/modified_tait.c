@@ -109,6 +109,23 @@ BULLA_KERNEL static void modified_tait_derivatives_block(const struct modified_t
     }
 }
 
+BULLA_KERNEL static void modified_tait_energy_block(const struct modified_tait *self, size_t n,
+                                                    const double *const BULLA_RESTRICT *in,
+                                                    double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT de_dp)
+{
+    const struct modified_tait par = *self;
+    const double *BULLA_RESTRICT rho = in[0], *BULLA_RESTRICT p = in[1], *BULLA_RESTRICT log_x = in[2],
+                                 *BULLA_RESTRICT T = in[3];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double density = rho[i];
+        struct continuation_point at = modified_tait_at(&par, density, log_x[i], T[i]);
+        struct continuation_state state = continuation_state(&par.ends, at, density, p[i], T[i]);
+        rho_e[i] = density * state.e;
+        de_dp[i] = density * state.e_p;
+    }
+}
+
 /* Temperature with its continuations, and entropy: that of the potential where it ends, from there with cv. */
 BULLA_KERNEL static void modified_tait_thermal_block(const struct modified_tait *self, size_t n,
                                                      const double *const BULLA_RESTRICT *in,
@@ -159,6 +176,14 @@ static void modified_tait_derivatives(const void *self, size_t n, const double *
 {
     modified_tait_row(self, n, (const double *const[2]){rho, p}, (double *const[2]){de_dp, de_drho},
                       modified_tait_derivatives_block);
+}
+
+static void modified_tait_energy(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                 const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e,
+                                 double *BULLA_RESTRICT de_dp)
+{
+    modified_tait_row(self, n, (const double *const[2]){rho, p}, (double *const[2]){rho_e, de_dp},
+                      modified_tait_energy_block);
 }
 
 static void modified_tait_temperature(const void *self, size_t n, const double *BULLA_RESTRICT rho,
@@ -214,6 +239,23 @@ BULLA_KERNEL static void modified_tait_p_min(const void *self, size_t n, const d
     }
 }
 
+/* Beyond the densities, or where p is not between those of the ends of temperature. */
+static size_t modified_tait_count_outside(const void *instance, size_t n, const double *BULLA_RESTRICT rho,
+                                          const double *BULLA_RESTRICT p)
+{
+    const struct modified_tait *self = instance;
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+        double log_x = elementary_log(continuation_inside(&self->ends, rho[i]) / self->rho0);
+        double T_max = modified_tait_T_max(self, continuation_inside(&self->ends, rho[i]));
+        int within = rho[i] >= self->rho_min && rho[i] <= self->rho_max &&
+                     p[i] >= modified_tait_pressure(modified_tait_cold(self, log_x)) &&
+                     p[i] <= modified_tait_pressure(modified_tait_heat(self, log_x, T_max));
+        count += !within;
+    }
+    return count;
+}
+
 /* Less than where the continuations begin: on the hot side the Grueneisen coefficient falls fast. */
 static void modified_tait_range(const void *self, struct bulla_eos_range *ret_range)
 {
@@ -236,7 +278,9 @@ static const struct bulla_eos modified_tait_table = {.size = sizeof(struct bulla
                                                      .entropy = modified_tait_entropies,
                                                      .density = modified_tait_density,
                                                      .p_min = modified_tait_p_min,
-                                                     .range = modified_tait_range};
+                                                     .range = modified_tait_range,
+                                                     .energy = modified_tait_energy,
+                                                     .count_outside = modified_tait_count_outside};
 
 static const struct bulla_param modified_tait_params[] = {
     {"bulk-modulus", "Pa", 1e3, 1e13, 1203320572.5719271, "A: the pressure scale B of the law at 300 K", BULLA_NUMBER,

@@ -44,7 +44,9 @@ static const struct bulla_eos peng_robinson_table = {.size = sizeof(struct bulla
                                                      .entropy = cubic_rows_entropy,
                                                      .density = cubic_rows_density,
                                                      .p_min = cubic_rows_p_min,
-                                                     .range = cubic_rows_range};
+                                                     .range = cubic_rows_range,
+                                                     .energy = cubic_rows_energy,
+                                                     .count_outside = cubic_rows_count_outside};
 
 BULLA_EXPORT const struct bulla_module bulla_module = {
     .magic = BULLA_MAGIC,

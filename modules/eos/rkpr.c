@@ -167,6 +167,32 @@ static void rkpr_derivatives(const void *instance, size_t n, const double *BULLA
     }
 }
 
+/* Bit by bit what state and derivatives give. */
+static void rkpr_energy(const void *instance, size_t n, const double *BULLA_RESTRICT rho,
+                        const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT de_dp)
+{
+    const struct rkpr *self = instance;
+    struct rkpr_block block;
+    if (!self->table.n) cubic_rows_energy(self, n, rho, p, rho_e, de_dp);
+    for (size_t at = 0; at < n && self->table.n; at += CUBIC_BLOCK) {
+        size_t m = n - at < CUBIC_BLOCK ? n - at : CUBIC_BLOCK;
+        if (rkpr_placed(self, m, rho + at, p + at, &block))
+            cubic_rows_energy(self, m, rho + at, p + at, rho_e + at, de_dp + at);
+        for (size_t i = 0; i < m; i++) {
+            struct rkpr_look look = rkpr_table_look(&self->table, block.u[i], block.y[i], RKPR_E, RKPR_E);
+            block.a[i] = look.f[RKPR_E];
+            block.c[i] = look.f_y[RKPR_E];
+        }
+        for (size_t i = 0; i < m; i++) {
+            double v = 1.0 / rho[at + i], w = v - self->law.b, E = block.a[i], E_y = block.c[i];
+            struct cubic_room room = cubic_room(&self->law, rho[at + i]);
+            double pressure = p[at + i] + self->law.ac * room.q, slope = rho[at + i] * (1.0 / room.per_w) * (E + E_y);
+            rho_e[at + i] = rkpr_blend(block.weight[i], pressure * w * rho[at + i] * E, rho_e[at + i]);
+            de_dp[at + i] = rkpr_blend(block.weight[i], slope, de_dp[at + i]);
+        }
+    }
+}
+
 static void rkpr_temperature(const void *instance, size_t n, const double *BULLA_RESTRICT rho,
                              const double *BULLA_RESTRICT p, double *BULLA_RESTRICT T)
 {
@@ -248,7 +274,9 @@ static const struct bulla_eos rkpr_functions = {.size = sizeof(struct bulla_eos)
                                                 .entropy = cubic_rows_entropy,
                                                 .density = rkpr_density,
                                                 .p_min = cubic_rows_p_min,
-                                                .range = cubic_rows_range};
+                                                .range = cubic_rows_range,
+                                                .energy = rkpr_energy,
+                                                .count_outside = cubic_rows_count_outside};
 
 BULLA_EXPORT const struct bulla_module bulla_module = {
     .magic = BULLA_MAGIC,

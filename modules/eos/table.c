@@ -79,6 +79,16 @@ static void table_derivatives(const void *self, size_t n, const double *BULLA_RE
     }
 }
 
+static void table_energy(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
+                         double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT de_dp)
+{
+    for (size_t i = 0; i < n; i++) {
+        struct continuation_state state = table_state_at(self, rho[i], p[i]);
+        rho_e[i] = rho[i] * state.e;
+        de_dp[i] = rho[i] * state.e_p;
+    }
+}
+
 static void table_temperature(const void *self, size_t n, const double *BULLA_RESTRICT rho,
                               const double *BULLA_RESTRICT p, double *BULLA_RESTRICT T)
 {
@@ -133,6 +143,22 @@ static void table_p_min(const void *instance, size_t n, const double *BULLA_REST
     }
 }
 
+/* Beyond the grid. */
+static size_t table_count_outside(const void *instance, size_t n, const double *BULLA_RESTRICT rho,
+                                  const double *BULLA_RESTRICT p)
+{
+    const struct table *self = instance;
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+        double inside = continuation_inside(&self->ends, rho[i]);
+        struct table_density density = table_grid_density(&self->grid, inside);
+        int within = rho[i] == inside && p[i] >= table_grid_node_p(&self->grid, &density, 0) &&
+                     p[i] <= table_grid_node_p(&self->grid, &density, self->grid.n_T - 1);
+        count += !within;
+    }
+    return count;
+}
+
 /* A little less than the grid. */
 static void table_range(const void *instance, struct bulla_eos_range *ret_range)
 {
@@ -158,7 +184,9 @@ static const struct bulla_eos table_functions = {.size = sizeof(struct bulla_eos
                                                  .entropy = table_entropy,
                                                  .density = table_density,
                                                  .p_min = table_p_min,
-                                                 .range = table_range};
+                                                 .range = table_range,
+                                                 .energy = table_energy,
+                                                 .count_outside = table_count_outside};
 
 static const struct bulla_param table_params[] = {
     {"file", "1", 0.0, 0.0, 0.0, "the CSV file: columns rho[kg/m3], T[K], p[Pa], e[J/kg], c[m/s], s[J/kg/K]",
@@ -176,6 +204,42 @@ static struct continuation_point table_near(const struct table_grid *grid, size_
     struct table_density density = table_grid_density(grid, rho);
     struct table_line line = table_grid_line(grid, &density, cj);
     return table_grid_point(&line, rho, T, &s);
+}
+
+/* Derivative of a column along T or rho at node (i, j), by differences. */
+static double table_slope(const struct table_file *file, const struct table_grid *grid, const size_t at[2], int column,
+                          int along_T)
+{
+    double weight[5], sum = 0.0;
+    size_t first;
+    if (along_T) table_grid_difference(grid->T, grid->n_T, at[1], &first, weight);
+    else table_grid_difference(grid->rho, grid->n_rho, at[0], &first, weight);
+    for (size_t k = 0; k < 5; k++) {
+        size_t r = along_T ? at[0] * grid->n_T + first + k : (first + k) * grid->n_T + at[1];
+        sum += weight[k] * file->row[r][column];
+    }
+    return sum;
+}
+
+/* p, e and s must be those of one substance: de/dT = T ds/dT, ds/drho = -p_T/rho^2, de/drho = (p - T p_T)/rho^2. */
+static int table_agrees(const struct bulla_host *host, const char *path, const struct table_file *file,
+                        const struct table_grid *grid)
+{
+    for (size_t r = 0; r < file->n_row; r++) {
+        const size_t at[2] = {r / grid->n_T, r % grid->n_T};
+        double rho = grid->rho[at[0]], T = grid->T[at[1]], p = file->row[r][TABLE_P], square = rho * rho;
+        double e_T = table_slope(file, grid, at, TABLE_E, 1), s_T = table_slope(file, grid, at, TABLE_S, 1);
+        double p_T = table_slope(file, grid, at, TABLE_P, 1), s_r = table_slope(file, grid, at, TABLE_S, 0);
+        double e_r = table_slope(file, grid, at, TABLE_E, 0), size = 0.1 * (fabs(p) + T * fabs(p_T)) / square;
+        const char *what = fabs(e_T - T * s_T) > 0.1 * e_T             ? "de/dT is not T ds/dT"
+                           : fabs(s_r + p_T / square) * T > size       ? "ds/drho is not -(dp/dT)/rho^2"
+                           : fabs(e_r - (p - T * p_T) / square) > size ? "de/drho is not (p - T dp/dT)/rho^2"
+                                                                       : NULL;
+        if (what)
+            return table_file_fail(host, path, file->lines[r],
+                                   "%s around here: wrong units, unsteady numbers or too coarse a grid", what);
+    }
+    return 0;
 }
 
 /* c at the nodes must be what p, e and s say; the largest difference is returned. */
@@ -241,6 +305,7 @@ static int table_complete(const struct bulla_host *host, const char *path, const
 {
     double worst;
     char text[1024];
+    if (table_agrees(host, path, file, &self->grid)) return 1;
     if (table_fits(host, path, file, &self->grid, &worst) || table_holds(host, path, file, &self->grid)) return 1;
     table_set_ends(self);
     snprintf(

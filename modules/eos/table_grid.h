@@ -18,6 +18,7 @@ enum { TABLE_NODE = 9 };
 struct table_grid {
     size_t n_rho, n_T;
     double *rho, *T, *node;
+    double e_zero, s_zero; /* taken off before a is made: a would lose their digits */
 };
 
 /* Weights of the derivative at x[at] of a function given at five x around it. */
@@ -67,7 +68,10 @@ static void table_grid_free(struct table_grid *grid)
 /* Order of the values: a, a_r, a_rr, a_T, a_rT, a_rrT, a_TT, a_rTT, a_rrTT. Non-zero: no memory. */
 static int table_grid_build(const struct table_file *file, struct table_grid *ret_grid)
 {
-    struct table_grid grid = {file->n_rho, file->n_T, NULL, NULL, NULL};
+    struct table_grid grid = {.n_rho = file->n_rho, .n_T = file->n_T};
+    const double *middle = file->row[file->n_rho / 2 * file->n_T + file->n_T / 2];
+    grid.e_zero = middle[TABLE_E];
+    grid.s_zero = middle[TABLE_S];
     grid.rho = malloc(grid.n_rho * sizeof *grid.rho);
     grid.T = malloc(grid.n_T * sizeof *grid.T);
     grid.node = malloc(file->n_row * TABLE_NODE * sizeof *grid.node);
@@ -80,9 +84,9 @@ static int table_grid_build(const struct table_file *file, struct table_grid *re
         double *node = grid.node + r * TABLE_NODE, rho = row[TABLE_RHO];
         grid.rho[r / grid.n_T] = rho;
         grid.T[r % grid.n_T] = row[TABLE_T];
-        node[0] = row[TABLE_E] - row[TABLE_T] * row[TABLE_S];
+        node[0] = (row[TABLE_E] - grid.e_zero) - row[TABLE_T] * (row[TABLE_S] - grid.s_zero);
         node[1] = row[TABLE_P] / (rho * rho);
-        node[3] = -row[TABLE_S];
+        node[3] = -(row[TABLE_S] - grid.s_zero);
     }
     table_grid_derive(&grid, 1, 2, 0);
     table_grid_derive(&grid, 1, 4, 1);
@@ -169,13 +173,16 @@ static inline double table_grid_node_p(const struct table_grid *grid, const stru
 
 /* A cell at one density: the data of a, a_r, a_rr at both of its temperatures. */
 struct table_line {
-    double T, h;
+    double T, h, e_zero, s_zero;
     struct table_six f[3];
 };
 
 static inline struct table_line table_grid_line(const struct table_grid *grid, const struct table_density *at, size_t j)
 {
-    struct table_line line = {.T = grid->T[j], .h = grid->T[j + 1] - grid->T[j]};
+    struct table_line line = {.T = grid->T[j],
+                              .h = grid->T[j + 1] - grid->T[j],
+                              .e_zero = grid->e_zero,
+                              .s_zero = grid->s_zero};
     for (int r = 0; r < 3; r++)
         for (int k = 0; k < 6; k++)
             line.f[r].c[k] = table_grid_along(grid, at->i, j + (size_t)(k / 3), k % 3, &at->w[r]);
@@ -194,9 +201,9 @@ static inline struct continuation_point table_grid_point(const struct table_line
     double a_rTT = table_grid_dot(line->f[1], curve), a_rr = table_grid_dot(line->f[2], value);
     double a_rrT = table_grid_dot(line->f[2], slope), p_T = square * a_rT, cv = -T * a_TT, G = p_T / (rho * cv);
     double p_rT = 2.0 * rho * a_rT + square * a_rrT;
-    *ret_s = -a_T;
+    *ret_s = line->s_zero - a_T;
     return (struct continuation_point){.p = square * a_r,
-                                       .e = table_grid_dot(line->f[0], value) - T * a_T,
+                                       .e = line->e_zero + (table_grid_dot(line->f[0], value) - T * a_T),
                                        .cv = cv,
                                        .G = G,
                                        .c2 = 2.0 * rho * a_r + square * a_rr + T * p_T * p_T / (square * cv),

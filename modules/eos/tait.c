@@ -152,6 +152,15 @@ BULLA_KERNEL static void tait_linear(const void *self, size_t n, const double *B
     }
 }
 
+/* Where T is held. */
+static size_t tait_count_outside(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                 const double *BULLA_RESTRICT p)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) count += tait_heat(self, tait_curve(self, rho[i]), rho[i], p[i]) <= TAIT_COLDEST;
+    return count;
+}
+
 /* Water between freezing and boiling, in tension down to what it bears, and up to where the curve is measured. */
 static void tait_range(const void *self, struct bulla_eos_range *ret_range)
 {
@@ -172,7 +181,8 @@ static const struct bulla_eos tait_table = {.size = sizeof(struct bulla_eos),
                                             .density = tait_density,
                                             .p_min = tait_p_min,
                                             .linear = tait_linear,
-                                            .range = tait_range};
+                                            .range = tait_range,
+                                            .count_outside = tait_count_outside};
 
 enum { RHO0, C0, EXPONENT, P0, GRUENEISEN, T0, CV };
 

@@ -181,6 +181,23 @@ static void test_table_properties(void **state)
     support_holds(&contract);
 }
 
+/* Where the formulas are continued: beyond 0.98/b and colder than t-min, nowhere else. */
+static void test_count_outside(void **state)
+{
+    (void)state;
+    struct law law = law_preset("rkpr", "air"), water = law_preset("mnasg", "water"), tait;
+    double rho[] = {1.2, 1.2, 1100.0, 1110.0}, p[] = {1e5, 3e4, 1e10, 1e10};
+    assert_int_equal(law.eos->count_outside(law.instance.self, 4, rho, p), 2);
+    double dense[] = {997.0, 1450.0, 1460.0, 1500.0};
+    assert_int_equal(water.eos->count_outside(water.instance.self, 4, dense, p), 2);
+    tait = law_preset("modified-tait", "published");
+    double wet[] = {970.0, 1000.0, 1000.0, 400.0}, push[] = {1e5, 1e9, -9e8, 1e5};
+    assert_int_equal(tait.eos->count_outside(tait.instance.self, 4, wet, push), 3);
+    instance_done(&law.instance);
+    instance_done(&water.instance);
+    instance_done(&tait.instance);
+}
+
 /* A law that is ill-posed at its coldest temperature is refused with the state. */
 static void test_refused(void **state)
 {
@@ -197,9 +214,10 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points),     cmocka_unit_test(test_isentrope),    cmocka_unit_test(test_contract),
-        cmocka_unit_test(test_properties), cmocka_unit_test(test_table_errors), cmocka_unit_test(test_table_properties),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_points),        cmocka_unit_test(test_isentrope),
+        cmocka_unit_test(test_contract),      cmocka_unit_test(test_properties),
+        cmocka_unit_test(test_table_errors),  cmocka_unit_test(test_table_properties),
+        cmocka_unit_test(test_count_outside), cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, support_start, support_stop);
 }

@@ -54,6 +54,7 @@ static const char *const builtin[][2] = {
     {"eos", "peng-robinson"},
     {"eos", "rkpr"},
     {"eos", "stiffened-gas"},
+    {"eos", "table"},
     {"eos", "tait"},
     {"limiter", "mc"},
     {"limiter", "minmod"},
