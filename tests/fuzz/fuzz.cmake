@@ -1,6 +1,6 @@
 # Fuzz targets: one program per file. In the `fuzz` preset libFuzzer drives them (tests/fuzz/run.sh); elsewhere
 # replay.c does, as a test: the corpus and COUNT changed copies of each of its files.
-set(fuzz_counts case:500 checkpoint:4000 cli:3000 elf:5000 formula:2000 script:500 table:2000)
+set(fuzz_counts case:500 checkpoint:4000 cli:3000 dump:400 elf:5000 formula:2000 script:500 table:2000)
 foreach(row ${fuzz_counts})
   string(REGEX REPLACE ":.*" "" name ${row})
   string(REGEX REPLACE ".*:" "" count ${row})
@@ -22,4 +22,8 @@ foreach(row ${fuzz_counts})
 endforeach()
 if(BULLA_FUZZ)
   add_custom_target(fuzz DEPENDS ${fuzz_targets} program)
+elseif(NOT BULLA_SANITIZE) # a short hunt, which builds all that it needs by itself
+  add_test(NAME fuzz-short COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/run.sh 5)
+  set_tests_properties(fuzz-short PROPERTIES ENVIRONMENT "BULLA_FUZZ_BUILD=${CMAKE_BINARY_DIR}/fuzz-short" TIMEOUT 1500
+                       SKIP_RETURN_CODE 77 COST 1000)
 endif()
