@@ -22,8 +22,9 @@ foreach(row ${fuzz_counts})
 endforeach()
 if(BULLA_FUZZ)
   add_custom_target(fuzz DEPENDS ${fuzz_targets} program)
-elseif(NOT BULLA_SANITIZE) # a short hunt, which builds all that it needs by itself
+elseif(NOT BULLA_SANITIZE) # hunts, which build all that they need by themselves: 5 s each, and 5 minutes each at night
   add_test(NAME fuzz-short COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/run.sh 5)
-  set_tests_properties(fuzz-short PROPERTIES ENVIRONMENT "BULLA_FUZZ_BUILD=${CMAKE_BINARY_DIR}/fuzz-short" TIMEOUT 1500
-                       SKIP_RETURN_CODE 77 COST 1000)
+  add_test(NAME nightly-fuzz CONFIGURATIONS Nightly COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/run.sh 300)
+  set_tests_properties(fuzz-short nightly-fuzz PROPERTIES ENVIRONMENT "BULLA_FUZZ_BUILD=${CMAKE_BINARY_DIR}/fuzz-short"
+                       TIMEOUT 5400 SKIP_RETURN_CODE 77 COST 1000 RESOURCE_LOCK fuzz-build)
 endif()
