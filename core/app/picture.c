@@ -49,18 +49,19 @@ static bool picture_beyond(const struct picture_layer *layer, bool above)
     return false;
 }
 
-/* Colour bars: right of the box, or below it, one half each when there are two. */
+/* Colour bars: right of the box, or below it, one half each when there are two halves. */
 static void picture_place_bars(cairo_t *cr, struct picture_plan *plan, double *ret_right, double *ret_below)
 {
-    unsigned count = plan->scaled.n_layer;
-    bool upright = count == 1 && plan->box.h >= 0.45 * plan->box.w && plan->box.h >= 90.0;
+    unsigned count = plan->scaled.n_layer, below = plan->scaled.inside ? count - 1 : count;
+    bool tall = plan->box.h >= 0.45 * plan->box.w && plan->box.h >= 90.0;
     *ret_right = *ret_below = 0.0;
     for (unsigned i = 0; i < count; i++) {
         struct picture_layer *layer = &plan->scaled.layer[i];
         struct picture_bar *bar = &plan->bar[i];
+        bool upright = i == below || (count == 1 && tall);
         *bar = (struct picture_bar){&layer->scale, &layer->map, upright, picture_beyond(layer, false),
                                     picture_beyond(layer, true)};
-        double between = count > 1 ? 14.0 : 0.0, run = (plan->box.w - between) / count;
+        double between = below > 1 ? 14.0 : 0.0, run = (plan->box.w - between) / below;
         picture_axes_fit(cr, &layer->scale, upright ? plan->box.h : run, upright);
         double room = picture_axes_bar_room(cr, bar);
         if (upright) {
@@ -194,7 +195,7 @@ static void picture_paint_lines(cairo_t *cr, const struct picture_plan *plan, st
 static void picture_paint_all_lines(cairo_t *cr, const struct picture_plan *plan)
 {
     struct picture_rect left = plan->box, right = plan->box;
-    if (plan->scaled.n_layer == 1) {
+    if (!plan->scaled.halves) {
         picture_paint_lines(cr, plan, plan->box);
         return;
     }

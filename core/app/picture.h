@@ -10,7 +10,7 @@
 #include "app/picture_scale.h"
 #include "app/raster.h"
 
-enum { PICTURE_LAYERS = 2, PICTURE_LINES = 16 }; /* lines: as in picture_header.h */
+enum { PICTURE_LAYERS = 3, PICTURE_LINES = 16 }; /* lines: as in picture_header.h */
 
 /* A field: one value per cell, its colours and their scale. */
 struct picture_layer {
@@ -30,7 +30,9 @@ struct picture {
     const char *title, *note;     /* first line; second line on the left (the time) */
     struct picture_scale axis[2]; /* lo, hi: what part of the plane is shown */
     double aspect;                /* height of the box over its width; 0: true to scale */
-    unsigned n_layer;             /* 1; 2: colour bars side by side below (left and right half) */
+    bool halves;                  /* the first two layers are the left and the right half */
+    bool inside;                  /* the last layer lies inside of the others: its colour bar stands on the right */
+    unsigned n_layer;
     struct picture_layer layer[PICTURE_LAYERS];
     unsigned n_lines;
     struct picture_lines lines[PICTURE_LINES];

@@ -83,16 +83,20 @@ static int plot_write(const char *directory, const struct snapshot *snapshot, co
     return code;
 }
 
-/* A plane shows one field (or a pair): one file for each of the list. A line shows all in one file. */
+/* A plane shows one field (or a pair), perhaps another one inside of a material: one file for each of the list. A line
+ * shows all in one file. */
 static int plot_fields(const char *directory, const struct snapshot *snapshot, const struct plot_picture *picture)
 {
     if (picture->option->left || plot_picture_shape(snapshot, picture->option) != 2)
         return plot_write(directory, snapshot, picture);
-    for (unsigned i = 0; i < picture->n_field; i++) {
+    unsigned inside = picture->option->inside_field ? 1 : 0, last = picture->n_field - 1;
+    for (unsigned i = 0; i + inside < picture->n_field; i++) {
         struct plot_picture one = *picture;
-        one.n_field = 1;
+        one.n_field = 1 + inside;
         one.fields[0] = picture->fields[i];
+        one.fields[inside] = picture->fields[inside ? last : i];
         memcpy(one.extremes[0], picture->extremes[i], sizeof one.extremes[0]);
+        memcpy(one.extremes[inside], picture->extremes[inside ? last : i], sizeof one.extremes[0]);
         TRY(plot_write(directory, snapshot, &one));
     }
     return STATUS_OK;
@@ -152,6 +156,10 @@ static int plot_snapshots(const char *directory, const char *fields, const struc
     if (read_series(directory, &series)) return status_fail(STATUS_CASE, "%s", status_text());
     char *list = option->left ? mem_print("%s,%s", option->left, option->right) : mem_text(fields);
     int code = plot_split(list, &picture);
+    if (!code && option->inside_field) {
+        if (picture.n_field == PLOT_PICTURE_FIELDS) picture.n_field--;
+        picture.fields[picture.n_field++] = option->inside_field;
+    }
     if (!code && !series.n) code = status_fail(STATUS_CASE, "no snapshots in %s/fields", directory);
     if (!code) code = plot_series(directory, &series, &picture);
     mem_free(list);

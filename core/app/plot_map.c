@@ -179,7 +179,7 @@ static int map_layer(const struct map *map, const char *field, const struct plot
     map_extremes(map, layer->values, window, option->log, extremes);
     const char *colours = option->map ? option->map : colormap_for_field(field, extremes[0], extremes[1]);
     TRY(colormap_find(colours, &layer->map));
-    TRY(plot_picture_range(option, field, colours, extremes));
+    TRY(plot_picture_range(&option->range[0], option->log, field, colours, extremes));
     char *column = mem_print("%s.%s", map->name, field), *label = mem_text(field);
     for (char *c = label; *c; c++)
         if (*c == '_') *c = ' ';

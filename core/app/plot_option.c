@@ -16,7 +16,8 @@ static const struct cli_option option_last = {"--last", NULL, NULL, "The last sn
 static const struct cli_option option_all = {"--all", NULL, NULL, "Every snapshot, all on one colour scale."};
 static const struct cli_option option_slice = {"--slice", NULL, "x=X",
                                                "Cut at x, y or z; 3D: the middle of z by default."};
-static const struct cli_option option_range = {"--range", NULL, "LO,HI", "Values at the ends of the scale."};
+static const struct cli_option option_range = {
+    "--range", NULL, "LO,HI", "Values at the ends of the scale; again for the right field, the inside one."};
 static const struct cli_option option_log = {"--log", NULL, NULL, "Logarithmic scale of values."};
 static const struct cli_option option_map = {"--map", NULL, "NAME", "Colour map: lagoon, ember, frost, balance, grey."};
 static const struct cli_option option_width = {"--width", NULL, "PX", "Width of the picture in pixels."};
@@ -28,11 +29,13 @@ static const struct cli_option option_ylim = {"--ylim", NULL, "A,B", "Part of th
 static const struct cli_option option_tiles = {"--tiles", NULL, NULL, "Outlines of the mesh tiles."};
 static const struct cli_option option_left = {"--left", NULL, "FIELD", "Axisymmetric: this field left of the axis,"};
 static const struct cli_option option_right = {"--right", NULL, "FIELD", "and this one right of it."};
+static const struct cli_option option_inside = {"--inside", NULL, "MATERIAL=FIELD",
+                                                "In this material, show this field instead."};
 
 const struct cli_option *const plot_option_table[] = {
-    &option_output, &option_last,  &option_step,    &option_time,  &option_all,   &option_slice,
-    &option_range,  &option_log,   &option_map,     &option_xlim,  &option_ylim,  &option_mirror,
-    &option_left,   &option_right, &option_contour, &option_tiles, &option_width, NULL,
+    &option_output, &option_last,    &option_step,  &option_time,  &option_all,    &option_slice, &option_range,
+    &option_log,    &option_map,     &option_xlim,  &option_ylim,  &option_mirror, &option_left,  &option_right,
+    &option_inside, &option_contour, &option_tiles, &option_width, NULL,
 };
 
 /* What a number must be a quantity of: nothing in particular, a length, a time. */
@@ -54,9 +57,8 @@ static int option_number(const char *name, const char *text, size_t length, enum
                        kind == OPTION_TIME ? "a time" : "a length");
 }
 
-static int option_span(const struct cli_given *given, const char *name, struct plot_option_span *ret)
+static int option_span(const char *name, const char *text, struct plot_option_span *ret)
 {
-    const char *text = cli_value(given, name);
     if (!text) return STATUS_OK;
     const char *comma = strchr(text, ',');
     if (!comma) return status_fail(STATUS_CASE, "%s %s: two numbers with a comma are needed: %s 0,1", name, text, name);
@@ -65,6 +67,36 @@ static int option_span(const struct cli_given *given, const char *name, struct p
     if (!(ret->lo < ret->hi))
         return status_fail(STATUS_CASE, "%s %s: the first number must be less than the second", name, text);
     ret->given = true;
+    return STATUS_OK;
+}
+
+/* Each --range in turn; a single one is that of all fields. */
+static int option_ranges(const struct cli_given *given, struct plot_option *option)
+{
+    int n = 0;
+    for (int i = 0; i < given->n_option; i++) {
+        if (given->options[i] != &option_range) continue;
+        if (n == PLOT_RANGES) return status_fail(STATUS_CASE, "--range is given more than %d times", PLOT_RANGES);
+        TRY(option_span("--range", given->values[i], &option->range[n]));
+        if (option->log && option->range[n].lo <= 0.0)
+            return status_fail(STATUS_CASE, "--log with --range from %g: a logarithmic scale begins above 0",
+                               option->range[n].lo);
+        n++;
+    }
+    for (int i = 1; n == 1 && i < PLOT_RANGES; i++) option->range[i] = option->range[0];
+    return STATUS_OK;
+}
+
+/* --inside tissue=sigma_max */
+static int option_inside_read(const struct cli_given *given, struct plot_option *option)
+{
+    const char *text = cli_value(given, "--inside"), *equals = text ? strchr(text, '=') : NULL;
+    if (!text) return STATUS_OK;
+    if (!equals || equals == text || !equals[1] || (size_t)(equals - text) >= sizeof option->inside)
+        return status_fail(STATUS_CASE, "--inside %s: a material and a field are needed: --inside tissue=sigma_max",
+                           text);
+    snprintf(option->inside, sizeof option->inside, "%.*s", (int)(equals - text), text);
+    option->inside_field = equals + 1;
     return STATUS_OK;
 }
 
@@ -113,12 +145,10 @@ int plot_option_read(const struct cli_given *given, struct plot_option *ret_opti
     option.width = (int)width;
     TRY(option_when(given, &option));
     TRY(option_slices(given, &option));
-    TRY(option_span(given, "--range", &option.range));
-    TRY(option_span(given, "--xlim", &option.limit[0]));
-    TRY(option_span(given, "--ylim", &option.limit[1]));
-    if (option.log && option.range.given && option.range.lo <= 0.0)
-        return status_fail(STATUS_CASE, "--log with --range from %g: a logarithmic scale begins above 0",
-                           option.range.lo);
+    TRY(option_ranges(given, &option));
+    TRY(option_inside_read(given, &option));
+    TRY(option_span("--xlim", cli_value(given, "--xlim"), &option.limit[0]));
+    TRY(option_span("--ylim", cli_value(given, "--ylim"), &option.limit[1]));
     if (!option.left != !option.right)
         return status_fail(STATUS_CASE, "--left and --right go together: one field for each side of the axis");
     *ret_option = option;

@@ -8,6 +8,8 @@
 
 extern const struct cli_option *const plot_option_table[];
 
+enum { PLOT_RANGES = 3 };
+
 enum plot_option_when { PLOT_LAST, PLOT_STEP, PLOT_TIME, PLOT_ALL };
 
 struct plot_option_span {
@@ -22,12 +24,16 @@ struct plot_option {
     double time;
     bool sliced[3]; /* by axis */
     double slice[3];
-    struct plot_option_span range, limit[2]; /* values; x and y of the picture */
+    struct plot_option_span
+        range[PLOT_RANGES];           /* values: of the fields of a picture in the order left, right, inside */
+    struct plot_option_span limit[2]; /* x and y of the picture */
     bool log, mirror, tiles;
     const char *map;      /* or NULL: by field */
     const char *contours; /* list of materials, "none", or NULL: all */
     int width;            /* 0: by layout */
     const char *left, *right;
+    char inside[64];          /* a material; "": none */
+    const char *inside_field; /* what is shown in it */
 };
 
 /* Reads the options of a command line; what contradicts itself or is no number is STATUS_CASE. */

@@ -44,23 +44,50 @@ static void picture_note(const struct plot_view *view, const struct plot_picture
     snprintf(ret_note, size, PICTURE_ITALIC "t" PICTURE_UPRIGHT " = %s%s%s", time, *view->note ? ", " : "", view->note);
 }
 
-int plot_picture_range(const struct plot_option *option, const char *name, const char *map, double extremes[2])
+int plot_picture_range(const struct plot_option_span *range, bool log, const char *name, const char *map,
+                       double extremes[2])
 {
     bool fraction = strcmp(name, "schlieren") == 0 || strncmp(name, "alpha_", 6) == 0;
-    if (option->range.given) {
-        extremes[0] = option->range.lo;
-        extremes[1] = option->range.hi;
+    if (range->given) {
+        extremes[0] = range->lo;
+        extremes[1] = range->hi;
     } else if (extremes[0] > extremes[1]) {
-        if (option->log) return status_fail(STATUS_CASE, "--log: %s has no values above 0", name);
+        if (log) return status_fail(STATUS_CASE, "--log: %s has no values above 0", name);
         return status_fail(STATUS_CASE, "%s has no finite values in the picture", name);
-    } else if (fraction && !option->log && extremes[0] >= -0.01 && extremes[1] <= 1.01) {
+    } else if (fraction && !log && extremes[0] >= -0.01 && extremes[1] <= 1.01) {
         extremes[0] = 0.0;
         extremes[1] = 1.0;
-    } else if (strcmp(map, "balance") == 0 && !option->log) {
+    } else if (strcmp(map, "balance") == 0 && !log) {
         double size = fmax(fabs(extremes[0]), fabs(extremes[1]));
         extremes[0] = -size;
         extremes[1] = size;
     }
+    return STATUS_OK;
+}
+
+static bool picture_is_inside(const struct plot_picture *picture, unsigned index)
+{
+    return *picture->option->inside && index + 1 == picture->n_field;
+}
+
+/* Leaves NaN where another field of the picture is shown: the other half, in a material or out of it. */
+static int picture_mask(const struct plot_view *view, const struct plot_picture *picture, unsigned index,
+                        double *values)
+{
+    const struct plot_option *option = picture->option;
+    bool inside = picture_is_inside(picture, index);
+    for (size_t c = 0; option->left && !inside && c < view->n; c++) /* the images are the left half */
+        if ((c >= view->n_plain) != (index == 0)) values[c] = NAN;
+    if (!*option->inside) return STATUS_OK;
+    struct plot_field field;
+    char *name = mem_print("alpha_%s", option->inside);
+    int code = plot_field_find(view->snapshot, name, &field);
+    mem_free(name);
+    if (code) return status_wrap(code, "--inside %s=%s: ", option->inside, option->inside_field);
+    double *alpha = plot_view_values(view, &field);
+    for (size_t c = 0; c < view->n; c++)
+        if ((alpha[c] >= 0.5) != inside) values[c] = NAN;
+    mem_free(alpha);
     return STATUS_OK;
 }
 
@@ -75,13 +102,14 @@ static int picture_layer(const struct plot_view *view, const struct plot_picture
     layer->values = *ret_values = values;
     layer->cells = view->cells;
     layer->n = view->n;
-    for (size_t c = 0; option->left && c < view->n; c++) /* the images are the left half */
-        if ((c >= view->n_plain) != (index == 0)) values[c] = NAN;
+    TRY(picture_mask(view, picture, index, values));
     if (picture->common) memcpy(extremes, picture->extremes[index], sizeof extremes);
     else plot_view_range(view, values, window, option->log, extremes);
     const char *map = option->map ? option->map : colormap_for_field(picture->fields[index], extremes[0], extremes[1]);
+    if (!option->map && picture_is_inside(picture, index) && strcmp(map, "balance") != 0)
+        map = "ember"; /* told apart */
     TRY(colormap_find(map, &layer->map));
-    TRY(plot_picture_range(option, picture->fields[index], map, extremes));
+    TRY(plot_picture_range(&option->range[index], option->log, picture->fields[index], map, extremes));
     picture_scale_init(&layer->scale, &(struct picture_scale_inp){.name = field.label,
                                                                   .unit = field.field->unit,
                                                                   .lo = extremes[0],
@@ -107,7 +135,11 @@ static void picture_axes(const struct plot_view *view, const double window[2][2]
 static int picture_plane(const struct plot_view *view, const struct plot_picture *picture, const double window[2][2],
                          const char *note, cairo_surface_t **ret_image)
 {
-    struct picture drawn = {.title = view->snapshot->title, .note = note, .n_layer = picture->option->left ? 2 : 1};
+    struct picture drawn = {.title = view->snapshot->title,
+                            .note = note,
+                            .halves = picture->option->left,
+                            .inside = *picture->option->inside,
+                            .n_layer = picture->n_field};
     struct plot_interfaces interfaces = {0};
     double *values[PICTURE_LAYERS] = {NULL};
     struct raster_cell *tiles = picture->option->tiles ? plot_view_tiles(view, &drawn.n_tile) : NULL;
@@ -139,6 +171,7 @@ int plot_picture_extremes(const struct snapshot *snapshot, struct plot_picture *
         code = plot_field_find(snapshot, picture->fields[i], &field);
         if (code) break;
         double *values = plot_view_values(&view, &field);
+        if (view.n_axis == 2) code = picture_mask(&view, picture, i, values);
         plot_view_range(&view, values, window, picture->option->log, picture->extremes[i]);
         mem_free(values);
     }

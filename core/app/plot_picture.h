@@ -9,8 +9,8 @@
 
 enum { PLOT_PICTURE_FIELDS = 24 };
 
-/* What to show of each snapshot. A plane shows one field, or with `--left`, `--right` two: left, right. A line
- * shows all in one chart. */
+/* What to show of each snapshot. A plane shows one field, or with `--left`, `--right` two: left, right; with --inside
+ * one more, the last, in a material. A line shows all in one chart. */
 struct plot_picture {
     const struct plot_option *option;
     unsigned n_field;
@@ -26,9 +26,10 @@ int plot_picture_shape(const struct snapshot *snapshot, const struct plot_option
 /* Widens `extremes` by what the picture of this snapshot would show. */
 int plot_picture_extremes(const struct snapshot *snapshot, struct plot_picture *picture);
 
-/* Ends of the scale of a field in colours `map`: --range, or what the field calls for, or else `extremes` as they are;
- * STATUS_CASE if these are those of nothing. */
-int plot_picture_range(const struct plot_option *option, const char *name, const char *map, double extremes[2]);
+/* Ends of the scale of a field in colours `map`: `range` if it is given, or what the field calls for, or else `extremes`
+ * as they are; STATUS_CASE if these are those of nothing. */
+int plot_picture_range(const struct plot_option_span *range, bool log, const char *name, const char *map,
+                       double extremes[2]);
 
 /* Draws the picture; the caller destroys the image. STATUS_CASE: unknown fields or materials, windows outside
  * of the domain, and the like. */

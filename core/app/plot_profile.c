@@ -43,9 +43,9 @@ static void profile_name(const struct chart_panel *panel, char *ret_name, size_t
 /* The range that a panel shows of data that reach from range[0] to range[1]. */
 static int profile_range(const char *name, const struct plot_option *option, double range[2])
 {
-    if (option->range.given) {
-        range[0] = option->range.lo;
-        range[1] = option->range.hi;
+    if (option->range[0].given) {
+        range[0] = option->range[0].lo;
+        range[1] = option->range[0].hi;
     } else if (range[0] > range[1]) {
         range[0] = range[1] = option->log;
     } else if (option->log && range[0] <= 0.0) {

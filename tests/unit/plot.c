@@ -338,8 +338,8 @@ static void options_are_read(void **state)
     assert_true(option.sliced[0] && !option.sliced[1] && option.sliced[2]);
     assert_close(option.slice[0], 2e-3, 0.0);
     assert_close(option.slice[2], -0.5, 0.0);
-    assert_close(option.range.lo, -1.0, 0.0);
-    assert_close(option.range.hi, 3e6, 0.0);
+    assert_close(option.range[0].lo, -1.0, 0.0);
+    assert_close(option.range[0].hi, 3e6, 0.0);
     assert_int_equal(option.width, 640);
     assert_true(option.limit[1].given && !option.limit[0].given);
 }
