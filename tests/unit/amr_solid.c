@@ -381,11 +381,76 @@ static void test_corrected(void **state)
     assert_true(good < 0.5 * bad);
 }
 
+/* A solid that is bent a little at uniform pressure. */
+static void set_bent(const struct model *model, const double x[3], double *w)
+{
+    double *V = w + model->i_V;
+    V[0] = 1.0 + 0.0025 * cos(2.0 * M_PI * (x[0] + x[1]));
+    V[1] = 1.0 - 0.0025 * sin(2.0 * M_PI * x[0]);
+    V[2] = 1.0;
+    V[3] = 0.005 * sin(2.0 * M_PI * (x[0] - x[1]));
+    elastic_unimodular(model, 1, 1, V);
+}
+
+struct birth {
+    double V, p, sums, limited; /* mean error of the stretch; worst of p; drift of sums; part of the parents limited */
+};
+
+/* Tiles born by interpolation all over the plane. */
+static struct birth birth_of(int cells)
+{
+    struct flow flow;
+    struct birth birth = {0};
+    flow_start(&flow, mem_print("bulla: 1\ntitle: births\ndomain: {lower: [0, 0], upper: [1, 1], cells: [%d, %d], " BOX2
+                                "}\nmesh: {levels: 1, tile: 8, refine: [{lua: '= t > 0'}]}\nmaterials:\n" TISSUE
+                                "initial:\n  - {everywhere: true, material: tissue, density: 1000, pressure: 1e5}\n"
+                                "run: {until: 1}\n",
+                                cells, cells));
+    const struct model *model = flow.state->model;
+    double size[FLOW_FIELDS], now, exact[FLOW_FIELDS];
+    long double before[FLOW_FIELDS];
+    assert_int_equal(flow.state->mesh->n_level, 1);
+    amr_set(&flow, set_bent, NULL);
+    for (unsigned q = model->i_m; q < model->i_V; q++) before[q] = amr_total(&flow, q, &size[q]);
+    flow.state->t = 1e-12;
+    if (regrid_levels(flow.state, 0)) fail_msg("%s", status_text());
+    assert_int_equal(flow.state->mesh->n_level, 2);
+    for (unsigned q = model->i_m; q < model->i_V; q++)
+        birth.sums = fmax(birth.sums, (double)fabsl(amr_total(&flow, q, &now) - before[q]) / fmax(size[q], 1.0));
+    struct amr_leaves leaves = amr_leaves(&flow);
+    for (size_t i = 0; i < leaves.n; i++) {
+        double V[6] = {0};
+        set_bent(model, leaves.all[i].x, exact);
+        for (unsigned c = 0; c < model->n_stretch; c++) {
+            V[c] = amr_primitive(&flow, &leaves.all[i], model->i_V + c);
+            birth.V += leaves.all[i].volume * fabs(V[c] - exact[model->i_V + c]);
+        }
+        assert_true(fabs((V[0] * V[1] - V[3] * V[3]) * V[2] - 1.0) < 1e-14);
+        birth.p = fmax(birth.p, fabs(amr_primitive(&flow, &leaves.all[i], model->i_E) - 1e5));
+    }
+    birth.limited = (double)flow.state->counts.limited / (cells * cells);
+    mem_free(leaves.all);
+    flow_stop(&flow);
+    print_message("births %d: V off by %.1e, p by %.3g Pa, sums by %.1e, %.2f limited\n", cells, birth.V, birth.p,
+                  birth.sums, birth.limited);
+    return birth;
+}
+
+static void test_births(void **state)
+{
+    (void)state;
+    struct birth coarse = birth_of(32), fine = birth_of(64);
+    assert_true(coarse.sums < 1e-15 && fine.sums < 1e-15);
+    assert_true(fine.V < coarse.V / 3.0 && fine.p < coarse.p / 3.0);
+    assert_true(coarse.p < 1e4);
+    assert_true(fine.limited < coarse.limited);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stream), cmocka_unit_test(test_kept),      cmocka_unit_test(test_lost),
-        cmocka_unit_test(test_whole),  cmocka_unit_test(test_corrected),
+        cmocka_unit_test(test_stream), cmocka_unit_test(test_births), cmocka_unit_test(test_kept),
+        cmocka_unit_test(test_lost),   cmocka_unit_test(test_whole),  cmocka_unit_test(test_corrected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
