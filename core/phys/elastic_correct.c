@@ -42,7 +42,7 @@ static void correct_spin(const correct_matrix V, const double z[3], double w[3])
     double f = -V[0][1], g = -V[0][2], h = -V[1][2];
     double A = b * c - h * h, B = a * c - g * g, C = a * b - f * f;
     double F = g * h - f * c, G = f * h - g * b, H = f * g - h * a;
-    double det = c * C + (2.0 * (f * g * h) - (a * h * h + b * g * g));
+    double det = c * C + (2.0 * (f * (g * h)) - (a * h * h + b * g * g));
     det = det > 0.0 ? det : HUGE_VAL;
     w[0] = (A * z[0] + F * z[1] + G * z[2]) / det;
     w[1] = (F * z[0] + B * z[1] + H * z[2]) / det;

@@ -12,7 +12,7 @@ static double settle_round_off(const double V[6])
 {
     double xx = fabs(V[ELASTIC_XX]), yy = fabs(V[ELASTIC_YY]), zz = fabs(V[ELASTIC_ZZ]);
     double xy = fabs(V[ELASTIC_XY]), xz = fabs(V[ELASTIC_XZ]), yz = fabs(V[ELASTIC_YZ]);
-    double terms = (xx * yy + xy * xy) * zz + (2.0 * (xy * xz * yz) + (xx * yz * yz + yy * xz * xz));
+    double terms = (xx * yy + xy * xy) * zz + (2.0 * (xy * (xz * yz)) + (xx * yz * yz + yy * xz * xz));
     return 2.0 * DBL_EPSILON * terms * ((xx + yy) + (zz + (xy + (xz + yz))));
 }
 
