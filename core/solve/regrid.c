@@ -96,15 +96,19 @@ static bool regrid_is_idle(const struct regrid *regrid)
     return true;
 }
 
-/* Work per cell of a tile relative to one of a single material (measured: docs/decisions). */
+/* Work per cell of a tile relative to one of a single fluid (measured: docs/decisions). Beside a solid all materials are
+ * computed, and its stretch with them. */
 static double regrid_cost(const struct stage *stage, unsigned local)
 {
     const struct census_tile *tile = &stage->census.tiles[local];
-    unsigned materials = 0;
+    const struct model *model = stage->model;
+    unsigned materials = 0, solid = 0;
     if (stage->level->tiles[stage->level->first + local].hidden) return 0.05;
     if (tile->still) return 0.2;
     for (unsigned present = tile->present; present; present &= present - 1) materials++;
-    return materials > 1 ? 1.2 * materials : 1.0;
+    for (unsigned s = 0; s < model->n_solid; s++) solid |= tile->present >> model->solids[s].material & 1u;
+    if (solid && materials > 1) materials = model->n_material;
+    return (materials > 1 ? 1.2 * materials : 1.0) + (solid ? 1.5 : 0.0);
 }
 
 /* Costs of all tiles of a level as it is, in its order. */
