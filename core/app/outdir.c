@@ -20,8 +20,8 @@
 static const char *const outdir_files[] = {"case.yaml",  "provenance.json", "history.csv",
                                            "probes.csv", "expect.json",     "log.txt"};
 static const char *const outdir_folders[] = {"fields", "checkpoints", "maps"};
-static const char *const outdir_endings[] = {".hdf", ".hdf.series", ".chk", ".csv", ".tmp"};
-enum { FILES = 6, FOLDERS = 3, ENDINGS = 5 };
+static const char *const outdir_endings[] = {".hdf", ".hdf.series", ".chk", ".tmp"};
+enum { FILES = 6, FOLDERS = 3, ENDINGS = 4 };
 
 static bool outdir_is_ours(const char *name)
 {
@@ -32,6 +32,15 @@ static bool outdir_is_ours(const char *name)
     }
     return false;
 }
+
+/* Of maps: tables too, which elsewhere are somebody's own. */
+static bool outdir_is_map(const char *name)
+{
+    size_t length = strlen(name);
+    return outdir_is_ours(name) || (length > 4 && !strcmp(name + length - 4, ".csv"));
+}
+
+static bool (*const outdir_meant[])(const char *name) = {outdir_is_ours, outdir_is_ours, outdir_is_map};
 
 static bool outdir_is_draft(const char *name)
 {
@@ -67,7 +76,7 @@ static void outdir_list(const char *path, struct text *found)
     }
     for (int i = 0; i < FOLDERS; i++) {
         char *name = mem_print("%s/%s", path, outdir_folders[i]);
-        int count = outdir_sweep(name, outdir_is_ours, false);
+        int count = outdir_sweep(name, outdir_meant[i], false);
         if (count > 0)
             text_add(found, "%s%s/ (%d file%s)", found->length ? ", " : "", outdir_folders[i], count,
                      count == 1 ? "" : "s");
@@ -85,7 +94,7 @@ static int outdir_clear(const char *path)
         bool is_file = i < FILES;
         char *name = mem_print("%s/%s", path, is_file ? outdir_files[i] : outdir_folders[i - FILES]);
         if (is_file ? unlink(name) && errno != ENOENT && errno != ENOTDIR
-                    : outdir_sweep(name, outdir_is_ours, true) < 0)
+                    : outdir_sweep(name, outdir_meant[i - FILES], true) < 0)
             code = status_fail(STATUS_RUN, "cannot remove %s: %s", name, strerror(errno));
         mem_free(name);
     }

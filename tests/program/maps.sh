@@ -64,6 +64,14 @@ awk -F, 'NR > 1 && $1 == 0 && $3 != "nan" { n++; if ($2 < 0.19e-3 || $2 > 0.41e-
          END { if (n < 20 || n > 24 || bad) { print "skin: " n " places"; exit 1 } }' alone/maps/skin.csv
 head -n 1 alone/maps/slant.csv | grep -qx 't,s,alpha_air'
 
+# Overwriting takes away the maps that were there, and what is the user's own stays.
+mkdir -p other/fields other/maps
+cp two/case.yaml other
+touch other/fields/own.csv other/maps/own.txt other/maps/old.csv other/maps/old.hdf
+go other --overwrite --max-steps 1
+[ -e other/fields/own.csv ] && [ -e other/maps/own.txt ] && [ -s other/maps/wall.csv ]
+if [ -e other/maps/old.csv ] || [ -e other/maps/old.hdf ]; then echo "old maps are still there"; exit 1; fi
+
 # Pictures of them.
 "$BULLA" plot alone map axis pressure >said
 [ -s "$(cat said)" ] && grep -q 'plots/map_axis_pressure.png' said
