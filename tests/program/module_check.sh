@@ -14,12 +14,27 @@ judge() { # CODE FILE...
     [ "$code" = "$wanted" ] || fail "$*: exit code $code, not $wanted"
 }
 
+# A law that lives in a file gets one: modified NASG water on a grid.
+awk 'BEGIN {
+    print "rho[kg/m3],T[K],p[Pa],e[J/kg],c[m/s],s[J/kg/K]"
+    for (i = 0; i < 40; i++)
+        for (j = 0; j < 40; j++) {
+            rho = 850 + 500 * i / 39; T = 275 * exp(j / 39 * log(700 / 275)); w = 1 / rho - 6.7212e-4
+            P = 0.19 * 3610 * T / w
+            printf "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", rho, T, P - 6217.8e5, (P + 0.19 * 6217.8e5) * w / 0.19 - 1177788,
+                   sqrt(1.19 * P / w) / rho, 3610 * (1.19 * log(T) - 0.19 * log(P))
+        }
+}' >states.csv
+
 count=0
 for file in "$BULLA_BUILD"/lib/bulla/modules/*.so "$BULLA_BUILD"/tests/plugin/*.so "$BULLA_BUILD"/tests/skeleton/*.so; do
-    judge 0 "$file"
+    case ${file##*/} in
+        eos-table.so) judge 0 "$file" --set file=states.csv ;;
+        *) judge 0 "$file" ;;
+    esac
     grep -q '^pass: all [0-9]* checks hold' out || fail "$file: no verdict"
     grep -q 'ns per point' out || fail "$file: no cost"
-    ! grep -v '^[a-z0-9-]*: table of ' err || fail "$file: something on stderr" # but what a law says of its tables
+    ! grep -v '^[a-z0-9-]*: table of \|^table: states.csv: ' err || fail "$file: something on stderr" # but what a law says of its tables
     count=$((count + 1))
 done
 [ $count -ge 16 ] || fail "only $count modules found"
