@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,6 +17,7 @@
 #include <time.h>
 #include <unistd.h>
 
+enum { LAUNCH_CROWD = 32 }; /* most ranks for each processor */
 #define LAUNCH_STATUS "BULLA_STATUS_FILE"
 #define LAUNCH_TERMINAL "BULLA_TERMINAL"
 
@@ -134,6 +136,16 @@ static int launch_supervise(char **arguments, const char *path)
     sigprocmask(SIG_SETMASK, &before, NULL);
     if (child < 0) return status_fail(STATUS_RUN, "cannot start a process: %s", strerror(errno));
     return launch_outcome(path, raw, signals);
+}
+
+long launch_most(void)
+{
+    static const char *const batch[] = {"SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "JOB_ID",
+                                        "OMPI_MCA_orte_default_hostfile"};
+    for (size_t i = 0; i < sizeof batch / sizeof *batch; i++)
+        if (getenv(batch[i])) return LONG_MAX;
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    return LAUNCH_CROWD * (processors > 0 ? processors : 1);
 }
 
 int launch_run(long ranks, char **argv)

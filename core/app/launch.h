@@ -14,6 +14,10 @@
 char **launch_arguments(long ranks, bool root, const char *program, char **argv);
 void launch_free_arguments(char **arguments);
 
+/* Most ranks that are started here: some for each processor, or any number where a batch system has given more than
+ * this machine. Far more would bring the machine down before one of them could say so. */
+long launch_most(void);
+
 /* Runs the same command line on `ranks` ranks and returns its exit code. What the ranks could
  * not say themselves is recorded (status.h). */
 int launch_run(long ranks, char **argv);

@@ -295,6 +295,9 @@ static int run_ranks(const struct cli_given *given, bool *ret_started, int *ret_
     if (comm_active()) {
         if (cli_value(given, "--ranks") && ranks != comm_size())
             return status_fail(STATUS_CASE, "-n %ld, but an MPI launcher has started %d ranks", ranks, comm_size());
+    } else if (ranks > launch_most()) {
+        return status_fail(STATUS_CASE, "-n %ld: this machine has processors for %ld ranks at most", ranks,
+                           launch_most());
     } else if (ranks > 1) {
         *ret_started = true;
         *ret_code = cli_failed(launch_run(ranks, given->argv));

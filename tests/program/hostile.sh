@@ -131,6 +131,7 @@ setting 'is no state of' 'initial.0.pressure=1e308'
 setting 'is outside 0 to 15' 'mesh.levels=4294967296'
 setting 'is outside 4 to 256' 'mesh.tile=-2147483648'
 both 2 'not admissible' --set 'initial.0.velocity=[1e200]'
+attempt '-n 100000' 1 2 'ranks at most' run good.yaml --quiet -n 100000
 
 # The same bits under a locale with a decimal comma.
 run_as() { # FOLDER LOCALE
