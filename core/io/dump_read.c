@@ -142,6 +142,8 @@ static int dump_blocks(struct dump *dump, struct h5 *file)
     if (!dump->block[BLAME_U] || !dump->block[BLAME_W_NEW] || !dump->block[BLAME_W])
         return dump_lacks(dump, "u, w, w_new");
     dump->n_field = dump->shape[BLAME_U].rows;
+    for (int i = BLAME_U_OLD; i <= BLAME_W_NEW; i++)
+        if (dump->block[i] && dump->shape[i].rows != dump->n_field) return dump_lacks(dump, dump->shape[i].name);
     return STATUS_OK;
 }
 
