@@ -140,8 +140,12 @@ static void mix_residual(const struct model *model, size_t n, size_t stride, con
     for (unsigned l = 0; l < model->n_material; l++) {
         const struct model_eos *eos = &model->eos[l];
         const double *rho = w + (model->i_m + l) * stride;
-        eos->law->state(eos->self, n, rho, p, e.value, c2.value);
-        eos->law->derivatives(eos->self, n, rho, p, de_dp.value, de_drho.value);
+        if (BULLA_EOS_HAS(eos->law, energy)) {
+            eos->law->energy(eos->self, n, rho, p, e.value, de_dp.value);
+        } else {
+            eos->law->state(eos->self, n, rho, p, e.value, c2.value);
+            eos->law->derivatives(eos->self, n, rho, p, de_dp.value, de_drho.value);
+        }
         for (size_t i = 0; i < n; i++) {
             double alpha = model->n_alpha ? w[(model->i_alpha + l) * stride + i] : 1.0;
             ret_f->value[i] += alpha * e.value[i];
