@@ -91,13 +91,22 @@ const char *const *family_names(struct forest *forest, const struct keys_section
     return names;
 }
 
+/* The word with this number in "a|b|c"; NULL: there is none. */
+static const char *family_word(struct forest *forest, const char *choices, double number)
+{
+    for (double at = 0.0; choices; at += 1.0, choices = strchr(choices, '|'), choices += choices ? 1 : 0)
+        if (at >= number) return tree_print(forest, "%.*s", (int)strcspn(choices, "|"), choices);
+    return NULL;
+}
+
 const char *family_preset(struct forest *forest, const struct bulla_module *module, const char *preset, const char *key)
 {
     int row = instance_param_find(module, key);
     const struct bulla_preset *at = module->presets;
     if (row < 0 || !at) return NULL;
-    for (; at->name; at++)
-        if (strcmp(at->name, preset) == 0)
-            return isnan(at->values[row]) ? NULL : family_number(forest, at->values[row]);
-    return NULL;
+    while (at->name && strcmp(at->name, preset) != 0) at++;
+    const struct bulla_param *param = &module->params[row];
+    if (!at->name || isnan(at->values[row]) || param->type == BULLA_TEXT) return NULL;
+    return param->type == BULLA_CHOICE ? family_word(forest, param->choices, at->values[row])
+                                       : family_number(forest, at->values[row]);
 }

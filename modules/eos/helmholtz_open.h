@@ -106,6 +106,10 @@ static int helmholtz_open(const struct helmholtz_law *law, const struct bulla_ho
     char text[200];
     int n = (int)values[HELMHOLTZ_SIZE].number;
     const char *eval = values[HELMHOLTZ_EVAL].text;
+    if (values[HELMHOLTZ_SIZE].number != n) {
+        host->fail("table-size is a number of nodes: a whole number");
+        return 1;
+    }
     struct helmholtz *self = malloc(sizeof *self);
     struct helmholtz_shared *shared = self ? helmholtz_share(law, n) : NULL;
     if (!shared) {

@@ -437,6 +437,53 @@ static void test_energy_slot(void **state)
     }
 }
 
+static struct law open_preset(const char *name, const char *preset_name)
+{
+    const struct bulla_module *module = support_module("eos", name);
+    struct bulla_value values[16] = {{0}};
+    const struct bulla_preset *preset = module->presets;
+    while (strcmp(preset->name, preset_name) != 0) preset++;
+    for (unsigned i = 0; i < instance_param_count(module); i++) {
+        values[i].number = preset->values[i];
+        if (module->params[i].type == BULLA_CHOICE)
+            values[i].text = strcmp(module->params[i].name, "eval") == 0 ? "analytic" : "bicubic";
+    }
+    struct law law = {.eos = module->table};
+    if (instance_open(module, values, &law.instance)) fail_msg("%s", status_text());
+    return law;
+}
+
+/* Mixtures of air (RKPR), water (IAPWS-95) and tissue (MNASG) at one pressure, closed by an independent program: energies
+ * at the given pressure add up to the given sum, temperatures of all are the given ones. */
+static void test_mixtures(void **state)
+{
+    (void)state;
+    struct law laws[] = {open_preset("rkpr", "air"), open_law("iapws95", "table", 256), open_preset("mnasg", "water")};
+    FILE *file = data("mixture_points.csv");
+    char line[1024];
+    int count = 0;
+    while (fgets(line, sizeof line, file)) {
+        double alpha[3] = {0}, rho[3], rho_e, p, T[3], sum = 0.0, size = 0.0;
+        int n = sscanf(line, "2;rkpr_air|iapws_water;%lf|%lf;%lf|%lf;%lf;%lf;%lf|%lf;", &alpha[0], &alpha[1], &rho[0],
+                       &rho[1], &rho_e, &p, &T[0], &T[1]);
+        if (n != 8)
+            n = sscanf(line, "3;rkpr_air|iapws_water|tissue_mnasg;%lf|%lf|%lf;%lf|%lf|%lf;%lf;%lf;%lf|%lf|%lf;",
+                       &alpha[0], &alpha[1], &alpha[2], &rho[0], &rho[1], &rho[2], &rho_e, &p, &T[0], &T[1], &T[2]);
+        if (n < 8) continue;
+        for (int l = 0; l < 3 && alpha[l] > 0.0; l++) {
+            struct point point = at(&laws[l], rho[l], p);
+            sum += alpha[l] * rho[l] * point.e;
+            size += alpha[l] * (rho[l] * fabs(point.e) + point.c2 * rho[l]);
+            support_near("T", point.T, T[l], 1e-8, T[l]);
+        }
+        support_near("rho e", sum, rho_e, 1e-9, size);
+        count++;
+    }
+    fclose(file);
+    assert_true(count >= 5);
+    for (int l = 0; l < 3; l++) instance_done(&laws[l].instance);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -445,6 +492,7 @@ int main(void)
         cmocka_unit_test(test_points_of_water), cmocka_unit_test(test_isentrope),
         cmocka_unit_test(test_identities),      cmocka_unit_test(test_continuation),
         cmocka_unit_test(test_round_trip),      cmocka_unit_test(test_energy_slot),
+        cmocka_unit_test(test_mixtures),
     };
     return cmocka_run_group_tests(tests, support_start, support_stop);
 }

@@ -63,7 +63,8 @@ struct bulla_value {
 };
 
 /* A named set of parameter values, chosen by the key `preset`; keys given beside it win.
- * The list ends with `name == NULL`. `values` has one number per parameter. */
+ * The list ends with `name == NULL`. `values` has one number per parameter: for a choice that of the word, from 0;
+ * NaN: not set. */
 struct bulla_preset {
     const char *name, *doc;
     const double *values;
