@@ -59,18 +59,26 @@ void elastic_hoop(const struct model *model, size_t n, size_t stride, const doub
 void elastic_speed2(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
                     const double *rho, double *c2);
 
-/* Rates that move the stretch of n cells: `carried`, the block -div(V* u*); `div`, -div u*; `gradient`,
+/* What moves the stretch of n cells in a step dt: `carried`, the block -div(V* F) with F the mass flux of all solids;
+ * m_old, m_new: their partial densities together before and after, m_new = m_old - dt div F; `div`, -div u*; `gradient`,
  * [n_velocity * dim] rows of -d_k u*_i at i * dim + k; all with the same stride. */
 struct elastic_rates {
-    const double *carried, *div, *gradient;
+    const double *carried, *m_old, *m_new, *div, *gradient;
+    const double *squeeze,
+        *slope; /* in mixtures (else NULL): -(K_s/alpha_s) div u of the solids, and the block [dim] of
+                                      -d_k alpha_s, of which only the direction n matters */
 };
 
-/* V_new from V_old after dt with rates taken at V (model.md 2): half of the deformation, the transport, the other half,
- *     V' = polar(E V_old) + dt [-div(V* u*) + V div u*],  V_new = polar(E V'),  E = (1 - dt L/4)^-1 (1 + dt L/4),
- * polar(M) = (M M^T)^(1/2). The Cayley form turns a rigid rotation into an exact one. det V = 1 is left to
+/* V_new from V_old after dt (model.md 2): half of the deformation, the transport, the other half,
+ *     V' = W + [-dt div(V* F) - W (m_new - m_old)]/max(m_old, m_new),  W = polar(E V_old),  V_new = polar(E V'),  E = (1 - dt L/4)^-1 (1 + dt L/4),
+ * polar(M) = (M M^T)^(1/2). The stretch travels with the mass of the solids, so that what a fluid brings along never mixes
+ * into it. In a mixed cell L is the solid's own: L + (K_s/alpha_s) div u n n^T. Along an interface all materials move
+ * together, across it each is compressed as its stiffness says (the closure's K), and what the gas gives way by is no
+ * strain of the solid: without this the layer next to a bubble would be stretched too little
+ * (docs/decisions/solid-gradient.md). The Cayley form turns a rigid rotation into an exact one. det V = 1 is left to
  * elastic_unimodular, which also stands for the trace of L. V_new and V_old may not overlap. */
 void elastic_advance(const struct model *model, size_t n, size_t stride, double dt, const double *V_old,
-                     const double *V, const struct elastic_rates *rates, double *V_new);
+                     const struct elastic_rates *rates, double *V_new);
 
 /* det V = 1, in place; NaN where det V <= 0: no stretch any more, which the guard will see. */
 void elastic_unimodular(const struct model *model, size_t n, size_t stride, double *V);
@@ -90,13 +98,14 @@ void elastic_settle(const struct model *model, size_t n, size_t stride, double *
  * -1 for the cell on the lower side of the face, else 1. */
 struct elastic_correction {
     const double *V;        /* [n_stretch] of the cell at the midpoint */
-    const double *carried;  /* [n_stretch] s A/V delta(V* u*): change asked for by the transport */
+    const double *carried;  /* [n_stretch] s A/V delta(V* F)/m_s: change asked for by the transport */
+    double arrived;         /* s A/V delta(F)/m_s: solid mass that comes in, as a share of what there is */
     double swept;           /* s A/V delta(u*): what -div u changes by */
     const double *velocity; /* [n_velocity] -s/h delta(u_i): what d_axis u_i changes by, as the cell sees the face */
     int axis;
 };
 
-/* dV = carried - V swept + what the change of the velocity gradient stretches V by; exactly 0 if nothing changes. */
+/* dV = carried - V arrived + what the change of the velocity gradient stretches V by; exactly 0 if nothing changes. */
 void elastic_correct(const struct model *model, const struct elastic_correction *in, double *ret_dV);
 
 #endif

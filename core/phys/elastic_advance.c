@@ -14,15 +14,18 @@
 /* A step may not shear or stretch by more than this at once: |dt L/4| is cut there (the guard's step sizes are below). */
 #define MOVE_MOST 0.5
 
+/* Square of a slope of fractions [1/m2] that counts as none. */
+#define MOVE_FLAT 1e-30
+
 /* A general 3 x 3 matrix. */
 struct move_matrix {
     double xx, xy, xz, yx, yy, yz, zx, zy, zz;
 };
 
 /* Rows of one batch: -d_k u_i at index 3 i + k (those that a scene does not have are zeros), -div u, and the
- * components of V_old, V, -div(V* u*) and V_new. */
+ * components of V_old, -div(V* F) and V_new. */
 struct move_rows {
-    const double *gradient[9], *div, *old[6], *at[6], *carried[6];
+    const double *gradient[9], *div, *squeeze, *slope[3], *m_old, *m_new, *old[6], *carried[6];
     double *out[6];
 };
 
@@ -98,37 +101,44 @@ struct move_hoop {
     double share, y, z;
 };
 
-/* dt L/4 with hoop stretching. G: gradient, negative, without entries of its own where the hoop goes. */
-static ELASTIC_BODY struct move_matrix move_strain(struct move_matrix G, double div, double quarter,
-                                                   struct move_hoop to, int nv)
+/* n n^T of a slope times what is squeezed out across it; nothing where there is no slope. */
+static ELASTIC_BODY struct elastic_tensor move_squeeze(double amount, double x, double y, double z)
+{
+    double square = x * x + y * y + z * z, per = amount / (square + MOVE_FLAT);
+    return (struct elastic_tensor){per * x * x, per * y * y, per * z * z, per * x * y, per * x * z, per * y * z};
+}
+
+/* dt L/4 with hoop stretching. G: gradient, negative, without entries of its own where the hoop goes; Q: the squeeze. */
+static ELASTIC_BODY struct move_matrix move_strain(struct move_matrix G, struct elastic_tensor Q, double div,
+                                                   double quarter, struct move_hoop to, int nv)
 {
     double hoop = to.share * ((div - G.xx) - G.yy), yy = G.yy + to.y * hoop, zz = G.zz + to.z * hoop;
-    return (struct move_matrix){move_cut(-quarter * G.xx),
-                                nv > 1 ? move_cut(-quarter * G.xy) : 0.0,
-                                nv > 2 ? move_cut(-quarter * G.xz) : 0.0,
-                                nv > 1 ? move_cut(-quarter * G.yx) : 0.0,
-                                move_cut(-quarter * yy),
-                                nv > 2 ? move_cut(-quarter * G.yz) : 0.0,
-                                nv > 2 ? move_cut(-quarter * G.zx) : 0.0,
-                                nv > 2 ? move_cut(-quarter * G.zy) : 0.0,
-                                move_cut(-quarter * zz)};
+    return (struct move_matrix){move_cut(-quarter * (G.xx + Q.xx)),
+                                nv > 1 ? move_cut(-quarter * (G.xy + Q.xy)) : 0.0,
+                                nv > 2 ? move_cut(-quarter * (G.xz + Q.xz)) : 0.0,
+                                nv > 1 ? move_cut(-quarter * (G.yx + Q.xy)) : 0.0,
+                                move_cut(-quarter * (yy + Q.yy)),
+                                nv > 2 ? move_cut(-quarter * (G.yz + Q.yz)) : 0.0,
+                                nv > 2 ? move_cut(-quarter * (G.zx + Q.xz)) : 0.0,
+                                nv > 2 ? move_cut(-quarter * (G.zy + Q.yz)) : 0.0,
+                                move_cut(-quarter * (zz + Q.zz))};
+}
+
+/* What the solid mass in the cell has for a stretch after other mass came and went: a mean by mass, V + [dt come -
+ * V (m_new - m_old)]/m. Where mass goes m is m_old, so that a cell that empties does not blow up what it still has. */
+static ELASTIC_BODY struct elastic_tensor move_blend(struct elastic_tensor V, double keep, struct elastic_tensor come)
+{
+    return (struct elastic_tensor){keep * V.xx + come.xx, keep * V.yy + come.yy, keep * V.zz + come.zz,
+                                   keep * V.xy + come.xy, keep * V.xz + come.xz, keep * V.yz + come.yz};
 }
 
 /* One point: half of the deformation, the transport, the other half. */
-static ELASTIC_BODY struct elastic_tensor move_point(struct move_matrix A, struct elastic_tensor old,
-                                                     struct elastic_tensor step, int nv)
+static ELASTIC_BODY struct elastic_tensor move_point(struct move_matrix A, struct elastic_tensor old, double keep,
+                                                     struct elastic_tensor come, int nv)
 {
     struct move_matrix E = move_cayley(A);
     struct elastic_tensor half = move_polar(move_product(E, move_general(old)), nv);
-    half = (struct elastic_tensor){half.xx + step.xx, half.yy + step.yy, half.zz + step.zz,
-                                   half.xy + step.xy, half.xz + step.xz, half.yz + step.yz};
-    return move_polar(move_product(E, move_general(half)), nv);
-}
-
-/* dt (-div(V* u*) + V div u*) of one component; both rates are negative. */
-static ELASTIC_BODY double move_transport(double dt, double carried, double V, double div)
-{
-    return dt * (carried - V * div);
+    return move_polar(move_product(E, move_general(move_blend(half, keep, come))), nv);
 }
 
 /* Value of an optional row. */
@@ -145,14 +155,15 @@ static ELASTIC_BODY double move_transport(double dt, double carried, double V, d
                                *restrict g8 = rows->gradient[8];                                                 \
         const double *restrict o0 = rows->old[0], *restrict o1 = rows->old[1], *restrict o2 = rows->old[2];      \
         const double *restrict o3 = rows->old[3], *restrict o4 = rows->old[4], *restrict o5 = rows->old[5];      \
-        const double *restrict a0 = rows->at[0], *restrict a1 = rows->at[1], *restrict a2 = rows->at[2];         \
-        const double *restrict a3 = rows->at[3], *restrict a4 = rows->at[4], *restrict a5 = rows->at[5];         \
+        const double *restrict m_old = rows->m_old, *restrict m_new = rows->m_new;                               \
         const double *restrict c0 = rows->carried[0], *restrict c1 = rows->carried[1],                           \
                                *restrict c2 = rows->carried[2];                                                  \
         const double *restrict c3 = rows->carried[3], *restrict c4 = rows->carried[4],                           \
                                *restrict c5 = rows->carried[5];                                                  \
         double *restrict r0 = rows->out[0], *restrict r1 = rows->out[1], *restrict r2 = rows->out[2];            \
         double *restrict r3 = rows->out[3], *restrict r4 = rows->out[4], *restrict r5 = rows->out[5];            \
+        const double *restrict q = rows->squeeze, *restrict n0 = rows->slope[0], *restrict n1 = rows->slope[1],  \
+                               *restrict n2 = rows->slope[2];                                                    \
         const double *restrict div = rows->div;                                                                  \
         const double quarter = 0.25 * dt;                                                                        \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                       \
@@ -169,14 +180,17 @@ static ELASTIC_BODY double move_transport(double dt, double carried, double V, d
                                     MOVE_IF((nv) > 2, g8)};                                                      \
             struct elastic_tensor old = {                                                                        \
                 o0[i], o1[i], o2[i], MOVE_IF((nv) > 1, o3), MOVE_IF((nv) > 2, o4), MOVE_IF((nv) > 2, o5)};       \
-            struct elastic_tensor step = {                                                                       \
-                move_transport(dt, c0[i], a0[i], d),                                                             \
-                move_transport(dt, c1[i], a1[i], d),                                                             \
-                move_transport(dt, c2[i], a2[i], d),                                                             \
-                (nv) > 1 ? move_transport(dt, MOVE_IF((nv) > 1, c3), MOVE_IF((nv) > 1, a3), d) : 0.0,            \
-                (nv) > 2 ? move_transport(dt, MOVE_IF((nv) > 2, c4), MOVE_IF((nv) > 2, a4), d) : 0.0,            \
-                (nv) > 2 ? move_transport(dt, MOVE_IF((nv) > 2, c5), MOVE_IF((nv) > 2, a5), d) : 0.0};           \
-            struct elastic_tensor V = move_point(move_strain(G, d, quarter, hoop, nv), old, step, nv);           \
+            double now = m_new[i], before = m_old[i], most = now > before ? now : before, per = 1.0 / most;      \
+            per = most > 0.0 ? per : 0.0;                                                                        \
+            double keep = 1.0 - (now - before) * per, take = dt * per;                                           \
+            struct elastic_tensor come = {take * c0[i],                                                          \
+                                          take * c1[i],                                                          \
+                                          take * c2[i],                                                          \
+                                          take * MOVE_IF((nv) > 1, c3),                                          \
+                                          take * MOVE_IF((nv) > 2, c4),                                          \
+                                          take * MOVE_IF((nv) > 2, c5)};                                         \
+            struct elastic_tensor Q = move_squeeze(q[i], n0[i], MOVE_IF((nv) > 1, n1), MOVE_IF((nv) > 2, n2));   \
+            struct elastic_tensor V = move_point(move_strain(G, Q, d, quarter, hoop, nv), old, keep, come, nv);  \
             r0[i] = V.xx, r1[i] = V.yy, r2[i] = V.zz;                                                            \
             if ((nv) > 1) r3[i] = V.xy;                                                                          \
             if ((nv) > 2) r4[i] = V.xz, r5[i] = V.yz;                                                            \
@@ -191,7 +205,7 @@ enum { MOVE_BATCH = 512 };
 static const double move_zero[MOVE_BATCH];
 
 void elastic_advance(const struct model *model, size_t n, size_t stride, double dt, const double *V_old,
-                     const double *V, const struct elastic_rates *rates, double *V_new)
+                     const struct elastic_rates *rates, double *V_new)
 {
     unsigned count = model->n_stretch, dim = (unsigned)model->dim;
     struct move_hoop hoop = {.share = model->beta ? 1.0 / model->beta : 0.0,
@@ -199,15 +213,17 @@ void elastic_advance(const struct model *model, size_t n, size_t stride, double 
                              .z = model->beta > 0};
     for (size_t from = 0; from < n; from += MOVE_BATCH) {
         size_t part = n - from < MOVE_BATCH ? n - from : MOVE_BATCH;
-        struct move_rows rows = {.div = rates->div + from};
+        struct move_rows rows = {.div = rates->div + from, .m_old = rates->m_old + from, .m_new = rates->m_new + from};
         for (unsigned i = 0; i < 3; i++)
             for (unsigned k = 0; k < 3; k++)
                 rows.gradient[3 * i + k] =
                     i < model->n_velocity && k < dim ? rates->gradient + (i * dim + k) * stride + from : move_zero;
+        rows.squeeze = rates->squeeze ? rates->squeeze + from : move_zero;
+        for (unsigned k = 0; k < 3; k++)
+            rows.slope[k] = rates->squeeze && k < dim ? rates->slope + k * stride + from : move_zero;
         for (unsigned c = 0; c < 6; c++) {
             size_t at = (c < count ? c : 0) * stride + from;
             rows.old[c] = V_old + at;
-            rows.at[c] = V + at;
             rows.carried[c] = rates->carried + at;
             rows.out[c] = V_new + at;
         }

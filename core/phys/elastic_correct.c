@@ -65,6 +65,6 @@ void elastic_correct(const struct model *model, const struct elastic_correction 
             if (c >= model->n_stretch) continue;
             double here = P[i][j] - (V[i][0] * W[0][j] + V[i][1] * W[1][j] + V[i][2] * W[2][j]);
             double there = P[j][i] - (V[j][0] * W[0][i] + V[j][1] * W[1][i] + V[j][2] * W[2][i]);
-            ret_dV[c] = (in->carried[c] - in->V[c] * in->swept) + 0.5 * (here + there);
+            ret_dV[c] = (in->carried[c] - in->V[c] * in->arrived) + 0.5 * (here + there);
         }
 }

@@ -95,6 +95,7 @@ struct face_work *face_new(const struct model *model)
     work->energy = work->momentum + model->n_velocity * FACE_ROOM;
     work->u = work->energy + FACE_ROOM;
     work->stretch = model->n_stretch ? face_row(model->n_stretch) : NULL;
+    work->solid = model->n_stretch && model->n_alpha ? face_row(1) : NULL;
     work->carried = face_row(2 * model->n_alpha);
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
     face_split(model, work->alpha, own->flux_alpha, own->flux_m, own->flux_u);
@@ -129,7 +130,8 @@ void face_free(struct face_work *work)
                       work->carried,
                       own->origin,
                       own->strain,
-                      work->stretch};
+                      work->stretch,
+                      work->solid};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) mem_free(rows[i]);
     face_stress_free(own->stress);
     mem_free(own);
@@ -403,14 +405,29 @@ static BULLA_KERNEL void face_carry(size_t n, const double *restrict u, const do
     }
 }
 
+/* The stretch that the solids carry through the faces. */
+static void face_drag(struct face_work *work, size_t right)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    size_t n = work->faces.n;
+    memset(own->term, 0, n * sizeof *own->term);
+    for (unsigned s = 0; s < model->n_solid; s++)
+        face_sum(n, work->m + model->solids[s].material * FACE_ROOM, own->term);
+    face_stress_carry(model, n, right, own->state, own->term, work->stretch);
+}
+
 /* Volume fluxes and what they carry. */
 static void face_transport(struct face_work *work, size_t right)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
-    if (model->n_stretch) face_stress_carry(model, work->faces.n, right, own->state, work->u, work->stretch);
+    if (model->n_stretch) face_drag(work, right);
     if (!model->n_alpha) return;
     const double *p = own->state + 2 * model->i_E * FACE_ROOM;
+    if (model->n_stretch) memset(work->solid, 0, work->faces.n * sizeof *work->solid);
+    for (unsigned s = 0; s < model->n_solid && model->n_stretch; s++)
+        face_sum(work->faces.n, work->alpha + model->solids[s].material * FACE_ROOM, work->solid);
     face_trace(work->faces.n, work->u, p, p + right, &work->faces.left, &work->faces.right, own->origin, own->strain);
     for (unsigned l = 0; l < model->n_alpha; l++)
         face_carry(work->faces.n, work->u, own->origin, own->strain, work->alpha + l * FACE_ROOM,

@@ -20,7 +20,8 @@ struct face_work {
                                                   alpha: alpha* u*, u: u* */
     double *carried;                           /* [n_alpha] alpha* u* times the pressure of the side it comes from */
     double *strained;                          /* [n_alpha] alpha* u* times the compression on the way to the face */
-    double *stretch;                           /* [n_stretch] V* u*, V* of the side it comes from */
+    double *stretch; /* [n_stretch] V* F, F the mass flux of all solids, V* of the side it comes from */
+    double *solid;   /* alpha* of all solids together (mixtures with a solid) */
     double *slide_left,
         *slide_right; /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */
     void *own;        /* scratch of face.c */

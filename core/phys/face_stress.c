@@ -67,21 +67,21 @@ void face_stress_point(struct face_stress *stress, const struct model *model, si
     faces->slide_right = stress->slide_right;
 }
 
-static BULLA_KERNEL void face_stress_upwind(size_t n, const double *restrict u, const double *restrict left,
+static BULLA_KERNEL void face_stress_upwind(size_t n, const double *restrict mass, const double *restrict left,
                                             const double *restrict right, double *restrict flux)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double v = u[i], a = left[i], b = right[i];
-        flux[i] = (v >= 0.0 ? a : b) * v;
+        double m = mass[i], a = left[i], b = right[i];
+        flux[i] = (m >= 0.0 ? a : b) * m;
     }
 }
 
-void face_stress_carry(const struct model *model, size_t n, size_t right, const double *state, const double *u,
+void face_stress_carry(const struct model *model, size_t n, size_t right, const double *state, const double *mass,
                        double *out)
 {
     for (unsigned c = 0; c < model->n_stretch; c++) {
         const double *edges = state + 2 * (model->i_V + c) * FACE_ROOM;
-        face_stress_upwind(n, u, edges, edges + right, out + c * FACE_ROOM);
+        face_stress_upwind(n, mass, edges, edges + right, out + c * FACE_ROOM);
     }
 }

@@ -35,8 +35,9 @@ void face_stress_complete(struct face_stress *stress, const struct model *model,
 /* Points the solver to traction, shear and slides of `faces`; right edges begin at `right`. */
 void face_stress_point(struct face_stress *stress, const struct model *model, size_t right, struct bulla_faces *faces);
 
-/* V* u* of all components into `out`, pitch FACE_ROOM: the stretch of the side that u* comes from. */
-void face_stress_carry(const struct model *model, size_t n, size_t right, const double *state, const double *u,
+/* V* F of all components into `out`, pitch FACE_ROOM: the mass flux of the solids times the stretch of the side that it
+ * comes from. */
+void face_stress_carry(const struct model *model, size_t n, size_t right, const double *state, const double *mass,
                        double *out);
 
 #endif

@@ -5,12 +5,19 @@
 #include "phys/elastic.h"
 #include "phys/restrict.h"
 
+#include <math.h>
 #include <string.h>
+
+/* Values kept of a coarse cell behind finer faces. */
+static unsigned reflux_keeps(const struct model *model)
+{
+    return model->n_alpha + (model->n_stretch ? model->n_stretch + 1 : 0);
+}
 
 /* Rows of the coarse side of a face: its registers, then what is kept of the cell. */
 static unsigned reflux_rows(const struct model *model, const struct link *up)
 {
-    return up->n_register + model->n_alpha + model->n_stretch;
+    return up->n_register + reflux_keeps(model);
 }
 
 struct reflux *reflux_new(const struct model *model, const struct mesh *mesh, int l)
@@ -75,7 +82,7 @@ static const double *reflux_row(const struct model *model, const struct model *u
     if (q > model->n_field) return reflux_slide(used, work, q - model->n_field - 1, left);
     if (q >= model->i_V) {
         unsigned c = q - model->i_V;
-        return used->n_stretch ? work->stretch + c * FACE_ROOM : c <= ELASTIC_ZZ ? work->u : NULL;
+        return used->n_stretch ? work->stretch + c * FACE_ROOM : NULL;
     }
     unsigned a = q - model->i_u, normal = (unsigned)axis; /* the inverse of frame_component */
     return work->momentum + (a == normal ? 0 : a < normal ? a + 1 : a) * FACE_ROOM;
@@ -190,7 +197,18 @@ size_t reflux_cell(const struct mesh *mesh, const struct link_face *source, size
     return at[0] + (size_t)mesh->n[0] * (at[1] + (size_t)mesh->n[1] * at[2]);
 }
 
-/* Value q of what is kept of a cell: alpha + K, with K where the path knows of it, then V. */
+/* Partial density of all solids of a path in one cell. */
+static double reflux_solid(const struct model *used, size_t n_cell, const double *w)
+{
+    double m = 0.0;
+    for (unsigned s = 0; s < used->n_solid; s++) {
+        unsigned l = used->solids[s].material;
+        m += (used->n_alpha ? w[(used->i_alpha + l) * n_cell] : 1.0) * w[(used->i_m + l) * n_cell];
+    }
+    return m;
+}
+
+/* Value q of what is kept of a cell: alpha + K, with K where the path knows of it, then V and m_s. */
 static double reflux_kept(const struct reflux *reflux, const struct model *used, unsigned q, const double *w,
                           const double *K, size_t cell)
 {
@@ -198,6 +216,7 @@ static double reflux_kept(const struct reflux *reflux, const struct model *used,
     size_t n_cell = reflux->mesh->n_cell;
     unsigned l = q - used->first, c = q - model->n_alpha;
     if (q < model->n_alpha) return w[q * n_cell + cell] + (K && l < used->n_material ? K[l * n_cell + cell] : 0.0);
+    if (c == model->n_stretch) return reflux_solid(used, n_cell, w + cell);
     if (used->n_stretch) return w[(model->i_V + c) * n_cell + cell];
     return c <= ELASTIC_ZZ ? 1.0 : 0.0;
 }
@@ -209,7 +228,7 @@ void reflux_keep(struct reflux *reflux, const struct model *used, unsigned local
         double *kept = reflux_coarse(reflux, s) + up->n_register * up->face_cells;
         for (size_t i = 0; i < up->face_cells; i++) {
             size_t cell = reflux_cell(reflux->mesh, &up->sources[s], i);
-            for (unsigned q = 0; q < reflux->model->n_alpha + reflux->model->n_stretch; q++)
+            for (unsigned q = 0; q < reflux_keeps(reflux->model); q++)
                 kept[q * up->face_cells + i] = reflux_kept(reflux, used, q, w, K, cell);
         }
     }
@@ -253,20 +272,37 @@ static double reflux_difference(const struct reflux_value *value, unsigned q)
     return value->fine[q * value->step] - value->dt * value->coarse[q * value->step];
 }
 
+/* Share of the solid in a cell that refluxing may exchange with its stretch. */
+#define REFLUX_MOST 0.5
+
+/* V* F as a change of V: per mass of the solid that the cell has; a cell that has hardly any keeps its V. ret_arrived: the
+ * mass that comes, as a share of it; or NULL. */
+static void reflux_by_mass(const struct reflux *reflux, const struct reflux_value *value, double *change,
+                           double *ret_arrived)
+{
+    const struct model *model = reflux->model;
+    unsigned kept = reflux->up->n_register + model->n_alpha + model->n_stretch;
+    double arrived = 0.0, m = value->coarse[kept * value->step];
+    for (unsigned s = 0; s < model->n_solid; s++) arrived += change[model->i_m + model->solids[s].material];
+    double per_m = fabs(arrived) < REFLUX_MOST * m ? 1.0 / m : 0.0;
+    for (unsigned c = 0; c < model->n_stretch; c++) change[model->i_V + c] *= per_m;
+    if (ret_arrived) *ret_arrived = arrived * per_m;
+}
+
 /* The stretch's part of the corrected change. s: -1 for a cell on the lower side of the face, else 1. */
 static void reflux_stretch(const struct reflux *reflux, const struct reflux_value *value, int axis, double s,
                            double swept, double *change)
 {
     const struct model *model = reflux->model;
-    double V[6], carried[6], velocity[3], per_h = s / reflux->level->h[axis];
+    double V[6], velocity[3], per_h = s / reflux->level->h[axis], arrived;
     unsigned kept = reflux->up->n_register + model->n_alpha;
-    for (unsigned c = 0; c < model->n_stretch; c++) {
-        V[c] = value->coarse[(kept + c) * value->step];
-        carried[c] = change[model->i_V + c];
-    }
+    reflux_by_mass(reflux, value, change, &arrived);
+    for (unsigned c = 0; c < model->n_stretch; c++) V[c] = value->coarse[(kept + c) * value->step];
+    double carried[6];
+    for (unsigned c = 0; c < model->n_stretch; c++) carried[c] = change[model->i_V + c];
     for (unsigned d = 0; d < model->n_velocity; d++)
         velocity[frame_component(axis, d)] = -per_h * reflux_difference(value, model->n_field + d);
-    const struct elastic_correction in = {V, carried, swept, velocity, axis};
+    const struct elastic_correction in = {V, carried, arrived, swept, velocity, axis};
     elastic_correct(model, &in, change + model->i_V);
 }
 
@@ -280,7 +316,10 @@ void reflux_source(const struct reflux *reflux, unsigned s, size_t index, const 
     double sign = source->face % 2 == 0 ? -1.0 : 1.0; /* the cell lies on the lower or upper side of the face */
     double scale = sign * reflux_area(reflux, metric, source, reflux_cell(reflux->mesh, source, index));
     for (unsigned q = 0; q < model->n_field; q++) ret_change[q] = scale * reflux_difference(&value, q);
-    if (model->scene->reflux != SCENE_REFLUX_CORRECTED || !reflux->mesh->n_face_u) return;
+    if (model->scene->reflux != SCENE_REFLUX_CORRECTED || !reflux->mesh->n_face_u) {
+        if (model->n_stretch) reflux_by_mass(reflux, &value, ret_change, NULL);
+        return;
+    }
     double swept = scale * reflux_difference(&value, model->n_field);
     for (unsigned l = 0; l < model->n_alpha; l++)
         ret_change[l] -= value.coarse[(reflux->up->n_register + l) * value.step] * swept;

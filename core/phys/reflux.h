@@ -6,7 +6,8 @@
  * delta = (sum over fine steps of dt F_fine) - dt F_coarse and the cell on the lower side of the face,
  *     conserved fields:  d q = -(A/V) delta(F)
  *     fractions:         d alpha = -(A/V) [delta(alpha* u*) - (alpha + K) delta(u*)],
- *     stretch:           d V = -(A/V) [delta(V* u*) - V delta(u*)] + what dL = delta(u) n/h stretches V by
+ *     stretch:           d V = -(A/V)/m_s [delta(V* F) - V delta(F)] + what dL = delta(u) n/h stretches V by
+ *                        (F, m_s: mass flux and partial density of all solids together)
  *                              (elastic_correct),
  * alpha + K and V those of the coarse cell at the midpoint: without the second terms a uniform alpha or V would be asked
  * to drift. Registers hold, beside all fluxes, u* and in scenes with a solid the face's other velocity components, as
@@ -25,8 +26,8 @@ struct reflux {
     const struct level *level;
     struct link *down, *up; /* to the coarser and from the finer level, or NULL */
     double *fine;           /* [down->n_face][n_register][face_cells] of the last full stage */
-    double *coarse;         /* [up->n_source][n_register + n_alpha + n_stretch][face_cells]: fluxes, then alpha + K,
-                               then V, of the cell at the midpoint */
+    double *coarse;         /* [up->n_source][n_register + n_alpha + n_stretch + 1][face_cells]: fluxes, then alpha + K,
+                               V and m_s (both with a solid), of the cell at the midpoint */
     double *plane;          /* scratch: both fine faces of an axis, [2][n_register][n^(d-1)] */
 };
 

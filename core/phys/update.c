@@ -77,6 +77,10 @@ static void update_strain(const struct update_target *target, const struct updat
         const double *above = d ? work->slide_left + (d - 1) * FACE_ROOM : work->u;
         update_row(span->n, target->a, below + lower, above + upper, target->rates + q * target->n_cell + span->cell);
     }
+    if (!model->n_alpha) return;
+    size_t q = update_gradient(model) + model->n_velocity * (unsigned)model->dim + (unsigned)target->axis;
+    update_row(span->n, target->a, work->solid + lower, work->solid + upper,
+               target->rates + q * target->n_cell + span->cell);
 }
 
 static void update_span_add(const struct update_target *target, const struct update_span *span)
@@ -263,22 +267,50 @@ static size_t update_relax(const struct model *model, size_t n_cell, size_t from
     return clipped;
 }
 
+/* -(K_s/alpha_s) div u of all solids together; 0 where there is none. */
+static BULLA_KERNEL void update_squeeze(size_t n, const double *restrict K, const double *restrict alpha,
+                                        const double *restrict div, double *restrict squeeze)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], share = K[i] / a;
+        squeeze[i] = a > 0.0 ? share * div[i] : 0.0;
+    }
+}
+
+/* Sum over the solids of a block that has one component per material. */
+static void update_sum_solids(const struct model *model, size_t n, size_t stride, const double *from, double *sum)
+{
+    memset(sum, 0, n * sizeof *sum);
+    for (unsigned s = 0; s < model->n_solid; s++) update_sum(n, from + model->solids[s].material * stride, sum);
+}
+
 /* The stretch of a tile: moved, faded where its solids are not, unimodular. */
 static void update_stretch(const struct model *model, size_t n_cell, double dt, const struct update_input *in,
                            double *u_new)
 {
-    size_t first = model->i_V * n_cell;
-    const struct elastic_rates rates = {.carried = in->rates + first,
-                                        .div = in->rates + model->n_field * n_cell,
-                                        .gradient = in->rates + update_gradient(model) * n_cell};
-    elastic_advance(model, n_cell, n_cell, dt, in->u_old + first, in->w + first, &rates, u_new + first);
-    for (size_t from = 0; model->n_alpha && from < n_cell; from += UPDATE_BATCH) {
+    size_t first = model->i_V * n_cell, fraction = model->i_alpha * n_cell, mass = model->i_m * n_cell;
+    for (size_t from = 0; from < n_cell; from += UPDATE_BATCH) {
         size_t n = n_cell - from < UPDATE_BATCH ? n_cell - from : UPDATE_BATCH;
-        double solid[UPDATE_BATCH];
-        memset(solid, 0, n * sizeof *solid);
-        for (unsigned s = 0; s < model->n_solid; s++)
-            update_sum(n, u_new + (model->i_alpha + model->solids[s].material) * n_cell + from, solid);
-        elastic_fade(model, n, n_cell, solid, u_new + first + from);
+        double solid[UPDATE_BATCH], K[UPDATE_BATCH], squeeze[UPDATE_BATCH], m_old[UPDATE_BATCH], m_new[UPDATE_BATCH];
+        double *V = u_new + first + from;
+        struct elastic_rates rates = {.carried = in->rates + first + from,
+                                      .m_old = m_old,
+                                      .m_new = m_new,
+                                      .div = in->rates + model->n_field * n_cell + from,
+                                      .gradient = in->rates + update_gradient(model) * n_cell + from};
+        update_sum_solids(model, n, n_cell, in->u_old + mass + from, m_old);
+        update_sum_solids(model, n, n_cell, u_new + mass + from, m_new);
+        if (model->kapila) {
+            update_sum_solids(model, n, n_cell, in->K + from, K);
+            update_sum_solids(model, n, n_cell, in->w + fraction + from, solid);
+            update_squeeze(n, K, solid, rates.div, squeeze);
+            rates.squeeze = squeeze;
+            rates.slope = rates.gradient + model->n_velocity * (unsigned)model->dim * n_cell;
+        }
+        elastic_advance(model, n, n_cell, dt, in->u_old + first + from, &rates, V);
+        if (model->n_alpha) update_sum_solids(model, n, n_cell, u_new + fraction + from, solid);
+        if (model->n_alpha) elastic_fade(model, n, n_cell, solid, V);
     }
     elastic_unimodular(model, n_cell, n_cell, u_new + first);
 }

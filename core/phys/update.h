@@ -2,7 +2,7 @@
  *
  * Rates are blocks of components of n_cell: n_field for the evolved fields, one for div u, for the
  * Kapila closure 2 n_alpha for the pressure and the strain that volume brings along, and with a solid
- * n_velocity * dim for the velocity gradient (update_rates in all). Geometry enters here
+ * n_velocity * dim for the velocity gradient and, in mixtures, dim for that of its fraction (update_rates in all). Geometry enters here
  * alone (model.md 4): exact areas and volumes of metric.h; the radial momentum sees p relative to
  * the cell's own pressure, so that the hoop term beta p / r is balanced and a state at rest
  * stays at rest to round-off. */
@@ -21,7 +21,8 @@ static inline unsigned update_gradient(const struct model *model)
 /* Components of the rates of a model. */
 static inline unsigned update_rates(const struct model *model)
 {
-    return update_gradient(model) + (model->n_stretch ? model->n_velocity * (unsigned)model->dim : 0);
+    unsigned dim = (unsigned)model->dim;
+    return update_gradient(model) + (model->n_stretch ? model->n_velocity * dim + (model->n_alpha ? dim : 0) : 0);
 }
 
 /* Adds the divergence of the fluxes of one piece to the rates of its cells. hoop: what the radial momentum is taken relative
