@@ -17,7 +17,8 @@ struct table_root {
     struct continuation_point at;
 };
 
-/* The root of p(rho, T) = p in a cell, or the side of it beyond which it lies. */
+/* The root of p(rho, T) = p in a cell, or the side of it beyond which it lies; rounded to 29 bits, so that neighbouring
+ * pressures share a T: what is left of p goes linearly, and the iteration of a mixture sees no steps. */
 static double table_newton(const struct table_line *line, double rho, double p)
 {
     double low = line->T, high = line->T + line->h, T = low + 0.5 * line->h, s;
@@ -27,10 +28,11 @@ static double table_newton(const struct table_line *line, double rho, double p)
         if (at.p > p) high = T;
         else low = T;
         if (!(next > low && next < high)) next = next > low ? high : low;
-        if (!(fabs(next - T) > 1e-14 * T)) return next;
+        if (!(fabs(next - T) > 1e-14 * T)) break;
         T = next;
     }
-    return T;
+    double much = 0x1p24 * T;
+    return (T + much) - much;
 }
 
 static struct table_root table_find(const struct table *self, double rho, double p)

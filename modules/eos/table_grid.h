@@ -140,14 +140,15 @@ static inline size_t table_grid_cell(const double *x, size_t n, double at)
     return low;
 }
 
-/* The derivatives of a in T (0, 1, 2) at a density and a node of temperature, by the weights of that density. */
+/* The derivatives of a in T (0, 1, 2) at a density and a node of temperature, by its weights of derivative `r` in rho.
+ * Differences of a are formed before they are weighted: rounding must not shake what a search sees. */
 static inline double table_grid_along(const struct table_grid *grid, size_t i, size_t j, int order,
-                                      const struct table_six *w)
+                                      const struct table_six *w, int r)
 {
     const double *low = grid->node + (i * grid->n_T + j) * TABLE_NODE + 3 * order;
     const double *high = low + grid->n_T * TABLE_NODE;
-    struct table_six data = {{low[0], low[1], low[2], high[0], high[1], high[2]}};
-    return table_grid_dot(data, *w);
+    struct table_six data = {{0.0, low[1], low[2], high[0] - low[0], high[1], high[2]}};
+    return table_grid_dot(data, *w) + (r == 0 ? low[0] : 0.0);
 }
 
 /* One density: its cell and weights of a, a_r, a_rr. */
@@ -168,7 +169,7 @@ static inline struct table_density table_grid_density(const struct table_grid *g
 /* p at a density and a node of temperature. */
 static inline double table_grid_node_p(const struct table_grid *grid, const struct table_density *at, size_t j)
 {
-    return at->rho * at->rho * table_grid_along(grid, at->i, j, 0, &at->w[1]);
+    return at->rho * at->rho * table_grid_along(grid, at->i, j, 0, &at->w[1], 1);
 }
 
 /* A cell at one density: the data of a, a_r, a_rr at both of its temperatures. */
@@ -185,7 +186,14 @@ static inline struct table_line table_grid_line(const struct table_grid *grid, c
                               .s_zero = grid->s_zero};
     for (int r = 0; r < 3; r++)
         for (int k = 0; k < 6; k++)
-            line.f[r].c[k] = table_grid_along(grid, at->i, j + (size_t)(k / 3), k % 3, &at->w[r]);
+            line.f[r].c[k] = table_grid_along(grid, at->i, j + (size_t)(k / 3), k % 3, &at->w[r], r);
+    double a = line.f[0].c[0], a_T = line.f[0].c[1]; /* what is linear in T is kept apart: it would round the rest */
+    line.e_zero += a - line.T * a_T;
+    line.s_zero -= a_T;
+    line.f[0].c[0] = 0.0;
+    line.f[0].c[1] = 0.0;
+    line.f[0].c[3] = (line.f[0].c[3] - a) - line.h * a_T;
+    line.f[0].c[4] -= a_T;
     return line;
 }
 
