@@ -29,7 +29,7 @@ static void dump_block(struct h5 *file, const char *name, unsigned rows, unsigne
 {
     char path[64];
     if (rows > DUMP_MOST || columns > DUMP_MOST || (size_t)rows * columns > DUMP_MOST) return;
-    double *values = calloc((size_t)rows * columns + 1, sizeof *values);
+    double *values = calloc((size_t)rows * (columns + 1) + 1, sizeof *values); /* 0 columns: the shape is [rows] */
     if (!values) abort();
     for (size_t i = 0; i < (size_t)rows * columns; i++) values[i] = i % 7 ? 1e5 / (double)(i % 11 + 1) : 1e3;
     snprintf(path, sizeof path, DUMP_GROUP "/%s", name);
