@@ -59,6 +59,7 @@ static void cubic_rows_solve(const struct cubic *par, size_t n, const double *rh
     cubic_rows_guess(par, n, rho, p, T);
     for (int round = 0; round < CUBIC_ROUNDS; round++)
         if (cubic_rows_step(par, n, rho, p, T, moving) == 0.0) break;
+    for (size_t i = 0; i < n; i++) T[i] = T[i] > par->T_min ? elementary_coarse(T[i]) : T[i];
 }
 
 /* A state with its continuation below T_min; the residual of the iteration goes the same way. */

@@ -66,6 +66,8 @@ static void modified_tait_solve(const struct modified_tait *par, size_t n, const
     modified_tait_guess(par, n, rho, p, log_x, T);
     for (int round = 0; round < ROUNDS; round++)
         if (modified_tait_step(par, n, rho, p, log_x, T, moving) == 0.0) break;
+    for (size_t i = 0; i < n; i++)
+        if (T[i] > par->T_min && T[i] < par->T_dense) T[i] = elementary_coarse(T[i]);
 }
 
 ELEMENTARY_INLINE struct continuation_point modified_tait_at(const struct modified_tait *par, double rho, double log_x,

@@ -12,9 +12,9 @@ static void check_point(const struct law *law, const double *column)
     support_near("T", at.T, T, 1e-11, T);
     support_near("e", at.rho_e / rho, e, 1e-11, fabs(e));
     support_near("s", at.s, s, 1e-11, fabs(s) + 1e3);
-    support_near("c2", at.c2, c2, 1e-11, c2);
-    support_near("de_dp", at.de_dp, rho * e_p, 1e-11, rho * e_p);
-    support_near("de_drho", at.de_drho, e + rho * e_rho, 1e-11, fabs(e) + fabs(rho * e_rho));
+    support_near("c2", at.c2, c2, 1e-10, c2); /* T has 35 bits */
+    support_near("de_dp", at.de_dp, rho * e_p, 1e-10, rho * e_p);
+    support_near("de_drho", at.de_drho, e + rho * e_rho, 1e-10, fabs(e) + fabs(rho * e_rho));
     support_near("rho(p, T)", law_density(law, p, T), rho, 1e-11, rho);
 }
 
@@ -25,8 +25,8 @@ static void check_continuation(const struct law *law, const double *column)
     struct law_point at = law_at(law, rho, p);
     support_near("T", at.T, T, 1e-11, T);
     support_near("e", at.rho_e / rho, e, 1e-11, fabs(e));
-    support_near("c2", at.c2, c2, 1e-11, c2);
-    support_near("Gamma", 1.0 / at.de_dp, G, 1e-11, G);
+    support_near("c2", at.c2, c2, 1e-10, c2);
+    support_near("Gamma", 1.0 / at.de_dp, G, 1e-10, G);
 }
 
 static void test_points(void **state)
