@@ -105,7 +105,8 @@ struct move_hoop {
 static ELASTIC_BODY struct elastic_tensor move_squeeze(double amount, double x, double y, double z)
 {
     double square = x * x + y * y + z * z, per = amount / (square + MOVE_FLAT);
-    return (struct elastic_tensor){per * x * x, per * y * y, per * z * z, per * x * y, per * x * z, per * y * z};
+    return (struct elastic_tensor){per * (x * x), per * (y * y), per * (z * z),
+                                   per * (x * y), per * (x * z), per * (y * z)};
 }
 
 /* dt L/4 with hoop stretching. G: gradient, negative, without entries of its own where the hoop goes; Q: the squeeze. */

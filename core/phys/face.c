@@ -417,6 +417,29 @@ static void face_drag(struct face_work *work, size_t right)
     face_stress_carry(model, n, right, own->state, own->term, work->stretch);
 }
 
+/* Mean of the two sides, added up. */
+static BULLA_KERNEL void face_add_mean(size_t n, const double *restrict left, const double *restrict right,
+                                       double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = left[i], b = right[i], s = sum[i];
+        sum[i] = s + 0.5 * (a + b);
+    }
+}
+
+/* Fraction of all solids at the faces. Not alpha*, which takes a side even where nothing moves. */
+static void face_blend(struct face_work *work)
+{
+    const struct model *model = work->model;
+    const struct bulla_faces *faces = &work->faces;
+    memset(work->solid, 0, faces->n * sizeof *work->solid);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        unsigned l = model->solids[s].material;
+        face_add_mean(faces->n, faces->left.alpha[l], faces->right.alpha[l], work->solid);
+    }
+}
+
 /* Volume fluxes and what they carry. */
 static void face_transport(struct face_work *work, size_t right)
 {
@@ -425,9 +448,7 @@ static void face_transport(struct face_work *work, size_t right)
     if (model->n_stretch) face_drag(work, right);
     if (!model->n_alpha) return;
     const double *p = own->state + 2 * model->i_E * FACE_ROOM;
-    if (model->n_stretch) memset(work->solid, 0, work->faces.n * sizeof *work->solid);
-    for (unsigned s = 0; s < model->n_solid && model->n_stretch; s++)
-        face_sum(work->faces.n, work->alpha + model->solids[s].material * FACE_ROOM, work->solid);
+    if (model->n_stretch) face_blend(work);
     face_trace(work->faces.n, work->u, p, p + right, &work->faces.left, &work->faces.right, own->origin, own->strain);
     for (unsigned l = 0; l < model->n_alpha; l++)
         face_carry(work->faces.n, work->u, own->origin, own->strain, work->alpha + l * FACE_ROOM,
