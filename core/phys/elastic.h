@@ -83,6 +83,9 @@ void elastic_advance(const struct model *model, size_t n, size_t stride, double 
 /* det V = 1, in place; NaN where det V <= 0: no stretch any more, which the guard will see. */
 void elastic_unimodular(const struct model *model, size_t n, size_t stride, double *V);
 
+/* Sum over the solids of a block that has one row per material of the model, such as fractions or partial densities. */
+void elastic_sum(const struct model *model, size_t n, size_t stride, const double *block, double *restrict sum);
+
 /* Bounds the stretch where there is little solid: |V - 1| <= (phi/ELASTIC_FADE)^2, phi = alpha the fraction of all solids;
  * the identity where there is none. Idempotent, so a step more or less does not matter; total energy is not touched, so
  * that the elastic energy lost becomes heat. Call before elastic_unimodular. */

@@ -16,20 +16,12 @@ static double settle_round_off(const double V[6])
     return 2.0 * DBL_EPSILON * terms * ((xx + yy) + (zz + (xy + (xz + yz))));
 }
 
-/* Fraction of all solids at n points. */
-static void settle_solids(const struct model *model, size_t n, size_t stride, const double *alpha, double *phi)
-{
-    memset(phi, 0, n * sizeof *phi);
-    for (unsigned s = 0; s < model->n_solid; s++)
-        for (size_t i = 0; i < n; i++) phi[i] += alpha[model->solids[s].material * stride + i];
-}
-
 /* n <= SETTLE_BATCH points; alpha NULL: nothing but solid. */
 static void settle_batch(const struct model *model, size_t n, size_t stride, const double *alpha, double *V)
 {
     double before[6][SETTLE_BATCH] = {{0}}, phi[SETTLE_BATCH];
     for (unsigned c = 0; c < model->n_stretch; c++) memcpy(before[c], V + c * stride, n * sizeof *V);
-    if (alpha) settle_solids(model, n, stride, alpha, phi);
+    if (alpha) elastic_sum(model, n, stride, alpha, phi);
     if (alpha) elastic_fade(model, n, stride, phi, V);
     elastic_unimodular(model, n, stride, V);
     for (size_t i = 0; i < n; i++) {

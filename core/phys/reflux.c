@@ -64,7 +64,7 @@ static const double *reflux_slide(const struct model *used, const struct face_wo
 }
 
 /* Flux of register component q in a solved row; NULL: no such flux, where the material is absent. What a narrowed path
- * leaves out is as the whole one would find it: without a solid V is the identity. left: the coarse cell lies below. */
+ * leaves out is as the whole one would find it: without a solid no stretch is carried. left: the coarse cell lies below. */
 static const double *reflux_row(const struct model *model, const struct model *used, const struct face_work *work,
                                 int axis, unsigned q, bool left)
 {

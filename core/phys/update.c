@@ -278,13 +278,6 @@ static BULLA_KERNEL void update_squeeze(size_t n, const double *restrict K, cons
     }
 }
 
-/* Sum over the solids of a block that has one component per material. */
-static void update_sum_solids(const struct model *model, size_t n, size_t stride, const double *from, double *sum)
-{
-    memset(sum, 0, n * sizeof *sum);
-    for (unsigned s = 0; s < model->n_solid; s++) update_sum(n, from + model->solids[s].material * stride, sum);
-}
-
 /* The stretch of a tile: moved, faded where its solids are not, unimodular. */
 static void update_stretch(const struct model *model, size_t n_cell, double dt, const struct update_input *in,
                            double *u_new)
@@ -299,17 +292,17 @@ static void update_stretch(const struct model *model, size_t n_cell, double dt, 
                                       .m_new = m_new,
                                       .div = in->rates + model->n_field * n_cell + from,
                                       .gradient = in->rates + update_gradient(model) * n_cell + from};
-        update_sum_solids(model, n, n_cell, in->u_old + mass + from, m_old);
-        update_sum_solids(model, n, n_cell, u_new + mass + from, m_new);
+        elastic_sum(model, n, n_cell, in->u_old + mass + from, m_old);
+        elastic_sum(model, n, n_cell, u_new + mass + from, m_new);
         if (model->kapila) {
-            update_sum_solids(model, n, n_cell, in->K + from, K);
-            update_sum_solids(model, n, n_cell, in->w + fraction + from, solid);
+            elastic_sum(model, n, n_cell, in->K + from, K);
+            elastic_sum(model, n, n_cell, in->w + fraction + from, solid);
             update_squeeze(n, K, solid, rates.div, squeeze);
             rates.squeeze = squeeze;
             rates.slope = rates.gradient + model->n_velocity * (unsigned)model->dim * n_cell;
         }
         elastic_advance(model, n, n_cell, dt, in->u_old + first + from, &rates, V);
-        if (model->n_alpha) update_sum_solids(model, n, n_cell, u_new + fraction + from, solid);
+        if (model->n_alpha) elastic_sum(model, n, n_cell, u_new + fraction + from, solid);
         if (model->n_alpha) elastic_fade(model, n, n_cell, solid, V);
     }
     elastic_unimodular(model, n_cell, n_cell, u_new + first);

@@ -53,7 +53,7 @@ static void any_stretch(const struct model *model, uint64_t *seed, double *V)
     elastic_unimodular(model, 1, 1, V);
 }
 
-/* The change of one face: of V* u*, u* and the face velocity. */
+/* The change of one face: of V* F, F, u* and the face velocity. */
 struct change {
     double carried[6], arrived, swept, velocity[3];
     int axis;
