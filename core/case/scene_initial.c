@@ -29,10 +29,12 @@ static const struct key scene_initial_rows[] = {
     " 'else': {'properties': {'material': false, 'fractions': false, 'density': false, 'temperature': false,"          \
     " 'pressure': false, 'velocity': false, 'stretch': false}}},"                                                      \
     "{'if': {'not': {'required': ['lua']}, 'anyOf': [{'required': ['material']}, {'required': ['fractions']}]},"       \
-    " 'then': {'required': ['pressure'], 'anyOf': [{'required': ['density']}, {'required': ['temperature']}]}},"       \
-    "{'not': {'required': ['density', 'temperature']}},"                                                               \
+    " 'then': {'anyOf': [{'required': ['density', 'pressure']}, {'required': ['temperature', 'pressure']},"            \
+    " {'required': ['density', 'temperature']}]}},"                                                                    \
+    "{'not': {'required': ['density', 'temperature', 'pressure']}},"                                                   \
     "{'if': {'required': ['fractions'], 'properties': {'fractions': {'minProperties': 2, 'additionalProperties': "     \
-    "{'type': 'number', 'exclusiveMinimum': 0}}}}, 'then': {'properties': {'density': {'type': 'object'}}}}"
+    "{'type': 'number', 'exclusiveMinimum': 0}}}},"                                                                    \
+    " 'then': {'required': ['pressure'], 'properties': {'density': {'type': 'object'}}}}"
 
 const struct keys_section scene_initial_keys = {.name = "layer",
                                                 .doc = "A region and the state in it; without a material only the "
@@ -81,12 +83,18 @@ static bool scene_initial_says(const struct keys_map *map, const char *name)
 static void scene_initial_complete(struct draft *draft, struct scene_layer *layer, const struct keys_map *map)
 {
     bool density = scene_initial_says(map, "density"), temperature = scene_initial_says(map, "temperature");
-    if (keys_at(map, "density")->node && keys_at(map, "temperature")->node)
-        keys_error(&draft->keys, keys_at(map, "temperature"), "either 'density' or 'temperature', not both");
+    bool pressure = scene_initial_says(map, "pressure");
+    unsigned present = 0;
+    if (density && temperature && pressure && keys_at(map, "temperature")->node) {
+        keys_error(&draft->keys, keys_at(map, "temperature"),
+                   "density and pressure make a state, and so a temperature");
+        diag_help(draft->keys.diag, "give two of 'density', 'pressure' and 'temperature'");
+    }
     if (!layer->has_material) return;
+    for (unsigned i = 0; layer->fractions && i < draft->scene->n_material; i++) present += layer->fractions[i] > 0.0;
     if (!density && !temperature)
         scene_initial_need(draft, map, "the density is missing", "give 'density: 998.2 kg/m3' or 'temperature: 300 K'");
-    if (!scene_initial_says(map, "pressure"))
+    if (!pressure && !(density && temperature && present < 2))
         scene_initial_need(draft, map, "the pressure is missing", "give 'pressure: 101325 Pa'");
 }
 

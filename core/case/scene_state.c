@@ -27,7 +27,7 @@ const struct key scene_state_rows[] = {
      .unit = "K",
      .min = KEYS_POSITIVE,
      .max = KEYS_MOST,
-     .doc = "Temperature, instead of densities."},
+     .doc = "Temperature, instead of densities or of the pressure."},
     {.name = "pressure", .type = KEYS_VALUE, .unit = "Pa", .doc = "Pressure."},
     {.name = "velocity",
      .type = KEYS_VALUE,

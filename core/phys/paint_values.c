@@ -1,7 +1,7 @@
 /* paint_values.c - see paint_values.h.
  *
  * A layer, whether YAML or Lua, is first turned into one struct in which NaN means "not said";
- * from it, and from the state below, follow fractions, pressure, densities and velocity, in this
+ * from it, and from the state below, follow velocity, fractions, pressure and densities, in this
  * order, each checked where it arises. */
 #include "phys/paint_values.h"
 
@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "case/script_table.h"
 #include "phys/elastic.h"
+#include "phys/paint_pressure.h"
 #include "phys/paint_stretch.h"
 
 #include <math.h>
@@ -201,14 +202,45 @@ static int paint_values_density(const struct paint_values *values, const double 
     return paint_values_fail(values, x, what);
 }
 
+/* Pressure: given, that of the one material with this density and temperature, or that below. */
+static int paint_values_pressure(const struct paint_values *values, const double x[3], const struct paint_said *said,
+                                 const double *before, const double *alpha, double *ret_pressure)
+{
+    const struct model *model = values->model;
+    unsigned present = 0, one = 0;
+    char what[256];
+    bool dense = !isnan(said->mixture);
+    for (unsigned l = 0; l < model->n_material; l++) {
+        present += alpha[l] > 0.0;
+        one = alpha[l] > 0.0 ? l : one;
+        dense = dense || (alpha[l] > 0.0 && !isnan(said->density[l]));
+    }
+    double rho = isnan(said->density[one]) ? said->mixture : said->density[one];
+    bool thermal = dense && !isnan(said->temperature);
+    if (thermal && !isnan(said->pressure))
+        return paint_values_fail(values, x, "two of pressure, density and temperature make a state, not all three");
+    *ret_pressure = isnan(said->pressure) && before ? before[model->i_E] : said->pressure;
+    if (!thermal) return isnan(*ret_pressure) ? paint_values_fail(values, x, "the pressure is missing") : STATUS_OK;
+    if (present > 1)
+        return paint_values_fail(values, x,
+                                 "density and temperature give the pressure of one material, not of a mixture");
+    if (rho > 0.0 && said->temperature > 0.0 && paint_pressure(&model->eos[one], rho, said->temperature, ret_pressure))
+        return STATUS_OK;
+    snprintf(what, sizeof what, "%s has no state at %.10g kg/m3 and %.10g K", model->scene->material[one].name, rho,
+             said->temperature);
+    return paint_values_fail(values, x, what);
+}
+
 static int paint_values_materials(const struct paint_values *values, const double x[3], const struct paint_said *said,
                                   const double *before, double *w)
 {
     const struct model *model = values->model;
-    double alpha[SCENE_MATERIALS], pressure = w[model->i_E], least;
+    double alpha[SCENE_MATERIALS], pressure, least;
     char what[256];
     unsigned present = 0;
     TRY(paint_values_fractions(values, x, said, before, alpha));
+    TRY(paint_values_pressure(values, x, said, before, alpha, &pressure));
+    w[model->i_E] = pressure;
     for (unsigned l = 0; l < model->n_material; l++) present += alpha[l] > 0.0;
     for (unsigned l = 0; l < model->n_material; l++) {
         double *density = &w[model->i_m + l];
@@ -284,8 +316,6 @@ int paint_values_at(const struct paint_values *values, const double x[3], const 
                  PAINT_VALUES_AXIS[d], said.velocity[d], model->n_velocity, model->n_velocity == 1 ? "" : "s");
         return paint_values_fail(values, x, what);
     }
-    if (isnan(said.pressure) && !before) return paint_values_fail(values, x, "the pressure is missing");
-    w[model->i_E] = isnan(said.pressure) ? before[model->i_E] : said.pressure;
     TRY(paint_values_materials(values, x, &said, before, w));
     return model->n_stretch ? paint_values_stretch(values, x, &said, before, w) : STATUS_OK;
 }

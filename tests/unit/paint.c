@@ -301,6 +301,32 @@ static void takes_temperatures_and_fractions(void **state)
     canvas_done(&canvas);
 }
 
+/* Density and temperature: the pressure is the law's, in YAML, in Lua and where they vary. */
+static void takes_densities_with_temperatures(void **state)
+{
+    (void)state;
+    struct canvas canvas =
+        good(LINE,
+             "  - {everywhere: true, material: air, density: 1.5, temperature: 310 K}\n"
+             "  - {half-space: {normal: [-1], point: [-0.5]}, lua: 'function(x) return {alpha = {water = 1}, density = "
+             "1010, temperature = 300} end'}\n"
+             "  - {half-space: {normal: [1], point: [0.5]}, material: air, density: 2, temperature: '= 300 + x'}\n",
+             false);
+    double *w = mem_new(canvas.model->n_field * canvas.n_cell, sizeof *w), T[2];
+    mix_primitives(canvas.model, canvas.n_cell, canvas.n_cell, canvas.u, w);
+    const double *p = w + canvas.model->i_E * canvas.n_cell;
+    near(p[20], 1.5 * 0.4 * 717.5 * 310.0, 1e-12);
+    const struct model_eos *water = &canvas.model->eos[0], *air = &canvas.model->eos[1];
+    double rho = 1010.0;
+    water->law->temperature(water->self, 1, &rho, &p[2], &T[0]);
+    near(T[0], 300.0, 1e-10);
+    rho = 2.0;
+    air->law->temperature(air->self, 2, (double[]){rho, rho}, &p[30], T);
+    assert_true(T[0] > 300.5 && T[1] > T[0] && T[1] < 301.0);
+    mem_free(w);
+    canvas_done(&canvas);
+}
+
 static void mirrors_to_the_bit(void **state)
 {
     (void)state;
@@ -332,6 +358,12 @@ static void says_what_is_wrong(void **state)
         {"{everywhere: true, material: water, density: '= 1 / (x - x)', pressure: 1e5}", "the script gives"},
         {"{everywhere: true, material: water, temperature: '= -1 + 0 * x', pressure: 1e5}",
          "the temperature is -1 K, not above 0"},
+        {"{lua: 'function(x) return {alpha = {water = 1}, density = 1000, temperature = 300, pressure = 1e5} end'}",
+         "two of pressure, density and temperature make a state, not all three"},
+        {"{lua: 'function(x) return {alpha = {water = 0.5}, density = {water = 1000}, temperature = 300} end'}",
+         "density and temperature give the pressure of one material, not of a mixture"},
+        {"{everywhere: true, material: air, density: 1.2, temperature: '= 1e20 + 0 * x'}",
+         "air has no state at 1.2 kg/m3 and 1e+20 K"},
         {"{lua: 'function(x) return {pressure = 1e5, alpha = {water = 0.5, air = 0.6}} end'}",
          "the volume fractions add up to 1.1, not to 1"},
         {"{lua: 'function(x) return {pressure = 1e5, alpha = {water = -0.5}} end'}",
@@ -383,6 +415,7 @@ int main(void)
         cmocka_unit_test(overlays),
         cmocka_unit_test(listens_to_lua),
         cmocka_unit_test(takes_temperatures_and_fractions),
+        cmocka_unit_test(takes_densities_with_temperatures),
         cmocka_unit_test(mirrors_to_the_bit),
         cmocka_unit_test(says_what_is_wrong),
         cmocka_unit_test(wants_every_cell_covered),
