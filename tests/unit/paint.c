@@ -169,6 +169,28 @@ static void paints_a_bubble(void **state)
     canvas_done(&canvas);
 }
 
+/* A fast body in a gas at the same pressure: the cells that its surface cuts are as warm as the rest. */
+static void moving_bodies_stay_cold(void **state)
+{
+    (void)state;
+    struct canvas canvas = good(
+        PLANE,
+        "  - {everywhere: true, material: air, density: 1.2, pressure: 1 bar, velocity: [0, -20]}\n"
+        "  - {sphere: {center: [0.1, 0], radius: 0.43}, material: water, density: 1000, pressure: 1 bar, velocity: "
+        "[500, 30]}\n",
+        false);
+    double *w = mem_new(canvas.model->n_field * canvas.n_cell, sizeof *w);
+    unsigned mixed = 0;
+    mix_primitives(canvas.model, canvas.n_cell, canvas.n_cell, canvas.u, w);
+    for (size_t c = 0; c < canvas.n_cell; c++) {
+        mixed += field(&canvas, 0)[c] > 0.0 && field(&canvas, 0)[c] < 1.0;
+        near(w[canvas.model->i_E * canvas.n_cell + c], 1e5, 1e-6);
+    }
+    assert_true(mixed > 40);
+    mem_free(w);
+    canvas_done(&canvas);
+}
+
 static void same_for_all_tiles(void **state)
 {
     (void)state;
@@ -409,6 +431,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paints_a_bubble),
+        cmocka_unit_test(moving_bodies_stay_cold),
         cmocka_unit_test(same_for_all_tiles),
         cmocka_unit_test(averages_profiles),
         cmocka_unit_test(averages_the_part_inside),
