@@ -19,7 +19,7 @@ static struct bulla_value *module_defaults(const struct bulla_module *module)
     for (unsigned i = 0; i < count; i++) {
         const struct bulla_param *row = &module->params[i];
         if (row->type == BULLA_NUMBER) values[i].number = row->fallback;
-        else if (row->type == BULLA_TEXT) values[i].text = mem_text(row->choices);
+        else if (row->type != BULLA_CHOICE) values[i].text = mem_text(row->choices);
         else values[i].text = mem_text_n(row->choices, strcspn(row->choices, "|"));
     }
     return values;

@@ -6,6 +6,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "plug/block.h"
 
 #include <string.h>
 
@@ -64,7 +65,11 @@ int scenes_read(const struct cli_given *given, const char *path, struct scene **
                                     .directory = cli_value(given, "--output"),
                                     .json = cli_value(given, "--json") != NULL};
     if (options.json) options.messages = stdout;
-    int code = scene_read(path, &options, ret_scene);
+    block_together();
+    int code = scene_read(path, &options, ret_scene), all = block_apart(code);
+    if (all && !code) scene_free(*ret_scene); /* another rank cannot read it: nobody does */
+    if (all) *ret_scene = NULL;
+    code = code ? code : all;
     for (int i = 0; i < n; i++) mem_free(sets[i]);
     mem_free(sets);
     if (code) return options.json ? code : cli_failed(code);

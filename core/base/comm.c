@@ -10,6 +10,7 @@
 #include <string.h>
 
 static bool comm_is_active;
+static MPI_Comm comm_near = MPI_COMM_NULL; /* the ranks of this machine, once asked for */
 
 static bool comm_launched(void)
 {
@@ -28,6 +29,7 @@ void comm_init(int *argc, char ***argv)
 
 void comm_done(void)
 {
+    if (comm_near != MPI_COMM_NULL) MPI_Comm_free(&comm_near);
     if (comm_is_active) MPI_Finalize();
     comm_is_active = false;
 }
@@ -58,13 +60,29 @@ MPI_Comm comm_world(void)
 
 int comm_neighbours(void)
 {
-    MPI_Comm here;
     int count = 1;
     if (!comm_is_active) return count;
-    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
-    MPI_Comm_size(here, &count);
-    MPI_Comm_free(&here);
+    if (comm_near == MPI_COMM_NULL)
+        MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &comm_near);
+    MPI_Comm_size(comm_near, &count);
     return count;
+}
+
+int comm_near_rank(void)
+{
+    int rank = 0;
+    if (comm_is_active) MPI_Comm_rank(comm_near, &rank);
+    return rank;
+}
+
+void comm_near_bcast(void *data, size_t bytes)
+{
+    if (comm_is_active) MPI_Bcast(data, (int)bytes, MPI_BYTE, 0, comm_near);
+}
+
+void comm_near_barrier(void)
+{
+    if (comm_is_active) MPI_Barrier(comm_near);
 }
 
 void comm_abort(int code)

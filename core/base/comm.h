@@ -25,6 +25,12 @@ MPI_Comm comm_world(void);
 /* Ranks on this machine, with this one. Collective. */
 int comm_neighbours(void);
 
+/* Among these: which one this is, from 0; a copy from number 0 to all of them; a meeting. Collective on the machine,
+ * after comm_neighbours. */
+int comm_near_rank(void);
+void comm_near_bcast(void *data, size_t bytes);
+void comm_near_barrier(void);
+
 /* Ends all ranks now with this exit code. */
 void comm_abort(int code) __attribute__((noreturn));
 

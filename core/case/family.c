@@ -106,7 +106,7 @@ const char *family_preset(struct forest *forest, const struct bulla_module *modu
     if (row < 0 || !at) return NULL;
     while (at->name && strcmp(at->name, preset) != 0) at++;
     const struct bulla_param *param = &module->params[row];
-    if (!at->name || isnan(at->values[row]) || param->type == BULLA_TEXT) return NULL;
+    if (!at->name || isnan(at->values[row]) || param->type == BULLA_TEXT || param->type == BULLA_FILE) return NULL;
     return param->type == BULLA_CHOICE ? family_word(forest, param->choices, at->values[row])
                                        : family_number(forest, at->values[row]);
 }

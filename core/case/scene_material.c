@@ -95,6 +95,8 @@ void scene_material_open(struct draft *draft, const struct keys_value *value, st
         const struct keys_value *param = keys_at(map, module->params[i].name);
         good &= param->given || !(param->node || param->key->required);
         values[i] = (struct bulla_value){.number = param->number, .text = param->text ? param->text : ""};
+        if (module->params[i].type == BULLA_FILE && param->given && *param->text)
+            values[i].text = scene_file(draft, param);
     }
     if (good && instance_open(module, values, ret_instance)) keys_error(&draft->keys, value, "%s", status_text());
     mem_free(values);

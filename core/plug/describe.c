@@ -68,7 +68,7 @@ static void describe_range(const struct bulla_param *row, struct text *cell)
         text_add(cell, " to ");
         describe_number(row->max, cell);
     } else {
-        text_add(cell, "%s", row->type == BULLA_CHOICE ? row->choices : "text");
+        text_add(cell, "%s", row->type == BULLA_CHOICE ? row->choices : row->type == BULLA_FILE ? "file" : "text");
     }
 }
 

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "plug/block.h"
 #include "plug/vet.h"
 
 #include <stdio.h>
@@ -21,9 +22,17 @@ static void instance_fail(const char *text)
     snprintf(instance_reason, sizeof instance_reason, "%s", text ? text : "");
 }
 
+static const void *
+instance_share(const char *name, size_t bytes, unsigned phases,
+               int (*fill)(void *context, void *block, unsigned phase, unsigned part, unsigned parts), void *context)
+{
+    return block_share(name, bytes, phases, fill, context, instance_reason, sizeof instance_reason);
+}
+
 static const struct bulla_host instance_host = {.size = sizeof(struct bulla_host),
                                                 .say = instance_say,
-                                                .fail = instance_fail};
+                                                .fail = instance_fail,
+                                                .share = instance_share};
 
 unsigned instance_param_count(const struct bulla_module *module)
 {
@@ -52,7 +61,11 @@ int instance_open(const struct bulla_module *module, const struct bulla_value *v
     for (unsigned i = 0; i < count; i++)
         instance.values[i] = (struct bulla_value){values[i].number, mem_text(values[i].text)};
     instance_reason[0] = '\0';
-    if (module->open && module->open(&instance_host, instance.values, &instance.self) != 0) {
+    block_begin(module, instance.values);
+    int refused = module->open ? module->open(&instance_host, instance.values, &instance.self) : 0;
+    instance.blocks = block_end();
+    if (refused) {
+        block_release(instance.blocks);
         instance_forget(instance.values, count);
         return status_fail(STATUS_CASE, "%s '%s': %s", module->kind, module->name,
                            instance_reason[0] ? instance_reason : "it cannot be opened and gives no reason");
@@ -70,6 +83,7 @@ void instance_done(struct instance *instance)
 {
     if (!instance->module) return;
     if (instance->module->open && instance->module->close) instance->module->close(instance->self);
+    block_release(instance->blocks);
     instance_forget(instance->values, instance_param_count(instance->module));
     *instance = (struct instance){0};
 }

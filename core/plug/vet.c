@@ -146,7 +146,8 @@ static int vet_row(const struct bulla_param *table, const struct bulla_param *ro
     if (vet_empty(row->doc)) return status_fail(STATUS_CASE, "has parameter '%s' without a doc", row->name);
     switch (row->type) {
     case BULLA_NUMBER: return vet_number(row);
-    case BULLA_TEXT: return STATUS_OK;
+    case BULLA_TEXT:
+    case BULLA_FILE: return STATUS_OK;
     case BULLA_CHOICE:
         if (vet_choices(row->choices)) return STATUS_OK;
         return status_fail(STATUS_CASE, "has parameter '%s' with bad choices '%s'", row->name,

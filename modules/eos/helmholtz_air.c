@@ -66,6 +66,6 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .params = helmholtz_air_params,
     .presets = helmholtz_air_presets,
     .open = helmholtz_air_open,
-    .close = helmholtz_close,
+    .close = free,
     .table = &helmholtz_air_table,
 };

@@ -1,45 +1,42 @@
-/* helmholtz_build.h - makes the table of helmholtz_grid.h for one fluid and keeps it for all its instances.
+/* helmholtz_build.h - makes the table of helmholtz_grid.h for one fluid, in a block that all ranks of a machine fill
+ * together: rows of one rank, or every so-and-so-many-th.
  *
- * Terms are products, so what depends on rho is computed once per row and what depends on T once per column; a table of
- * 256 x 256 takes some 20 ms. */
+ * Terms are products, so what depends on rho is computed once per row and what depends on T once per column. */
 #ifndef HELMHOLTZ_BUILD_H
 #define HELMHOLTZ_BUILD_H
 
 #include "helmholtz_find.h"
 
-/* Factors of all terms at the nodes of one coordinate. */
-struct helmholtz_factors {
-    double *f; /* n x n_term x HELMHOLTZ_R */
-    double *g; /* n x (n_term + 1) x HELMHOLTZ_L; the last is the ideal part */
-};
-
-static void helmholtz_factors_fill(const struct helmholtz_law *law, const struct helmholtz_grid *grid,
-                                   const struct helmholtz_factors *factors)
+/* Factors of all terms that depend on T, at all nodes: n x (n_term + 1) x HELMHOLTZ_L; the last is the ideal part. */
+static void helmholtz_columns(const struct helmholtz_fluid *fluid, const struct helmholtz_grid *grid, double *ret_g)
 {
-    const struct helmholtz_fluid *fluid = law->fluid;
     int m = fluid->n_term;
-    for (int i = 0; i < grid->n; i++) {
-        double rho = grid->rho_0 + i * grid->step_rho, tiny = 1e-9 * fluid->rho_c;
-        double delta = (rho > tiny ? rho : tiny) / fluid->rho_c;
-        double theta = log(fluid->T_c) - (grid->l_0 + i * grid->step_l);
-        double *f = factors->f + (size_t)(i * m * HELMHOLTZ_R), *g = factors->g + (size_t)(i * (m + 1) * HELMHOLTZ_L);
-        for (int k = 0; k < m; k++) {
-            helmholtz_density_part(&fluid->terms[k], delta, f + k * HELMHOLTZ_R);
-            helmholtz_thermal_part(&fluid->terms[k], theta, g + k * HELMHOLTZ_L);
-        }
+    for (int j = 0; j < grid->n; j++) {
+        double theta = log(fluid->T_c) - (grid->l_0 + j * grid->step_l),
+               *g = ret_g + (size_t)(j * (m + 1) * HELMHOLTZ_L);
+        for (int k = 0; k < m; k++) helmholtz_thermal_part(&fluid->terms[k], theta, g + k * HELMHOLTZ_L);
         helmholtz_ideal_part(fluid, theta, g + m * HELMHOLTZ_L);
     }
 }
 
+/* Those that depend on rho, of one row: n_term x HELMHOLTZ_R. */
+static void helmholtz_row_factors(const struct helmholtz_fluid *fluid, const struct helmholtz_grid *grid, int i,
+                                  double *ret_f)
+{
+    double rho = grid->rho_0 + i * grid->step_rho, tiny = 1e-9 * fluid->rho_c;
+    double delta = (rho > tiny ? rho : tiny) / fluid->rho_c;
+    for (int k = 0; k < fluid->n_term; k++) helmholtz_density_part(&fluid->terms[k], delta, ret_f + k * HELMHOLTZ_R);
+}
+
 /* The node (i, j): a and its derivatives, scaled by the spacings. */
-static void helmholtz_node(const struct helmholtz_law *law, const struct helmholtz_grid *grid,
-                           const struct helmholtz_factors *factors, int i, int j)
+static void helmholtz_node(const struct helmholtz_law *law, const struct helmholtz_grid *grid, const double *f,
+                           const double *all_g, int i, int j)
 {
     const struct helmholtz_fluid *fluid = law->fluid;
     double phi[HELMHOLTZ_R][HELMHOLTZ_L] = {{0}}, a[HELMHOLTZ_R][HELMHOLTZ_L];
     double l = grid->l_0 + j * grid->step_l, rho = grid->rho_0 + i * grid->step_rho;
     int m = fluid->n_term;
-    const double *f = factors->f + (size_t)(i * m * HELMHOLTZ_R), *g = factors->g + (size_t)(j * (m + 1) * HELMHOLTZ_L);
+    const double *g = all_g + (size_t)(j * (m + 1) * HELMHOLTZ_L);
     memcpy(phi[0], g + m * HELMHOLTZ_L, sizeof phi[0]);
     for (int k = 0; k < m; k++)
         for (int r = 0; r < HELMHOLTZ_R; r++)
@@ -95,77 +92,90 @@ static void helmholtz_starts(const struct helmholtz_law *law, const struct helmh
     }
 }
 
-static void helmholtz_edges(const struct helmholtz_law *law, struct helmholtz_grid *grid)
+/* The lower edge, part by part: each point is the end of an iteration. */
+static void helmholtz_edges(const struct helmholtz_law *law, const struct helmholtz_grid *grid, int part, int parts)
 {
     double step = (law->rho_high - law->rho_low) / HELMHOLTZ_EDGES;
-    grid->edge_0 = law->rho_low;
-    grid->per_edge = 1.0 / step;
-    for (int i = 0; i <= HELMHOLTZ_EDGES; i++) grid->edge[2 * i] = log(law->T_low(law, law->rho_low + i * step));
+    for (int i = part; i <= HELMHOLTZ_EDGES; i += parts)
+        grid->edge[2 * i] = log(law->T_low(law, law->rho_low + i * step));
+}
+
+static void helmholtz_edge_slopes(const struct helmholtz_grid *grid)
+{
     for (int i = 0; i <= HELMHOLTZ_EDGES; i++) {
         int down = i > 0 ? i - 1 : 0, up = i < HELMHOLTZ_EDGES ? i + 1 : i;
         grid->edge[2 * i + 1] = (grid->edge[2 * up] - grid->edge[2 * down]) / (up - down);
     }
-    grid->l_low = grid->edge[0];
 }
 
-static void helmholtz_grid_free(struct helmholtz_grid *grid)
+static size_t helmholtz_nodes(int n)
 {
-    if (!grid) return;
-    free(grid->node);
-    free(grid);
+    return (size_t)n * (size_t)n * HELMHOLTZ_NODE;
 }
 
-/* All arrays in one block, `node` first. NULL: out of memory. */
-static struct helmholtz_grid *helmholtz_grid_new(int n)
+/* What is behind the nodes, and the errors of HELMHOLTZ_SAMPLES states. */
+static size_t helmholtz_bytes(int n)
 {
-    size_t count = (size_t)n, starts = count * (HELMHOLTZ_STARTS + 1), edges = 2 * (HELMHOLTZ_EDGES + 1);
-    size_t nodes = count * count * HELMHOLTZ_NODE;
-    struct helmholtz_grid *grid = malloc(sizeof *grid);
-    double *block = malloc((nodes + 3 * count + starts + edges) * sizeof *block);
-    if (!grid || !block) {
-        free(grid);
-        free(block);
-        return NULL;
-    }
-    *grid = (struct helmholtz_grid){.n = n, .node = block, .T = block + nodes};
-    grid->ends = grid->T + count;
-    grid->start = grid->ends + 2 * count;
-    grid->edge = grid->start + starts;
+    size_t rows = (size_t)n, starts = rows * (HELMHOLTZ_STARTS + 1), edges = 2 * (HELMHOLTZ_EDGES + 1);
+    return (helmholtz_nodes(n) + 3 * rows + starts + edges + 2 * HELMHOLTZ_SAMPLES) * sizeof(double);
+}
+
+/* The grid whose numbers are in the block; l_low once the edges are there. */
+static struct helmholtz_grid helmholtz_grid_in(const struct helmholtz_law *law, int n, double *block)
+{
+    struct helmholtz_grid grid = {.n = n, .node = block, .T = block + helmholtz_nodes(n)};
+    grid.ends = grid.T + n;
+    grid.start = grid.ends + 2 * n;
+    grid.edge = grid.start + (size_t)n * (HELMHOLTZ_STARTS + 1);
+    grid.misses = grid.edge + 2 * (HELMHOLTZ_EDGES + 1);
+    grid.rho_0 = law->grid_rho;
+    grid.last_cell = n - 2;
+    grid.last_start = HELMHOLTZ_STARTS - 1;
+    grid.last_edge = HELMHOLTZ_EDGES - 1;
+    grid.step_rho = (law->rho_high - law->grid_rho) / (n - 1);
+    grid.l_0 = log(law->grid_T);
+    grid.step_l = log(law->grid_T_high / law->grid_T) / (n - 1);
+    grid.per_rho = 1.0 / grid.step_rho;
+    grid.per_l = 1.0 / grid.step_l;
+    grid.l_high = log(law->T_high);
+    grid.R = law->fluid->R;
+    grid.edge_0 = law->rho_low;
+    grid.per_edge = 1.0 / ((law->rho_high - law->rho_low) / HELMHOLTZ_EDGES);
+    grid.l_low = grid.edge[0];
     return grid;
 }
 
-/* NULL: out of memory. */
-static struct helmholtz_grid *helmholtz_build(const struct helmholtz_law *law, int n)
+/* The nodes of the rows of a part. Non-zero: out of memory. */
+static int helmholtz_rows_fill(const struct helmholtz_law *law, const struct helmholtz_grid *grid, int part, int parts)
 {
-    size_t rows = (size_t)n, terms = (size_t)law->fluid->n_term;
-    struct helmholtz_grid *grid = helmholtz_grid_new(n);
-    struct helmholtz_factors factors = {malloc(rows * terms * HELMHOLTZ_R * sizeof(double)),
-                                        malloc(rows * (terms + 1) * HELMHOLTZ_L * sizeof(double))};
-    if (grid && factors.f && factors.g) {
-        grid->rho_0 = law->grid_rho;
-        grid->last_cell = n - 2;
-        grid->last_start = HELMHOLTZ_STARTS - 1;
-        grid->last_edge = HELMHOLTZ_EDGES - 1;
-        grid->step_rho = (law->rho_high - law->grid_rho) / (n - 1);
-        grid->l_0 = log(law->grid_T);
-        grid->step_l = log(law->grid_T_high / law->grid_T) / (n - 1);
-        grid->per_rho = 1.0 / grid->step_rho;
-        grid->per_l = 1.0 / grid->step_l;
-        grid->l_high = log(law->T_high);
-        grid->R = law->fluid->R;
-        for (int j = 0; j < n; j++) grid->T[j] = exp(grid->l_0 + j * grid->step_l);
-        helmholtz_edges(law, grid);
-        helmholtz_factors_fill(law, grid, &factors);
-        for (int i = 0; i < n; i++)
-            for (int j = 0; j < n; j++) helmholtz_node(law, grid, &factors, i, j);
-        for (int i = 0; i < n; i++) helmholtz_starts(law, grid, i);
-    } else {
-        helmholtz_grid_free(grid);
-        grid = NULL;
+    size_t terms = (size_t)law->fluid->n_term;
+    double *f = malloc(terms * HELMHOLTZ_R * sizeof *f);
+    double *g = malloc((size_t)grid->n * (terms + 1) * HELMHOLTZ_L * sizeof *g);
+    bool good = f && g;
+    if (good) helmholtz_columns(law->fluid, grid, g);
+    for (int i = part; good && i < grid->n; i += parts) {
+        helmholtz_row_factors(law->fluid, grid, i, f);
+        for (int j = 0; j < grid->n; j++) helmholtz_node(law, grid, f, g, i, j);
     }
-    free(factors.f);
-    free(factors.g);
-    return grid;
+    free(f);
+    free(g);
+    return !good;
+}
+
+enum { HELMHOLTZ_MAKE_EDGES, HELMHOLTZ_MAKE_NODES, HELMHOLTZ_MAKE_STARTS, HELMHOLTZ_MAKE_PHASES };
+
+/* One phase of one part. Non-zero: out of memory. */
+static int helmholtz_build(const struct helmholtz_law *law, const struct helmholtz_grid *grid, unsigned phase, int part,
+                           int parts)
+{
+    if (phase == HELMHOLTZ_MAKE_EDGES) helmholtz_edges(law, grid, part, parts);
+    if (phase == HELMHOLTZ_MAKE_NODES && part == 0) {
+        helmholtz_edge_slopes(grid);
+        for (int j = 0; j < grid->n; j++) grid->T[j] = exp(grid->l_0 + j * grid->step_l);
+    }
+    if (phase == HELMHOLTZ_MAKE_NODES) return helmholtz_rows_fill(law, grid, part, parts);
+    for (int i = part; phase == HELMHOLTZ_MAKE_STARTS && i < grid->n; i += parts) helmholtz_starts(law, grid, i);
+    return 0;
 }
 
 #endif

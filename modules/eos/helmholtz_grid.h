@@ -13,9 +13,10 @@
 
 #include "helmholtz_state.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 
-enum { HELMHOLTZ_NODE = 9, HELMHOLTZ_STARTS = 128, HELMHOLTZ_EDGES = 512 };
+enum { HELMHOLTZ_NODE = 9, HELMHOLTZ_STARTS = 128, HELMHOLTZ_EDGES = 512, HELMHOLTZ_SAMPLES = 1500 };
 
 /* The domain of a fluid and its table, fixed per law. */
 struct helmholtz_law {
@@ -34,11 +35,12 @@ struct helmholtz_grid {
     double l_0, per_l, step_l;
     double l_low, l_high, edge_0, per_edge, R; /* l_low: of the lower edge where that is constant */
     double last_cell, last_start, last_edge;   /* numbers of the last intervals */
-    double *node;  /* n x n x 9: [rho][l][3 kl + kr], scaled by the spacings to the powers kr, kl */
-    double *T;     /* n: temperatures of the nodes */
-    double *ends;  /* n x 2: p/rho at both ends of the domain */
-    double *start; /* n x (HELMHOLTZ_STARTS + 1): l over y */
-    double *edge;  /* (HELMHOLTZ_EDGES + 1) x 2: l of the lower edge and its slope per interval */
+    double *node;   /* n x n x 9: [rho][l][3 kl + kr], scaled by the spacings to the powers kr, kl */
+    double *T;      /* n: temperatures of the nodes */
+    double *ends;   /* n x 2: p/rho at both ends of the domain */
+    double *start;  /* n x (HELMHOLTZ_STARTS + 1): l over y */
+    double *edge;   /* (HELMHOLTZ_EDGES + 1) x 2: l of the lower edge and its slope per interval */
+    double *misses; /* HELMHOLTZ_SAMPLES x 2: relative errors of T and c that were measured */
 };
 
 /* Quintic in x from 0 to 1 with given value and two derivatives at both ends. */

@@ -1,5 +1,5 @@
-/* helmholtz_open.h - instances of the laws that are given by a Helmholtz energy: their keys, and tables shared by all
- * instances of a process that ask for the same size. */
+/* helmholtz_open.h - instances of the laws that are given by a Helmholtz energy: their keys, and their table in a block that is
+ * made and measured once per machine (`share` of bulla/module.h). */
 #ifndef HELMHOLTZ_OPEN_H
 #define HELMHOLTZ_OPEN_H
 
@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-enum { HELMHOLTZ_SIZE, HELMHOLTZ_EVAL, HELMHOLTZ_SHARED = 16, HELMHOLTZ_SAMPLES = 1500 };
+enum { HELMHOLTZ_SIZE, HELMHOLTZ_EVAL };
 
 #define HELMHOLTZ_PARAMS(size_)                                                                                     \
     {                                                                                                               \
@@ -20,16 +20,6 @@ enum { HELMHOLTZ_SIZE, HELMHOLTZ_EVAL, HELMHOLTZ_SHARED = 16, HELMHOLTZ_SAMPLES 
              BULLA_CHOICE, "table|analytic"},                                                                       \
             {0},                                                                                                    \
     }
-
-/* A table, how many instances use it, and what it was measured to miss. */
-struct helmholtz_shared {
-    struct helmholtz_grid *grid;
-    int users;
-    double worst_T, worst_c;
-};
-
-/* Touched by open and close alone, which core calls from one thread. */
-static struct helmholtz_shared helmholtz_shared[HELMHOLTZ_SHARED];
 
 /* Constants of the two ends in density; the cold end of the domain at the last one carries the dense rule. */
 static struct helmholtz_ends helmholtz_ends_of(const struct helmholtz_law *law, const struct helmholtz_grid *grid)
@@ -48,56 +38,71 @@ static struct helmholtz_ends helmholtz_ends_of(const struct helmholtz_law *law, 
                                    .T_min = law->T_min};
 }
 
-/* Worst error of T and c at states spread over the domain, more of them near its cold edge. */
-static void helmholtz_measure(const struct helmholtz *self, struct helmholtz_shared *shared)
+/* Errors of T and c at one of the states spread over the domain, more of them near its cold edge. */
+static void helmholtz_measure(const struct helmholtz *self, int i)
 {
     const struct helmholtz_law *law = self->law;
     double unused, from = law->rho_low > 1.0 ? law->rho_low : 1.0;
-    for (int i = 0; i < HELMHOLTZ_SAMPLES; i++) {
-        double u = (i + 0.5) / HELMHOLTZ_SAMPLES, golden = fmod(i * 0.6180339887498949, 1.0);
-        double rho = HELMHOLTZ_GAS ? from * pow(law->rho_high / from, u) : from + u * (law->rho_high - from);
-        double low = HELMHOLTZ_GAS ? self->grid.l_low : helmholtz_edge(&self->grid, rho, &unused);
-        double l = low + golden * golden * (self->grid.l_high - low);
-        struct helmholtz_spot spot = helmholtz_exact(law->fluid, rho, l);
-        double p = rho * rho * spot.a_r;
-        struct helmholtz_answer exact = helmholtz_answer(spot, rho, p);
-        struct helmholtz_point found = helmholtz_at(self, 0, rho, p);
-        double off_T = fabs(helmholtz_T(self, found) / spot.T - 1.0);
-        double off_c = fabs(sqrt(found.answer.c2 / exact.c2) - 1.0);
-        if (!(off_T <= shared->worst_T)) shared->worst_T = off_T;
-        if (!(off_c <= shared->worst_c)) shared->worst_c = off_c;
-    }
+    double u = (i + 0.5) / HELMHOLTZ_SAMPLES, golden = fmod(i * 0.6180339887498949, 1.0);
+    double rho = HELMHOLTZ_GAS ? from * pow(law->rho_high / from, u) : from + u * (law->rho_high - from);
+    double low = HELMHOLTZ_GAS ? self->grid.l_low : helmholtz_edge(&self->grid, rho, &unused);
+    double l = low + golden * golden * (self->grid.l_high - low);
+    struct helmholtz_spot spot = helmholtz_exact(law->fluid, rho, l);
+    double p = rho * rho * spot.a_r;
+    struct helmholtz_answer exact = helmholtz_answer(spot, rho, p);
+    struct helmholtz_point found = helmholtz_at(self, 0, rho, p);
+    self->grid.misses[2 * i] = fabs(helmholtz_T(self, found) / spot.T - 1.0);
+    self->grid.misses[2 * i + 1] = fabs(sqrt(found.answer.c2 / exact.c2) - 1.0);
 }
 
-/* The table of n x n nodes, built if no instance has it. NULL: out of memory. */
-static struct helmholtz_shared *helmholtz_share(const struct helmholtz_law *law, int n)
+/* The largest: of T (0) or c (1). NaN if there is one. */
+static double helmholtz_worst(const struct helmholtz_grid *grid, int which)
 {
-    struct helmholtz_shared *free_place = NULL;
-    for (int i = 0; i < HELMHOLTZ_SHARED; i++) {
-        struct helmholtz_shared *shared = &helmholtz_shared[i];
-        if (shared->users && shared->grid->n == n) {
-            shared->users++;
-            return shared;
-        }
-        if (!shared->users) free_place = shared;
+    double worst = 0.0;
+    for (int i = 0; i < HELMHOLTZ_SAMPLES && worst == worst; i++) {
+        double miss = grid->misses[2 * i + which];
+        if (!(miss <= worst)) worst = miss;
     }
-    if (!free_place) return NULL;
-    *free_place = (struct helmholtz_shared){.grid = helmholtz_build(law, n), .users = 1};
-    if (free_place->grid) return free_place;
-    free_place->users = 0;
+    return worst;
+}
+
+/* What fills the block. */
+struct helmholtz_making {
+    const struct bulla_host *host;
+    const struct helmholtz_law *law;
+    int n;
+};
+
+static struct helmholtz helmholtz_of(const struct helmholtz_making *making, double *block)
+{
+    struct helmholtz self = {.law = making->law, .grid = helmholtz_grid_in(making->law, making->n, block)};
+    self.ends = helmholtz_ends_of(making->law, &self.grid);
+    return self;
+}
+
+static int helmholtz_fill(void *context, void *block, unsigned phase, unsigned part, unsigned parts)
+{
+    const struct helmholtz_making *making = context;
+    struct helmholtz_grid grid = helmholtz_grid_in(making->law, making->n, block);
+    if (phase < HELMHOLTZ_MAKE_PHASES) {
+        int code = helmholtz_build(making->law, &grid, phase, (int)part, (int)parts);
+        if (code) making->host->fail("out of memory for the table");
+        return code;
+    }
+    struct helmholtz self = helmholtz_of(making, block);
+    for (int i = (int)part; i < HELMHOLTZ_SAMPLES; i += (int)parts) helmholtz_measure(&self, i);
+    return 0;
+}
+
+/* The block of an n x n table. NULL after host->fail. */
+static double *helmholtz_share(struct helmholtz_making *making)
+{
+    const struct bulla_host *host = making->host;
+    if (BULLA_HOST_HAS(host, share))
+        return (double *)host->share("grid", helmholtz_bytes(making->n), HELMHOLTZ_MAKE_PHASES + 1, helmholtz_fill,
+                                     making);
+    host->fail("this table needs a bulla that shares memory between ranks");
     return NULL;
-}
-
-static void helmholtz_close(void *instance)
-{
-    struct helmholtz *self = instance;
-    for (int i = 0; i < HELMHOLTZ_SHARED && self; i++) {
-        struct helmholtz_shared *shared = &helmholtz_shared[i];
-        if (!shared->users || shared->grid->node != self->grid.node || --shared->users) continue;
-        helmholtz_grid_free(shared->grid);
-        shared->grid = NULL;
-    }
-    free(self);
 }
 
 static int helmholtz_open(const struct helmholtz_law *law, const struct bulla_host *host,
@@ -106,23 +111,23 @@ static int helmholtz_open(const struct helmholtz_law *law, const struct bulla_ho
     char text[200];
     int n = (int)values[HELMHOLTZ_SIZE].number;
     const char *eval = values[HELMHOLTZ_EVAL].text;
+    struct helmholtz_making making = {host, law, n};
     if (values[HELMHOLTZ_SIZE].number != n) {
         host->fail("table-size is a number of nodes: a whole number");
         return 1;
     }
-    struct helmholtz *self = malloc(sizeof *self);
-    struct helmholtz_shared *shared = self ? helmholtz_share(law, n) : NULL;
-    if (!shared) {
-        free(self);
-        host->fail("out of memory, or tables of more than 16 sizes at once");
+    double *block = helmholtz_share(&making);
+    struct helmholtz *self = block ? malloc(sizeof *self) : NULL;
+    if (!self) {
+        if (block) host->fail("out of memory");
         return 1;
     }
-    *self = (struct helmholtz){.grid = *shared->grid, .law = law, .analytic = eval && strcmp(eval, "analytic") == 0};
-    self->ends = helmholtz_ends_of(law, &self->grid);
-    if (shared->worst_T == 0.0) helmholtz_measure(self, shared);
+    *self = helmholtz_of(&making, block);
+    self->analytic = eval && strcmp(eval, "analytic") == 0;
     snprintf(text, sizeof text,
              "%s: table of %d x %d (%.1f MiB): temperature within %.1e, sound speed within %.1e (relative)", law->name,
-             n, n, 8.0 * HELMHOLTZ_NODE * n * n / 1048576.0, shared->worst_T, shared->worst_c);
+             n, n, 8.0 * HELMHOLTZ_NODE * n * n / 1048576.0, helmholtz_worst(&self->grid, 0),
+             helmholtz_worst(&self->grid, 1));
     if (!self->analytic) host->say(text);
     *ret_self = self;
     return 0;

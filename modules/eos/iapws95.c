@@ -98,6 +98,6 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .params = iapws95_params,
     .presets = iapws95_presets,
     .open = iapws95_open,
-    .close = helmholtz_close,
+    .close = free,
     .table = &iapws95_table,
 };

@@ -228,25 +228,36 @@ static void rkpr_density(const void *instance, size_t n, const double *BULLA_RES
     }
 }
 
-static void rkpr_close(void *instance)
+/* What fills the block. */
+struct rkpr_making {
+    const struct cubic *law;
+    size_t n;
+    int bicubic;
+};
+
+/* Nodes, then errors. */
+static int rkpr_fill(void *context, void *block, unsigned phase, unsigned part, unsigned parts)
 {
-    struct rkpr *self = instance;
-    if (self) free(self->table.node);
-    free(self);
+    const struct rkpr_making *making = context;
+    struct rkpr_table table = rkpr_table_in(making->law, making->n, making->bicubic, block);
+    if (phase == 0) rkpr_table_build(making->law, &table, part, parts);
+    else rkpr_table_errors(making->law, &table, part, parts);
+    return 0;
 }
 
-/* Makes the table and says what it is worth. */
+/* Makes or finds the table and says what it is worth. */
 static int rkpr_tabulate(const struct bulla_host *host, struct rkpr *self, const struct bulla_value *values)
 {
     int bicubic = strcmp(values[RKPR_INTERPOLATION].text, "bicubic") == 0;
     size_t n = (size_t)values[RKPR_SIZE].number;
-    double worst[3];
+    struct rkpr_making making = {&self->law, n, bicubic};
+    double worst[3], *block = NULL;
     char text[200];
-    if (rkpr_table_build(&self->law, n, bicubic, &self->table)) {
-        host->fail("out of memory for the table");
-        return 1;
-    }
-    rkpr_table_errors(&self->law, &self->table, worst);
+    if (BULLA_HOST_HAS(host, share)) block = (double *)host->share("grid", rkpr_table_bytes(n), 2, rkpr_fill, &making);
+    else host->fail("this table needs a bulla that shares memory between ranks");
+    if (!block) return 1;
+    self->table = rkpr_table_in(&self->law, n, bicubic, block);
+    rkpr_table_worst(&self->table, worst);
     snprintf(text, sizeof text,
              "rkpr: table of %zu x %zu nodes, %.2g MiB, %s: largest errors of T %.1e, of p(rho, e) %.1e, of c %.1e", n,
              n, (double)(n * n * RKPR_VALUES * sizeof(double)) / 1048576.0, bicubic ? "bicubic" : "bilinear", worst[0],
@@ -260,7 +271,7 @@ static int rkpr_open(const struct bulla_host *host, const struct bulla_value *va
     void *self = NULL;
     if (cubic_rows_open(host, rkpr_constants(values), sizeof(struct rkpr), &self)) return 1;
     if (values[RKPR_EVAL].text && strcmp(values[RKPR_EVAL].text, "table") == 0 && rkpr_tabulate(host, self, values)) {
-        rkpr_close(self);
+        free(self);
         return 1;
     }
     *ret_self = self;
@@ -291,6 +302,6 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .params = rkpr_params,
     .presets = rkpr_presets,
     .open = rkpr_open,
-    .close = rkpr_close,
+    .close = free,
     .table = &rkpr_functions,
 };

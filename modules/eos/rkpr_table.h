@@ -25,7 +25,8 @@ struct rkpr_table {
     size_t n; /* nodes in each direction; 0: there is no table */
     int bicubic;
     double u0, y0, du, dy;
-    double *node; /* [n u][n y][field][value, du f_u, dy f_y, du dy f_uy] */
+    double *node;   /* [n u][n y][field][value, du f_u, dy f_y, du dy f_uy] */
+    double *misses; /* [n u - 1][3]: largest errors in a row of cells, see rkpr_table_errors */
 };
 
 /* Interpolated fields with their slopes in u and y. */
@@ -124,23 +125,29 @@ ELEMENTARY_INLINE struct rkpr_look rkpr_table_look(const struct rkpr_table *tabl
     return look;
 }
 
-/* Fills a table of n x n nodes. Non-zero: no memory. */
-static int rkpr_table_build(const struct cubic *par, size_t n, int bicubic, struct rkpr_table *ret_table)
+static size_t rkpr_table_bytes(size_t n)
 {
-    double thin = RKPR_TABLE_THIN * par->b;
+    return (n * n * RKPR_VALUES + 3 * (n - 1)) * sizeof(double);
+}
+
+/* The table of n x n nodes whose numbers are in the block. */
+static struct rkpr_table rkpr_table_in(const struct cubic *par, size_t n, int bicubic, double *block)
+{
+    double thin = RKPR_TABLE_THIN * par->b, parts = (double)(n - 1);
     double u0 = log(thin / (1.0 - thin)), u1 = log(RKPR_TABLE_DENSE / (1.0 - RKPR_TABLE_DENSE));
     double y0 = log(RKPR_TABLE_COLD * par->Tc), y1 = log(RKPR_TABLE_HOT);
-    double parts = (double)(n - 1);
-    struct rkpr_table table = {n, bicubic, u0, y0, (u1 - u0) / parts, (y1 - y0) / parts, NULL};
-    table.node = malloc(n * n * RKPR_VALUES * sizeof *table.node);
-    if (!table.node) return 1;
-    const size_t most = RKPR_TABLE_ROW / 9;
-    for (size_t i = 0; i < n; i++)
+    return (struct rkpr_table){
+        n, bicubic, u0, y0, (u1 - u0) / parts, (y1 - y0) / parts, block, block + n * n * RKPR_VALUES};
+}
+
+/* Fills the rows of a part. */
+static void rkpr_table_build(const struct cubic *par, const struct rkpr_table *table, size_t part, size_t parts)
+{
+    const size_t most = RKPR_TABLE_ROW / 9, n = table->n;
+    for (size_t i = part; i < n; i += parts)
         for (size_t j = 0; j < n; j += most)
-            rkpr_table_nodes(par, &table, u0 + (double)i * table.du, y0 + (double)j * table.dy,
-                             n - j < most ? n - j : most, table.node + (i * n + j) * RKPR_VALUES);
-    *ret_table = table;
-    return 0;
+            rkpr_table_nodes(par, table, table->u0 + (double)i * table->du, table->y0 + (double)j * table->dy,
+                             n - j < most ? n - j : most, table->node + (i * n + j) * RKPR_VALUES);
 }
 
 /* Relative errors at a point with the fields `exact`: of T, of p at this density and energy, of c. */
@@ -157,21 +164,31 @@ static void rkpr_table_error(const struct cubic *par, const struct rkpr_table *t
     for (int l = 0; l < 3; l++) worst[l] = fabs(error[l]) > worst[l] ? fabs(error[l]) : worst[l];
 }
 
-/* The largest of them at the centres of cells. */
-static void rkpr_table_errors(const struct cubic *par, const struct rkpr_table *table, double ret_worst[3])
+/* The largest of them at the centres of the cells of a part's rows. */
+static void rkpr_table_errors(const struct cubic *par, const struct rkpr_table *table, size_t part, size_t parts)
 {
     double u[RKPR_TABLE_ROW], y[RKPR_TABLE_ROW], exact[RKPR_TABLE_ROW][RKPR_FIELDS];
-    const size_t cells = (table->n - 1) * (table->n - 1);
-    for (int l = 0; l < 3; l++) ret_worst[l] = 0.0;
-    for (size_t first = 0; first < cells; first += RKPR_TABLE_ROW) {
-        size_t n = cells - first < RKPR_TABLE_ROW ? cells - first : RKPR_TABLE_ROW;
-        for (size_t k = 0; k < n; k++) {
-            u[k] = table->u0 + ((double)((first + k) / (table->n - 1)) + 0.5) * table->du;
-            y[k] = table->y0 + ((double)((first + k) % (table->n - 1)) + 0.5) * table->dy;
+    const size_t cells = table->n - 1;
+    for (size_t i = part; i < cells; i += parts) {
+        double *worst = table->misses + 3 * i;
+        for (size_t first = 0; first < cells; first += RKPR_TABLE_ROW) {
+            size_t m = cells - first < RKPR_TABLE_ROW ? cells - first : RKPR_TABLE_ROW;
+            for (size_t k = 0; k < m; k++) {
+                u[k] = table->u0 + ((double)i + 0.5) * table->du;
+                y[k] = table->y0 + ((double)(first + k) + 0.5) * table->dy;
+            }
+            rkpr_table_exact(par, m, u, y, exact);
+            for (size_t k = 0; k < m; k++) rkpr_table_error(par, table, (const double[2]){u[k], y[k]}, exact[k], worst);
         }
-        rkpr_table_exact(par, n, u, y, exact);
-        for (size_t k = 0; k < n; k++) rkpr_table_error(par, table, (const double[2]){u[k], y[k]}, exact[k], ret_worst);
     }
+}
+
+/* The largest of all rows. */
+static void rkpr_table_worst(const struct rkpr_table *table, double ret_worst[3])
+{
+    for (int l = 0; l < 3; l++) ret_worst[l] = 0.0;
+    for (size_t i = 0; i < 3 * (table->n - 1); i++)
+        ret_worst[i % 3] = table->misses[i] > ret_worst[i % 3] ? table->misses[i] : ret_worst[i % 3];
 }
 
 #endif

@@ -1,10 +1,13 @@
-/* table.c - an equation of state from a file: states on a grid of densities and temperatures (table_file.h), one
+/* table.c - an equation of state from a file: states on a grid of densities and temperatures (table_read.h), one
  * potential between them (table_grid.h), the rules of continuation.h beyond.
+ *
+ * The file is read, and the grid made, once per machine (`share` of bulla/module.h).
  *
  * For (rho, p) the temperatures of the grid between which p lies are found by bisection, the root by a bracketed Newton
  * iteration in that cell. A point costs some 0.5 us and rows stay scalar: a search is no vector loop. */
 #include "bulla/eos.h"
 #include "table_grid.h"
+#include "table_read.h"
 
 struct table {
     struct table_grid grid;
@@ -191,8 +194,10 @@ static const struct bulla_eos table_functions = {.size = sizeof(struct bulla_eos
                                                  .count_outside = table_count_outside};
 
 static const struct bulla_param table_params[] = {
-    {"file", "1", 0.0, 0.0, 0.0, "the CSV file: columns rho[kg/m3], T[K], p[Pa], e[J/kg], c[m/s], s[J/kg/K]",
-     BULLA_TEXT, NULL},
+    {"file", "1", 0.0, 0.0, 0.0,
+     "the file, relative to this one: CSV with columns rho[kg/m3], T[K], p[Pa], e[J/kg], c[m/s], s[J/kg/K], or HDF5 "
+     "arrays",
+     BULLA_FILE, NULL},
     {0},
 };
 
@@ -238,8 +243,8 @@ static int table_agrees(const struct bulla_host *host, const char *path, const s
                            : fabs(e_r - (p - T * p_T) / square) > size ? "de/drho is not (p - T dp/dT)/rho^2"
                                                                        : NULL;
         if (what)
-            return table_file_fail(host, path, file->lines[r],
-                                   "%s around here: wrong units, unsteady numbers or too coarse a grid", what);
+            return table_file_fail_at(host, path, file, r,
+                                      "%s around here: wrong units, unsteady numbers or too coarse a grid", what);
     }
     return 0;
 }
@@ -253,8 +258,8 @@ static int table_fits(const struct bulla_host *host, const char *path, const str
         struct continuation_point at = table_near(grid, r / grid->n_T, r % grid->n_T, 0.0, 0.0);
         double given = file->row[r][TABLE_C], c = at.c2 > 0.0 ? sqrt(at.c2) : 0.0, off = fabs(c / given - 1.0);
         if (!(off < 0.1) || !(at.cv > 0.0) || !(at.G > 0.0))
-            return table_file_fail(
-                host, path, file->lines[r],
+            return table_file_fail_at(
+                host, path, file, r,
                 "p, e and s around here say c = %.5g, cv = %.4g, Grueneisen coefficient %.3g, the file "
                 "says c = %.5g: wrong units, unsteady numbers or too coarse a grid",
                 c, at.cv, at.G, given);
@@ -272,10 +277,11 @@ static int table_holds(const struct bulla_host *host, const char *path, const st
             for (int k = 1; k < 9; k++) {
                 struct continuation_point at = table_near(grid, i, j, 0.5 * (k % 3), 0.5 * (k / 3));
                 if (at.cv > 0.0 && at.G > 0.0 && at.c2 > 0.0) continue;
-                return table_file_fail(host, path, file->lines[i * grid->n_T + j],
-                                       "between this state and the next the law is ill-posed: cv %.3g, Grueneisen "
-                                       "coefficient %.3g, c^2 %.3g; give more states, or none beyond a phase boundary",
-                                       at.cv, at.G, at.c2);
+                return table_file_fail_at(
+                    host, path, file, i * grid->n_T + j,
+                    "between this state and the next the law is ill-posed: cv %.3g, Grueneisen "
+                    "coefficient %.3g, c^2 %.3g; give more states, or none beyond a phase boundary",
+                    at.cv, at.G, at.c2);
             }
     return 0;
 }
@@ -294,44 +300,87 @@ static void table_set_ends(struct table *self)
     self->ends.dense = continuation_end(dense, grid->rho[i], 0.9 / most, 1e5);
 }
 
-static void table_close(void *instance)
+/* What the rank that reads the file tells the others. */
+struct table_head {
+    size_t n_rho, n_T;
+    double zeros[2]; /* of e and s */
+};
+
+/* A table while it is made: the file is held by the rank that has read it. */
+struct table_making {
+    const struct bulla_host *host;
+    const char *path;
+    struct table_file file;
+    const struct table_head *head;
+};
+
+static int table_make_head(void *context, void *block, unsigned phase, unsigned part, unsigned parts)
 {
-    struct table *self = instance;
-    if (self) table_grid_free(&self->grid);
-    free(self);
+    struct table_making *making = context;
+    struct table_head *head = block;
+    (void)phase;
+    (void)parts;
+    if (part) return 0;
+    if (table_read(making->host, making->path, &making->file)) return 1;
+    const struct table_file *file = &making->file;
+    const double *middle = file->row[file->n_rho / 2 * file->n_T + file->n_T / 2];
+    *head = (struct table_head){file->n_rho, file->n_T, {middle[TABLE_E], middle[TABLE_S]}};
+    return 0;
 }
 
-/* Checks the grid, tells what it is, and completes the instance. */
-static int table_complete(const struct bulla_host *host, const char *path, const struct table_file *file,
-                          struct table *self)
+enum { TABLE_CHECKS = 4, TABLE_PHASES };
+
+static int table_make_grid(void *context, void *block, unsigned phase, unsigned part, unsigned parts)
 {
-    double worst;
+    struct table_making *making = context;
+    const struct table_file *file = &making->file;
+    const struct table_head *head = making->head;
+    struct table_grid grid = table_grid_in(block, head->n_rho, head->n_T, head->zeros);
+    if (phase > 0 && phase < TABLE_CHECKS) table_grid_slopes(&grid, phase, part, parts);
+    if (part) return 0;
+    if (phase == 0) table_grid_states(file, &grid);
+    if (phase < TABLE_CHECKS) return 0;
+    return table_agrees(making->host, making->path, file, &grid) ||
+           table_fits(making->host, making->path, file, &grid, grid.misses) ||
+           table_holds(making->host, making->path, file, &grid);
+}
+
+/* The grid of the file, made or found. NULL after host->fail. */
+static double *table_share(struct table_making *making)
+{
+    const struct bulla_host *host = making->host;
+    if (!BULLA_HOST_HAS(host, share)) {
+        host->fail("this table needs a bulla that shares memory between ranks");
+        return NULL;
+    }
+    making->head = host->share("head", sizeof *making->head, 1, table_make_head, making);
+    if (!making->head) return NULL;
+    size_t bytes = table_grid_bytes(making->head->n_rho, making->head->n_T);
+    return (double *)host->share("grid", bytes, TABLE_PHASES, table_make_grid, making);
+}
+
+static int table_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
+{
+    struct table_making making = {.host = host, .path = values[0].text};
+    struct table *self = calloc(1, sizeof *self);
     char text[1024];
-    if (table_agrees(host, path, file, &self->grid)) return 1;
-    if (table_fits(host, path, file, &self->grid, &worst) || table_holds(host, path, file, &self->grid)) return 1;
+    double *block = table_share(&making);
+    table_file_free(&making.file);
+    if (!block || !self) {
+        if (!self) host->fail("out of memory");
+        free(self);
+        return 1;
+    }
+    self->grid = table_grid_in(block, making.head->n_rho, making.head->n_T, making.head->zeros);
     table_set_ends(self);
     snprintf(
         text, sizeof text,
         "table: %.600s: %zu densities, %zu temperatures; p, e, s are those of the file at its states, sound speeds "
         "within %.1e",
-        path, file->n_rho, file->n_T, worst);
+        making.path, self->grid.n_rho, self->grid.n_T, *self->grid.misses);
     host->say(text);
+    *ret_self = self;
     return 0;
-}
-
-static int table_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
-{
-    struct table_file file = {0};
-    const char *path = values[0].text;
-    if (table_file_read(host, path, &file)) return 1;
-    struct table *self = calloc(1, sizeof *self);
-    int code = !self || table_grid_build(&file, &self->grid);
-    if (code) table_file_fail(host, path, 0, "out of memory");
-    else code = table_complete(host, path, &file, self);
-    table_file_free(&file);
-    if (code) table_close(self);
-    else *ret_self = self;
-    return code;
 }
 
 BULLA_EXPORT const struct bulla_module bulla_module = {
@@ -347,6 +396,6 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .cite = "Swesty, J. Comput. Phys. 127 (1996) 118-127 (biquintic interpolation of the Helmholtz energy)",
     .params = table_params,
     .open = table_open,
-    .close = table_close,
+    .close = free,
     .table = &table_functions,
 };

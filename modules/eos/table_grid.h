@@ -15,9 +15,11 @@
 
 enum { TABLE_NODE = 9 };
 
+/* The arrays lie behind each other in one block. */
 struct table_grid {
     size_t n_rho, n_T;
     double *rho, *T, *node;
+    double *misses;        /* largest relative difference between the potential's c and the file's */
     double e_zero, s_zero; /* taken off before a is made: a would lose their digits */
 };
 
@@ -40,62 +42,61 @@ static void table_grid_difference(const double *x, size_t n, size_t at, size_t *
     *ret_first = first;
 }
 
-/* Fills value `to` of all nodes with the derivative of value `from`, along rho or along T. */
-static void table_grid_derive(const struct table_grid *grid, int from, int to, int along_T)
+/* Fills value `to` of the nodes of one density with the derivative of value `from`, along rho or along T. */
+static void table_grid_derive(const struct table_grid *grid, size_t i, int from, int to, int along_T)
 {
-    for (size_t i = 0; i < grid->n_rho; i++)
-        for (size_t j = 0; j < grid->n_T; j++) {
-            double weight[5], sum = 0.0;
-            size_t first;
-            if (along_T) table_grid_difference(grid->T, grid->n_T, j, &first, weight);
-            else table_grid_difference(grid->rho, grid->n_rho, i, &first, weight);
-            for (size_t k = 0; k < 5; k++) {
-                size_t node = along_T ? i * grid->n_T + first + k : (first + k) * grid->n_T + j;
-                sum += weight[k] * grid->node[node * TABLE_NODE + (size_t)from];
-            }
-            grid->node[(i * grid->n_T + j) * TABLE_NODE + (size_t)to] = sum;
+    for (size_t j = 0; j < grid->n_T; j++) {
+        double weight[5], sum = 0.0;
+        size_t first;
+        if (along_T) table_grid_difference(grid->T, grid->n_T, j, &first, weight);
+        else table_grid_difference(grid->rho, grid->n_rho, i, &first, weight);
+        for (size_t k = 0; k < 5; k++) {
+            size_t node = along_T ? i * grid->n_T + first + k : (first + k) * grid->n_T + j;
+            sum += weight[k] * grid->node[node * TABLE_NODE + (size_t)from];
         }
-}
-
-static void table_grid_free(struct table_grid *grid)
-{
-    free(grid->rho);
-    free(grid->T);
-    free(grid->node);
-    *grid = (struct table_grid){0};
-}
-
-/* Order of the values: a, a_r, a_rr, a_T, a_rT, a_rrT, a_TT, a_rTT, a_rrTT. Non-zero: no memory. */
-static int table_grid_build(const struct table_file *file, struct table_grid *ret_grid)
-{
-    struct table_grid grid = {.n_rho = file->n_rho, .n_T = file->n_T};
-    const double *middle = file->row[file->n_rho / 2 * file->n_T + file->n_T / 2];
-    grid.e_zero = middle[TABLE_E];
-    grid.s_zero = middle[TABLE_S];
-    grid.rho = malloc(grid.n_rho * sizeof *grid.rho);
-    grid.T = malloc(grid.n_T * sizeof *grid.T);
-    grid.node = malloc(file->n_row * TABLE_NODE * sizeof *grid.node);
-    if (!grid.rho || !grid.T || !grid.node) {
-        table_grid_free(&grid);
-        return 1;
+        grid->node[(i * grid->n_T + j) * TABLE_NODE + (size_t)to] = sum;
     }
+}
+
+/* Bytes of the block. */
+static size_t table_grid_bytes(size_t n_rho, size_t n_T)
+{
+    return (n_rho + n_T + n_rho * n_T * TABLE_NODE + 1) * sizeof(double);
+}
+
+static struct table_grid table_grid_in(double *block, size_t n_rho, size_t n_T, const double zeros[2])
+{
+    double *node = block + n_rho + n_T, *misses = node + n_rho * n_T * TABLE_NODE;
+    return (struct table_grid){n_rho, n_T, block, block + n_rho, node, misses, zeros[0], zeros[1]};
+}
+
+/* Phase 0 of filling: what is in the file. Order of the values of a node: a, a_r, a_rr, a_T, a_rT, a_rrT, a_TT, a_rTT, a_rrTT. */
+static void table_grid_states(const struct table_file *file, const struct table_grid *grid)
+{
     for (size_t r = 0; r < file->n_row; r++) {
         const double *row = file->row[r];
-        double *node = grid.node + r * TABLE_NODE, rho = row[TABLE_RHO];
-        grid.rho[r / grid.n_T] = rho;
-        grid.T[r % grid.n_T] = row[TABLE_T];
-        node[0] = (row[TABLE_E] - grid.e_zero) - row[TABLE_T] * (row[TABLE_S] - grid.s_zero);
+        double *node = grid->node + r * TABLE_NODE, rho = row[TABLE_RHO];
+        grid->rho[r / grid->n_T] = rho;
+        grid->T[r % grid->n_T] = row[TABLE_T];
+        node[0] = (row[TABLE_E] - grid->e_zero) - row[TABLE_T] * (row[TABLE_S] - grid->s_zero);
         node[1] = row[TABLE_P] / (rho * rho);
-        node[3] = -(row[TABLE_S] - grid.s_zero);
+        node[3] = -(row[TABLE_S] - grid->s_zero);
     }
-    table_grid_derive(&grid, 1, 2, 0);
-    table_grid_derive(&grid, 1, 4, 1);
-    table_grid_derive(&grid, 3, 6, 1);
-    table_grid_derive(&grid, 2, 5, 1);
-    table_grid_derive(&grid, 4, 7, 1);
-    table_grid_derive(&grid, 5, 8, 1);
-    *ret_grid = grid;
-    return 0;
+}
+
+/* Phases 1 to 3: derivatives of what is there, of every `parts`-th density. */
+static void table_grid_slopes(const struct table_grid *grid, unsigned phase, unsigned part, unsigned parts)
+{
+    for (size_t i = part; i < grid->n_rho; i += parts) {
+        if (phase == 1) {
+            table_grid_derive(grid, i, 1, 2, 0);
+            table_grid_derive(grid, i, 1, 4, 1);
+            table_grid_derive(grid, i, 3, 6, 1);
+        } else if (phase == 2) {
+            table_grid_derive(grid, i, 2, 5, 1);
+            table_grid_derive(grid, i, 4, 7, 1);
+        } else table_grid_derive(grid, i, 5, 8, 1);
+    }
 }
 
 /* Six numbers: value, slope and curve at both ends, or a polynomial. */

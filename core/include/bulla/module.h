@@ -41,19 +41,21 @@ extern "C" {
 /* What a parameter holds. */
 enum bulla_type {
     BULLA_NUMBER = 0, /* a double with a unit */
-    BULLA_TEXT = 1,   /* a string: a file name or free text */
-    BULLA_CHOICE = 2  /* a string out of `choices` */
+    BULLA_TEXT = 1,   /* a string: free text */
+    BULLA_CHOICE = 2, /* a string out of `choices` */
+    BULLA_FILE = 3    /* the name of a file: in a case relative to the case file, here a path that can be opened */
 };
 
 /* One key of a module's section in a case file. A table ends with `name == NULL`. */
 struct bulla_param {
-    const char *name;    /* the key, e.g. "p-inf" */
-    const char *unit;    /* SI unit, e.g. "Pa", "kg/m3", "J/kg/K", "1"; fixes the dimension */
-    double min, max;     /* allowed range, both ends included (numbers only) */
-    double fallback;     /* default; NaN: the key must be given (numbers only) */
-    const char *doc;     /* one sentence */
-    int type;            /* enum bulla_type; zero means a number */
-    const char *choices; /* choices: "a|b|c"; the first is the default. texts: NULL = required, "" = optional */
+    const char *name; /* the key, e.g. "p-inf" */
+    const char *unit; /* SI unit, e.g. "Pa", "kg/m3", "J/kg/K", "1"; fixes the dimension */
+    double min, max;  /* allowed range, both ends included (numbers only) */
+    double fallback;  /* default; NaN: the key must be given (numbers only) */
+    const char *doc;  /* one sentence */
+    int type;         /* enum bulla_type; zero means a number */
+    const char
+        *choices; /* choices: "a|b|c"; the first is the default. texts and files: NULL = required, "" = optional */
 };
 
 /* The value of one parameter, in table order. Text lives as long as the instance. */
@@ -75,7 +77,25 @@ struct bulla_host {
     uint32_t size;
     void (*say)(const char *text);  /* a line for the log */
     void (*fail)(const char *text); /* the reason why `open` is about to return non-zero */
+
+    /* Slots from here on came later: a host whose `size` ends before them has none of them. */
+
+    /* A block of `bytes` bytes (zeros at first) for what is large and only read: a table. All processes of a machine and all
+     * instances opened with the same values have it in common. If nobody has it yet, core calls
+     *     fill(context, block, phase, part, parts)   for phase = 0 .. phases - 1
+     * on `parts` processes at once, which share the work: each makes part `part` of `parts` (0 .. parts - 1). A phase
+     * begins when all parts of the one before are done. What is in the block must not depend on `parts`. `fill`
+     * returns 0, or non-zero after host->fail(reason), and then nobody gets the block. Several blocks of an instance have
+     * different names. Every process must ask for the same blocks in the same order: `open` must not look at anything
+     * but its values and such blocks before it asks.
+     * Aligned to pages; it lives as long as the instance, and core frees it. NULL: failed, the reason is given. */
+    const void *(*share)(const char *name, size_t bytes, unsigned phases,
+                         int (*fill)(void *context, void *block, unsigned phase, unsigned part, unsigned parts),
+                         void *context);
 };
+
+/* Whether a host has a slot that came later. */
+#define BULLA_HOST_HAS(host, slot) ((host)->size > offsetof(struct bulla_host, slot) && (host)->slot)
 
 struct bulla_module {
     uint32_t magic, abi, size;          /* BULLA_MAGIC, BULLA_ABI, sizeof(struct bulla_module) */
