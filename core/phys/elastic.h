@@ -93,6 +93,10 @@ void elastic_fade(const struct model *model, size_t n, size_t stride, const doub
 
 #define ELASTIC_FADE 1e-2
 
+/* Mass of solids per volume that counts as none [kg/m3]: round-off of a surface at rest leaves 1e-320 behind, by which
+ * nothing can be divided. */
+#define ELASTIC_NOTHING 1e-280
+
 /* The stretch of n points whose fields (conserved or primitive) were averaged or interpolated: faded, then det 1. What
  * this would change by round-off alone keeps its bits, so that a uniform stretch stays uniform. */
 void elastic_settle(const struct model *model, size_t n, size_t stride, double *fields);

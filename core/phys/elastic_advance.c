@@ -182,7 +182,7 @@ static ELASTIC_BODY struct elastic_tensor move_point(struct move_matrix A, struc
             struct elastic_tensor old = {                                                                        \
                 o0[i], o1[i], o2[i], MOVE_IF((nv) > 1, o3), MOVE_IF((nv) > 2, o4), MOVE_IF((nv) > 2, o5)};       \
             double now = m_new[i], before = m_old[i], most = now > before ? now : before, per = 1.0 / most;      \
-            per = most > 0.0 ? per : 0.0;                                                                        \
+            per = most > ELASTIC_NOTHING ? per : 0.0;                                                            \
             double keep = 1.0 - (now - before) * per, take = dt * per;                                           \
             struct elastic_tensor come = {take * c0[i],                                                          \
                                           take * c1[i],                                                          \

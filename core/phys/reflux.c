@@ -284,7 +284,7 @@ static void reflux_by_mass(const struct reflux *reflux, const struct reflux_valu
     unsigned kept = reflux->up->n_register + model->n_alpha + model->n_stretch;
     double arrived = 0.0, m = value->coarse[kept * value->step];
     for (unsigned s = 0; s < model->n_solid; s++) arrived += change[model->i_m + model->solids[s].material];
-    double per_m = fabs(arrived) < REFLUX_MOST * m ? 1.0 / m : 0.0;
+    double per_m = m > ELASTIC_NOTHING && fabs(arrived) < REFLUX_MOST * m ? 1.0 / m : 0.0;
     for (unsigned c = 0; c < model->n_stretch; c++) change[model->i_V + c] *= per_m;
     if (ret_arrived) *ret_arrived = arrived * per_m;
 }

@@ -288,13 +288,29 @@ static void test_cavity(void **state)
     assert_true(log2(worst[0] / worst[1]) > 1.9);
 }
 
+/* What round-off leaves of a solid where there was none has no stretch of its own, nor one that is no number. */
+static void test_traces(void **state)
+{
+    (void)state;
+    static const double masses[] = {0.0, 5e-324, 1e-320, 1e-310, 1e-300, 1e-200, 1e-30};
+    const double self = 80.0, none = 0.0, div = 0.0, gradient[4] = {0.0, 3e3, -2e3, 0.0};
+    struct model model = model_of(2, 0, 2, &self);
+    for (size_t i = 0; i < sizeof masses / sizeof *masses; i++) {
+        double carried[4] = {masses[i] * 1.5e8, masses[i] * 0.8e8, masses[i] / 1.2e-8, 0.0}, V[6];
+        const struct elastic_rates rates = {
+            .carried = carried, .m_old = &none, .m_new = &masses[i], .div = &div, .gradient = gradient};
+        elastic_advance(&model, 1, 1, 1e-8, (const double[]){1.0, 1.0, 1.0, 0.0}, &rates, V);
+        elastic_unimodular(&model, 1, 1, V);
+        assert_true(fabs(det(&model, V) - 1.0) < 1e-12);
+        assert_true(fabs(V[0] - (masses[i] > 1e-250 ? 1.5 : 1.0)) < 1e-4);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_motions),
-        cmocka_unit_test(test_turns),
-        cmocka_unit_test(test_shear_20),
-        cmocka_unit_test(test_cavity),
+        cmocka_unit_test(test_motions), cmocka_unit_test(test_turns),  cmocka_unit_test(test_shear_20),
+        cmocka_unit_test(test_cavity),  cmocka_unit_test(test_traces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
