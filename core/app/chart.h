@@ -18,6 +18,7 @@ struct chart_series {
 
 struct chart_panel {
     struct picture_scale y; /* lo, hi: the range shown */
+    const char *name;       /* what all its series show; NULL: what their names have in common */
     unsigned n_series;
     struct chart_series series[CHART_SERIES];
 };

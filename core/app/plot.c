@@ -23,6 +23,11 @@ static bool plot_is_directory(const char *path)
     return stat(path, &entry) == 0 && S_ISDIR(entry.st_mode);
 }
 
+static int plot_no_directory(const char *directory)
+{
+    return status_fail(STATUS_CASE, "no directory %s: plot wants the output directory of a run", directory);
+}
+
 /* The step in the name of a snapshot, "<case>_<step>.hdf"; -1 if it has none. */
 static long plot_step_of(const char *path)
 {
@@ -167,24 +172,53 @@ static int plot_snapshots(const char *directory, const char *fields, const struc
     return code;
 }
 
+/* How many runs a history is to show: the directories that stand before the word; 0 without it. */
+static unsigned plot_history_runs(const struct cli_given *given)
+{
+    for (int i = 1; i < given->n_word; i++) {
+        if (strcmp(given->words[i], "history") == 0) return (unsigned)i;
+        if (!plot_is_directory(given->words[i])) break;
+    }
+    return 0;
+}
+
+static int plot_histories(const struct cli_given *given, unsigned n_run, const struct plot_option *option)
+{
+    char **directories = mem_new(n_run, sizeof *directories);
+    int code = STATUS_OK;
+    for (unsigned i = 0; i < n_run; i++) directories[i] = plot_case_directory(given->words[i]);
+    if (!plot_is_directory(directories[0])) code = plot_no_directory(directories[0]);
+    if (!code)
+        code = plot_history_write((const char *const *)directories, n_run, given->words + n_run + 1,
+                                  (unsigned)given->n_word - n_run - 1, option);
+    for (unsigned i = 0; i < n_run; i++) mem_free(directories[i]);
+    mem_free(directories);
+    return code;
+}
+
 static int plot_run(const struct cli_given *given, const char *directory)
 {
     struct plot_option option;
     TRY(plot_option_read(given, &option));
     const char *what = given->n_word > 1 ? given->words[1] : NULL;
+    unsigned n_run = plot_history_runs(given);
     if (!what && !option.left)
         return status_fail(STATUS_CASE,
                            "which field? bulla plot %s pressure, or history, or map; `bulla info` lists the fields",
                            directory);
-    bool history = what && strcmp(what, "history") == 0, map = what && strcmp(what, "map") == 0;
-    if (!history && !map && given->n_word > 2)
+    bool map = what && strcmp(what, "map") == 0;
+    if (!n_run && !map && given->n_word > 2 && plot_is_directory(what))
+        return status_fail(STATUS_CASE,
+                           "several runs share a picture of their histories only: bulla plot %s %s history "
+                           "COLUMN...",
+                           directory, what);
+    if (!n_run && !map && given->n_word > 2)
         return status_fail(STATUS_CASE, "plot does not know what to do with '%s'; several fields go by comma: %s,%s",
                            given->words[2], what, given->words[2]);
     if (option.left && what)
         return status_fail(STATUS_CASE, "--left and --right name the fields; '%s' is one too many", what);
-    if (!plot_is_directory(directory))
-        return status_fail(STATUS_CASE, "no directory %s: plot wants the output directory of a run", directory);
-    if (history) return plot_history_write(directory, given->words + 2, (unsigned)(given->n_word - 2), &option);
+    if (n_run) return plot_histories(given, n_run, &option);
+    if (!plot_is_directory(directory)) return plot_no_directory(directory);
     if (map) return plot_map_write(directory, given->words + 2, (unsigned)(given->n_word - 2), &option);
     return plot_snapshots(directory, what, &option);
 }

@@ -1,4 +1,5 @@
-/* plot_history.c - see plot_history.h. Columns of one unit that follow each other share a panel. */
+/* plot_history.c - see plot_history.h. Columns of one unit that follow each other share a panel; of several runs every
+ * column has its own. */
 #include "app/plot_history.h"
 
 #include "app/chart.h"
@@ -55,7 +56,8 @@ static void history_done(struct history *history)
     scene_free(history->scene);
 }
 
-static int history_unknown(const struct history *history, const char *column)
+/* `directory`: which of several runs, or NULL. */
+static int history_unknown(const struct history *history, const char *directory, const char *column)
 {
     struct text list = {0};
     unsigned count = history->tables[0].n_column + history->tables[1].n_column, n = 0;
@@ -68,8 +70,9 @@ static int history_unknown(const struct history *history, const char *column)
             n++;
         }
     const char *near = text_nearest(column, names);
-    int code = status_fail(STATUS_CASE, "no column '%s'%s%s%s; there are: %s", column, near ? " (did you mean '" : "",
-                           near ? near : "", near ? "'?)" : "", list.at ? list.at : "none");
+    int code = status_fail(STATUS_CASE, "%s%sno column '%s'%s%s%s; there are: %s", directory ? directory : "",
+                           directory ? ": " : "", column, near ? " (did you mean '" : "", near ? near : "",
+                           near ? "'?)" : "", list.at ? list.at : "none");
     mem_free(names);
     text_done(&list);
     return code;
@@ -87,16 +90,25 @@ static const char *history_label(struct history *history, const char *column)
     return label;
 }
 
-static int history_add(struct history *history, const char *column, struct chart *chart, const char **units)
+/* The table that has the column and the times of its rows, or NULL. */
+static const struct table *history_table(const struct history *history, const char *column)
 {
     for (int i = 0; i < HISTORY_TABLES; i++) {
         const struct table *table = &history->tables[i];
-        const double *y = table_column(table, column), *t = table_column(table, "t");
-        if (!y || !t) continue;
-        struct chart_series series = {.name = history_label(history, column), .n = table->n_row, .x = t, .y = y};
-        return plot_profile_add(chart, units, series, plot_unit_of(history->scene, column));
+        if (table_column(table, column) && table_column(table, "t")) return table;
     }
-    return history_unknown(history, column);
+    return NULL;
+}
+
+static int history_add(struct history *history, const char *column, struct chart *chart, const char **units)
+{
+    const struct table *table = history_table(history, column);
+    if (!table) return history_unknown(history, NULL, column);
+    struct chart_series series = {.name = history_label(history, column),
+                                  .n = table->n_row,
+                                  .x = table_column(table, "t"),
+                                  .y = table_column(table, column)};
+    return plot_profile_add(chart, units, series, plot_unit_of(history->scene, column));
 }
 
 /* Worth a panel without being asked for: what the case measures, and what the guard did if it did anything. */
@@ -137,21 +149,28 @@ static void history_window(const struct chart *chart, const struct plot_option *
     }
 }
 
+/* Scales and draws what was filled in. */
+static int history_finish(struct chart *chart, const char *const *units, const struct plot_option *option,
+                          cairo_surface_t **ret_image)
+{
+    double window[2];
+    history_window(chart, option, window);
+    if (window[0] > window[1]) return status_fail(STATUS_CASE, "the history has no rows yet");
+    picture_scale_init(&chart->x, &(struct picture_scale_inp){.name = PICTURE_ITALIC "t" PICTURE_UPRIGHT,
+                                                              .unit = "s",
+                                                              .lo = window[0],
+                                                              .hi = window[1]});
+    TRY(plot_profile_scale(chart, units, window, option, NULL));
+    return chart_draw(chart, option->width, ret_image);
+}
+
 static int history_draw(struct history *history, const char *const *columns, unsigned n,
                         const struct plot_option *option, cairo_surface_t **ret_image)
 {
     struct chart chart = {.title = history->title, .note = ""};
     const char *units[CHART_PANELS];
-    double window[2];
     TRY(history_fill(history, columns, n, &chart, units));
-    history_window(&chart, option, window);
-    if (window[0] > window[1]) return status_fail(STATUS_CASE, "the history has no rows yet");
-    picture_scale_init(&chart.x, &(struct picture_scale_inp){.name = PICTURE_ITALIC "t" PICTURE_UPRIGHT,
-                                                             .unit = "s",
-                                                             .lo = window[0],
-                                                             .hi = window[1]});
-    TRY(plot_profile_scale(&chart, units, window, option, NULL));
-    return chart_draw(&chart, option->width, ret_image);
+    return history_finish(&chart, units, option, ret_image);
 }
 
 int plot_history_draw(const char *directory, const char *const *columns, unsigned n, const struct plot_option *option,
@@ -164,11 +183,70 @@ int plot_history_draw(const char *directory, const char *const *columns, unsigne
     return code;
 }
 
-int plot_history_write(const char *directory, const char *const *columns, unsigned n, const struct plot_option *option)
+/* A run's name in the legend: the last part of its path, the path itself if another run is called so too. */
+static const char *history_run(const char *const *directories, unsigned n, unsigned run)
+{
+    const char *slash = strrchr(directories[run], '/'), *name = slash && slash[1] ? slash + 1 : directories[run];
+    for (unsigned i = 0; i < n; i++) {
+        const char *other = strrchr(directories[i], '/');
+        if (i != run && strcmp(other && other[1] ? other + 1 : directories[i], name) == 0) return directories[run];
+    }
+    return name;
+}
+
+/* A panel for each column with a line for each run. */
+static int history_overlay(struct history *runs, const char *const *directories, unsigned n_run,
+                           const char *const *columns, unsigned n, struct chart *chart, const char **units)
+{
+    for (unsigned c = 0; c < n; c++) {
+        struct chart_panel *panel = &chart->panel[chart->n_panel++];
+        units[c] = plot_unit_of(runs[0].scene, columns[c]);
+        panel->name = history_label(&runs[0], columns[c]);
+        for (unsigned i = 0; i < n_run; i++) {
+            const struct table *table = history_table(&runs[i], columns[c]);
+            if (!table) return history_unknown(&runs[i], directories[i], columns[c]);
+            panel->series[panel->n_series++] = (struct chart_series){.name = history_run(directories, n_run, i),
+                                                                     .n = table->n_row,
+                                                                     .x = table_column(table, "t"),
+                                                                     .y = table_column(table, columns[c])};
+        }
+    }
+    return STATUS_OK;
+}
+
+static int history_compare(const char *const *directories, unsigned n_run, const char *const *columns, unsigned n,
+                           const struct plot_option *option, cairo_surface_t **ret_image)
+{
+    if (n_run > CHART_SERIES)
+        return status_fail(STATUS_CASE, "%u runs in one picture: at most %d", n_run, CHART_SERIES);
+    if (n > CHART_PANELS) return status_fail(STATUS_CASE, "%u columns in one picture: at most %d", n, CHART_PANELS);
+    if (!n)
+        return status_fail(STATUS_CASE, "which columns of the %u runs? bulla plot DIR1 DIR2 ... history COLUMN...",
+                           n_run);
+    struct history runs[CHART_SERIES] = {0};
+    struct chart chart = {.note = ""};
+    const char *units[CHART_PANELS];
+    unsigned open = 0;
+    int code = STATUS_OK;
+    while (!code && open < n_run) {
+        code = history_open(directories[open], &runs[open]);
+        open++;
+    }
+    chart.title = runs[0].title;
+    if (!code) code = history_overlay(runs, directories, n_run, columns, n, &chart, units);
+    if (!code) code = history_finish(&chart, units, option, ret_image);
+    for (unsigned i = 0; i < open; i++) history_done(&runs[i]);
+    return code;
+}
+
+int plot_history_write(const char *const *directories, unsigned n_directory, const char *const *columns, unsigned n,
+                       const struct plot_option *option)
 {
     cairo_surface_t *image;
-    TRY(plot_history_draw(directory, columns, n, option, &image));
-    char *path = option->output ? mem_text(option->output) : mem_print("%s/plots/history.png", directory);
+    if (n_directory > 1) TRY(history_compare(directories, n_directory, columns, n, option, &image));
+    else TRY(plot_history_draw(directories[0], columns, n, option, &image));
+    char *path = option->output ? mem_text(option->output)
+                                : mem_print("%s/plots/%s.png", directories[0], n_directory > 1 ? "compare" : "history");
     int code = picture_canvas_write(image, path);
     if (!code) printf("%s\n", path);
     cairo_surface_destroy(image);

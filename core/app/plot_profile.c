@@ -23,11 +23,12 @@ int plot_profile_add(struct chart *chart, const char *units[CHART_PANELS], struc
     return STATUS_OK;
 }
 
-/* What the names of a panel have in common: "volume fraction" of "volume fraction of air" and "... of water". */
+/* The name of a panel, or what those of its series have in common: "volume fraction" of "volume fraction of air" and
+ * "... of water". */
 static void profile_name(const struct chart_panel *panel, char *ret_name, size_t size)
 {
-    snprintf(ret_name, size, "%s", panel->series[0].name);
-    for (unsigned i = 1; i < panel->n_series; i++) {
+    snprintf(ret_name, size, "%s", panel->name ? panel->name : panel->series[0].name);
+    for (unsigned i = 1; !panel->name && i < panel->n_series; i++) {
         size_t same = 0, word = 0;
         const char *other = panel->series[i].name;
         for (; ret_name[same] && ret_name[same] == other[same]; same++)
@@ -37,7 +38,8 @@ static void profile_name(const struct chart_panel *panel, char *ret_name, size_t
     }
     size_t length = strlen(ret_name);
     const char *tail = length > 3 ? ret_name + length - 3 : "";
-    if (panel->n_series > 1 && (strcmp(tail, " of") == 0 || strcmp(tail, " at") == 0)) ret_name[length - 3] = '\0';
+    if (!panel->name && panel->n_series > 1 && (strcmp(tail, " of") == 0 || strcmp(tail, " at") == 0))
+        ret_name[length - 3] = '\0';
 }
 
 /* The range that a panel shows of data that reach from range[0] to range[1]. */
@@ -72,8 +74,8 @@ int plot_profile_scale(struct chart *chart, const char *const units[CHART_PANELS
         if (extremes) memcpy(range, extremes[p], sizeof range);
         for (unsigned i = 0; !extremes && i < panel->n_series; i++)
             chart_range(&panel->series[i], window, &range[0], &range[1]);
-        TRY(profile_range(panel->series[0].name, option, range));
         profile_name(panel, name, sizeof name);
+        TRY(profile_range(panel->name ? name : panel->series[0].name, option, range));
         picture_scale_init(&panel->y,
                            &(struct picture_scale_inp){
                                .name = name, .unit = units[p], .lo = range[0], .hi = range[1], .log = option->log});

@@ -86,3 +86,19 @@ written edge.png "$BULLA" plot box density --slice x=0.1mm -o edge.png
 written cut.png "$BULLA" plot box density --slice x=0 --slice y=0 -o cut.png
 refused "nothing is left" "$BULLA" plot box density --slice x=0 --slice y=0 --slice z=0
 refused "axisymmetric" "$BULLA" plot box density --mirror
+
+# Histories of several runs on one picture: a panel for each column, a line for each run.
+written line/plots/compare.png "$BULLA" plot line/ ring box history V pmax
+written alone.png "$BULLA" plot line history V pmax -o alone.png
+written two.png "$BULLA" plot line ring history V pmax -o two.png
+! cmp -s two.png line/plots/compare.png
+! cmp -s two.png alone.png
+mkdir other
+cp -r line other/line # of one name: told apart by their paths
+written same.png "$BULLA" plot line other/line history V -o same.png
+refused "ring: no column 'W'; there are: step, dt, V, pmax" "$BULLA" plot ring line history W
+refused "which columns of the 2 runs" "$BULLA" plot line ring history
+refused "9 runs in one picture: at most 8" "$BULLA" plot line line line line line line line line line history V
+refused "no history.csv and no probes.csv in other" "$BULLA" plot ring other history V
+refused "bulla plot line ring history COLUMN" "$BULLA" plot line ring pressure
+refused "no directory nowhere" "$BULLA" plot nowhere line history V
