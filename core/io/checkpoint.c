@@ -130,6 +130,10 @@ static void checkpoint_note(const struct state *state, struct notes *notes)
     notes_put(notes, "state.level_steps", MESH_LEVELS, steps);
     notes_put(notes, "counts.of_all_ranks", 6, sums);
     notes_put_one(notes, "cells.carried", (double)counts.carried);
+    const struct mix_effort *closures = &counts.closures;
+    notes_put(notes, "counts.closures", 4,
+              (double[]){(double)closures->solved, (double)closures->steps, (double)closures->failed,
+                         (double)closures->most});
     checkpoint_note_tagged(state, notes);
     notes_put(notes, "counts.of_each_rank", 2, (double[]){(double)counts.retries, (double)counts.regrids});
 }

@@ -65,6 +65,19 @@ static int rebuild_steps(const struct resume *resume, struct state_source *sourc
     return STATUS_OK;
 }
 
+/* Older checkpoints do not have them. */
+static int rebuild_closures(const struct resume *resume, struct mix_effort *ret_closures)
+{
+    double counts[4];
+    if (!notes_get(&resume->notes, "counts.closures", 4, counts)) return STATUS_OK;
+    if (!rebuild_is_count(4, counts)) return resume_damaged(resume, "counts that no run can have");
+    *ret_closures = (struct mix_effort){.solved = (long long)counts[0],
+                                        .steps = (long long)counts[1],
+                                        .failed = (long long)counts[2],
+                                        .most = (long long)counts[3]};
+    return STATUS_OK;
+}
+
 /* Counts of all ranks go on with rank 0. */
 static int rebuild_counts(const struct resume *resume, struct state_counts *ret_counts)
 {
@@ -80,7 +93,7 @@ static int rebuild_counts(const struct resume *resume, struct state_counts *ret_
                          &ret_counts->clipped, &ret_counts->limited,  &ret_counts->spread};
     for (int i = 0; i < 6; i++) *sums[i] = (long long)all[i];
     ret_counts->carried = (long long)carried;
-    return STATUS_OK;
+    return rebuild_closures(resume, &ret_counts->closures);
 }
 
 /* What criteria have tagged goes on with rank 0, if they are as many as before. */

@@ -10,6 +10,7 @@
 
 #include "base/mem.h"
 #include "phys/face_stress.h"
+#include "phys/present.h"
 
 #include <math.h>
 #include <string.h>
@@ -313,7 +314,8 @@ static void face_complete(struct face_work *work, const struct frame *frame, siz
         const double *rho_l = own->state + 2 * (model->i_m + l) * FACE_ROOM,
                      *alpha = own->state + 2 * (model->i_alpha + l) * FACE_ROOM;
         double *m = own->m + 2 * l * FACE_ROOM, *stiffness = own->stiffness;
-        model->eos[l].law->state(model->eos[l].self, n, rho_l, p, own->term, stiffness);
+        struct present present = {n, alpha, rho_l, p};
+        present_state(&model->eos[l], &present, own->term, stiffness);
         if (l == 0) face_first_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
         else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
     }

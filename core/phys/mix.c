@@ -7,11 +7,12 @@
 #include "phys/mix.h"
 
 #include "phys/elastic.h"
+#include "phys/present.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MIX_BATCH = 512 };
+enum { MIX_BATCH = MIX_PRESSURE_BATCH };
 
 struct mix_row {
     double value[MIX_BATCH];
@@ -99,113 +100,12 @@ static BULLA_KERNEL void mix_velocity(size_t n, const double *restrict momentum,
     }
 }
 
-/* p = (rho E - rho |u|^2/2 - b) / a. */
-static BULLA_KERNEL void mix_pressure(size_t n, const double *restrict energy, const double *restrict twice,
-                                      const double *restrict a, const double *restrict b, double *restrict p)
+/* rho e = rho E - rho |u|^2/2. */
+static BULLA_KERNEL void mix_internal(size_t n, const double *restrict energy, const double *restrict twice,
+                                      double *restrict rho_e)
 {
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) p[i] = ((energy[i] - 0.5 * twice[i]) - b[i]) / a[i];
-}
-
-/* Energies that a pressure is closed from. */
-struct mix_budget {
-    const double *energy, *twice;
-};
-
-static void mix_close_linear(const struct model *model, size_t n, size_t stride, const struct mix_budget *budget,
-                             double *w)
-{
-    struct mix_row a, b, sum_a, sum_b;
-    mix_zero(n, &sum_a);
-    mix_zero(n, &sum_b);
-    for (unsigned l = 0; l < model->n_material; l++) {
-        const double *alpha = w + (model->i_alpha + l) * stride, *rho = w + (model->i_m + l) * stride;
-        model->eos[l].law->linear(model->eos[l].self, n, rho, a.value, b.value);
-        if (model->n_alpha) {
-            mix_add_product(n, alpha, a.value, sum_a.value);
-            mix_add_product(n, alpha, b.value, sum_b.value);
-        } else {
-            memcpy(sum_a.value, a.value, n * sizeof *a.value);
-            memcpy(sum_b.value, b.value, n * sizeof *b.value);
-        }
-    }
-    mix_pressure(n, budget->energy, budget->twice, sum_a.value, sum_b.value, w + model->i_E * stride);
-}
-
-/* F(p) = sum alpha_l rho_l e_l - rho e and F'(p) at the trial pressures. */
-static void mix_residual(const struct model *model, size_t n, size_t stride, const double *w, const double *p,
-                         struct mix_row *ret_f, struct mix_row *ret_slope)
-{
-    struct mix_row e, c2, de_dp, de_drho;
-    for (unsigned l = 0; l < model->n_material; l++) {
-        const struct model_eos *eos = &model->eos[l];
-        const double *rho = w + (model->i_m + l) * stride;
-        if (BULLA_EOS_HAS(eos->law, energy)) {
-            eos->law->energy(eos->self, n, rho, p, e.value, de_dp.value);
-        } else {
-            eos->law->state(eos->self, n, rho, p, e.value, c2.value);
-            eos->law->derivatives(eos->self, n, rho, p, de_dp.value, de_drho.value);
-        }
-        for (size_t i = 0; i < n; i++) {
-            double alpha = model->n_alpha ? w[(model->i_alpha + l) * stride + i] : 1.0;
-            ret_f->value[i] += alpha * e.value[i];
-            ret_slope->value[i] += alpha * de_dp.value[i];
-        }
-    }
-}
-
-/* Lowest pressure at which all present materials are well-posed. */
-static void mix_floor(const struct model *model, size_t n, size_t stride, const double *w, struct mix_row *ret_low)
-{
-    struct mix_row low;
-    for (size_t i = 0; i < n; i++) ret_low->value[i] = -HUGE_VAL;
-    for (unsigned l = 0; l < model->n_material; l++) {
-        model->eos[l].law->p_min(model->eos[l].self, n, w + (model->i_m + l) * stride, low.value);
-        for (size_t i = 0; i < n; i++) {
-            bool present = !model->n_alpha || w[(model->i_alpha + l) * stride + i] > MIX_ABSENT;
-            if (present && low.value[i] > ret_low->value[i]) ret_low->value[i] = low.value[i];
-        }
-    }
-}
-
-/* Newton with a bracket (eos.md 9): F grows with p, so the sign of F moves one end of [low, high];
- * a step that leaves the bracket is replaced by bisection, or doubling while there is no upper
- * end. Every point keeps iterating until all have converged, so a result does not depend on its
- * neighbours: a converged point no longer moves. */
-static void mix_close_newton(const struct model *model, size_t n, size_t stride, const struct mix_budget *budget,
-                             double *w)
-{
-    enum { ROUNDS = 60 };
-    struct mix_row low, high, f, slope;
-    double *p = w + model->i_E * stride;
-    bool done[MIX_BATCH] = {false}, all = false;
-    mix_floor(model, n, stride, w, &low);
-    for (size_t i = 0; i < n; i++) {
-        high.value[i] = HUGE_VAL;
-        if (!(p[i] > low.value[i]) || !isfinite(p[i])) p[i] = low.value[i] < 0.0 ? 1e5 : 2.0 * low.value[i] + 1e5;
-    }
-    for (int round = 0; round < ROUNDS && !all; round++) {
-        all = true;
-        mix_zero(n, &f);
-        mix_zero(n, &slope);
-        mix_residual(model, n, stride, w, p, &f, &slope);
-        for (size_t i = 0; i < n; i++) {
-            if (done[i]) continue;
-            double e = budget->energy[i] - 0.5 * budget->twice[i], excess = f.value[i] - e, old = p[i];
-            double newton = excess / slope.value[i], next = old - newton;
-            double floor_error = 4.0 * 2.2e-16 * (fabs(e) + fabs(f.value[i])) / slope.value[i];
-            double tolerance = 1e-13 * fabs(old) > floor_error ? 1e-13 * fabs(old) : floor_error;
-            done[i] = fabs(newton) <= tolerance; /* a bracket that shrinks onto its lower end is no root */
-            if (excess > 0) high.value[i] = old;
-            else low.value[i] = old;
-            if (!done[i] && !(next > low.value[i] && next < high.value[i]))
-                next = isfinite(high.value[i]) ? 0.5 * (low.value[i] + high.value[i]) : 2.0 * fabs(old) + 1e5;
-            p[i] = next;
-            all = all && done[i];
-        }
-    }
-    for (size_t i = 0; i < n; i++)
-        if (!done[i]) p[i] = NAN; /* guard finds it */
+    for (size_t i = 0; i < n; i++) rho_e[i] = energy[i] - 0.5 * twice[i];
 }
 
 /* Fractions above `least` with more than `least_mass`, at sum 1, and the densities that follow. */
@@ -251,9 +151,10 @@ static void mix_unload(const struct model *model, size_t n, size_t stride, const
 
 /* The pressure is closed with all there is of every material, since the conserved energy holds it: a trace
  * of 1e-12 of water weighs 1e-3 J/m3. Only then traces are dropped from what fluxes will see. */
-static void mix_primitives_batch(const struct model *model, size_t n, size_t stride, const double *u, double *w)
+static struct mix_effort mix_primitives_batch(const struct model *model, size_t n, size_t stride, const double *u,
+                                              double *w)
 {
-    struct mix_row rho, twice;
+    struct mix_row rho, twice, rho_e;
     mix_zero(n, &rho);
     mix_zero(n, &twice);
     unsigned i_m = model->i_m;
@@ -264,23 +165,27 @@ static void mix_primitives_batch(const struct model *model, size_t n, size_t str
     for (unsigned q = model->i_u; q < model->i_E; q++) {
         mix_velocity(n, u + q * stride, rho.value, w + q * stride, twice.value);
     }
-    struct mix_budget budget = {u + model->i_E * stride, twice.value};
+    const double *energy = u + model->i_E * stride;
     struct mix_row rest;
     if (model->n_stretch) {
         mix_unload(model, n, stride, u, w, &rest);
-        budget.energy = rest.value;
+        energy = rest.value;
     }
-    if (model->linear) mix_close_linear(model, n, stride, &budget, w);
-    else mix_close_newton(model, n, stride, &budget, w);
+    mix_internal(n, energy, twice.value, rho_e.value);
+    struct mix_effort effort = mix_pressure_close(model, n, stride, rho_e.value, w);
     for (unsigned l = 0; l < model->n_alpha; l++)
         traces += mix_count_traces(n, u + (model->i_alpha + l) * stride, u + (i_m + l) * stride);
     if (traces > 0.0) mix_fractions(model, n, stride, u, MIX_ABSENT, 0.0, w);
+    return effort;
 }
 
-void mix_primitives(const struct model *model, size_t n, size_t stride, const double *u, double *w)
+struct mix_effort mix_primitives(const struct model *model, size_t n, size_t stride, const double *u, double *w)
 {
+    struct mix_effort effort = {0};
     for (size_t i = 0; i < n; i += MIX_BATCH)
-        mix_primitives_batch(model, n - i < MIX_BATCH ? n - i : MIX_BATCH, stride, u + i, w + i);
+        mix_pressure_sum(&effort,
+                         mix_primitives_batch(model, n - i < MIX_BATCH ? n - i : MIX_BATCH, stride, u + i, w + i));
+    return effort;
 }
 
 /* Copies the stretch and adds the elastic energy; u has its partial densities. */
@@ -348,17 +253,30 @@ static BULLA_KERNEL void mix_divide(size_t n, const double *restrict a, const do
     for (size_t i = 0; i < n; i++) ratio[i] = a[i] / b[i];
 }
 
-void mix_stiffness(const struct model *model, size_t n, size_t stride, const double *w, double *rho_c2)
+/* `everywhere`: also where a material is absent, at its fill density. */
+static void mix_stiff(const struct model *model, size_t n, size_t stride, const double *w, bool everywhere,
+                      double *rho_c2)
 {
     const double *p = w + model->i_E * stride;
     for (unsigned l = 0; l < model->n_material; l++) {
-        const double *rho = w + (model->i_m + l) * stride;
+        const double *rho = w + (model->i_m + l) * stride, *alpha = w + (model->i_alpha + l) * stride;
+        if (everywhere || !model->n_alpha) alpha = NULL;
         for (size_t i = 0; i < n; i += MIX_BATCH) {
             struct mix_row e;
-            size_t count = n - i < MIX_BATCH ? n - i : MIX_BATCH;
-            model->eos[l].law->state(model->eos[l].self, count, rho + i, p + i, e.value, rho_c2 + l * stride + i);
+            struct present part = {n - i < MIX_BATCH ? n - i : MIX_BATCH, alpha ? alpha + i : NULL, rho + i, p + i};
+            present_state(&model->eos[l], &part, e.value, rho_c2 + l * stride + i);
         }
     }
+}
+
+void mix_stiffness(const struct model *model, size_t n, size_t stride, const double *w, double *rho_c2)
+{
+    mix_stiff(model, n, stride, w, false, rho_c2);
+}
+
+void mix_stiffness_everywhere(const struct model *model, size_t n, size_t stride, const double *w, double *rho_c2)
+{
+    mix_stiff(model, n, stride, w, true, rho_c2);
 }
 
 /* Partial densities alpha_l rho_l of the solids from primitives; one material alone has them at hand. */

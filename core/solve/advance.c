@@ -51,6 +51,7 @@ static double advance_rounds(struct state *state, struct stage *stage, double *r
 {
     bool strict = state->scene->guard == SCENE_GUARD_STRICT;
     stage->cells = stage->carried = stage->clipped = 0;
+    stage->effort = (struct mix_effort){0};
     guard_clear(stage->guard);
     for (int round = 0;; round++) {
         stage->guard->last = strict || round == GUARD_ROUNDS;
@@ -71,6 +72,7 @@ static void advance_accept(struct state *state, struct stage *stage, double sign
     state->counts.cells += stage->cells;
     state->counts.carried += stage->carried;
     state->counts.clipped += stage->clipped;
+    mix_pressure_sum(&state->counts.closures, stage->effort);
     state->counts.relaxed += stage->guard->relaxed;
     stage->clipped = 0;
 }

@@ -102,7 +102,7 @@ static void replay_update(struct replay *replay)
     }
     for (int axis = 0; axis < replay->mesh.dim; axis++) replay_sweep(replay, axis, &metric, hoop);
     if (used->kapila) {
-        mix_stiffness(used, n_cell, n_cell, w, replay->rho_c2);
+        mix_stiffness_everywhere(used, n_cell, n_cell, w, replay->rho_c2);
         mix_closure(used, n_cell, n_cell, w, replay->rho_c2, replay->K);
     }
     struct update_input input = {

@@ -96,11 +96,11 @@ void stage_ghosts(struct stage *stage)
     cost_lap(&stage->work->cost, COST_LEVELS);
 }
 
-/* Has a tile nothing to compute in this stage? Iterated closures, repeated steps and tiles whose fluxes another level
- * asks for are not skipped. */
+/* Has a tile nothing to compute in this stage? Repeated steps and tiles whose fluxes another level asks for are not
+ * skipped. */
 static bool stage_skips(const struct stage *stage, unsigned local)
 {
-    if (!stage->census.tiles[local].still || stage->guard->masked || !stage->model->linear) return false;
+    if (!stage->census.tiles[local].still || stage->guard->masked) return false;
     return !reflux_concerns(stage->reflux, local) && census_rests(&stage->census, local);
 }
 
@@ -218,7 +218,7 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double dt, d
     const double *hoop = stage_hoop(stage, model, level->w[local]);
     for (int axis = 0; axis < mesh->dim; axis++) stage_sweep(stage, model, local, axis, &metric, hoop);
     if (model->kapila) {
-        mix_stiffness(model, n_cell, n_cell, level->w[local], work->rho_c2);
+        mix_stiffness_everywhere(model, n_cell, n_cell, level->w[local], work->rho_c2);
         mix_closure(model, n_cell, n_cell, level->w[local], work->rho_c2, work->K);
     }
     if (stage->fluxes) reflux_keep(stage->reflux, model, local, level->w[local], model->kapila ? work->K : NULL);
@@ -236,7 +236,7 @@ static void stage_judge(struct stage *stage, unsigned local, int judged, const d
     struct stage_work *work = stage->work;
     const struct model *model = stage->census.tiles[local].path;
     size_t n_cell = stage->mesh->n_cell;
-    mix_primitives(model, n_cell, n_cell, u, w);
+    mix_pressure_sum(&stage->effort, mix_primitives(model, n_cell, n_cell, u, w));
     mix_stiffness(model, n_cell, n_cell, w, work->rho_c2);
     mix_speed2(model, n_cell, n_cell, w, work->rho_c2, work->c2);
     if (blame_concerns(stage->blame, local)) blame_result(stage->blame, model, u, w);

@@ -12,6 +12,7 @@
 
 #include "phys/bound.h"
 #include "phys/face.h"
+#include "phys/mix_pressure.h"
 #include "phys/prolong.h"
 #include "phys/reflux.h"
 #include "solve/blame.h"
@@ -50,6 +51,7 @@ struct stage {
     double signal;       /* largest of the local tiles */
     bool fluxes;         /* the stage under way makes the step: coarse-fine fluxes are kept */
     long long cells, carried, clipped; /* work done, rank-local */
+    struct mix_effort effort;          /* of iterated closures, likewise */
 };
 
 struct stage *stage_new(const struct model *model, struct mesh *mesh, int l, struct stage_work *work);

@@ -104,8 +104,6 @@ static int state_load_level(struct state *state, const struct state_source *sour
         status = source->fill(source->data, l, level->first + t, level->u_old[t], p);
         memcpy(level->w[t] + state->model->i_E * n_cell, p, n_cell * sizeof *p);
         mix_primitives(state->model, n_cell, n_cell, level->u_old[t], level->w[t]);
-        if (!state->model->linear) /* an iteration would go one step further than it did */
-            memcpy(level->w[t] + state->model->i_E * n_cell, p, n_cell * sizeof *p);
     }
     mem_free(p);
     return comm_agree(status);
@@ -146,11 +144,15 @@ void state_free(struct state *state)
 struct state_counts state_counts_total(const struct state *state)
 {
     struct state_counts total = state->counts;
-    long long *sums[] = {&total.cells,   &total.carried, &total.fallback, &total.relaxed,
-                         &total.clipped, &total.limited, &total.spread};
+    struct mix_effort *closures = &total.closures;
+    long long *sums[] = {&total.cells,  &total.carried, &total.fallback,   &total.relaxed,   &total.clipped,
+                         &total.spread, &total.limited, &closures->solved, &closures->steps, &closures->failed};
+    double most = (double)closures->most;
     long long values[sizeof sums / sizeof *sums];
     for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) values[i] = *sums[i];
     comm_sum_counts(values, (int)(sizeof sums / sizeof *sums));
     for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) *sums[i] = values[i];
+    comm_max(&most, 1);
+    closures->most = (long long)most;
     return total;
 }

@@ -4,21 +4,23 @@
 
 #include "case/scene.h"
 #include "mesh/mesh.h"
+#include "phys/mix_pressure.h"
 #include "phys/model.h"
 
 /* Everything the guard did, and the work done, on this rank; state_counts_total sums the ranks. */
 struct state_counts {
     /* all but retries and regrids are sums over ranks */
-    long long cells;       /* cell-stages advanced */
-    long long carried;     /* of these: in resting tiles, which are only copied on */
-    long long fallback;    /* cell-steps redone with first-order fluxes */
-    long long relaxed;     /* cell-stages whose volume fractions came from pressure relaxation */
-    long long clipped;     /* cell-stages with a volume fraction clipped into its range */
-    long long retries;     /* steps repeated with half the time step */
-    long long regrids;     /* times that a level's tiles changed */
-    long long limited;     /* coarse cells whose children got less than the full slopes */
-    long long spread;      /* tiles where refluxing was more than one cell could take (spread.h) */
-    double regrid_seconds; /* CPU time of this rank spent on regridding */
+    long long cells;            /* cell-stages advanced */
+    long long carried;          /* of these: in resting tiles, which are only copied on */
+    long long fallback;         /* cell-steps redone with first-order fluxes */
+    long long relaxed;          /* cell-stages whose volume fractions came from pressure relaxation */
+    long long clipped;          /* cell-stages with a volume fraction clipped into its range */
+    long long retries;          /* steps repeated with half the time step */
+    long long regrids;          /* times that a level's tiles changed */
+    long long limited;          /* coarse cells whose children got less than the full slopes */
+    long long spread;           /* tiles where refluxing was more than one cell could take (spread.h) */
+    struct mix_effort closures; /* iterated mixture pressures; `most` over all ranks */
+    double regrid_seconds;      /* CPU time of this rank spent on regridding */
 };
 
 struct stage;

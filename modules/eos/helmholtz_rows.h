@@ -239,7 +239,7 @@ static double helmholtz_density_at(const struct helmholtz *self, double p, doubl
         else high = rho;
         rho = next;
     }
-    return rho;
+    return rho > low && rho < high ? rho : 0.5 * (low + high); /* the bracket closes on the edge of the domain */
 }
 
 static void helmholtz_density(const void *instance, size_t n, const double *BULLA_RESTRICT p,

@@ -29,6 +29,23 @@ static void start(struct flow *flow, unsigned n)
     mem_free(materials);
 }
 
+/* Makes a model iterate: its laws keep it a secret that they are linear in p. */
+static void hide_linear(struct model *model)
+{
+    static struct bulla_eos hidden[8]; /* of the first material of each law */
+    static const struct bulla_eos *laws[8];
+    model->linear = false;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        unsigned k = 0;
+        while (laws[k] && laws[k] != model->eos[l].law) k++;
+        assert_true(k < 8);
+        laws[k] = model->eos[l].law;
+        hidden[k] = *laws[k];
+        hidden[k].linear = NULL;
+        model->eos[l].law = &hidden[k];
+    }
+}
+
 /* Random fractions, some exactly 0, some 1; densities as those of the absent are defined. */
 static void random_states(const struct model *model, double *w)
 {
@@ -73,7 +90,7 @@ static void check_inverse(unsigned n_material)
     struct flow flow;
     start(&flow, n_material);
     struct model closed = *flow.state->model, iterated = closed;
-    iterated.linear = false;
+    hide_linear(&iterated);
     size_t size = (size_t)closed.n_field * POINTS;
     double *w = mem_new(size, sizeof *w), *u = mem_new(size, sizeof *u), *got = mem_new(size, sizeof *got);
     assert_true(closed.linear);
@@ -82,7 +99,8 @@ static void check_inverse(unsigned n_material)
     mix_primitives(&closed, POINTS, POINTS, u, got);
     double error = error_of(&closed, u, w, got);
     for (size_t i = 0; i < size; i++) got[i] = 0.0; /* the iteration starts from nothing */
-    mix_primitives(&iterated, POINTS, POINTS, u, got);
+    struct mix_effort effort = mix_primitives(&iterated, POINTS, POINTS, u, got);
+    assert_true(effort.solved == POINTS && effort.failed == 0 && effort.steps >= POINTS);
     double newton = error_of(&closed, u, w, got);
     print_message("%u materials: closed form %.1e, iteration %.1e\n", n_material, error, newton);
     assert_true(error < 4e-14);
@@ -111,7 +129,7 @@ static void test_alone(void **state)
     random_states(&model, w);
     mix_conserved(&model, POINTS, POINTS, w, u);
     for (unsigned iterate = 0; iterate < 2; iterate++) {
-        model.linear = !iterate;
+        if (iterate) hide_linear(&model);
         for (size_t i = 7; i < POINTS; i += 50) { /* some traces */
             if (u[i] > 0.5) continue;
             u[i] = 1e-14;
@@ -142,7 +160,7 @@ static void test_no_pressure(void **state)
     struct model model = *flow.state->model;
     for (unsigned iterate = 0; iterate < 2; iterate++) {
         double w[FLOW_FIELDS] = {0.0, 1.0, 1000.0, 1.2, 0.0, 0.0, 1e5}, u[FLOW_FIELDS], stiff[2];
-        model.linear = !iterate;
+        if (iterate) hide_linear(&model);
         mix_conserved(&model, 1, 1, w, u);
         u[model.i_E] = -1e3;
         mix_primitives(&model, 1, 1, u, w);
@@ -268,8 +286,8 @@ static void test_run(void **state)
                              "  - {half-space: {point: [0.7], normal: [1]}, material: water, density: 1000, "
                              "pressure: 1e9}\nrun: {until: 1}\n"));
         struct model *model = flow[i].state->model;
-        model->linear = i == 0;
-        for (unsigned l = 0; l < model->n_alpha; l++) model->pure[l]->linear = i == 0;
+        if (i) hide_linear(model);
+        for (unsigned l = 0; i && l < model->n_alpha; l++) hide_linear(model->pure[l]);
         flow_until(&flow[i], 1e-4);
     }
     for (unsigned q = 0; q < flow[0].state->model->n_field; q++) {
