@@ -78,7 +78,7 @@ static void test_strict(void **state)
 {
     (void)state;
     struct flow flow;
-    flow_start(&flow, parting(FLOW_WATER FLOW_AIR, 300.0, "{limiter: superbee, cfl: 0.9, guard: strict}"));
+    flow_start(&flow, parting(FLOW_WATER FLOW_AIR, 800.0, "{limiter: superbee, cfl: 0.9, guard: strict}"));
     assert_int_equal(run_to_failure(&flow, 100), STATUS_RUN);
     check_says((const char *const[]){"strict", "air", "stage", "cell at (", "pressure", NULL});
     assert_int_equal(flow.state->counts.retries, 0);
@@ -104,7 +104,7 @@ static void test_repairs(void **state)
 {
     (void)state;
     struct flow flow;
-    flow_start(&flow, parting(FLOW_WATER FLOW_AIR, 300.0, "{limiter: superbee, cfl: 0.9}"));
+    flow_start(&flow, parting(FLOW_WATER FLOW_AIR, 800.0, "{limiter: superbee, cfl: 0.9}"));
     flow_steps(&flow, 100);
     struct state_counts counts = state_counts_total(flow.state);
     assert_true(counts.relaxed > 0);
