@@ -13,6 +13,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "phys/source.h"
 #include "phys/tag.h"
 #include "solve/advance.h"
 
@@ -30,6 +31,14 @@ struct check_cost {
 };
 
 static const char *const check_geometry[] = {"cartesian", "axisymmetric", "spherical"};
+
+static void check_print_sources(const struct scene *scene)
+{
+    struct text text = {0};
+    source_text(scene, &text);
+    if (text.at) printf("  %-12s %s\n", "sources", text.at);
+    text_done(&text);
+}
 
 static void check_print_module(const char *what, const struct instance *instance)
 {
@@ -186,6 +195,7 @@ static void check_print(const struct scene *scene, const struct model *model, co
     printf("  %-12s %s\n", "closure", scene->closure == SCENE_KAPILA ? "kapila" : "allaire");
     check_print_module("riemann", &scene->riemann);
     check_print_module("limiter", &scene->limiter);
+    check_print_sources(scene);
     if (scene->n_material > 1) check_print_module("interface", &scene->interface_limiter);
     double bytes = SCENES_BESIDE * scenes_bytes(scene, mesh->all);
     printf("  %-12s about %s", "memory", human_bytes(bytes, text));

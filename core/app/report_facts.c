@@ -157,6 +157,8 @@ void report_facts_run(struct text *page, const char *directory)
     }
     facts_levels(page, root);
     facts_drift(page, json_object_get(root, "conservation"));
+    if (json_object_get(root, "sources"))
+        facts_add(page, "sources, part of these changes", json_string_value(json_object_get(root, "sources")));
     facts_guard(page, json_object_get(root, "guard"));
     text_add(page, "</div>\n");
     json_decref(root);

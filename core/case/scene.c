@@ -83,6 +83,7 @@ static void scene_fill(struct draft *draft)
     scene_refine(draft);
     scene_boundary(draft);
     scene_initial(draft);
+    scene_source(draft);
     scene_output(draft);
     scene_history(draft);
     scene_map(draft);
@@ -254,6 +255,7 @@ void scene_free(struct scene *scene)
         mem_free(scene->layers[i].density);
     }
     mem_free(scene->layers);
+    mem_free(scene->sources);
     for (unsigned i = 0; i < scene->n_refine; i++) {
         shape_free(scene->refines[i].where);
         mem_free(scene->refines[i].uses);

@@ -83,6 +83,25 @@ struct scene_layer {
     int line;                      /* in the case file, for messages */
 };
 
+/* Volumetric sources, one value after the other: where those of a kind begin. By axis, by material, and of the stretch
+ * xx, yy, zz, xy, xz, yz. */
+enum scene_source {
+    SCENE_SOURCE_ACCELERATION,                                      /* m/s2 */
+    SCENE_SOURCE_FORCE = SCENE_SOURCE_ACCELERATION + SCENE_AXES,    /* N/m3 */
+    SCENE_SOURCE_HEATING = SCENE_SOURCE_FORCE + SCENE_AXES,         /* W/m3, of all that is there */
+    SCENE_SOURCE_HEATING_OF,                                        /* W per m3 of the material */
+    SCENE_SOURCE_MASS = SCENE_SOURCE_HEATING_OF + SCENE_MATERIALS,  /* kg/(m3 s) */
+    SCENE_SOURCE_FRACTION = SCENE_SOURCE_MASS + SCENE_MATERIALS,    /* 1/s */
+    SCENE_SOURCE_STRETCH = SCENE_SOURCE_FRACTION + SCENE_MATERIALS, /* 1/s */
+    SCENE_SOURCES = SCENE_SOURCE_STRETCH + 6
+};
+
+/* What acts throughout the domain; values of x, y, z, r, t. What is not given is 0. */
+struct scene_sources {
+    struct scene_value value[SCENE_SOURCES];
+    const struct script *script; /* function(x, y, z, t) that returns a table of them, added to the values; or NULL */
+};
+
 enum scene_closure { SCENE_KAPILA, SCENE_ALLAIRE };
 enum scene_guard { SCENE_GUARD_NORMAL, SCENE_GUARD_STRICT };
 
@@ -217,6 +236,7 @@ struct scene {
     struct scene_material material[SCENE_MATERIALS];
     unsigned n_layer;
     struct scene_layer *layers;
+    struct scene_sources *sources; /* NULL: none */
     enum scene_closure closure;
     struct instance riemann, limiter;
     struct instance interface_limiter; /* of the volume fractions */

@@ -230,7 +230,7 @@ static void scene_boundary_read_inflow(struct draft *draft, struct scene_boundar
     boundary->pressure = scene_state_value(keys_at(map, "pressure"));
     boundary->fractions = scene_state_fractions(draft, map);
     boundary->density = scene_state_density(draft, map, boundary->fractions);
-    scene_state_velocity(draft, map, boundary->velocity);
+    scene_state_vector(draft, keys_at(map, "velocity"), boundary->velocity);
     scene_state_check(draft, map, boundary->fractions, boundary->density);
     if (keys_at(map, "temperature")->given)
         keys_error(&draft->keys, keys_at(map, "temperature"), "an inflow is given by its density");

@@ -17,7 +17,7 @@ struct draft {
 extern const struct keys_section scene_root_keys;
 extern const struct keys_section scene_domain_keys, scene_mesh_keys, scene_refine_keys, scene_boundary_keys;
 extern const struct keys_section scene_material_keys, scene_scheme_keys;
-extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_stretch_keys;
+extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_stretch_keys, scene_source_keys;
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
 extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_map_list_keys, scene_expect_keys;
 
@@ -29,6 +29,7 @@ void scene_mesh(struct draft *draft);
 void scene_refine(struct draft *draft);
 void scene_boundary(struct draft *draft);
 void scene_initial(struct draft *draft);
+void scene_source(struct draft *draft);
 void scene_output(struct draft *draft);
 void scene_history(struct draft *draft);
 void scene_map(struct draft *draft);
@@ -81,7 +82,11 @@ struct scene_value *scene_state_density(struct draft *draft, const struct keys_m
 void scene_state_check(struct draft *draft, const struct keys_map *map, const double *fractions,
                        const struct scene_value *density);
 
-void scene_state_velocity(struct draft *draft, const struct keys_map *map, struct scene_value ret[SCENE_AXES]);
+/* A list of as many values as velocities have components; nothing after a recorded error. */
+void scene_state_vector(struct draft *draft, const struct keys_value *value, struct scene_value ret[SCENE_AXES]);
+
+/* Velocity components that component `c` of a stretch (xx, yy, zz, xy, xz, yz) needs. */
+int scene_stretch_needs(unsigned component);
 
 /* stretch: of a layer whose fractions are known. */
 void scene_stretch(struct draft *draft, struct scene_layer *layer, const struct keys_value *value);

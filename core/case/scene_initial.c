@@ -128,7 +128,7 @@ static void scene_initial_layer(struct draft *draft, struct scene_layer *layer, 
     layer->density = scene_state_density(draft, map, layer->fractions);
     layer->temperature = scene_state_value(keys_at(map, "temperature"));
     layer->pressure = scene_state_value(keys_at(map, "pressure"));
-    scene_state_velocity(draft, map, layer->velocity);
+    scene_state_vector(draft, keys_at(map, "velocity"), layer->velocity);
     scene_stretch(draft, layer, keys_at(map, "stretch"));
     scene_initial_complete(draft, layer, map);
     scene_state_check(draft, map, layer->fractions, layer->density);

@@ -122,21 +122,20 @@ struct scene_value *scene_state_density(struct draft *draft, const struct keys_m
     return values;
 }
 
-void scene_state_velocity(struct draft *draft, const struct keys_map *map, struct scene_value ret[SCENE_AXES])
+void scene_state_vector(struct draft *draft, const struct keys_value *value, struct scene_value ret[SCENE_AXES])
 {
-    const struct keys_value *velocity = keys_at(map, "velocity");
     int n = draft->scene->n_velocity, dim = draft->scene->dim;
-    if (!velocity->given || dim == 0) return;
-    if (velocity->count != (unsigned)n) {
-        keys_error(&draft->keys, velocity, "%d component%s needed, %s, not %u", n, n == 1 ? " is" : "s are",
-                   n == dim ? "one per axis" : "as 'domain.velocity-components' says", velocity->count);
-        if (n == dim && velocity->count <= SCENE_AXES && velocity->count > (unsigned)n &&
+    if (!value->given || dim == 0) return;
+    if (value->count != (unsigned)n) {
+        keys_error(&draft->keys, value, "%d component%s needed, %s, not %u", n, n == 1 ? " is" : "s are",
+                   n == dim ? "one per axis" : "as 'domain.velocity-components' says", value->count);
+        if (n == dim && value->count <= SCENE_AXES && value->count > (unsigned)n &&
             draft->scene->geometry == SCENE_CARTESIAN)
             diag_help(draft->keys.diag, "for motion across the axes give the domain 'velocity-components: %u'",
-                      velocity->count);
+                      value->count);
         return;
     }
-    for (int axis = 0; axis < n; axis++) ret[axis] = scene_state_value(&velocity->list[axis]);
+    for (int axis = 0; axis < n; axis++) ret[axis] = scene_state_value(&value->list[axis]);
 }
 
 /* Is the state of one material one that its law knows? A forgotten sign or prefix shows here. */

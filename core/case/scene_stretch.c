@@ -27,8 +27,7 @@ const struct keys_section scene_stretch_keys = {
     .keys = scene_stretch_rows,
     .positional = 3};
 
-/* Velocity components that a shear component of the stretch needs. */
-static int scene_stretch_needs(unsigned component)
+int scene_stretch_needs(unsigned component)
 {
     return component < 3 ? 1 : component == 3 ? 2 : 3;
 }

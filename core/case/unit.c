@@ -83,6 +83,9 @@ static const struct unit_family {
     {{1, 1, -3, -1, 0}, "a heat conductivity", "W/m/K"},
     {{0, 1, 0, 0, -1}, "a molar mass", "kg/mol, g/mol"},
     {{1, 1, -2, 0, 0}, "a force", "N, mN, uN"},
+    {{-2, 1, -2, 0, 0}, "a force per volume or a pressure gradient", "N/m3, Pa/m, kPa/m"},
+    {{-1, 1, -3, 0, 0}, "a power per volume", "W/m3, MW/m3, W/cm3"},
+    {{-3, 1, -1, 0, 0}, "a mass per volume and time", "kg/m3/s, g/cm3/us"},
 };
 enum { UNIT_FAMILIES = sizeof unit_families / sizeof *unit_families };
 

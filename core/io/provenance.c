@@ -10,6 +10,7 @@
 #include "io/ledger.h"
 #include "io/place.h"
 #include "io/provenance_host.h"
+#include "phys/source.h"
 #include "plug/registry.h"
 #include "solve/stage.h"
 
@@ -286,6 +287,15 @@ static json_t *provenance_split(const struct provenance_cost *cost)
     return split;
 }
 
+/* Sources that act, whose mass, momentum and energy are part of the change of the totals. */
+static void provenance_sources(json_t *root, const struct scene *scene)
+{
+    struct text text = {0};
+    source_text(scene, &text);
+    if (text.at) json_object_set_new(root, "sources", json_string(text.at));
+    text_done(&text);
+}
+
 static char *provenance_compose(const struct provenance *provenance, const struct state *state,
                                 const struct provenance_cost *cost, const char *reason, int exit_code)
 {
@@ -298,6 +308,7 @@ static char *provenance_compose(const struct provenance *provenance, const struc
     json_object_update(root, work);
     json_decref(work);
     json_object_set_new(root, "conservation", provenance_conservation(provenance, state, &cost->now));
+    provenance_sources(root, state->scene);
     json_object_set_new(root, "guard", provenance_guard(&cost->counts));
     json_object_set_new(root, "levels", provenance_levels(provenance, state));
     json_object_set_new(root, "cpu_split_s", provenance_split(cost));

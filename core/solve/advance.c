@@ -29,13 +29,14 @@ double advance_dt(const struct state *state)
 }
 
 /* Runs the plan once; returns the number of inadmissible cells of all ranks (in the first stage
- * that has any) and, through *ret_signal, the signal speed of the new state; *ret_blind: a script of a boundary failed
- * on some rank. */
+ * that has any) and, through *ret_signal, the signal speed of the new state; *ret_blind: a script of a boundary or
+ * of a source failed on some rank. */
 static double advance_attempt(struct stage *stage, double *ret_signal, bool *ret_blind)
 {
     guard_attempt(stage->guard);
     for (const struct plan_stage *step = plan_stages(); step->name; step++) step->run(stage);
-    double blind = stage->bound->status ? 1.0 : 0.0;
+    const char *words, *place;
+    double blind = stage->bound->status || source_failure(stage->work->source, &words, &place) ? 1.0 : 0.0;
     double found[4] = {(double)stage->guard->bad[0], (double)stage->guard->bad[1], stage->signal, blind};
     comm_max(found, 4);
     cost_lap(&stage->work->cost, COST_EXCHANGE);
@@ -146,19 +147,22 @@ static void advance_say_blind(const struct stage *stage, size_t room, char *ret_
              stage->bound->blind);
 }
 
-/* A script of a boundary failed on some rank: which step asked it, for what, and where. The cells that met its NaN are
- * kept as those of any failed step. */
+/* A script of a boundary or of a source failed on some rank: which step asked it, for what, and where. The cells that
+ * met its NaN are kept as those of any failed step. */
 static int advance_script(const struct state *state, struct stage *stage)
 {
     int status = stage->bound->status;
     char place[320] = "";
+    const char *message = stage->bound->message, *inside = "";
     if (status && stage->blind >= 0) advance_say_blind(stage, sizeof place, place);
+    if (!status && (status = source_failure(stage->work->source, &message, &inside)))
+        snprintf(place, sizeof place, ", %s", inside);
     guard_clear(stage->guard);
     stage->guard->last = true; /* no marks, which would make the repetition another attempt */
     advance_watch(state, stage);
     if (status)
-        status_fail(status, "%s; step %ld at t = %.9g s, level %d%s", stage->bound->message, state->step + 1, stage->t,
-                    stage->l, place);
+        status_fail(status, "%s; step %ld at t = %.9g s, level %d%s", message, state->step + 1, stage->t, stage->l,
+                    place);
     return comm_agree(status);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/mem.h"
 #include "phys/mix.h"
+#include "phys/source.h"
 #include "phys/update.h"
 #include "solve/guard.h"
 
@@ -86,6 +87,16 @@ static void replay_sweep(struct replay *replay, int axis, const struct metric *m
     }
 }
 
+static void replay_sources(struct replay *replay)
+{
+    const struct blame_facts *facts = &replay->blame->facts;
+    struct source *source = source_new(replay->model, &replay->mesh);
+    double at = facts->stage == 0 ? 0.0 : 0.5;
+    source_add(source, replay->used, replay->level, &replay->tile, facts->t + at * facts->dt,
+               replay->blame->block[BLAME_W], replay->rates);
+    source_free(source);
+}
+
 /* From the frames to the new conserved fields. */
 static void replay_update(struct replay *replay)
 {
@@ -105,6 +116,7 @@ static void replay_update(struct replay *replay)
         mix_stiffness_everywhere(used, n_cell, n_cell, w, replay->rho_c2);
         mix_closure(used, n_cell, n_cell, w, replay->rho_c2, replay->K);
     }
+    replay_sources(replay);
     struct update_input input = {
         .u_old = blame->block[BLAME_U_OLD], .w = w, .K = replay->K, .rho_c2 = replay->rho_c2, .rates = replay->rates};
     double part = blame->facts.stage == 0 ? 0.5 : 1.0;

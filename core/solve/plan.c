@@ -7,11 +7,11 @@ const struct plan_stage *plan_stages(void)
         {"exchange", "send layers of primitives to neighbouring ranks", stage_exchange},
         {"ghosts", "with finer levels: what they see behind their edges at the beginning of the step", stage_ghosts},
         {"half",
-         "u* = u + dt/2 L(w): gather, slopes (%L), states (%E), fluxes (%R), divergence, closure (%C);\n"
+         "u* = u + dt/2 L(w): gather, slopes (%L), states (%E), fluxes (%R), divergence, closure (%C)%S;\n"
          "              w = primitives of u* at the mixture pressure, admissibility",
          stage_half},
         {"exchange", "send layers of primitives to neighbouring ranks", stage_exchange},
-        {"full", "u = u + dt L(w): gather, slopes (%L), states (%E), fluxes (%R), divergence, closure (%C)",
+        {"full", "u = u + dt L(w): gather, slopes (%L), states (%E), fluxes (%R), divergence, closure (%C)%S",
          stage_full},
         {"close", "w = primitives of u, admissibility, signal speed for the next dt", stage_close},
         {NULL, NULL, NULL},
@@ -46,6 +46,11 @@ static void plan_line(const struct scene *scene, const char *doc, struct text *t
                      : scene->closure == SCENE_KAPILA ? "kapila"
                                                       : "allaire");
         if (*doc == 'E') plan_laws(scene, text);
+        if (*doc == 'S' && scene->sources) {
+            text_add(text, ", sources (");
+            source_text(scene, text);
+            text_add(text, ")");
+        }
     }
 }
 

@@ -22,6 +22,7 @@ struct stage_work *stage_work_new(const struct model *model, const struct mesh *
     if (model->fluids) work->faces_fluids = face_new(model->fluids);
     if (model->elastic && model->beta) work->hoop = mem_new(mesh->n_cell, sizeof(double));
     work->prolong = prolong_new(model, mesh);
+    work->source = source_new(model, mesh);
     work->rates = mem_new(update_rates(model) * mesh->n_cell, sizeof(double));
     work->K = mem_new(model->n_material * mesh->n_cell, sizeof(double));
     work->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
@@ -38,6 +39,7 @@ void stage_work_free(struct stage_work *work)
     face_free(work->faces_fluids);
     mem_free(work->hoop);
     prolong_free(work->prolong);
+    source_free(work->source);
     mem_free(work->rates);
     mem_free(work->K);
     mem_free(work->rho_c2);
@@ -96,11 +98,11 @@ void stage_ghosts(struct stage *stage)
     cost_lap(&stage->work->cost, COST_LEVELS);
 }
 
-/* Has a tile nothing to compute in this stage? Repeated steps and tiles whose fluxes another level asks for are not
- * skipped. */
+/* Has a tile nothing to compute in this stage? Repeated steps, tiles whose fluxes another level asks for and scenes with
+ * sources are not skipped. */
 static bool stage_skips(const struct stage *stage, unsigned local)
 {
-    if (!stage->census.tiles[local].still || stage->guard->masked) return false;
+    if (stage->work->source || !stage->census.tiles[local].still || stage->guard->masked) return false;
     return !reflux_concerns(stage->reflux, local) && census_rests(&stage->census, local);
 }
 
@@ -222,6 +224,8 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double dt, d
         mix_closure(model, n_cell, n_cell, level->w[local], work->rho_c2, work->K);
     }
     if (stage->fluxes) reflux_keep(stage->reflux, model, local, level->w[local], model->kapila ? work->K : NULL);
+    source_add(work->source, model, level, &level->tiles[level->first + local], stage->bound->t, level->w[local],
+               work->rates);
     struct update_input input = {
         .u_old = level->u_old[local], .w = level->w[local], .K = work->K, .rho_c2 = work->rho_c2, .rates = work->rates};
     stage->clipped += (long long)update_apply(model, n_cell, dt, &input, u);

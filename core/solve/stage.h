@@ -15,6 +15,7 @@
 #include "phys/mix_pressure.h"
 #include "phys/prolong.h"
 #include "phys/reflux.h"
+#include "phys/source.h"
 #include "solve/blame.h"
 #include "solve/census.h"
 #include "solve/cost.h"
@@ -26,6 +27,7 @@ struct stage_work {
     struct face_work *faces_pure;   /* of paths of one material; NULL if the scene has no more */
     struct face_work *faces_fluids; /* of the path of all fluids, or NULL */
     struct prolong *prolong;
+    struct source *source;                    /* NULL: the scene has none */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
     double *hoop;                             /* likewise, in curved scenes with a solid; else NULL */
     struct cost cost;                         /* where the time goes, of all levels */
