@@ -70,7 +70,7 @@ struct elastic_rates {
 };
 
 /* V_new from V_old after dt (model.md 2): half of the deformation, the transport, the other half,
- *     V' = W + [-dt div(V* F) - W (m_new - m_old)]/max(m_old, m_new),  W = polar(E V_old),  V_new = polar(E V'),  E = (1 - dt L/4)^-1 (1 + dt L/4),
+ *     V' = W + [-dt div(V* F) - W (m_new - m_old)]/m_new,  W = polar(E V_old),  V_new = polar(E V'),  E = (1 - dt L/4)^-1 (1 + dt L/4),
  * polar(M) = (M M^T)^(1/2). The stretch travels with the mass of the solids, so that what a fluid brings along never mixes
  * into it. In a mixed cell L is the solid's own: L + (K_s/alpha_s) div u n n^T. Along an interface all materials move
  * together, across it each is compressed as its stiffness says (the closure's K), and what the gas gives way by is no

@@ -4,7 +4,8 @@
  * matters (model.md 2): M is turned back to V = M R^T, R the rotation in M, which in a plane is
  *     tan(angle) = (M_yx - M_xy)/(M_xx + M_yy)
  * and in space follows from (tr V 1 - V) phi = axial(M - M^T), repeated as rotations of one step are small. The trace of L
- * needs no term of its own: it scales M, and det V = 1 takes that out. */
+ * is taken off first. det V = 1 would take out what it scales M by, but the transport comes in between, with stretches
+ * that it has not scaled: the step would be of first order in time. */
 #include "phys/elastic.h"
 
 #include "phys/elastic_tensor.h"
@@ -13,6 +14,10 @@
 
 /* A step may not shear or stretch by more than this at once: |dt L/4| is cut there (the guard's step sizes are below). */
 #define MOVE_MOST 0.5
+
+/* A cell that loses solid faster than this in a step keeps its stretch the better: its change is taken per this share of
+ * the mass that it had, so that a cell that empties does not blow up what it still has. */
+#define MOVE_LEFT 0.5
 
 /* Square of a slope of fractions [1/m2] that counts as none. */
 #define MOVE_FLAT 1e-30
@@ -114,19 +119,24 @@ static ELASTIC_BODY struct move_matrix move_strain(struct move_matrix G, struct 
                                                    double quarter, struct move_hoop to, int nv)
 {
     double hoop = to.share * ((div - G.xx) - G.yy), yy = G.yy + to.y * hoop, zz = G.zz + to.z * hoop;
-    return (struct move_matrix){move_cut(-quarter * (G.xx + Q.xx)),
-                                nv > 1 ? move_cut(-quarter * (G.xy + Q.xy)) : 0.0,
-                                nv > 2 ? move_cut(-quarter * (G.xz + Q.xz)) : 0.0,
-                                nv > 1 ? move_cut(-quarter * (G.yx + Q.xy)) : 0.0,
-                                move_cut(-quarter * (yy + Q.yy)),
-                                nv > 2 ? move_cut(-quarter * (G.yz + Q.yz)) : 0.0,
-                                nv > 2 ? move_cut(-quarter * (G.zx + Q.xz)) : 0.0,
-                                nv > 2 ? move_cut(-quarter * (G.zy + Q.yz)) : 0.0,
-                                move_cut(-quarter * (zz + Q.zz))};
+    struct move_matrix A = {move_cut(-quarter * (G.xx + Q.xx)),
+                            nv > 1 ? move_cut(-quarter * (G.xy + Q.xy)) : 0.0,
+                            nv > 2 ? move_cut(-quarter * (G.xz + Q.xz)) : 0.0,
+                            nv > 1 ? move_cut(-quarter * (G.yx + Q.xy)) : 0.0,
+                            move_cut(-quarter * (yy + Q.yy)),
+                            nv > 2 ? move_cut(-quarter * (G.yz + Q.yz)) : 0.0,
+                            nv > 2 ? move_cut(-quarter * (G.zx + Q.xz)) : 0.0,
+                            nv > 2 ? move_cut(-quarter * (G.zy + Q.yz)) : 0.0,
+                            move_cut(-quarter * (zz + Q.zz))};
+    double mean = (1.0 / 3.0) * ((A.xx + A.yy) + A.zz);
+    A.xx -= mean;
+    A.yy -= mean;
+    A.zz -= mean;
+    return A;
 }
 
 /* What the solid mass in the cell has for a stretch after other mass came and went: a mean by mass, V + [dt come -
- * V (m_new - m_old)]/m. Where mass goes m is m_old, so that a cell that empties does not blow up what it still has. */
+ * V (m_new - m_old)]/m with m = m_new, at least MOVE_LEFT m_old. */
 static ELASTIC_BODY struct elastic_tensor move_blend(struct elastic_tensor V, double keep, struct elastic_tensor come)
 {
     return (struct elastic_tensor){keep * V.xx + come.xx, keep * V.yy + come.yy, keep * V.zz + come.zz,
@@ -181,8 +191,9 @@ static ELASTIC_BODY struct elastic_tensor move_point(struct move_matrix A, struc
                                     MOVE_IF((nv) > 2, g8)};                                                      \
             struct elastic_tensor old = {                                                                        \
                 o0[i], o1[i], o2[i], MOVE_IF((nv) > 1, o3), MOVE_IF((nv) > 2, o4), MOVE_IF((nv) > 2, o5)};       \
-            double now = m_new[i], before = m_old[i], most = now > before ? now : before, per = 1.0 / most;      \
-            per = most > ELASTIC_NOTHING ? per : 0.0;                                                            \
+            double now = m_new[i], before = m_old[i], least = MOVE_LEFT * before;                                \
+            double mass = now > least ? now : least, per = 1.0 / mass;                                           \
+            per = mass > ELASTIC_NOTHING ? per : 0.0;                                                            \
             double keep = 1.0 - (now - before) * per, take = dt * per;                                           \
             struct elastic_tensor come = {take * c0[i],                                                          \
                                           take * c1[i],                                                          \
