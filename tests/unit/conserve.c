@@ -148,7 +148,7 @@ static void test_relaxed_pair(void **state)
 {
     (void)state;
     struct flow flow;
-    flow_start(&flow, parting_pair(FLOW_WATER FLOW_AIR, "material: water, density: 1000", "['= x > 0 and 300 or -300']",
+    flow_start(&flow, parting_pair(FLOW_WATER FLOW_AIR, "material: water, density: 1000", "['= x > 0 and 800 or -800']",
                                    "kapila"));
     check_kept(&flow, -1);
     print_message("cells relaxed %lld\n", flow.state->counts.relaxed);
