@@ -5,6 +5,8 @@
 
 enum { UPDATE_BATCH = 512 };
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 /* rate -= a (upper - lower) */
@@ -154,6 +156,8 @@ struct update_misfit {
     double sum[UPDATE_BATCH], compliance[UPDATE_BATCH]; /* over materials: of the above, of alpha/(rho_l c_l^2) */
     double rho[UPDATE_BATCH], stiffness[UPDATE_BATCH];  /* of the mixture: sum alpha rho_l, sum alpha rho_l c_l^2 */
     double speed2[UPDATE_BATCH], share[UPDATE_BATCH];   /* |u|^2; how much of the exchange is made */
+    double push[UPDATE_BATCH], strain[UPDATE_BATCH];    /* what all volume brought: pressure excess, strain [1/s] */
+    double stiffest[UPDATE_BATCH];                      /* largest rho_l c_l^2 */
 };
 
 /* One material's misfit: from the pressure and from the strain that its volume carried. */
@@ -205,6 +209,37 @@ static BULLA_KERNEL void update_share(size_t n, const double *restrict speed2, c
     }
 }
 
+/* One material's part of the pressure and the strain that volume brings to a cell. */
+static BULLA_KERNEL void update_bring(size_t n, const double *restrict carried, const double *restrict strained,
+                                      const double *restrict rate, const double *restrict p,
+                                      const double *restrict rho_c2, double *restrict push, double *restrict strain,
+                                      double *restrict stiffest)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double q = carried[i] - p[i] * rate[i], e = strained[i], s = rho_c2[i];
+        double all = push[i], stretched = strain[i], most = stiffest[i];
+        push[i] = all + q;
+        strain[i] = stretched + e;
+        stiffest[i] = s > most ? s : most;
+    }
+}
+
+/* The share where all of the exchange is wanted: 1 up to X = UPDATE_STEEP, X what a cell of size h sees of p/K and of
+ * strain from end to end, |u| X/h = |push|/K + |strain|; beyond, what speed alone asks for. */
+static BULLA_KERNEL void update_share_all(size_t n, double h, const double *restrict speed2,
+                                          const double *restrict push, const double *restrict strain,
+                                          const double *restrict stiffest, double *restrict share)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double fast = share[i], flow = speed2[i] * speed2[i], rate = fabs(push[i]) / stiffest[i] + fabs(strain[i]);
+        double x = rate * h / UPDATE_STEEP, steep = x * x;
+        double gentle = flow / (flow + steep * steep + DBL_MIN);
+        share[i] = fast + (1.0 - fast) * gentle;
+    }
+}
+
 /* alpha after the closure: K div u, and the exchange of volume that brings the materials back to one
  * pressure. A step below the least value, or below what transport left if that is less, is cut. */
 static BULLA_KERNEL void update_close(size_t n, double dt, const double *restrict K, const double *restrict div,
@@ -238,6 +273,23 @@ static BULLA_KERNEL void update_normalise(size_t n, const double *restrict sum, 
     for (size_t i = 0; i < n; i++) alpha[i] /= sum[i];
 }
 
+/* How much of the exchange is made in n cells, from `from` on. */
+static void update_shares(const struct model *model, size_t n_cell, size_t from, size_t n,
+                          const struct update_input *in, struct update_misfit *misfit)
+{
+    const double *carried = in->rates + (model->n_field + 1) * n_cell + from,
+                 *strained = carried + model->n_alpha * n_cell;
+    update_share(n, misfit->speed2, misfit->rho, misfit->stiffness, misfit->compliance, misfit->share);
+    if (!model->thermal) return;
+    double *sums[] = {misfit->push, misfit->strain, misfit->stiffest};
+    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) memset(sums[i], 0, n * sizeof **sums);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        update_bring(n, carried + l * n_cell, strained + l * n_cell, in->rates + (model->i_alpha + l) * n_cell + from,
+                     in->w + model->i_E * n_cell + from, in->rho_c2 + l * n_cell + from, misfit->push, misfit->strain,
+                     misfit->stiffest);
+    update_share_all(n, in->h, misfit->speed2, misfit->push, misfit->strain, misfit->stiffest, misfit->share);
+}
+
 /* The closure's part of the fractions of n cells from `from`; returns in how many a bound acted. */
 static size_t update_relax(const struct model *model, size_t n_cell, size_t from, size_t n, double dt,
                            const struct update_input *in, double *u_new)
@@ -259,7 +311,7 @@ static size_t update_relax(const struct model *model, size_t n_cell, size_t from
         update_mixture(n, alpha + l * n_cell, w + (model->i_m + l) * n_cell, rho_c2 + l * n_cell, misfit.rho,
                        misfit.stiffness, misfit.compliance);
     }
-    update_share(n, misfit.speed2, misfit.rho, misfit.stiffness, misfit.compliance, misfit.share);
+    update_shares(model, n_cell, from, n, in, &misfit);
     for (unsigned l = 0; l < model->n_alpha; l++)
         update_close(n, dt, in->K + l * n_cell + from, rates + model->n_field * n_cell, rho_c2 + l * n_cell, &misfit,
                      misfit.own[l], alpha + l * n_cell, cut);
@@ -306,6 +358,13 @@ static void update_stretch(const struct model *model, size_t n_cell, double dt, 
         if (model->n_alpha) elastic_fade(model, n, n_cell, solid, V);
     }
     elastic_unimodular(model, n_cell, n_cell, u_new + first);
+}
+
+double update_length(const struct level *level, int dim)
+{
+    double longest = level->h[0];
+    for (int d = 1; d < dim; d++) longest = level->h[d] > longest ? level->h[d] : longest;
+    return longest;
 }
 
 size_t update_apply(const struct model *model, size_t n_cell, double dt, const struct update_input *in, double *u_new)

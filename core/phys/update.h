@@ -31,6 +31,9 @@ void update_add(const struct model *model, const struct level *level, const stru
                 const struct frame *frame, const struct face_work *work, size_t n_cell, const double *hoop,
                 double *rates);
 
+/* Longest side of the cells of a level in `dim` dimensions [m]. */
+double update_length(const struct level *level, int dim);
+
 /* Blocks of a tile that a stage combines. */
 struct update_input {
     const double *u_old;
@@ -38,6 +41,7 @@ struct update_input {
     const double *K;      /* K_l of mix_closure, blocks of n_alpha (Kapila closure only) */
     const double *rho_c2; /* rho_l c_l^2 of mix_stiffness, likewise */
     const double *rates;
+    double h; /* size of a cell, the longest side [m] */
 };
 
 /* u_new = u_old + dt * rates, the non-conservative terms of alpha included (model.md 2). Volume
@@ -52,12 +56,18 @@ struct update_input {
  * with K the side upwind. Without it the linearised scheme is unstable in a mixture that moves fast
  * against Wood's speed, |u| c_f > 4 c_w^2 (1 - q)/q^2 with q = c_A^2/c_f^2 and rho c_A^2 = (rho e + p)/
  * (d rho e/dp): round-off grows in a gas-liquid front at uniform p and u (docs/decisions). In slower
- * flow it only adds dissipation, so it is made with the weight r^2/(r^2 + UPDATE_FAST^2), r = |u| c_f/c_w^2.
+ * flow mechanics gain nothing from it, so it is made with the weight f = r^2/(r^2 + UPDATE_FAST^2), r = |u| c_f/c_w^2.
+ * Temperatures do: what a material brings from a higher pressure and does not give back is density that its own
+ * isentrope has not, and of water near 4 C 0.1 % of that is 7 K. In thermal models (model.h) the weight is therefore
+ *   f + (1 - f)/(1 + (X/UPDATE_STEEP)^4),   |u| X/h = |sum_l sum_faces A (alpha* u*)(p_K - p)|/(V K) + |strain|,
+ * K the largest rho_l c_l^2: all of it, but where pressure differs from cell to cell by more than a few per cent of K. There
+ * linear relaxation would overshoot.
  *
  * Returns the number of cells in which a bound acted. */
 size_t update_apply(const struct model *model, size_t n_cell, double dt, const struct update_input *in, double *u_new);
 
 #define UPDATE_LEAST 1e-9
 #define UPDATE_FAST 25.0
+#define UPDATE_STEEP 0.03
 
 #endif

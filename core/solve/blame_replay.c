@@ -117,8 +117,12 @@ static void replay_update(struct replay *replay)
         mix_closure(used, n_cell, n_cell, w, replay->rho_c2, replay->K);
     }
     replay_sources(replay);
-    struct update_input input = {
-        .u_old = blame->block[BLAME_U_OLD], .w = w, .K = replay->K, .rho_c2 = replay->rho_c2, .rates = replay->rates};
+    struct update_input input = {.u_old = blame->block[BLAME_U_OLD],
+                                 .w = w,
+                                 .K = replay->K,
+                                 .rho_c2 = replay->rho_c2,
+                                 .rates = replay->rates,
+                                 .h = update_length(replay->level, replay->mesh.dim)};
     double part = blame->facts.stage == 0 ? 0.5 : 1.0;
     update_apply(used, n_cell, part * blame->facts.dt, &input, replay->u);
 }

@@ -226,8 +226,12 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double dt, d
     if (stage->fluxes) reflux_keep(stage->reflux, model, local, level->w[local], model->kapila ? work->K : NULL);
     source_add(work->source, model, level, &level->tiles[level->first + local], stage->bound->t, level->w[local],
                work->rates);
-    struct update_input input = {
-        .u_old = level->u_old[local], .w = level->w[local], .K = work->K, .rho_c2 = work->rho_c2, .rates = work->rates};
+    struct update_input input = {.u_old = level->u_old[local],
+                                 .w = level->w[local],
+                                 .K = work->K,
+                                 .rho_c2 = work->rho_c2,
+                                 .rates = work->rates,
+                                 .h = update_length(level, mesh->dim)};
     stage->clipped += (long long)update_apply(model, n_cell, dt, &input, u);
     stage->cells += (long long)n_cell;
     if (blame_concerns(stage->blame, local)) blame_rates(stage->blame, stage->model, &input);
