@@ -54,6 +54,7 @@ static const char *unit_of_measure(const struct scene *scene, const struct scene
     case SCENE_INTEGRAL:
     case SCENE_PLANE_INTEGRAL:
     case SCENE_TOTAL:
+    case SCENE_OUTSIDE:
     case SCENE_VALUE: return "";
     }
     return "";

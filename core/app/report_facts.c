@@ -103,6 +103,29 @@ static void facts_guard(struct text *page, json_t *guard)
     }
 }
 
+/* What iterated pressures took, and where laws were left. */
+static void facts_laws(struct text *page, const json_t *closures, json_t *outside)
+{
+    char label[160], words[128];
+    const char *name;
+    json_t *counts;
+    if (json_integer_value(json_object_get(closures, "solved")) > 0) {
+        snprintf(words, sizeof words, "%lld, %.3g steps each, at most %lld",
+                 (long long)json_integer_value(json_object_get(closures, "solved")),
+                 json_number_value(json_object_get(closures, "mean_steps")),
+                 (long long)json_integer_value(json_object_get(closures, "most_steps")));
+        facts_add(page, "pressures iterated", words);
+    }
+    json_object_foreach(outside, name, counts)
+    {
+        snprintf(label, sizeof label, "law of %.100s left", name);
+        snprintf(words, sizeof words, "%lld cell-steps, %lld cells at most",
+                 (long long)json_integer_value(json_object_get(counts, "cell_steps")),
+                 (long long)json_integer_value(json_object_get(counts, "most_cells")));
+        facts_add(page, label, words);
+    }
+}
+
 /* Cells of each level at the end and at most, and what it cost to move them; nothing for a mesh of one level. */
 static void facts_levels(struct text *page, const json_t *root)
 {
@@ -160,6 +183,7 @@ void report_facts_run(struct text *page, const char *directory)
     if (json_object_get(root, "sources"))
         facts_add(page, "sources, part of these changes", json_string_value(json_object_get(root, "sources")));
     facts_guard(page, json_object_get(root, "guard"));
+    facts_laws(page, json_object_get(root, "closures"), json_object_get(root, "outside"));
     text_add(page, "</div>\n");
     json_decref(root);
 }

@@ -10,6 +10,7 @@
 #include "app/due.h"
 #include "app/expect.h"
 #include "app/human.h"
+#include "app/laws.h"
 #include "app/launch.h"
 #include "app/outdir.h"
 #include "app/progress.h"
@@ -168,6 +169,7 @@ static void run_say_end(const struct run *run, int code)
                  human_count(passed > 0 ? work / passed : 0, rate), directory);
     else if (code == STATUS_STOPPED) run_say_how_to_go_on(run, time);
     else run_say_what_is_left(run, time);
+    laws_say(state);
 }
 
 /* A run leaves a checkpoint if it could go on: it did not come to the end of its case, or the case asks for them. */

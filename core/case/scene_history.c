@@ -33,6 +33,10 @@ static const struct key scene_history_rows[] = {
      .type = KEYS_TEXT,
      .doc = "Velocity `along` an axis of largest magnitude in a material, with its sign."},
     {.name = "isosurface-mean", .type = KEYS_FIELD, .doc = "Mean of a field over the surface of the material `in`."},
+    {.name = "outside",
+     .type = KEYS_TEXT,
+     .doc = "Number of cells in which a continuation stands in for the equation of state of a material, traces "
+            "excepted."},
     {.name = "value", .type = KEYS_TREE, .doc = "An expression of t, columns further up, and parameters."},
     {.name = "in", .type = KEYS_TEXT, .doc = "Only in this material."},
     {.name = "where", .type = KEYS_SECTION, .section = &scene_shape_keys, .doc = "Only in this region."},
@@ -52,7 +56,8 @@ const struct keys_section scene_history_column_keys = {.name = "column",
 static bool scene_history_of_material(enum scene_measure measure)
 {
     return measure == SCENE_VOLUME || measure == SCENE_MASS || measure == SCENE_CENTROID ||
-           measure == SCENE_PENETRATION || measure == SCENE_EQUIVALENT_RADIUS || measure == SCENE_JET_SPEED;
+           measure == SCENE_PENETRATION || measure == SCENE_EQUIVALENT_RADIUS || measure == SCENE_JET_SPEED ||
+           measure == SCENE_OUTSIDE;
 }
 
 static bool scene_history_directed(enum scene_measure measure)
@@ -132,7 +137,7 @@ static const struct keys_value *scene_history_chosen(struct draft *draft, const 
     if (chosen) return chosen;
     diag_error(draft->keys.diag, &map->node->mark, "%s: nothing is measured", map->path);
     diag_help(draft->keys.diag, "one of volume, mass, centroid, min, max, mean, integral, plane-integral, total, "
-                                "penetration, equivalent-radius, jet-speed, isosurface-mean, value");
+                                "penetration, equivalent-radius, jet-speed, isosurface-mean, outside, value");
     return NULL;
 }
 

@@ -115,6 +115,21 @@ static void checkpoint_note_tagged(const struct state *state, struct notes *note
     mem_free(counts);
 }
 
+/* Counts about laws. */
+static void checkpoint_note_laws(const struct state_counts *counts, unsigned n_material, struct notes *notes)
+{
+    const struct mix_effort *closures = &counts->closures;
+    double outside[2 * SCENE_MATERIALS];
+    for (unsigned l = 0; l < n_material; l++) {
+        outside[2 * l] = (double)counts->outside[l];
+        outside[2 * l + 1] = (double)counts->outside_most[l];
+    }
+    notes_put(notes, "counts.closures", 4,
+              (double[]){(double)closures->solved, (double)closures->steps, (double)closures->failed,
+                         (double)closures->most});
+    notes_put(notes, "counts.outside", 2 * n_material, outside);
+}
+
 /* The numbers of a state, as rebuild.c reads them back. */
 static void checkpoint_note(const struct state *state, struct notes *notes)
 {
@@ -130,10 +145,7 @@ static void checkpoint_note(const struct state *state, struct notes *notes)
     notes_put(notes, "state.level_steps", MESH_LEVELS, steps);
     notes_put(notes, "counts.of_all_ranks", 6, sums);
     notes_put_one(notes, "cells.carried", (double)counts.carried);
-    const struct mix_effort *closures = &counts.closures;
-    notes_put(notes, "counts.closures", 4,
-              (double[]){(double)closures->solved, (double)closures->steps, (double)closures->failed,
-                         (double)closures->most});
+    checkpoint_note_laws(&counts, state->model->n_material, notes);
     checkpoint_note_tagged(state, notes);
     notes_put(notes, "counts.of_each_rank", 2, (double[]){(double)counts.retries, (double)counts.regrids});
 }

@@ -12,6 +12,7 @@
 #include "io/tally.h"
 #include "mesh/metric.h"
 #include "phys/derive.h"
+#include "phys/outside.h"
 
 #include <math.h>
 #include <string.h>
@@ -281,6 +282,10 @@ static void measure_sum(struct measures *measures, const struct measure_column *
     case SCENE_INTEGRAL:
         sums[0] = tally_row(n, measure_field(measures, column->field), weight);
         sums[1] = tally_row(n, measures->ones, weight);
+        break;
+    case SCENE_OUTSIDE:
+        sums[0] = (double)outside_count(measures->state->model, (unsigned)from->material, n, n,
+                                        measures->level->w[measures->local], cover);
         break;
     default: break;
     }

@@ -16,6 +16,7 @@
  *                       were made; negative: the material has been pulled out
  *   jet-speed           velocity along `along` of largest magnitude, with its sign, over the cells
  *                       with a >= 0.5 (b, f likewise)
+ *   outside             number of cells with b f > 0 where outside_count finds the material's law left
  *   isosurface-mean     surface_mean of q on b = 0.5
  * q of a vector field is its magnitude. `along` that is not given is the last axis. An empty set
  * gives NaN. Sums are the same on any number of ranks (tally.h). */

@@ -10,6 +10,7 @@
 #include "io/ledger.h"
 #include "io/place.h"
 #include "io/provenance_host.h"
+#include "io/provenance_laws.h"
 #include "phys/source.h"
 #include "plug/registry.h"
 #include "solve/stage.h"
@@ -310,6 +311,8 @@ static char *provenance_compose(const struct provenance *provenance, const struc
     json_object_set_new(root, "conservation", provenance_conservation(provenance, state, &cost->now));
     provenance_sources(root, state->scene);
     json_object_set_new(root, "guard", provenance_guard(&cost->counts));
+    json_object_set_new(root, "closures", provenance_laws_closures(&cost->counts));
+    json_object_set_new(root, "outside", provenance_laws_outside(state->model, &cost->counts));
     json_object_set_new(root, "levels", provenance_levels(provenance, state));
     json_object_set_new(root, "cpu_split_s", provenance_split(cost));
     json_object_set_new(root, "refinement", provenance_refinement(cost));

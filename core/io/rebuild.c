@@ -65,16 +65,25 @@ static int rebuild_steps(const struct resume *resume, struct state_source *sourc
     return STATUS_OK;
 }
 
-/* Older checkpoints do not have them. */
-static int rebuild_closures(const struct resume *resume, struct mix_effort *ret_closures)
+/* Counts about laws, which older checkpoints do not have. Those of closures go on with rank 0. */
+static int rebuild_laws(const struct rebuild *rebuild, struct state_counts *ret_counts)
 {
-    double counts[4];
-    if (!notes_get(&resume->notes, "counts.closures", 4, counts)) return STATUS_OK;
-    if (!rebuild_is_count(4, counts)) return resume_damaged(resume, "counts that no run can have");
-    *ret_closures = (struct mix_effort){.solved = (long long)counts[0],
-                                        .steps = (long long)counts[1],
-                                        .failed = (long long)counts[2],
-                                        .most = (long long)counts[3]};
+    const struct resume *resume = rebuild->from;
+    unsigned n = rebuild->scene->n_material;
+    double closures[4] = {0}, outside[2 * SCENE_MATERIALS] = {0};
+    notes_get(&resume->notes, "counts.closures", 4, closures);
+    notes_get(&resume->notes, "counts.outside", 2 * n, outside);
+    if (!rebuild_is_count(4, closures) || !rebuild_is_count(2 * n, outside))
+        return resume_damaged(resume, "counts that no run can have");
+    for (unsigned l = 0; l < n; l++) {
+        ret_counts->outside[l] = (long long)outside[2 * l];
+        ret_counts->outside_most[l] = (long long)outside[2 * l + 1];
+    }
+    if (comm_rank() != 0) return STATUS_OK;
+    ret_counts->closures = (struct mix_effort){.solved = (long long)closures[0],
+                                               .steps = (long long)closures[1],
+                                               .failed = (long long)closures[2],
+                                               .most = (long long)closures[3]};
     return STATUS_OK;
 }
 
@@ -93,7 +102,7 @@ static int rebuild_counts(const struct resume *resume, struct state_counts *ret_
                          &ret_counts->clipped, &ret_counts->limited,  &ret_counts->spread};
     for (int i = 0; i < 6; i++) *sums[i] = (long long)all[i];
     ret_counts->carried = (long long)carried;
-    return rebuild_closures(resume, &ret_counts->closures);
+    return STATUS_OK;
 }
 
 /* What criteria have tagged goes on with rank 0, if they are as many as before. */
@@ -189,6 +198,7 @@ static int rebuild_source(struct rebuild *rebuild, struct state **ret_state)
     TRY(rebuild_nests(rebuild, source.n_level));
     TRY(rebuild_steps(resume, &source));
     TRY(rebuild_counts(resume, &counts));
+    TRY(rebuild_laws(rebuild, &counts));
     for (int l = 0; l < source.n_level; l++) {
         source.n_tile[l] = resume->n_tile[l];
         source.tiles[l] = tiles;

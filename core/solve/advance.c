@@ -10,6 +10,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "solve/beyond.h"
 #include "solve/blame.h"
 #include "solve/plan.h"
 #include "solve/regrid.h"
@@ -271,6 +272,7 @@ static int advance_follow(struct state *state)
     state->dt_shrink = state->dt_shrink * 1.1 < 1.0 ? state->dt_shrink * 1.1 : 1.0;
     TRY(advance_regrid(state, 0, true));
     regrid_signals(state);
+    beyond_count(state);
     return regrid_verdict(state);
 }
 

@@ -20,7 +20,10 @@ struct state_counts {
     long long limited;          /* coarse cells whose children got less than the full slopes */
     long long spread;           /* tiles where refluxing was more than one cell could take (spread.h) */
     struct mix_effort closures; /* iterated mixture pressures; `most` over all ranks */
-    double regrid_seconds;      /* CPU time of this rank spent on regridding */
+    /* per material, both the same on all ranks (beyond.h): */
+    long long outside[SCENE_MATERIALS];      /* cell-steps in which a continuation stood in for its law */
+    long long outside_most[SCENE_MATERIALS]; /* most such cells at the end of a step */
+    double regrid_seconds;                   /* CPU time of this rank spent on regridding */
 };
 
 struct stage;

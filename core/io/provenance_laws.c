@@ -1,0 +1,24 @@
+/* provenance_laws.c - see provenance_laws.h. */
+#include "io/provenance_laws.h"
+
+#include "phys/outside.h"
+
+json_t *provenance_laws_closures(const struct state_counts *counts)
+{
+    const struct mix_effort *closures = &counts->closures;
+    json_t *mean = closures->solved > 0 ? json_real((double)closures->steps / (double)closures->solved) : json_null();
+    return json_pack("{s:I, s:o, s:I, s:I}", "solved", (json_int_t)closures->solved, "mean_steps", mean, "most_steps",
+                     (json_int_t)closures->most, "failed", (json_int_t)closures->failed);
+}
+
+json_t *provenance_laws_outside(const struct model *model, const struct state_counts *counts)
+{
+    json_t *outside = json_object();
+    for (unsigned l = 0; l < model->n_material; l++) {
+        if (!outside_is_told(model, l)) continue;
+        json_object_set_new(outside, model->scene->material[l].name,
+                            json_pack("{s:I, s:I}", "cell_steps", (json_int_t)counts->outside[l], "most_cells",
+                                      (json_int_t)counts->outside_most[l]));
+    }
+    return outside;
+}
