@@ -50,7 +50,9 @@ static const char *unit_of_measure(const struct scene *scene, const struct scene
     case SCENE_MIN:
     case SCENE_MAX:
     case SCENE_MEAN:
-    case SCENE_ISOSURFACE_MEAN: return unit_of_field(column->field);
+    case SCENE_ISOSURFACE_MEAN:
+    case SCENE_ISOSURFACE_MIN:
+    case SCENE_ISOSURFACE_MAX: return unit_of_field(column->field);
     case SCENE_INTEGRAL:
     case SCENE_PLANE_INTEGRAL:
     case SCENE_TOTAL:

@@ -125,6 +125,8 @@ enum scene_measure {
     SCENE_EQUIVALENT_RADIUS,
     SCENE_JET_SPEED,
     SCENE_ISOSURFACE_MEAN,
+    SCENE_ISOSURFACE_MIN,
+    SCENE_ISOSURFACE_MAX,
     SCENE_OUTSIDE,
     SCENE_VALUE,
 };
@@ -132,12 +134,11 @@ enum scene_measure {
 struct scene_column {
     char name[SCENE_NAME]; /* history.csv header; an identifier */
     enum scene_measure measure;
-    int material; /* volume, mass, centroid, penetration, equivalent-radius, ...: the material; else -1 */
-    char field
-        [SCENE_NAME];    /* min, max, mean, integrals, isosurface-mean: a field; total: mass | momentum_x.. | energy */
-    int in;              /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
-    struct shape *where; /* restrict to a region, or NULL */
-    int along;           /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
+    int material;           /* volume, mass, centroid, penetration, equivalent-radius, ...: the material; else -1 */
+    char field[SCENE_NAME]; /* min, max, mean, integrals, isosurface-*: a field; total: mass | momentum_x.. | energy */
+    int in;                 /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
+    struct shape *where;    /* restrict to a region, or NULL */
+    int along;              /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
     const struct script *script; /* value: an expression of other columns */
     char (*uses)[SCENE_NAME];    /* value: its arguments, in order: "t" or columns further up */
     unsigned n_use;

@@ -33,6 +33,12 @@ static const struct key scene_history_rows[] = {
      .type = KEYS_TEXT,
      .doc = "Velocity `along` an axis of largest magnitude in a material, with its sign."},
     {.name = "isosurface-mean", .type = KEYS_FIELD, .doc = "Mean of a field over the surface of the material `in`."},
+    {.name = "isosurface-min",
+     .type = KEYS_FIELD,
+     .doc = "Least value of a field on the surface of the material `in`."},
+    {.name = "isosurface-max",
+     .type = KEYS_FIELD,
+     .doc = "Largest value of a field on the surface of the material `in`."},
     {.name = "outside",
      .type = KEYS_TEXT,
      .doc = "Number of cells in which a continuation stands in for the equation of state of a material, traces "
@@ -51,13 +57,19 @@ const struct keys_section scene_history_column_keys = {.name = "column",
                                                        .doc = "One measure per column.",
                                                        .keys = scene_history_rows,
                                                        .choose = SCENE_HISTORY_MEASURES,
-                                                       .rules = "{'dependencies': {'isosurface-mean': ['in']}}"};
+                                                       .rules = "{'dependencies': {'isosurface-mean': ['in'], "
+                                                                "'isosurface-min': ['in'], 'isosurface-max': ['in']}}"};
 
 static bool scene_history_of_material(enum scene_measure measure)
 {
     return measure == SCENE_VOLUME || measure == SCENE_MASS || measure == SCENE_CENTROID ||
            measure == SCENE_PENETRATION || measure == SCENE_EQUIVALENT_RADIUS || measure == SCENE_JET_SPEED ||
            measure == SCENE_OUTSIDE;
+}
+
+static bool scene_history_of_surface(enum scene_measure measure)
+{
+    return measure == SCENE_ISOSURFACE_MEAN || measure == SCENE_ISOSURFACE_MIN || measure == SCENE_ISOSURFACE_MAX;
 }
 
 static bool scene_history_directed(enum scene_measure measure)
@@ -136,8 +148,10 @@ static const struct keys_value *scene_history_chosen(struct draft *draft, const 
     }
     if (chosen) return chosen;
     diag_error(draft->keys.diag, &map->node->mark, "%s: nothing is measured", map->path);
-    diag_help(draft->keys.diag, "one of volume, mass, centroid, min, max, mean, integral, plane-integral, total, "
-                                "penetration, equivalent-radius, jet-speed, isosurface-mean, outside, value");
+    diag_help(draft->keys.diag,
+              "one of volume, mass, centroid, min, max, mean, integral, plane-integral, total, "
+              "penetration, equivalent-radius, jet-speed, isosurface-mean, isosurface-min, isosurface-max, "
+              "value");
     return NULL;
 }
 
@@ -172,7 +186,7 @@ static void scene_history_column(struct draft *draft, struct scene_column *colum
     if (where->given) column->where = scene_shape(draft, where->map, true, &which);
     scene_history_measure(draft, column, measure);
     scene_history_along(draft, column, measure, map);
-    if (column->measure == SCENE_ISOSURFACE_MEAN && !in->node)
+    if (scene_history_of_surface(column->measure) && !in->node)
         keys_error(&draft->keys, measure, "'in' is missing: the material whose surface it is");
 }
 

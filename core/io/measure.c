@@ -50,7 +50,8 @@ struct measures {
 static bool measure_wants_field(enum scene_measure measure)
 {
     return measure == SCENE_MIN || measure == SCENE_MAX || measure == SCENE_MEAN || measure == SCENE_INTEGRAL ||
-           measure == SCENE_PLANE_INTEGRAL || measure == SCENE_ISOSURFACE_MEAN;
+           measure == SCENE_PLANE_INTEGRAL || measure == SCENE_ISOSURFACE_MEAN || measure == SCENE_ISOSURFACE_MIN ||
+           measure == SCENE_ISOSURFACE_MAX;
 }
 
 static int measure_find_field(struct measures *measures, const struct model *model, const char *name)
@@ -346,7 +347,9 @@ static double measure_result(struct measures *measures, const struct measure_col
 {
     const struct state *state = measures->state;
     const struct scene_column *from = column->from;
+    const struct derive *field = column->field < 0 ? NULL : &measures->fields[column->field];
     bool empty = !(extremes[0] >= -extremes[1]);
+    double ends[2];
     switch (from->measure) {
     case SCENE_CENTROID:
     case SCENE_MEAN: return sums[0] / sums[1];
@@ -355,8 +358,11 @@ static double measure_result(struct measures *measures, const struct measure_col
     case SCENE_MAX: return empty ? NAN : extremes[0];
     case SCENE_JET_SPEED: return empty ? NAN : extremes[0] >= extremes[1] ? extremes[0] : -extremes[1];
     case SCENE_PENETRATION: return measure_penetration(state, column);
-    case SCENE_ISOSURFACE_MEAN:
-        return surface_mean(state, (unsigned)from->in, &measures->fields[column->field], column->where);
+    case SCENE_ISOSURFACE_MEAN: return surface_mean(state, (unsigned)from->in, field, column->where);
+    case SCENE_ISOSURFACE_MIN:
+    case SCENE_ISOSURFACE_MAX:
+        surface_extremes(state, (unsigned)from->in, field, column->where, ends);
+        return ends[from->measure == SCENE_ISOSURFACE_MAX];
     case SCENE_VALUE: return NAN;
     default: return sums[0];
     }

@@ -35,8 +35,9 @@ struct surface {
     double **arrays;
     int *side; /* of each local tile: all below 1/2 (-1), all above (1), both (0) */
     struct halo *halo;
-    double *frame; /* [n][FRAME_CELLS] */
-    bool keep;     /* every crossing as a piece */
+    double *frame;  /* [n][FRAME_CELLS] */
+    double most[2]; /* of the values of all crossings, and of their negatives */
+    bool keep;      /* every crossing as a piece */
     size_t n_piece;
     struct surface_piece *pieces;
 };
@@ -207,6 +208,8 @@ static void surface_cross(struct surface *surface, unsigned local, const struct 
                 double value = (field[at] + share * (field[next] - field[at])) / part;
                 data[0] += area * value;
                 data[1] += area;
+                surface->most[0] = value > surface->most[0] ? value : surface->most[0];
+                surface->most[1] = -value > surface->most[1] ? -value : surface->most[1];
                 if (surface->keep)
                     surface_keep(surface, local, frame->axis, cell, share,
                                  (struct surface_piece){.area = area, .value = value});
@@ -252,6 +255,7 @@ static void surface_look(struct surface *surface, const struct state *state, uns
     surface->state = state;
     surface->mesh = state->mesh;
     surface->n = SURFACE_SLOPE + (unsigned)state->mesh->dim;
+    surface->most[0] = surface->most[1] = -INFINITY;
     surface->frame = mem_new((size_t)surface->n * FRAME_CELLS, sizeof *surface->frame);
     for (surface->l = 0; surface->l < state->mesh->n_level; surface->l++) {
         surface->level = &state->mesh->levels[surface->l];
@@ -271,6 +275,21 @@ double surface_mean(const struct state *state, unsigned material, const struct d
     tally_add(state->mesh, 2, sums, totals);
     mem_free(sums);
     return totals[0] / totals[1];
+}
+
+void surface_extremes(const struct state *state, unsigned material, const struct derive *field,
+                      const struct region *where, double ret_ends[2])
+{
+    struct surface surface = {0};
+    ret_ends[0] = ret_ends[1] = (double)NAN;
+    if (!state->model->n_alpha) return;
+    double *sums = mem_new(2 * (tally_tiles(state->mesh) + 1), sizeof *sums);
+    surface_look(&surface, state, material, field, where, sums);
+    mem_free(sums);
+    comm_max(surface.most, 2);
+    if (!(surface.most[0] >= -surface.most[1])) return;
+    ret_ends[0] = -surface.most[1];
+    ret_ends[1] = surface.most[0];
 }
 
 enum { SURFACE_PIECE = sizeof(struct surface_piece) / sizeof(double) };

@@ -20,6 +20,10 @@ struct surface_piece {
 double surface_mean(const struct state *state, unsigned material, const struct derive *field,
                     const struct region *where);
 
+/* Least and largest value of a field there, each as surface_mean takes them; NaN if there is no surface. Collective. */
+void surface_extremes(const struct state *state, unsigned material, const struct derive *field,
+                      const struct region *where, double ret_ends[2]);
+
 /* All pieces, of all ranks, in an order that does not depend on the ranks; release with mem_free. Collective. */
 struct surface_piece *surface_pieces(const struct state *state, unsigned material, const struct derive *field,
                                      const struct region *where, size_t *ret_n);

@@ -16,6 +16,7 @@ static const char columns[] =
     "      speed: {max: velocity, in: water}\n"
     "      mass: {total: mass}\n      pz: {total: momentum_y}\n      jet: {jet-speed: air}\n"
     "      depth: {penetration: air}\n      surface: {isosurface-mean: pressure, in: air}\n"
+    "      least: {isosurface-min: pressure, in: air}\n      most: {isosurface-max: pressure, in: air}\n"
     "      flat: {plane-integral: pressure}\n"
     "      skin: {isosurface-mean: temperature_air, in: water}\n"
     "      warm: {mean: temperature_air, in: air}\n"
@@ -38,6 +39,8 @@ enum {
     JET,
     DEPTH,
     SURFACE,
+    LEAST,
+    MOST,
     FLAT,
     SKIN,
     WARM,
@@ -129,6 +132,8 @@ static void test_surface(void **state)
     assert_int_equal(measure_new(small.state, &measures), 0);
     measure_take(measures, small.state, values);
     close_to(values[SURFACE], 1e5 + 1e12 * radius * radius / 3.0, 0.01);
+    close_to(values[LEAST], 1e5, 0.01); /* at the equator, and at the poles */
+    close_to(values[MOST], 1e5 + 1e12 * radius * radius, 0.01);
     assert_true(values[DEPTH] == 0.0);
     make_ball(small.state, radius, 0.1e-3);
     measure_take(measures, small.state, values);
@@ -210,10 +215,9 @@ static void test_file(void **state)
     }
     history_free(history);
     char *text = small_text(&small, "history.csv");
-    assert_non_null(
-        strstr(text,
-               "step,t,dt,V,m,R,z,r,above,pmax,pmin,pmean,speed,mass,pz,jet,depth,surface,flat,skin,warm,nothing,ratio,"
-               "guard_fallback,guard_relaxed,guard_clipped,guard_retries\n0,0,"));
+    assert_non_null(strstr(text, "step,t,dt,V,m,R,z,r,above,pmax,pmin,pmean,speed,mass,pz,jet,depth,surface,least,most,"
+                                 "flat,skin,warm,nothing,ratio,"
+                                 "guard_fallback,guard_relaxed,guard_clipped,guard_retries\n0,0,"));
     assert_non_null(strstr(text, "\n3,0.375,0.125,"));
     assert_null(strstr(text, "\n4,"));
     assert_non_null(strstr(text, ",nan,"));
