@@ -148,7 +148,7 @@ struct model *model_new(const struct scene *scene)
         eos->rho_fill = model_fill_density(scene, l, eos);
         if (!eos->law->linear) model->linear = false;
     }
-    model->thermal = !model->linear;
+    model->thermal = scene->exchange == SCENE_EXCHANGE_AUTO ? !model->linear : scene->exchange == SCENE_EXCHANGE_FULL;
     model->limiter = (struct model_limiter){scene->limiter.module->table, scene->limiter.self};
     model->limiter_alpha =
         (struct model_limiter){scene->interface_limiter.module->table, scene->interface_limiter.self};

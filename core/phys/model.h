@@ -47,7 +47,7 @@ struct model {
     struct model *fluids; /* the same scene where only its fluids are present; NULL without a solid, with less
                                             than two fluids, or if they do not stand together in the list of materials */
     bool kapila, linear;  /* linear: every law is linear in p, closed-form mixture pressure */
-    bool thermal;         /* a law of the scene (not of this path) is not linear: temperatures are meant (update.h) */
+    bool thermal;         /* materials of a cell exchange volume in full: temperatures are meant (update.h) */
     struct model_eos eos[SCENE_MATERIALS];
     struct model_limiter {
         const struct bulla_limiter *law;
