@@ -233,7 +233,8 @@ static BULLA_KERNEL void update_share_all(size_t n, double h, const double *rest
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double fast = share[i], flow = speed2[i] * speed2[i], rate = fabs(push[i]) / stiffest[i] + fabs(strain[i]);
+        double fast = share[i], flow = speed2[i] * speed2[i], all = push[i], stretched = strain[i], K = stiffest[i];
+        double part = fabs(all) / K, rate = (K > 0.0 ? part : DBL_MAX) + fabs(stretched);
         double x = rate * h / UPDATE_STEEP, steep = x * x;
         double gentle = flow / (flow + steep * steep + DBL_MIN);
         share[i] = fast + (1.0 - fast) * gentle;
