@@ -22,8 +22,10 @@ enum { SOURCE_BATCH = 256, SOURCE_NAMES = 2 * SCENE_SOURCES };
 struct source {
     const struct model *model;
     const struct mesh *mesh;
-    double *row[SCENE_SOURCES]; /* values of a batch; NULL: not given */
-    double *rows;               /* where they lie */
+    double *row[SCENE_SOURCES];                      /* values of a batch; NULL: not given */
+    double *rows;                                    /* where they lie */
+    unsigned char varying[SCENE_SOURCES], n_varying; /* those that are expressions */
+    bool heats, fills, strains;                      /* is there any heat, mass, rate of the stretch? */
     const struct script_table *names;
     unsigned n_name;
     unsigned char slot[SOURCE_NAMES]; /* which value each name of the table means */
@@ -86,9 +88,17 @@ struct source *source_new(const struct model *model, const struct mesh *mesh)
     if (sources->script) source_name_all(source);
     source->rows = mem_new((size_t)SCENE_SOURCES * SOURCE_BATCH, sizeof *source->rows);
     for (unsigned s = 0; s < SCENE_SOURCES; s++) {
-        bool named = sources->value[s].given;
+        const struct scene_value *value = &sources->value[s];
+        bool named = value->given;
         for (unsigned i = 0; i < source->n_name; i++) named = named || source->slot[i] == s;
-        if (named) source->row[s] = source->rows + (size_t)s * SOURCE_BATCH;
+        if (!named) continue;
+        source->row[s] = source->rows + (size_t)s * SOURCE_BATCH;
+        if (value->given && value->script) source->varying[source->n_varying++] = (unsigned char)s;
+        else
+            for (size_t i = 0; i < SOURCE_BATCH; i++) source->row[s][i] = value->given ? value->number : 0.0;
+        source->heats = source->heats || (s >= SCENE_SOURCE_HEATING && s < SCENE_SOURCE_MASS);
+        source->fills = source->fills || (s >= SCENE_SOURCE_MASS && s < SCENE_SOURCE_FRACTION);
+        source->strains = source->strains || s >= SCENE_SOURCE_STRETCH;
     }
     return source;
 }
@@ -175,16 +185,19 @@ static void source_fail(struct source *source, const struct tile *tile, int stat
              tile->at[2], x[0], x[1], x[2], cell[0], cell[1], cell[2]);
 }
 
-/* All values at one point, into element i of their rows. */
+/* The values that vary, at one point, into element i of their rows. */
 static int source_ask(struct source *source, const double x[3], double t, size_t i)
 {
     const struct scene_sources *sources = source->model->scene->sources;
     double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]), out[SOURCE_NAMES], in[] = {x[0], x[1], x[2], t};
-    for (unsigned s = 0; s < SCENE_SOURCES; s++)
-        if (source->row[s]) {
-            source->row[s][i] = 0.0;
-            if (sources->value[s].given) TRY(scene_value_at(&sources->value[s], x, r, t, &source->row[s][i]));
-        }
+    for (unsigned k = 0; k < source->n_name; k++) {
+        const struct scene_value *value = &sources->value[source->slot[k]];
+        source->row[source->slot[k]][i] = value->given ? value->number : 0.0;
+    }
+    for (unsigned k = 0; k < source->n_varying; k++) {
+        unsigned s = source->varying[k];
+        TRY(scene_value_at(&sources->value[s], x, r, t, &source->row[s][i]));
+    }
     if (!sources->script) return STATUS_OK;
     TRY(script_table_call(sources->script, in, 4, source->names, out));
     for (unsigned k = 0; k < source->n_name; k++)
@@ -206,8 +219,8 @@ static void source_evaluate(struct source *source, const struct tile *tile, doub
         int status = source_ask(source, x, t, i);
         if (!status) continue;
         source_fail(source, tile, status, x, cell);
-        for (unsigned s = 0; s < SCENE_SOURCES; s++)
-            if (source->row[s]) source->row[s][i] = (double)NAN;
+        for (unsigned k = 0; k < source->n_varying; k++) source->row[source->varying[k]][i] = (double)NAN;
+        for (unsigned k = 0; k < source->n_name; k++) source->row[source->slot[k]][i] = (double)NAN;
     }
 }
 
@@ -329,8 +342,8 @@ static void source_begin(const struct source *source, struct source_batch *batch
 {
     const struct model *path = batch->path;
     for (size_t i = 0; i < batch->n; i++) batch->one[i] = 1.0;
-    memset(batch->rho, 0, sizeof batch->rho);
-    memset(batch->all, 0, sizeof batch->all);
+    memset(batch->rho, 0, batch->n * sizeof *batch->rho);
+    memset(batch->all, 0, batch->n * sizeof *batch->all);
     for (unsigned l = 0; l < path->n_material; l++) {
         source_product(batch->n, source_alpha(batch, l), batch->w + (path->i_m + l) * batch->stride, batch->rho);
         const double *given = source->row[SCENE_SOURCE_MASS + path->first + l];
@@ -354,7 +367,7 @@ static void source_forces(const struct source *source, const struct source_batch
         double *momentum = source_rate(batch, path->i_u + d), *energy = source_rate(batch, path->i_E);
         if (source->row[a] || source->row[f])
             source_push(batch->n, source_given(source, a), source_given(source, f), batch->rho, u, momentum, energy);
-        source_kinetic(batch->n, batch->all, u, momentum, energy);
+        if (source->fills) source_kinetic(batch->n, batch->all, u, momentum, energy);
     }
 }
 
@@ -366,6 +379,7 @@ static void source_material(struct source *source, struct source_batch *batch, u
     unsigned heat = SCENE_SOURCE_HEATING_OF + path->first + l, mass = SCENE_SOURCE_MASS + path->first + l;
     const double *rho = batch->w + (path->i_m + l) * batch->stride, *p = batch->w + path->i_E * batch->stride;
     double rho_e[SOURCE_BATCH], rho_c2[SOURCE_BATCH], de_dp[SOURCE_BATCH], de_drho[SOURCE_BATCH];
+    if (!source->heats && !source->fills) return;
     memcpy(batch->heat, source_given(source, SCENE_SOURCE_HEATING), batch->n * sizeof *batch->heat);
     if (source->row[heat]) source_plus(batch->n, source->row[heat], batch->heat);
     source_product(batch->n, source_alpha(batch, l), batch->heat, source_rate(batch, path->i_E));
@@ -386,7 +400,8 @@ static void source_fractions(const struct source *source, const struct source_ba
     const struct model *path = batch->path;
     const double *p = batch->w + path->i_E * batch->stride;
     double sum[SOURCE_BATCH] = {0}, all[SOURCE_BATCH] = {0};
-    for (unsigned l = 0; l < path->n_alpha && path->kapila; l++) {
+    bool shares = path->kapila && (source->heats || source->fills);
+    for (unsigned l = 0; l < path->n_alpha && shares; l++) {
         source_plus(batch->n, source->exchange[l], sum);
         source_plus(batch->n, source->compliance[l], all);
     }
@@ -394,8 +409,7 @@ static void source_fractions(const struct source *source, const struct source_ba
         const double *given = source->row[SCENE_SOURCE_FRACTION + path->first + l];
         double *alpha = source_rate(batch, path->i_alpha + l);
         double *carried = path->kapila ? source_rate(batch, path->n_field + 1 + l) : NULL;
-        if (path->kapila)
-            source_share(batch->n, source->exchange[l], source->compliance[l], sum, all, p, alpha, carried);
+        if (shares) source_share(batch->n, source->exchange[l], source->compliance[l], sum, all, p, alpha, carried);
         if (given) source_plus(batch->n, given, alpha);
         if (given && path->kapila) source_product(batch->n, given, p, carried);
     }
@@ -427,17 +441,20 @@ void source_add(struct source *source, const struct model *path, const struct le
                 double t, const double *w, double *rates)
 {
     if (!source) return;
-    struct source_batch batch = {.path = path, .stride = source->mesh->n_cell};
-    source_places(source, level, tile);
+    struct source_batch batch; /* large: filled as far as it is used */
+    bool varies = source->n_varying || source->n_name;
+    batch.path = path;
+    batch.stride = source->mesh->n_cell;
+    if (varies) source_places(source, level, tile);
     for (size_t from = 0; from < batch.stride; from += SOURCE_BATCH) {
         batch.n = batch.stride - from < SOURCE_BATCH ? batch.stride - from : SOURCE_BATCH;
         batch.w = w + from;
         batch.rates = rates + from;
-        source_evaluate(source, tile, t, from, batch.n);
+        if (varies) source_evaluate(source, tile, t, from, batch.n);
         source_begin(source, &batch);
         source_forces(source, &batch);
         for (unsigned l = 0; l < path->n_material; l++) source_material(source, &batch, l);
         if (path->n_alpha) source_fractions(source, &batch);
-        if (path->n_stretch) source_stretch(source, &batch);
+        if (path->n_stretch && (source->fills || source->strains)) source_stretch(source, &batch);
     }
 }
