@@ -48,13 +48,13 @@ static ELASTIC_BODY struct move_matrix move_general(struct elastic_tensor t)
     return (struct move_matrix){t.xx, t.xy, t.xz, t.xy, t.yy, t.yz, t.xz, t.yz, t.zz};
 }
 
-/* 2 (1 - A)^-1 - 1 = (1 - A)^-1 (1 + A), by cofactors. */
+/* 2 (1 - A)^-1 - 1 = (1 - A)^-1 (1 + A), by cofactors, in an order that keeps the bits where x and y are exchanged. */
 static ELASTIC_BODY struct move_matrix move_cayley(struct move_matrix A)
 {
     double a = 1.0 - A.xx, e = 1.0 - A.yy, i = 1.0 - A.zz, b = -A.xy, c = -A.xz, d = -A.yx, f = -A.yz, g = -A.zx,
            h = -A.zy;
     double ei = e * i - f * h, di = d * i - f * g, dh = d * h - e * g;
-    double twice = 2.0 / (a * ei - b * di + c * dh);
+    double twice = 2.0 / (i * (a * e - b * d) - (a * (f * h) + e * (c * g)) + (b * (f * g) + d * (c * h)));
     return (struct move_matrix){twice * ei - 1.0, -twice * (b * i - c * h),      twice * (b * f - c * e),
                                 -twice * di,      twice * (a * i - c * g) - 1.0, -twice * (a * f - c * d),
                                 twice * dh,       -twice * (a * h - b * g),      twice * (a * e - b * d) - 1.0};
