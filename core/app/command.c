@@ -8,6 +8,7 @@
 #include "app/inspect.h"
 #include "app/module_check.h"
 #include "app/module_new.h"
+#include "app/module_table.h"
 #include "app/plot.h"
 #include "app/plot_option.h"
 #include "app/report.h"
@@ -25,6 +26,7 @@
 
 static int command_help(const struct cli_given *given);
 static int command_version(const struct cli_given *given);
+static int command_module(const struct cli_given *given);
 
 static const struct cli_option
     command_output = {"--output", "-o", "DIR", "Output directory, instead of the case's."},
@@ -71,7 +73,13 @@ static const struct cli_option *const command_check_options[] = {&command_set,  
 
 static const struct cli_option command_parameter = {"--set", NULL, "NAME=VALUE",
                                                     "Gives a parameter, e.g. 'gamma=1.4'; may be repeated."};
-static const struct cli_option *const command_module_options[] = {&command_parameter, NULL};
+static const struct cli_option command_density = {"--density", NULL, "A..B",
+                                                  "Of `table`: densities [kg/m3], not the law's own range."};
+static const struct cli_option command_temperature = {"--temperature", NULL, "A..B", "Of `table`: temperatures [K]."};
+static const struct cli_option command_states = {"--states", NULL, "NxM",
+                                                 "Of `table`: densities x temperatures (100x100)."};
+static const struct cli_option *const command_module_options[] = {&command_parameter, &command_density,
+                                                                  &command_temperature, &command_states, NULL};
 
 static const struct cli_option command_markdown = {"--markdown", NULL, NULL, "A page to read instead of a schema."};
 static const struct cli_option *const command_schema_options[] = {&command_markdown, NULL};
@@ -93,8 +101,8 @@ static const struct cli_command command_table[] = {
      inspect_modules},
     {"new", "module KIND NAME", "A module of your own: a folder with sources, a test and a case, ready to build.", NULL,
      3, 3, module_new_command},
-    {"module", "check FILE.so...", "Tests a module against the contract of its kind.", command_module_options, 2, -1,
-     module_check_command},
+    {"module", "check FILE.so... | table LAW FILE", "Tests a module by the contract of its kind; tabulates a law.",
+     command_module_options, 2, -1, command_module},
     {"info", "FILE...", "What is inside a snapshot, a checkpoint or the dump of a failed step.", command_info_options,
      1, -1, inspect_info},
     {"plot", "DIR... FIELD|history|map", "PNG pictures of snapshots, histories (also of several runs) and maps.",
@@ -157,6 +165,11 @@ static int command_version(const struct cli_given *given)
     (void)given;
     if (comm_rank() == 0) printf("bulla " BULLA_VERSION " (commit %.12s)\n", version_commit());
     return 0;
+}
+
+static int command_module(const struct cli_given *given)
+{
+    return (strcmp(given->words[0], "table") ? module_check_command : module_table_command)(given);
 }
 
 static int command_help(const struct cli_given *given)

@@ -2,6 +2,7 @@
 #include "app/contract_module.h"
 
 #include "app/contract_suite.h"
+#include "app/module_values.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "case/unit.h"
@@ -10,67 +11,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-/* The values that a case without keys would give; NaN and NULL where a key is required. */
-static struct bulla_value *module_defaults(const struct bulla_module *module)
-{
-    unsigned count = instance_param_count(module);
-    struct bulla_value *values = mem_new(count + 1, sizeof *values);
-    for (unsigned i = 0; i < count; i++) {
-        const struct bulla_param *row = &module->params[i];
-        if (row->type == BULLA_NUMBER) values[i].number = row->fallback;
-        else if (row->type != BULLA_CHOICE) values[i].text = mem_text(row->choices);
-        else values[i].text = mem_text_n(row->choices, strcspn(row->choices, "|"));
-    }
-    return values;
-}
-
-static void module_forget(const struct bulla_module *module, struct bulla_value *values)
-{
-    for (unsigned i = 0; i < instance_param_count(module); i++) mem_free((char *)values[i].text);
-    mem_free(values);
-}
-
-/* The first parameter that has no value, or NULL. */
-static const char *module_missing(const struct bulla_module *module, const struct bulla_value *values)
-{
-    for (unsigned i = 0; i < instance_param_count(module); i++) {
-        bool number = module->params[i].type == BULLA_NUMBER;
-        if (number ? isnan(values[i].number) : !values[i].text) return module->params[i].name;
-    }
-    return NULL;
-}
-
-static int module_number(const struct bulla_param *row, const char *text, double *ret_number)
-{
-    struct unit unit, wanted;
-    char bad[32], words[96];
-    if (!unit_parse(row->unit, &wanted, bad)) return status_fail(STATUS_CASE, "%s has no known unit", row->name);
-    if (unit_quantity(text, ret_number, &unit, bad) != UNIT_FINE)
-        return status_fail(STATUS_CASE, "--set %s=%s: '%s' is no quantity", row->name, text, text);
-    bool bare = text[strcspn(text, "abcdfghijklmnopqrstuvwxyzABCDFGHIJKLMNOPQRSTUVWXYZ%")] == '\0';
-    if (!bare && !unit_same(&unit, &wanted))
-        return status_fail(STATUS_CASE, "--set %s=%s: %s is wanted", row->name, text,
-                           unit_kind(&wanted, words, sizeof words));
-    if (*ret_number >= row->min && *ret_number <= row->max) return STATUS_OK;
-    return status_fail(STATUS_CASE, "--set %s=%s: allowed is %g to %g", row->name, text, row->min, row->max);
-}
-
-static int module_set(const struct bulla_module *module, const char *setting, struct bulla_value *values)
-{
-    char name[64];
-    size_t length = strcspn(setting, "=");
-    snprintf(name, sizeof name, "%.*s", (int)length, setting);
-    int at = instance_param_find(module, name);
-    if (setting[length] != '=') return status_fail(STATUS_CASE, "--set %s: NAME=VALUE is wanted", setting);
-    if (at < 0)
-        return status_fail(STATUS_CASE, "--set %s: %s '%s' has no such parameter", setting, module->kind, module->name);
-    const struct bulla_param *row = &module->params[at];
-    if (row->type == BULLA_NUMBER) return module_number(row, setting + length + 1, &values[at].number);
-    mem_free((char *)values[at].text);
-    values[at].text = mem_text(setting + length + 1);
-    return STATUS_OK;
-}
 
 /* The suite on one set of values. */
 static int module_try(struct contract *contract, const struct bulla_value *values, const char *preset)
@@ -155,7 +95,7 @@ static void module_apart(struct contract *contract, const struct bulla_value *va
     }
     instance_done(&one);
     contract->self = NULL;
-    module_forget(module, other);
+    module_values_free(module, other);
 }
 
 static void module_units(struct contract *contract)
@@ -176,11 +116,8 @@ static int module_all(struct contract *contract, const char *const *sets, struct
 {
     const struct bulla_module *module = contract->module;
     bool presets = module->presets && module->presets->name && !(sets && *sets);
-    for (; sets && *sets; sets++) TRY(module_set(module, *sets, values));
-    const char *missing = module_missing(module, values);
-    if (missing && !presets)
-        return status_fail(STATUS_CASE, "%s '%s': parameter '%s' has no default; give one with --set %s=VALUE",
-                           module->kind, module->name, missing, missing);
+    const char *missing = module_values_missing(module, values);
+    if (!presets) TRY(module_values_check(module, values));
     if (!missing) TRY(module_try(contract, values, presets ? "defaults" : ""));
     if (presets) TRY(module_presets(contract, values));
     contract->preset = "";
@@ -193,9 +130,10 @@ static int module_all(struct contract *contract, const char *const *sets, struct
 
 int contract_module_run(struct contract *contract, const char *const *sets)
 {
-    struct bulla_value *values = module_defaults(contract->module);
+    struct bulla_value *values;
     contract->preset = "";
+    TRY(module_values(contract->module, sets, &values));
     int code = module_all(contract, sets, values);
-    module_forget(contract->module, values);
+    module_values_free(contract->module, values);
     return code;
 }

@@ -141,11 +141,13 @@ static int module_check(const char *path, const char *const *sets)
 int module_check_command(const struct cli_given *given)
 {
     if (strcmp(given->words[0], "check") != 0)
-        return cli_failed(
-            status_fail(STATUS_CASE, "module does not know '%s'; usage: bulla module check FILE.so", given->words[0]));
+        return cli_failed(status_fail(STATUS_CASE,
+                                      "module does not know '%s'; usage: bulla module check FILE.so, or table LAW FILE",
+                                      given->words[0]));
     if (comm_rank() != 0) return STATUS_OK;
     const char **sets = mem_new((size_t)given->n_option + 1, sizeof *sets);
-    for (int i = 0; i < given->n_option; i++) sets[i] = given->values[i];
+    for (int i = 0, n = 0; i < given->n_option; i++)
+        if (!strcmp(given->options[i]->name, "--set")) sets[n++] = given->values[i];
     int worst = 0;
     for (int i = 1; i < given->n_word; i++) {
         if (i > 1) fputs("\n", stdout);
