@@ -285,10 +285,11 @@ static void blame_take(struct blame *blame, enum blame_block block, size_t rows,
 
 void blame_rates(struct blame *blame, const struct model *model, const struct update_input *in)
 {
+    const struct model *used = blame_used(model, &blame->facts); /* a path for fewer materials has fewer rows */
     blame_take(blame, BLAME_U_OLD, model->n_field, in->u_old);
     blame_take(blame, BLAME_W, model->n_field, in->w);
-    blame_take(blame, BLAME_K, model->n_material, in->K);
-    blame_take(blame, BLAME_STIFFNESS, model->n_material, in->rho_c2);
+    blame_take(blame, BLAME_K, used->n_material, in->K);
+    blame_take(blame, BLAME_STIFFNESS, used->n_material, in->rho_c2);
 }
 
 /* What a pure model leaves alone stays out: zero. */
