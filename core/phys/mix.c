@@ -149,6 +149,23 @@ static void mix_unload(const struct model *model, size_t n, size_t stride, const
     mix_subtract(n, u + model->i_E * stride, elastic.value, ret_rest->value);
 }
 
+/* What the closure has left of the volume of a trace may be far less than what there is of its mass: compressed to 1e10 kg/m3,
+ * it would outweigh all the rest. Traces denser than their law states count with the greatest density that it does, in the
+ * volume that their mass then takes. */
+static BULLA_KERNEL void mix_settle(size_t n, double most, const double *restrict m, double *restrict alpha,
+                                    double *restrict rho)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], density = rho[i], room = m[i] / most;
+        double dense = density > most ? 1.0 : 0.0;
+        dense = a <= MIX_ABSENT ? dense : 0.0;
+        dense = a > 0.0 ? dense : 0.0;
+        alpha[i] = dense > 0.0 ? room : a;
+        rho[i] = dense > 0.0 ? most : density;
+    }
+}
+
 /* The pressure is closed with all there is of every material, since the conserved energy holds it: a trace
  * of 1e-12 of water weighs 1e-3 J/m3. Only then traces are dropped from what fluxes will see. */
 static struct mix_effort mix_primitives_batch(const struct model *model, size_t n, size_t stride, const double *u,
@@ -162,6 +179,11 @@ static struct mix_effort mix_primitives_batch(const struct model *model, size_t 
     for (unsigned l = 0; l < model->n_material; l++) mix_add(n, u + (i_m + l) * stride, rho.value);
     if (model->n_alpha) mix_fractions(model, n, stride, u, MIX_NOTHING, -HUGE_VAL, w);
     else memcpy(w + i_m * stride, u + i_m * stride, n * sizeof *w);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        traces += mix_count_traces(n, u + (model->i_alpha + l) * stride, u + (i_m + l) * stride);
+    for (unsigned l = 0; l < model->n_alpha && traces > 0.0; l++)
+        mix_settle(n, model->eos[l].rho_most, u + (i_m + l) * stride, w + (model->i_alpha + l) * stride,
+                   w + (i_m + l) * stride);
     for (unsigned q = model->i_u; q < model->i_E; q++) {
         mix_velocity(n, u + q * stride, rho.value, w + q * stride, twice.value);
     }
@@ -173,8 +195,6 @@ static struct mix_effort mix_primitives_batch(const struct model *model, size_t 
     }
     mix_internal(n, energy, twice.value, rho_e.value);
     struct mix_effort effort = mix_pressure_close(model, n, stride, rho_e.value, w);
-    for (unsigned l = 0; l < model->n_alpha; l++)
-        traces += mix_count_traces(n, u + (model->i_alpha + l) * stride, u + (i_m + l) * stride);
     if (traces > 0.0) mix_fractions(model, n, stride, u, MIX_ABSENT, 0.0, w);
     return effort;
 }

@@ -146,6 +146,9 @@ struct model *model_new(const struct scene *scene)
         eos->law = instance->module->table;
         eos->self = instance->self;
         eos->rho_fill = model_fill_density(scene, l, eos);
+        struct bulla_eos_range range;
+        eos->law->range(eos->self, &range);
+        eos->rho_most = range.rho_max > eos->rho_fill ? range.rho_max : eos->rho_fill;
         if (!eos->law->linear) model->linear = false;
     }
     model->thermal = scene->exchange == SCENE_EXCHANGE_AUTO ? !model->linear : scene->exchange == SCENE_EXCHANGE_FULL;

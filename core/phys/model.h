@@ -18,6 +18,7 @@ struct model_eos {
     const struct bulla_eos *law;
     const void *self;
     double rho_fill; /* density that stands in where the material is absent */
+    double rho_most; /* the greatest density that the law states, at least rho_fill */
 };
 
 /* The elastic law of one solid. */
