@@ -103,36 +103,47 @@ HELMHOLTZ_INLINE struct helmholtz_six helmholtz_scaled(struct helmholtz_six f, d
     return (struct helmholtz_six){f.c0 * by, f.c1 * by, f.c2 * by, f.c3 * by, f.c4 * by, f.c5 * by};
 }
 
-/* The Helmholtz energy where p(rho, l) = p, or on the edge of the domain where that lies outside. */
-HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_find(const struct helmholtz_grid *grid, const int gas, double rho,
-                                                      double p)
+/* Where a search begins: cells i of rho and j of l, the part x of the first, l and the lower edge there with its slope. */
+struct helmholtz_place {
+    int i, j;
+    double x, l, low, slope;
+};
+
+HELMHOLTZ_INLINE struct helmholtz_place helmholtz_place(const struct helmholtz_grid *grid, const int gas, double rho,
+                                                        double p)
 {
     double slope = 0.0, low = gas ? grid->l_low : helmholtz_edge(grid, rho, &slope);
-    double at = (rho - grid->rho_0) * grid->per_rho, target = p / rho;
+    double at = (rho - grid->rho_0) * grid->per_rho;
     int i = helmholtz_cell(at, grid->last_cell);
-    double l = helmholtz_start(grid, i, at - i, target);
+    double l = helmholtz_start(grid, i, at - i, p / rho);
     l = l > low ? l : low;
     l = l < grid->l_high ? l : grid->l_high;
-    double up = (l - grid->l_0) * grid->per_l;
-    int j = helmholtz_cell(up, grid->last_cell);
-    struct helmholtz_line line = helmholtz_line(grid, i, j, at - i);
-    double T = grid->T[j];
+    int j = helmholtz_cell((l - grid->l_0) * grid->per_l, grid->last_cell);
+    return (struct helmholtz_place){i, j, at - i, l, low, slope};
+}
+
+/* The Helmholtz energy where p(rho, l) = p, or on the edge of the domain where that lies outside. */
+HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_find(const struct helmholtz_grid *grid, const int gas, double rho,
+                                                      double p, struct helmholtz_place place)
+{
+    struct helmholtz_line line = helmholtz_line(grid, place.i, place.j, place.x);
+    double T = grid->T[place.j], up = (place.l - grid->l_0) * grid->per_l;
     struct helmholtz_search search = {.r = helmholtz_scaled(line.r, rho * grid->per_rho),
-                                      .target = target,
+                                      .target = p / rho,
                                       .RT = grid->R * T,
                                       .step = grid->step_l,
-                                      .low = (low - grid->l_0) * grid->per_l - j,
-                                      .high = (grid->l_high - grid->l_0) * grid->per_l - j};
-    double z =
-        helmholtz_step(&search, gas, helmholtz_step(&search, gas, up - j)); /* the third is in helmholtz_answer */
-    struct helmholtz_spot spot = helmholtz_spot(grid, &line, j, z, T);
+                                      .low = (place.low - grid->l_0) * grid->per_l - place.j,
+                                      .high = (grid->l_high - grid->l_0) * grid->per_l - place.j};
+    /* the third step is in helmholtz_answer */
+    double z = helmholtz_step(&search, gas, helmholtz_step(&search, gas, up - place.j));
+    struct helmholtz_spot spot = helmholtz_spot(grid, &line, place.j, z, T);
     spot = gas ? helmholtz_with_gas(spot, rho, grid->R * spot.T) : spot;
     double here = rho * rho * spot.a_r;
     double below = p < here ? -1.0 : 0.0, above = p > here ? 1.0 : 0.0;
     below = z <= search.low ? below : 0.0;
     above = z >= search.high ? above : 0.0;
     spot.side = below + above;
-    spot.slope = slope;
+    spot.slope = place.slope;
     return spot;
 }
 
