@@ -260,6 +260,7 @@ static void test_points_of_water(void **state)
         struct law law = open_law("iapws95", ways[i].eval, ways[i].size);
         assert_true(check_points(&law, "iapws95_points.csv", ways[i].bound) >= 35);
         assert_true(check_points(&law, "iapws95_hugoniot_1bar_300K.csv", ways[i].bound) >= 40);
+        assert_true(check_points(&law, "iapws95_hugoniot_1bar_288K.csv", ways[i].bound) >= 40);
         instance_done(&law.instance);
     }
 }
