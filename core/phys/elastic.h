@@ -80,7 +80,7 @@ struct elastic_rates {
 void elastic_advance(const struct model *model, size_t n, size_t stride, double dt, const double *V_old,
                      const struct elastic_rates *rates, double *V_new);
 
-/* det V = 1, in place; NaN where det V <= 0: no stretch any more, which the guard will see. */
+/* det V = 1 by scaling, in place; NaN where det V <= 0: no stretch any more, which the guard will see. */
 void elastic_unimodular(const struct model *model, size_t n, size_t stride, double *V);
 
 /* Sum over the solids of a block that has one row per material of the model, such as fractions or partial densities. */
@@ -91,7 +91,7 @@ void elastic_sum(const struct model *model, size_t n, size_t stride, const doubl
  * that the elastic energy lost becomes heat. Call before elastic_unimodular. */
 void elastic_fade(const struct model *model, size_t n, size_t stride, const double *alpha, double *V);
 
-#define ELASTIC_FADE 1e-2
+#define ELASTIC_FADE 1e-4
 
 /* Mass of solids per volume that counts as none [kg/m3]: round-off of a surface at rest leaves 1e-320 behind, by which
  * nothing can be divided. */

@@ -149,7 +149,8 @@ static ELASTIC_BODY struct elastic_tensor move_point(struct move_matrix A, struc
 {
     struct move_matrix E = move_cayley(A);
     struct elastic_tensor half = move_polar(move_product(E, move_general(old)), nv);
-    return move_polar(move_product(E, move_general(move_blend(half, keep, come))), nv);
+    struct elastic_tensor mean = elastic_tensor_nearest(move_blend(half, keep, come));
+    return move_polar(move_product(E, move_general(mean)), nv);
 }
 
 /* Value of an optional row. */

@@ -7,6 +7,8 @@
  * as its material. */
 #include "phys/elastic.h"
 
+#include "phys/elastic_tensor.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -49,10 +51,27 @@ static void correct_spin(const correct_matrix V, const double z[3], double w[3])
     w[2] = (G * z[0] + H * z[1] + C * z[2]) / det;
 }
 
+/* What the transport asks for, as far as det stays: a mean of stretches is put back to det 1 along the gradient of det. */
+static void correct_carried(const struct model *model, const struct elastic_correction *in, double *ret_dV)
+{
+    double V[6] = {0}, all = 0.0, along = 0.0;
+    for (unsigned c = 0; c < model->n_stretch; c++) V[c] = in->V[c];
+    struct elastic_tensor C = elastic_tensor_cofactors((struct elastic_tensor){V[0], V[1], V[2], V[3], V[4], V[5]});
+    const double slope[6] = {C.xx, C.yy, C.zz, C.xy, C.xz, C.yz};
+    for (unsigned c = 0; c < model->n_stretch; c++) {
+        double weight = c < 3 ? 1.0 : 2.0;
+        ret_dV[c] = in->carried[c] - in->V[c] * in->arrived;
+        along += weight * (slope[c] * ret_dV[c]);
+        all += weight * (slope[c] * slope[c]);
+    }
+    for (unsigned c = 0; all > 0.0 && c < model->n_stretch; c++) ret_dV[c] -= along / all * slope[c];
+}
+
 void elastic_correct(const struct model *model, const struct elastic_correction *in, double *ret_dV)
 {
     correct_matrix V, M, P = {{0}};
     double w[3];
+    correct_carried(model, in, ret_dV);
     correct_unpack(model, in->V, V);
     correct_gradient(model, in, M);
     for (int i = 0; i < 3; i++)
@@ -65,6 +84,6 @@ void elastic_correct(const struct model *model, const struct elastic_correction 
             if (c >= model->n_stretch) continue;
             double here = P[i][j] - (V[i][0] * W[0][j] + V[i][1] * W[1][j] + V[i][2] * W[2][j]);
             double there = P[j][i] - (V[j][0] * W[0][i] + V[j][1] * W[1][i] + V[j][2] * W[2][i]);
-            ret_dV[c] = (in->carried[c] - in->V[c] * in->arrived) + 0.5 * (here + there);
+            ret_dV[c] += 0.5 * (here + there);
         }
 }

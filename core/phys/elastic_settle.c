@@ -1,6 +1,8 @@
 /* elastic_settle.c - stretches that were averaged or interpolated become stretches again; see elastic.h. */
 #include "phys/elastic.h"
 
+#include "phys/elastic_tensor.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -16,6 +18,19 @@ static double settle_round_off(const double V[6])
     return 2.0 * DBL_EPSILON * terms * ((xx + yy) + (zz + (xy + (xz + yz))));
 }
 
+/* The nearest stretches of det 1, up to what elastic_unimodular corrects. */
+static void settle_nearest(const struct model *model, size_t n, size_t stride, double *V)
+{
+    for (size_t i = 0; i < n; i++) {
+        double at[6] = {0};
+        for (unsigned c = 0; c < model->n_stretch; c++) at[c] = V[c * stride + i];
+        struct elastic_tensor to =
+            elastic_tensor_nearest((struct elastic_tensor){at[0], at[1], at[2], at[3], at[4], at[5]});
+        memcpy(at, (double[]){to.xx, to.yy, to.zz, to.xy, to.xz, to.yz}, sizeof at);
+        for (unsigned c = 0; c < model->n_stretch; c++) V[c * stride + i] = at[c];
+    }
+}
+
 /* n <= SETTLE_BATCH points; alpha NULL: nothing but solid. */
 static void settle_batch(const struct model *model, size_t n, size_t stride, const double *alpha, double *V)
 {
@@ -23,6 +38,7 @@ static void settle_batch(const struct model *model, size_t n, size_t stride, con
     for (unsigned c = 0; c < model->n_stretch; c++) memcpy(before[c], V + c * stride, n * sizeof *V);
     if (alpha) elastic_sum(model, n, stride, alpha, phi);
     if (alpha) elastic_fade(model, n, stride, phi, V);
+    settle_nearest(model, n, stride, V);
     elastic_unimodular(model, n, stride, V);
     for (size_t i = 0; i < n; i++) {
         double was[6], most = 0.0;

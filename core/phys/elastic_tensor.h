@@ -69,4 +69,24 @@ static ELASTIC_BODY double elastic_tensor_det(struct elastic_tensor t)
     return t.zz * minor + (2.0 * t.xy * t.xz * t.yz - t.xx * t.yz * t.yz - t.yy * t.xz * t.xz);
 }
 
+/* det t t^-1, the gradient of det. */
+static ELASTIC_BODY struct elastic_tensor elastic_tensor_cofactors(struct elastic_tensor t)
+{
+    return (struct elastic_tensor){t.yy * t.zz - t.yz * t.yz, t.xx * t.zz - t.xz * t.xz, t.xx * t.yy - t.xy * t.xy,
+                                   t.xz * t.yz - t.xy * t.zz, t.xy * t.yz - t.yy * t.xz, t.xy * t.xz - t.xx * t.yz};
+}
+
+/* Two Newton steps towards the nearest tensor of det 1, along the gradient of det: what a mean of stretches has too much
+ * of volume is taken off the smallest ones, which bear least. Scaling would take it off all (docs/decisions/solid-gradient.md). */
+static ELASTIC_BODY struct elastic_tensor elastic_tensor_nearest(struct elastic_tensor t)
+{
+    for (int round = 0; round < 2; round++) {
+        struct elastic_tensor C = elastic_tensor_cofactors(t);
+        double det = t.zz * C.zz + (t.xz * C.xz + t.yz * C.yz), k = (det - 1.0) / elastic_tensor_norm2(C);
+        t = (struct elastic_tensor){t.xx - k * C.xx, t.yy - k * C.yy, t.zz - k * C.zz,
+                                    t.xy - k * C.xy, t.xz - k * C.xz, t.yz - k * C.yz};
+    }
+    return t;
+}
+
 #endif

@@ -202,6 +202,7 @@ static void face_reconstruct(struct face_work *work, const struct frame *frame, 
     const struct model *model = work->model;
     struct face_own *own = work->own;
     size_t step = frame->inner;
+    if (model->split) face_stress_frame(model, frame->count, work->frame);
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
         const double *w = work->frame + q * FACE_ROOM + step;
@@ -304,17 +305,20 @@ static void face_complete(struct face_work *work, const struct frame *frame, siz
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
+    if (model->split) face_stress_split(own->stress, model, n, own->state);
     const double *p = own->state + 2 * model->i_E * FACE_ROOM, *u[3] = {own->zero, own->zero, own->zero};
     const double *rho = model->n_alpha ? own->rho : own->state + 2 * model->i_m * FACE_ROOM; /* one material: rho_l */
     for (unsigned d = 0; d < model->n_velocity; d++) u[d] = own->state + 2 * (model->i_u + d) * FACE_ROOM;
     if (!model->n_alpha) {
-        model->eos[0].law->state(model->eos[0].self, n, rho, p, own->energy, own->c);
+        const double *own_p = model->split ? face_stress_pressure(own->stress, 0) : p;
+        model->eos[0].law->state(model->eos[0].self, n, rho, own_p, own->energy, own->c);
     }
     for (unsigned l = 0; l < model->n_alpha; l++) {
         const double *rho_l = own->state + 2 * (model->i_m + l) * FACE_ROOM,
                      *alpha = own->state + 2 * (model->i_alpha + l) * FACE_ROOM;
         double *m = own->m + 2 * l * FACE_ROOM, *stiffness = own->stiffness;
-        struct present present = {n, alpha, rho_l, p};
+        const double *own_p = model->split ? face_stress_pressure(own->stress, l) : p;
+        struct present present = {n, alpha, rho_l, own_p};
         present_state(&model->eos[l], &present, own->term, stiffness);
         if (l == 0) face_first_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
         else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);

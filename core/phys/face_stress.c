@@ -3,8 +3,10 @@
 
 #include "base/mem.h"
 #include "phys/elastic.h"
+#include "phys/traction.h"
 
 #include <math.h>
+#include <string.h>
 
 struct face_stress *face_stress_new(const struct model *model)
 {
@@ -14,13 +16,41 @@ struct face_stress *face_stress_new(const struct model *model)
                        &stress->stiff,  &stress->rigid,  &stress->traction};
     double *block = mem_new(sizeof rows / sizeof *rows * 2 * FACE_ROOM, sizeof *block);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) *rows[i] = block + i * 2 * FACE_ROOM;
+    if (model->split) stress->own = mem_new((size_t)model->n_material * 2 * FACE_ROOM, sizeof *block);
     return stress;
 }
 
 void face_stress_free(struct face_stress *stress)
 {
     if (stress) mem_free(stress->energy);
+    if (stress) mem_free(stress->own);
     mem_free(stress);
+}
+
+static BULLA_KERNEL void face_stress_take(size_t n, const double *restrict mean, double *restrict p)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) p[i] -= mean[i];
+}
+
+void face_stress_frame(const struct model *model, size_t n, double *frame)
+{
+    double mean[FACE_ROOM];
+    traction_mean(model, n, FACE_ROOM, frame, mean);
+    face_stress_take(n, mean, frame + model->i_E * FACE_ROOM);
+}
+
+static BULLA_KERNEL void face_stress_press(size_t n, const double *restrict traction, double *restrict own)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) own[i] += traction[i];
+}
+
+void face_stress_split(struct face_stress *stress, const struct model *model, size_t n, const double *state)
+{
+    traction_own(model, n, 2 * FACE_ROOM, state, 2 * FACE_ROOM, stress->own);
+    for (unsigned l = 0; l < model->n_material; l++)
+        face_stress_press(n, state + 2 * model->i_E * FACE_ROOM, stress->own + (size_t)l * 2 * FACE_ROOM);
 }
 
 /* Elastic parts are added; the traction and the shear speed are made. */
@@ -50,6 +80,8 @@ void face_stress_complete(struct face_stress *stress, const struct model *model,
                   edges->m, edges->rho_c2, &side);
     face_stress_add(edges->n, stress, edges->state + 2 * model->i_E * FACE_ROOM, edges->rho, edges->energy,
                     edges->rho_c2);
+    if (model->split)
+        memcpy(stress->traction, edges->state + 2 * model->i_E * FACE_ROOM, edges->n * sizeof *edges->rho);
 }
 
 void face_stress_point(struct face_stress *stress, const struct model *model, size_t right, struct bulla_faces *faces)

@@ -12,6 +12,7 @@
 struct face_stress {
     double *energy, *normal, *shear[2], *stiff, *rigid; /* of elastic_sides; `rigid` becomes c_s */
     double *traction;                                   /* -s_nn = p - s'_nn */
+    double *own;                                        /* [n_material] pressures of the materials (split models) */
     const double *sides[2][2];                          /* [side][tangent] shear tractions, for the solver */
     double *slide_left[2], *slide_right[2], *robust_left[2], *robust_right[2];
 };
@@ -19,6 +20,16 @@ struct face_stress {
 /* NULL where the model has no stretch. */
 struct face_stress *face_stress_new(const struct model *model);
 void face_stress_free(struct face_stress *stress);
+
+/* Split models (traction.h) reconstruct the traction -s_nn in place of p: replaces p of n cells of a gathered frame. */
+void face_stress_frame(const struct model *model, size_t n, double *frame);
+
+/* Pressures of the materials at n edges, from the traction. */
+void face_stress_split(struct face_stress *stress, const struct model *model, size_t n, const double *state);
+static inline const double *face_stress_pressure(const struct face_stress *stress, unsigned l)
+{
+    return stress->own + (size_t)l * 2 * FACE_ROOM;
+}
 
 /* Edges of a row, as face.c has completed them without elasticity. */
 struct face_stress_edges {

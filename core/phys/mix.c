@@ -8,6 +8,7 @@
 
 #include "phys/elastic.h"
 #include "phys/present.h"
+#include "phys/traction.h"
 
 #include <math.h>
 #include <string.h>
@@ -223,12 +224,15 @@ static void mix_load(const struct model *model, size_t n, size_t stride, const d
 static void mix_conserved_batch(const struct model *model, size_t n, size_t stride, const double *w, double *u)
 {
     struct mix_row rho, energy, e, c2;
+    struct traction_pressures parts;
+    traction_part(model, n, stride, w, &parts);
     mix_zero(n, &rho);
     mix_zero(n, &energy);
     for (unsigned l = 0; l < model->n_material; l++) {
         const double *density = w + (model->i_m + l) * stride;
         double *m = u + (model->i_m + l) * stride;
-        model->eos[l].law->state(model->eos[l].self, n, density, w + model->i_E * stride, e.value, c2.value);
+        const double *p = traction_pressure(model, n, l, w + model->i_E * stride, &parts);
+        model->eos[l].law->state(model->eos[l].self, n, density, p, e.value, c2.value);
         for (size_t i = 0; i < n; i++) {
             double alpha = model->n_alpha ? w[(model->i_alpha + l) * stride + i] : 1.0;
             if (model->n_alpha) u[(model->i_alpha + l) * stride + i] = alpha;
@@ -277,13 +281,15 @@ static BULLA_KERNEL void mix_divide(size_t n, const double *restrict a, const do
 static void mix_stiff(const struct model *model, size_t n, size_t stride, const double *w, bool everywhere,
                       double *rho_c2)
 {
-    const double *p = w + model->i_E * stride;
-    for (unsigned l = 0; l < model->n_material; l++) {
-        const double *rho = w + (model->i_m + l) * stride, *alpha = w + (model->i_alpha + l) * stride;
-        if (everywhere || !model->n_alpha) alpha = NULL;
-        for (size_t i = 0; i < n; i += MIX_BATCH) {
-            struct mix_row e;
-            struct present part = {n - i < MIX_BATCH ? n - i : MIX_BATCH, alpha ? alpha + i : NULL, rho + i, p + i};
+    struct traction_pressures parts;
+    struct mix_row e;
+    for (size_t i = 0; i < n; i += MIX_BATCH) {
+        size_t some = n - i < MIX_BATCH ? n - i : MIX_BATCH;
+        traction_part(model, some, stride, w + i, &parts);
+        for (unsigned l = 0; l < model->n_material; l++) {
+            const double *alpha = w + (model->i_alpha + l) * stride + i, *rho = w + (model->i_m + l) * stride + i;
+            const double *p = traction_pressure(model, some, l, w + model->i_E * stride + i, &parts);
+            struct present part = {some, everywhere || !model->n_alpha ? NULL : alpha, rho, p};
             present_state(&model->eos[l], &part, e.value, rho_c2 + l * stride + i);
         }
     }
@@ -395,13 +401,21 @@ void mix_closure(const struct model *model, size_t n, size_t stride, const doubl
     }
 }
 
-void mix_temperatures(const struct model *model, size_t n, size_t stride, const double *w, double *T)
+static void mix_temperatures_batch(const struct model *model, size_t n, size_t stride, const double *w, double *T)
 {
+    struct traction_pressures parts;
+    traction_part(model, n, stride, w, &parts);
     for (unsigned l = 0; l < model->n_material; l++) {
+        const double *p = traction_pressure(model, n, l, w + model->i_E * stride, &parts);
         double *own = T + l * stride;
-        model->eos[l].law->temperature(model->eos[l].self, n, w + (model->i_m + l) * stride, w + model->i_E * stride,
-                                       own);
+        model->eos[l].law->temperature(model->eos[l].self, n, w + (model->i_m + l) * stride, p, own);
         for (size_t i = 0; model->n_alpha && i < n; i++)
             if (w[(model->i_alpha + l) * stride + i] <= 0.0) own[i] = 0.0;
     }
+}
+
+void mix_temperatures(const struct model *model, size_t n, size_t stride, const double *w, double *T)
+{
+    for (size_t i = 0; i < n; i += MIX_BATCH)
+        mix_temperatures_batch(model, n - i < MIX_BATCH ? n - i : MIX_BATCH, stride, w + i, T + i);
 }

@@ -7,6 +7,7 @@
 #include "phys/mix_pressure.h"
 
 #include "phys/present.h"
+#include "phys/traction.h"
 
 #include <float.h>
 #include <math.h>
@@ -27,6 +28,8 @@ struct mix_pressure_points {
     unsigned n_law;
     const struct model_eos *law[SCENE_MATERIALS]; /* not linear in p */
     struct mix_pressure_row alpha[SCENE_MATERIALS], rho[SCENE_MATERIALS];
+    struct mix_pressure_row lag[SCENE_MATERIALS], own; /* split models: p_l - p, and one material's p_l (traction.h) */
+    bool split;
     struct mix_pressure_row f, slope, size; /* F and F' at p, and the sum of the magnitudes that F is made of */
 };
 
@@ -63,9 +66,17 @@ static BULLA_KERNEL void mix_pressure_divide(size_t n, const double *restrict rh
     for (size_t i = 0; i < n; i++) p[i] = (rho_e[i] - b[i]) / a[i];
 }
 
+/* b of a material whose pressure is p + lag: a (p + lag) + b. */
+static BULLA_KERNEL void mix_pressure_shift(size_t n, const double *restrict a, const double *restrict lag,
+                                            double *restrict b)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) b[i] += a[i] * lag[i];
+}
+
 /* A and B of the materials that are linear in p: rho e = A p + B. */
-static void mix_pressure_linear(const struct model *model, size_t n, size_t stride, const double *w, double *ret_a,
-                                double *ret_b)
+static void mix_pressure_linear(const struct model *model, size_t n, size_t stride, const double *w,
+                                const struct traction_pressures *parts, double *ret_a, double *ret_b)
 {
     struct mix_pressure_row a, b;
     memset(ret_a, 0, n * sizeof *ret_a);
@@ -74,6 +85,7 @@ static void mix_pressure_linear(const struct model *model, size_t n, size_t stri
         const struct model_eos *eos = &model->eos[l];
         if (!eos->law->linear) continue;
         eos->law->linear(eos->self, n, w + (model->i_m + l) * stride, a.value, b.value);
+        if (model->split) mix_pressure_shift(n, a.value, parts->lag[l], b.value);
         if (model->n_alpha) {
             mix_pressure_weigh(n, w + (model->i_alpha + l) * stride, a.value, b.value, ret_a, ret_b);
         } else {
@@ -100,7 +112,7 @@ static void mix_pressure_gather(const struct mix_pressure_points *points, const 
 
 /* Lowest pressure at which the materials of each point are well-posed. */
 static void mix_pressure_floor(const struct model *model, size_t stride, const double *w,
-                               struct mix_pressure_points *points)
+                               const struct traction_pressures *parts, struct mix_pressure_points *points)
 {
     struct mix_pressure_row rho, least;
     for (size_t k = 0; k < points->n; k++) points->floor.value[k] = -HUGE_VAL;
@@ -110,22 +122,26 @@ static void mix_pressure_floor(const struct model *model, size_t stride, const d
         eos->law->p_min(eos->self, points->n, rho.value, least.value);
         for (size_t k = 0; k < points->n; k++) {
             double alpha = model->n_alpha ? w[(model->i_alpha + l) * stride + points->at[k]] : 1.0;
-            bool raised = alpha > MIX_PRESSURE_FELT && least.value[k] > points->floor.value[k];
-            points->floor.value[k] = raised ? least.value[k] : points->floor.value[k];
+            double own = model->split ? least.value[k] - parts->lag[l][points->at[k]] : least.value[k];
+            bool raised = alpha > MIX_PRESSURE_FELT && own > points->floor.value[k];
+            points->floor.value[k] = raised ? own : points->floor.value[k];
         }
     }
 }
 
 /* The points that have to be iterated, each at its pressure of before if that is one. */
 static void mix_pressure_begin(const struct model *model, size_t stride, const double *w, const double *rho_e,
-                               const double *a, const double *b, struct mix_pressure_points *points)
+                               const double *a, const double *b, const struct traction_pressures *parts,
+                               struct mix_pressure_points *points)
 {
     points->n_law = 0;
+    points->split = model->split;
     for (unsigned l = 0; l < model->n_material; l++) {
         if (model->eos[l].law->linear) continue;
         unsigned k = points->n_law++;
         points->law[k] = &model->eos[l];
         mix_pressure_gather(points, w + (model->i_m + l) * stride, &points->rho[k]);
+        if (model->split) mix_pressure_gather(points, parts->lag[l], &points->lag[k]);
         if (model->n_alpha) mix_pressure_gather(points, w + (model->i_alpha + l) * stride, &points->alpha[k]);
         for (size_t i = 0; i < points->n && !model->n_alpha; i++) points->alpha[k].value[i] = 1.0;
     }
@@ -133,7 +149,7 @@ static void mix_pressure_begin(const struct model *model, size_t stride, const d
     mix_pressure_gather(points, a, &points->a);
     mix_pressure_gather(points, b, &points->b);
     mix_pressure_gather(points, w + model->i_E * stride, &points->p);
-    mix_pressure_floor(model, stride, w, points);
+    mix_pressure_floor(model, stride, w, parts, points);
     for (size_t k = 0; k < points->n; k++) {
         double least = points->floor.value[k], p = points->p.value[k];
         points->low.value[k] = least;
@@ -175,7 +191,13 @@ static void mix_pressure_residual(struct mix_pressure_points *points)
     mix_pressure_base(n, points->p.value, points->a.value, points->b.value, points->f.value, points->slope.value,
                       points->size.value);
     for (unsigned l = 0; l < points->n_law; l++) {
-        struct present present = {n, points->alpha[l].value, points->rho[l].value, points->p.value};
+        const double *p = points->p.value;
+        if (points->split) {
+            memcpy(points->own.value, p, n * sizeof *p);
+            mix_pressure_add(n, points->lag[l].value, points->own.value);
+            p = points->own.value;
+        }
+        struct present present = {n, points->alpha[l].value, points->rho[l].value, p};
         present_energy(points->law[l], &present, e.value, de_dp.value);
         mix_pressure_more(n, points->alpha[l].value, e.value, de_dp.value, points->f.value, points->slope.value,
                           points->size.value);
@@ -214,6 +236,7 @@ static void mix_pressure_move(struct mix_pressure_points *points, size_t k, size
     for (unsigned l = 0; l < points->n_law; l++) {
         points->alpha[l].value[to] = points->alpha[l].value[k];
         points->rho[l].value[to] = points->rho[l].value[k];
+        if (points->split) points->lag[l].value[to] = points->lag[l].value[k];
     }
 }
 
@@ -256,8 +279,10 @@ struct mix_effort mix_pressure_close(const struct model *model, size_t n, size_t
 {
     struct mix_pressure_row a, b, curved;
     struct mix_pressure_points points;
+    struct traction_pressures parts;
     double *p = w + model->i_E * stride;
-    mix_pressure_linear(model, n, stride, w, a.value, b.value);
+    traction_part(model, n, stride, w, &parts);
+    mix_pressure_linear(model, n, stride, w, &parts, a.value, b.value);
     if (model->linear) {
         mix_pressure_divide(n, rho_e, a.value, b.value, p);
         return (struct mix_effort){0};
@@ -269,6 +294,6 @@ struct mix_effort mix_pressure_close(const struct model *model, size_t n, size_t
         else points.at[points.n++] = (unsigned short)i;
     }
     if (points.n == 0) return (struct mix_effort){0};
-    mix_pressure_begin(model, stride, w, rho_e, a.value, b.value, &points);
+    mix_pressure_begin(model, stride, w, rho_e, a.value, b.value, &parts, &points);
     return mix_pressure_iterate(&points, p);
 }

@@ -93,6 +93,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
         narrow->solids[narrow->n_solid++].material = l;
     }
     if (narrow->n_solid == 0) narrow->n_stretch = 0;
+    narrow->split = model->split && narrow->n_solid;
     for (unsigned l = 0; l < narrow->n_alpha; l++) narrow->active[narrow->n_active++] = narrow->i_alpha + l;
     for (unsigned l = 0; l < n; l++) narrow->active[narrow->n_active++] = narrow->i_m + l;
     for (unsigned q = model->i_u; q < model->i_V + narrow->n_stretch; q++) narrow->active[narrow->n_active++] = q;
@@ -138,6 +139,7 @@ struct model *model_new(const struct scene *scene)
     model_solids(model);
     model->n_stretch = model->elastic ? elastic_count(model->n_velocity) : 0;
     model->n_field = model->i_V + model->n_stretch;
+    model->split = model->dim == 1 && model->elastic && model->n_alpha > 0;
     model->kapila = scene->closure == SCENE_KAPILA && model->n_alpha > 0;
     model->linear = true;
     for (unsigned l = 0; l < model->n_material; l++) {

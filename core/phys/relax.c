@@ -3,6 +3,7 @@
 
 #include "phys/elastic.h"
 #include "phys/mix.h"
+#include "phys/traction.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,8 +19,9 @@ struct relax {
     double u[RELAX_FIELDS], w[RELAX_FIELDS]; /* the cell now */
     bool present[SCENE_MATERIALS];
     double m[SCENE_MATERIALS], v0[SCENE_MATERIALS], e0[SCENE_MATERIALS], v[SCENE_MATERIALS];
-    double p0, floor; /* pressure at the start, and the least one that all present materials bear */
-    double stiffest;  /* largest rho_l c_l^2 at the start */
+    double own[SCENE_MATERIALS]; /* pressure of a material less the common one: s'_nn of its stretch now (traction.h) */
+    double p0, floor;            /* common pressure at the start, and the least one that all present materials bear */
+    double stiffest;             /* largest rho_l c_l^2 at the start */
 };
 
 /* A volume fraction below RELAX_TRACE with less than RELAX_VOID of the cell's mass is an empty trace: it gives way. */
@@ -38,6 +40,14 @@ static double relax_energy(const struct model_eos *eos, double rho, double p, do
     return rho_e;
 }
 
+/* What the materials have in common: the traction, or the pressure. */
+static double relax_common(const struct model *model, const double *w)
+{
+    double mean = 0.0;
+    if (model->split) traction_mean(model, 1, 1, w, &mean);
+    return w[model->i_E] - mean;
+}
+
 /* Start states: the material's own where most of it was here before, else the density it arrived with. */
 static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
 {
@@ -47,19 +57,27 @@ static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
     mix_primitives(model, 1, 1, old, before);
     double rho_all = 0.0;
     for (unsigned l = 0; l < model->n_material; l++) rho_all += relax->u[model->i_m + l];
-    relax->p0 = before[model->i_E];
+    relax->p0 = relax_common(model, before);
     relax->floor = -HUGE_VAL;
     for (unsigned l = 0; l < model->n_material; l++) {
-        const struct model_eos *eos = &model->eos[l];
-        double m = relax->u[model->i_m + l], alpha = relax->u[model->i_alpha + l], rho, least, slope, rho_e, rho_c2;
+        double m = relax->u[model->i_m + l], alpha = relax->u[model->i_alpha + l];
         relax->m[l] = m;
         relax->present[l] = alpha > MIX_ABSENT && m > (alpha < RELAX_TRACE ? RELAX_VOID * rho_all : 0.0);
         if (!relax->present[l]) continue;
         bool own = before[model->i_alpha + l] > 0.0 && old[model->i_m + l] > 0.5 * m && old[model->i_m + l] < 2.0 * m;
-        rho = own ? before[model->i_m + l] : m / alpha;
+        relax->w[model->i_m + l] = own ? before[model->i_m + l] : m / alpha;
+    }
+    for (unsigned q = model->i_V; q < model->i_V + model->n_stretch; q++) relax->w[q] = relax->u[q];
+    if (model->split) traction_own(model, 1, 1, relax->w, 1, relax->own);
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const struct model_eos *eos = &model->eos[l];
+        double rho = relax->w[model->i_m + l], least, slope, rho_e, rho_c2;
+        if (!relax->present[l]) continue;
         eos->law->p_min(eos->self, 1, &rho, &least);
+        least -= relax->own[l];
         if (least > relax->floor) relax->floor = least;
-        double low = least + RELAX_NEAR * fabs(relax->p0 - least), start = relax->p0 > low ? relax->p0 : low;
+        double low = least + RELAX_NEAR * fabs(relax->p0 - least),
+               start = (relax->p0 > low ? relax->p0 : low) + relax->own[l];
         relax->v0[l] = 1.0 / rho;
         relax->e0[l] = relax_energy(eos, rho, start, &slope) / rho;
         eos->law->state(eos->self, 1, &rho, &start, &rho_e, &rho_c2);
@@ -69,8 +87,9 @@ static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
 }
 
 /* v_l(p): Newton on e(v, p) + p v = e0 + p v0, which is linear in v for the stiffened-gas family. */
-static double relax_volume(const struct relax *relax, unsigned l, double p)
+static double relax_volume(const struct relax *relax, unsigned l, double common)
 {
+    double p = common + relax->own[l];
     double target = relax->e0[l] + p * relax->v0[l], v = relax->v0[l];
     for (int i = 0; i < RELAX_NEWTON; i++) {
         double de_drho, rho_e = relax_energy(&relax->model->eos[l], 1.0 / v, p, &de_drho);
@@ -126,11 +145,11 @@ static void relax_normalise(struct relax *relax)
     for (unsigned l = 0; l < relax->model->n_alpha; l++) alpha[l] /= sum;
 }
 
-/* Mixture pressure that the conserved energy gives with the present fractions. */
+/* Common pressure that the conserved energy gives with the present fractions. */
 static double relax_close(struct relax *relax)
 {
     mix_primitives(relax->model, 1, 1, relax->u, relax->w);
-    return relax->w[relax->model->i_E];
+    return relax_common(relax->model, relax->w);
 }
 
 /* The present material of least or most energy per volume. */
@@ -170,7 +189,7 @@ static void relax_shift(struct relax *relax, double p)
         double rho_e[SCENE_MATERIALS], slope, excess = kinetic + elastic - relax->u[model->i_E], most = 0.0;
         for (unsigned l = 0; l < model->n_material; l++) {
             if (!relax->present[l]) continue;
-            rho_e[l] = relax_energy(&model->eos[l], relax->m[l] / alpha[l], p, &slope);
+            rho_e[l] = relax_energy(&model->eos[l], relax->m[l] / alpha[l], p + relax->own[l], &slope);
             excess += alpha[l] * rho_e[l];
         }
         unsigned to = relax_extreme(relax, rho_e, excess > 0.0), from = to;

@@ -2,6 +2,7 @@
 #include "phys/update.h"
 
 #include "phys/elastic.h"
+#include "phys/traction.h"
 
 enum { UPDATE_BATCH = 512 };
 
@@ -276,7 +277,7 @@ static BULLA_KERNEL void update_normalise(size_t n, const double *restrict sum, 
 
 /* How much of the exchange is made in n cells, from `from` on. */
 static void update_shares(const struct model *model, size_t n_cell, size_t from, size_t n,
-                          const struct update_input *in, struct update_misfit *misfit)
+                          const struct update_input *in, const double *p, struct update_misfit *misfit)
 {
     const double *carried = in->rates + (model->n_field + 1) * n_cell + from,
                  *strained = carried + model->n_alpha * n_cell;
@@ -286,9 +287,14 @@ static void update_shares(const struct model *model, size_t n_cell, size_t from,
     for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) memset(sums[i], 0, n * sizeof **sums);
     for (unsigned l = 0; l < model->n_alpha; l++)
         update_bring(n, carried + l * n_cell, strained + l * n_cell, in->rates + (model->i_alpha + l) * n_cell + from,
-                     in->w + model->i_E * n_cell + from, in->rho_c2 + l * n_cell + from, misfit->push, misfit->strain,
-                     misfit->stiffest);
+                     p, in->rho_c2 + l * n_cell + from, misfit->push, misfit->strain, misfit->stiffest);
     update_share_all(n, in->h, misfit->speed2, misfit->push, misfit->strain, misfit->stiffest, misfit->share);
+}
+
+static BULLA_KERNEL void update_take(size_t n, const double *restrict mean, double *restrict p)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) p[i] -= mean[i];
 }
 
 /* The closure's part of the fractions of n cells from `from`; returns in how many a bound acted. */
@@ -302,17 +308,20 @@ static size_t update_relax(const struct model *model, size_t n_cell, size_t from
     const double *carried = rates + (model->n_field + 1) * n_cell, *strained = carried + model->n_alpha * n_cell;
     const double *moved = rates + model->i_alpha * n_cell;
     size_t clipped = 0;
+    double p[UPDATE_BATCH], mean[UPDATE_BATCH];
+    memcpy(p, w + model->i_E * n_cell, n * sizeof *p);
+    if (model->split) traction_mean(model, n, n_cell, w, mean), update_take(n, mean, p);
     for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) memset(sums[i], 0, n * sizeof *cut);
     u_new += from;
     double *alpha = u_new + model->i_alpha * n_cell;
     for (unsigned d = 0; d < model->n_velocity; d++) update_speed2(n, w + (model->i_u + d) * n_cell, misfit.speed2);
     for (unsigned l = 0; l < model->n_alpha; l++) {
-        update_own_misfit(n, dt, carried + l * n_cell, strained + l * n_cell, moved + l * n_cell,
-                          w + model->i_E * n_cell, rho_c2 + l * n_cell, misfit.own[l], misfit.sum);
+        update_own_misfit(n, dt, carried + l * n_cell, strained + l * n_cell, moved + l * n_cell, p,
+                          rho_c2 + l * n_cell, misfit.own[l], misfit.sum);
         update_mixture(n, alpha + l * n_cell, w + (model->i_m + l) * n_cell, rho_c2 + l * n_cell, misfit.rho,
                        misfit.stiffness, misfit.compliance);
     }
-    update_shares(model, n_cell, from, n, in, &misfit);
+    update_shares(model, n_cell, from, n, in, p, &misfit);
     for (unsigned l = 0; l < model->n_alpha; l++)
         update_close(n, dt, in->K + l * n_cell + from, rates + model->n_field * n_cell, rho_c2 + l * n_cell, &misfit,
                      misfit.own[l], alpha + l * n_cell, cut);

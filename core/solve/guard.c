@@ -4,6 +4,7 @@
 
 #include "base/mem.h"
 #include "mesh/halo.h"
+#include "phys/elastic.h"
 #include "phys/mix.h"
 #include "phys/relax.h"
 
@@ -220,18 +221,34 @@ static void guard_keep(struct guard *guard, const struct guard_tile *tile)
     memcpy(guard->kept + block, tile->w, block * sizeof *tile->w);
 }
 
+/* Fractions of material l that are judged where materials have pressures of their own (phys/traction.h): in a cell with more
+ * solid than anything else, what fluid there is need not bear the tension of the solid. Its fraction is carried along. */
+static const double *guard_borne(const struct model *model, size_t n, size_t n_cell, const double *w, unsigned l,
+                                 double *alpha)
+{
+    double solid[GUARD_BATCH];
+    elastic_sum(model, n, n_cell, w + model->i_alpha * n_cell, solid);
+    for (unsigned s = 0; s < model->n_solid; s++)
+        if (model->solids[s].material == l) return w + (model->i_alpha + l) * n_cell;
+    for (size_t i = 0; i < n; i++) alpha[i] = solid[i] > 0.5 ? 0.0 : w[(model->i_alpha + l) * n_cell + i];
+    return alpha;
+}
+
 /* The checks on n cells from `from`; bad[i] > 0 where one fails. Returns their sum. */
 static double guard_judge(const struct guard *guard, const struct guard_tile *tile, size_t from, size_t n, double *bad)
 {
     const struct model *model = tile->model;
     size_t n_cell = guard->mesh->n_cell;
-    double rho[GUARD_BATCH], count = 0.0;
+    double rho[GUARD_BATCH], borne[GUARD_BATCH], count = 0.0;
     guard_mixture(n, tile->u + model->i_E * n_cell + from, tile->w + model->i_E * n_cell + from, tile->c2 + from, bad);
     if (model->n_alpha) guard_density(model, n, n_cell, tile->u + from, rho);
     else guard_single(n, tile->u + model->i_m * n_cell + from, bad);
-    for (unsigned l = 0; l < model->n_alpha; l++)
-        guard_material(n, tile->u + (model->i_m + l) * n_cell + from, tile->w + (model->i_alpha + l) * n_cell + from,
-                       tile->rho_c2 + l * n_cell + from, rho, model->eos[l].rho_fill, bad);
+    for (unsigned l = 0; l < model->n_alpha; l++) {
+        const double *alpha = tile->w + (model->i_alpha + l) * n_cell + from;
+        if (model->split) alpha = guard_borne(model, n, n_cell, tile->w + from, l, borne);
+        guard_material(n, tile->u + (model->i_m + l) * n_cell + from, alpha, tile->rho_c2 + l * n_cell + from, rho,
+                       model->eos[l].rho_fill, bad);
+    }
     for (size_t i = 0; i < n; i++) count += bad[i];
     return count;
 }

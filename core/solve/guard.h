@@ -1,7 +1,7 @@
 /* guard.h - is a state admissible, and what is done when it is not.
  *
  * Admissible: everything finite, rho > 0, no partial density below round-off, every present
- * material well-posed at the mixture pressure (c_l^2 > 0). A mixed cell that fails gets its volume
+ * material well-posed at its pressure (c_l^2 > 0). A mixed cell that fails gets its volume
  * fractions from pressure relaxation (phys/relax.h). The ladder for a step that still leaves
  * an inadmissible cell: redo the step with first-order states and the robust solver at the faces
  * of the troubled cells (conservative: both sides see the same flux), at most GUARD_ROUNDS times;

@@ -1,0 +1,104 @@
+/* traction.c - see traction.h. */
+#include "phys/traction.h"
+
+#include "phys/elastic.h"
+
+#include <string.h>
+
+/* s'_xx = 2 rho [(e_1 + I1 e_2) dev B - e_2 dev B^2]_xx with a diagonal or plane V; tr B^2 = I1^2 - 2 I2. */
+static BULLA_KERNEL void traction_normal(size_t n, const double *restrict rho, const double *restrict xx,
+                                         const double *restrict xy, const double *restrict xz,
+                                         const double *restrict yy, const double *restrict yz,
+                                         const double *restrict zz, const double *restrict I1,
+                                         const double *restrict I2, const double *restrict e_1,
+                                         const double *restrict e_2, double *restrict own)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = xx[i], b = xy[i], c = xz[i], d = yy[i], e = yz[i], f = zz[i], first = I1[i], slope = e_2[i];
+        double B = a * a + b * b + c * c, Bxy = a * b + b * d + c * e, Bxz = a * c + b * e + c * f;
+        double C = B * B + Bxy * Bxy + Bxz * Bxz, trace = first * first - 2.0 * I2[i];
+        double G1 = e_1[i] + first * slope;
+        own[i] = 2.0 * rho[i] * (G1 * (B - first / 3.0) - slope * (C - trace / 3.0));
+    }
+}
+
+static const double traction_zero[TRACTION_BATCH];
+
+static void traction_batch(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
+                           double *own)
+{
+    double I1[TRACTION_BATCH], I2[TRACTION_BATCH], e[TRACTION_BATCH], e_1[TRACTION_BATCH], e_2[TRACTION_BATCH];
+    const double *V = w + model->i_V * stride, *row[6];
+    for (unsigned c = 0; c < 6; c++) row[c] = c < model->n_stretch ? V + c * stride : traction_zero;
+    elastic_invariants(model, n, stride, V, I1, I2);
+    for (unsigned l = 0; l < model->n_material; l++) memset(own + l * pitch, 0, n * sizeof *own);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        const struct model_solid *solid = &model->solids[s];
+        solid->law->energy(solid->self, n, I1, I2, e, e_1, e_2);
+        traction_normal(n, w + (model->i_m + solid->material) * stride, row[ELASTIC_XX], row[ELASTIC_XY],
+                        row[ELASTIC_XZ], row[ELASTIC_YY], row[ELASTIC_YZ], row[ELASTIC_ZZ], I1, I2, e_1, e_2,
+                        own + solid->material * pitch);
+    }
+}
+
+void traction_own(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch, double *own)
+{
+    for (size_t i = 0; i < n; i += TRACTION_BATCH)
+        traction_batch(model, n - i < TRACTION_BATCH ? n - i : TRACTION_BATCH, stride, w + i, pitch, own + i);
+}
+
+static BULLA_KERNEL void traction_add(size_t n, const double *restrict alpha, const double *restrict own,
+                                      double *restrict mean)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) mean[i] += alpha[i] * own[i];
+}
+
+static BULLA_KERNEL void traction_take(size_t n, const double *restrict mean, double *restrict own)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) own[i] -= mean[i];
+}
+
+/* Both for a batch. */
+static void traction_both(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
+                          double *own, double *mean)
+{
+    traction_batch(model, n, stride, w, pitch, own);
+    if (!model->n_alpha) memcpy(mean, own, n * sizeof *mean);
+    else memset(mean, 0, n * sizeof *mean);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        traction_add(n, w + (model->i_alpha + l) * stride, own + l * pitch, mean);
+}
+
+void traction_mean(const struct model *model, size_t n, size_t stride, const double *w, double *mean)
+{
+    double own[SCENE_MATERIALS * TRACTION_BATCH];
+    for (size_t i = 0; i < n; i += TRACTION_BATCH)
+        traction_both(model, n - i < TRACTION_BATCH ? n - i : TRACTION_BATCH, stride, w + i, TRACTION_BATCH, own,
+                      mean + i);
+}
+
+void traction_part(const struct model *model, size_t n, size_t stride, const double *w, struct traction_pressures *ret)
+{
+    double mean[TRACTION_BATCH];
+    if (!model->split) return;
+    traction_both(model, n, stride, w, TRACTION_BATCH, ret->lag[0], mean);
+    for (unsigned l = 0; l < model->n_material; l++) traction_take(n, mean, ret->lag[l]);
+}
+
+static BULLA_KERNEL void traction_give(size_t n, const double *restrict p, const double *restrict lag,
+                                       double *restrict own)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) own[i] = p[i] + lag[i];
+}
+
+const double *traction_pressure(const struct model *model, size_t n, unsigned l, const double *p,
+                                struct traction_pressures *parts)
+{
+    if (!model->split) return p;
+    traction_give(n, p, parts->lag[l], parts->own);
+    return parts->own;
+}
