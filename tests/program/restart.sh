@@ -63,7 +63,7 @@ initial:
     material: water
     density: 1000
     pressure: 1 bar
-    velocity: ['= x > 0 and 600 or -600', '= y > 0 and 600 or -600']
+    velocity: ['= x > 0 and 700 or -700', '= y > 0 and 700 or -700']
   - {sphere: {center: [0.1, 0.1], radius: 0.3}, material: air, density: 1, pressure: 1 bar, velocity: [0, 0]}
 scheme: {closure: allaire, limiter: mc, cfl: 0.9}
 run: {until: 1, max-steps: 18}
