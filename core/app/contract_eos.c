@@ -3,7 +3,8 @@
  * Everything follows from rho e(rho, p): its derivatives are compared with differences, and rho c^2,
  * T and s with the identities (v = 1/rho, h = e + p/rho)
  *     c^2 = (h - d(rho e)/drho)/(d(rho e)/dp),    T ds = de + p dv.
- * A law that passes is one potential, whatever formulas it is made of. */
+ * A law that passes is one potential, whatever formulas it is made of. Where continuations begin and end, rho e must
+ * go on without a jump: it is followed along lines of constant density and of constant pressure through all of them. */
 #include "app/contract_eos.h"
 
 #include "app/contract_batch.h"
@@ -24,6 +25,7 @@ struct eos_suite {
     const struct bulla_eos *eos;
     const void *self;
     const struct contract_eos_box *box;
+    struct bulla_eos_range range;
 };
 
 static struct eos_point eos_at(const struct eos_suite *suite, double rho, double p)
@@ -128,6 +130,18 @@ static void eos_energy(const struct eos_suite *suite, double rho, double p, cons
     contract_holds(suite->contract, rho_e == point.rho_e && de_dp == point.de_dp, where);
 }
 
+/* A continuation stands in for the formulas beyond the stated range only. */
+static void eos_counting(const struct eos_suite *suite, double rho, double p, const char *where)
+{
+    const struct bulla_eos_range *range = &suite->range;
+    double T = eos_temperature(suite, rho, p);
+    bool inside = rho >= range->rho_min && rho <= range->rho_max && p >= range->p_min && p <= range->p_max &&
+                  T >= range->T_min && T <= range->T_max;
+    contract_begin(suite->contract, "count_outside: 0 in the stated range", 0.0);
+    if (inside && BULLA_EOS_HAS(suite->eos, count_outside))
+        contract_holds(suite->contract, suite->eos->count_outside(suite->self, 1, &rho, &p) == 0, where);
+}
+
 static bool eos_well_posed(struct eos_point point)
 {
     bool finite = isfinite(point.rho_e) && isfinite(point.c2) && isfinite(point.T) && isfinite(point.s) &&
@@ -160,6 +174,7 @@ static void eos_states(const struct eos_suite *suite)
         eos_inverse(suite, rho, p, where);
         eos_linear(suite, rho, p, where);
         eos_energy(suite, rho, p, where);
+        eos_counting(suite, rho, p, where);
     }
 }
 
@@ -172,6 +187,77 @@ static void eos_everywhere(const struct eos_suite *suite)
         double p_min = eos_p_min(suite, rho);
         for (double above = 1e-3; above < 1e11; above *= 10.0)
             if (above > 1e-9 * fabs(p_min)) eos_judge(suite, rho, p_min + above);
+    }
+}
+
+/* A step from one state to another: what rho e changes by, what its slopes at both ends say (`size`: without their
+ * cancelling), and what rounding may do. */
+struct eos_stride {
+    double change, slope, size, noise;
+};
+
+static struct eos_stride eos_stride(const struct eos_suite *suite, const double from[2], const double to[2])
+{
+    struct eos_point at[2] = {eos_at(suite, from[0], from[1]), eos_at(suite, to[0], to[1])};
+    double dr = 0.5 * (to[0] - from[0]), dp = 0.5 * (to[1] - from[1]);
+    struct eos_stride stride = {.change = at[1].rho_e - at[0].rho_e};
+    for (int i = 0; i < 2; i++) {
+        stride.slope += at[i].de_dp * dp + at[i].de_drho * dr;
+        stride.size += at[i].de_dp * fabs(dp) + (fabs(at[i].de_drho) + at[i].c2 * at[i].de_dp) * fabs(dr);
+        stride.noise += 1e-10 * (fabs(at[i].rho_e) + at[i].de_dp * fabs(i ? to[1] : from[1]));
+    }
+    return stride;
+}
+
+/* By how much slopes do not explain a change. */
+static double eos_misfit(struct eos_stride stride)
+{
+    return fabs(stride.change - stride.slope) - 1e-3 * stride.size - stride.noise;
+}
+
+/* Looks for a jump of rho e between two states: in both halves while slopes do not explain the change, down to steps in
+ * which hardly anything may change; over p, rho e may not fall in them either. Slopes that are wrong all along would
+ * lead everywhere: when `left` steps are used up, only into the half that they explain less. */
+static void eos_follow(const struct eos_suite *suite, const double from[2], const double to[2], int depth, int *left)
+{
+    struct eos_stride stride = eos_stride(suite, from, to);
+    bool explained = eos_misfit(stride) <= 0.0;
+    if (explained || depth == 0) {
+        double most = 3.0 * (stride.size + stride.noise), least = from[0] == to[0] ? -stride.noise : -most;
+        contract_error(suite->contract, !explained && !(stride.change >= least && stride.change <= most),
+                       "rho %.9g, p %.9g to rho %.9g, p %.9g: rho e changes by %.4g, slopes say %.4g", from[0], from[1],
+                       to[0], to[1], stride.change, stride.slope);
+        return;
+    }
+    const double middle[2] = {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])};
+    bool lower = true, upper = true;
+    if (--*left < 0) {
+        lower = !(eos_misfit(eos_stride(suite, from, middle)) < eos_misfit(eos_stride(suite, middle, to)));
+        upper = !lower;
+    }
+    if (lower) eos_follow(suite, from, middle, depth - 1, left);
+    if (upper) eos_follow(suite, middle, to, depth - 1, left);
+}
+
+static void eos_line(const struct eos_suite *suite, const double from[2], const double to[2])
+{
+    int left = 200;
+    eos_follow(suite, from, to, 30, &left);
+}
+
+/* Lines of constant density from p_min up, and of constant pressure wherever it is above p_min. */
+static void eos_lines(const struct eos_suite *suite)
+{
+    double most = suite->box->rho[1] * 1.5 > 4600.0 ? suite->box->rho[1] * 1.5 : 4600.0;
+    contract_begin(suite->contract, "rho e grows with p and has no jumps", 0.0);
+    for (double rho = 1e-3; rho < most; rho *= 1.1) {
+        double p_min = eos_p_min(suite, rho), next = 1.1 * rho, next_min = eos_p_min(suite, next);
+        double least = 1e-9 * fabs(p_min) > 1e-3 ? 1e-9 * fabs(p_min) : 1e-3,
+               high = p_min > next_min ? p_min : next_min;
+        for (double above = least; above < 1e11; above *= 10.0)
+            eos_line(suite, (const double[]){rho, p_min + above}, (const double[]){rho, p_min + 10.0 * above});
+        for (double p = 1e3; p < 1e11; p *= 10.0)
+            if (p > 1.01 * high) eos_line(suite, (const double[]){rho, p}, (const double[]){next, p});
     }
 }
 
@@ -201,9 +287,10 @@ static void eos_nan(const struct eos_suite *suite)
                    rho_e, stiffness);
 }
 
-static void eos_range(const struct eos_suite *suite, const struct bulla_eos_range *range)
+static void eos_range(const struct eos_suite *suite)
 {
     char where[CONTRACT_WHERE];
+    const struct bulla_eos_range *range = &suite->range;
     double lowest = eos_p_min(suite, range->rho_max);
     snprintf(where, sizeof where, "rho %.4g to %.4g, p %.4g to %.4g, T %.4g to %.4g; p_min %.4g", range->rho_min,
              range->rho_max, range->p_min, range->p_max, range->T_min, range->T_max, lowest);
@@ -270,15 +357,16 @@ static void eos_rows(const struct eos_suite *suite)
 
 void contract_eos_run_in(struct contract *contract, const struct contract_eos_box *box)
 {
-    struct eos_suite suite = {contract, contract->module->table, contract->self, box};
-    struct bulla_eos_range range = {0};
+    struct eos_suite suite = {.contract = contract, .eos = contract->module->table, .self = contract->self, .box = box};
     contract_doing(contract, "range");
-    suite.eos->range(contract->self, &range);
-    eos_range(&suite, &range);
+    suite.eos->range(contract->self, &suite.range);
+    eos_range(&suite);
     contract_doing(contract, "states of the range");
     eos_states(&suite);
     contract_doing(contract, "any rho and p");
     eos_everywhere(&suite);
+    contract_doing(contract, "lines of constant rho and p");
+    eos_lines(&suite);
     contract_doing(contract, "states below p_min");
     eos_below(&suite);
     contract_doing(contract, "p = NaN");

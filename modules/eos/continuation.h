@@ -48,13 +48,14 @@ continuation_state(const struct continuation_ends *ends, struct continuation_poi
     double beyond = p - at.p, slope = 1.0 / (inside * at.G), least = beyond < 0.0 ? CONTINUATION_LEAST : 0.0;
     double stiffening = at.stiffening < least ? least : at.stiffening;
     double e = at.e + beyond * slope, c2 = at.c2 + beyond / inside * stiffening;
+    double e_c2 = at.c2 + beyond / inside * at.stiffening; /* what this e says, positive or not */
     int thin = rho < inside, within = rho == inside;
     double k = thin ? ends->thin.k : ends->dense.k, P = thin ? ends->thin.P : ends->dense.P;
     double away = v - (thin ? ends->thin.v : ends->dense.v), e_p = slope + k * away, e_v = k * (p + P);
     double far_c2 = v * v * (e_v + p) / e_p, far_e = e + away * e_v;
     double warm = (T + beyond * slope / at.cv) * (within ? 1.0 : e_p / slope);
     warm = warm < CONTINUATION_COLDEST ? CONTINUATION_COLDEST : warm;
-    double de_drho = within ? e + p * v - c2 / at.G : far_e - v * e_v;
+    double de_drho = within ? e + p * v - e_c2 / at.G : far_e - v * e_v;
     return (struct continuation_state){within ? e : far_e, within ? slope : e_p, within ? c2 : far_c2, de_drho, warm};
 }
 

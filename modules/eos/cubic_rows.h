@@ -74,9 +74,10 @@ ELEMENTARY_INLINE struct cubic_state cubic_state_at(const struct cubic *par, dou
     double beyond = p - at.p, slope = room.v / at.G;
     double stiffening = at.stiffening < CUBIC_STIFFENING ? CUBIC_STIFFENING : at.stiffening;
     double e = at.e + beyond * slope, c2 = at.c2 + beyond * room.v * stiffening;
+    double e_c2 = at.c2 + beyond * room.v * at.stiffening; /* what this e says, positive or not */
     double warm = T + beyond * slope / at.cv;
     warm = warm < CUBIC_COLDEST ? CUBIC_COLDEST : warm;
-    return (struct cubic_state){e, slope, c2, warm, e + p * room.v - c2 / at.G};
+    return (struct cubic_state){e, slope, c2, warm, e + p * room.v - e_c2 / at.G};
 }
 
 BULLA_KERNEL static void cubic_rows_state_block(const struct cubic *self, size_t n, const double *const *in,

@@ -145,7 +145,7 @@ static void test_contract(void **state)
         contract.strict = true;
         contract_eos_run_in(&contract, &box);
         support_holds(&contract);
-        assert_true(contract.n_row == 17 && contract.n_cost == 7);
+        assert_true(contract.n_row == 19 && contract.n_cost == 7);
     }
 }
 
@@ -158,7 +158,7 @@ static void test_contract_as_stated(void **state)
         struct contract contract = {.module = laws[i].instance.module};
         assert_int_equal(contract_module_run(&contract, NULL), 0);
         support_holds(&contract);
-        assert_int_equal(contract.n_row, 20);
+        assert_int_equal(contract.n_row, 22);
     }
 }
 

@@ -56,6 +56,30 @@ static void repaired(const void *self, size_t n, IN rho, IN p, OUT rho_e, OUT rh
     }
 }
 
+/* A jump beyond the stated range, and a fall without one. */
+static void broken(const void *self, size_t n, IN rho, IN p, OUT rho_e, OUT rho_c2)
+{
+    eos->state(self, n, rho, p, rho_e, rho_c2);
+    for (size_t i = 0; i < n; i++) rho_e[i] *= p[i] > 5e9 ? 1.003 : 1.0;
+}
+
+static void sagging(const void *self, size_t n, IN rho, IN p, OUT rho_e, OUT rho_c2)
+{
+    eos->state(self, n, rho, p, rho_e, rho_c2);
+    for (size_t i = 0; i < n; i++) {
+        double a, b;
+        eos->linear(self, 1, &rho[i], &a, &b);
+        rho_e[i] -= p[i] > 5e9 ? 1.1 * a * (p[i] - 5e9) : 0.0;
+    }
+}
+
+static size_t eager(const void *self, size_t n, IN rho, IN p)
+{
+    size_t count = eos->count_outside(self, n, rho, p);
+    for (size_t i = 0; i < n; i++) count += rho[i] < 10.0;
+    return count;
+}
+
 static void steep(const void *self, size_t n, IN rho, IN p, OUT de_dp, OUT de_drho)
 {
     eos->derivatives(self, n, rho, p, de_dp, de_drho);
@@ -135,6 +159,9 @@ static void test_eos(void **state)
         {{.state = shared}, "bad numbers"},
         {{.state = repaired}, "p = NaN"},
         {{.state = repaired}, "rho c^2 <= 0"},
+        {{.state = broken}, "rho e grows with p"},
+        {{.state = sagging}, "rho e grows with p"},
+        {{.count_outside = eager}, "count_outside"},
         {{.derivatives = steep}, "d(rho e)/dp"},
         {{.derivatives = shifted}, "d(rho e)/drho"},
         {{.temperature = cold}, "well-posed for any"},
@@ -159,6 +186,7 @@ static void test_eos(void **state)
         if (wrong->p_min) table.p_min = wrong->p_min;
         if (wrong->linear) table.linear = wrong->linear;
         if (wrong->range) table.range = wrong->range;
+        if (wrong->count_outside) table.count_outside = wrong->count_outside;
         finds("eos", "mnasg", &table, mutants[i].check);
     }
 }
