@@ -100,6 +100,17 @@ static void plot_field_label(const struct snapshot *snapshot, const struct snaps
     }
 }
 
+static bool plot_field_is_blank(const struct snapshot *snapshot, const char *name)
+{
+    for (unsigned m = 0; m < snapshot->n_material; m++)
+        for (int which = 0; which < 2; which++) {
+            char own[READ_NAME];
+            snprintf(own, sizeof own, "%s_%.48s", which ? "temperature" : "density", snapshot->materials[m]);
+            if (strcmp(name, own) == 0) return true;
+        }
+    return false;
+}
+
 int plot_field_find(const struct snapshot *snapshot, const char *name, struct plot_field *ret_field)
 {
     int component;
@@ -108,12 +119,14 @@ int plot_field_find(const struct snapshot *snapshot, const char *name, struct pl
     ret_field->field = field;
     ret_field->component = component;
     plot_field_label(snapshot, field, component, ret_field->label);
+    ret_field->blank = plot_field_is_blank(snapshot, field->name);
     return STATUS_OK;
 }
 
 double plot_field_value(const struct plot_field *field, size_t cell)
 {
     const double *at = &field->field->data[cell * field->field->components];
+    if (field->blank && *at == 0.0) return (double)NAN;
     if (field->component != PLOT_FIELD_MAGNITUDE) return at[field->component];
     double square = 0.0;
     for (unsigned i = 0; i < field->field->components; i++) square += at[i] * at[i];

@@ -4,11 +4,14 @@
 
 #include "io/read.h"
 
+#include <stdbool.h>
+
 enum { PLOT_FIELD_MAGNITUDE = -1, PLOT_FIELD_LABEL = 160 };
 
 struct plot_field {
     const struct snapshot_field *field; /* of the snapshot */
     int component;                      /* 0..2, or PLOT_FIELD_MAGNITUDE of a vector; 0 of a scalar */
+    bool blank;                         /* 0 says that the material is absent: temperature_M, density_M */
     char label[PLOT_FIELD_LABEL];       /* "density of air", "axial velocity" */
 };
 
@@ -16,6 +19,7 @@ struct plot_field {
  * that are there and a suggestion. */
 int plot_field_find(const struct snapshot *snapshot, const char *name, struct plot_field *ret_field);
 
+/* NaN where the field says nothing: such cells stay blank and have no part in the range. */
 double plot_field_value(const struct plot_field *field, size_t cell);
 
 /* The symbol of a coordinate axis with its italic marks: x, y, z; axisymmetric r, z; spherical r. */

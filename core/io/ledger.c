@@ -3,7 +3,7 @@
 #include "io/ledger.h"
 
 #include "base/mem.h"
-#include "io/tally.h"
+#include "mesh/tally.h"
 
 #include <stdio.h>
 

@@ -9,7 +9,7 @@
 #include "io/line.h"
 #include "io/region.h"
 #include "io/surface.h"
-#include "io/tally.h"
+#include "mesh/tally.h"
 #include "mesh/metric.h"
 #include "phys/derive.h"
 #include "phys/outside.h"
@@ -182,6 +182,15 @@ static const double *measure_field(struct measures *measures, int index)
     return values;
 }
 
+/* 1 in cells where the field says something, 0 where its material is absent (derive_material); in `work`. */
+static const double *measure_said(struct measures *measures, int index)
+{
+    if (derive_material(&measures->fields[index]) < 0) return measures->ones;
+    const double *values = measure_field(measures, index);
+    for (size_t i = 0; i < measures->state->mesh->n_cell; i++) measures->work[i] = values[i] != 0.0 ? 1.0 : 0.0;
+    return measures->work;
+}
+
 /* Covered fraction b f of each leaf, NULL where the column does not look at this tile at all. */
 static const double *measure_cover(struct measures *measures, const struct measure_column *column)
 {
@@ -282,7 +291,7 @@ static void measure_sum(struct measures *measures, const struct measure_column *
     case SCENE_MEAN:
     case SCENE_INTEGRAL:
         sums[0] = tally_row(n, measure_field(measures, column->field), weight);
-        sums[1] = tally_row(n, measures->ones, weight);
+        sums[1] = tally_row(n, measure_said(measures, column->field), weight);
         break;
     case SCENE_OUTSIDE:
         sums[0] = (double)outside_count(measures->state->model, (unsigned)from->material, n, n,
@@ -306,7 +315,7 @@ static void measure_extreme(struct measures *measures, const struct measure_colu
     if (!jet && from->measure != SCENE_MIN && from->measure != SCENE_MAX) return;
     const double *cover = measure_cover(measures, column);
     if (!cover) return;
-    const double *alpha = measure_alpha(measures, jet ? from->material : -1);
+    const double *alpha = jet ? measure_alpha(measures, from->material) : measure_said(measures, column->field);
     const double *values = jet ? measure_velocity(measures, column->axis) : measure_field(measures, column->field);
     tally_extremes(measures->state->mesh->n_cell, values, cover, alpha, extremes);
 }

@@ -19,6 +19,7 @@
  *   outside             number of cells with b f > 0 where outside_count finds the material's law left
  *   isosurface-mean     surface_mean of q on b = 0.5
  *   isosurface-min, isosurface-max   surface_extremes of it
+ * Cells in which q says nothing (derive_material) take no part in means and extremes.
  * q of a vector field is its magnitude. `along` that is not given is the last axis. An empty set
  * gives NaN. Sums are the same on any number of ranks (tally.h). */
 #ifndef MEASURE_H

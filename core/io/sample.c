@@ -124,7 +124,8 @@ static void sample_put(const struct sample *sample, const struct state *state, c
     int material = derive_material(field);
     for (unsigned q = 0; q < field->components; q++, to += sample->n_corner) *to = sample->tile[q * n + cell];
     if (material < 0) return;
-    *to = model->n_alpha ? u[(model->i_alpha + (unsigned)material) * n + cell] : 1.0;
+    double alpha = model->n_alpha ? u[(model->i_alpha + (unsigned)material) * n + cell] : 1.0;
+    *to = sample->tile[cell] != 0.0 ? alpha : 0.0;
 }
 
 void sample_collect(struct sample *sample, const struct state *state, const struct derive *field, unsigned first,
@@ -168,7 +169,7 @@ void sample_blend(const struct sample *sample, const struct derive *field, unsig
                 sum += part * row[corner];
                 whole += part;
             }
-            double value = !weighed ? sum : whole > 0.0 ? sum / whole : 0.0;
+            double value = !weighed ? sum : whole > 0.0 ? sum / whole : (double)NAN;
             ret_values[(size_t)i * stride + q] = isinf(value) ? NAN : value; /* a NaN is lost in the maximum */
         }
 }

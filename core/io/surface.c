@@ -12,7 +12,7 @@
 
 #include "base/comm.h"
 #include "base/mem.h"
-#include "io/tally.h"
+#include "mesh/tally.h"
 #include "mesh/halo.h"
 #include "mesh/metric.h"
 #include "phys/bound.h"
@@ -79,7 +79,10 @@ static void surface_fill(struct surface *surface, unsigned local, const struct d
     int material = model->n_alpha ? derive_material(field) : -1;
     const double *own = surface->level->u_old[local] + (model->i_alpha + (unsigned)(material < 0 ? 0 : material)) * n;
     for (size_t i = 0; i < n; i++) {
-        double x = values[i], y = values[n + i], z = values[2 * n + i], weight = material < 0 ? 1.0 : own[i];
+        double x = values[i], y = values[n + i], z = values[2 * n + i],
+               weight = material < 0 ? 1.0
+                        : x != 0.0   ? own[i]
+                                     : 0.0;
         to[SURFACE_FIELD * n + i] = weight * (field->components == 3 ? sqrt(x * x + y * y + z * z) : x);
         to[SURFACE_WEIGHT * n + i] = weight;
         to[SURFACE_COVER * n + i] = cover == REGION_PART ? fractions[i] : cover == REGION_ALL;

@@ -11,6 +11,7 @@
 #include "phys/derive_slope.h"
 #include "phys/derive_stress.h"
 #include "phys/mix.h"
+#include "phys/presence.h"
 
 #include <math.h>
 #include <string.h>
@@ -106,11 +107,17 @@ static void derive_internal_energy(const struct derive_view *tile, double *out)
     mem_free(rho);
 }
 
+/* T_l where the material is felt (presence.h) and has one, else 0: a gas that a stretched solid pulls has p_l < 0. */
 static void derive_material_temperature(const struct derive_view *tile, double *out)
 {
+    unsigned l = (unsigned)tile->field->index;
     double *T = mem_new(tile->model->n_material * tile->n, sizeof *T);
+    const double *own = T + l * tile->n, *rho = derive_view_w(tile, tile->model->i_m + l);
     mix_temperatures(tile->model, tile->n, tile->n, tile->w, T);
-    memcpy(out, T + (size_t)tile->field->index * tile->n, tile->n * sizeof *out);
+    for (size_t i = 0; i < tile->n; i++) {
+        bool felt = derive_view_alpha(tile, l, i) >= PRESENCE_FRACTION && rho[i] >= tile->field->scale;
+        out[i] = felt && own[i] > 0.0 ? own[i] : 0.0;
+    }
     mem_free(T);
 }
 
@@ -272,6 +279,7 @@ static struct derive_view derive_view(const struct model *model, const struct me
 void derive_prepare(const struct model *model, const struct mesh *mesh, double t, struct derive *field)
 {
     void (*compute)(const struct derive_view *, double *) = derive_table[field->what].compute;
+    if (compute == derive_material_temperature) field->scale = presence_density(model, mesh, (unsigned)field->index);
     if (compute == derive_slope_schlieren || compute == derive_slope_vorticity) derive_slope_exchange(model, mesh, t);
     if (compute != derive_slope_schlieren) return;
     double *gradient = mem_new(mesh->n_cell, sizeof *gradient);

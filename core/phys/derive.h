@@ -10,15 +10,16 @@ struct derive {
     const char *unit;    /* SI, "1" for pure numbers */
     unsigned components; /* 1, or 3 for velocity and vorticity (always three: unused ones are 0) */
     int what, index;     /* how derive.c finds it again: quantity and material or axis */
-    double scale;        /* set by derive_prepare where the field needs a global value (schlieren) */
+    double scale;        /* set by derive_prepare where the field needs a global value (schlieren, temperature_M) */
 };
 
 /* Looks a name up. Unknown: STATUS_CASE, the message lists the nearest. Component names
  * (velocity_x) are fields of one component. */
 int derive_find(const struct model *model, const char *name, struct derive *ret_field);
 
-/* The material of a field that says nothing where the material is absent (density_M, temperature_M are 0 there), so
- * that between cells it counts with the volume fraction; -1: other fields. */
+/* The material of a field that says nothing where the material is absent, so that between cells it counts with the volume
+ * fraction; -1: other fields. It is 0 there: density_M where there is none at all, temperature_M where the material is
+ * not felt (presence.h). */
 int derive_material(const struct derive *field);
 
 /* NULL-terminated list of all names this scene offers; valid as long as the model. */

@@ -1,6 +1,8 @@
 /* outside.c - see outside.h. */
 #include "phys/outside.h"
 
+#include "phys/presence.h"
+
 enum { OUTSIDE_BATCH = 256 };
 
 bool outside_is_told(const struct model *model, unsigned l)
@@ -20,7 +22,7 @@ size_t outside_count(const struct model *model, unsigned l, size_t n, size_t str
     for (size_t i = 0; i < n; i++) {
         rho[held] = all_rho[i];
         p[held] = all_p[i];
-        held += (!alpha || alpha[i] >= OUTSIDE_FELT) && (!weight || weight[i] > 0.0);
+        held += (!alpha || alpha[i] >= PRESENCE_FRACTION) && (!weight || weight[i] > 0.0);
         if (held < OUTSIDE_BATCH) continue;
         found += eos->law->count_outside(eos->self, held, rho, p);
         held = 0;

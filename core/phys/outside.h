@@ -6,13 +6,10 @@
 
 #include <stddef.h>
 
-/* Traces do not count: their states are nobody's temperature. */
-#define OUTSIDE_FELT 1e-3
-
 /* Does the law of material l tell? */
 bool outside_is_told(const struct model *model, unsigned l);
 
-/* Cells of a tile with a volume fraction of material l of at least OUTSIDE_FELT at which its law does not hold; w: n
+/* Cells of a tile with a volume fraction of material l of at least PRESENCE_FRACTION at which its law does not hold; w: n
  * primitives of the scene's model, `stride` apart. Only cells with weight > 0 count; weight NULL: all. 0 for laws that
  * do not tell. */
 size_t outside_count(const struct model *model, unsigned l, size_t n, size_t stride, const double *w,

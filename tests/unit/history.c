@@ -97,6 +97,59 @@ static void test_painted(void **state)
     small_stop(&small);
 }
 
+/* Gives the cell that holds x a fraction and a density of air, in both arrays. */
+static void put_air(struct small *small, double x, double y, double alpha, double rho)
+{
+    const struct mesh *mesh = small->state->mesh;
+    const struct model *model = small->state->model;
+    size_t cell, n = mesh->n_cell;
+    int l;
+    unsigned tile = mesh_locate(mesh, (const double[3]){x, y, 0}, &l, &cell);
+    for (int k = 0; k < 2; k++) {
+        double *to = k ? mesh->levels[0].w[tile] : mesh->levels[0].u_old[tile];
+        to[(model->i_alpha + 1) * n + cell] = alpha;
+        to[model->i_alpha * n + cell] = 1.0 - alpha;
+        to[(model->i_m + 1) * n + cell] = k ? rho : alpha * rho;
+    }
+}
+
+/* Gas in name only has no part in what the gas is like: traces without mass, of 1e15 K at the pressure around them, voids
+ * of 1e12 K; nor has a gas under tension (a temperature below 0). */
+static void test_massless(void **state)
+{
+    (void)state;
+    struct small small;
+    struct measures *measures;
+    double before[6], after[6];
+    char *text = mem_print("%s%s", SMALL_AXISYMMETRIC,
+                           "output: {history: {columns: {T: {mean: temperature_air, in: air},"
+                           " T_max: {max: temperature_air, in: air}, T_min: {min: temperature_air},"
+                           " T_all: {mean: temperature_air}, skin: {isosurface-max: temperature_air, in: water},"
+                           " V: {volume: air}}}}\n");
+    small_start(&small, text);
+    assert_int_equal(measure_new(small.state, &measures), 0);
+    measure_take(measures, small.state, before);
+    assert_true(before[0] > 280.0 && before[0] < 300.0 && before[1] < 310.0);
+    close_to(before[3], before[0], 0.02); /* not of the zeros in water */
+    for (int i = 0; i < 20; i++) put_air(&small, (0.6 + 0.015 * i) * 1e-3, 0.5e-3, 1e-11, 1e-20);
+    for (int i = 0; i < 4; i++) put_air(&small, (0.6 + 0.05 * i) * 1e-3, 0.9e-3, 0.97, 1e-11);
+    put_air(&small, 0.7e-3, 0.1e-3, 1e-4, 1e-2);
+    measure_take(measures, small.state, after);
+    assert_true(after[5] > 1.001 * before[5]);                        /* voids are volume */
+    for (int i = 0; i < 5; i++) close_to(after[i], before[i], 1e-12); /* but no gas */
+    struct mesh *mesh = small.state->mesh;
+    size_t n = mesh->n_cell, cell;
+    int l;
+    unsigned tile = mesh_locate(mesh, (const double[3]){0.1e-3, 0.1e-3, 0}, &l, &cell);
+    mesh->levels[0].w[tile][small.state->model->i_E * n + cell] = -1e6;
+    measure_take(measures, small.state, after);
+    close_to(after[0], before[0], 1e-3);
+    close_to(after[2], before[2], 1e-12);
+    measure_free(measures);
+    small_stop(&small);
+    mem_free(text);
+}
+
 /* Sets alpha of air to a smooth ball around (0, z) and the pressure to 1e5 + 1e12 y^2. */
 static void make_ball(struct state *state, double radius, double z)
 {
@@ -283,9 +336,9 @@ static void test_failure(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_painted), cmocka_unit_test(test_surface), cmocka_unit_test(test_crossing),
-        cmocka_unit_test(test_depth),   cmocka_unit_test(test_file),    cmocka_unit_test(test_resume),
-        cmocka_unit_test(test_failure),
+        cmocka_unit_test(test_painted), cmocka_unit_test(test_surface),  cmocka_unit_test(test_crossing),
+        cmocka_unit_test(test_depth),   cmocka_unit_test(test_file),     cmocka_unit_test(test_resume),
+        cmocka_unit_test(test_failure), cmocka_unit_test(test_massless),
     };
     if (registry_init()) return 1;
     return cmocka_run_group_tests(tests, NULL, NULL);

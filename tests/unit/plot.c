@@ -217,6 +217,31 @@ static void fields_are_found_by_name_and_component(void **state)
     read_free(snapshot);
 }
 
+/* Where there is no air, its temperature is no number: neither drawn nor part of the scale. */
+static void an_absent_material_stays_blank(void **state)
+{
+    (void)state;
+    struct snapshot *snapshot = snapshot_new(2, 1);
+    struct plot_option option = {0};
+    struct plot_view view;
+    struct plot_field field;
+    add_field(snapshot, "temperature_air", "K", 1);
+    double *T = snapshot->fields[snapshot->n_field - 1].data;
+    for (size_t c = 0; c < snapshot->n_cell; c++) T[c] = c % M < M / 2 ? 300.0 + (double)c : 0.0;
+    assert_int_equal(plot_field_find(snapshot, "temperature_air", &field), 0);
+    assert_close(plot_field_value(&field, 1), 301.0, 0.0);
+    assert_true(isnan(plot_field_value(&field, M - 1)));
+    assert_int_equal(plot_view_make(snapshot, &option, &view), 0);
+    double *values = plot_view_values(&view, &field), extremes[2] = {INFINITY, -INFINITY};
+    plot_view_range(&view, values, (const double[2][2]){{0, 1}, {0, 1}}, false, extremes);
+    assert_close(extremes[0], 300.0, 0.0);
+    mem_free(values);
+    plot_view_done(&view);
+    assert_int_equal(plot_field_find(snapshot, "alpha_air", &field), 0);
+    assert_close(plot_field_value(&field, M - 1), 0.0, 0.0); /* no air is a fraction, too */
+    read_free(snapshot);
+}
+
 static void interfaces_are_where_alpha_is_a_half(void **state)
 {
     (void)state;
@@ -379,6 +404,7 @@ int main(void)
         cmocka_unit_test(two_cuts_leave_a_sorted_line),
         cmocka_unit_test(mirror_images_need_an_axis),
         cmocka_unit_test(fields_are_found_by_name_and_component),
+        cmocka_unit_test(an_absent_material_stays_blank),
         cmocka_unit_test(interfaces_are_where_alpha_is_a_half),
         cmocka_unit_test(interfaces_of_a_line_are_places),
         cmocka_unit_test(every_dimension_and_geometry_is_drawn),

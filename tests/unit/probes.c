@@ -73,6 +73,24 @@ static void test_space(void **state)
     small_stop(&small);
 }
 
+/* A probe of a material that is not there says so, one beside it has the material's own value, not mixed with zeros. */
+static void test_absent(void **state)
+{
+    (void)state;
+    struct small small;
+    struct probes *probes;
+    small_start(&small, SMALL_AXISYMMETRIC "output:\n  probes:\n    in: {at: [0.1 mm, 0], fields: [temperature_air]}\n"
+                                           "    edge: {at: [0.51 mm, 0], fields: [temperature_air]}\n"
+                                           "    out: {at: [0.9 mm, 0], fields: [temperature_air]}\n");
+    assert_int_equal(probes_new(small.state, &probes), 0);
+    assert_int_equal(probes_record(probes, small.state), 0);
+    probes_free(probes);
+    assert_true(cell(&small, 0, 1) > 280.0);
+    assert_true(fabs(cell(&small, 0, 2) - cell(&small, 0, 1)) < 5.0);
+    assert_true(isnan(cell(&small, 0, 3)));
+    small_stop(&small);
+}
+
 static void test_time(void **state)
 {
     (void)state;
@@ -188,7 +206,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_space),  cmocka_unit_test(test_time), cmocka_unit_test(test_steps),
-        cmocka_unit_test(test_levels), cmocka_unit_test(test_none),
+        cmocka_unit_test(test_levels), cmocka_unit_test(test_none), cmocka_unit_test(test_absent),
     };
     if (registry_init()) return 1;
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 /* tally.c - see tally.h. */
-#include "io/tally.h"
+#include "mesh/tally.h"
 
 #include "base/comm.h"
 #include "base/mem.h"
