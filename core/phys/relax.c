@@ -152,13 +152,13 @@ static double relax_close(struct relax *relax)
     return relax_common(relax->model, relax->w);
 }
 
-/* The present material of least or most energy per volume. */
-static unsigned relax_extreme(const struct relax *relax, const double *rho_e, bool least)
+/* The present material of least or most `gain`. */
+static unsigned relax_extreme(const struct relax *relax, const double *gain, bool least)
 {
     unsigned found = 0;
     while (!relax->present[found]) found++;
     for (unsigned l = found + 1; l < relax->model->n_material; l++)
-        if (relax->present[l] && (least ? rho_e[l] < rho_e[found] : rho_e[l] > rho_e[found])) found = l;
+        if (relax->present[l] && (least ? gain[l] < gain[found] : gain[l] > gain[found])) found = l;
     return found;
 }
 
@@ -173,8 +173,9 @@ static double relax_elastic(const struct relax *relax)
     return energy;
 }
 
-/* Moves volume to the material of least or most energy per volume until the energy held at p* is the conserved one;
- * from the material that has most to give, which need not be the other extreme: that may be a trace. */
+/* Moves volume between materials until the energy held at p* is the conserved one (Newton). Material l gains
+ * rho_l e_l - rho_l d(rho_l e_l)/d rho_l = rho_l c_l^2/Gamma_l - p per volume; volume goes to the one that gains least or
+ * most, from the one that has most to give, which need not be the other extreme: that may be a trace. */
 static void relax_shift(struct relax *relax, double p)
 {
     const struct model *model = relax->model;
@@ -186,18 +187,20 @@ static void relax_shift(struct relax *relax, double p)
     }
     double elastic = relax_elastic(relax);
     for (int i = 0; i < RELAX_NEWTON; i++) {
-        double rho_e[SCENE_MATERIALS], slope, excess = kinetic + elastic - relax->u[model->i_E], most = 0.0;
+        double gain[SCENE_MATERIALS], slope, excess = kinetic + elastic - relax->u[model->i_E], most = 0.0;
         for (unsigned l = 0; l < model->n_material; l++) {
             if (!relax->present[l]) continue;
-            rho_e[l] = relax_energy(&model->eos[l], relax->m[l] / alpha[l], p + relax->own[l], &slope);
-            excess += alpha[l] * rho_e[l];
+            double density = relax->m[l] / alpha[l],
+                   rho_e = relax_energy(&model->eos[l], density, p + relax->own[l], &slope);
+            gain[l] = rho_e - density * slope;
+            excess += alpha[l] * rho_e;
         }
-        unsigned to = relax_extreme(relax, rho_e, excess > 0.0), from = to;
+        unsigned to = relax_extreme(relax, gain, excess > 0.0), from = to;
         for (unsigned l = 0; l < model->n_material; l++) {
-            double room = relax->present[l] ? alpha[l] * fabs(rho_e[l] - rho_e[to]) : 0.0;
+            double room = relax->present[l] ? alpha[l] * fabs(gain[l] - gain[to]) : 0.0;
             if (room > most) most = room, from = l;
         }
-        double shift = fabs(excess / (rho_e[from] - rho_e[to]));
+        double shift = fabs(excess / (gain[from] - gain[to]));
         if (!isfinite(shift)) return;
         if (shift > 0.5 * alpha[from]) shift = 0.5 * alpha[from];
         alpha[from] -= shift;
