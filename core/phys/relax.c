@@ -10,9 +10,11 @@
 
 enum { RELAX_FIELDS = MODEL_FIELDS, RELAX_ROUNDS = 80, RELAX_NEWTON = 30 };
 
-/* A material that was a trace in a liquid under tension starts just above its least pressure: this
- * share of its distance from the old pressure. */
+/* Nearest to its least pressure that a material may start: this share of the distance from there to the old pressure. */
 #define RELAX_NEAR 1e-6
+
+/* A gas that expands has an ever lower least pressure; the search for p* goes down to that of this share of its density. */
+#define RELAX_THIN 1e-9
 
 struct relax {
     const struct model *model;
@@ -27,6 +29,9 @@ struct relax {
 /* A volume fraction below RELAX_TRACE with less than RELAX_VOID of the cell's mass is an empty trace: it gives way. */
 #define RELAX_TRACE 1e-3
 #define RELAX_VOID 1e-13
+
+/* Longest step of a specific volume, as a ratio: a Newton step may miss by orders of magnitude, a search must not. */
+#define RELAX_LEAP 64.0
 
 /* Least distance of p* from the floor, relative to the largest rho_l c_l^2: what the closure can resolve. */
 #define RELAX_RESOLVED 1e-11
@@ -46,6 +51,43 @@ static double relax_common(const struct model *model, const double *w)
     double mean = 0.0;
     if (model->split) traction_mean(model, 1, 1, w, &mean);
     return w[model->i_E] - mean;
+}
+
+/* Least pressure of material l at a density, in terms of the common one. */
+static double relax_least(const struct relax *relax, unsigned l, double rho)
+{
+    const struct model_eos *eos = &relax->model->eos[l];
+    double least;
+    eos->law->p_min(eos->self, 1, &rho, &least);
+    return least - relax->own[l];
+}
+
+static double relax_temperature(const struct relax *relax, unsigned l, double rho, double common)
+{
+    const struct model_eos *eos = &relax->model->eos[l];
+    double p = common + relax->own[l], T;
+    eos->law->temperature(eos->self, 1, &rho, &p, &T);
+    return T;
+}
+
+/* Temperature of the material that makes up most of the cell's mass, at its start. */
+static double relax_ambient(const struct relax *relax)
+{
+    unsigned heavy = 0;
+    for (unsigned l = 1; l < relax->model->n_material; l++)
+        if (relax->m[l] > relax->m[heavy]) heavy = l;
+    return relax_temperature(relax, heavy, relax->w[relax->model->i_m + heavy], relax->p0);
+}
+
+/* Common pressure at which material l starts. The old one; but a trace of gas in a liquid under tension has no state there.
+ * It is taken to be as warm as what surrounds it. */
+static double relax_start(const struct relax *relax, unsigned l)
+{
+    double rho = relax->w[relax->model->i_m + l], least = relax_least(relax, l, rho),
+           above = RELAX_NEAR * fabs(relax->p0 - least), ambient = relax_ambient(relax);
+    if (relax->p0 > least + above) return relax->p0;
+    for (int i = 0; i < RELAX_ROUNDS && relax_temperature(relax, l, rho, least + above) < ambient; i++) above *= 1.5;
+    return least + above;
 }
 
 /* Start states: the material's own where most of it was here before, else the density it arrived with. */
@@ -71,13 +113,10 @@ static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
     if (model->split) traction_own(model, 1, 1, relax->w, 1, relax->own);
     for (unsigned l = 0; l < model->n_material; l++) {
         const struct model_eos *eos = &model->eos[l];
-        double rho = relax->w[model->i_m + l], least, slope, rho_e, rho_c2;
+        double rho = relax->w[model->i_m + l], slope, rho_e, rho_c2;
         if (!relax->present[l]) continue;
-        eos->law->p_min(eos->self, 1, &rho, &least);
-        least -= relax->own[l];
-        if (least > relax->floor) relax->floor = least;
-        double low = least + RELAX_NEAR * fabs(relax->p0 - least),
-               start = (relax->p0 > low ? relax->p0 : low) + relax->own[l];
+        double thin = relax_least(relax, l, RELAX_THIN * rho), start = relax_start(relax, l) + relax->own[l];
+        if (thin > relax->floor) relax->floor = thin;
         relax->v0[l] = 1.0 / rho;
         relax->e0[l] = relax_energy(eos, rho, start, &slope) / rho;
         eos->law->state(eos->self, 1, &rho, &start, &rho_e, &rho_c2);
@@ -86,18 +125,24 @@ static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
     return isfinite(relax->floor);
 }
 
-/* v_l(p): Newton on e(v, p) + p v = e0 + p v0, which is linear in v for the stiffened-gas family. */
+/* v_l(p): Newton on e(v, p) + p v = e0 + p v0, which grows with v by rho c^2/Gamma and is linear in v for the
+ * stiffened-gas family. Where c^2 is almost nothing, at the end of a law, a step would go anywhere: none is longer than RELAX_LEAP
+ * in ratio or leaves the bracket that the signs have left. */
 static double relax_volume(const struct relax *relax, unsigned l, double common)
 {
     double p = common + relax->own[l];
-    double target = relax->e0[l] + p * relax->v0[l], v = relax->v0[l];
-    for (int i = 0; i < RELAX_NEWTON; i++) {
+    double target = relax->e0[l] + p * relax->v0[l], v = relax->v0[l], low = 0.0, high = HUGE_VAL;
+    for (int i = 0; i < RELAX_ROUNDS && common <= relax_least(relax, l, 1.0 / v); i++) v *= RELAX_LEAP;
+    for (int i = 0; i < RELAX_ROUNDS; i++) {
         double de_drho, rho_e = relax_energy(&relax->model->eos[l], 1.0 / v, p, &de_drho);
-        double next = v - (v * rho_e + p * v - target) / (rho_e + p - de_drho / v);
-        if (!(next > 0.0)) next = 0.5 * v;
-        bool done = fabs(next - v) <= 1e-14 * v;
+        double excess = v * rho_e + p * v - target, next = v - excess / (rho_e + p - de_drho / v);
+        if (excess > 0.0) high = v;
+        else low = v;
+        double least = v / RELAX_LEAP > low ? v / RELAX_LEAP : low,
+               most = v * RELAX_LEAP < high ? v * RELAX_LEAP : high;
+        if (fabs(next - v) <= 1e-14 * v) return next;
+        if (!(next > least && next < most)) next = sqrt((excess > 0.0 ? least : v) * (excess > 0.0 ? v : most));
         v = next;
-        if (done) break;
     }
     return v;
 }

@@ -242,6 +242,21 @@ static BULLA_KERNEL void update_share_all(size_t n, double h, const double *rest
     }
 }
 
+/* The share, less where a material would take or give more than UPDATE_MOST of alpha (1 - alpha): gas near vacuum makes
+ * linear relaxation say anything. All materials of a cell exchange with the same share, so that the sum stays. */
+static BULLA_KERNEL void update_temper(size_t n, const double *restrict rho_c2, const struct update_misfit *misfit,
+                                       const double *restrict own, const double *restrict alpha, double *restrict share)
+{
+    const double *restrict sum = misfit->sum, *restrict compliance = misfit->compliance;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], s = rho_c2[i], c = compliance[i], all = sum[i], old = share[i];
+        double part = a / (s * c), move = own[i] - (s > 0.0 ? part : 0.0) * all, size = old * fabs(move);
+        double most = UPDATE_MOST * (a * (1.0 - a)) + UPDATE_TRACE, less = old * (most / size);
+        share[i] = size > most ? less : old;
+    }
+}
+
 /* alpha after the closure: K div u, and the exchange of volume that brings the materials back to one
  * pressure. A step below the least value, or below what transport left if that is less, is cut. */
 static BULLA_KERNEL void update_close(size_t n, double dt, const double *restrict K, const double *restrict div,
@@ -322,6 +337,8 @@ static size_t update_relax(const struct model *model, size_t n_cell, size_t from
                        misfit.stiffness, misfit.compliance);
     }
     update_shares(model, n_cell, from, n, in, p, &misfit);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        update_temper(n, rho_c2 + l * n_cell, &misfit, misfit.own[l], alpha + l * n_cell, misfit.share);
     for (unsigned l = 0; l < model->n_alpha; l++)
         update_close(n, dt, in->K + l * n_cell + from, rates + model->n_field * n_cell, rho_c2 + l * n_cell, &misfit,
                      misfit.own[l], alpha + l * n_cell, cut);

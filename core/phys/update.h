@@ -62,6 +62,8 @@ struct update_input {
  *   f + (1 - f)/(1 + (X/UPDATE_STEEP)^4),   |u| X/h = |sum_l sum_faces A (alpha* u*)(p_K - p)|/(V K) + |strain|,
  * K the largest rho_l c_l^2: all of it, but where pressure differs from cell to cell by more than a few per cent of K. There
  * linear relaxation would overshoot.
+ * It would also where gas near vacuum meets pressure: d alpha then means nothing. No material exchanges more than UPDATE_MOST
+ * alpha (1 - alpha) + UPDATE_TRACE; where one would, all do so much less.
  *
  * Returns the number of cells in which a bound acted. */
 size_t update_apply(const struct model *model, size_t n_cell, double dt, const struct update_input *in, double *u_new);
@@ -69,5 +71,7 @@ size_t update_apply(const struct model *model, size_t n_cell, double dt, const s
 #define UPDATE_LEAST 1e-9
 #define UPDATE_FAST 25.0
 #define UPDATE_STEEP 0.03
+#define UPDATE_MOST 0.25
+#define UPDATE_TRACE 1e-4
 
 #endif
