@@ -218,6 +218,18 @@ static double relax_elastic(const struct relax *relax)
     return energy;
 }
 
+/* p, or the least pressure that all materials bear at their present fractions if that is higher. */
+static double relax_borne(const struct relax *relax, double p)
+{
+    for (unsigned l = 0; l < relax->model->n_material; l++) {
+        if (!relax->present[l]) continue;
+        double least =
+            relax_least(relax, l, relax->m[l] / relax->u[relax->model->i_alpha + l]) + RELAX_RESOLVED * relax->stiffest;
+        p = p > least ? p : least;
+    }
+    return p;
+}
+
 /* Moves volume between materials until the energy held at p* is the conserved one (Newton). Material l gains
  * rho_l e_l - rho_l d(rho_l e_l)/d rho_l = rho_l c_l^2/Gamma_l - p per volume; volume goes to the one that gains least or
  * most, from the one that has most to give, which need not be the other extreme: that may be a trace. */
@@ -233,6 +245,7 @@ static void relax_shift(struct relax *relax, double p)
     double elastic = relax_elastic(relax);
     for (int i = 0; i < RELAX_NEWTON; i++) {
         double gain[SCENE_MATERIALS], slope, excess = kinetic + elastic - relax->u[model->i_E], most = 0.0;
+        p = relax_borne(relax, p);
         for (unsigned l = 0; l < model->n_material; l++) {
             if (!relax->present[l]) continue;
             double density = relax->m[l] / alpha[l],
