@@ -111,10 +111,7 @@ static int run_step(struct run *run)
 {
     struct state *state = run->state;
     double target = record_target(run->record, state->t, run->scene->until), left = target - state->t;
-    double dt = advance_dt(state);
-    if (!(dt > 0) || state->t + dt <= state->t)
-        return status_fail(STATUS_RUN, "the time step has shrunk to %g s at t = %g s", dt, state->t);
-    double take = due_step(dt, left);
+    double take = due_step(advance_dt(state), left);
     TRY(advance_step(state, take));
     if (take == left && state->dt == take) state->t = target;
     progress_mesh(&run->progress, state->mesh, state->level_steps);

@@ -106,6 +106,13 @@ void comm_max(double *values, int count)
     comm_reduce(values, count, MPI_DOUBLE, MPI_MAX);
 }
 
+int comm_first(bool here)
+{
+    double rank = here ? comm_rank() : comm_size();
+    comm_min(&rank, 1);
+    return (int)rank;
+}
+
 void comm_sum_counts(long long *values, int count)
 {
     comm_reduce(values, count, MPI_LONG_LONG, MPI_SUM);

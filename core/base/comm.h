@@ -39,6 +39,9 @@ void comm_min(double *values, int count);
 void comm_max(double *values, int count);
 void comm_sum_counts(long long *values, int count);
 
+/* The first rank on which `here` is true; comm_size() where there is none. */
+int comm_first(bool here);
+
 /* The largest code of all ranks: a failure on one is a failure on all. The recorded message
  * (status.h) of the first rank that has this code becomes everybody's. */
 int comm_agree(int code);

@@ -248,6 +248,7 @@ struct scene {
     enum scene_guard guard;
     double until;    /* s */
     long max_steps;  /* 0: no limit */
+    double dt_least; /* s; below 0: the program's choice (solve/pace.h) */
     char *directory; /* output directory, resolved against the working directory */
     struct scene_every snapshots, history, probes_every, maps_every, checkpoints;
     int checkpoints_keep;

@@ -14,6 +14,13 @@ static const struct key scene_root_run[] = {
      .min = 0,
      .max = 9e15,
      .doc = "Ends the run after so many steps of the coarsest level; 0: no limit."},
+    {.name = "smallest-step",
+     .type = KEYS_NUMBER,
+     .unit = "s",
+     .min = 0,
+     .max = KEYS_MOST,
+     .doc = "The run stops, with exit code 3 and a dump of the fastest cell, when its time step would be smaller than "
+            "this; 0: never. Not given: a millionth of its longest step so far."},
     {.name = "script-time",
      .type = KEYS_NUMBER,
      .unit = "s",

@@ -137,5 +137,6 @@ void scene_scheme(struct draft *draft)
     scene_material_open(draft, keys_at(scheme, "interface-limiter"), &scene->interface_limiter);
     scene->until = keys_at(run, "until")->number;
     scene->max_steps = keys_at(run, "max-steps")->integer;
+    scene->dt_least = keys_at(run, "smallest-step")->given ? keys_at(run, "smallest-step")->number : -1.0;
     script_limit(scene->host, keys_at(run, "script-time")->number);
 }

@@ -141,6 +141,7 @@ static void checkpoint_note(const struct state *state, struct notes *notes)
     notes_put_one(notes, "state.t", state->t);
     notes_put_one(notes, "state.dt", state->dt);
     notes_put_one(notes, "state.dt_shrink", state->dt_shrink);
+    notes_put_one(notes, "state.dt_longest", state->dt_longest);
     notes_put_one(notes, "state.step", (double)state->step);
     notes_put(notes, "state.level_steps", MESH_LEVELS, steps);
     notes_put(notes, "counts.of_all_ranks", 6, sums);

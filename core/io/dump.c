@@ -47,7 +47,7 @@ static void dump_note_names(struct notes *notes, const struct model *model, cons
 {
     static char columns[BLAME_COLUMNS][BLAME_NAME];
     struct text fields = {0}, faces = {0};
-    unsigned n = facts->stage == BLAME_FAILED_SYNC ? 0 : blame_columns(model, facts, columns);
+    unsigned n = !blame_moves(facts) ? 0 : blame_columns(model, facts, columns);
     for (unsigned q = 0; q < model->n_field; q++) text_add(&fields, "%s%s", q ? " " : "", model->field_names[q]);
     for (unsigned c = 0; c < n; c++) text_add(&faces, "%s%s", c ? " " : "", columns[c]);
     notes_put_text(notes, "fields", fields.at);

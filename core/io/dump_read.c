@@ -103,7 +103,7 @@ static int dump_facts(struct dump *dump)
     TRY(dump_numbers(dump, "t", 1, &facts->t));
     TRY(dump_numbers(dump, "dt", 1, &facts->dt));
     TRY(dump_numbers(dump, "t.boundary", 1, &facts->at));
-    TRY(dump_whole(dump, "stage", 1, BLAME_FAILED_SYNC + 1, &stage));
+    TRY(dump_whole(dump, "stage", 1, BLAME_TOO_SLOW + 1, &stage));
     facts->stage = stage - 1;
     TRY(dump_place(dump));
     TRY(dump_whole(dump, "pure", -1, SCENE_MATERIALS, &facts->pure));

@@ -71,7 +71,8 @@ static void dump_show_modules(FILE *out, const struct dump *dump, bool compare)
 static void dump_show_place(FILE *out, const struct dump *dump)
 {
     static const char *const stages[] = {"stage 1: the midpoint", "stage 2: the new state",
-                                         "after averages and fluxes of a finer level"};
+                                         "after averages and fluxes of a finer level",
+                                         "before a step too short to be taken"};
     const struct blame_facts *facts = &dump->facts;
     unsigned n0 = (unsigned)facts->n[0], n1 = (unsigned)facts->n[1];
     fprintf(out, "step      %ld, from t = %.9g s over dt = %.9g s\n", facts->step, facts->t, facts->dt);

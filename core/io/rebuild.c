@@ -57,8 +57,11 @@ static int rebuild_steps(const struct resume *resume, struct state_source *sourc
     TRY(rebuild_numbers(resume, "state.dt_shrink", 1, &source->dt_shrink));
     TRY(rebuild_numbers(resume, "state.step", 1, &step));
     TRY(rebuild_numbers(resume, "state.level_steps", MESH_LEVELS, steps));
-    bool sound = isfinite(source->t) && source->dt >= 0.0 && isfinite(source->dt) && source->dt_shrink > 0.0 &&
-                 source->dt_shrink <= 1.0 && rebuild_is_count(1, &step) && rebuild_is_count(MESH_LEVELS, steps);
+    source->dt_longest = source->dt; /* older checkpoints do not say it */
+    notes_get(&resume->notes, "state.dt_longest", 1, &source->dt_longest);
+    bool sound = isfinite(source->t) && source->dt_longest >= 0.0 && isfinite(source->dt_longest) &&
+                 source->dt >= 0.0 && isfinite(source->dt) && source->dt_shrink > 0.0 && source->dt_shrink <= 1.0 &&
+                 rebuild_is_count(1, &step) && rebuild_is_count(MESH_LEVELS, steps);
     if (!sound) return resume_damaged(resume, "a time or a number of steps that no run can have");
     source->step = (long)step;
     for (int l = 0; l < MESH_LEVELS; l++) source->level_steps[l] = (long)steps[l];

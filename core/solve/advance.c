@@ -10,8 +10,10 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "phys/mix.h"
 #include "solve/beyond.h"
 #include "solve/blame.h"
+#include "solve/pace.h"
 #include "solve/plan.h"
 #include "solve/regrid.h"
 #include "solve/sync.h"
@@ -21,6 +23,9 @@
 
 /* A finer level halves its step when the speeds have grown since the coarsest chose its own. */
 #define ADVANCE_EXCESS 1.25
+
+/* The least part of a coarser step: sums of such parts still move. */
+#define ADVANCE_PART 0x1p-40
 
 double advance_dt(const struct state *state)
 {
@@ -79,17 +84,9 @@ static void advance_accept(struct state *state, struct stage *stage, double sign
     stage->clipped = 0;
 }
 
-/* A place in the list of ranks: the first that has found something, or their number. */
-static int advance_culprit(bool found)
-{
-    double rank = found ? comm_rank() : comm_size();
-    comm_min(&rank, 1);
-    return (int)rank;
-}
-
 static void advance_stamp(const struct state *state, const struct stage *stage, struct blame *blame)
 {
-    static const double at[] = {0.0, 0.5, 1.0};
+    static const double at[] = {0.0, 0.5, 1.0, 0.0};
     blame->facts.step = state->step + 1;
     blame->facts.t = stage->t;
     blame->facts.dt = stage->dt;
@@ -101,7 +98,7 @@ static void advance_stamp(const struct state *state, const struct stage *stage, 
 static void advance_watch(const struct state *state, struct stage *stage)
 {
     struct guard_place was = stage->guard->found;
-    bool mine = advance_culprit(stage->guard->cause[0]) == comm_rank();
+    bool mine = comm_first(stage->guard->cause[0]) == comm_rank();
     if (mine) {
         stage->blame = blame_new(stage->model, stage->guard);
         advance_stamp(state, stage, stage->blame);
@@ -130,6 +127,48 @@ static int advance_give_up(const struct state *state, struct stage *stage)
     if (cause[0])
         code = status_fail(STATUS_RUN, "step %ld at t = %.9g s cannot be completed: %s (%s; dt = %.3g s)",
                            state->step + 1, stage->t, cause, tried, stage->dt);
+    return comm_agree(code);
+}
+
+/* The cell, of a tile of this rank, that asks for too short a step: what the tile holds. */
+static void advance_blame_pace(const struct state *state, struct stage *stage, const struct guard_place *place)
+{
+    const struct model *path = model_numbered(stage->model, place->pure);
+    size_t n_cell = stage->mesh->n_cell, block = stage->model->n_field * n_cell;
+    const double *u = stage->level->u_old[place->local], *w = stage->level->w[place->local];
+    double *kept = mem_new(2 * block, sizeof *kept);
+    memcpy(kept, u, block * sizeof *u);
+    memcpy(kept + block, w, block * sizeof *w);
+    mix_primitives(path, n_cell, n_cell, u, kept + block);
+    stage->guard->found = *place;
+    stage->blame = blame_new(stage->model, stage->guard);
+    advance_stamp(state, stage, stage->blame);
+    blame_keep(stage->blame, stage->model, w, kept);
+    mem_free(kept);
+}
+
+/* A step that is too short ends the run: the state is good, but it will not get anywhere. */
+static int advance_too_slow(const struct state *state, int l, double t, double dt)
+{
+    struct guard_place place;
+    struct stage *stage = pace_find(state, l, &place);
+    double least = pace_least(state, l);
+    char limit[96], repeated[96] = "";
+    int code = STATUS_OK;
+    if (state->scene->dt_least >= 0.0 && dt < least) snprintf(limit, sizeof limit, "below run.smallest-step");
+    else if (dt < least)
+        snprintf(limit, sizeof limit, "below %.3g of the longest so far", pace_least(state, 0) / state->dt_longest);
+    else snprintf(limit, sizeof limit, "which t does not notice");
+    if (state->dt_shrink < 1.0)
+        snprintf(repeated, sizeof repeated, ", of which steps that had to be repeated have left %.3g",
+                 state->dt_shrink);
+    if (stage) {
+        stage->t = t;
+        stage->dt = dt;
+        advance_blame_pace(state, stage, &place);
+        code = status_fail(STATUS_RUN, "step %ld at t = %.9g s: the time step has fallen to %.3g s, %s%s; %s",
+                           state->step + 1, t, dt, limit, repeated, place.words);
+    }
     return comm_agree(code);
 }
 
@@ -187,7 +226,7 @@ static void advance_blame_sync(const struct state *state, struct stage *coarse, 
     for (int i = 0; i < 2; i++) {
         struct stage *stage = stages[i];
         const char *words = stage->guard->found.words; /* survive the end of the synchronisation */
-        bool mine = advance_culprit(words[0] && strstr(status_text(), words)) == comm_rank();
+        bool mine = comm_first(words[0] && strstr(status_text(), words)) == comm_rank();
         if (!mine) continue;
         stage->guard->found.stage = BLAME_FAILED_SYNC;
         stage->blame = blame_new(stage->model, stage->guard);
@@ -238,12 +277,15 @@ static int advance_through(struct state *state, int l, double t, double dt)
     double done = 0.0, part = state->scene->subcycle ? 0.5 : 1.0, most = ADVANCE_EXCESS * state->scene->cfl;
     int retries = 0;
     while (done < 1.0) {
-        while (state->scene->dt_fixed <= 0.0 && part * dt * state->signals[l] > most && part > 0x1p-10) part *= 0.5;
         bool good;
         stage->t = t + done * dt;
+        while (state->scene->dt_fixed <= 0.0 && part * dt * state->signals[l] > most && part > ADVANCE_PART &&
+               pace_allows(state, l, stage->t, part * dt))
+            part *= 0.5;
         stage->dt = part * dt;
         stage->from = done;
         stage->part = part;
+        if (!pace_allows(state, l, stage->t, stage->dt)) return advance_too_slow(state, l, stage->t, stage->dt);
         TRY(advance_once(state, stage, &good));
         if (!good) {
             if (state->scene->guard == SCENE_GUARD_STRICT || ++retries > GUARD_RETRIES)
@@ -267,6 +309,7 @@ static int advance_follow(struct state *state)
     TRY(advance_finer(state, 0));
     state->t += stage->dt;
     state->dt = stage->dt;
+    if (state->dt > state->dt_longest) state->dt_longest = state->dt;
     state->step++;
     state->whole = true;
     state->dt_shrink = state->dt_shrink * 1.1 < 1.0 ? state->dt_shrink * 1.1 : 1.0;
@@ -280,6 +323,7 @@ int advance_step(struct state *state, double dt_most)
 {
     struct stage *stage = state->stages[0];
     double dt = advance_dt(state);
+    if (!pace_allows(state, 0, state->t, dt)) return advance_too_slow(state, 0, state->t, dt);
     if (dt_most <= ADVANCE_STRETCH * dt) dt = dt_most;
     for (int retry = 0; retry <= GUARD_RETRIES; retry++) {
         bool good;

@@ -36,7 +36,7 @@ static struct blame_shape blame_shape_swept(const struct model *model, const str
     static char columns[BLAME_COLUMNS][BLAME_NAME];
     unsigned dim = (unsigned)model->dim;
     int frame = (int)block - BLAME_FRAME_X, mask = (int)block - BLAME_MASK_X;
-    if (facts->stage == BLAME_FAILED_SYNC) return (struct blame_shape){name, 0, 0};
+    if (!blame_moves(facts)) return (struct blame_shape){name, 0, 0};
     if (block == BLAME_FACES) return (struct blame_shape){name, 2 * dim, blame_columns(model, facts, columns)};
     if (mask < 0)
         return (struct blame_shape){name, frame < model->dim ? model->n_field : 0,
@@ -49,7 +49,7 @@ struct blame_shape blame_shape(const struct model *model, const struct blame_fac
 {
     const char *name = blame_name(block);
     const struct model *used = blame_used(model, facts);
-    bool closure = used->kapila && facts->stage != BLAME_FAILED_SYNC;
+    bool closure = used->kapila && blame_moves(facts);
     if (block >= BLAME_FRAME_X) return blame_shape_swept(model, facts, block, name);
     bool material = block == BLAME_K || block == BLAME_STIFFNESS;
     unsigned rows = !material ? model->n_field : closure ? used->n_material : 0;

@@ -9,15 +9,20 @@
 #include "phys/update.h"
 #include "solve/guard.h"
 
-enum { BLAME_FAILED_SYNC = 2, BLAME_COLUMNS = 9 * SCENE_MATERIALS + 40, BLAME_NAME = SCENE_NAME + 32 };
+enum {
+    BLAME_FAILED_SYNC = 2,
+    BLAME_TOO_SLOW = 3,
+    BLAME_COLUMNS = 9 * SCENE_MATERIALS + 40,
+    BLAME_NAME = SCENE_NAME + 32
+};
 
 /* Plain numbers and texts: they can be sent as they are. */
 struct blame_facts {
     int rank;         /* which has the blocks */
     long step;        /* under way, counted from 1 */
     double t, dt, at; /* where the step of the level began [s], its size [s]; when the stage took boundary values [s] */
-    int level,
-        stage; /* stage: 0 midpoint, 1 new state, BLAME_FAILED_SYNC: after averages and fluxes of a finer level */
+    int level, stage; /* stage: 0 midpoint, 1 new state, BLAME_FAILED_SYNC: after averages and fluxes of a finer level,
+                  BLAME_TOO_SLOW: before a step that is too short to be taken (pace.h) */
     int tile[3], extent[3], covered; /* as in struct tile and struct level */
     double h[3];
     int n[3]; /* cells of the tile */
@@ -26,8 +31,14 @@ struct blame_facts {
     bool masked, repair;
     char field[BLAME_NAME]; /* the first field that is wrong in the cell, and its value */
     double value;
-    char verdict[512];
+    char verdict[GUARD_WORDS];
 };
+
+/* Was the tile under way when it failed? Else there are no rates, frames and faces. */
+static inline bool blame_moves(const struct blame_facts *facts)
+{
+    return facts->stage < BLAME_FAILED_SYNC;
+}
 
 /* The blocks, [rows][columns]; components are rows, cells columns, x fastest. */
 enum blame_block {
@@ -87,7 +98,7 @@ void blame_piece(struct blame *blame, const struct model *used, const struct fra
 void blame_rates(struct blame *blame, const struct model *model, const struct update_input *in);
 void blame_result(struct blame *blame, const struct model *used, const double *u, const double *w);
 
-/* Of a tile that failed after a synchronisation: w there now, and what the guard kept of it ([2][n_field][n_cell]). */
+/* Of a tile that failed between steps: w there now, and what the guard kept of it ([2][n_field][n_cell]). */
 void blame_keep(struct blame *blame, const struct model *model, const double *w, const double *kept);
 
 /* The other way: a piece of the frames, and of the marks, for the work space of a replay. */

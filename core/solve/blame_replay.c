@@ -7,6 +7,7 @@
 #include "phys/source.h"
 #include "phys/update.h"
 #include "solve/guard.h"
+#include "solve/pace.h"
 
 #include <string.h>
 
@@ -146,14 +147,19 @@ static void replay_judge(struct replay *replay, struct blame_outcome *outcome)
                               .rho_c2 = replay->rho_c2,
                               .c2 = replay->c2};
     size_t n_cell = facts->n_cell;
-    mix_stiffness(replay->used, n_cell, n_cell, replay->w, replay->rho_c2);
-    mix_speed2(replay->used, n_cell, n_cell, replay->w, replay->rho_c2, replay->c2);
-    guard_check(&guard, &tile);
-    mem_free(guard.kept);
+    if (facts->stage == BLAME_TOO_SLOW) {
+        guard.found.cell = facts->cell;
+        pace_judge(&guard, replay->used, replay->blame->block[BLAME_W], &guard.found);
+    } else {
+        mix_stiffness(replay->used, n_cell, n_cell, replay->w, replay->rho_c2);
+        mix_speed2(replay->used, n_cell, n_cell, replay->w, replay->rho_c2, replay->c2);
+        guard_check(&guard, &tile);
+        mem_free(guard.kept);
+    }
     outcome->value = guard.found.value;
     outcome->same_value = !memcmp(&guard.found.value, &facts->value, sizeof facts->value);
-    outcome->same_verdict = !strcmp(guard.cause, facts->verdict);
-    memcpy(outcome->verdict, guard.cause, sizeof outcome->verdict);
+    outcome->same_verdict = !strcmp(guard.found.words, facts->verdict);
+    memcpy(outcome->verdict, guard.found.words, sizeof outcome->verdict);
 }
 
 /* Columns of a block in which any row differs. */
@@ -178,9 +184,9 @@ void blame_replay(const struct model *model, const struct blame *blame, struct b
     struct replay *replay = replay_new(model, blame);
     const struct blame_facts *facts = &blame->facts;
     size_t bytes = model->n_field * facts->n_cell * sizeof(double);
-    memcpy(replay->u, blame->block[facts->stage == BLAME_FAILED_SYNC ? BLAME_U : BLAME_U_OLD], bytes);
+    memcpy(replay->u, blame->block[blame_moves(facts) ? BLAME_U_OLD : BLAME_U], bytes);
     memcpy(replay->w, blame->block[BLAME_W], bytes); /* where an iteration starts */
-    if (facts->stage != BLAME_FAILED_SYNC) replay_update(replay);
+    if (blame_moves(facts)) replay_update(replay);
     mix_primitives(replay->used, facts->n_cell, facts->n_cell, replay->u, replay->w);
     blame_result(replay->again, replay->used, replay->u, replay->w);
     ret_outcome->faces = replay_differences(replay, BLAME_FACES);

@@ -12,7 +12,7 @@ struct blame_outcome {
                             faces: quantities (columns) that do */
     double value;        /* of the field in the cell, 0 if no cell is wrong any more */
     bool same_value, same_verdict;
-    char verdict[512]; /* empty: the guard has nothing to say */
+    char verdict[GUARD_WORDS]; /* empty: the guard has nothing to say */
 };
 
 /* Faces, update, primitives, the guard's judgement. Of this process alone. `model`: of the scene that failed. */

@@ -177,26 +177,31 @@ static void guard_name(const struct guard *guard, const struct guard_tile *tile,
     guard_say(fault, "pressure", tile->w[tile->model->i_E * n_cell + cell], " Pa in the mixture");
 }
 
-static void guard_describe(struct guard *guard, const struct guard_tile *tile, size_t cell)
+void guard_where(const struct guard *guard, unsigned local, size_t cell, char ret_text[GUARD_WHERE])
 {
     const struct mesh *mesh = guard->mesh;
     const struct level *level = guard->level;
-    const struct tile *at = &level->tiles[level->first + tile->local];
+    const struct tile *at = &level->tiles[level->first + local];
     size_t i[3];
     double x[3];
-    struct guard_fault fault;
     mesh_corner(mesh, level, at, x);
     for (size_t d = 0, rest = cell; d < 3; rest /= (size_t)mesh->n[d], d++) {
         i[d] = rest % (size_t)mesh->n[d];
         x[d] = (int)d < mesh->dim ? x[d] + ((double)i[d] + 0.5) * level->h[d] : 0.0;
     }
+    snprintf(ret_text, GUARD_WHERE,
+             "the cell at (%.9g, %.9g, %.9g) m of level %d (cell (%zu, %zu, %zu) of tile (%d, %d, %d))", x[0], x[1],
+             x[2], guard->l, i[0], i[1], i[2], at->at[0], at->at[1], at->at[2]);
+}
+
+static void guard_describe(struct guard *guard, const struct guard_tile *tile, size_t cell)
+{
+    struct guard_fault fault;
+    char where[GUARD_WHERE];
     guard_name(guard, tile, cell, &fault);
-    snprintf(
-        guard->cause, sizeof guard->cause,
-        "%s = %.6g%s, in the cell at (%.9g, %.9g, %.9g) m of level %d (cell (%zu, %zu, %zu) of tile (%d, %d, %d)), "
-        "after stage %d",
-        fault.name, fault.value, fault.rest, x[0], x[1], x[2], guard->l, i[0], i[1], i[2], at->at[0], at->at[1],
-        at->at[2], tile->stage + 1);
+    guard_where(guard, tile->local, cell, where);
+    snprintf(guard->cause, sizeof guard->cause, "%s = %.6g%s, in %s, after stage %d", fault.name, fault.value,
+             fault.rest, where, tile->stage + 1);
     guard->found = (struct guard_place){.local = tile->local,
                                         .stage = tile->stage,
                                         .pure = model_number(tile->model),

@@ -14,7 +14,7 @@
 #include "mesh/mesh.h"
 #include "phys/model.h"
 
-enum { GUARD_ROUNDS = 3, GUARD_RETRIES = 6 };
+enum { GUARD_ROUNDS = 3, GUARD_RETRIES = 6, GUARD_WORDS = 768 };
 
 /* Present enough that its state matters: below it a material rides along. */
 #define GUARD_PRESENT 1e-6
@@ -26,7 +26,7 @@ struct guard_place {
     size_t cell;
     char field[SCENE_NAME + 32]; /* which field is wrong */
     double value;
-    char words[512]; /* as `cause`, but kept when the next attempt begins */
+    char words[GUARD_WORDS]; /* as `cause`, but kept when the next attempt begins */
 };
 
 struct guard {
@@ -42,7 +42,7 @@ struct guard {
     bool repair;              /* relaxation is allowed (Kapila closure, guard not strict) */
     long long relaxed;        /* cells repaired in the present attempt */
     long long bad[2];         /* inadmissible cells found after each stage of the present attempt */
-    char cause[512];          /* the first of them, in words (rank-local) */
+    char cause[GUARD_WORDS];  /* the first of them, in words (rank-local) */
     struct guard_place found; /* and in numbers; only valid after something was found */
     bool last; /* no attempt follows that would use marks: none are made, so that this one can be repeated as it was */
     double *kept; /* [2][n_field][n_cell]: u and w of the tile of `found` as they came to be judged */
@@ -50,6 +50,11 @@ struct guard {
 
 struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l);
 void guard_free(struct guard *guard);
+
+enum { GUARD_WHERE = 256 };
+
+/* "the cell at (x, y, z) m of level 2 (cell (i, j, k) of tile (I, J, K))". */
+void guard_where(const struct guard *guard, unsigned local, size_t cell, char ret_text[GUARD_WHERE]);
 
 /* Forgets marks (a new step or a smaller time step). */
 void guard_clear(struct guard *guard);

@@ -119,6 +119,7 @@ static int state_load(struct state *state, const struct state_source *source)
     state->t = source->t;
     state->dt = source->dt;
     state->dt_shrink = source->dt_shrink;
+    state->dt_longest = source->dt_longest;
     state->step = source->step;
     memcpy(state->level_steps, source->level_steps, sizeof state->level_steps);
     return STATUS_OK;

@@ -38,6 +38,7 @@ struct state {
     long level_steps[MESH_LEVELS]; /* steps of each level done: they say when it is time to regrid */
     struct state_counts counts;
     double dt_shrink;            /* 1, or the factor that retries left on the time step */
+    double dt_longest;           /* the longest step of level 0 so far [s] */
     double signal;               /* largest sum over axes of (|u_a| + c) / h_a in the present state, of all levels; with
                             subcycling that of level l counts 2^-l [1/s] */
     double signals[MESH_LEVELS]; /* of each level, over all ranks */
@@ -53,7 +54,7 @@ int state_new(const struct scene *scene, struct state **ret_state);
 
 /* A state to go on from (a checkpoint), read piece by piece. All values as struct state had them after a step. */
 struct state_source {
-    double t, dt, dt_shrink;
+    double t, dt, dt_shrink, dt_longest;
     long step, level_steps[MESH_LEVELS];
     int n_level;
     unsigned n_tile[MESH_LEVELS];

@@ -10,11 +10,12 @@ has() { # PATTERN
     grep -q -e "$1" out || fail "'$1' is not there"
 }
 
-# The law: an ideal gas that gives no number above a pressure, for the energy or for the sound speed.
+# The law: an ideal gas that gives no number above a pressure, for the energy or for the sound speed, or a sound speed
+# beyond all bounds.
 mkdir source
 cat >source/brittle.c <<'END'
 /* An ideal gas that breaks: above a pressure its law gives no number, for the energy or for the sound
- * speed. For tests of what a run says when a law fails in the middle of it. */
+ * speed, or a sound speed of 1e12 m/s. For tests of what a run says when a law fails in the middle of it. */
 #include <bulla/eos.h>
 
 #include <math.h>
@@ -28,9 +29,8 @@ static void brittle_state(const void *self, size_t n, const double *BULLA_RESTRI
                           double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT rho_c2)
 {
     const struct brittle *par = self;
-    (void)rho;
     for (size_t i = 0; i < n; i++) {
-        double broken = p[i] > par->limit ? (double)NAN : 0.0;
+        double broken = p[i] <= par->limit ? 0.0 : par->speed > 1.0 ? 1e24 * rho[i] : (double)NAN;
         rho_e[i] = p[i] / (par->gamma - 1.0) + (par->speed > 0.0 ? 0.0 : broken);
         rho_c2[i] = par->gamma * p[i] + (par->speed > 0.0 ? broken : 0.0);
     }
@@ -106,7 +106,7 @@ static const struct bulla_eos brittle_table = {.size = sizeof(struct bulla_eos),
 static const struct bulla_param brittle_params[] = {
     {"gamma", "1", 1.0001, 100.0, 1.4, "ratio of specific heats", BULLA_NUMBER, 0},
     {"limit", "Pa", 0.0, 1e12, 1e12, "pressure above which the law breaks", BULLA_NUMBER, 0},
-    {"speed", "1", 0.0, 1.0, 0.0, "1: the sound speed breaks; 0: the energy", BULLA_NUMBER, 0},
+    {"speed", "1", 0.0, 2.0, 0.0, "1: the sound speed breaks; 2: it becomes 1e12 m/s; 0: the energy", BULLA_NUMBER, 0},
     {0},
 };
 
@@ -213,6 +213,49 @@ case_file level 1 ", levels: 1, refine: [{jump: density, above: 0.02}]" "$rising
 has 'rho_c2 = -*nan Pa of material .air.*of level 1 (cell ([0-9]*, [0-9]*, 0) of tile ([0-9]*, [0-9]*, 0)), after stage'
 has 'half way through step'
 "$BULLA" info --replay level.out/dump_*.h5 >out 2>&1 || fail "the replay gives something else"
+
+# A sound speed beyond all bounds, in a gas that is heated everywhere: no step of 1e-20 s after the other, but a stop that
+# names the cell, its law and its state, alike on one rank and on two; the checkpoint that it leaves stops where it stopped.
+heated() { # NAME MESH
+    cat >"$1.yaml" <<END
+bulla: 1
+title: A gas is heated until its law ends
+modules: ["$law"]
+domain: {lower: [0, 0], upper: [1, 0.5], cells: [32, 16], boundaries: {x-: reflecting, x+: reflecting, y-: reflecting, y+: reflecting}}
+mesh: {tile: 8$2}
+materials: {air: {eos: {type: brittle, limit: 1.5e5, speed: 2}}}
+initial: [{everywhere: true, material: air, density: 1.2, pressure: 1e5}]
+sources: {heating: 0.25e9}
+run: {until: 1.5 ms}
+output: {directory: $1.out}
+END
+}
+heated slow ""
+for ranks in 1 2; do
+    code=0
+    timeout 120 "$BULLA" run slow.yaml --quiet --overwrite -n $ranks >out 2>&1 || code=$?
+    [ $code = 3 ] || fail "exit code $code"
+    has 'step [0-9]* at t = 0.000[45][0-9]* s: the time step has fallen to [0-9.]*e-1[0-9] s, below 1e-06 of the longest so far; sound speed 1e+12 m/s, velocity 0 m/s, pressure [0-9.e+]* Pa in the cell at (0.015625, 0.015625, 0) m of level 0 (cell (0, 0, 0) of tile (0, 0, 0)); air (brittle) fraction 1, density 1.2 kg/m3, temperature [0-9.]* K, sound speed 1e+12 m/s'
+    "$BULLA" info slow.out/dump_*.h5 >info 2>&1 || fail "info refuses it"
+    grep -v '^dump' info >slow.$ranks
+    "$BULLA" info --replay slow.out/dump_*.h5 >out 2>&1 || fail "the replay gives something else"
+    has '0 of 64 cells'
+    has 'sound_speed = .*: the same, to the bit'
+done
+cmp slow.1 slow.2 || fail "another dump on two ranks"
+grep -q '^stage  *before a step too short to be taken' slow.1 || fail "the stage is not said"
+"$BULLA" run slow.yaml --quiet --restart >out 2>&1 && fail "it finished"
+has 'below 1e-06 of the longest so far; sound speed 1e+12 m/s'
+"$BULLA" run slow.yaml --quiet --overwrite --set run.smallest-step='1 ns' >out 2>&1 && fail "it finished"
+has 'step [0-9]* at t = 0.000[45][0-9]* s: .* below run.smallest-step; sound speed 1e+12'
+"$BULLA" run slow.yaml --quiet --overwrite --set run.smallest-step='1 ms' >out 2>&1 && fail "it finished"
+has 'step 1 at t = 0 s: .* below run.smallest-step; sound speed 341.6 m/s'
+
+# On a finer level, which holds up the coarser one.
+heated below ", levels: 1, refine: [{region: {box: {lower: [0.3, 0.1], upper: [0.5, 0.3]}}}]"
+timeout 120 "$BULLA" run below.yaml --quiet -n 2 >out 2>&1 && fail "it finished"
+has 'the time step has fallen to [0-9.]*e-1[0-9] s, below 1e-06 .* of level [01] (cell ([0-9]*, [0-9]*, 0) of tile'
+"$BULLA" info --replay below.out/dump_*.h5 >out 2>&1 || fail "the replay gives something else"
 
 # With another law the replay says so: the module of the dump is another file now.
 cp "$law" other.so

@@ -124,6 +124,37 @@ static void test_idle(void **state)
     flow_stop(&flow);
 }
 
+/* Steps that have to be repeated again and again: the run ends before t no longer moves, and the message says why. What the
+ * case asks for counts instead; 0 leaves round-off alone. */
+static void test_creeping(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow, parting(FLOW_WATER FLOW_AIR, 0.0, "{limiter: mc}"));
+    flow_steps(&flow, 3);
+    double longest = flow.state->dt_longest, t = flow.state->t;
+    assert_true(longest > 0.0 && longest >= flow.state->dt);
+    flow.state->dt_shrink = 2e-6;
+    assert_int_equal(advance_step(flow.state, HUGE_VAL), STATUS_OK);
+    assert_true(flow.state->dt_longest == longest);
+    t = flow.state->t;
+    flow.state->dt_shrink = 5e-7;
+    assert_int_equal(advance_step(flow.state, HUGE_VAL), STATUS_RUN);
+    check_says((const char *const[]){"below 1e-06 of the longest so far", "repeated have left 5e-07", "water (",
+                                     "temperature", "in the cell at (", NULL});
+    assert_true(flow.state->t == t && flow.state->step == 4);
+    flow.scene->dt_least = 0.0;
+    assert_int_equal(advance_step(flow.state, HUGE_VAL), STATUS_OK);
+    flow.state->dt_shrink = 1e-18;
+    assert_int_equal(advance_step(flow.state, HUGE_VAL), STATUS_RUN);
+    check_says((const char *const[]){"which t does not notice", "sound speed", NULL});
+    flow.scene->dt_least = 1.0;
+    flow.state->dt_shrink = 1.0;
+    assert_int_equal(advance_step(flow.state, HUGE_VAL), STATUS_RUN);
+    check_says((const char *const[]){"below run.smallest-step", NULL});
+    flow_stop(&flow);
+}
+
 /* Random cells of a pair or a triple whose energy lies below what their fractions can hold: expanded too fast. */
 static void check_relax(const struct model *model, uint64_t *seed, int *ret_done)
 {
@@ -186,8 +217,9 @@ static void test_relax_cell(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_initial), cmocka_unit_test(test_strict), cmocka_unit_test(test_impossible),
-        cmocka_unit_test(test_repairs), cmocka_unit_test(test_idle),   cmocka_unit_test(test_relax_cell),
+        cmocka_unit_test(test_initial),  cmocka_unit_test(test_strict), cmocka_unit_test(test_impossible),
+        cmocka_unit_test(test_repairs),  cmocka_unit_test(test_idle),   cmocka_unit_test(test_relax_cell),
+        cmocka_unit_test(test_creeping),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
