@@ -122,11 +122,13 @@ static int advance_give_up(const struct state *state, struct stage *stage)
     memcpy(cause, stage->guard->cause, sizeof cause);
     const char *tried = state->scene->guard == SCENE_GUARD_STRICT ? "guard: strict allows no repair"
                                                                   : "first-order fluxes and smaller steps did not help";
+    char face[BLAME_NAME + 64] = "";
     int code = STATUS_OK;
     advance_watch(state, stage);
+    if (stage->blame) blame_say_face(stage->blame, stage->model, sizeof face, face);
     if (cause[0])
-        code = status_fail(STATUS_RUN, "step %ld at t = %.9g s cannot be completed: %s (%s; dt = %.3g s)",
-                           state->step + 1, stage->t, cause, tried, stage->dt);
+        code = status_fail(STATUS_RUN, "step %ld at t = %.9g s cannot be completed: %s%s (%s; dt = %.3g s)",
+                           state->step + 1, stage->t, cause, face, tried, stage->dt);
     return comm_agree(code);
 }
 

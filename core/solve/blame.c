@@ -7,6 +7,7 @@
 #include "solve/stage.h"
 #include "solve/state.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -311,6 +312,22 @@ void blame_keep(struct blame *blame, const struct model *model, const double *w,
     blame_take(blame, BLAME_U, model->n_field, kept);
     blame_take(blame, BLAME_W_NEW, model->n_field, kept + block);
     blame->whole = true;
+}
+
+void blame_say_face(const struct blame *blame, const struct model *model, size_t room, char *ret_text)
+{
+    static char columns[BLAME_COLUMNS][BLAME_NAME];
+    struct blame_shape shape = blame_shape(model, &blame->facts, BLAME_FACES);
+    const double *values = blame->block[BLAME_FACES];
+    *ret_text = '\0';
+    if (!values) return;
+    blame_columns(model, &blame->facts, columns);
+    for (size_t i = 0; i < shape.rows * shape.columns && !*ret_text; i++) {
+        size_t face = i / shape.columns;
+        if (isfinite(values[i])) continue;
+        snprintf(ret_text, room, ", at its face %c%c: %s = %g", "xyz"[face / 2], "-+"[face % 2],
+                 columns[i % shape.columns], values[i]);
+    }
 }
 
 bool blame_find(const struct state *state, struct blame_facts *ret_facts, const struct blame **ret_blame)

@@ -101,6 +101,10 @@ void blame_result(struct blame *blame, const struct model *used, const double *u
 /* Of a tile that failed between steps: w there now, and what the guard kept of it ([2][n_field][n_cell]). */
 void blame_keep(struct blame *blame, const struct model *model, const double *w, const double *kept);
 
+/* ", at its face x-: left.energy = nan": the first quantity at the faces of the cell that is no number, which says more than
+ * the fields that it has spoilt; "" if there is none. */
+void blame_say_face(const struct blame *blame, const struct model *model, size_t room, char *ret_text);
+
 /* The other way: a piece of the frames, and of the marks, for the work space of a replay. */
 void blame_give(const struct blame *blame, const struct model *used, const struct frame *frame,
                 struct face_work *faces);

@@ -7,6 +7,7 @@
 #include "phys/elastic.h"
 #include "phys/mix.h"
 #include "phys/relax.h"
+#include "solve/guard_name.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -109,74 +110,6 @@ static void guard_density(const struct model *model, size_t n, size_t stride, co
         for (size_t i = 0; i < n; i++) rho[i] = (l ? rho[i] : 0.0) + u[(model->i_m + l) * stride + i];
 }
 
-/* What is wrong with a cell: name of a field, value, unit or a remark. */
-struct guard_fault {
-    char name[SCENE_NAME + 32];
-    double value;
-    char rest[SCENE_NAME + 128];
-};
-
-static void guard_say(struct guard_fault *fault, const char *name, double value, const char *rest)
-{
-    snprintf(fault->name, sizeof fault->name, "%s", name);
-    snprintf(fault->rest, sizeof fault->rest, "%s", rest);
-    fault->value = value;
-}
-
-/* The first evolved field that is no number: what all else follows from. */
-static bool guard_name_unfinite(const struct guard_tile *tile, size_t n_cell, size_t cell, struct guard_fault *fault)
-{
-    const struct model *model = tile->model;
-    for (unsigned i = 0; i < model->n_active; i++) {
-        unsigned q = model->active[i];
-        double value = tile->u[q * n_cell + cell];
-        bool density = q >= model->i_m && q < model->i_u;
-        if (isfinite(value)) continue;
-        guard_say(fault, model->field_names[q], value,
-                  density                             ? " kg/m3"
-                  : q == model->i_E                   ? " J/m3"
-                  : q < model->i_u || q >= model->i_V ? ""
-                                                      : " kg/m2/s");
-        return true;
-    }
-    return false;
-}
-
-/* One material: its mass, its stiffness. */
-static bool guard_name_material(const struct guard_tile *tile, size_t n_cell, size_t cell, unsigned l,
-                                struct guard_fault *fault)
-{
-    const struct model *model = tile->model;
-    const char *name = model->scene->material[model->first + l].name;
-    char text[sizeof fault->rest];
-    double m = tile->u[(model->i_m + l) * n_cell + cell], p = tile->w[model->i_E * n_cell + cell];
-    double alpha = model->n_alpha ? tile->w[(model->i_alpha + l) * n_cell + cell] : 1.0,
-           rho_c2 = tile->rho_c2[l * n_cell + cell];
-    if (!(m >= 0.0) || (!model->n_alpha && !(m > 0.0))) {
-        guard_say(fault, model->field_names[model->i_m + l], m, " kg/m3");
-        return true;
-    }
-    if (alpha <= GUARD_PRESENT || rho_c2 > 0.0) return false;
-    if (isfinite(p) && isnan(rho_c2)) {
-        snprintf(text, sizeof text,
-                 " Pa of material '%s' (density times sound speed squared), from a pressure of %.6g Pa", name, p);
-        guard_say(fault, "rho_c2", rho_c2, text);
-        return true;
-    }
-    snprintf(text, sizeof text, " Pa, below what material '%s' (volume fraction %.3g) can bear", name, alpha);
-    guard_say(fault, "pressure", p, text);
-    return isfinite(p);
-}
-
-static void guard_name(const struct guard *guard, const struct guard_tile *tile, size_t cell, struct guard_fault *fault)
-{
-    size_t n_cell = guard->mesh->n_cell;
-    if (guard_name_unfinite(tile, n_cell, cell, fault)) return;
-    for (unsigned l = 0; l < tile->model->n_material; l++)
-        if (guard_name_material(tile, n_cell, cell, l, fault)) return;
-    guard_say(fault, "pressure", tile->w[tile->model->i_E * n_cell + cell], " Pa in the mixture");
-}
-
 void guard_where(const struct guard *guard, unsigned local, size_t cell, char ret_text[GUARD_WHERE])
 {
     const struct mesh *mesh = guard->mesh;
@@ -196,18 +129,18 @@ void guard_where(const struct guard *guard, unsigned local, size_t cell, char re
 
 static void guard_describe(struct guard *guard, const struct guard_tile *tile, size_t cell)
 {
-    struct guard_fault fault;
+    struct guard_name fault;
     char where[GUARD_WHERE];
-    guard_name(guard, tile, cell, &fault);
+    guard_name_find(tile, guard->mesh->n_cell, cell, &fault);
     guard_where(guard, tile->local, cell, where);
-    snprintf(guard->cause, sizeof guard->cause, "%s = %.6g%s, in %s, after stage %d", fault.name, fault.value,
-             fault.rest, where, tile->stage + 1);
+    snprintf(guard->cause, sizeof guard->cause, "%s = %.6g%s, in %s, after stage %d", fault.field, fault.value,
+             fault.words, where, tile->stage + 1);
     guard->found = (struct guard_place){.local = tile->local,
                                         .stage = tile->stage,
                                         .pure = model_number(tile->model),
                                         .cell = cell,
                                         .value = fault.value};
-    memcpy(guard->found.field, fault.name, sizeof guard->found.field);
+    memcpy(guard->found.field, fault.field, sizeof guard->found.field);
     memcpy(guard->found.words, guard->cause, sizeof guard->found.words);
 }
 

@@ -14,7 +14,7 @@
 #include "mesh/mesh.h"
 #include "phys/model.h"
 
-enum { GUARD_ROUNDS = 3, GUARD_RETRIES = 6, GUARD_WORDS = 768 };
+enum { GUARD_ROUNDS = 3, GUARD_RETRIES = 6, GUARD_WORDS = 1024 };
 
 /* Present enough that its state matters: below it a material rides along. */
 #define GUARD_PRESENT 1e-6

@@ -1,0 +1,196 @@
+/* guard_name.c - see guard_name.h. */
+#include "solve/guard_name.h"
+
+#include "base/text.h"
+#include "phys/elastic.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* One cell of a judged tile. */
+struct guard_cell {
+    const struct guard_tile *tile;
+    const struct model *model;
+    size_t n_cell, at;
+};
+
+static void guard_name_say(struct guard_name *name, const char *field, double value, const char *words)
+{
+    snprintf(name->field, sizeof name->field, "%s", field);
+    snprintf(name->words, sizeof name->words, "%s", words);
+    name->value = value;
+}
+
+static double guard_name_alpha(const struct guard_cell *cell, unsigned l)
+{
+    const struct model *model = cell->model;
+    return model->n_alpha ? cell->tile->w[(model->i_alpha + l) * cell->n_cell + cell->at] : 1.0;
+}
+
+/* Is nothing asked of fluid l here, because solids bear the cell (guard_borne in guard.c)? */
+static bool guard_name_borne(const struct guard_cell *cell, unsigned l)
+{
+    const struct model *model = cell->model;
+    double solid = 0.0;
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        if (model->solids[s].material == l) return false;
+        solid += guard_name_alpha(cell, model->solids[s].material);
+    }
+    return model->split && solid > 0.5;
+}
+
+/* " (xx = 1.2, yy = ...)" of a block of conserved fields. */
+static void guard_name_stretch(struct text *text, const struct guard_cell *cell, const double *u)
+{
+    const struct model *model = cell->model;
+    for (unsigned c = 0; c < model->n_stretch; c++)
+        text_add(text, "%s%s = %.4g", c ? ", " : " (", model_tensor[c], u[(model->i_V + c) * cell->n_cell + cell->at]);
+    text_add(text, ")");
+}
+
+static const struct scene_material *guard_name_solid(const struct guard_cell *cell, unsigned s)
+{
+    return &cell->model->scene->material[cell->model->first + cell->model->solids[s].material];
+}
+
+/* The stretch is lost: whose it is, and what it was. */
+static void guard_name_lost(const struct guard_cell *cell, struct text *text)
+{
+    for (unsigned s = 0; s < cell->model->n_solid; s++) {
+        const struct scene_material *material = guard_name_solid(cell, s);
+        text_add(text, "%s '%s' (%s)", s ? "," : " of material", material->name, material->constitutive.module->name);
+    }
+    text_add(text, ": det V <= 0, or no number; stretch before the step");
+    guard_name_stretch(text, cell, cell->tile->u_old);
+}
+
+/* The first evolved field that is no number: what all else follows from. */
+static bool guard_name_unfinite(const struct guard_cell *cell, struct guard_name *name)
+{
+    const struct model *model = cell->model;
+    for (unsigned i = 0; i < model->n_active; i++) {
+        unsigned q = model->active[i];
+        double value = cell->tile->u[q * cell->n_cell + cell->at];
+        struct text text = {0};
+        if (isfinite(value)) continue;
+        if (model->n_stretch && q >= model->i_V) guard_name_lost(cell, &text);
+        else
+            text_add(&text, "%s",
+                     q >= model->i_m && q < model->i_u ? " kg/m3"
+                     : q == model->i_E                 ? " J/m3"
+                     : q < model->i_u                  ? ""
+                                                       : " kg/m2/s");
+        guard_name_say(name, model->field_names[q], value, text.at);
+        text_done(&text);
+        return true;
+    }
+    return false;
+}
+
+/* What an elastic law says of the stretch in the cell. */
+struct guard_strain {
+    double I1, I2, e, slope[2], curvature[3];
+    struct bulla_constitutive_range range;
+};
+
+static void guard_name_ask(const struct guard_cell *cell, unsigned s, struct guard_strain *ret)
+{
+    const struct model *model = cell->model;
+    const struct model_solid *solid = &model->solids[s];
+    *ret = (struct guard_strain){0};
+    elastic_invariants(model, 1, cell->n_cell, cell->tile->u + model->i_V * cell->n_cell + cell->at, &ret->I1,
+                       &ret->I2);
+    solid->law->energy(solid->self, 1, &ret->I1, &ret->I2, &ret->e, &ret->slope[0], &ret->slope[1]);
+    if (solid->law->second)
+        solid->law->second(solid->self, 1, &ret->I1, &ret->I2, &ret->curvature[0], &ret->curvature[1],
+                           &ret->curvature[2]);
+    solid->law->range(solid->self, &ret->range);
+}
+
+/* An elastic law that gives no number for a stretch that is one. */
+static bool guard_name_law(const struct guard_cell *cell, unsigned s, struct guard_name *name)
+{
+    static const char *const fields[] = {"strain_energy", "e_1", "e_2", "e_11", "e_12", "e_22"};
+    const struct scene_material *material = guard_name_solid(cell, s);
+    struct guard_strain strain;
+    guard_name_ask(cell, s, &strain);
+    const double values[] = {
+        strain.e, strain.slope[0], strain.slope[1], strain.curvature[0], strain.curvature[1], strain.curvature[2]};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        struct text text = {0};
+        if (isfinite(values[i])) continue;
+        text_add(&text, " J/kg by the elastic law '%s' of material '%s' at I1 = %.6g, I2 = %.6g, stretch",
+                 material->constitutive.module->name, material->name, strain.I1, strain.I2);
+        guard_name_stretch(&text, cell, cell->tile->u);
+        guard_name_say(name, fields[i], values[i], text.at);
+        text_done(&text);
+        return true;
+    }
+    return false;
+}
+
+/* Elastic laws that may be behind a pressure: beyond their range, or with more energy in them than the pressure. */
+static void guard_name_suspect(const struct guard_cell *cell, double p, struct text *text)
+{
+    for (unsigned s = 0; s < cell->model->n_solid; s++) {
+        const struct scene_material *material = guard_name_solid(cell, s);
+        unsigned l = cell->model->solids[s].material;
+        double m = cell->tile->u[(cell->model->i_m + l) * cell->n_cell + cell->at];
+        struct guard_strain strain;
+        if (!cell->model->n_stretch || guard_name_alpha(cell, l) <= GUARD_PRESENT) continue;
+        guard_name_ask(cell, s, &strain);
+        bool beyond = strain.I1 > strain.range.I1_max || strain.I2 > strain.range.I2_max;
+        if (!beyond && !(m * strain.e > fabs(p))) continue;
+        text_add(text, "; the elastic law '%s' of '%s' holds %.4g J/m3 at I1 = %.6g, I2 = %.6g",
+                 material->constitutive.module->name, material->name, m * strain.e, strain.I1, strain.I2);
+        if (beyond)
+            text_add(text, ", beyond its range (I1 <= %.4g, I2 <= %.4g)", strain.range.I1_max, strain.range.I2_max);
+    }
+}
+
+/* One material: its mass, its stiffness. */
+static bool guard_name_material(const struct guard_cell *cell, unsigned l, struct guard_name *name)
+{
+    const struct model *model = cell->model;
+    const char *own = model->scene->material[model->first + l].name;
+    double m = cell->tile->u[(model->i_m + l) * cell->n_cell + cell->at], alpha = guard_name_alpha(cell, l);
+    double p = cell->tile->w[model->i_E * cell->n_cell + cell->at],
+           rho_c2 = cell->tile->rho_c2[l * cell->n_cell + cell->at];
+    struct text text = {0};
+    if (!(m >= 0.0) || (!model->n_alpha && !(m > 0.0))) {
+        guard_name_say(name, model->field_names[model->i_m + l], m, " kg/m3");
+        return true;
+    }
+    if (alpha <= GUARD_PRESENT || rho_c2 > 0.0 || !isfinite(p) || guard_name_borne(cell, l)) return false;
+    if (isnan(rho_c2))
+        text_add(&text, " Pa of material '%s' (density times sound speed squared), from a pressure of %.6g Pa", own, p);
+    else text_add(&text, " Pa, below what material '%s' (volume fraction %.3g) can bear", own, alpha);
+    guard_name_suspect(cell, p, &text);
+    guard_name_say(name, isnan(rho_c2) ? "rho_c2" : "pressure", isnan(rho_c2) ? rho_c2 : p, text.at);
+    text_done(&text);
+    return true;
+}
+
+/* What is left: the pressure, or the speed that the materials and their elasticity make together. */
+static void guard_name_mixture(const struct guard_cell *cell, struct guard_name *name)
+{
+    double p = cell->tile->w[cell->model->i_E * cell->n_cell + cell->at], c2 = cell->tile->c2[cell->at];
+    struct text text = {0};
+    if (isfinite(p)) text_add(&text, " m2/s2 in the mixture, at a pressure of %.6g Pa", p);
+    else text_add(&text, " Pa in the mixture");
+    guard_name_suspect(cell, p, &text);
+    guard_name_say(name, isfinite(p) ? "sound_speed squared" : "pressure", isfinite(p) ? c2 : p, text.at);
+    text_done(&text);
+}
+
+void guard_name_find(const struct guard_tile *tile, size_t n_cell, size_t at, struct guard_name *ret_name)
+{
+    const struct model *model = tile->model;
+    const struct guard_cell cell = {tile, model, n_cell, at};
+    if (guard_name_unfinite(&cell, ret_name)) return;
+    for (unsigned s = 0; model->n_stretch && s < model->n_solid; s++)
+        if (guard_name_law(&cell, s, ret_name)) return;
+    for (unsigned l = 0; l < model->n_material; l++)
+        if (guard_name_material(&cell, l, ret_name)) return;
+    guard_name_mixture(&cell, ret_name);
+}
