@@ -2,6 +2,7 @@
 #include "app/plot.h"
 
 #include "app/picture_canvas.h"
+#include "app/plot_along.h"
 #include "app/plot_case.h"
 #include "app/plot_history.h"
 #include "app/plot_map.h"
@@ -53,7 +54,7 @@ static int plot_choose(const struct snapshot_series *series, const struct plot_o
     size_t index = series->n - 1;
     if (option->when == PLOT_STEP) TRY(plot_find_step(series, option->step, &index));
     for (size_t i = 0; option->when == PLOT_TIME && i < series->n; i++)
-        if (fabs(series->times[i] - option->time) < fabs(series->times[index] - option->time)) index = i;
+        if (fabs(series->times[i] - option->times[0]) < fabs(series->times[index] - option->times[0])) index = i;
     *ret_first = option->when == PLOT_ALL ? 0 : index;
     *ret_end = index + 1;
     return STATUS_OK;
@@ -172,25 +173,35 @@ static int plot_snapshots(const char *directory, const char *fields, const struc
     return code;
 }
 
-/* How many runs a history is to show: the directories that stand before the word; 0 without it. */
-static unsigned plot_history_runs(const struct cli_given *given)
+/* Pictures that several runs share: what draws them, by the word that asks for it. */
+static const struct plot_shared {
+    const char *word;
+    int (*write)(const char *const *directories, unsigned n_directory, const char *const *words, unsigned n,
+                 const struct plot_option *option);
+} plot_shared[] = {{"history", plot_history_write}, {"profile", plot_along_write}, {0}};
+
+/* Which of them is asked for, and by how many runs: the directories that stand before the word; NULL: none. */
+static const struct plot_shared *plot_find_shared(const struct cli_given *given, unsigned *ret_runs)
 {
     for (int i = 1; i < given->n_word; i++) {
-        if (strcmp(given->words[i], "history") == 0) return (unsigned)i;
+        *ret_runs = (unsigned)i;
+        for (const struct plot_shared *shared = plot_shared; shared->word; shared++)
+            if (strcmp(given->words[i], shared->word) == 0) return shared;
         if (!plot_is_directory(given->words[i])) break;
     }
-    return 0;
+    return NULL;
 }
 
-static int plot_histories(const struct cli_given *given, unsigned n_run, const struct plot_option *option)
+static int plot_together(const struct cli_given *given, const struct plot_shared *shared, unsigned n_run,
+                         const struct plot_option *option)
 {
     char **directories = mem_new(n_run, sizeof *directories);
     int code = STATUS_OK;
     for (unsigned i = 0; i < n_run; i++) directories[i] = plot_case_directory(given->words[i]);
     if (!plot_is_directory(directories[0])) code = plot_no_directory(directories[0]);
     if (!code)
-        code = plot_history_write((const char *const *)directories, n_run, given->words + n_run + 1,
-                                  (unsigned)given->n_word - n_run - 1, option);
+        code = shared->write((const char *const *)directories, n_run, given->words + n_run + 1,
+                             (unsigned)given->n_word - n_run - 1, option);
     for (unsigned i = 0; i < n_run; i++) mem_free(directories[i]);
     mem_free(directories);
     return code;
@@ -201,24 +212,28 @@ static int plot_run(const struct cli_given *given, const char *directory)
     struct plot_option option;
     TRY(plot_option_read(given, &option));
     const char *what = given->n_word > 1 ? given->words[1] : NULL;
-    unsigned n_run = plot_history_runs(given);
+    unsigned n_run = 0;
+    const struct plot_shared *shared = plot_find_shared(given, &n_run);
     if (!what && !option.left)
-        return status_fail(STATUS_CASE,
-                           "which field? bulla plot %s pressure, or history, or map; `bulla info` lists the fields",
-                           directory);
+        return status_fail(
+            STATUS_CASE, "which field? bulla plot %s pressure, or history, map, profile; `bulla info` lists the fields",
+            directory);
     bool map = what && strcmp(what, "map") == 0;
-    if (!n_run && !map && given->n_word > 2 && plot_is_directory(what))
+    if (!shared && !map && given->n_word > 2 && plot_is_directory(what))
         return status_fail(STATUS_CASE,
-                           "several runs share a picture of their histories only: bulla plot %s %s history "
+                           "several runs share pictures of histories and profiles only: bulla plot %s %s history "
                            "COLUMN...",
                            directory, what);
-    if (!n_run && !map && given->n_word > 2)
+    if (!shared && !map && given->n_word > 2)
         return status_fail(STATUS_CASE, "plot does not know what to do with '%s'; several fields go by comma: %s,%s",
                            given->words[2], what, given->words[2]);
     if (option.left && what)
         return status_fail(STATUS_CASE, "--left and --right name the fields; '%s' is one too many", what);
-    if (n_run) return plot_histories(given, n_run, &option);
+    if (shared) return plot_together(given, shared, n_run, &option);
     if (!plot_is_directory(directory)) return plot_no_directory(directory);
+    if (!map && option.n_time > 1)
+        return status_fail(STATUS_CASE, "--time %g and %g: one time for a picture of a snapshot", option.times[0],
+                           option.times[1]);
     if (map) return plot_map_write(directory, given->words + 2, (unsigned)(given->n_word - 2), &option);
     return plot_snapshots(directory, what, &option);
 }

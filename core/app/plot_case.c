@@ -63,3 +63,13 @@ char *plot_case_title(const char *directory)
     mem_free(bare);
     return title;
 }
+
+const char *plot_case_run(const char *const *directories, unsigned n, unsigned run)
+{
+    const char *slash = strrchr(directories[run], '/'), *name = slash && slash[1] ? slash + 1 : directories[run];
+    for (unsigned i = 0; i < n; i++) {
+        const char *other = strrchr(directories[i], '/');
+        if (i != run && strcmp(other && other[1] ? other + 1 : directories[i], name) == 0) return directories[run];
+    }
+    return name;
+}

@@ -11,4 +11,7 @@ char *plot_case_title(const char *directory);
 /* The directory without slashes at its end, in new memory: "out/" is "out". */
 char *plot_case_directory(const char *directory);
 
+/* A run's name in a legend: the last part of its path, the path itself if another of the runs is called so too. */
+const char *plot_case_run(const char *const *directories, unsigned n, unsigned run);
+
 #endif

@@ -183,17 +183,6 @@ int plot_history_draw(const char *directory, const char *const *columns, unsigne
     return code;
 }
 
-/* A run's name in the legend: the last part of its path, the path itself if another run is called so too. */
-static const char *history_run(const char *const *directories, unsigned n, unsigned run)
-{
-    const char *slash = strrchr(directories[run], '/'), *name = slash && slash[1] ? slash + 1 : directories[run];
-    for (unsigned i = 0; i < n; i++) {
-        const char *other = strrchr(directories[i], '/');
-        if (i != run && strcmp(other && other[1] ? other + 1 : directories[i], name) == 0) return directories[run];
-    }
-    return name;
-}
-
 /* A panel for each column with a line for each run. */
 static int history_overlay(struct history *runs, const char *const *directories, unsigned n_run,
                            const char *const *columns, unsigned n, struct chart *chart, const char **units)
@@ -205,7 +194,7 @@ static int history_overlay(struct history *runs, const char *const *directories,
         for (unsigned i = 0; i < n_run; i++) {
             const struct table *table = history_table(&runs[i], columns[c]);
             if (!table) return history_unknown(&runs[i], directories[i], columns[c]);
-            panel->series[panel->n_series++] = (struct chart_series){.name = history_run(directories, n_run, i),
+            panel->series[panel->n_series++] = (struct chart_series){.name = plot_case_run(directories, n_run, i),
                                                                      .n = table->n_row,
                                                                      .x = table_column(table, "t"),
                                                                      .y = table_column(table, columns[c])};

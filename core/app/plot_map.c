@@ -2,56 +2,24 @@
  * pictures too; a value fills the space half way to the places and times around it. */
 #include "app/plot_map.h"
 
+#include "app/map_table.h"
 #include "app/picture.h"
 #include "app/picture_canvas.h"
 #include "app/picture_text.h"
 #include "app/plot_case.h"
 #include "app/plot_picture.h"
-#include "app/plot_unit.h"
 #include "base/mem.h"
 #include "base/status.h"
-#include "base/text.h"
-#include "case/table.h"
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 struct map {
-    const char *name;
-    struct table table;
-    size_t n_place, n_time;
+    struct map_table of;
     struct raster_cell *cells; /* [n_time * n_place], as the rows of the table */
     double edge[2][2];         /* of all cells */
-    struct scene *scene;       /* or NULL */
 };
-
-/* The maps that a directory has, for messages. */
-static void map_list(const char *directory, struct text *list)
-{
-    char *folder = mem_print("%s/maps", directory);
-    DIR *stream = opendir(folder);
-    for (struct dirent *entry; stream && (entry = readdir(stream));) {
-        const char *end = strrchr(entry->d_name, '.');
-        if (end && !strcmp(end, ".csv"))
-            text_add(list, "%s%.*s", list->length ? ", " : "", (int)(end - entry->d_name), entry->d_name);
-    }
-    if (stream) closedir(stream);
-    mem_free(folder);
-}
-
-static int map_missing(const char *directory, const char *name)
-{
-    struct text list = {0};
-    map_list(directory, &list);
-    int code = !list.length ? status_fail(STATUS_CASE, "no maps in %s: output.maps asks a run for them", directory)
-               : name       ? status_fail(STATUS_CASE, "no map '%s' in %s; there are: %s", name, directory, list.at)
-                            : status_fail(STATUS_CASE, "which map and field? There are: %s", list.at);
-    text_done(&list);
-    return code;
-}
 
 /* Edges of the cells around n ascending or descending values, `step` apart in the table: [n + 1]. */
 static double *map_edges(const double *values, size_t n, size_t step)
@@ -65,69 +33,42 @@ static double *map_edges(const double *values, size_t n, size_t step)
 
 static void map_cells(struct map *map)
 {
-    double *time = map_edges(map->table.columns[0], map->n_time, map->n_place);
-    double *place = map_edges(map->table.columns[1], map->n_place, 1);
-    map->cells = mem_new(map->n_time * map->n_place, sizeof *map->cells);
-    for (size_t i = 0; i < map->n_time; i++)
-        for (size_t k = 0; k < map->n_place; k++) {
+    double *time = map_edges(map->of.table.columns[0], map->of.n_time, map->of.n_place);
+    double *place = map_edges(map->of.table.columns[1], map->of.n_place, 1);
+    map->cells = mem_new(map->of.n_time * map->of.n_place, sizeof *map->cells);
+    for (size_t i = 0; i < map->of.n_time; i++)
+        for (size_t k = 0; k < map->of.n_place; k++) {
             double a = place[k], b = place[k + 1];
-            map->cells[i * map->n_place + k] =
+            map->cells[i * map->of.n_place + k] =
                 (struct raster_cell){{{a < b ? a : b, a < b ? b : a}, {time[i], time[i + 1]}}};
         }
-    double a = place[0], b = place[map->n_place];
+    double a = place[0], b = place[map->of.n_place];
     map->edge[0][0] = a < b ? a : b;
     map->edge[0][1] = a < b ? b : a;
     map->edge[1][0] = time[0];
-    map->edge[1][1] = time[map->n_time];
+    map->edge[1][1] = time[map->of.n_time];
     mem_free(time);
     mem_free(place);
 }
 
 static int map_open(const char *directory, const char *name, struct map *map)
 {
-    char *path = mem_print("%s/maps/%s.csv", directory, name);
-    int code = access(path, R_OK) ? map_missing(directory, name) : STATUS_OK;
-    map->name = name;
-    if (!code && table_read(path, TABLE_OF_RUN, &map->table)) code = status_fail(STATUS_CASE, "%s", status_text());
-    mem_free(path);
-    if (code) return code;
-    const struct table *table = &map->table;
-    while (map->n_place < table->n_row && table->columns[0][map->n_place] == table->columns[0][0]) map->n_place++;
-    map->n_time = map->n_place ? table->n_row / map->n_place : 0;
-    if (map->n_time < 2 || map->n_place < 2)
-        return status_fail(STATUS_CASE, "map %s has %zu times and %zu places: two of each make a picture", name,
-                           map->n_time, map->n_place);
+    TRY(map_table_open(directory, name, &map->of));
     map_cells(map);
-    map->scene = plot_unit_scene(directory);
     return STATUS_OK;
 }
 
 static void map_close(struct map *map)
 {
-    table_done(&map->table);
+    map_table_done(&map->of);
     mem_free(map->cells);
-    scene_free(map->scene);
-}
-
-static int map_column(const struct map *map, const char *field, const double **ret_values)
-{
-    struct text list = {0};
-    for (unsigned c = 2; c < map->table.n_column; c++) {
-        if (!strcmp(map->table.names[c], field)) *ret_values = map->table.columns[c];
-        text_add(&list, "%s%s", c > 2 ? ", " : "", map->table.names[c]);
-    }
-    int code = *ret_values ? STATUS_OK
-                           : status_fail(STATUS_CASE, "map %s has no field '%s'; there are: %s", map->name, field,
-                                         list.at ? list.at : "none");
-    text_done(&list);
-    return code;
 }
 
 /* Least and largest finite value in the window; of positive ones for a logarithmic scale. */
 static void map_extremes(const struct map *map, const double *values, const double window[2][2], bool log,
                          double extremes[2])
 {
-    for (size_t i = 0; i < map->n_time * map->n_place; i++) {
+    for (size_t i = 0; i < map->of.n_time * map->of.n_place; i++) {
         const struct raster_cell *cell = &map->cells[i];
         bool inside = true;
         for (int axis = 0; axis < 2; axis++)
@@ -156,11 +97,7 @@ static int map_window(const struct map *map, const struct plot_option *option, d
 /* Axes: the coordinate by its symbol, and t. */
 static void map_axes(const struct map *map, const double window[2][2], struct picture *drawn)
 {
-    bool round = map->scene && map->scene->geometry != SCENE_CARTESIAN;
-    const char *column = map->table.names[1], *symbol = column;
-    if (round && *column == 'x') symbol = "r";
-    if (round && *column == 'y') symbol = "z";
-    char *place = mem_print(PICTURE_ITALIC "%s" PICTURE_UPRIGHT, symbol);
+    char *place = map_table_place(&map->of);
     const struct picture_scale_inp axes[] = {
         {.name = place, .unit = "m", .lo = window[0][0], .hi = window[0][1]},
         {.name = PICTURE_ITALIC "t" PICTURE_UPRIGHT, .unit = "s", .lo = window[1][0], .hi = window[1][1]},
@@ -174,21 +111,18 @@ static int map_layer(const struct map *map, const char *field, const struct plot
 {
     double extremes[2] = {INFINITY, -INFINITY};
     layer->cells = map->cells;
-    layer->n = map->n_time * map->n_place;
-    TRY(map_column(map, field, &layer->values));
+    layer->n = map->of.n_time * map->of.n_place;
+    TRY(map_table_column(&map->of, field, &layer->values));
     map_extremes(map, layer->values, window, option->log, extremes);
     const char *colours = option->map ? option->map : colormap_for_field(field, extremes[0], extremes[1]);
     TRY(colormap_find(colours, &layer->map));
     TRY(plot_picture_range(&option->range[0], option->log, field, colours, extremes));
-    char *column = mem_print("%s.%s", map->name, field), *label = mem_text(field);
-    for (char *c = label; *c; c++)
-        if (*c == '_') *c = ' ';
+    char *label = map_table_label(&map->of, field);
     picture_scale_init(&layer->scale, &(struct picture_scale_inp){.name = label,
-                                                                  .unit = plot_unit_of(map->scene, column),
+                                                                  .unit = map_table_unit(&map->of, field),
                                                                   .lo = extremes[0],
                                                                   .hi = extremes[1],
                                                                   .log = option->log});
-    mem_free(column);
     mem_free(label);
     return STATUS_OK;
 }
@@ -196,7 +130,7 @@ static int map_layer(const struct map *map, const char *field, const struct plot
 static int map_draw(const struct map *map, const char *directory, const char *field, const struct plot_option *option)
 {
     char *title = plot_case_title(directory), *path = NULL;
-    struct picture drawn = {.title = title, .note = map->name, .n_layer = 1, .aspect = 0.8};
+    struct picture drawn = {.title = title, .note = map->of.name, .n_layer = 1, .aspect = 0.8};
     double window[2][2];
     cairo_surface_t *image = NULL;
     int code = map_window(map, option, window);
@@ -205,7 +139,7 @@ static int map_draw(const struct map *map, const char *directory, const char *fi
     if (!code) code = picture_draw(&drawn, option->width, &image);
     if (!code) {
         path = option->output ? mem_text(option->output)
-                              : mem_print("%s/plots/map_%s_%s.png", directory, map->name, field);
+                              : mem_print("%s/plots/map_%s_%s.png", directory, map->of.name, field);
         code = picture_canvas_write(image, path);
     }
     if (!code) printf("%s\n", path);
@@ -218,7 +152,7 @@ static int map_draw(const struct map *map, const char *directory, const char *fi
 int plot_map_write(const char *directory, const char *const *words, unsigned n, const struct plot_option *option)
 {
     struct map map = {0};
-    if (n < 1) return map_missing(directory, NULL);
+    if (n < 1) return map_table_missing(directory, NULL);
     if (n != 2)
         return status_fail(STATUS_CASE, "a map and a field are needed: bulla plot %s map %s FIELD", directory,
                            words[0]);

@@ -11,7 +11,8 @@
 static const struct cli_option option_output = {"--output", "-o", "FILE.png",
                                                 "Where to write (a directory with --all)."};
 static const struct cli_option option_step = {"--step", NULL, "N", "The snapshot of this step."};
-static const struct cli_option option_time = {"--time", NULL, "T", "The snapshot nearest to this time."};
+static const struct cli_option option_time = {"--time", NULL, "T",
+                                              "The snapshot nearest to this time; of profiles several."};
 static const struct cli_option option_last = {"--last", NULL, NULL, "The last snapshot (default)."};
 static const struct cli_option option_all = {"--all", NULL, NULL, "Every snapshot, all on one colour scale."};
 static const struct cli_option option_slice = {"--slice", NULL, "x=X",
@@ -125,8 +126,14 @@ static int option_when(const struct cli_given *given, struct plot_option *option
         option->when = (enum plot_option_when)when;
     }
     TRY(cli_count(given, "--step", 0, &option->step));
-    const char *time = cli_value(given, "--time");
-    return time ? option_number("--time", time, strlen(time), OPTION_TIME, &option->time) : STATUS_OK;
+    for (int i = 0; i < given->n_option; i++) {
+        const char *time = given->values[i];
+        if (given->options[i] != &option_time) continue;
+        if (option->n_time == PLOT_TIMES)
+            return status_fail(STATUS_CASE, "--time is given more than %d times", PLOT_TIMES);
+        TRY(option_number("--time", time, strlen(time), OPTION_TIME, &option->times[option->n_time++]));
+    }
+    return STATUS_OK;
 }
 
 int plot_option_read(const struct cli_given *given, struct plot_option *ret_option)

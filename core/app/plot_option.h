@@ -8,7 +8,7 @@
 
 extern const struct cli_option *const plot_option_table[];
 
-enum { PLOT_RANGES = 3 };
+enum { PLOT_RANGES = 3, PLOT_TIMES = 8 };
 
 enum plot_option_when { PLOT_LAST, PLOT_STEP, PLOT_TIME, PLOT_ALL };
 
@@ -21,8 +21,9 @@ struct plot_option {
     const char *output; /* -o, or NULL */
     enum plot_option_when when;
     long step;
-    double time;
-    bool sliced[3]; /* by axis */
+    unsigned n_time;
+    double times[PLOT_TIMES]; /* --time, in the order given */
+    bool sliced[3];           /* by axis */
     double slice[3];
     struct plot_option_span
         range[PLOT_RANGES];           /* values: of the fields of a picture in the order left, right, inside */
