@@ -8,6 +8,7 @@
 #include "app/plot_map.h"
 #include "app/plot_picture.h"
 #include "base/comm.h"
+#include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/read.h"
@@ -241,6 +242,7 @@ static int plot_run(const struct cli_given *given, const char *directory)
 int plot_command(const struct cli_given *given)
 {
     if (comm_rank() != 0) return STATUS_OK;
+    log_set_quiet(true); /* the case is opened for its units only: what its laws say of their tables is no news */
     char *directory = plot_case_directory(given->words[0]);
     int code = plot_run(given, directory);
     mem_free(directory);

@@ -77,7 +77,20 @@ if [ -e other/maps/old.csv ] || [ -e other/maps/old.hdf ]; then echo "old maps a
 [ -s "$(cat said)" ] && grep -q 'plots/map_axis_pressure.png' said
 "$BULLA" plot alone map skin temperature_air -o skin.png --range 250,400 --width 400 >said
 [ -s skin.png ]
-for wrong in 'map' 'map side pressure' 'map wall density'; do
+
+# Profiles: at the hottest moment, at chosen times, of two runs. Of two equal runs the second line hides the first.
+"$BULLA" plot alone profile wall pressure >said
+[ "$(cat said)" = alone/plots/profile_wall_pressure.png ] && [ -s alone/plots/profile_wall_pressure.png ]
+"$BULLA" plot alone two profile axis pressure,velocity_y --time 0.2us --time 0.5us --xlim 0,0.4mm -o both.png >said
+[ -s both.png ]
+"$BULLA" plot alone profile wall pressure --time 0.3us -o early.png >said
+"$BULLA" plot alone profile wall pressure --time 0.301us -o near.png >said # the same row of the map
+"$BULLA" plot alone profile wall pressure --time 0.55us -o late.png >said
+cmp early.png near.png
+! cmp -s early.png late.png
+! cmp -s early.png alone/plots/profile_wall_pressure.png
+for wrong in 'map' 'map side pressure' 'map wall density' 'profile' 'profile wall' 'profile wall density' 'profile side pressure' \
+    'alone_is_no_run profile wall pressure' 'pressure --time 1ns --time 2ns'; do
     code=0
     # shellcheck disable=SC2086
     "$BULLA" plot alone $wrong >/dev/null 2>said || code=$?
