@@ -5,6 +5,7 @@
 
 #include "../../modules/eos/iapws95_terms.h"
 #include "../../modules/eos/lemmon_air_terms.h"
+#include "formulas.h"
 #include "bulla/eos.h"
 
 #define EPSILON 2.220446049250313e-16
@@ -46,24 +47,6 @@ static struct point at(const struct law *law, double rho, double p)
 static size_t count_outside(const struct law *law, double rho, double p)
 {
     return law->eos->count_outside(law->instance.self, 1, &rho, &p);
-}
-
-/* The formulas at (rho, T), without a module. */
-struct exact {
-    double p, e, s, cv, c2, h;
-};
-
-static struct exact exact_at(const struct helmholtz_fluid *fluid, double rho, double T)
-{
-    double a[HELMHOLTZ_R][HELMHOLTZ_L], RT = fluid->R * T, lift = RT * log(rho / fluid->rho_c);
-    helmholtz_potential(fluid, rho, log(T), a);
-    double p_r = 2 * rho * (a[1][0] + RT / rho) + rho * rho * (a[2][0] - RT / rho / rho);
-    double p_l = rho * rho * a[1][1] + rho * RT, e_l = a[0][1] - a[0][2];
-    struct exact exact = {.p = rho * rho * a[1][0] + rho * RT, .e = a[0][0] - a[0][1], .s = -(a[0][1] + lift) / T};
-    exact.cv = e_l / T;
-    exact.c2 = p_r + p_l * p_l / (rho * rho * e_l);
-    exact.h = exact.e + exact.p / rho;
-    return exact;
 }
 
 /* Rows of a file as numbers, text as NaN; lines with # are left out. Returns how many columns were found. */
