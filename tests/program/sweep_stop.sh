@@ -45,16 +45,24 @@ finished() {
 "$BULLA" sweep tube.yaml -o whole --quiet >table
 [ "$(wc -l <table)" = 7 ]
 
-# Signals: the runs save, the sweep ends with exit code 4, the same command goes on.
-for signal in INT TERM; do
+# Signals: the runs save, the sweep ends with exit code 4, the same command goes on. A signal that comes too late, after a
+# run has finished, is sent anew to another sweep: how soon this script gets its turn is not what is tested.
+interrupt() { # SIGNAL RANKS; false: too late
     rm -rf out
-    ranks=1
-    [ $signal = INT ] || ranks=2
-    env --default-signal=INT "$BULLA" sweep tube.yaml -o out -j 2 -n $ranks >table 2>said &
+    env --default-signal=INT "$BULLA" sweep tube.yaml -o out -j 2 -n "$2" >table 2>said &
     await 30 $!
-    kill -s $signal $!
+    kill -s "$1" $! 2>/dev/null || true
     code=0
     wait $! || code=$?
+    ! grep -q ': done in' said
+}
+for signal in INT TERM; do
+    ranks=1 tries=0
+    [ $signal = INT ] || ranks=2
+    until interrupt $signal $ranks; do
+        tries=$((tries + 1))
+        [ $tries -lt 50 ] || { echo "$signal never comes in time, or does nothing"; cat said; exit 1; }
+    done
     [ $code = 4 ] || { echo "exit code $code, not 4"; cat said; exit 1; }
     grep -q ': interrupted' said && grep -q 'the same command goes on' said || { cat said; exit 1; }
     [ "$(wc -l <table)" = 7 ] || { cat table; exit 1; }
@@ -64,17 +72,32 @@ for signal in INT TERM; do
     finished
 done
 
+# A sweep at work, with a run that does not move until it is told to: `victim`. Tried anew if all have finished before that.
+halt() {
+    rm -rf out
+    "$BULLA" sweep tube.yaml -o out -j 3 >table 2>said &
+    first=$!
+    await 5 $first
+    for victim in $(ps -o pid= --ppid $first); do
+        kill -STOP "$victim" 2>/dev/null || continue
+        while state=$(ps -o stat= -p "$victim") && case $state in [RSD]*) ;; *) false ;; esac; do :; done
+        case $state in T*) return 0 ;; esac
+    done
+    wait $first || true
+    return 1
+}
+tries=0
+until halt; do
+    tries=$((tries + 1))
+    [ $tries -lt 50 ] || { echo "no run can be stopped"; cat said; exit 1; }
+done
+
 # While one is at work, another is refused; it may work elsewhere.
-rm -rf out
-"$BULLA" sweep tube.yaml -o out -j 3 >table 2>said &
-first=$!
-await 5 $first
 code=0
 sweep >refused 2>&1 || code=$?
 [ $code = 2 ] && grep -q "another sweep (process $first) is at work" refused || { cat refused; exit 1; }
 
 # A run that is killed is reported, the others go on; a later call takes it up.
-victim=$(ps -o pid= --ppid $first | head -n 1 | tr -d ' ')
 readlink /proc/$victim/fd/* | grep -q '/out/sweep.lock$' || { ls -l /proc/$victim/fd; exit 1; }
 kill -9 $victim
 code=0
@@ -86,13 +109,13 @@ grep -q ' 5 of them finished before' said
 finished
 
 # Its runs hold a lock as well, and a sweep waits for what holds it: runs of one that was killed.
-flock out/sweep.lock sleep 100 &
+(exec 9>>out/sweep.lock && flock 9 && : >held && exec sleep 300) &
 holder=$!
-while flock -n out/sweep.lock true; do :; done
+until [ -e held ]; do kill -0 $holder; sleep 0.01; done
 sweep >table 2>said &
-until grep -q 'waiting for the runs' said; do kill -0 $!; done
+until grep -q 'waiting for the runs' said; do kill -0 $!; sleep 0.01; done
 ! grep -q combinations said || { echo "it did not wait"; exit 1; }
-kill $(ps -o pid= --ppid $holder) $holder
+kill $holder
 wait $!
 finished
 
