@@ -80,7 +80,8 @@ static void test_isentrope(void **state)
     instance_done(&rkpr.instance);
 }
 
-/* Beyond the co-volume the entropy stays too; nothing jumps across the coldest isotherm. */
+/* Beyond the co-volume the entropy stays too; nothing jumps across the coldest isotherm
+ * (which has less than no pressure where the gas is dense: no state of it). */
 static void test_edges(void **state)
 {
     (void)state;
@@ -96,7 +97,7 @@ static void test_edges(void **state)
                 if (law_at(&law, rho, mean).T < 100.0) low = mean;
                 else high = mean;
             }
-            law_no_jump(&law, rho, high, 700.0);
+            if (high > 1.0) law_no_jump(&law, rho, high, 700.0);
         }
         instance_done(&law.instance);
     }

@@ -101,13 +101,14 @@ static inline double law_pressure(const struct law *law, double rho, double rho_
 }
 
 /* (rho, p) -> e -> p from a guess that is off by a factor: to 1e-12 of p and what the energies resolve, 4 eps S/F' with S
- * their sum and F' their slope; `slack`: and some units in the last place of rho c^2, where large terms cancel in p. */
+ * their sum and F' their slope, and 1 + `slack` units in the last place of rho c^2 (that at 1 bar at least), where large terms cancel in p. */
 static inline void law_round_trip(const struct law *law, double rho, double p, double slack)
 {
     struct law_point at = law_at(law, rho, p);
     if (!(p > at.p_min)) return;
     double back = law_pressure(law, rho, at.rho_e, at.p_min + 3.0 * (p - at.p_min) + 1e5), eps = 2.3e-16;
-    double allowed = 1e-12 * fabs(p) + eps * (8.0 * fabs(at.rho_e) / at.de_dp + slack * at.stiffness);
+    double stiffness = law_at(law, rho, p > 1e5 ? p : 1e5).stiffness;
+    double allowed = 1e-12 * fabs(p) + eps * (8.0 * fabs(at.rho_e) / at.de_dp + (1.0 + slack) * stiffness);
     if (!(fabs(back - p) <= allowed))
         fail_msg("rho %.17g, p %.17g: p comes back off by %g, allowed is %g", rho, p, back - p, allowed);
 }
