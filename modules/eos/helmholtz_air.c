@@ -11,7 +11,7 @@
 static const struct bulla_param helmholtz_air_params[] = HELMHOLTZ_PARAMS(256.0);
 
 static const struct bulla_preset helmholtz_air_presets[] = {
-    {"air", "dry air", (const double[]){256.0, NAN}},
+    {"air", "dry air", (const double[]){256.0, NAN, NAN}},
     {0},
 };
 
@@ -27,7 +27,6 @@ static const struct helmholtz_law helmholtz_air_law = {
     .rho_low = 0.0,
     .rho_high = 1900.0,
     .T_high = 2e4,
-    .grid_rho = 0.0,
     .grid_T = 135.0,
     .grid_T_high = 20500.0,
     .gamma = 1.4,

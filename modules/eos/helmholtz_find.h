@@ -1,10 +1,11 @@
 /* helmholtz_find.h - (rho, p) -> l in a table: the hot path of the laws that are given by a Helmholtz energy.
  *
- * One point: the cell of rho, a first l from the table of starts, the cell of l; then the 36 numbers of that cell become
- * three quintics in l (a, a_r and a_rr at this rho), and Newton steps, held inside the domain, find the root of p on
- * the second of them. How often is fixed, so a point costs the same anywhere and rows become vectors. Where the root
- * lies a little beyond the cell of the start its polynomials are continued: they agree with those next door to third
- * order. An infinity or NaN for p or rho ends in the first or last cell. */
+ * One point: its row of densities and its y (helmholtz_band.h), a first l from the table of starts, good to some 1e-5,
+ * the cell of that l. The polynomial of the cell becomes three quintics in l (a, a_r and a_rr at this rho); one step of
+ * third order on the second of them finds the root of p, and helmholtz_state.h takes up the rest. No iteration: a point
+ * costs the same anywhere and rows become vectors. Where the root lies a little beyond the cell of the start
+ * its polynomials are continued: they agree with those next door to third order. An infinity or NaN for p or rho ends
+ * in the first or last cell. */
 #ifndef HELMHOLTZ_FIND_H
 #define HELMHOLTZ_FIND_H
 
@@ -17,133 +18,105 @@ HELMHOLTZ_INLINE double helmholtz_exp(double u)
     return 1.0 + u * (1.0 + u * (0.5 + u * (1.0 / 6.0 + u * (1.0 / 24.0 + u * high))));
 }
 
-/* First guess of l: linear in rho and y between the rows of starts. */
-HELMHOLTZ_INLINE double helmholtz_start(const struct helmholtz_grid *grid, int i, double x, double p_over_rho)
-{
-    const double *ends = grid->ends, *start = grid->start;
-    double low = ends[2 * i], high = ends[2 * i + 1];
-    low += x * (ends[2 * i + 2] - low);
-    high += x * (ends[2 * i + 3] - high);
-    double part = (p_over_rho - low) / (high - low);
-    part = part > 0.0 ? part : 0.0;
-    double at = sqrt(part) * (grid->last_start + 1.0);
-    int k = helmholtz_cell(at, grid->last_start), row = i * (HELMHOLTZ_STARTS + 1) + k;
-    double y = at - k, here = start[row] + y * (start[row + 1] - start[row]);
-    double next = start[row + HELMHOLTZ_STARTS + 1];
-    next += y * (start[row + HELMHOLTZ_STARTS + 2] - next);
-    return here + x * (next - here);
-}
-
-/* The six data over rho of one datum in l: `node` is that datum at the lower rho, `next` at the upper one. */
-HELMHOLTZ_INLINE struct helmholtz_six helmholtz_data(const double *node, int at, int next)
-{
-    return (struct helmholtz_six){node[at], node[at + 1], node[at + 2], node[next], node[next + 1], node[next + 2]};
-}
-
-/* a, a_r (per spacing) and a_rr at one rho as polynomials over one cell of l. */
-struct helmholtz_line {
-    struct helmholtz_six a, r, rr;
+/* Where a search begins: the cell j of l, and where in it. */
+struct helmholtz_start {
+    int j;
+    double z;
 };
 
-HELMHOLTZ_INLINE struct helmholtz_line helmholtz_line(const struct helmholtz_grid *grid, int i, int j, double x)
+/* Linear in rho and y between the rows of starts: l in intervals of the table. */
+HELMHOLTZ_INLINE double helmholtz_start_at(const struct helmholtz_grid *grid, struct helmholtz_row row,
+                                           struct helmholtz_rung rung)
 {
-    const double *node = grid->node;
-    int at = (i * grid->n + j) * HELMHOLTZ_NODE, up = at + grid->n * HELMHOLTZ_NODE;
-    struct helmholtz_six f0 = helmholtz_data(node, at, up), f1 = helmholtz_data(node, at + 3, up + 3);
-    struct helmholtz_six f2 = helmholtz_data(node, at + 6, up + 6), f3 = helmholtz_data(node, at + 9, up + 9);
-    struct helmholtz_six f4 = helmholtz_data(node, at + 12, up + 12), f5 = helmholtz_data(node, at + 15, up + 15);
-    struct helmholtz_six w = helmholtz_weights(x), s = helmholtz_slope_weights(x), c = helmholtz_curve_weights(x);
-    struct helmholtz_six a = {helmholtz_dot(f0, w), helmholtz_dot(f1, w), helmholtz_dot(f2, w),
-                              helmholtz_dot(f3, w), helmholtz_dot(f4, w), helmholtz_dot(f5, w)};
-    struct helmholtz_six r = {helmholtz_dot(f0, s), helmholtz_dot(f1, s), helmholtz_dot(f2, s),
-                              helmholtz_dot(f3, s), helmholtz_dot(f4, s), helmholtz_dot(f5, s)};
-    struct helmholtz_six rr = {helmholtz_dot(f0, c), helmholtz_dot(f1, c), helmholtz_dot(f2, c),
-                               helmholtz_dot(f3, c), helmholtz_dot(f4, c), helmholtz_dot(f5, c)};
-    return (struct helmholtz_line){helmholtz_quintic(a), helmholtz_quintic(r), helmholtz_quintic(rr)};
+    const double *start = grid->start;
+    int at = row.i * (HELMHOLTZ_STARTS + 1) + rung.k, up = at + HELMHOLTZ_STARTS + 1;
+    double here = start[at] + rung.t * (start[at + 1] - start[at]);
+    double next = start[up] + rung.t * (start[up + 1] - start[up]);
+    return (here + row.x * (next - here) - grid->l_0) * grid->per_l;
+}
+
+HELMHOLTZ_INLINE struct helmholtz_start helmholtz_start(const struct helmholtz_grid *grid, double at)
+{
+    int j = helmholtz_cell(at, grid->last_cell);
+    return (struct helmholtz_start){j, at - j};
 }
 
 /* What the polynomials say at z, in units of rho and l; T is that of the cell's lower node. */
 HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_spot(const struct helmholtz_grid *grid,
                                                       const struct helmholtz_line *line, int j, double z, double T)
 {
-    double l1 = grid->per_l, l2 = l1 * l1, r1 = grid->per_rho, r2 = r1 * r1;
+    double l1 = grid->per_l, l2 = 2.0 * l1 * l1, l3 = 3.0 * l2 * l1, r1 = grid->band.per_rho, r2 = 2.0 * r1 * r1;
+    struct helmholtz_jet a = helmholtz_jet(line->a, z), r = helmholtz_jet(line->r, z), rr = helmholtz_jet(line->rr, z);
     return (struct helmholtz_spot){
         .l = grid->l_0 + (j + z) * grid->step_l,
         .T = T * helmholtz_exp(z * grid->step_l),
-        .a = helmholtz_value(line->a, z),
-        .a_l = helmholtz_slope(line->a, z) * l1,
-        .a_ll = helmholtz_curve(line->a, z) * l2,
-        .a_lll = helmholtz_third(line->a, z) * (l2 * l1),
-        .a_r = helmholtz_value(line->r, z) * r1,
-        .a_rl = helmholtz_slope(line->r, z) * (r1 * l1),
-        .a_rll = helmholtz_curve(line->r, z) * (r1 * l2),
-        .a_rr = helmholtz_value(line->rr, z) * r2,
-        .a_rrl = helmholtz_slope(line->rr, z) * (r2 * l1),
+        .a = a.f0,
+        .a_l = a.f1 * l1,
+        .a_ll = a.f2 * l2,
+        .a_lll = a.f3 * l3,
+        .a_r = r.f0 * r1,
+        .a_rl = r.f1 * (r1 * l1),
+        .a_rll = r.f2 * (r1 * l2),
+        .a_rr = rr.f0 * r2,
+        .a_rrl = rr.f1 * (r2 * l1),
     };
 }
 
-/* A search in one cell: p(rho, l)/rho is a quintic r in z, and R T where the gas is kept apart. */
+/* A search in one cell: p/rho^2 = a_r is a quintic r in z (per spacing of rho), and R T/rho where the gas is kept apart. */
 struct helmholtz_search {
     struct helmholtz_six r;
-    double target, RT, step, low, high; /* p/rho, R T of the lower node (0: none), spacing of l, ends of the domain */
+    double target, RT, step; /* p/rho^2, R T/rho of the lower node (0: none), spacing of l */
 };
 
-/* One Newton step, held within the domain. */
-HELMHOLTZ_INLINE double helmholtz_step(const struct helmholtz_search *search, const int gas, double z)
+/* One Newton step, and what the curvature adds to it; little, unless the root lies far beyond an edge. */
+HELMHOLTZ_INLINE double helmholtz_step(const struct helmholtz_search *search, const int gas, const int inside, double z)
 {
-    double RT = gas ? search->RT * helmholtz_exp(z * search->step) : 0.0;
-    double off = helmholtz_value(search->r, z) + RT - search->target;
-    double next = z - off / (helmholtz_slope(search->r, z) + RT * search->step);
-    next = next > search->low ? next : search->low;
-    return next < search->high ? next : search->high;
+    double RT = gas ? search->RT * helmholtz_exp(z * search->step) : 0.0, RT_z = RT * search->step;
+    struct helmholtz_jet r = helmholtz_jet(search->r, z);
+    double per = 1.0 / (r.f1 + RT_z), step = (search->target - RT - r.f0) * per;
+    double bend = step * per * (r.f2 + 0.5 * RT_z * search->step);
+    if (!inside) {
+        bend = bend < 0.5 ? bend : 0.5;
+        bend = bend > -0.5 ? bend : -0.5;
+    }
+    return z + step * (1.0 - bend);
 }
 
-HELMHOLTZ_INLINE struct helmholtz_six helmholtz_scaled(struct helmholtz_six f, double by)
+/* The Helmholtz energy where p(rho, l) = p, or on the edge of the domain where that lies outside. `inside` (a constant
+ * in loops): it lies well inside. */
+HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_find(const struct helmholtz_grid *grid, const int gas,
+                                                      const int inside, struct helmholtz_row row,
+                                                      struct helmholtz_level level, struct helmholtz_start start,
+                                                      double rho)
 {
-    return (struct helmholtz_six){f.c0 * by, f.c1 * by, f.c2 * by, f.c3 * by, f.c4 * by, f.c5 * by};
-}
-
-/* Where a search begins: cells i of rho and j of l, the part x of the first, l and the lower edge there with its slope. */
-struct helmholtz_place {
-    int i, j;
-    double x, l, low, slope;
-};
-
-HELMHOLTZ_INLINE struct helmholtz_place helmholtz_place(const struct helmholtz_grid *grid, const int gas, double rho,
-                                                        double p)
-{
-    double slope = 0.0, low = gas ? grid->l_low : helmholtz_edge(grid, rho, &slope);
-    double at = (rho - grid->rho_0) * grid->per_rho;
-    int i = helmholtz_cell(at, grid->last_cell);
-    double l = helmholtz_start(grid, i, at - i, p / rho);
-    l = l > low ? l : low;
-    l = l < grid->l_high ? l : grid->l_high;
-    int j = helmholtz_cell((l - grid->l_0) * grid->per_l, grid->last_cell);
-    return (struct helmholtz_place){i, j, at - i, l, low, slope};
-}
-
-/* The Helmholtz energy where p(rho, l) = p, or on the edge of the domain where that lies outside. */
-HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_find(const struct helmholtz_grid *grid, const int gas, double rho,
-                                                      double p, struct helmholtz_place place)
-{
-    struct helmholtz_line line = helmholtz_line(grid, place.i, place.j, place.x);
-    double T = grid->T[place.j], up = (place.l - grid->l_0) * grid->per_l;
-    struct helmholtz_search search = {.r = helmholtz_scaled(line.r, rho * grid->per_rho),
-                                      .target = p / rho,
-                                      .RT = grid->R * T,
-                                      .step = grid->step_l,
-                                      .low = (place.low - grid->l_0) * grid->per_l - place.j,
-                                      .high = (grid->l_high - grid->l_0) * grid->per_l - place.j};
-    /* the third step is in helmholtz_answer */
-    double z = helmholtz_step(&search, gas, helmholtz_step(&search, gas, up - place.j));
-    struct helmholtz_spot spot = helmholtz_spot(grid, &line, place.j, z, T);
-    spot = gas ? helmholtz_with_gas(spot, rho, grid->R * spot.T) : spot;
-    double here = rho * rho * spot.a_r;
-    double below = p < here ? -1.0 : 0.0, above = p > here ? 1.0 : 0.0;
-    below = z <= search.low ? below : 0.0;
-    above = z >= search.high ? above : 0.0;
-    spot.side = below + above;
-    spot.slope = place.slope;
+    struct helmholtz_line line = helmholtz_line(grid->cell, helmholtz_grid_cell(grid, row.i, start.j), row.x);
+    double T = grid->T[start.j], z = start.z, per = grid->band.step_rho * level.per_rho, slope = 0.0;
+    struct helmholtz_search search = {line.r, level.f * per, gas ? grid->R * T * per : 0.0, grid->step_l};
+    double low = 0.0, high = 0.0;
+    if (!inside) { /* away from an edge it is moved out of the way */
+        double edge = gas ? grid->l_low : helmholtz_edge(grid, rho, &slope);
+        double free = level.q < HELMHOLTZ_NEAR ? 0.0 : 1e6, free_up = level.q > HELMHOLTZ_FAR ? 0.0 : 1e6;
+        low = (edge - grid->l_0) * grid->per_l - start.j - free;
+        high = (grid->l_high - grid->l_0) * grid->per_l - start.j + free_up;
+        z = z > low ? z : low;
+        z = z < high ? z : high;
+    }
+    z = helmholtz_step(&search, gas, inside, z);
+    if (!inside) { /* the start may be worse on the edge: once more */
+        z = z > low ? z : low;
+        z = z < high ? z : high;
+        double again = helmholtz_step(&search, gas, 0, z);
+        again = again > low ? again : low;
+        again = again < high ? again : high;
+        z = level.q < HELMHOLTZ_NEAR ? again : z;
+    }
+    struct helmholtz_spot spot = helmholtz_spot(grid, &line, start.j, z, T);
+    spot = gas ? helmholtz_with_gas(spot, level.per_rho, grid->R * spot.T) : spot;
+    double off = level.f * level.per_rho - spot.a_r, below = off < 0.0 ? -1.0 : 0.0, above = off > 0.0 ? 1.0 : 0.0;
+    below = z <= low ? below : 0.0;
+    above = z >= high ? above : 0.0;
+    spot.side = inside ? 0.0 : below + above;
+    spot.slope = slope;
     return spot;
 }
 

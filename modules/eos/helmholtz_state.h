@@ -1,11 +1,10 @@
 /* helmholtz_state.h - from the Helmholtz energy at one (rho, l) to what kind "eos" asks for at one (rho, p).
  *
- * A trial l = ln T need not be the root of p(rho, l) = p: what is left, d = p - p(rho, l), is taken up by a series,
- *     e = e(rho, l) + d W + d^2/2 W_p,   W = (de/dp)_rho = e_l/p_l,   W_p = W_l/p_l.
- * Inside the domain that is the last Newton step. On its edge l_b(rho) the same formula without W_p is the continuation:
- * linear in p, at fixed rho, with the e, W and T of the edge, so e, de/dp, T and c^2 are continuous there and
- * de/dp > 0 at any p. Both ways the slope in rho is exact,
- *     (de/drho)_p = (e_r - p_r W) + d (W_r + W_l dl/drho),   dl/drho = -p_r/p_l inside, l_b' on the edge.
+ * Inside the domain l = ln T is the root of p(rho, l) = p up to a small rest d = p - p(rho, l), which is taken up by
+ *     e = e(rho, l) + d W,   W = (de/dp)_rho = e_l/p_l,   T(1 + d/p_l).
+ * On its edge l_b(rho) the same formulas are the continuation: linear in p, at fixed rho, with the e, W and T of the edge,
+ * so e, de/dp, T and c^2 are continuous there and de/dp > 0 at any p. There the slope in rho is
+ *     (de/drho)_p = (e_r - p_r W) + d (W_r + W_l l_b').
  *
  * Beyond the densities of the domain, v = 1/rho, subscript 0 at the last density:
  *   thin:   e = e(v0, p) + (v - v0)(p + g P)/(g - 1),                      as a stiffened gas expands;
@@ -31,7 +30,7 @@ struct helmholtz_spot {
 struct helmholtz_answer {
     double e, e_p, e_r; /* energy per mass, its derivatives in p and in rho */
     double c2;
-    double p_l, excess, cv; /* p_l and d at the trial, T dp/dT and what is left; e_l = T cv */
+    double rise, cv; /* d/p_l, by how much T lies above that of the spot, relative; e_l = T cv */
 };
 
 /* Constants of the two ends in density. */
@@ -41,9 +40,9 @@ struct helmholtz_ends {
 };
 
 /* RT ln delta comes to what a table or a sum of terms gives. */
-HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_with_gas(struct helmholtz_spot spot, double rho, double RT)
+HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_with_gas(struct helmholtz_spot spot, double per_rho, double RT)
 {
-    double once = RT / rho, twice = once / rho;
+    double once = RT * per_rho, twice = once * per_rho;
     spot.a_r += once;
     spot.a_rl += once;
     spot.a_rll += once;
@@ -52,25 +51,50 @@ HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_with_gas(struct helmholtz_spot 
     return spot;
 }
 
-HELMHOLTZ_INLINE struct helmholtz_answer helmholtz_answer(struct helmholtz_spot at, double rho, double p)
+/* The formulas themselves at (rho, l). */
+static inline struct helmholtz_spot helmholtz_exact(const struct helmholtz_fluid *fluid, const int gas, double rho,
+                                                    double l)
 {
-    double square = rho * rho, p_r = 2.0 * rho * at.a_r + square * at.a_rr;
-    double p_l = square * at.a_rl, p_ll = square * at.a_rll, p_rl = 2.0 * rho * at.a_rl + square * at.a_rrl;
-    double e_l = at.a_l - at.a_ll, e_ll = at.a_ll - at.a_lll, e_rl = at.a_rl - at.a_rll;
-    double per_p_l = 1.0 / p_l, W = e_l * per_p_l, d = p - square * at.a_r;
-    double W_l = (e_ll - W * p_ll) * per_p_l, W_r = (e_rl - W * p_rl) * per_p_l;
-    double slope = at.side < 0.0 ? at.slope : 0.0;
-    slope = at.side == 0.0 ? -p_r * per_p_l : slope;
-    double W_p = at.side == 0.0 ? W_l * per_p_l : 0.0;
-    double bend = d * (W_r + W_l * slope), steady = at.a_rl + p_r * W, e_p = W + d * W_p;
-    double c2 = (steady + d / square - bend) / e_p, least = HELMHOLTZ_LEAST_C2 * steady / W;
+    double a[HELMHOLTZ_R][HELMHOLTZ_L], T = exp(l), RT = fluid->R * T;
+    helmholtz_potential(fluid, rho, l, a);
+    double lift = gas ? 0.0 : RT * log(rho / fluid->rho_c);
+    struct helmholtz_spot spot = {.l = l,
+                                  .T = T,
+                                  .a = a[0][0] + lift,
+                                  .a_l = a[0][1] + lift,
+                                  .a_ll = a[0][2] + lift,
+                                  .a_lll = a[0][3] + lift,
+                                  .a_r = a[1][0],
+                                  .a_rl = a[1][1],
+                                  .a_rll = a[1][2],
+                                  .a_rr = a[2][0],
+                                  .a_rrl = a[2][1]};
+    return helmholtz_with_gas(spot, 1.0 / rho, RT);
+}
+
+/* `inside` (a constant in loops): the spot is no edge. */
+HELMHOLTZ_INLINE struct helmholtz_answer helmholtz_answer(struct helmholtz_spot at, const int inside, double rho,
+                                                          double per_rho, double p)
+{
+    double square = rho * rho, p_r = 2.0 * rho * at.a_r + square * at.a_rr, p_l = square * at.a_rl;
+    double e_l = at.a_l - at.a_ll, per = 1.0 / (p_l * e_l), per_p_l = e_l * per, W = e_l * per_p_l;
+    double per_W = p_l * per * p_l, d = p - square * at.a_r, bend = 0.0, c2 = p_r + at.a_rl * per_W;
+    if (!inside) {
+        double p_ll = square * at.a_rll, p_rl = 2.0 * rho * at.a_rl + square * at.a_rrl;
+        double e_ll = at.a_ll - at.a_lll, e_rl = at.a_rl - at.a_rll;
+        double W_l = (e_ll - W * p_ll) * per_p_l, W_r = (e_rl - W * p_rl) * per_p_l;
+        double slope = at.side < 0.0 ? at.slope : 0.0, least = HELMHOLTZ_LEAST_C2 * c2;
+        bend = at.side == 0.0 ? 0.0 : d * (W_r + W_l * slope);
+        double far = c2 + (d * per_rho * per_rho - bend) * per_W;
+        far = far > least ? far : least;
+        c2 = at.side == 0.0 ? c2 : far;
+    }
     return (struct helmholtz_answer){
-        .e = at.a - at.a_l + d * (W + 0.5 * d * W_p),
-        .e_p = e_p,
+        .e = at.a - at.a_l + d * W,
+        .e_p = W,
         .e_r = at.a_r - at.a_rl - p_r * W + bend,
-        .c2 = c2 > least ? c2 : least,
-        .p_l = p_l,
-        .excess = d,
+        .c2 = c2,
+        .rise = d * per_p_l,
         .cv = e_l,
     };
 }

@@ -17,7 +17,7 @@
 static const struct bulla_param iapws95_params[] = HELMHOLTZ_PARAMS(256.0);
 
 static const struct bulla_preset iapws95_presets[] = {
-    {"water", "ordinary water", (const double[]){256.0, NAN}},
+    {"water", "ordinary water", (const double[]){256.0, NAN, NAN}},
     {0},
 };
 
@@ -44,7 +44,7 @@ static double iapws95_T_low(const struct helmholtz_law *law, double rho)
     if (rho < 1000.0) return iapws95_T_knots(rho);
     double T = 280.15;
     for (int round = 0; round < 40; round++) {
-        struct helmholtz_spot spot = helmholtz_exact(law->fluid, rho, log(T));
+        struct helmholtz_spot spot = helmholtz_exact(law->fluid, HELMHOLTZ_GAS, rho, log(T));
         double p = rho * rho * spot.a_r, s = p > 1e9 ? log10(p / 1e9) : 0.0;
         double next = 280.15 + 119.85 * 1.15 * s * s / (s + 0.15), moved = next - T;
         T += 0.8 * moved;
@@ -59,9 +59,9 @@ static const struct helmholtz_law iapws95_law = {
     .rho_low = 467.0,
     .rho_high = 1720.0,
     .T_high = 3200.0,
-    .grid_rho = 460.0,
     .grid_T = 265.0,
     .grid_T_high = 3300.0,
+    .blur = 8.0,
     .gamma = 1.19,
     .pull = 6.2e8,
     .p_min = -6.2e8,

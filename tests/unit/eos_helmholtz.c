@@ -20,7 +20,7 @@ static struct law open_law(const char *name, const char *eval, double size)
 {
     struct law law = {0};
     const struct bulla_module *module = support_module("eos", name);
-    const struct bulla_value values[] = {{.number = size}, {.text = eval}};
+    const struct bulla_value values[] = {{.number = size}, {.text = eval}, {.text = NULL}};
     if (instance_open(module, values, &law.instance)) fail_msg("%s", status_text());
     law.eos = module->table;
     return law;
