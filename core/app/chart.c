@@ -17,6 +17,8 @@ static const struct picture_text chart_names = {8.5, false};
 #define CHART_BETWEEN 13.0 /* between panels */
 #define CHART_LEGEND 13.0  /* line above a panel with several series */
 #define CHART_SAMPLE 16.0
+#define CHART_GAP 5.0      /* from a sample to its name */
+#define CHART_APART 12.0   /* from a name to the next sample */
 #define CHART_DOT_ROOM 2.2 /* least distance of points that get dots */
 #define CHART_COLUMN 0.08  /* points closer than this share a column: a quarter of a pixel */
 
@@ -43,6 +45,27 @@ static double chart_panel_height(unsigned n_panel)
     return n_panel == 1 ? 220.0 : n_panel == 2 ? 150.0 : n_panel == 3 ? 120.0 : 95.0;
 }
 
+/* Series [first, return) whose names go into one line of the legend: as many as the box is wide, at least one. */
+static unsigned chart_legend_end(cairo_t *cr, const struct chart_panel *panel, unsigned first)
+{
+    double width = 0.0;
+    unsigned end = first;
+    while (end < panel->n_series) {
+        width += picture_text_width(cr, chart_names, panel->series[end].name) + CHART_SAMPLE + CHART_GAP;
+        if (end > first && width + CHART_APART * (end - first) > CHART_WIDTH) break;
+        end++;
+    }
+    return end;
+}
+
+static double chart_legend_height(cairo_t *cr, const struct chart_panel *panel)
+{
+    double height = 0.0;
+    for (unsigned i = 0; panel->n_series > 1 && i < panel->n_series; i = chart_legend_end(cr, panel, i))
+        height += CHART_LEGEND;
+    return height;
+}
+
 static void chart_plan(cairo_t *cr, struct chart_plan *plan)
 {
     const struct chart *chart = &plan->chart;
@@ -58,7 +81,7 @@ static void chart_plan(cairo_t *cr, struct chart_plan *plan)
     plan->width += picture_header_plan(cr, &plan->header, CHART_WIDTH + 14.0);
     double y = CHART_MARGIN + plan->header.height;
     for (unsigned p = 0; p < chart->n_panel; p++) {
-        if (chart->panel[p].n_series > 1) y += CHART_LEGEND;
+        y += chart_legend_height(cr, &chart->panel[p]);
         plan->box[p] = (struct picture_rect){left, y, CHART_WIDTH, high};
         y += high + CHART_BETWEEN;
     }
@@ -146,19 +169,30 @@ static void chart_line(cairo_t *cr, const struct chart_frame *frame, const struc
     chart_dots(cr, frame, series);
 }
 
-static void chart_legend(cairo_t *cr, const struct chart_panel *panel, struct picture_rect box)
+/* Series [first, end) from the right end of the box to the left. */
+static void chart_legend_line(cairo_t *cr, const struct chart_panel *panel, unsigned first, unsigned end, double right,
+                              double baseline)
 {
-    double x = box.x + box.w, baseline = box.y - 5.0;
-    for (unsigned i = panel->n_series; i-- > 0;) { /* from the right end to the left */
+    double x = right;
+    for (unsigned i = end; i-- > first;) {
         x -= picture_text_width(cr, chart_names, panel->series[i].name);
         cairo_set_source_rgb(cr, 0.0, 0.0, 0.0);
         picture_text_draw(cr, chart_names, (const double[2]){x, baseline}, 0.0, panel->series[i].name);
-        x -= CHART_SAMPLE + 5.0;
+        x -= CHART_SAMPLE + CHART_GAP;
         chart_ink(cr, i);
         cairo_move_to(cr, x, baseline - 0.5 * PICTURE_TEXT_HEIGHT * chart_names.size);
         cairo_rel_line_to(cr, CHART_SAMPLE, 0.0);
         cairo_stroke(cr);
-        x -= 12.0;
+        x -= CHART_APART;
+    }
+}
+
+static void chart_legend(cairo_t *cr, const struct chart_panel *panel, struct picture_rect box)
+{
+    double baseline = box.y - chart_legend_height(cr, panel) + CHART_LEGEND - CHART_GAP;
+    for (unsigned i = 0, end; panel->n_series > 1 && i < panel->n_series; i = end, baseline += CHART_LEGEND) {
+        end = chart_legend_end(cr, panel, i);
+        chart_legend_line(cr, panel, i, end, box.x + box.w, baseline);
     }
 }
 
@@ -204,7 +238,7 @@ static void chart_paint(cairo_t *cr, void *data, double scale)
             chart_line(cr, &frame, &panel->series[i]);
         }
         cairo_restore(cr);
-        if (panel->n_series > 1) chart_legend(cr, panel, frame.box);
+        chart_legend(cr, panel, frame.box);
         picture_axes_draw(cr, frame.box, frame.x, frame.y,
                           (struct picture_axes){p + 1 == plan->chart.n_panel, plan->room});
     }

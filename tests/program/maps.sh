@@ -87,6 +87,10 @@ if [ -e other/maps/old.csv ] || [ -e other/maps/old.hdf ]; then echo "old maps a
 "$BULLA" plot alone profile wall pressure --time 0.301us -o near.png >said # the same row of the map
 "$BULLA" plot alone profile wall pressure --time 0.55us -o late.png >said
 cmp early.png near.png
+height() { od -An -tu1 -j20 -N4 "$1" | awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4 }'; }
+"$BULLA" plot alone two profile wall pressure --time 0.3us -o pair.png >said
+"$BULLA" plot alone two profile wall pressure --time 0.1us --time 0.2us --time 0.3us --time 0.4us -o many.png >said
+[ "$(height many.png)" -gt "$(height pair.png)" ] # eight names want more than a line above the panel
 ! cmp -s early.png late.png
 ! cmp -s early.png alone/plots/profile_wall_pressure.png
 for wrong in 'map' 'map side pressure' 'map wall density' 'profile' 'profile wall' 'profile wall density' 'profile side pressure' \
