@@ -203,11 +203,8 @@ static void test_hostile(void **state)
     refuse("6 densities and 10 temperatures", "8 to 1500");
     write_lines(line, 0);
     refuse("no line of names", "");
-    scaled(line, n, 47, 47, 2, 0.1, ":49: p[Pa] does not grow");
-    scaled(line, n, 47, 47, 3, 10.0, "e[J/kg] does not grow");
-    scaled(line, n, 1, n - 1, 4, 1e-3, "wrong units");
-    scaled(line, n, 1, n - 1, 3, 1e-3, "wrong units");
-    scaled(line, n, 1, n - 1, 5, 4.0, "wrong units");
+    write_lines(line, 1);
+    refuse("0 densities and 1 temperatures", "8 to 1500");
     remove(path);
     refuse("there is no such file", "");
     assert_int_equal(mkdir(path, 0700), 0);
@@ -216,6 +213,79 @@ static void test_hostile(void **state)
     assert_int_equal(mkfifo(path, 0600), 0);
     refuse("is no file", "");
     remove(path);
+    instance_done(&law.instance);
+    free(line);
+}
+
+/* Numbers that are none of a substance's: where they fall, or what units do to a whole column. State i stands in line i + 2. */
+static void test_hostile_numbers(void **state)
+{
+    (void)state;
+    enum { RHO, TEMPERATURE, P, E, C, S };
+    static const struct {
+        int first, last, column;
+        double factor;
+        const char *words;
+    } wrong[] = {
+        {21, 30, RHO, 0.5, ":23: densities must ascend"},
+        {21, 30, RHO, 0.974, ":23: densities must ascend"}, /* by a little */
+        {6, 6, TEMPERATURE, 0.5, ":8: temperatures must ascend"},
+        {36, 36, TEMPERATURE, 1.001, ":38: the grid is not rectangular: temperature"},
+        {47, 47, P, 0.1, ":49: p[Pa] does not grow"},
+        {47, 47, E, 10.0, ":50: e[J/kg] does not grow"},
+        {47, 47, S, 0.1, ":49: s[J/kg/K] does not grow"},
+        {47, 47, P, 1.02, ": wrong units, unsteady numbers"},
+        {47, 47, C, 1.2, ":49: p, e and s around here say c ="},
+        {1, 120, RHO, 1e-3, ":3: "}, /* g/cm3 */
+        {1, 120, P, 1e-5, ":3: "},   /* bar */
+        {1, 120, P, 1e-6, ":3: "},   /* MPa */
+        {1, 120, E, 1e-3, ":3: "},   /* kJ/kg */
+        {1, 120, S, 1e-3, ":3: "},   /* kJ/kg/K */
+        {1, 120, S, 4.1868, ":3: "}, /* cal/kg/K */
+        {1, 120, C, 1e-3, ":3: "},   /* km/s */
+        {1, 120, C, 3.2808, ":3: "}, /* ft/s */
+        {1, 120, P, -1.0, ":4: p[Pa] does not grow"},
+    };
+    struct law law = law_preset("mnasg", "water");
+    struct box box = {{900.0, 1200.0}, {280.0, 500.0}, 12, 10};
+    int n;
+    char(*line)[ROW] = table_of(&law, &box, &n);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        scaled(line, n, wrong[i].first, wrong[i].last, wrong[i].column, wrong[i].factor, wrong[i].words);
+    instance_done(&law.instance);
+    free(line);
+}
+
+/* No text, a line without end, far too much, another system's ends of lines. */
+static void test_hostile_files(void **state)
+{
+    (void)state;
+    struct law law = law_preset("mnasg", "water"), table = {0};
+    struct box box = {{900.0, 1200.0}, {280.0, 500.0}, 12, 10};
+    int n;
+    char(*line)[ROW] = table_of(&law, &box, &n);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_int_equal(fclose(file), 0);
+    refuse("no line of names", "");
+    file = fopen(path, "w");
+    for (int i = 0; i < 4096; i++) fputc(i * 37 % 251, file);
+    assert_int_equal(fclose(file), 0);
+    refuse("column '", "is not known");
+    file = fopen(path, "w");
+    fprintf(file, "%s\n%02000d\n", line[0], 1);
+    assert_int_equal(fclose(file), 0);
+    refuse(":2:", "the line is too long");
+    file = fopen(path, "w");
+    fprintf(file, "%s\n", line[0]);
+    for (int i = 0; i < 1501 * 8; i++) fprintf(file, "%d,%d,1,1,1,1\n", 1 + i / 8, 1 + i % 8);
+    assert_int_equal(fclose(file), 0);
+    refuse("1501 densities and 8 temperatures", "8 to 1500");
+    file = fopen(path, "w");
+    for (int i = 0; i < n; i++) fprintf(file, "%s\r\n", line[i]);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(open_table(&table), 0);
+    instance_done(&table.instance);
     instance_done(&law.instance);
     free(line);
 }
@@ -234,6 +304,7 @@ static int stop(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_laws), cmocka_unit_test(test_hostile)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_laws), cmocka_unit_test(test_hostile),
+                                       cmocka_unit_test(test_hostile_numbers), cmocka_unit_test(test_hostile_files)};
     return cmocka_run_group_tests(tests, start, stop);
 }

@@ -153,6 +153,12 @@ static void test_hostile(void **state)
     damaged((struct damage){.set = TEMPERATURE, .unit = "", .at = 0, .value = 0.0}, "'T'", "[0] is not above 0");
     damaged((struct damage){.set = C, .unit = "", .at = 5, .value = -3.0}, "'c'", "[0][5] is not above 0");
     damaged((struct damage){.set = P, .unit = "", .at = 47, .value = 1.0}, "state [3][11]", "does not grow");
+    damaged((struct damage){.set = S, .unit = "", .at = 47, .value = -1e9}, "state [3][11]", "s[J/kg/K] does not grow");
+    damaged((struct damage){.set = TEMPERATURE, .unit = "", .at = 3, .value = NAN}, "'T'", "[3] is not finite");
+    damaged((struct damage){.set = E, .unit = "", .at = 29, .value = INFINITY}, "'e'", "[2][5] is not finite");
+    damaged((struct damage){.set = TEMPERATURE, .unit = "", .at = 4, .value = 300.0}, "'T': must ascend", "[4] is 300");
+    damaged((struct damage){.set = RHO, AT_NONE, .scale = 1e-3}, "state [0][0]", "wrong units");
+    damaged((struct damage){.set = P, AT_NONE, .scale = 1e-5}, "state [0][0]", "wrong units");
     damaged((struct damage){.set = C, AT_NONE, .scale = 1e-3}, "state [0][0]", "wrong units");
     damaged((struct damage){.set = E, AT_NONE, .scale = 1e-3}, "state [0][0]", "wrong units");
     put_file(&sound);
