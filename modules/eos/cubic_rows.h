@@ -1,20 +1,21 @@
 /* cubic_rows.h - the functions of kind "eos" for the laws of cubic.h.
  *
  * The including module first defines CUBIC_ATTRACTION(par, T), which gives a struct cubic_attraction,
- * makes its instances with cubic_rows_open and lists these functions. A row is done in blocks: all
- * temperatures by a Newton iteration in which a point that has converged no longer moves, so that
- * its neighbours do not matter, then what is asked for at them. */
+ * makes its instances with cubic_rows_open and lists these functions. All temperatures of a block come from a Newton
+ * iteration in which a point that has converged no longer moves, so that its neighbours do not matter; implicit_rows.h
+ * does the rest. */
 #ifndef CUBIC_ROWS_H
 #define CUBIC_ROWS_H
 
 #include "bulla/eos.h"
+#include "continuation.h"
 #include "cubic.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { CUBIC_BLOCK = 128, CUBIC_ROUNDS = 24 };
+enum { IMPLICIT_BLOCK = 128, CUBIC_BLOCK = IMPLICIT_BLOCK, CUBIC_ROUNDS = 24 };
 
 /* T = (p + ac q) w/R: the temperature if alpha were 1. */
 BULLA_KERNEL static void cubic_rows_guess(const struct cubic *self, size_t n, const double *BULLA_RESTRICT rho,
@@ -52,9 +53,11 @@ BULLA_KERNEL static double cubic_rows_step(const struct cubic *self, size_t n, c
     return going;
 }
 
-static void cubic_rows_solve(const struct cubic *par, size_t n, const double *rho, const double *p, double *T)
+static void cubic_rows_solve(const struct cubic *par, size_t n, const double *rho, const double *p, double *aid,
+                             double *T)
 {
-    double moving[CUBIC_BLOCK];
+    double moving[IMPLICIT_BLOCK];
+    for (size_t i = 0; i < n; i++) aid[i] = 0.0; /* nobody asks for it */
     for (size_t i = 0; i < n; i++) moving[i] = 1.0;
     cubic_rows_guess(par, n, rho, p, T);
     for (int round = 0; round < CUBIC_ROUNDS; round++)
@@ -63,135 +66,36 @@ static void cubic_rows_solve(const struct cubic *par, size_t n, const double *rh
 }
 
 /* A state with its continuation below T_min; the residual of the iteration goes the same way. */
-struct cubic_state {
-    double e, e_p, c2, T, de_drho;
-};
-
-ELEMENTARY_INLINE struct cubic_state cubic_state_at(const struct cubic *par, double rho, double p, double T)
+ELEMENTARY_INLINE struct continuation_state cubic_rows_state_at(const struct cubic *par, double rho, double p,
+                                                                double aid, double T)
 {
+    (void)aid;
     struct cubic_room room = cubic_room(par, rho);
     struct cubic_point at = cubic_point(par, room, CUBIC_ATTRACTION(par, T), T);
     double beyond = p - at.p, slope = room.v / at.G;
     double stiffening = at.stiffening < CUBIC_STIFFENING ? CUBIC_STIFFENING : at.stiffening;
     double e = at.e + beyond * slope, c2 = at.c2 + beyond * room.v * stiffening, least = CUBIC_SOFTEST * at.c2;
     c2 = c2 < least ? least : c2;
+    c2 = p > 0.0 ? c2 : p * room.v; /* no tension */
     double e_c2 = at.c2 + beyond * room.v * at.stiffening; /* what this e says, positive or not */
     double warm = T + beyond * slope / at.cv;
     warm = warm < CUBIC_COLDEST ? CUBIC_COLDEST : warm;
-    return (struct cubic_state){e, slope, c2, warm, e + p * room.v - e_c2 / at.G};
+    return (struct continuation_state){e, slope, c2, e + p * room.v - e_c2 / at.G, warm};
 }
 
-BULLA_KERNEL static void cubic_rows_state_block(const struct cubic *self, size_t n, const double *const *in,
-                                                double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT rho_c2)
+/* That of the potential where it ends, from there with cv. */
+ELEMENTARY_INLINE double cubic_rows_entropy_at(const struct cubic *par, double rho, double aid, double T, double warm)
 {
-    const struct cubic par = *self;
-    const double *BULLA_RESTRICT rho = in[0], *BULLA_RESTRICT p = in[1], *BULLA_RESTRICT T = in[2];
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double density = rho[i];
-        struct cubic_state state = cubic_state_at(&par, density, p[i], T[i]);
-        rho_e[i] = density * state.e;
-        rho_c2[i] = p[i] > 0.0 ? density * state.c2 : p[i];
-    }
+    (void)aid;
+    struct cubic_room room = cubic_room(par, rho);
+    struct cubic_attraction pull = CUBIC_ATTRACTION(par, T);
+    double cv = par->R * cubic_ideal(par, T).cv + T * pull.a2 * room.L;
+    return cubic_entropy(par, room, pull.a1, T) + cv * elementary_log(warm / T);
 }
 
-BULLA_KERNEL static void cubic_rows_derivatives_block(const struct cubic *self, size_t n, const double *const *in,
-                                                      double *BULLA_RESTRICT de_dp, double *BULLA_RESTRICT de_drho)
-{
-    const struct cubic par = *self;
-    const double *BULLA_RESTRICT rho = in[0], *BULLA_RESTRICT p = in[1], *BULLA_RESTRICT T = in[2];
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double density = rho[i];
-        struct cubic_state state = cubic_state_at(&par, density, p[i], T[i]);
-        de_dp[i] = density * state.e_p;
-        de_drho[i] = state.de_drho;
-    }
-}
-
-BULLA_KERNEL static void cubic_rows_energy_block(const struct cubic *self, size_t n, const double *const *in,
-                                                 double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT de_dp)
-{
-    const struct cubic par = *self;
-    const double *BULLA_RESTRICT rho = in[0], *BULLA_RESTRICT p = in[1], *BULLA_RESTRICT T = in[2];
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double density = rho[i];
-        struct cubic_state state = cubic_state_at(&par, density, p[i], T[i]);
-        rho_e[i] = density * state.e;
-        de_dp[i] = density * state.e_p;
-    }
-}
-
-/* Temperature, and entropy: that of the potential where it ends, from there with cv. */
-BULLA_KERNEL static void cubic_rows_thermal_block(const struct cubic *self, size_t n, const double *const *in,
-                                                  double *BULLA_RESTRICT warm, double *BULLA_RESTRICT s)
-{
-    const struct cubic par = *self;
-    const double *BULLA_RESTRICT rho = in[0], *BULLA_RESTRICT p = in[1], *BULLA_RESTRICT T = in[2];
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double density = rho[i], potential = T[i];
-        struct cubic_state state = cubic_state_at(&par, density, p[i], potential);
-        struct cubic_room room = cubic_room(&par, density);
-        struct cubic_attraction pull = CUBIC_ATTRACTION(&par, potential);
-        double cv = par.R * cubic_ideal(&par, potential).cv + potential * pull.a2 * room.L;
-        warm[i] = state.T;
-        s[i] = cubic_entropy(&par, room, pull.a1, potential) + cv * elementary_log(state.T / potential);
-    }
-}
-
-typedef void cubic_rows_block(const struct cubic *self, size_t n, const double *const *in, double *BULLA_RESTRICT a,
-                              double *BULLA_RESTRICT b);
-
-/* Runs `block` over a row; one of the results may be unwanted. */
-static void cubic_rows_run(const struct cubic *self, size_t n, const double *const in[2], double *const out[2],
-                           cubic_rows_block *block)
-{
-    double T[CUBIC_BLOCK], spare[CUBIC_BLOCK];
-    for (size_t i = 0; i < n; i += CUBIC_BLOCK) {
-        size_t m = n - i < CUBIC_BLOCK ? n - i : CUBIC_BLOCK;
-        cubic_rows_solve(self, m, in[0] + i, in[1] + i, T);
-        block(self, m, (const double *const[]){in[0] + i, in[1] + i, T}, out[0] ? out[0] + i : spare,
-              out[1] ? out[1] + i : spare);
-    }
-}
-
-static void cubic_rows_state(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                             const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e,
-                             double *BULLA_RESTRICT rho_c2)
-{
-    cubic_rows_run(self, n, (const double *const[2]){rho, p}, (double *const[2]){rho_e, rho_c2},
-                   cubic_rows_state_block);
-}
-
-static void cubic_rows_derivatives(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                   const double *BULLA_RESTRICT p, double *BULLA_RESTRICT de_dp,
-                                   double *BULLA_RESTRICT de_drho)
-{
-    cubic_rows_run(self, n, (const double *const[2]){rho, p}, (double *const[2]){de_dp, de_drho},
-                   cubic_rows_derivatives_block);
-}
-
-static void cubic_rows_energy(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                              const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e,
-                              double *BULLA_RESTRICT de_dp)
-{
-    cubic_rows_run(self, n, (const double *const[2]){rho, p}, (double *const[2]){rho_e, de_dp},
-                   cubic_rows_energy_block);
-}
-
-static void cubic_rows_temperature(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                   const double *BULLA_RESTRICT p, double *BULLA_RESTRICT T)
-{
-    cubic_rows_run(self, n, (const double *const[2]){rho, p}, (double *const[2]){T, NULL}, cubic_rows_thermal_block);
-}
-
-static void cubic_rows_entropy(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                               const double *BULLA_RESTRICT p, double *BULLA_RESTRICT s)
-{
-    cubic_rows_run(self, n, (const double *const[2]){rho, p}, (double *const[2]){NULL, s}, cubic_rows_thermal_block);
-}
+#define IMPLICIT(name) cubic_rows_##name
+#define IMPLICIT_LAW struct cubic
+#include "implicit_rows.h"
 
 /* rho(p, T) at a temperature of the law: Newton from a hard-core gas. NAN where it does not converge, as
  * it may below the critical point. */

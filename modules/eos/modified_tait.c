@@ -1,8 +1,8 @@
 /* modified_tait.c - water whose stiffness and density scale of Tait's law depend on temperature, with a
  * specific heat: the law of modified_tait.h as rows.
  *
- * A row is done in blocks: first all temperatures by a Newton iteration in which a point that has converged
- * no longer moves, so that its neighbours do not matter, then what is asked for at them. */
+ * All temperatures of a block come from a Newton iteration in which a point that has converged no longer moves, so that
+ * its neighbours do not matter; implicit_rows.h does the rest. Its row in aid is ln(rho/rho0). */
 #include "bulla/eos.h"
 #include "modified_tait.h"
 
@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { BLOCK = 128, ROUNDS = 20 };
+enum { IMPLICIT_BLOCK = 128, ROUNDS = 20 };
 
 /* Where Newton begins: p taken as linear in T between its ends. */
 BULLA_KERNEL static void modified_tait_guess(const struct modified_tait *self, size_t n,
@@ -61,7 +61,7 @@ BULLA_KERNEL static double modified_tait_step(const struct modified_tait *self, 
 static void modified_tait_solve(const struct modified_tait *par, size_t n, const double *rho, const double *p,
                                 double *log_x, double *T)
 {
-    double moving[BLOCK];
+    double moving[IMPLICIT_BLOCK];
     for (size_t i = 0; i < n; i++) moving[i] = 1.0;
     modified_tait_guess(par, n, rho, p, log_x, T);
     for (int round = 0; round < ROUNDS; round++)
@@ -77,130 +77,24 @@ ELEMENTARY_INLINE struct continuation_point modified_tait_at(const struct modifi
     return modified_tait_point(par, modified_tait_heat(par, log_x, T), inside, T);
 }
 
-BULLA_KERNEL static void modified_tait_state_block(const struct modified_tait *self, size_t n,
-                                                   const double *const BULLA_RESTRICT *in, double *BULLA_RESTRICT rho_e,
-                                                   double *BULLA_RESTRICT rho_c2)
+ELEMENTARY_INLINE struct continuation_state modified_tait_state_at(const struct modified_tait *par, double rho,
+                                                                   double p, double log_x, double T)
 {
-    const struct modified_tait par = *self;
-    const double *BULLA_RESTRICT rho = in[0], *BULLA_RESTRICT p = in[1], *BULLA_RESTRICT log_x = in[2],
-                                 *BULLA_RESTRICT T = in[3];
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double density = rho[i];
-        struct continuation_point at = modified_tait_at(&par, density, log_x[i], T[i]);
-        struct continuation_state state = continuation_state(&par.ends, at, density, p[i], T[i]);
-        rho_e[i] = density * state.e;
-        rho_c2[i] = density * state.c2;
-    }
+    return continuation_state(&par->ends, modified_tait_at(par, rho, log_x, T), rho, p, T);
 }
 
-BULLA_KERNEL static void modified_tait_derivatives_block(const struct modified_tait *self, size_t n,
-                                                         const double *const BULLA_RESTRICT *in,
-                                                         double *BULLA_RESTRICT de_dp, double *BULLA_RESTRICT de_drho)
+/* That of the potential where it ends, from there with cv. */
+ELEMENTARY_INLINE double modified_tait_entropy_at(const struct modified_tait *par, double rho, double log_x, double T,
+                                                  double warm)
 {
-    const struct modified_tait par = *self;
-    const double *BULLA_RESTRICT rho = in[0], *BULLA_RESTRICT p = in[1], *BULLA_RESTRICT log_x = in[2],
-                                 *BULLA_RESTRICT T = in[3];
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double density = rho[i];
-        struct continuation_point at = modified_tait_at(&par, density, log_x[i], T[i]);
-        struct continuation_state state = continuation_state(&par.ends, at, density, p[i], T[i]);
-        de_dp[i] = density * state.e_p;
-        de_drho[i] = state.de_drho;
-    }
+    struct modified_tait_heat heat = modified_tait_heat(par, log_x, T);
+    double entropy = modified_tait_potential_entropy(par, heat, continuation_inside(&par->ends, rho), T);
+    return entropy + modified_tait_at(par, rho, log_x, T).cv * elementary_log(warm / T);
 }
 
-BULLA_KERNEL static void modified_tait_energy_block(const struct modified_tait *self, size_t n,
-                                                    const double *const BULLA_RESTRICT *in,
-                                                    double *BULLA_RESTRICT rho_e, double *BULLA_RESTRICT de_dp)
-{
-    const struct modified_tait par = *self;
-    const double *BULLA_RESTRICT rho = in[0], *BULLA_RESTRICT p = in[1], *BULLA_RESTRICT log_x = in[2],
-                                 *BULLA_RESTRICT T = in[3];
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double density = rho[i];
-        struct continuation_point at = modified_tait_at(&par, density, log_x[i], T[i]);
-        struct continuation_state state = continuation_state(&par.ends, at, density, p[i], T[i]);
-        rho_e[i] = density * state.e;
-        de_dp[i] = density * state.e_p;
-    }
-}
-
-/* Temperature with its continuations, and entropy: that of the potential where it ends, from there with cv. */
-BULLA_KERNEL static void modified_tait_thermal_block(const struct modified_tait *self, size_t n,
-                                                     const double *const BULLA_RESTRICT *in,
-                                                     double *BULLA_RESTRICT warm, double *BULLA_RESTRICT s)
-{
-    const struct modified_tait par = *self;
-    const double *BULLA_RESTRICT rho = in[0], *BULLA_RESTRICT p = in[1], *BULLA_RESTRICT log_x = in[2],
-                                 *BULLA_RESTRICT T = in[3];
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double density = rho[i], potential = T[i];
-        struct continuation_point at = modified_tait_at(&par, density, log_x[i], potential);
-        struct continuation_state state = continuation_state(&par.ends, at, density, p[i], potential);
-        struct modified_tait_heat heat = modified_tait_heat(&par, log_x[i], potential);
-        double entropy = modified_tait_entropy(&par, heat, continuation_inside(&par.ends, density), potential);
-        warm[i] = state.T;
-        s[i] = entropy + at.cv * elementary_log(state.T / potential);
-    }
-}
-
-typedef void modified_tait_block(const struct modified_tait *self, size_t n, const double *const BULLA_RESTRICT *in,
-                                 double *BULLA_RESTRICT a, double *BULLA_RESTRICT b);
-
-/* Runs `block` over a row; the second result may be unwanted. */
-static void modified_tait_row(const struct modified_tait *self, size_t n, const double *const in[2],
-                              double *const out[2], modified_tait_block *block)
-{
-    double log_x[BLOCK], T[BLOCK], spare[2][BLOCK];
-    for (size_t i = 0; i < n; i += BLOCK) {
-        size_t m = n - i < BLOCK ? n - i : BLOCK;
-        modified_tait_solve(self, m, in[0] + i, in[1] + i, log_x, T);
-        block(self, m, (const double *const[]){in[0] + i, in[1] + i, log_x, T}, out[0] ? out[0] + i : spare[0],
-              out[1] ? out[1] + i : spare[1]);
-    }
-}
-
-static void modified_tait_state(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e,
-                                double *BULLA_RESTRICT rho_c2)
-{
-    modified_tait_row(self, n, (const double *const[2]){rho, p}, (double *const[2]){rho_e, rho_c2},
-                      modified_tait_state_block);
-}
-
-static void modified_tait_derivatives(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                      const double *BULLA_RESTRICT p, double *BULLA_RESTRICT de_dp,
-                                      double *BULLA_RESTRICT de_drho)
-{
-    modified_tait_row(self, n, (const double *const[2]){rho, p}, (double *const[2]){de_dp, de_drho},
-                      modified_tait_derivatives_block);
-}
-
-static void modified_tait_energy(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                 const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e,
-                                 double *BULLA_RESTRICT de_dp)
-{
-    modified_tait_row(self, n, (const double *const[2]){rho, p}, (double *const[2]){rho_e, de_dp},
-                      modified_tait_energy_block);
-}
-
-static void modified_tait_temperature(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                      const double *BULLA_RESTRICT p, double *BULLA_RESTRICT T)
-{
-    modified_tait_row(self, n, (const double *const[2]){rho, p}, (double *const[2]){T, NULL},
-                      modified_tait_thermal_block);
-}
-
-static void modified_tait_entropies(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                    const double *BULLA_RESTRICT p, double *BULLA_RESTRICT s)
-{
-    modified_tait_row(self, n, (const double *const[2]){rho, p}, (double *const[2]){NULL, s},
-                      modified_tait_thermal_block);
-}
+#define IMPLICIT(name) modified_tait_##name
+#define IMPLICIT_LAW struct modified_tait
+#include "implicit_rows.h"
 
 /* Explicit where the potential holds. Beyond, T falls with rho at constant p: bisection of its logarithm. */
 static double modified_tait_density_at(const struct modified_tait *par, double p, double T)
@@ -277,7 +171,7 @@ static const struct bulla_eos modified_tait_table = {.size = sizeof(struct bulla
                                                      .state = modified_tait_state,
                                                      .derivatives = modified_tait_derivatives,
                                                      .temperature = modified_tait_temperature,
-                                                     .entropy = modified_tait_entropies,
+                                                     .entropy = modified_tait_entropy,
                                                      .density = modified_tait_density,
                                                      .p_min = modified_tait_p_min,
                                                      .range = modified_tait_range,

@@ -86,8 +86,8 @@ ELEMENTARY_INLINE double modified_tait_S(const struct modified_tait *par, double
     return a0 * elementary_log(T / z) + (high - low);
 }
 
-ELEMENTARY_INLINE double modified_tait_entropy(const struct modified_tait *par, struct modified_tait_heat heat,
-                                               double rho, double T)
+ELEMENTARY_INLINE double modified_tait_potential_entropy(const struct modified_tait *par,
+                                                         struct modified_tait_heat heat, double rho, double T)
 {
     double work = heat.B * (heat.y * heat.L1 / (par->n - 1.0) - par->s / T) / rho + heat.W * heat.M1;
     return modified_tait_S(par, T) + par->s0 - work;
