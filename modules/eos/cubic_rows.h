@@ -76,7 +76,7 @@ ELEMENTARY_INLINE struct continuation_state cubic_rows_state_at(const struct cub
     double stiffening = at.stiffening < CUBIC_STIFFENING ? CUBIC_STIFFENING : at.stiffening;
     double e = at.e + beyond * slope, c2 = at.c2 + beyond * room.v * stiffening, least = CUBIC_SOFTEST * at.c2;
     c2 = c2 < least ? least : c2;
-    c2 = p > 0.0 ? c2 : p * room.v; /* no tension */
+    c2 = p > 0.0 ? c2 : p * room.v;                        /* no tension */
     double e_c2 = at.c2 + beyond * room.v * at.stiffening; /* what this e says, positive or not */
     double warm = T + beyond * slope / at.cv;
     warm = warm < CUBIC_COLDEST ? CUBIC_COLDEST : warm;
@@ -114,26 +114,11 @@ static double cubic_rows_isotherm(const struct cubic *par, double p, double T)
     return rho;
 }
 
-/* Where that does not help, bisection of ln rho: T falls with rho at constant p. */
+/* Where that does not help, by bisection. */
 static double cubic_rows_density_at(const struct cubic *par, double p, double T)
 {
-    double low = log(1e-12 / par->b), high = log(20.0 / par->b);
     double rho = T > par->T_min ? cubic_rows_isotherm(par, p, T) : NAN;
-    if (rho > 0.0) return rho;
-    for (int i = 0; i < 60; i++) {
-        double mean = 0.5 * (low + high), at;
-        rho = exp(mean);
-        cubic_rows_temperature(par, 1, &rho, &p, &at);
-        if (at > T) low = mean;
-        else high = mean;
-    }
-    return exp(0.5 * (low + high));
-}
-
-static void cubic_rows_density(const void *self, size_t n, const double *BULLA_RESTRICT p,
-                               const double *BULLA_RESTRICT T, double *BULLA_RESTRICT rho)
-{
-    for (size_t i = 0; i < n; i++) rho[i] = cubic_rows_density_at(self, p[i], T[i]);
+    return rho > 0.0 ? rho : cubic_rows_bisect(par, p, T, (const double[2]){1e-12 / par->b, 20.0 / par->b}, 60);
 }
 
 /* A gas bears no tension, however dense and cold it is. */

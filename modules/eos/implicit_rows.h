@@ -7,12 +7,15 @@
  *                                                       for the next two,
  *     struct continuation_state IMPLICIT(state_at)(law, rho, p, aid, T),
  *     double IMPLICIT(entropy_at)(law, rho, aid, T, warm)  at T, where the potential ends, and from there to `warm`,
- * and finds IMPLICIT(state), (derivatives), (energy), (temperature) and (entropy) made. */
+ * and finds IMPLICIT(state), (derivatives), (energy), (temperature), (entropy) and (density) made; the last from
+ *     double IMPLICIT(density_at)(law, p, T), which it defines below, with the help of IMPLICIT(bisect). */
 #ifndef IMPLICIT_ROWS_H
 #define IMPLICIT_ROWS_H
 
 #include "bulla/eos.h"
 #include "continuation.h"
+
+#include <math.h>
 
 #define IMPLICIT_KERNEL(name)                                                                                   \
     BULLA_KERNEL static void IMPLICIT(name)(const IMPLICIT_LAW *self, size_t n,                                 \
@@ -122,6 +125,27 @@ static void IMPLICIT(entropy)(const void *self, size_t n, const double *BULLA_RE
                               const double *BULLA_RESTRICT p, double *BULLA_RESTRICT s)
 {
     IMPLICIT(run)(self, n, (const double *const[2]){rho, p}, (double *const[2]){NULL, s}, IMPLICIT(thermal_block));
+}
+
+/* The density between two at which the temperature is T: it falls with rho at constant p. Halves ln rho. */
+static double IMPLICIT(bisect)(const IMPLICIT_LAW *self, double p, double T, const double ends[2], int rounds)
+{
+    double low = log(ends[0]), high = log(ends[1]);
+    for (int i = 0; i < rounds; i++) {
+        double mean = 0.5 * (low + high), density = exp(mean), at;
+        IMPLICIT(temperature)(self, 1, &density, &p, &at);
+        if (at > T) low = mean;
+        else high = mean;
+    }
+    return exp(0.5 * (low + high));
+}
+
+static double IMPLICIT(density_at)(const IMPLICIT_LAW *self, double p, double T);
+
+static void IMPLICIT(density)(const void *self, size_t n, const double *BULLA_RESTRICT p,
+                              const double *BULLA_RESTRICT T, double *BULLA_RESTRICT rho)
+{
+    for (size_t i = 0; i < n; i++) rho[i] = IMPLICIT(density_at)(self, p[i], T[i]);
 }
 
 #endif

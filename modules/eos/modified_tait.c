@@ -96,7 +96,7 @@ ELEMENTARY_INLINE double modified_tait_entropy_at(const struct modified_tait *pa
 #define IMPLICIT_LAW struct modified_tait
 #include "implicit_rows.h"
 
-/* Explicit where the potential holds. Beyond, T falls with rho at constant p: bisection of its logarithm. */
+/* Explicit where the potential holds, by bisection beyond. */
 static double modified_tait_density_at(const struct modified_tait *par, double p, double T)
 {
     struct modified_tait_heat heat = modified_tait_heat(par, 0.0, T);
@@ -105,20 +105,7 @@ static double modified_tait_density_at(const struct modified_tait *par, double p
     if (ratio > 0.0 && T >= par->T_min && rho >= par->rho_min && rho <= par->rho_max &&
         T <= modified_tait_T_max(par, rho))
         return rho;
-    double low = log(1e-4 * par->rho_min), high = log(1e2 * par->rho_max);
-    for (int i = 0; i < 80; i++) {
-        double mean = 0.5 * (low + high), at, density = exp(mean);
-        modified_tait_temperature(par, 1, &density, &p, &at);
-        if (at > T) low = mean;
-        else high = mean;
-    }
-    return exp(0.5 * (low + high));
-}
-
-static void modified_tait_density(const void *self, size_t n, const double *BULLA_RESTRICT p,
-                                  const double *BULLA_RESTRICT T, double *BULLA_RESTRICT rho)
-{
-    for (size_t i = 0; i < n; i++) rho[i] = modified_tait_density_at(self, p[i], T[i]);
+    return modified_tait_bisect(par, p, T, (const double[2]){1e-4 * par->rho_min, 1e2 * par->rho_max}, 80);
 }
 
 /* Where c^2 ends in the linear continuation of the cold side, or in those beyond the densities. */
