@@ -92,7 +92,7 @@ static double scene_map_width(const struct scene *scene, int axis)
 static unsigned scene_map_count(const struct keys_value *points, double fine)
 {
     if (points->given) return (unsigned)points->integer;
-    return fine < 2.0 ? 2 : fine > SCENE_MAP_FINE ? SCENE_MAP_FINE : (unsigned)lround(fine);
+    return !(fine >= 2.0) ? 2 : fine > SCENE_MAP_FINE ? SCENE_MAP_FINE : (unsigned)lround(fine);
 }
 
 static bool scene_map_inside(struct draft *draft, const struct keys_value *value, const double *x)
@@ -154,6 +154,7 @@ static bool scene_map_span(struct draft *draft, struct scene_map *map, const str
     double lower = scene->lower[map->axis], upper = scene->upper[map->axis];
     double a = from->given ? from->number : lower, b = to->given ? to->number : upper;
     const struct keys_value *outside = a < lower ? from : b > upper ? to : NULL;
+    if (!(lower < upper)) return false; /* the domain has been refused already */
     if (outside)
         keys_error(&draft->keys, outside, "%g m is outside of the domain, %g to %g m", outside->number, lower, upper);
     else if (!(a < b)) keys_error(&draft->keys, to->given ? to : from, "'to' must lie above 'from'");

@@ -297,7 +297,8 @@ static bool schema_is_word(const struct keys_section *one)
     return word;
 }
 
-/* A text in the place of a map: {"enum": [...]} with a sentence that tells of the map, too. */
+/* A text in the place of a map: {"enum": [...]} with a sentence that tells of the map, too. Where there is no such word a
+ * map is asked for: editors refuse a whole schema for one list without a word. */
 static json_t *schema_alone(struct schema *schema, const struct keys_section *section)
 {
     json_t *list = json_array();
@@ -310,7 +311,9 @@ static json_t *schema_alone(struct schema *schema, const struct keys_section *se
     }
     json_t *error = json_sprintf("A word that needs no other keys (%s), or a map {%s: ..., ...} with one of: %s",
                                  *words ? words : "there is none", section->selector, all);
-    return json_pack("{s:o,s:o}", "enum", list, "errorMessage", error);
+    if (*words) return json_pack("{s:o,s:o}", "enum", list, "errorMessage", error);
+    json_decref(list);
+    return json_pack("{s:s,s:o}", "type", "object", "errorMessage", error);
 }
 
 static json_t *schema_section(struct schema *schema, const struct keys_section *section)

@@ -1,6 +1,6 @@
 # Fuzz targets: one program per file. In the `fuzz` preset libFuzzer drives them (tests/fuzz/run.sh); elsewhere
 # replay.c does, as a test: the corpus and COUNT changed copies of each of its files.
-set(fuzz_counts case:500 checkpoint:4000 cli:3000 dump:400 elf:5000 formula:2000 script:500 table:2000)
+set(fuzz_counts case:500 checkpoint:4000 cli:3000 dump:400 elf:5000 formula:2000 law:400 script:500 table:2000)
 foreach(row ${fuzz_counts})
   string(REGEX REPLACE ":.*" "" name ${row})
   string(REGEX REPLACE ".*:" "" count ${row})

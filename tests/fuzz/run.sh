@@ -13,7 +13,7 @@ echo 'int LLVMFuzzerTestOneInput(const char *d, long n); int LLVMFuzzerTestOneIn
     clang -x c -fsanitize=fuzzer,address -o "$build/probe" - 2>/dev/null || { echo "skipped: no clang with libFuzzer"; exit 77; }
 cmake --preset fuzz -B "$build" >/dev/null
 cmake --build "$build" -j2 --target fuzz >"$build/build.log" 2>&1 || { tail -n 40 "$build/build.log"; exit 1; }
-[ $# -gt 0 ] || set -- case checkpoint cli dump elf formula script table
+[ $# -gt 0 ] || set -- case checkpoint cli dump elf formula law script table
 export ASAN_OPTIONS="quarantine_size_mb=8:malloc_context_size=8:detect_stack_use_after_return=0:allocator_may_return_null=1"
 export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0"
 mkdir -p "$build/crash"

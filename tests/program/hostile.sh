@@ -186,6 +186,72 @@ both 2 'ran for too long' --set "initial.0.pressure== x > 0.9 and (function() $l
 both 2 'gives nan' --set 'initial.0.pressure== x > 0.9 and 0/0 or 1e5'
 both 2 'gives a table' --set 'initial.0.pressure== x > 0.9 and {} or 1e5'
 
+# --- sources, states, exchange, surfaces: each mistake has its place ---
+placed() { # NAME LINE:COLUMN WORDS: in new.yaml, said in one line
+    attempt "$1" 1 2 "$3" run new.yaml --quiet
+    grep -F "new.yaml:$2: error: " said.txt | grep -qF -- "$3" || complain "not said at $2"
+}
+sources() { # COLUMN WORDS VALUE: of line 16
+    { cat good.yaml && printf 'sources: %s\n' "$3"; } >new.yaml
+    placed "sources: $3" "16:$1" "$2"
+}
+sources 10 'sources: at least one source is needed' '{}'
+sources 10 'sources: a map of keys is needed' '3'
+sources 11 "unknown key 'heatng' in sources" '{heatng: 1}'
+sources 23 "key 'heating' is already given" '{heating: 1, heating: 2}'
+sources 20 "'1e9 J/m3' is a pressure, but a power per volume is needed" '{heating: 1e9 J/m3}'
+sources 26 "'1 MPa' is a pressure" '{heating: {air: 1 MPa}}'
+sources 26 'a power per volume is needed, not the text' '{heating: {air: .nan}}'
+sources 20 'the script gives nan' '{heating: = 0/0}'
+sources 20 'the script gives a table' '{heating: "= {}"}'
+sources 26 "is a velocity, but an acceleration is needed" '{acceleration: [9.81 m/s]}'
+sources 25 '1 component is needed, one per axis, not 2' '{acceleration: [1, 2]}'
+sources 18 'a list is needed' '{force: 1}'
+sources 25 "there is no material 'steam'" '{mass: {steam: 1}}'
+sources 17 'a map with names as keys is needed' '{mass: 3}'
+sources 22 'one material has no volume fraction' '{fractions: {air: 1}}'
+sources 20 'a stretch is for solids' '{stretch: {xx: 1}}'
+sources 16 "cannot read 'nowhere.lua'" '{lua: nowhere.lua}'
+sources 16 'the script must return a function' '{lua: ""}'
+both 3 'sources at (0.515625, 0, 0) m, in cell' --set 'sources={heating: = x > 0.5 and 0/0 or 1}'
+for body in 'heating = 0/0' 'heating = "x"' 'force = {1, 2}' 'force = 1' 'heat = 1' 'mass = {steam = 1}'; do
+    both 3 'step 1 at t = 0 s, level 0, tile (0, 0, 0), sources at' \
+        --set "sources={lua: 'function(x, y, z, t) return {$body} end'}"
+done
+both 3 'must return a table of named fields' --set "sources={lua: 'function(x, y, z, t) return 3 end'}"
+both 3 'ran for too long' --set "sources={lua: 'function(x, y, z, t) $loop end'}"
+both 3 'no heat (called with' --set "sources={lua: 'function(x, y, z, t) if t > 0 then error(\"no heat\") end return {} end'}"
+both 3 'partial_density_air = -' --set 'sources={mass: {air: -1e9}}'
+both 3 'cannot be completed' --set 'sources={heating: -1e300}'
+
+changed() { # LINE:COLUMN WORDS LINE TEXT: instead of that line
+    sed "$3s|.*|$4|" good.yaml >new.yaml
+    placed "$4" "$1" "$2"
+}
+state() { changed "$1" "$2" 12 "  - {everywhere: true, material: air, $3}"; }
+state 12:83 'density and pressure make a state, and so a temperature' 'density: 1.2, pressure: 1 bar, temperature: 300'
+state 12:56 "key 'pressure' is already given" 'pressure: 1 bar, pressure: 2 bar, temperature: 300'
+state 12:71 "key 'density' is already given" 'temperature: 300, density: 1.2, density: 1.3'
+state 12:5 'the pressure is missing' 'density: 1.2'
+state 12:5 'the pressure is missing' 'temperature: 300'
+state 12:52 "'C' in '26.85 C' is no unit" 'temperature: 26.85 C, pressure: 1 bar'
+state 12:52 '0 K is not above 0' 'temperature: 0, pressure: 1 bar'
+state 12:52 "is a pressure, but a temperature is needed" 'temperature: 300 Pa, pressure: 1 bar'
+state 12:52 'the script gives nan' 'temperature: = 0/0, pressure: 1 bar'
+state 12:52 'a temperature is needed, not a map' 'temperature: {air: 300}, pressure: 1 bar'
+both 2 'the temperature is -3 K, not above 0' --set 'initial.0={everywhere: true, material: air, pressure: 1, temperature: = x > 0.5 and -3 or 300}'
+changed 14:35 '-1 s is less than 0' 14 'run: {until: 1 ms, smallest-step: -1}'
+changed 14:35 'is a length, but a time is needed' 14 'run: {until: 1 ms, smallest-step: 1 m}'
+changed 8:20 "there is no 'slow' here" 8 'scheme: {exchange: slow}'
+column() { changed "15:$1" "$2" 15 "output: {directory: out, history: {columns: {a: {$3}}}}"; }
+column 66 "'in' is missing: the material whose surface it is" 'isosurface-min: temperature'
+column 83 "there is no material 'steam'" 'isosurface-min: temperature, in: steam'
+column 66 "there is no field 'heat'" 'isosurface-max: heat, in: air'
+column 88 "unknown key 'level'" 'isosurface-max: temperature, in: air, level: 3'
+column 85 "one measure per column: 'mean' is already given" 'mean: temperature, isosurface-min: pressure'
+column 59 "there is no material 'steam'" 'outside: steam'
+rm -f new.yaml
+
 # --- modules ---
 for flaw in bad_magic old_abi new_abi short_size no_table short_table null_slot unknown_kind missing_function no_symbol \
     small_symbol flush_to_zero duplicate aborts; do
