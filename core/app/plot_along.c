@@ -62,7 +62,7 @@ static void along_add(struct along *along, const struct map_table *map, size_t t
     char moment[PICTURE_SCALE_LABEL];
     line->map = map;
     line->row = time * map->n_place;
-    picture_scale_quantity(times[line->row], times[(map->n_time - 1) * map->n_place], "s", moment);
+    picture_scale_quantity(times[line->row], times[line->row], "s", moment);
     snprintf(line->label, sizeof line->label, "%.80s%s%s", run ? run : "", run ? ", " : "", moment);
 }
 
