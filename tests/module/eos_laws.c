@@ -18,6 +18,7 @@ struct row {
     const struct start *start;          /* two */
     double slack;                       /* units in the last place of rho c^2 that p may lose in a round trip */
     double drift;                       /* of the entropy along isentropes, in units of cv */
+    double rough;                       /* what identities may be off by in the contract */
 };
 
 static const struct contract_eos_box thin_gas = {{1e-3, 1e3}, -INFINITY, 1e10, {0.0, INFINITY}},
@@ -36,31 +37,36 @@ static const struct start of_air[2] = {{1e5, 300.0, 300.0}, {1e8, 1500.0, 0.01}}
 
 static char table[4096], file[4200];
 
-/* A table of RKPR is three tables, which fit each other to their errors. */
+/* Tables that are no potential are several, which fit each other to their errors: `rough`. */
 static const struct row rows[] = {
-    {"ideal-gas", {"preset=air"}, 1e4, &thin_gas, of_air, 0, 1e-9},
-    {"ideal-gas", {"preset=air-r287"}, 1e4, &thin_gas, of_air, 0, 1e-9},
-    {"ideal-gas", {"preset=helium"}, 1e4, &thin_gas, of_air, 0, 1e-9},
-    {"stiffened-gas", {"preset=sg44"}, 9e3, &dense_water, of_water, 0, 1e-9},
-    {"stiffened-gas", {"preset=sg4"}, 9e3, &dense_water, of_water, 0, 1e-9},
-    {"stiffened-gas", {"preset=sg659"}, 9e3, &dense_water, of_water, 0, 1e-9},
-    {"stiffened-gas", {"preset=sg659b"}, 9e3, &dense_water, of_water, 0, 1e-9},
-    {"stiffened-gas", {"preset=sg3"}, 9e3, &dense_water, of_water, 0, 1e-9},
-    {"stiffened-gas", {"preset=sg235"}, 9e3, &dense_water, of_water, 0, 1e-9},
-    {"nasg", {"preset=water"}, 3 / 6.61e-4, &dense_water, of_water, 0, 1e-9},
-    {"mnasg", {"preset=water"}, 3 / 6.7212e-4, &dense_water, of_water, 0, 1e-9},
-    {"tait", {"preset=water"}, 4600.0, &on_curve, of_water, 0, 1e-9},
-    {"modified-tait", {"preset=published"}, 4600.0, &in_published, of_water, 0, 1e-9},
-    {"modified-tait", {"preset=refit"}, 5700.0, &in_refit, of_water, 0, 1e-9},
-    {"iapws95", {"preset=water", "eval=table"}, 5200.0, NULL, of_water, 0, 1e-9},
-    {"iapws95", {"preset=water", "eval=analytic"}, 5200.0, NULL, of_water, 4, 1e-9},
-    {"peng-robinson", {"preset=air"}, 3 / 7.8e-4, &hard_core, of_air, 0, 1e-9},
-    {"rkpr", {"preset=air", "eval=analytic"}, 3 / 8.8e-4, &hard_core, of_air, 0, 1e-9},
-    {"rkpr", {"preset=air", "eval=table", "table-size=256"}, 3 / 8.8e-4, NULL, of_air, 0, 2e-8},
-    {"helmholtz-air", {"preset=air", "eval=table"}, 5700.0, &in_lemmon, of_air, 0, 1e-9},
-    {"helmholtz-air", {"preset=air", "eval=analytic"}, 5700.0, &in_lemmon, of_air, 0, 1e-9},
-    {"table", {file}, 3900.0, &in_states, of_states, 0, 1e-9},
-    {"tait-murnaghan", {"preset=water"}, 3000.0, &in_plugin, NULL, 0, 1e-9},
+    {"ideal-gas", {"preset=air"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
+    {"ideal-gas", {"preset=air-r287"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
+    {"ideal-gas", {"preset=helium"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=sg44"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=sg4"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=sg659"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=sg659b"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=sg3"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=sg235"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
+    {"nasg", {"preset=water"}, 3 / 6.61e-4, &dense_water, of_water, 0, 1e-9, 1e-6},
+    {"mnasg", {"preset=water"}, 3 / 6.7212e-4, &dense_water, of_water, 0, 1e-9, 1e-6},
+    {"tait", {"preset=water"}, 4600.0, &on_curve, of_water, 0, 1e-9, 1e-6},
+    {"modified-tait", {"preset=published"}, 4600.0, &in_published, of_water, 0, 1e-9, 1e-6},
+    {"modified-tait", {"preset=refit"}, 5700.0, &in_refit, of_water, 0, 1e-9, 1e-6},
+    {"iapws95", {"preset=water", "eval=table"}, 5200.0, NULL, of_water, 0, 1e-9, 1e-6},
+    {"iapws95", {"preset=water", "eval=analytic"}, 5200.0, NULL, of_water, 4, 1e-9, 1e-6},
+    {"iapws95", {"preset=water", "interpolation=bicubic"}, 5200.0, NULL, of_water, 0, 1e-8, 1e-5},
+    {"iapws95", {"preset=water", "interpolation=bilinear"}, 5200.0, NULL, of_water, 0, 3e-4, 0.05},
+    {"peng-robinson", {"preset=air"}, 3 / 7.8e-4, &hard_core, of_air, 0, 1e-9, 1e-6},
+    {"rkpr", {"preset=air", "eval=analytic"}, 3 / 8.8e-4, &hard_core, of_air, 0, 1e-9, 1e-6},
+    {"rkpr", {"preset=air", "eval=table", "table-size=256"}, 3 / 8.8e-4, NULL, of_air, 0, 2e-8, 1e-6},
+    {"helmholtz-air", {"preset=air", "eval=table"}, 5700.0, &in_lemmon, of_air, 0, 1e-9, 1e-6},
+    {"helmholtz-air", {"preset=air", "eval=analytic"}, 5700.0, &in_lemmon, of_air, 0, 1e-9, 1e-6},
+    {"rkpr", {"preset=air", "eval=table", "interpolation=bilinear"}, 3 / 8.8e-4, NULL, of_air, 0, 3e-4, 0.02},
+    {"helmholtz-air", {"preset=air", "interpolation=bicubic"}, 5700.0, NULL, of_air, 0, 3e-8, 1e-5},
+    {"helmholtz-air", {"preset=air", "interpolation=bilinear"}, 5700.0, NULL, of_air, 0, 2e-3, 0.2},
+    {"table", {file}, 3900.0, &in_states, of_states, 0, 1e-9, 1e-6},
+    {"tait-murnaghan", {"preset=water"}, 3000.0, &in_plugin, NULL, 0, 1e-9, 1e-6},
 };
 
 enum { ROWS = sizeof rows / sizeof *rows };
@@ -114,6 +120,8 @@ static void contract_as_stated(const struct row *row, const struct law *law)
     struct contract contract = {.module = law->instance.module};
     assert_int_equal(contract_module_run(&contract, row->sets), 0);
     assert_in_range(contract.n_row, 20, 23);
+    for (unsigned i = 0; i < contract.n_row; i++)
+        if (contract.rows[i].limit == 1e-6) contract.rows[i].limit = row->rough;
     support_holds(&contract);
 }
 
