@@ -74,7 +74,7 @@ ELEMENTARY_INLINE struct continuation_point modified_tait_at(const struct modifi
                                                              double T)
 {
     double inside = continuation_inside(&par->ends, rho);
-    return modified_tait_point(par, modified_tait_heat(par, log_x, T), inside, T);
+    return modified_tait_edge(par, modified_tait_heat(par, log_x, T), inside, T);
 }
 
 ELEMENTARY_INLINE struct continuation_state modified_tait_state_at(const struct modified_tait *par, double rho,

@@ -112,12 +112,40 @@ ELEMENTARY_INLINE struct continuation_point modified_tait_point(const struct mod
                                        .stiffening = G + steeper + lazier};
 }
 
+/* dlnG/dT at constant rho, from the third derivatives of ln(B f^-n) and ln(B/f). */
+ELEMENTARY_INLINE double modified_tait_G_T(const struct modified_tait *par, struct modified_tait_heat heat,
+                                           struct continuation_point at, double rho, double T)
+{
+    double t = elementary_tanh((T - par->T1) / par->T2), per_T = 1.0 / T, s = par->s, warm = T - 300.0;
+    double q1 = -s * per_T - heat.M1, q2 = s * per_T * per_T - heat.M2;
+    double q3 = -q1 * (2.0 / (par->T2 * par->T2) * (1.0 - 3.0 * t * t) + 3.0 * q2 + q1 * q1);
+    double third = -2.0 * s * per_T * per_T * per_T, L3 = third - par->n * q3, M3 = third - q3;
+    double cold = heat.B * heat.y / ((par->n - 1.0) * rho), rest = heat.B / rho, bend = s * (s + 1.0) * per_T * per_T;
+    double L = heat.L1 * heat.L1 + heat.L2, M = heat.M1 * heat.M1 + heat.M2;
+    double L_T = heat.L1 * L + 2.0 * heat.L1 * heat.L2 + L3, M_T = heat.M1 * M + 2.0 * heat.M1 * heat.M2 + M3;
+    double C_T = par->C[1] + warm * (2.0 * par->C[2] + warm * 3.0 * par->C[3]);
+    double cv_T = C_T - (cold * (L + T * L_T) + heat.W * (M + T * M_T)) + rest * bend * (s + 1.0);
+    return heat.B * (heat.y * L - bend) / modified_tait_p_T(par, heat, T) - cv_T / at.cv;
+}
+
 /* The upper end of T at a density. */
 ELEMENTARY_INLINE double modified_tait_T_max(const struct modified_tait *par, double rho)
 {
     double reach = (par->rho_max - rho) * (1.0 / (0.15 * par->rho_max));
     double T = par->T_dense + (par->T_max - par->T_dense) * reach;
     return T < par->T_max ? T : par->T_max;
+}
+
+/* A point for continuations: on the upper end of T, which falls with rho, G changes along it. */
+ELEMENTARY_INLINE struct continuation_point modified_tait_edge(const struct modified_tait *par,
+                                                               struct modified_tait_heat heat, double rho, double T)
+{
+    struct continuation_point at = modified_tait_point(par, heat, rho, T);
+    double T_max = modified_tait_T_max(par, rho), falls = (par->T_dense - par->T_max) / (0.15 * par->rho_max);
+    double along = rho * falls * modified_tait_G_T(par, heat, at, rho, T);
+    along = T < T_max ? 0.0 : along;
+    at.stiffening += T_max < par->T_max ? along : 0.0;
+    return at;
 }
 
 #endif
