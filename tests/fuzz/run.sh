@@ -24,7 +24,7 @@ for name; do
     mkdir -p "$build/found/$name"
     log=$build/$name.log
     "$build/fuzz/fuzz-$name" "$build/found/$name" "$PWD/tests/fuzz/corpus/$name" -max_total_time="$seconds" \
-        -timeout=4 -rss_limit_mb=256 -artifact_prefix="$build/crash/$name-" -print_final_stats=1 \
+        -timeout=20 -rss_limit_mb=256 -artifact_prefix="$build/crash/$name-" -print_final_stats=1 \
         -dict="$build/words" >"$log" 2>&1 || status=1
     awk -v name="$name" '/stat::/ { value[$1] = $2 } /SUMMARY|ERROR: libFuzzer/ { said = said "\n  " $0 }
         END { printf "%-11s %s executions, peak %s MB%s\n", name, value["stat::number_of_executed_units:"],

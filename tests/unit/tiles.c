@@ -18,9 +18,9 @@ static const char *const DOMAINS[] = {
 };
 
 static const char *const FLUIDS[] = {
-    FLOW_WATER FLOW_AIR,
+    (FLOW_WATER FLOW_AIR),
     "  water: {eos: {type: mnasg, preset: water}}\n  air: {eos: {type: rkpr}}\n",
-    "  water: {eos: {type: iapws95}}\n" FLOW_AIR,
+    ("  water: {eos: {type: iapws95}}\n" FLOW_AIR),
 };
 
 static const char *materials = FLOW_WATER FLOW_AIR;
