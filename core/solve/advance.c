@@ -143,6 +143,7 @@ static void advance_blame_pace(const struct state *state, struct stage *stage, c
     memcpy(kept + block, w, block * sizeof *w);
     mix_primitives(path, n_cell, n_cell, u, kept + block);
     stage->guard->found = *place;
+    blame_free(stage->blame); /* of a step that was tried before */
     stage->blame = blame_new(stage->model, stage->guard);
     advance_stamp(state, stage, stage->blame);
     blame_keep(stage->blame, stage->model, w, kept);
