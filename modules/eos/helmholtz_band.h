@@ -23,30 +23,21 @@ struct helmholtz_band {
     double *ends;                          /* n x 2: p/rho at both ends of the domain, from which they come */
 };
 
-/* Whole part of `at`, within 0 .. most; NaN gives 0. `most` comes from memory on purpose: with a constant gcc knows the
- * outcome of one comparison from the other, makes branches of them and leaves the loop scalar. */
-HELMHOLTZ_INLINE int helmholtz_cell(double at, double most)
-{
-    double held = at > 0.0 ? at : 0.0;
-    held = held < most ? held : most;
-    return (int)held;
-}
-
 /* A density: the row of cells, and where in it. */
 struct helmholtz_row {
     int i;
     double x;
 };
 
-HELMHOLTZ_INLINE double helmholtz_band_at(const struct helmholtz_band *band, double rho)
+PATCH_INLINE double helmholtz_band_at(const struct helmholtz_band *band, double rho)
 {
     return (rho - band->rho_0) * band->per_rho;
 }
 
-HELMHOLTZ_INLINE struct helmholtz_row helmholtz_band_row(const struct helmholtz_band *band, double rho)
+PATCH_INLINE struct helmholtz_row helmholtz_band_row(const struct helmholtz_band *band, double rho)
 {
     double at = helmholtz_band_at(band, rho);
-    int i = helmholtz_cell(at, band->last);
+    int i = patch_cell(at, band->last);
     return (struct helmholtz_row){i, at - i};
 }
 
@@ -55,8 +46,8 @@ struct helmholtz_level {
     double per_rho, f, q, y;
 };
 
-HELMHOLTZ_INLINE struct helmholtz_level helmholtz_band_level(const struct helmholtz_band *band,
-                                                             struct helmholtz_row row, double rho, double p)
+PATCH_INLINE struct helmholtz_level helmholtz_band_level(const struct helmholtz_band *band, struct helmholtz_row row,
+                                                         double rho, double p)
 {
     const double *c = band->cubic, x = row.x;
     int at = HELMHOLTZ_BAND * row.i;
@@ -73,8 +64,7 @@ struct helmholtz_lines {
     double f0, f0_r, s, s_r;
 };
 
-HELMHOLTZ_INLINE struct helmholtz_lines helmholtz_band_lines(const struct helmholtz_band *band,
-                                                             struct helmholtz_row row)
+PATCH_INLINE struct helmholtz_lines helmholtz_band_lines(const struct helmholtz_band *band, struct helmholtz_row row)
 {
     const double *c = band->cubic, x = row.x, per = band->per_rho;
     int at = HELMHOLTZ_BAND * row.i;
@@ -103,15 +93,15 @@ struct helmholtz_rung {
     double t;
 };
 
-HELMHOLTZ_INLINE double helmholtz_rung_at(const struct helmholtz_steps *steps, double y)
+PATCH_INLINE double helmholtz_rung_at(const struct helmholtz_steps *steps, double y)
 {
     return (y - steps->y_0) * steps->per_y;
 }
 
-HELMHOLTZ_INLINE struct helmholtz_rung helmholtz_rung(const struct helmholtz_steps *steps, double y)
+PATCH_INLINE struct helmholtz_rung helmholtz_rung(const struct helmholtz_steps *steps, double y)
 {
     double at = helmholtz_rung_at(steps, y);
-    int k = helmholtz_cell(at, steps->last);
+    int k = patch_cell(at, steps->last);
     return (struct helmholtz_rung){k, at - k};
 }
 

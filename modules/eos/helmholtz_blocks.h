@@ -7,81 +7,59 @@
  *
  * A step is done for some blocks before the next one begins: each waits for the one before (where is the row? where
  * the interval?), and the processor has other blocks to do meanwhile. */
-#ifndef HELMHOLTZ_BLOCKS_H
-#define HELMHOLTZ_BLOCKS_H
+#ifndef PATCH_BLOCKS_H
+#define PATCH_BLOCKS_H
 
 #include "helmholtz_point.h"
 
-enum { HELMHOLTZ_BLOCK = 16, HELMHOLTZ_BLOCKS = 8, HELMHOLTZ_MOST = HELMHOLTZ_BLOCK * HELMHOLTZ_BLOCKS };
-
 /* A block on its way. */
 struct helmholtz_block {
-    double rho[HELMHOLTZ_BLOCK], p[HELMHOLTZ_BLOCK]; /* at which tables are asked, if that is elsewhere */
-    double per_rho[HELMHOLTZ_BLOCK], f[HELMHOLTZ_BLOCK], q[HELMHOLTZ_BLOCK], y[HELMHOLTZ_BLOCK]; /* helmholtz_level */
-    double x[HELMHOLTZ_BLOCK], t[HELMHOLTZ_BLOCK]; /* where in a row; where in an interval of y, or of l */
-    int i[HELMHOLTZ_BLOCK], j[HELMHOLTZ_BLOCK];    /* which of them */
-    int one_row, one_rung, inside;                 /* all in the same? all well inside the domain? */
+    double rho[PATCH_BLOCK], p[PATCH_BLOCK]; /* at which tables are asked, if that is elsewhere */
+    double per_rho[PATCH_BLOCK], f[PATCH_BLOCK], q[PATCH_BLOCK], y[PATCH_BLOCK]; /* helmholtz_level */
+    double x[PATCH_BLOCK], t[PATCH_BLOCK]; /* where in a row; where in an interval of y, or of l */
+    int i[PATCH_BLOCK], j[PATCH_BLOCK];    /* which of them */
+    int one_row, one_rung, inside;         /* all in the same? all well inside the domain? */
     const double *in[2], *asked[2];
     double *out[2];
 };
 
-/* Are all numbers the first? */
-HELMHOLTZ_INLINE int helmholtz_same(const int *BULLA_RESTRICT number)
-{
-    const int first = number[0];
-    int apart = 0;
-#pragma omp simd reduction(| : apart)
-    for (size_t k = 0; k < HELMHOLTZ_BLOCK; k++) apart |= number[k] ^ first;
-    return !apart;
-}
-
-/* Do all lie within low .. high? A NaN does not. */
-HELMHOLTZ_INLINE int helmholtz_all_within(const double *BULLA_RESTRICT value, const double low, const double high)
-{
-    int outside = 0;
-#pragma omp simd reduction(| : outside)
-    for (size_t k = 0; k < HELMHOLTZ_BLOCK; k++) outside |= (value[k] >= low ? 0 : 1) | (value[k] <= high ? 0 : 1);
-    return !outside;
-}
-
 /* Rows of densities; beyond those of the domain tables are asked elsewhere. */
-HELMHOLTZ_INLINE void helmholtz_block_rows(const struct helmholtz *self, const struct helmholtz_band *band,
-                                           struct helmholtz_block *BULLA_RESTRICT block)
+PATCH_INLINE void helmholtz_block_rows(const struct helmholtz *self, const struct helmholtz_band *band,
+                                       struct helmholtz_block *BULLA_RESTRICT block)
 {
     const struct helmholtz_band rows = *band;
     const struct helmholtz_ends ends = self->ends;
     const double *BULLA_RESTRICT rho = block->in[0], *BULLA_RESTRICT p = block->in[1];
-    block->inside = helmholtz_all_within(rho, ends.thin, ends.dense);
+    block->inside = patch_all_within(rho, ends.thin, ends.dense);
     block->asked[0] = block->inside ? rho : block->rho;
     block->asked[1] = block->inside ? p : block->p;
     if (!block->inside) {
 #pragma omp simd
-        for (size_t k = 0; k < HELMHOLTZ_BLOCK; k++) {
+        for (size_t k = 0; k < PATCH_BLOCK; k++) {
             block->rho[k] = helmholtz_held(&ends, rho[k]);
             block->p[k] = helmholtz_dense_p(&ends, rho[k], p[k]);
         }
     }
     const double *BULLA_RESTRICT asked = block->asked[0];
 #pragma omp simd
-    for (size_t k = 0; k < HELMHOLTZ_BLOCK; k++) {
+    for (size_t k = 0; k < PATCH_BLOCK; k++) {
         struct helmholtz_row row = helmholtz_band_row(&rows, asked[k]);
         block->i[k] = row.i;
         block->x[k] = row.x;
     }
-    block->one_row = helmholtz_same(block->i);
+    block->one_row = patch_same(block->i);
 }
 
 /* Pressures in rows of densities; `one`: all in the same row. */
-HELMHOLTZ_INLINE void helmholtz_block_levels(const struct helmholtz_band *band, const int one,
-                                             const int *BULLA_RESTRICT i, const double *BULLA_RESTRICT x,
-                                             const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
-                                             double *BULLA_RESTRICT per_rho, double *BULLA_RESTRICT f,
-                                             double *BULLA_RESTRICT q, double *BULLA_RESTRICT y)
+PATCH_INLINE void helmholtz_block_levels(const struct helmholtz_band *band, const int one, const int *BULLA_RESTRICT i,
+                                         const double *BULLA_RESTRICT x, const double *BULLA_RESTRICT rho,
+                                         const double *BULLA_RESTRICT p, double *BULLA_RESTRICT per_rho,
+                                         double *BULLA_RESTRICT f, double *BULLA_RESTRICT q, double *BULLA_RESTRICT y)
 {
     const struct helmholtz_band rows = *band;
     const int first = i[0];
 #pragma omp simd
-    for (size_t k = 0; k < HELMHOLTZ_BLOCK; k++) {
+    for (size_t k = 0; k < PATCH_BLOCK; k++) {
         struct helmholtz_row row = {one ? first : i[k], x[k]};
         struct helmholtz_level level = helmholtz_band_level(&rows, row, rho[k], p[k]);
         per_rho[k] = level.per_rho;
@@ -92,12 +70,12 @@ HELMHOLTZ_INLINE void helmholtz_block_levels(const struct helmholtz_band *band, 
 }
 
 /* Intervals of y. */
-HELMHOLTZ_INLINE void helmholtz_block_rungs(const struct helmholtz_steps *steps, const double *BULLA_RESTRICT y,
-                                            int *BULLA_RESTRICT j, double *BULLA_RESTRICT t)
+PATCH_INLINE void helmholtz_block_rungs(const struct helmholtz_steps *steps, const double *BULLA_RESTRICT y,
+                                        int *BULLA_RESTRICT j, double *BULLA_RESTRICT t)
 {
     const struct helmholtz_steps rungs = *steps;
 #pragma omp simd
-    for (size_t k = 0; k < HELMHOLTZ_BLOCK; k++) {
+    for (size_t k = 0; k < PATCH_BLOCK; k++) {
         struct helmholtz_rung rung = helmholtz_rung(&rungs, y[k]);
         j[k] = rung.k;
         t[k] = rung.t;
@@ -105,14 +83,14 @@ HELMHOLTZ_INLINE void helmholtz_block_rungs(const struct helmholtz_steps *steps,
 }
 
 /* From intervals of y to those of l; `one`: all in the same row and interval. */
-HELMHOLTZ_INLINE void helmholtz_block_starts(const struct helmholtz_grid *grid, const int one,
-                                             const int *BULLA_RESTRICT i, const double *BULLA_RESTRICT x,
-                                             int *BULLA_RESTRICT j, double *BULLA_RESTRICT t)
+PATCH_INLINE void helmholtz_block_starts(const struct helmholtz_grid *grid, const int one, const int *BULLA_RESTRICT i,
+                                         const double *BULLA_RESTRICT x, int *BULLA_RESTRICT j,
+                                         double *BULLA_RESTRICT t)
 {
     const struct helmholtz_grid of = *grid;
     const int first_i = i[0], first_j = j[0];
 #pragma omp simd
-    for (size_t k = 0; k < HELMHOLTZ_BLOCK; k++) {
+    for (size_t k = 0; k < PATCH_BLOCK; k++) {
         struct helmholtz_row row = {one ? first_i : i[k], x[k]};
         struct helmholtz_rung rung = {one ? first_j : j[k], t[k]};
         struct helmholtz_start start = helmholtz_start(&of, helmholtz_start_at(&of, row, rung));
@@ -127,10 +105,10 @@ struct helmholtz_asked {
 };
 
 /* The answer at a point by one of the ways; for HELMHOLTZ_THERMAL a pair of T and side. */
-HELMHOLTZ_INLINE struct helmholtz_pair helmholtz_block_point(const struct helmholtz *self, const enum helmholtz_way way,
-                                                             const enum helmholtz_want want, const int inside,
-                                                             struct helmholtz_row row, struct helmholtz_rung rung,
-                                                             struct helmholtz_level level, struct helmholtz_asked at)
+PATCH_INLINE struct helmholtz_pair helmholtz_block_point(const struct helmholtz *self, const enum helmholtz_way way,
+                                                         const enum helmholtz_want want, const int inside,
+                                                         struct helmholtz_row row, struct helmholtz_rung rung,
+                                                         struct helmholtz_level level, struct helmholtz_asked at)
 {
     double rho = at.rho, p = at.p, side;
     struct helmholtz_answer answer;
@@ -150,16 +128,16 @@ HELMHOLTZ_INLINE struct helmholtz_pair helmholtz_block_point(const struct helmho
 }
 
 /* What is asked for at the points of a block. `one`: all in one cell, `inside`: well inside the domain. */
-HELMHOLTZ_INLINE void helmholtz_block_ask(const struct helmholtz *self, const enum helmholtz_way way,
-                                          const enum helmholtz_want want, const int one, const int inside,
-                                          const struct helmholtz_block *BULLA_RESTRICT block)
+PATCH_INLINE void helmholtz_block_ask(const struct helmholtz *self, const enum helmholtz_way way,
+                                      const enum helmholtz_want want, const int one, const int inside,
+                                      const struct helmholtz_block *BULLA_RESTRICT block)
 {
     const double *BULLA_RESTRICT rho = block->in[0], *BULLA_RESTRICT p = block->in[1];
     const double *BULLA_RESTRICT held = block->asked[0], *BULLA_RESTRICT asked = block->asked[1];
     double *BULLA_RESTRICT a = block->out[0], *BULLA_RESTRICT b = block->out[1];
     const int i = block->i[0], j = block->j[0];
 #pragma omp simd
-    for (size_t k = 0; k < HELMHOLTZ_BLOCK; k++) {
+    for (size_t k = 0; k < PATCH_BLOCK; k++) {
         struct helmholtz_asked at = {rho[k], p[k], inside ? rho[k] : held[k], inside ? p[k] : asked[k]};
         struct helmholtz_row row = {one ? i : block->i[k], block->x[k]};
         struct helmholtz_rung rung = {one ? j : block->j[k], block->t[k]};
@@ -171,8 +149,8 @@ HELMHOLTZ_INLINE void helmholtz_block_ask(const struct helmholtz *self, const en
 }
 
 /* Some blocks, step by step. */
-HELMHOLTZ_INLINE void helmholtz_some_blocks(const struct helmholtz *self, const enum helmholtz_way way,
-                                            const enum helmholtz_want want, size_t n, struct helmholtz_block *blocks)
+PATCH_INLINE void helmholtz_some_blocks(const struct helmholtz *self, const enum helmholtz_way way,
+                                        const enum helmholtz_want want, size_t n, struct helmholtz_block *blocks)
 {
     const int quintic = way == HELMHOLTZ_BIQUINTIC;
     const struct helmholtz_band *band = quintic ? &self->grid.band : &self->direct.band;
@@ -186,14 +164,14 @@ HELMHOLTZ_INLINE void helmholtz_some_blocks(const struct helmholtz *self, const 
         else
             helmholtz_block_levels(band, 0, at->i, at->x, at->asked[0], at->asked[1], at->per_rho, at->f, at->q, at->y);
         helmholtz_block_rungs(steps, at->y, at->j, at->t);
-        at->one_rung = helmholtz_same(at->j);
-        at->inside &= helmholtz_all_within(at->q, low, high);
+        at->one_rung = patch_same(at->j);
+        at->inside &= patch_all_within(at->q, low, high);
     }
     for (size_t k = 0; k < n && quintic; k++) {
         struct helmholtz_block *at = &blocks[k];
         if (at->one_row && at->one_rung) helmholtz_block_starts(&self->grid, 1, at->i, at->x, at->j, at->t);
         else helmholtz_block_starts(&self->grid, 0, at->i, at->x, at->j, at->t);
-        at->one_rung = helmholtz_same(at->j);
+        at->one_rung = patch_same(at->j);
     }
     for (size_t k = 0; k < n; k++) {
         int one = blocks[k].one_row && blocks[k].one_rung;
@@ -204,21 +182,21 @@ HELMHOLTZ_INLINE void helmholtz_some_blocks(const struct helmholtz *self, const 
 }
 
 /* A row in blocks; in the last one its last point stands in for those that are not there. */
-HELMHOLTZ_INLINE void helmholtz_blocks_row(const void *instance, const enum helmholtz_way way,
-                                           const enum helmholtz_want want, size_t n, const double *const in[2],
-                                           double *const out[2])
+PATCH_INLINE void helmholtz_blocks_row(const void *instance, const enum helmholtz_way way,
+                                       const enum helmholtz_want want, size_t n, const double *const in[2],
+                                       double *const out[2])
 {
     const struct helmholtz self = *(const struct helmholtz *)instance;
-    const size_t whole = n - n % HELMHOLTZ_BLOCK;
-    struct helmholtz_block blocks[HELMHOLTZ_BLOCKS];
-    double last[4][HELMHOLTZ_BLOCK];
-    for (size_t k = 0; k < HELMHOLTZ_BLOCK && whole < n; k++) {
+    const size_t whole = n - n % PATCH_BLOCK;
+    struct helmholtz_block blocks[PATCH_BLOCKS];
+    double last[4][PATCH_BLOCK];
+    for (size_t k = 0; k < PATCH_BLOCK && whole < n; k++) {
         last[0][k] = in[0][whole + k < n ? whole + k : n - 1];
         last[1][k] = in[1][whole + k < n ? whole + k : n - 1];
     }
-    for (size_t at = 0; at < n; at += HELMHOLTZ_MOST) {
+    for (size_t at = 0; at < n; at += PATCH_BLOCK * PATCH_BLOCKS) {
         size_t count = 0;
-        for (size_t first = at; first < n && count < HELMHOLTZ_BLOCKS; first += HELMHOLTZ_BLOCK, count++)
+        for (size_t first = at; first < n && count < PATCH_BLOCKS; first += PATCH_BLOCK, count++)
             for (int l = 0; l < 2; l++) {
                 blocks[count].in[l] = first < whole ? in[l] + first : last[l];
                 blocks[count].out[l] = first < whole ? out[l] + first : last[2 + l];

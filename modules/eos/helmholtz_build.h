@@ -86,7 +86,7 @@ static void helmholtz_cell_powers(const double *row, const double *next, double 
 static double helmholtz_row_f(const struct helmholtz_grid *grid, int gas, int i, double l, double *ret_slope)
 {
     double up = (l - grid->l_0) * grid->per_l, rho = grid->band.rho_0 + i * grid->band.step_rho;
-    int j = helmholtz_cell(up, grid->last_cell), row = i < grid->n - 1 ? i : i - 1;
+    int j = patch_cell(up, grid->last_cell), row = i < grid->n - 1 ? i : i - 1;
     struct helmholtz_line line = helmholtz_line(grid->cell, helmholtz_grid_cell(grid, row, j), i - row);
     struct helmholtz_jet jet = helmholtz_jet(line.r, up - j);
     double RT = gas ? grid->R * exp(l) : 0.0, scale = rho * grid->band.per_rho;

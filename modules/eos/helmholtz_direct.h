@@ -25,73 +25,16 @@ struct helmholtz_direct {
     double *warm;  /* n x n x {T} likewise */
 };
 
-/* Weights of the two ends of an interval at part t: of values and scaled slopes, and their derivatives. */
-struct helmholtz_weights {
-    double a0, a1, s0, s1, da0, da1, ds0, ds1;
-};
-
-HELMHOLTZ_INLINE struct helmholtz_weights helmholtz_weights(const int cubic, double t)
-{
-    double r = 1.0 - t, bend = 6.0 * t * r;
-    if (!cubic) return (struct helmholtz_weights){r, t, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0};
-    return (struct helmholtz_weights){.a0 = r * r * (1.0 + 2.0 * t),
-                                      .a1 = t * t * (3.0 - 2.0 * t),
-                                      .s0 = t * r * r,
-                                      .s1 = -t * t * r,
-                                      .da0 = -bend,
-                                      .da1 = bend,
-                                      .ds0 = r * (1.0 - 3.0 * t),
-                                      .ds1 = t * (3.0 * t - 2.0)};
-}
-
-/* A field in a cell: its value, its slopes per spacing. */
-struct helmholtz_patch {
-    double f, f_x, f_y, f_xy;
-};
-
-/* A value (or slope in rho) and its slope in y between a node and the next of its row. */
-HELMHOLTZ_INLINE struct helmholtz_patch helmholtz_along(const double *node, int at, int next,
-                                                        const struct helmholtz_weights *y)
-{
-    double a = node[at], s = node[at + 2], b = node[at + next], r = node[at + next + 2];
-    return (struct helmholtz_patch){.f = (y->a0 * a + y->a1 * b) + (y->s0 * s + y->s1 * r),
-                                    .f_y = (y->da0 * a + y->da1 * b) + (y->ds0 * s + y->ds1 * r)};
-}
-
-/* From the nodes at `at` (this row) and `up` (the next) and those `next` numbers behind them. */
-HELMHOLTZ_INLINE struct helmholtz_patch helmholtz_patch(const int cubic, const double *node, int at, int up, int next,
-                                                        const struct helmholtz_weights *x,
-                                                        const struct helmholtz_weights *y)
-{
-    const struct helmholtz_weights u = *x, v = *y;
-    if (!cubic) {
-        double low = node[at], rise = node[at + next] - low, high = node[up], high_rise = node[up + next] - high;
-        double here = low + v.a1 * rise, there = high + v.a1 * high_rise;
-        return (struct helmholtz_patch){here + u.a1 * (there - here), there - here, rise + u.a1 * (high_rise - rise),
-                                        high_rise - rise};
-    }
-    struct helmholtz_patch low = helmholtz_along(node, at, next, y), rise = helmholtz_along(node, at + 1, next, y);
-    struct helmholtz_patch high = helmholtz_along(node, up, next, y),
-                           high_rise = helmholtz_along(node, up + 1, next, y);
-    return (struct helmholtz_patch){
-        .f = (u.a0 * low.f + u.a1 * high.f) + (u.s0 * rise.f + u.s1 * high_rise.f),
-        .f_x = (u.da0 * low.f + u.da1 * high.f) + (u.ds0 * rise.f + u.ds1 * high_rise.f),
-        .f_y = (u.a0 * low.f_y + u.a1 * high.f_y) + (u.s0 * rise.f_y + u.s1 * high_rise.f_y),
-        .f_xy = (u.da0 * low.f_y + u.da1 * high.f_y) + (u.ds0 * rise.f_y + u.ds1 * high_rise.f_y),
-    };
-}
-
 /* The answer at (rho, p), which lies at `row`, `rung`, `level`. `inside` (a constant in loops): within COLD .. 1. */
-HELMHOLTZ_INLINE struct helmholtz_answer helmholtz_direct_answer(const struct helmholtz_direct *table, const int cubic,
-                                                                 const int inside, struct helmholtz_row row,
-                                                                 struct helmholtz_rung rung,
-                                                                 struct helmholtz_level level)
+PATCH_INLINE struct helmholtz_answer helmholtz_direct_answer(const struct helmholtz_direct *table, const int cubic,
+                                                             const int inside, struct helmholtz_row row,
+                                                             struct helmholtz_rung rung, struct helmholtz_level level)
 {
     const int size = cubic ? 8 : 2;
     int at = (row.i * table->n + rung.k) * size, up = at + table->n * size;
-    struct helmholtz_weights x = helmholtz_weights(cubic, row.x), y = helmholtz_weights(cubic, rung.t);
-    struct helmholtz_patch e = helmholtz_patch(cubic, table->state, at, up, size, &x, &y);
-    struct helmholtz_patch c = helmholtz_patch(cubic, table->state + size / 2, at, up, size, &x, &y);
+    struct patch_weights x = patch_weights(cubic, row.x), y = patch_weights(cubic, rung.t);
+    struct patch e = patch_at(cubic, table->state, at, up, size, &x, &y);
+    struct patch c = patch_at(cubic, table->state + size / 2, at, up, size, &x, &y);
     struct helmholtz_lines lines = helmholtz_band_lines(&table->band, row);
     double half = 0.5 * table->steps.per_y / level.y, E_q = e.f_y * half, per = table->band.per_rho;
     double W = E_q * lines.s * level.per_rho; /* dq/dp = s/rho */
@@ -112,14 +55,13 @@ HELMHOLTZ_INLINE struct helmholtz_answer helmholtz_direct_answer(const struct he
 }
 
 /* T, and on which side of the domain (rho, p) lies: -1, 0, 1. */
-HELMHOLTZ_INLINE double helmholtz_direct_T(const struct helmholtz_direct *table, const int cubic,
-                                           struct helmholtz_row row, struct helmholtz_rung rung,
-                                           struct helmholtz_level level, double *ret_side)
+PATCH_INLINE double helmholtz_direct_T(const struct helmholtz_direct *table, const int cubic, struct helmholtz_row row,
+                                       struct helmholtz_rung rung, struct helmholtz_level level, double *ret_side)
 {
     const int size = cubic ? 4 : 1;
     int at = (row.i * table->n + rung.k) * size, up = at + table->n * size;
-    struct helmholtz_weights x = helmholtz_weights(cubic, row.x), y = helmholtz_weights(cubic, rung.t);
-    struct helmholtz_patch T = helmholtz_patch(cubic, table->warm, at, up, size, &x, &y);
+    struct patch_weights x = patch_weights(cubic, row.x), y = patch_weights(cubic, rung.t);
+    struct patch T = patch_at(cubic, table->warm, at, up, size, &x, &y);
     double over = level.q > 1.0 ? level.q - 1.0 : 0.0, side = level.q > 1.0 ? 1.0 : 0.0;
     over = level.q < HELMHOLTZ_COLD ? level.q - HELMHOLTZ_COLD : over;
     *ret_side = level.q < HELMHOLTZ_COLD ? -1.0 : side;

@@ -12,7 +12,7 @@
 #include "helmholtz_grid.h"
 
 /* exp(u) for small u > -0.1, to round-off */
-HELMHOLTZ_INLINE double helmholtz_exp(double u)
+PATCH_INLINE double helmholtz_exp(double u)
 {
     double high = 1.0 / 120.0 + u * (1.0 / 720.0 + u * (1.0 / 5040.0 + u * (1.0 / 40320.0)));
     return 1.0 + u * (1.0 + u * (0.5 + u * (1.0 / 6.0 + u * (1.0 / 24.0 + u * high))));
@@ -25,8 +25,8 @@ struct helmholtz_start {
 };
 
 /* Linear in rho and y between the rows of starts: l in intervals of the table. */
-HELMHOLTZ_INLINE double helmholtz_start_at(const struct helmholtz_grid *grid, struct helmholtz_row row,
-                                           struct helmholtz_rung rung)
+PATCH_INLINE double helmholtz_start_at(const struct helmholtz_grid *grid, struct helmholtz_row row,
+                                       struct helmholtz_rung rung)
 {
     const double *start = grid->start;
     int at = row.i * (HELMHOLTZ_STARTS + 1) + rung.k, up = at + HELMHOLTZ_STARTS + 1;
@@ -35,15 +35,15 @@ HELMHOLTZ_INLINE double helmholtz_start_at(const struct helmholtz_grid *grid, st
     return (here + row.x * (next - here) - grid->l_0) * grid->per_l;
 }
 
-HELMHOLTZ_INLINE struct helmholtz_start helmholtz_start(const struct helmholtz_grid *grid, double at)
+PATCH_INLINE struct helmholtz_start helmholtz_start(const struct helmholtz_grid *grid, double at)
 {
-    int j = helmholtz_cell(at, grid->last_cell);
+    int j = patch_cell(at, grid->last_cell);
     return (struct helmholtz_start){j, at - j};
 }
 
 /* What the polynomials say at z, in units of rho and l; T is that of the cell's lower node. */
-HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_spot(const struct helmholtz_grid *grid,
-                                                      const struct helmholtz_line *line, int j, double z, double T)
+PATCH_INLINE struct helmholtz_spot helmholtz_spot(const struct helmholtz_grid *grid, const struct helmholtz_line *line,
+                                                  int j, double z, double T)
 {
     double l1 = grid->per_l, l2 = 2.0 * l1 * l1, l3 = 3.0 * l2 * l1, r1 = grid->band.per_rho, r2 = 2.0 * r1 * r1;
     struct helmholtz_jet a = helmholtz_jet(line->a, z), r = helmholtz_jet(line->r, z), rr = helmholtz_jet(line->rr, z);
@@ -69,7 +69,7 @@ struct helmholtz_search {
 };
 
 /* One Newton step, and what the curvature adds to it; little, unless the root lies far beyond an edge. */
-HELMHOLTZ_INLINE double helmholtz_step(const struct helmholtz_search *search, const int gas, const int inside, double z)
+PATCH_INLINE double helmholtz_step(const struct helmholtz_search *search, const int gas, const int inside, double z)
 {
     double RT = gas ? search->RT * helmholtz_exp(z * search->step) : 0.0, RT_z = RT * search->step;
     struct helmholtz_jet r = helmholtz_jet(search->r, z);
@@ -84,10 +84,9 @@ HELMHOLTZ_INLINE double helmholtz_step(const struct helmholtz_search *search, co
 
 /* The Helmholtz energy where p(rho, l) = p, or on the edge of the domain where that lies outside. `inside` (a constant
  * in loops): it lies well inside. */
-HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_find(const struct helmholtz_grid *grid, const int gas,
-                                                      const int inside, struct helmholtz_row row,
-                                                      struct helmholtz_level level, struct helmholtz_start start,
-                                                      double rho)
+PATCH_INLINE struct helmholtz_spot helmholtz_find(const struct helmholtz_grid *grid, const int gas, const int inside,
+                                                  struct helmholtz_row row, struct helmholtz_level level,
+                                                  struct helmholtz_start start, double rho)
 {
     struct helmholtz_line line = helmholtz_line(grid->cell, helmholtz_grid_cell(grid, row.i, start.j), row.x);
     double T = grid->T[start.j], z = start.z, per = grid->band.step_rho * level.per_rho, slope = 0.0;

@@ -56,7 +56,7 @@ struct helmholtz_jet {
     double f0, f1, f2, f3;
 };
 
-HELMHOLTZ_INLINE struct helmholtz_jet helmholtz_jet(struct helmholtz_six f, double x)
+PATCH_INLINE struct helmholtz_jet helmholtz_jet(struct helmholtz_six f, double x)
 {
     double b4 = f.c4 + x * f.c5, b3 = f.c3 + x * b4, b2 = f.c2 + x * b3, b1 = f.c1 + x * b2, b0 = f.c0 + x * b1;
     double d4 = b4 + x * f.c5, d3 = b3 + x * d4, d2 = b2 + x * d3, d1 = b1 + x * d2;
@@ -66,13 +66,13 @@ HELMHOLTZ_INLINE struct helmholtz_jet helmholtz_jet(struct helmholtz_six f, doub
 }
 
 /* Where the numbers of the cell (i, j) begin. */
-HELMHOLTZ_INLINE int helmholtz_grid_cell(const struct helmholtz_grid *grid, int i, int j)
+PATCH_INLINE int helmholtz_grid_cell(const struct helmholtz_grid *grid, int i, int j)
 {
     return (i * (grid->n - 1) + j) * HELMHOLTZ_CELL;
 }
 
 /* The coefficient of one power of l over rho, at the part x of the cell. */
-HELMHOLTZ_INLINE struct helmholtz_jet helmholtz_across(const double *cells, int at, double x)
+PATCH_INLINE struct helmholtz_jet helmholtz_across(const double *cells, int at, double x)
 {
     return helmholtz_jet((struct helmholtz_six){cells[at], cells[at + 6], cells[at + 12], cells[at + 18],
                                                 cells[at + 24], cells[at + 30]},
@@ -84,7 +84,7 @@ struct helmholtz_line {
     struct helmholtz_six a, r, rr;
 };
 
-HELMHOLTZ_INLINE struct helmholtz_line helmholtz_line(const double *cells, int at, double x)
+PATCH_INLINE struct helmholtz_line helmholtz_line(const double *cells, int at, double x)
 {
     struct helmholtz_jet k0 = helmholtz_across(cells, at, x), k1 = helmholtz_across(cells, at + 1, x);
     struct helmholtz_jet k2 = helmholtz_across(cells, at + 2, x), k3 = helmholtz_across(cells, at + 3, x);
@@ -95,10 +95,10 @@ HELMHOLTZ_INLINE struct helmholtz_line helmholtz_line(const double *cells, int a
 }
 
 /* Lower edge of the domain, ln T over rho (within the domain), and its slope. */
-HELMHOLTZ_INLINE double helmholtz_edge(const struct helmholtz_grid *grid, double rho, double *ret_slope)
+PATCH_INLINE double helmholtz_edge(const struct helmholtz_grid *grid, double rho, double *ret_slope)
 {
     double at = (rho - grid->edge_0) * grid->per_edge;
-    int i = helmholtz_cell(at, grid->last_edge);
+    int i = patch_cell(at, grid->last_edge);
     double x = at - i, y = 1.0 - x, l = grid->edge[2 * i], m = grid->edge[2 * i + 1];
     double up = grid->edge[2 * i + 2], m_up = grid->edge[2 * i + 3];
     *ret_slope = (6.0 * x * y * (up - l) + y * (1.0 - 3.0 * x) * m + x * (3.0 * x - 2.0) * m_up) * grid->per_edge;

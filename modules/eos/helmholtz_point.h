@@ -22,7 +22,7 @@ struct helmholtz {
 };
 
 /* The density at which a table is asked ... */
-HELMHOLTZ_INLINE double helmholtz_held(const struct helmholtz_ends *ends, double rho)
+PATCH_INLINE double helmholtz_held(const struct helmholtz_ends *ends, double rho)
 {
     double held = rho > ends->thin ? rho : ends->thin;
     return held < ends->dense ? held : ends->dense;
@@ -72,18 +72,18 @@ static inline struct helmholtz_point helmholtz_exact_point(const struct helmholt
 }
 
 /* At p_min and below the stiffness says so. */
-HELMHOLTZ_INLINE double helmholtz_stiffness(const struct helmholtz *self, double c2, double rho, double p)
+PATCH_INLINE double helmholtz_stiffness(const struct helmholtz *self, double c2, double rho, double p)
 {
     return p > self->ends.p_min ? rho * c2 : p - self->ends.p_min;
 }
 
-HELMHOLTZ_INLINE double helmholtz_warm(const struct helmholtz *self, double T)
+PATCH_INLINE double helmholtz_warm(const struct helmholtz *self, double T)
 {
     return T > self->ends.T_min ? T : self->ends.T_min;
 }
 
-HELMHOLTZ_INLINE double helmholtz_T(const struct helmholtz *self, struct helmholtz_spot spot,
-                                    struct helmholtz_answer answer)
+PATCH_INLINE double helmholtz_T(const struct helmholtz *self, struct helmholtz_spot spot,
+                                struct helmholtz_answer answer)
 {
     return helmholtz_warm(self, spot.T * (1.0 + answer.rise));
 }
@@ -99,8 +99,8 @@ static inline double helmholtz_s(const struct helmholtz *self, struct helmholtz_
 }
 
 /* Beyond the densities of the domain. `inside` (a constant in loops): not there. */
-HELMHOLTZ_INLINE struct helmholtz_answer helmholtz_beyond(const struct helmholtz *self, const int inside,
-                                                          struct helmholtz_answer answer, double rho, double p)
+PATCH_INLINE struct helmholtz_answer helmholtz_beyond(const struct helmholtz *self, const int inside,
+                                                      struct helmholtz_answer answer, double rho, double p)
 {
     if (inside) return answer;
     answer = helmholtz_dense(&self->ends, answer, rho, p);
@@ -125,8 +125,8 @@ struct helmholtz_pair {
     double a, b;
 };
 
-HELMHOLTZ_INLINE struct helmholtz_pair helmholtz_pair(const struct helmholtz *self, const enum helmholtz_want want,
-                                                      struct helmholtz_answer at, double rho, double p)
+PATCH_INLINE struct helmholtz_pair helmholtz_pair(const struct helmholtz *self, const enum helmholtz_want want,
+                                                  struct helmholtz_answer at, double rho, double p)
 {
     if (want == HELMHOLTZ_STATE) return (struct helmholtz_pair){rho * at.e, helmholtz_stiffness(self, at.c2, rho, p)};
     if (want == HELMHOLTZ_DERIVATIVES) return (struct helmholtz_pair){rho * at.e_p, at.e + rho * at.e_r};

@@ -14,9 +14,7 @@
 #define HELMHOLTZ_STATE_H
 
 #include "helmholtz.h"
-
-/* What stands in vector loops has to be inlined there, big as it is. */
-#define HELMHOLTZ_INLINE static inline __attribute__((always_inline))
+#include "patch.h"
 
 #define HELMHOLTZ_LEAST_C2 0.05 /* of that on the edge: what is left of c^2 far out in a continuation */
 
@@ -40,7 +38,7 @@ struct helmholtz_ends {
 };
 
 /* RT ln delta comes to what a table or a sum of terms gives. */
-HELMHOLTZ_INLINE struct helmholtz_spot helmholtz_with_gas(struct helmholtz_spot spot, double per_rho, double RT)
+PATCH_INLINE struct helmholtz_spot helmholtz_with_gas(struct helmholtz_spot spot, double per_rho, double RT)
 {
     double once = RT * per_rho, twice = once * per_rho;
     spot.a_r += once;
@@ -73,8 +71,8 @@ static inline struct helmholtz_spot helmholtz_exact(const struct helmholtz_fluid
 }
 
 /* `inside` (a constant in loops): the spot is no edge. */
-HELMHOLTZ_INLINE struct helmholtz_answer helmholtz_answer(struct helmholtz_spot at, const int inside, double rho,
-                                                          double per_rho, double p)
+PATCH_INLINE struct helmholtz_answer helmholtz_answer(struct helmholtz_spot at, const int inside, double rho,
+                                                      double per_rho, double p)
 {
     double square = rho * rho, p_r = 2.0 * rho * at.a_r + square * at.a_rr, p_l = square * at.a_rl;
     double e_l = at.a_l - at.a_ll, per = 1.0 / (p_l * e_l), per_p_l = e_l * per, W = e_l * per_p_l;
@@ -100,14 +98,14 @@ HELMHOLTZ_INLINE struct helmholtz_answer helmholtz_answer(struct helmholtz_spot 
 }
 
 /* p at which the domain's last density is asked, for a density beyond it. */
-HELMHOLTZ_INLINE double helmholtz_dense_p(const struct helmholtz_ends *ends, double rho, double p)
+PATCH_INLINE double helmholtz_dense_p(const struct helmholtz_ends *ends, double rho, double p)
 {
     double x = rho / ends->dense, beyond = x > 1.0 ? x * x * x * x - 1.0 : 0.0;
     return p - 0.25 * ends->stiffness * beyond;
 }
 
-HELMHOLTZ_INLINE struct helmholtz_answer helmholtz_dense(const struct helmholtz_ends *ends, struct helmholtz_answer at,
-                                                         double rho, double p)
+PATCH_INLINE struct helmholtz_answer helmholtz_dense(const struct helmholtz_ends *ends, struct helmholtz_answer at,
+                                                     double rho, double p)
 {
     double x = rho > ends->dense ? rho / ends->dense : 1.0, square = x * x, cube = square * x;
     double part = 0.25 * ends->stiffness, p_ref = ends->p + part * (cube * x - 1.0), per_rho = 1.0 / ends->dense;
@@ -122,8 +120,8 @@ HELMHOLTZ_INLINE struct helmholtz_answer helmholtz_dense(const struct helmholtz_
     return at;
 }
 
-HELMHOLTZ_INLINE struct helmholtz_answer helmholtz_thin(const struct helmholtz_ends *ends, struct helmholtz_answer at,
-                                                        double rho, double p)
+PATCH_INLINE struct helmholtz_answer helmholtz_thin(const struct helmholtz_ends *ends, struct helmholtz_answer at,
+                                                    double rho, double p)
 {
     double per = 1.0 / (ends->gamma - 1.0), more = 1.0 / rho - 1.0 / ends->thin;
     double push = (p + ends->gamma * ends->pull) * per, square = rho * rho;

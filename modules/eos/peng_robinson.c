@@ -16,12 +16,12 @@ ELEMENTARY_INLINE struct cubic_attraction peng_robinson_attraction(const struct 
                                      0.5 * scale * (1.0 + m) / (par->Tc * root * root * root)};
 }
 
-#include "cubic_rows.h"
+#include "cubic_open.h"
 
-static const struct bulla_param peng_robinson_params[] = {CUBIC_PARAMS, {0}};
+static const struct bulla_param peng_robinson_params[] = {CUBIC_PARAMS, CUBIC_TABLED_PARAMS, {0}};
 
 static const struct bulla_preset peng_robinson_presets[] = {
-    {"air", "air as one fluid", (const double[]){CUBIC_AIR}},
+    {"air", "air as one fluid", (const double[]){CUBIC_AIR, CUBIC_TABLED_AIR}},
     {0},
 };
 
@@ -34,19 +34,10 @@ static int peng_robinson_open(const struct bulla_host *host, const struct bulla_
     par.b = 0.077796073903888455972 * RT / pc;
     par.d1 = 1.0 + sqrt(2.0);
     par.d2 = 1.0 - sqrt(2.0);
-    return cubic_rows_open(host, par, sizeof par, ret_self);
+    return cubic_tabled_open(host, par, "peng-robinson", values + CUBIC_OWN, ret_self);
 }
 
-static const struct bulla_eos peng_robinson_table = {.size = sizeof(struct bulla_eos),
-                                                     .state = cubic_rows_state,
-                                                     .derivatives = cubic_rows_derivatives,
-                                                     .temperature = cubic_rows_temperature,
-                                                     .entropy = cubic_rows_entropy,
-                                                     .density = cubic_rows_density,
-                                                     .p_min = cubic_rows_p_min,
-                                                     .range = cubic_rows_range,
-                                                     .energy = cubic_rows_energy,
-                                                     .count_outside = cubic_rows_count_outside};
+static const struct bulla_eos peng_robinson_functions = CUBIC_TABLED_FUNCTIONS;
 
 BULLA_EXPORT const struct bulla_module bulla_module = {
     .magic = BULLA_MAGIC,
@@ -62,5 +53,5 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .presets = peng_robinson_presets,
     .open = peng_robinson_open,
     .close = free,
-    .table = &peng_robinson_table,
+    .table = &peng_robinson_functions,
 };
