@@ -139,7 +139,7 @@ static inline void law_isentrope(const struct law *law, double rho, double p, do
  * with p. */
 static inline void law_sweep(const struct law *law, double rho_most)
 {
-    for (double rho = 1e-3; rho < rho_most; rho *= 1.005) {
+    for (double rho = 1e-3; rho < rho_most; rho *= 1.01) {
         double least = law_at(law, rho, 1e5).p_min, last = -INFINITY;
         for (double above = 1e-2; above <= 1.001e11; above *= 3.7) {
             double p = least + above;
