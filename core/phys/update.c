@@ -242,8 +242,9 @@ static BULLA_KERNEL void update_share_all(size_t n, double h, const double *rest
     }
 }
 
-/* The share, less where a material would take or give more than UPDATE_MOST of alpha (1 - alpha): gas near vacuum makes
- * linear relaxation say anything. All materials of a cell exchange with the same share, so that the sum stays. */
+/* The share, less where a material would lose more than UPDATE_MOST of its volume, or gain more than that and UPDATE_TRACE
+ * of the cell: gas near vacuum makes linear relaxation say anything. All materials of a cell exchange with the same
+ * share, so that the sum stays. */
 static BULLA_KERNEL void update_temper(size_t n, const double *restrict rho_c2, const struct update_misfit *misfit,
                                        const double *restrict own, const double *restrict alpha, double *restrict share)
 {
@@ -252,7 +253,7 @@ static BULLA_KERNEL void update_temper(size_t n, const double *restrict rho_c2, 
     for (size_t i = 0; i < n; i++) {
         double a = alpha[i], s = rho_c2[i], c = compliance[i], all = sum[i], old = share[i];
         double part = a / (s * c), move = own[i] - (s > 0.0 ? part : 0.0) * all, size = old * fabs(move);
-        double most = UPDATE_MOST * (a * (1.0 - a)) + UPDATE_TRACE, less = old * (most / size);
+        double most = UPDATE_MOST * a + (move > 0.0 ? UPDATE_TRACE : 0.0), less = old * (most / size);
         share[i] = size > most ? less : old;
     }
 }
@@ -269,7 +270,7 @@ static BULLA_KERNEL void update_close(size_t n, double dt, const double *restric
     for (size_t i = 0; i < n; i++) {
         double a = alpha[i], s = rho_c2[i], c = compliance[i], count = cut[i], push = -dt * (K[i] * div[i]);
         double part = a / (s * c), all = sum[i], exchange = share[i] * (own[i] - (s > 0.0 ? part : 0.0) * all);
-        double least = a < UPDATE_LEAST ? a : UPDATE_LEAST;
+        double most = UPDATE_SHRINK * a, kept = most > UPDATE_LEAST ? most : UPDATE_LEAST, least = a < kept ? a : kept;
         double wanted = a + (push + exchange), next = wanted > least ? wanted : least;
         next = next < 1.0 ? next : 1.0;
         double acted = next != wanted ? 1.0 : 0.0;

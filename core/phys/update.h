@@ -45,7 +45,8 @@ struct update_input {
 };
 
 /* u_new = u_old + dt * rates, the non-conservative terms of alpha included (model.md 2). Volume
- * fractions are kept in [0, 1] and at sum 1; the closure may not push one below UPDATE_LEAST.
+ * fractions are kept in [0, 1] and at sum 1; the closure may not push one below UPDATE_LEAST
+ * or UPDATE_SHRINK of what transport left.
  *
  * K div u keeps the materials at one pressure while a cell is compressed. Two more things drive their
  * pressures apart, both at the faces that fluid enters through: it comes from a cell of another
@@ -62,13 +63,14 @@ struct update_input {
  *   f + (1 - f)/(1 + (X/UPDATE_STEEP)^4),   |u| X/h = |sum_l sum_faces A (alpha* u*)(p_K - p)|/(V K) + |strain|,
  * K the largest rho_l c_l^2: all of it, but where pressure differs from cell to cell by more than a few per cent of K. There
  * linear relaxation would overshoot.
- * It would also where gas near vacuum meets pressure: d alpha then means nothing. No material exchanges more than UPDATE_MOST
- * alpha (1 - alpha) + UPDATE_TRACE; where one would, all do so much less.
+ * It would also where gas near vacuum meets pressure: d alpha then means nothing. No material loses more than UPDATE_MOST
+ * of its volume by it or gains more than that and UPDATE_TRACE of the cell; where one would, all exchange so much less.
  *
  * Returns the number of cells in which a bound acted. */
 size_t update_apply(const struct model *model, size_t n_cell, double dt, const struct update_input *in, double *u_new);
 
 #define UPDATE_LEAST 1e-9
+#define UPDATE_SHRINK 0.25
 #define UPDATE_FAST 25.0
 #define UPDATE_STEEP 0.03
 #define UPDATE_MOST 0.25
