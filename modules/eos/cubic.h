@@ -12,8 +12,7 @@
  * v = -d2 b: q goes on linearly below vx too. Both come from a potential. Colder than t-min, where
  * the liquid's spinodal would come, everything goes linearly in p at constant density:
  *     e = e_b + (p - p_b)/(rho G_b),  T = T_b + (e - e_b)/cv_b,  c^2 = c_b^2 + (p - p_b)/rho (1 + G_b + dlnG_b/dln rho),
- * the last never less than CUBIC_SOFTEST c_b^2, down to p = 0: what attracts itself would bear tension when it is cold and
- * dense, and would bear nothing at all when it is thin and cold; in a mixture with a liquid both end runs. */
+ * as long as that is positive and p is: a gas that attracts itself would bear tension when it is cold and dense. */
 #ifndef CUBIC_H
 #define CUBIC_H
 
@@ -22,7 +21,6 @@
 #define CUBIC_EDGE 0.98       /* b/vx */
 #define CUBIC_COLDEST 1.0     /* K: where the linear continuation would fall below */
 #define CUBIC_STIFFENING 0.2  /* least 1 + G + dlnG/dln rho of the continuation */
-#define CUBIC_SOFTEST 0.05    /* least c^2 of the continuation, of that on its edge */
 #define CUBIC_GAS 8.314462618 /* J/mol/K */
 #define CUBIC_ZERO_T 298.15   /* K */
 #define CUBIC_ZERO_P 101325.0 /* Pa */

@@ -74,8 +74,7 @@ ELEMENTARY_INLINE struct continuation_state cubic_rows_state_at(const struct cub
     struct cubic_point at = cubic_point(par, room, CUBIC_ATTRACTION(par, T), T);
     double beyond = p - at.p, slope = room.v / at.G;
     double stiffening = at.stiffening < CUBIC_STIFFENING ? CUBIC_STIFFENING : at.stiffening;
-    double e = at.e + beyond * slope, c2 = at.c2 + beyond * room.v * stiffening, least = CUBIC_SOFTEST * at.c2;
-    c2 = c2 < least ? least : c2;
+    double e = at.e + beyond * slope, c2 = at.c2 + beyond * room.v * stiffening;
     c2 = p > 0.0 ? c2 : p * room.v;                        /* no tension */
     double e_c2 = at.c2 + beyond * room.v * at.stiffening; /* what this e says, positive or not */
     double warm = T + beyond * slope / at.cv;
@@ -121,11 +120,23 @@ static double cubic_rows_density_at(const struct cubic *par, double p, double T)
     return rho > 0.0 ? rho : cubic_rows_bisect(par, p, T, (const double[2]){1e-12 / par->b, 20.0 / par->b}, 60);
 }
 
-/* A gas bears no tension, however dense and cold it is. */
-static void cubic_rows_p_min(const void *self, size_t n, const double *BULLA_RESTRICT rho, double *BULLA_RESTRICT p)
+/* Where c^2 ends in the continuation below T_min, but no tension: a gas bears none, however dense and cold it is. */
+BULLA_KERNEL static void cubic_rows_p_min(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                          double *BULLA_RESTRICT p)
 {
-    (void)self, (void)rho;
-    for (size_t i = 0; i < n; i++) p[i] = 0.0;
+    const struct cubic par = *(const struct cubic *)self;
+    const struct cubic_attraction pull = CUBIC_ATTRACTION(&par, par.T_min);
+    const double cv0 = par.R * cubic_ideal(&par, par.T_min).cv, R = par.R, T = par.T_min;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        struct cubic_room room = cubic_room(&par, rho[i]);
+        double v = room.v, p_T = cubic_p_T(&par, room, pull.a1), cv = cv0 + T * pull.a2 * room.L, G = v * p_T / cv;
+        double c2 = v * v * (R * T * room.dper_w - pull.a * room.dq) + v * T * p_T * G;
+        double stiffening = G + v * (R * room.dper_w - pull.a1 * room.dq) / p_T - v * T * pull.a2 * room.q / cv;
+        stiffening = stiffening < CUBIC_STIFFENING ? CUBIC_STIFFENING : stiffening;
+        double low = cubic_pressure(&par, room, pull.a, T) - c2 / (v * stiffening);
+        p[i] = low > 0.0 ? low : 0.0;
+    }
 }
 
 /* Beyond the edge of the co-volume, or colder than T_min. */
@@ -147,10 +158,11 @@ static size_t cubic_rows_count_outside(const void *instance, size_t n, const dou
 static void cubic_rows_range(const void *self, struct bulla_eos_range *ret_range)
 {
     const struct cubic *par = self;
-    double dense = 0.85 / par->b, warm = 1.01 * (par->T_min > par->Tc ? par->T_min : par->Tc);
+    double dense = 0.85 / par->b, warm = 1.01 * (par->T_min > par->Tc ? par->T_min : par->Tc), least;
+    cubic_rows_p_min(self, 1, &dense, &least);
     *ret_range = (struct bulla_eos_range){.rho_min = 0.0,
                                           .rho_max = dense,
-                                          .p_min = 1.0,
+                                          .p_min = least > 1.0 ? least : 1.0,
                                           .p_max = 1e10,
                                           .T_min = warm,
                                           .T_max = warm > 3000.0 ? 2.0 * warm : 6000.0};
