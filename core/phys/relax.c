@@ -284,7 +284,8 @@ bool relax_cell(const struct model *model, size_t stride, const double *u_old, d
     for (unsigned l = 0; l < model->n_alpha; l++)
         relax.u[model->i_alpha + l] = relax.present[l] ? relax.m[l] * relax.v[l] : 0.0;
     relax_normalise(&relax);
-    if (!(relax_close(&relax) - relax.floor > 0.5 * (p - relax.floor))) {
+    double closed = relax_close(&relax);
+    if (!(closed - relax.floor > 0.5 * (p - relax.floor)) || closed < relax_borne(&relax, closed)) {
         relax_shift(&relax, p);
         relax_normalise(&relax);
         relax_close(&relax);
