@@ -5,11 +5,11 @@
  * MATRIX.yaml lists what is run; PROGRAM is bulla, RUNS the folder for outputs, ENVIRONMENT that of the tests, FOLDER
  * that of the cases, CASE "verify/r01.yaml". A mistake in the file ends the build, with its place. The name of a
  * test says what it is: case-verify-r01, case-verify-r01.limiter=minmod,ranks=2, case-verify-r01.strict. */
-#include "app/matrix.h"
-#include "app/sweep_name.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "batch/matrix.h"
+#include "batch/sweep_name.h"
 #include "case/keys.h"
 #include "case/parse.h"
 

@@ -3,23 +3,21 @@
  * What an option means is said here, what it does in the command's own file. */
 #include "app/command.h"
 
-#include "app/check.h"
-#include "app/cli.h"
-#include "app/inspect.h"
-#include "app/module_check.h"
-#include "app/module_new.h"
-#include "app/module_table.h"
-#include "app/plot.h"
-#include "app/plot_option.h"
-#include "app/report.h"
-#include "app/run.h"
-#include "app/sweep.h"
-#include "app/verify.h"
 #include "base/comm.h"
 #include "base/log.h"
 #include "base/status.h"
 #include "base/text.h"
 #include "base/version.h"
+#include "batch/sweep.h"
+#include "batch/verify.h"
+#include "cli/cli.h"
+#include "run/check.h"
+#include "run/inspect.h"
+#include "run/run.h"
+#include "suite/module_check.h"
+#include "suite/module_new.h"
+#include "suite/module_table.h"
+#include "view/view.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -105,9 +103,8 @@ static const struct cli_command command_table[] = {
      command_module_options, 2, -1, command_module},
     {"info", "FILE...", "What is inside a snapshot, a checkpoint or the dump of a failed step.", command_info_options,
      1, -1, inspect_info},
-    {"plot", "DIR... FIELD|history|map|profile",
-     "PNG pictures of snapshots, histories, maps, and profiles out of maps.", plot_option_table, 1, -1, plot_command},
-    {"report", "DIR", "One HTML page about a run, pictures inside.", report_option_table, 1, 1, report_command},
+    {VIEW_PLOT, NULL, 1, -1, NULL}, /* viewer.h */
+    {VIEW_REPORT, NULL, 1, 1, NULL},
     {"verify", "[ID...]", "Errors, orders and cost of the verification scenes (r09: r09a, r09b, ...; none: all).",
      verify_option_table, 0, -1, verify_command},
     {"schema", "", "The JSON Schema of case files, with all loaded modules.", command_schema_options, 0, 0,
@@ -185,14 +182,6 @@ static int command_help(const struct cli_given *given)
     return 0;
 }
 
-/* Is there a -h or --help before any `--`? */
-static bool command_asks_help(int argc, char **argv)
-{
-    for (int i = 2; i < argc && strcmp(argv[i], "--") != 0; i++)
-        if (!strcmp(argv[i], "-h") || !strcmp(argv[i], "--help")) return true;
-    return false;
-}
-
 static const char *command_name(const char *word)
 {
     if (!strcmp(word, "-h") || !strcmp(word, "--help")) return "help";
@@ -209,14 +198,5 @@ int command_main(int argc, char **argv)
     const char *name = command_name(argv[1]);
     const struct cli_command *command = command_find(name);
     if (!command) return cli_failed(command_unknown(name));
-    if (command_asks_help(argc, argv)) {
-        if (comm_rank() == 0) cli_help(stdout, command);
-        return 0;
-    }
-    struct cli_given given;
-    int code = cli_parse(command, argc, argv, &given);
-    if (code) return cli_failed(code);
-    code = command->run(&given);
-    cli_done(&given);
-    return code;
+    return cli_run(command, argc, argv);
 }

@@ -1,11 +1,13 @@
 /* main.c - where the program starts: ranks, one command, the exit code. */
 #include "app/command.h"
-#include "app/launch.h"
+#include "app/viewer.h"
 #include "base/comm.h"
 #include "io/h5.h"
+#include "run/launch.h"
 
 int main(int argc, char **argv)
 {
+    if (viewer_wanted(argc, argv)) return viewer_become(argv);
     h5_begin();
     comm_init(&argc, &argv);
     int code = launch_report(command_main(argc, argv));

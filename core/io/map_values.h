@@ -3,7 +3,7 @@
 #define MAP_VALUES_H
 
 #include "base/text.h"
-#include "phys/derive.h"
+#include "derive/derive.h"
 #include "solve/state.h"
 
 struct map_values {

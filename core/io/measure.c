@@ -6,12 +6,12 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "derive/derive.h"
 #include "io/line.h"
 #include "io/region.h"
 #include "io/surface.h"
-#include "mesh/tally.h"
 #include "mesh/metric.h"
-#include "phys/derive.h"
+#include "mesh/tally.h"
 #include "phys/outside.h"
 
 #include <math.h>

@@ -5,10 +5,10 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "derive/derive.h"
 #include "io/csv.h"
 #include "io/place.h"
 #include "io/sample.h"
-#include "phys/derive.h"
 
 #include <math.h>
 #include <string.h>

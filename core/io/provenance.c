@@ -11,8 +11,8 @@
 #include "io/place.h"
 #include "io/provenance_host.h"
 #include "io/provenance_laws.h"
-#include "phys/source.h"
 #include "plug/registry.h"
+#include "scheme/source.h"
 #include "solve/stage.h"
 
 #include <jansson.h>

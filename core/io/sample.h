@@ -8,7 +8,7 @@
 #ifndef SAMPLE_H
 #define SAMPLE_H
 
-#include "phys/derive.h"
+#include "derive/derive.h"
 #include "solve/state.h"
 
 struct sample;

@@ -12,11 +12,11 @@
 
 #include "base/comm.h"
 #include "base/mem.h"
-#include "mesh/tally.h"
 #include "mesh/halo.h"
 #include "mesh/metric.h"
-#include "phys/bound.h"
-#include "phys/frame.h"
+#include "mesh/tally.h"
+#include "scheme/bound.h"
+#include "scheme/frame.h"
 
 #include <math.h>
 #include <stdlib.h>

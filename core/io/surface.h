@@ -2,8 +2,8 @@
 #ifndef SURFACE_H
 #define SURFACE_H
 
+#include "derive/derive.h"
 #include "io/region.h"
-#include "phys/derive.h"
 #include "solve/state.h"
 
 /* A crossing of the surface between two cells. */

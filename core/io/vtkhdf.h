@@ -4,9 +4,9 @@
 #ifndef VTKHDF_H
 #define VTKHDF_H
 
+#include "derive/derive.h"
 #include "io/h5.h"
 #include "io/leaves.h"
-#include "phys/derive.h"
 #include "solve/state.h"
 
 /* Which fields, and float64 or float32. */

@@ -2,7 +2,7 @@
  *
  * Down: for every face of a fine tile that no fine tile covers, a strip of fine ghost primitives,
  * [n_field][outer][MESH_GHOST][inner] like a slab of the halo, at the beginning and at the end of a step of the
- * coarse level. The owner of the coarse tile behind the face makes it (phys/prolong.h), so that only finished
+ * coarse level. The owner of the coarse tile behind the face makes it (levels/prolong.h), so that only finished
  * ghosts travel. A face looks at exactly one octant of one coarse tile.
  * Up: per such face the sum over fine steps and sub-faces of the fluxes (the register), and per fine tile its
  * average on the octant above. Where both tiles are on one rank the two ends share memory. */

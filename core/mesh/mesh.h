@@ -4,7 +4,7 @@
  * curve. The list is replicated on all ranks; the curve is cut into one contiguous piece per
  * rank, ranks ascending, so the local tiles of a level are tiles[first .. first + n_local).
  * Arrays are always 3D: extents beyond `dim` are 1. Tiles store no ghosts; primitives of
- * neighbours are gathered into a frame when needed (phys/frame.h), remote ones come through
+ * neighbours are gathered into a frame when needed (scheme/frame.h), remote ones come through
  * mesh/halo.h, those of the next coarser level through mesh/link.h.
  *
  * Level 0 covers the domain. A tile of level l + 1 at b lies under exactly one octant of (n/2)^d

@@ -6,8 +6,8 @@
  * G2 = 0 and constant G1. */
 #include "phys/elastic.h"
 
+#include "mesh/axis.h"
 #include "phys/elastic_tensor.h"
-#include "phys/frame.h"
 
 #include <math.h>
 #include <string.h>
@@ -337,7 +337,7 @@ ELASTIC_SIDES(3)
 /* The tensor with its axes renamed: the normal of the face first, then the tangents. */
 static struct elastic_rows elastic_turn(const struct model *model, int axis, size_t stride, const double *V)
 {
-    unsigned a = frame_component(axis, 0), b = frame_component(axis, 1), c = frame_component(axis, 2);
+    unsigned a = axis_component(axis, 0), b = axis_component(axis, 1), c = axis_component(axis, 2);
     unsigned order[6] = {a, b, c, elastic_component(a, b), elastic_component(a, c), elastic_component(b, c)};
     struct elastic_rows rows;
     for (unsigned i = 0; i < 6; i++) rows.row[i] = V + (order[i] < model->n_stretch ? order[i] : 0) * stride;

@@ -41,7 +41,7 @@ void elastic_invariants(const struct model *model, size_t n, size_t stride, cons
 struct elastic_side {
     double *energy;   /* rho e^s [J/m3] */
     double *normal;   /* s'_nn [Pa] */
-    double *shear[2]; /* s_nt along tangents 1 and 2 in the order of frame_component [Pa]; n_velocity - 1 of them */
+    double *shear[2]; /* s_nt along tangents 1 and 2 in the order of axis_component [Pa]; n_velocity - 1 of them */
     double *stiff;    /* rho (c^2 - c_f^2): what elasticity adds to the stiffness of the fastest wave [Pa] */
     double *rigid;    /* rho c_s^2 [Pa] */
 };

@@ -87,7 +87,7 @@ static const char *const blame_axes[] = {"x", "y", "z"}, *const blame_tangents[]
 static unsigned blame_component(int axis, unsigned e)
 {
     unsigned d = 0;
-    while (frame_component(axis, d) != e) d++;
+    while (axis_component(axis, d) != e) d++;
     return d;
 }
 

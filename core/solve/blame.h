@@ -6,7 +6,7 @@
 #ifndef BLAME_H
 #define BLAME_H
 
-#include "phys/update.h"
+#include "scheme/update.h"
 #include "solve/guard.h"
 
 enum {

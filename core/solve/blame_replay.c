@@ -4,8 +4,8 @@
 
 #include "base/mem.h"
 #include "phys/mix.h"
-#include "phys/source.h"
-#include "phys/update.h"
+#include "scheme/source.h"
+#include "scheme/update.h"
 #include "solve/guard.h"
 #include "solve/pace.h"
 

@@ -2,7 +2,7 @@
 #include "solve/census.h"
 
 #include "mesh/link.h"
-#include "phys/source.h"
+#include "scheme/source.h"
 
 #include <string.h>
 

@@ -11,10 +11,10 @@
 #include "mesh/halo.h"
 #include "mesh/nest.h"
 #include "mesh/partition.h"
-#include "phys/paint.h"
-#include "phys/tag.h"
+#include "paint/paint.h"
 #include "solve/stage.h"
 #include "solve/sync.h"
+#include "solve/tag.h"
 
 #include <string.h>
 #include <time.h>

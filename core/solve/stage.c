@@ -9,7 +9,7 @@
 #include "base/status.h"
 #include "mesh/halo.h"
 #include "phys/mix.h"
-#include "phys/update.h"
+#include "scheme/update.h"
 
 #include <math.h>
 #include <string.h>

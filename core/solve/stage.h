@@ -10,12 +10,12 @@
 #ifndef STAGE_H
 #define STAGE_H
 
-#include "phys/bound.h"
-#include "phys/face.h"
+#include "levels/prolong.h"
+#include "levels/reflux.h"
 #include "phys/mix_pressure.h"
-#include "phys/prolong.h"
-#include "phys/reflux.h"
-#include "phys/source.h"
+#include "scheme/bound.h"
+#include "scheme/face.h"
+#include "scheme/source.h"
 #include "solve/blame.h"
 #include "solve/census.h"
 #include "solve/cost.h"

@@ -6,8 +6,8 @@
 #include "base/status.h"
 #include "mesh/nest.h"
 #include "mesh/partition.h"
+#include "paint/paint.h"
 #include "phys/mix.h"
-#include "phys/paint.h"
 #include "solve/regrid.h"
 #include "solve/stage.h"
 

@@ -4,10 +4,10 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "levels/restrict.h"
+#include "levels/spread.h"
 #include "mesh/halo.h"
 #include "phys/elastic.h"
-#include "phys/restrict.h"
-#include "phys/spread.h"
 
 #include <math.h>
 #include <string.h>

@@ -10,7 +10,7 @@ void sync_down(struct stage *coarse, struct stage *fine);
 
 /* After the finer level (and all above it) has reached the time of `coarse`: averages over the covered cells,
  * refluxing of those beside, primitives anew. *spread counts the tiles where refluxing had to be spread
- * over several cells (phys/spread.h). STATUS_RUN: a cell is inadmissible even so. The recorded message names it. Collective. */
+ * over several cells (levels/spread.h). STATUS_RUN: a cell is inadmissible even so. The recorded message names it. Collective. */
 int sync_up(struct stage *coarse, struct stage *fine, long long *spread);
 
 #endif

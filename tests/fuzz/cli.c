@@ -1,6 +1,6 @@
 /* cli.c - command lines, one argument a line: options in every spelling, numbers, durations, sizes. */
-#include "app/cli.h"
-#include "app/human.h"
+#include "cli/cli.h"
+#include "cli/human.h"
 #include "fuzz.h"
 
 enum { CLI_WORDS = 64 };

@@ -1,7 +1,7 @@
 /* formula.c - numbers, units and the expressions of `expect`. */
-#include "app/formula.h"
 #include "base/text.h"
 #include "case/unit.h"
+#include "judge/formula.h"
 #include "fuzz.h"
 
 static const double formula_t[] = {0.0, 1.0, 2.5}, formula_v[] = {3.0, -1.0, 7.0};

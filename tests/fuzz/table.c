@@ -1,7 +1,7 @@
 /* table.c - tables in files: measured series, reference data and histories, lists of snapshots, a history that is
  * taken up again. */
-#include "case/table.h"
 #include "case/series.h"
+#include "case/table.h"
 #include "fuzz.h"
 #include "io/csv.h"
 #include "io/filelist.h"

@@ -1,9 +1,9 @@
-/* constitutive.c - the contract of kind "constitutive" (core/app/contract_constitutive.c) on every built-in law, and each
+/* constitutive.c - the contract of kind "constitutive" (core/suite/contract_constitutive.c) on every built-in law, and each
  * against its published formula. */
 #include "support.h"
 
-#include "app/contract_module.h"
 #include "bulla/constitutive.h"
+#include "suite/contract_module.h"
 
 enum { STRETCHES = 4000 };
 

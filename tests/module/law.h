@@ -5,10 +5,10 @@
 
 #include "support.h"
 
-#include "app/contract_eos.h"
-#include "app/contract_module.h"
-#include "app/module_values.h"
 #include "bulla/eos.h"
+#include "suite/contract_eos.h"
+#include "suite/contract_module.h"
+#include "suite/module_values.h"
 
 struct law {
     struct instance instance;

@@ -1,9 +1,9 @@
-/* limiter.c - the contract of kind "limiter" (core/app/contract_limiter.c) on every built-in limiter, and
+/* limiter.c - the contract of kind "limiter" (core/suite/contract_limiter.c) on every built-in limiter, and
  * each against its textbook formula. */
 #include "support.h"
 
-#include "app/contract_module.h"
 #include "bulla/limiter.h"
+#include "suite/contract_module.h"
 
 enum { PAIRS = 20000 };
 

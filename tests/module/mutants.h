@@ -5,7 +5,7 @@
 
 #include "support.h"
 
-#include "app/contract_module.h"
+#include "suite/contract_module.h"
 
 /* A copy of a built-in module with another table of functions fails exactly in a check that begins with `check`. */
 static inline void finds(const char *kind, const char *name, const void *table, const char *check)

@@ -1,9 +1,9 @@
-/* riemann.c - the contract of kind "riemann" (core/app/contract_riemann.c) on the built-in solvers, and each
+/* riemann.c - the contract of kind "riemann" (core/suite/contract_riemann.c) on the built-in solvers, and each
  * against a plain scalar twin in textbook form (conserved vectors, wave by wave) written here. */
 #include "support.h"
 
-#include "app/contract_face.h"
-#include "app/contract_module.h"
+#include "suite/contract_face.h"
+#include "suite/contract_module.h"
 
 enum { FIELDS = CONTRACT_FACE_MATERIALS + CONTRACT_FACE_AXES + 1 };
 

@@ -3,10 +3,10 @@
 #ifndef SUPPORT_H
 #define SUPPORT_H
 
-#include "app/contract.h"
 #include "base/status.h"
 #include "plug/instance.h"
 #include "plug/registry.h"
+#include "suite/contract.h"
 
 #include <math.h>
 #include <setjmp.h>

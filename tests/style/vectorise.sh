@@ -1,15 +1,17 @@
-# Vectorisation: every loop marked `omp simd` in modules and core/phys becomes a vector loop,
+# Vectorisation: every loop marked `omp simd` in modules and the layers of the equations becomes a vector loop,
 # with clang (which says so when it fails) and with gcc (which builds the program).
 set -eu
 command -v clang >/dev/null || { echo "skipped: no clang"; exit 77; }
 flags="-std=c11 -D_GNU_SOURCE -DBULLA_NO_CLONES -O3 -march=x86-64-v3 -fno-math-errno -fno-trapping-math -fopenmp-simd
--ffp-contract=off -fPIC -I$BULLA_SOURCE/core/include -I$BULLA_SOURCE/core $(pkg-config --cflags ompi-c)"
+-ffp-contract=off -fPIC -I$BULLA_SOURCE/modules/eos -I$BULLA_SOURCE/core/include -I$BULLA_SOURCE/core $(pkg-config --cflags ompi-c)"
 status=0
-for file in "$BULLA_SOURCE"/modules/*/*.c "$BULLA_SOURCE"/core/phys/*.c; do
-    # The loops of a module may live in a header beside it.
-    marked=$(gcc $flags -MM "$file" | tr -d '\\' | tr ' ' '\n' | grep -E "^${file%/*}/[^/]*$" |
+for file in "$BULLA_SOURCE"/modules/*/*.c "$BULLA_SOURCE"/modules/*/*/*.c "$BULLA_SOURCE"/core/phys/*.c \
+    "$BULLA_SOURCE"/core/scheme/*.c "$BULLA_SOURCE"/core/levels/*.c "$BULLA_SOURCE"/core/derive/*.c "$BULLA_SOURCE"/core/paint/*.c; do
+    # The loops of a module may live in a header beside it, or in one that families share.
+    marked=$(gcc $flags -MM "$file" | tr -d '\\' | tr ' ' '\n' | grep -E "^(${file%/*}|$BULLA_SOURCE/modules/[a-z]*/shared)/[^/]*$" |
         xargs grep -l '#pragma omp simd' || true)
     [ -n "$marked" ] || continue
+    echo "$file" >>looked
     # shellcheck disable=SC2086
     clang $flags -Wpass-failed -Werror=pass-failed -c "$file" -o clang.o || status=1
     # shellcheck disable=SC2086
@@ -39,4 +41,5 @@ for file in "$BULLA_SOURCE"/modules/*/*.c "$BULLA_SOURCE"/core/phys/*.c; do
             END { exit bad }' vectorised "$source" || status=1
     done
 done
+[ "$(wc -l <looked)" -ge 30 ] || { echo "only $(wc -l <looked) files have loops: where are the others?"; exit 1; }
 exit $status

@@ -24,7 +24,7 @@ forbid "(^|[^A-Za-z_])($notes)([^A-Za-z_]|$)" "finish it or open an issue" \
         -o -name '*.md' -o -name '*.lua' -o -name CMakeLists.txt \) 2>/dev/null)
 
 # Comments may speak of fmin; code may not. The preprocessor strips comments and keeps the lines.
-for file in $(find modules core/phys -name '*.c'); do
+for file in $(find modules core/phys core/paint core/scheme core/levels core/derive -name '*.c'); do
     if gcc -fpreprocessed -dD -E -w "$file" 2>/dev/null | grep -E '(^|[^A-Za-z_0-9])f(min|max)f? *\('; then
         echo "^ $file: write a < b ? a : b; fmin and fmax keep loops scalar"
         status=1

@@ -1,5 +1,5 @@
 /* again.c - the command that goes on with a run, and the option with a value that may be missing. */
-#include "app/again.h"
+#include "run/again.h"
 
 #include "base/mem.h"
 

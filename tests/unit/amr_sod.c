@@ -2,7 +2,7 @@
  * fewer cells; a larger one leaves the rarefaction coarse. Errors of the density against exact averages over cells. */
 #include "amr.h"
 
-#include "app/exact.h"
+#include "judge/exact.h"
 
 struct result {
     double error;

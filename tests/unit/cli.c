@@ -1,5 +1,5 @@
 /* cli.c - command lines: what is read, and what bad ones are told. */
-#include "app/cli.h"
+#include "cli/cli.h"
 
 #include "base/status.h"
 

@@ -1,6 +1,6 @@
 /* Colour maps: lightness rises evenly, names, ends. */
-#include "app/colormap.h"
 #include "base/status.h"
+#include "view/colormap.h"
 #include "close.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Level lines: lengths and shapes on uniform cells, across level jumps and at the outer edge. */
-#include "app/contour.h"
 #include "base/mem.h"
+#include "view/contour.h"
 #include "close.h"
 
 struct grid {

@@ -1,8 +1,8 @@
 /* Stresses, stretches and elastic energy as derived fields, against states worked out by hand: uniaxial stretch, simple
  * shear, hoop stretch, a stretch turned in space, cells that are partly or not at all solid. The law is the test's
  * own. */
-#include "phys/derive.h"
 #include "base/status.h"
+#include "derive/derive.h"
 #include "phys/elastic.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* due.c - output times are hit exactly, once, and without slivers of steps. */
-#include "app/due.h"
+#include "run/due.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -3,8 +3,8 @@
  * of them, continuations (tests/data/eos has the numbers and where they come from). */
 #include "../module/support.h"
 
-#include "../../modules/eos/iapws95_terms.h"
-#include "../../modules/eos/lemmon_air_terms.h"
+#include "../../modules/eos/helmholtz/iapws95_terms.h"
+#include "../../modules/eos/helmholtz/lemmon_air_terms.h"
 #include "formulas.h"
 #include "bulla/eos.h"
 

@@ -3,8 +3,8 @@
  * tables. The numbers stand in tests/data/eos with where they come from. */
 #include "../module/law.h"
 
-#include "../../modules/eos/iapws95_terms.h"
-#include "../../modules/eos/lemmon_air_terms.h"
+#include "../../modules/eos/helmholtz/iapws95_terms.h"
+#include "../../modules/eos/helmholtz/lemmon_air_terms.h"
 #include "formulas.h"
 
 static FILE *data(const char *name)

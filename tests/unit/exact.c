@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/exact.h"
 #include "base/status.h"
+#include "judge/exact.h"
 
 struct tube {
     struct exact_side side[2];

@@ -12,8 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/expect.h"
 #include "base/status.h"
+#include "judge/expect.h"
 
 static char folder[] = "/tmp/bulla-expect-XXXXXX";
 

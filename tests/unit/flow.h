@@ -5,8 +5,8 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "derive/derive.h"
 #include "mesh/metric.h"
-#include "phys/derive.h"
 #include "phys/mix.h"
 #include "solve/advance.h"
 #include "solve/stage.h"

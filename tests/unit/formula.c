@@ -11,9 +11,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/formula.h"
-#include "case/table.h"
 #include "base/status.h"
+#include "case/table.h"
+#include "judge/formula.h"
 
 static const double t[] = {0, 1, 2, 4}, V[] = {8, 2, 4, 6}, p[] = {-1, 3, -5, 2}, bad[] = {1, NAN, 2, 3};
 static const double tp[] = {0, 0.5, 4}, wall[] = {10, 20, 30};

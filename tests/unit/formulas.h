@@ -3,7 +3,7 @@
 #ifndef FORMULAS_H
 #define FORMULAS_H
 
-#include "../../modules/eos/helmholtz.h"
+#include "../../modules/eos/helmholtz/helmholtz.h"
 
 struct exact {
     double p, e, s, cv, c2, h;

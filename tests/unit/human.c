@@ -1,5 +1,5 @@
 /* human.c - numbers as people read them. */
-#include "app/human.h"
+#include "cli/human.h"
 
 #include "base/status.h"
 

@@ -1,5 +1,5 @@
 /* launch.c - the command line that starts the ranks. */
-#include "app/launch.h"
+#include "run/launch.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

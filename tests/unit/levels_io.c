@@ -1,12 +1,12 @@
 /* levels_io.c - what histories and ledgers say of a mesh of three levels: every place counts once, with its finest
  * cell. Cells under finer ones hold nonsense wherever nobody may look at them. */
-#include "app/norm.h"
 #include "io/h5in.h"
 #include "io/info.h"
 #include "io/ledger.h"
 #include "io/measure.h"
 #include "io/read.h"
 #include "io/snapshot.h"
+#include "judge/norm.h"
 #include "levels_io.h"
 
 #include <math.h>

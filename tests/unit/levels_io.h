@@ -6,8 +6,8 @@
 #include "mesh/metric.h"
 #include "mesh/morton.h"
 #include "mesh/nest.h"
+#include "paint/paint.h"
 #include "phys/mix.h"
-#include "phys/paint.h"
 #include "small.h"
 
 static inline int levels_compare(const void *a, const void *b)

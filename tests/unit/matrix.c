@@ -11,9 +11,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/matrix.h"
-#include "app/study.h"
 #include "base/status.h"
+#include "batch/matrix.h"
+#include "batch/study.h"
 
 static char folder[] = "/tmp/bulla-matrix-XXXXXX";
 

@@ -1,5 +1,5 @@
 /* outdir.c - an old run is refused with a list, replaced on request; other files stay. */
-#include "app/outdir.h"
+#include "run/outdir.h"
 
 #include "base/mem.h"
 #include "base/status.h"

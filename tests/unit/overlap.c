@@ -1,5 +1,5 @@
 /* overlap.c - two meshes that are refined in different places: each place is visited once, on the coarser cells. */
-#include "app/overlap.h"
+#include "judge/overlap.h"
 
 #include "base/mem.h"
 #include "base/status.h"

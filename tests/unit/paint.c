@@ -1,5 +1,5 @@
 /* The initial state: exact totals, pure cells, averages of profiles, overlays, Lua, symmetry, and messages. */
-#include "phys/paint.h"
+#include "paint/paint.h"
 
 #include "base/mem.h"
 #include "base/status.h"

@@ -1,6 +1,6 @@
 /* Painted solids: the stretch is what the layers say, unimodular, the solid's own in cut cells (where the pressure
  * stays as said), the identity in fluids; and what is no stretch is refused where it is met. */
-#include "phys/paint_stretch.h"
+#include "paint/paint_stretch.h"
 
 #include "phys/elastic.h"
 #include "phys/mix.h"

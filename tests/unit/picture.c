@@ -1,9 +1,9 @@
 /* Scales, ticks, text and the pixels of whole pictures. */
-#include "app/picture.h"
-#include "app/picture_canvas.h"
-#include "app/picture_scale.h"
-#include "app/picture_text.h"
 #include "base/status.h"
+#include "view/picture.h"
+#include "view/picture_canvas.h"
+#include "view/picture_scale.h"
+#include "view/picture_text.h"
 #include "close.h"
 
 #include <stdio.h>

@@ -1,11 +1,11 @@
 /* What pictures show of snapshots: cuts, mirror images, fields, ranges, messages. */
-#include "app/plot_field.h"
-#include "app/plot_interface.h"
-#include "app/plot_option.h"
-#include "app/plot_picture.h"
-#include "app/plot_view.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "view/plot_field.h"
+#include "view/plot_interface.h"
+#include "view/plot_option.h"
+#include "view/plot_picture.h"
+#include "view/plot_view.h"
 #include "close.h"
 
 #include <stdio.h>

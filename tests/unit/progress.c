@@ -1,5 +1,5 @@
 /* progress.c - progress for programs is JSON; who gets which kind. */
-#include "app/progress.h"
+#include "run/progress.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

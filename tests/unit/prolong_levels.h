@@ -6,10 +6,10 @@
 
 #include "flow.h"
 
+#include "levels/prolong.h"
+#include "levels/restrict.h"
 #include "mesh/link.h"
 #include "mesh/morton.h"
-#include "phys/prolong.h"
-#include "phys/restrict.h"
 
 struct twolevel {
     struct flow flow;

@@ -1,6 +1,6 @@
 /* Pixels of known cells. */
-#include "app/colormap.h"
-#include "app/raster.h"
+#include "view/colormap.h"
+#include "view/raster.h"
 #include "close.h"
 
 /* A coarse cell beside four fine ones: [0, 2] x [0, 1]. */

@@ -10,9 +10,9 @@
 
 #include "base/mem.h"
 #include "base/status.h"
-#include "case/scene.h"
 #include "base/text.h"
-#include "phys/derive.h"
+#include "case/scene.h"
+#include "derive/derive.h"
 #include "phys/model.h"
 
 #include <glob.h>

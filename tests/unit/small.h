@@ -5,7 +5,7 @@
 
 #include "base/mem.h"
 #include "base/status.h"
-#include "phys/derive.h"
+#include "derive/derive.h"
 #include "plug/registry.h"
 #include "solve/state.h"
 

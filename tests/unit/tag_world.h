@@ -12,7 +12,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "mesh/halo.h"
-#include "phys/tag.h"
+#include "solve/tag.h"
 
 #include <math.h>
 #include <stdint.h>

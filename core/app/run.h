@@ -1,9 +1,0 @@
-/* run.h - `bulla run`: from a case file to its output directory and an exit code. */
-#ifndef RUN_H
-#define RUN_H
-
-#include "app/cli.h"
-
-int run_command(const struct cli_given *given);
-
-#endif

@@ -1,0 +1,301 @@
+/* derive.c - named fields from primitives, see derive.h.
+ *
+ * One table row per quantity; a row is either a point-wise function of a tile's primitives, here or, for
+ * solids, in derive_stress.c, or needs the gradient of something (derive_slope.c). */
+#include "derive/derive.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+#include "derive/derive_slope.h"
+#include "derive/derive_stress.h"
+#include "phys/mix.h"
+#include "phys/presence.h"
+
+#include <math.h>
+#include <string.h>
+
+struct derive_quantity {
+    const char *name; /* with a trailing "_" for per-material, per-axis and tensor quantities */
+    const char *unit;
+    enum { DERIVE_ONE, DERIVE_VECTOR, DERIVE_AXIS, DERIVE_MATERIAL, DERIVE_SOLID, DERIVE_TENSOR } form;
+    void (*compute)(const struct derive_view *tile, double *out);
+    int index; /* DERIVE_SOLID: tells rows with the same function apart */
+};
+
+static void derive_density(const struct derive_view *tile, double *out)
+{
+    memset(out, 0, tile->n * sizeof *out);
+    for (unsigned l = 0; l < tile->model->n_material; l++)
+        for (size_t i = 0; i < tile->n; i++)
+            out[i] += derive_view_alpha(tile, l, i) * derive_view_w(tile, tile->model->i_m + l)[i];
+}
+
+static void derive_pressure(const struct derive_view *tile, double *out)
+{
+    memcpy(out, derive_view_w(tile, tile->model->i_E), tile->n * sizeof *out);
+}
+
+static void derive_velocity_axis(const struct derive_view *tile, double *out)
+{
+    int axis = tile->field->index;
+    if (axis < (int)tile->model->n_velocity)
+        memcpy(out, derive_view_w(tile, tile->model->i_u + (unsigned)axis), tile->n * sizeof *out);
+    else memset(out, 0, tile->n * sizeof *out);
+}
+
+static void derive_velocity(const struct derive_view *tile, double *out)
+{
+    struct derive axis = *tile->field;
+    struct derive_view one = *tile;
+    one.field = &axis;
+    for (axis.index = 0; axis.index < 3; axis.index++) derive_velocity_axis(&one, out + (size_t)axis.index * tile->n);
+}
+
+static double derive_speed2(const struct derive_view *tile, size_t i)
+{
+    double sum = 0.0;
+    for (unsigned d = 0; d < tile->model->n_velocity; d++) {
+        double u = derive_view_w(tile, tile->model->i_u + d)[i];
+        sum += u * u;
+    }
+    return sum;
+}
+
+/* Wood: 1/(rho c^2) = sum alpha_l / (rho_l c_l^2). The solver itself uses the frozen speed. */
+static void derive_sound_speed(const struct derive_view *tile, double *out)
+{
+    const struct model *model = tile->model;
+    double *rho_c2 = mem_new((model->n_material + 1) * tile->n, sizeof *rho_c2);
+    double *rho = rho_c2 + model->n_material * tile->n;
+    mix_stiffness(model, tile->n, tile->n, tile->w, rho_c2);
+    derive_density(tile, rho);
+    for (size_t i = 0; i < tile->n; i++) {
+        double compliance = 0.0;
+        for (unsigned l = 0; l < model->n_material; l++) {
+            double alpha = derive_view_alpha(tile, l, i), stiff = rho_c2[l * tile->n + i];
+            if (alpha > 0.0 && stiff > 0.0) compliance += alpha / stiff; /* as in mix_closure */
+        }
+        out[i] = sqrt(1.0 / (rho[i] * compliance));
+    }
+    mem_free(rho_c2);
+}
+
+static void derive_mach(const struct derive_view *tile, double *out)
+{
+    derive_sound_speed(tile, out);
+    for (size_t i = 0; i < tile->n; i++) out[i] = sqrt(derive_speed2(tile, i)) / out[i];
+}
+
+static void derive_total_energy(const struct derive_view *tile, double *out)
+{
+    const struct model *model = tile->model;
+    double *u = mem_new(model->n_field * tile->n, sizeof *u);
+    mix_conserved(model, tile->n, tile->n, tile->w, u);
+    memcpy(out, u + model->i_E * tile->n, tile->n * sizeof *out);
+    mem_free(u);
+}
+
+/* Specific internal energy e [J/kg]. */
+static void derive_internal_energy(const struct derive_view *tile, double *out)
+{
+    double *rho = mem_new(tile->n, sizeof *rho);
+    derive_density(tile, rho);
+    derive_total_energy(tile, out);
+    for (size_t i = 0; i < tile->n; i++) out[i] = out[i] / rho[i] - 0.5 * derive_speed2(tile, i);
+    mem_free(rho);
+}
+
+/* T_l where the material is felt (presence.h) and has one, else 0: a gas that a stretched solid pulls has p_l < 0. */
+static void derive_material_temperature(const struct derive_view *tile, double *out)
+{
+    unsigned l = (unsigned)tile->field->index;
+    double *T = mem_new(tile->model->n_material * tile->n, sizeof *T);
+    const double *own = T + l * tile->n, *rho = derive_view_w(tile, tile->model->i_m + l);
+    mix_temperatures(tile->model, tile->n, tile->n, tile->w, T);
+    for (size_t i = 0; i < tile->n; i++) {
+        bool felt = derive_view_alpha(tile, l, i) >= PRESENCE_FRACTION && rho[i] >= tile->field->scale;
+        out[i] = felt && own[i] > 0.0 ? own[i] : 0.0;
+    }
+    mem_free(T);
+}
+
+/* T = sum Y_l T_l (model.md 6). */
+static void derive_temperature(const struct derive_view *tile, double *out)
+{
+    const struct model *model = tile->model;
+    double *T = mem_new((model->n_material + 1) * tile->n, sizeof *T), *rho = T + model->n_material * tile->n;
+    mix_temperatures(model, tile->n, tile->n, tile->w, T);
+    derive_density(tile, rho);
+    memset(out, 0, tile->n * sizeof *out);
+    for (unsigned l = 0; l < model->n_material; l++)
+        for (size_t i = 0; i < tile->n; i++)
+            out[i] +=
+                derive_view_alpha(tile, l, i) * derive_view_w(tile, model->i_m + l)[i] / rho[i] * T[l * tile->n + i];
+    mem_free(T);
+}
+
+static void derive_fraction(const struct derive_view *tile, double *out)
+{
+    for (size_t i = 0; i < tile->n; i++) out[i] = derive_view_alpha(tile, (unsigned)tile->field->index, i);
+}
+
+/* rho_l where the material is present, else 0. */
+static void derive_material_density(const struct derive_view *tile, double *out)
+{
+    unsigned l = (unsigned)tile->field->index;
+    for (size_t i = 0; i < tile->n; i++)
+        out[i] = derive_view_alpha(tile, l, i) > 0.0 ? derive_view_w(tile, tile->model->i_m + l)[i] : 0.0;
+}
+
+static void derive_partial_density(const struct derive_view *tile, double *out)
+{
+    unsigned l = (unsigned)tile->field->index;
+    for (size_t i = 0; i < tile->n; i++)
+        out[i] = derive_view_alpha(tile, l, i) * derive_view_w(tile, tile->model->i_m + l)[i];
+}
+
+static void derive_level(const struct derive_view *tile, double *out)
+{
+    for (size_t i = 0; i < tile->n; i++) out[i] = tile->level_index;
+}
+
+static void derive_rank(const struct derive_view *tile, double *out)
+{
+    for (size_t i = 0; i < tile->n; i++) out[i] = comm_rank();
+}
+
+/* Work per cell relative to a cell of one material: the number of materials present. */
+static void derive_cost(const struct derive_view *tile, double *out)
+{
+    for (size_t i = 0; i < tile->n; i++) {
+        out[i] = 0.0;
+        for (unsigned l = 0; l < tile->model->n_material; l++) out[i] += derive_view_alpha(tile, l, i) > 0.0;
+    }
+}
+
+static const struct derive_quantity derive_table[] = {
+    {"density", "kg/m3", DERIVE_ONE, derive_density, 0},
+    {"pressure", "Pa", DERIVE_ONE, derive_pressure, 0},
+    {"velocity", "m/s", DERIVE_VECTOR, derive_velocity, 0},
+    {"velocity_", "m/s", DERIVE_AXIS, derive_velocity_axis, 0},
+    {"temperature", "K", DERIVE_ONE, derive_temperature, 0},
+    {"sound_speed", "m/s", DERIVE_ONE, derive_sound_speed, 0},
+    {"mach", "1", DERIVE_ONE, derive_mach, 0},
+    {"internal_energy", "J/kg", DERIVE_ONE, derive_internal_energy, 0},
+    {"total_energy", "J/m3", DERIVE_ONE, derive_total_energy, 0},
+    {"vorticity", "1/s", DERIVE_VECTOR, derive_slope_vorticity, 0},
+    {"schlieren", "1", DERIVE_ONE, derive_slope_schlieren, 0},
+    {"level", "1", DERIVE_ONE, derive_level, 0},
+    {"rank", "1", DERIVE_ONE, derive_rank, 0},
+    {"cost", "1", DERIVE_ONE, derive_cost, 0},
+    {"alpha_", "1", DERIVE_MATERIAL, derive_fraction, 0},
+    {"density_", "kg/m3", DERIVE_MATERIAL, derive_material_density, 0},
+    {"temperature_", "K", DERIVE_MATERIAL, derive_material_temperature, 0},
+    {"partial_density_", "kg/m3", DERIVE_MATERIAL, derive_partial_density, 0},
+    {"stress_", "Pa", DERIVE_TENSOR, derive_stress_cauchy, 0},
+    {"stretch_max", "1", DERIVE_SOLID, derive_stress_stretch_max, 0},
+    {"stretch_", "1", DERIVE_TENSOR, derive_stress_stretch, 0},
+    {"sigma_max", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MAX},
+    {"sigma_min", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MIN},
+    {"sigma_shear", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_SHEAR},
+    {"sigma_max_dev", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MAX_DEV},
+    {"sigma_min_dev", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MIN_DEV},
+    {"principal_max", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MAX},
+    {"principal_min", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MIN},
+    {"principal_shear", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_SHEAR},
+    {"principal_max_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MAX_DEV},
+    {"principal_min_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MIN_DEV},
+    {"von_mises", "Pa", DERIVE_SOLID, derive_stress_von_mises, 0},
+    {"strain_energy", "J/m3", DERIVE_SOLID, derive_stress_energy, 0},
+    {"invariant_1", "1", DERIVE_SOLID, derive_stress_invariant, 0},
+    {"invariant_2", "1", DERIVE_SOLID, derive_stress_invariant, 1},
+};
+
+enum { DERIVE_ROWS = sizeof derive_table / sizeof *derive_table };
+
+/* Axis, component or material that the part after a row's prefix names, or -1. */
+static int derive_suffix(const struct model *model, const struct derive_quantity *row, const char *suffix)
+{
+    if (row->form == DERIVE_AXIS) return strlen(suffix) == 1 && strchr("xyz", *suffix) ? *suffix - 'x' : -1;
+    for (int c = 0; row->form == DERIVE_TENSOR && c < 6; c++)
+        if (!strcmp(suffix, model_tensor[c])) return c;
+    if (row->form == DERIVE_TENSOR) return -1;
+    for (unsigned l = 0; l < model->n_material; l++)
+        if (!strcmp(suffix, model->scene->material[l].name)) return (int)l;
+    return -1;
+}
+
+int derive_find(const struct model *model, const char *name, struct derive *ret_field)
+{
+    for (int i = 0; i < DERIVE_ROWS; i++) {
+        const struct derive_quantity *row = &derive_table[i];
+        size_t length = strlen(row->name);
+        bool solid = row->form == DERIVE_SOLID || row->form == DERIVE_TENSOR;
+        bool whole = row->form == DERIVE_ONE || row->form == DERIVE_VECTOR || row->form == DERIVE_SOLID;
+        int index = row->index;
+        if (solid && !model->elastic) continue;
+        if (whole ? strcmp(name, row->name) != 0 : strncmp(name, row->name, length) != 0) continue;
+        if (!whole && (index = derive_suffix(model, row, name + length)) < 0) continue;
+        *ret_field = (struct derive){.unit = row->unit,
+                                     .components = row->form == DERIVE_VECTOR ? 3 : 1,
+                                     .what = i,
+                                     .index = index};
+        strncpy(ret_field->name, name, sizeof ret_field->name - 1);
+        return STATUS_OK;
+    }
+    const char *near = text_nearest(name, derive_names(model));
+    return status_fail(STATUS_CASE, "unknown field '%s'%s%s%s", name, near ? "; did you mean '" : "", near ? near : "",
+                       near ? "'?" : "");
+}
+
+int derive_material(const struct derive *field)
+{
+    void (*compute)(const struct derive_view *, double *) = derive_table[field->what].compute;
+    return compute == derive_material_density || compute == derive_material_temperature ? field->index : -1;
+}
+
+const char *const *derive_names(const struct model *model)
+{
+    return (const char *const *)model->names;
+}
+
+static struct derive_view derive_view(const struct model *model, const struct mesh *mesh, int level, unsigned local,
+                                      double t, const struct derive *field)
+{
+    const struct level *of = &mesh->levels[level];
+    return (struct derive_view){.model = model,
+                                .mesh = mesh,
+                                .level = of,
+                                .level_index = level,
+                                .local = local,
+                                .t = t,
+                                .field = field,
+                                .w = of->w[local],
+                                .n = mesh->n_cell};
+}
+
+void derive_prepare(const struct model *model, const struct mesh *mesh, double t, struct derive *field)
+{
+    void (*compute)(const struct derive_view *, double *) = derive_table[field->what].compute;
+    if (compute == derive_material_temperature) field->scale = presence_density(model, mesh, (unsigned)field->index);
+    if (compute == derive_slope_schlieren || compute == derive_slope_vorticity) derive_slope_exchange(model, mesh, t);
+    if (compute != derive_slope_schlieren) return;
+    double *gradient = mem_new(mesh->n_cell, sizeof *gradient);
+    field->scale = 0.0;
+    for (int l = 0; l < mesh->n_level; l++)
+        for (unsigned tile = 0; tile < mesh->levels[l].n_local; tile++) {
+            struct derive_view view = derive_view(model, mesh, l, tile, t, field);
+            derive_slope_steepest(&view, gradient, &field->scale);
+        }
+    mem_free(gradient);
+    comm_max(&field->scale, 1);
+}
+
+void derive_tile(const struct model *model, const struct mesh *mesh, int level, unsigned local, double t,
+                 const struct derive *field, double *out)
+{
+    struct derive_view view = derive_view(model, mesh, level, local, t, field);
+    derive_table[field->what].compute(&view, out);
+}

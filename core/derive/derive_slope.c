@@ -1,0 +1,134 @@
+/* derive_slope.c - see derive_slope.h. Central differences over gathered frames, boundaries included. */
+#include "derive/derive_slope.h"
+
+#include "base/mem.h"
+#include "levels/prolong.h"
+#include "scheme/bound.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Layers behind the domain's boundary. What non-reflecting boundaries send in depends on the start of the run; here
+ * they go on with the value inside. */
+static void derive_slope_behind(void *data, unsigned local, const struct frame *frame, int side, size_t pitch,
+                                double *w)
+{
+    const struct bound *bound = data;
+    const struct model *model = bound->model;
+    enum scene_boundary_type type = model->scene->boundary[frame->axis][side].type;
+    if (type != SCENE_NONREFLECTING && type != SCENE_INCOMING_WAVE) {
+        bound_fill(data, local, frame, side, pitch, w);
+        return;
+    }
+    for (unsigned i = 0; i < model->n_active; i++)
+        bound_copy(NULL, local, frame, side, pitch, w + model->active[i] * pitch);
+}
+
+/* Central differences along an axis of a combination of primitives: `combine` makes one value per
+ * frame cell out of the gathered primitives. grad: [n]. */
+static void derive_slope_gradient(const struct derive_view *tile, int axis,
+                                  double (*combine)(const struct model *, const double *w, size_t pitch, int which),
+                                  int which, double *grad)
+{
+    const struct mesh *mesh = tile->mesh;
+    const struct model *model = tile->model;
+    struct bound bound = {.model = model, .mesh = mesh, .level = tile->level, .t = tile->t};
+    const struct frame_source source = {.mesh = mesh,
+                                        .level = tile->level,
+                                        .arrays = tile->level->w,
+                                        .halo = tile->level->halo,
+                                        .link = tile->level->link,
+                                        .n_field = model->n_active,
+                                        .fields = model->active,
+                                        .boundary = derive_slope_behind,
+                                        .data = &bound};
+    double *w = mem_new((size_t)model->n_field * FRAME_CELLS, sizeof *w);
+    for (size_t piece = 0; piece < frame_pieces(mesh, axis); piece++) {
+        struct frame frame = frame_piece(mesh, axis, piece);
+        frame_gather(&source, tile->local, &frame, FRAME_CELLS, w);
+        for (size_t o = 0; o < frame.outer; o++)
+            for (size_t i = 0; i < frame.n; i++)
+                for (size_t j = 0; j < frame.inner; j++) {
+                    size_t at = frame_at(&frame, o, (int)i) + j;
+                    double up = combine(model, w + at + frame.inner, FRAME_CELLS, which);
+                    double down = combine(model, w + at - frame.inner, FRAME_CELLS, which);
+                    grad[frame_tile_at(&frame, o, i) + j] = (up - down) / (2.0 * tile->level->h[axis]);
+                }
+    }
+    mem_free(w);
+}
+
+static double derive_slope_combine_velocity(const struct model *model, const double *w, size_t pitch, int which)
+{
+    return w[(model->i_u + (unsigned)which) * pitch];
+}
+
+static double derive_slope_combine_density(const struct model *model, const double *w, size_t pitch, int which)
+{
+    double rho = 0.0;
+    (void)which;
+    for (unsigned l = 0; l < model->n_material; l++)
+        rho += (model->n_alpha ? w[(model->i_alpha + l) * pitch] : 1.0) * w[(model->i_m + l) * pitch];
+    return rho;
+}
+
+void derive_slope_vorticity(const struct derive_view *tile, double *out)
+{
+    int dim = tile->mesh->dim;
+    double *slope = mem_new(tile->n, sizeof *slope);
+    memset(out, 0, 3 * tile->n * sizeof *out);
+    for (int axis = 0; axis < dim; axis++)
+        for (int of = 0; of < (int)tile->model->n_velocity; of++) {
+            if (of == axis) continue;
+            int component = 3 - axis - of;
+            double sign = (axis + 1) % 3 == of ? 1.0 : -1.0;
+            derive_slope_gradient(tile, axis, derive_slope_combine_velocity, of, slope);
+            for (size_t i = 0; i < tile->n; i++) out[(size_t)component * tile->n + i] += sign * slope[i];
+        }
+    mem_free(slope);
+}
+
+static void derive_slope_density(const struct derive_view *tile, double *out)
+{
+    double *slope = mem_new(tile->n, sizeof *slope);
+    memset(out, 0, tile->n * sizeof *out);
+    for (int axis = 0; axis < tile->mesh->dim; axis++) {
+        derive_slope_gradient(tile, axis, derive_slope_combine_density, 0, slope);
+        for (size_t i = 0; i < tile->n; i++) out[i] += slope[i] * slope[i];
+    }
+    for (size_t i = 0; i < tile->n; i++) out[i] = sqrt(out[i]);
+    mem_free(slope);
+}
+
+void derive_slope_schlieren(const struct derive_view *tile, double *out)
+{
+    derive_slope_density(tile, out);
+    for (size_t i = 0; i < tile->n; i++)
+        out[i] = tile->field->scale > 0.0 ? exp(-200.0 * out[i] / tile->field->scale) : 1.0;
+}
+
+void derive_slope_exchange(const struct model *model, const struct mesh *mesh, double t)
+{
+    struct prolong *prolong = prolong_new(model, mesh);
+    for (int l = 0; l < mesh->n_level; l++) {
+        halo_start(mesh->levels[l].halo, mesh->levels[l].w);
+        halo_finish(mesh->levels[l].halo);
+        if (l + 1 == mesh->n_level) break;
+        struct link *link = mesh->levels[l + 1].link;
+        struct bound *bound = bound_new(model, mesh, &mesh->levels[l]);
+        bound->t = t;
+        prolong_strips(prolong, mesh, l, bound, 0);
+        bound_free(bound);
+        link_down(link);
+        link->theta = 0.0;
+    }
+    prolong_free(prolong);
+}
+
+void derive_slope_steepest(const struct derive_view *tile, double *gradient, double *scale)
+{
+    const struct tile *here = &tile->level->tiles[tile->level->first + tile->local];
+    derive_slope_density(tile, gradient);
+    for (size_t i = 0; i < tile->n; i++)
+        if (gradient[i] > *scale && !(here->covered >> mesh_octant(tile->mesh, i) & 1)) *scale = gradient[i];
+}

@@ -1,0 +1,20 @@
+/* derive_slope.h - derived fields that are made of gradients: vorticity and schlieren. */
+#ifndef DERIVE_SLOPE_H
+#define DERIVE_SLOPE_H
+
+#include "derive/derive_view.h"
+
+/* curl u [1/s], three components; in axisymmetric scenes the axes are (r, z) and the only component points along
+ * theta, which is minus the third direction of the right-handed (r, z, -theta). */
+void derive_slope_vorticity(const struct derive_view *tile, double *out);
+
+/* exp(-k |grad rho| / max |grad rho|), k = 200 (model.md 9); the largest gradient is field->scale. */
+void derive_slope_schlieren(const struct derive_view *tile, double *out);
+
+/* Raises *scale to the largest density gradient in the leaves of a tile; `gradient` is work space [n]. */
+void derive_slope_steepest(const struct derive_view *tile, double *gradient, double *scale);
+
+/* Brings the neighbours' layers up to date, coarser ones too: after a step they still hold the midpoint. Collective. */
+void derive_slope_exchange(const struct model *model, const struct mesh *mesh, double t);
+
+#endif

@@ -1,0 +1,213 @@
+/* expect.c - see expect.h. Names mean, in this order: a column of history.csv, `probe.field` of
+ * probes.csv, a number that the case's scripts know (parameters), pi. */
+#include "judge/expect.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+#include "case/table.h"
+#include "judge/formula.h"
+#include "judge/norm.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+struct expect_run {
+    const struct scene *scene;
+    const char *directory;
+    struct table tables[2]; /* history, probes */
+    const char **known;     /* their names, NULL after the last */
+};
+
+struct expect_result {
+    char *what, *bound;
+    double value;
+    bool passed;
+};
+
+static bool expect_column(void *context, const char *name, struct trace *ret_trace)
+{
+    const struct expect_run *run = context;
+    for (int i = 0; i < 2; i++) {
+        const double *v = table_column(&run->tables[i], name);
+        if (!v) continue;
+        *ret_trace = (struct trace){run->tables[i].n_row, table_column(&run->tables[i], "t"), v};
+        return ret_trace->t != NULL;
+    }
+    return false;
+}
+
+static bool expect_number(void *context, const char *name, double *ret_value)
+{
+    const struct expect_run *run = context;
+    return run->scene->host && text_is_identifier(name) &&
+           script_evaluate(run->scene->host, name, run->scene->path, 0, ret_value) == STATUS_OK;
+}
+
+static int expect_open(struct expect_run *run)
+{
+    static const char *const files[2] = {"history.csv", "probes.csv"};
+    unsigned n = 0;
+    for (int i = 0; i < 2; i++) {
+        char *path = mem_print("%s/%s", run->directory, files[i]);
+        int code = access(path, F_OK) == 0 ? table_read(path, TABLE_OF_RUN, &run->tables[i]) : STATUS_OK;
+        mem_free(path);
+        TRY(code);
+        unsigned more = run->tables[i].n_column;
+        run->known = mem_grow(run->known, n, n + more + 1, sizeof *run->known);
+        for (unsigned c = 0; c < more; c++) run->known[n++] = run->tables[i].names[c];
+    }
+    run->known[n] = NULL;
+    return STATUS_OK;
+}
+
+static void expect_close(struct expect_run *run)
+{
+    table_done(&run->tables[0]);
+    table_done(&run->tables[1]);
+    mem_free(run->known);
+}
+
+static int expect_text(struct expect_run *run, const char *text, double *ret_value)
+{
+    struct formula_names names = {run, expect_column, expect_number, run->known};
+    return formula_evaluate(text, &names, ret_value);
+}
+
+static int expect_value(struct expect_run *run, const struct scene_expect *expect, double *ret_value)
+{
+    struct trace trace;
+    if (expect->value) return expect_text(run, expect->value, ret_value);
+    if (expect_column(run, expect->field, &trace)) return norm_of_trace(expect, &trace, ret_value);
+    return norm_of_field(run->scene, expect, run->directory, ret_value);
+}
+
+static bool expect_holds(const struct scene_expect *expect, double value)
+{
+    double slack = expect->tolerance + expect->relative * fabs(expect->equals);
+    if (!isfinite(value)) return false;
+    if (expect->has_at_most && !(value <= expect->at_most)) return false;
+    if (expect->has_at_least && !(value >= expect->at_least)) return false;
+    return !expect->has_equals || fabs(value - expect->equals) <= slack;
+}
+
+static char *expect_bound(const struct scene_expect *expect)
+{
+    struct text text = {0};
+    double slack = expect->tolerance + expect->relative * fabs(expect->equals);
+    if (expect->has_at_least) text_add(&text, ">= %.6g", expect->at_least);
+    if (expect->has_at_most) text_add(&text, "%s<= %.6g", text.at ? ", " : "", expect->at_most);
+    if (expect->has_equals) text_add(&text, "%s= %.6g +- %.3g", text.at ? ", " : "", expect->equals, slack);
+    if (!text.at) text_add(&text, "no bound");
+    return text.at;
+}
+
+static char *expect_what(const struct scene_expect *expect)
+{
+    if (expect->label) return mem_text(expect->label);
+    if (expect->value) return mem_text(expect->value);
+    return mem_print("%s(%s)", expect->norm, expect->field);
+}
+
+static int expect_evaluate(struct expect_run *run, struct expect_result *results)
+{
+    for (unsigned i = 0; i < run->scene->n_expect; i++) {
+        const struct scene_expect *expect = &run->scene->expects[i];
+        double value = NAN;
+        int code = expect_value(run, expect, &value);
+        if (code) return status_wrap(code, "%s:%d: expect: ", run->scene->path, expect->line);
+        results[i] =
+            (struct expect_result){expect_what(expect), expect_bound(expect), value, expect_holds(expect, value)};
+    }
+    return STATUS_OK;
+}
+
+static void expect_print(const struct expect_result *results, unsigned n)
+{
+    int wide = 0;
+    for (unsigned i = 0; i < n; i++) {
+        int length = (int)strlen(results[i].what);
+        if (length > wide) wide = length;
+    }
+    for (unsigned i = 0; i < n; i++)
+        printf("  %-4s  %-*s  %13.6g  %s\n", results[i].passed ? "pass" : "FAIL", wide, results[i].what,
+               results[i].value, results[i].bound);
+    fflush(stdout);
+}
+
+static json_t *expect_json(const struct scene *scene, const struct expect_result *results)
+{
+    json_t *list = json_array();
+    bool all = true;
+    for (unsigned i = 0; i < scene->n_expect; i++) {
+        json_t *item = json_object();
+        json_object_set_new(item, "what", json_string(results[i].what));
+        json_object_set_new(item, "value", isfinite(results[i].value) ? json_real(results[i].value) : json_null());
+        json_object_set_new(item, "bound", json_string(results[i].bound));
+        json_object_set_new(item, "passed", json_boolean(results[i].passed));
+        json_object_set_new(item, "norm", scene->expects[i].value ? json_null() : json_string(scene->expects[i].norm));
+        json_object_set_new(item, "field",
+                            scene->expects[i].value ? json_null() : json_string(scene->expects[i].field));
+        json_object_set_new(item, "order", json_real(scene->expects[i].order));
+        json_array_append_new(list, item);
+        all = all && results[i].passed;
+    }
+    json_t *root = json_object();
+    json_object_set_new(root, "passed", json_boolean(all));
+    json_object_set_new(root, "expectations", list);
+    return root;
+}
+
+static int expect_save(const struct expect_run *run, const struct expect_result *results)
+{
+    char *path = mem_print("%s/expect.json", run->directory);
+    json_t *root = expect_json(run->scene, results);
+    int code =
+        json_dump_file(root, path, JSON_INDENT(2)) ? status_fail(STATUS_RUN, "cannot write %s", path) : STATUS_OK;
+    json_decref(root);
+    mem_free(path);
+    return code;
+}
+
+static int expect_on_one_rank(const struct scene *scene, const char *directory, bool quiet)
+{
+    struct expect_run run = {.scene = scene, .directory = directory};
+    struct expect_result *results = mem_new(scene->n_expect, sizeof *results);
+    int code = expect_open(&run), failed = 0;
+    if (!code) code = expect_evaluate(&run, results);
+    if (!code) {
+        for (unsigned i = 0; i < scene->n_expect; i++) failed += !results[i].passed;
+        if (!quiet) expect_print(results, scene->n_expect);
+        code = expect_save(&run, results);
+    }
+    for (unsigned i = 0; i < scene->n_expect; i++) {
+        mem_free(results[i].what);
+        mem_free(results[i].bound);
+    }
+    mem_free(results);
+    expect_close(&run);
+    if (!code && failed)
+        code = status_fail(STATUS_EXPECT, "%d of %u expectations failed (%s/expect.json)", failed, scene->n_expect,
+                           directory);
+    return code;
+}
+
+int expect_judge(const struct scene *scene, const char *directory, bool quiet)
+{
+    int code = STATUS_OK;
+    if (scene->n_expect && comm_rank() == 0) code = expect_on_one_rank(scene, directory, quiet);
+    return comm_agree(code);
+}
+
+int expect_formula(const struct scene *scene, const char *directory, const char *text, double *ret_value)
+{
+    struct expect_run run = {.scene = scene, .directory = directory};
+    int code = expect_open(&run);
+    if (!code) code = expect_text(&run, text, ret_value);
+    expect_close(&run);
+    return code;
+}

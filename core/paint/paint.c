@@ -1,0 +1,278 @@
+/* paint.c - see paint.h.
+ *
+ * A layer is first compared with the whole tile, then with each cell. A constant state is made
+ * once per tile; anything else is asked for cell by cell. Averages are of conserved fields, and
+ * added so that cells mirrored on each other get mirrored bits: Gauss points in pairs. */
+#include "paint/paint.h"
+
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+#include "case/shape.h"
+#include "paint/paint_stretch.h"
+#include "paint/paint_values.h"
+#include "phys/mix.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+enum { PAINT_GAUSS = 4, PAINT_POINTS = PAINT_GAUSS * PAINT_GAUSS * PAINT_GAUSS };
+
+struct paint_block {
+    double at[MODEL_FIELDS][PAINT_POINTS];
+};
+
+/* A tile while it is painted. */
+struct paint {
+    const struct model *model;
+    const struct mesh *mesh;
+    double *edges[3]; /* [n + 1] along each axis; mirrored to the bit in a domain symmetric about 0 */
+    double *u;        /* [n_field][n_cell] */
+    double *covered;  /* [n_cell] part of a cell that has a state */
+    struct paint_values values;
+    struct paint_block w, conserved;
+};
+
+struct paint_cell {
+    size_t index;
+    double lower[3], upper[3];
+};
+
+static struct paint_cell paint_cell_at(const struct paint *paint, size_t index)
+{
+    struct paint_cell cell = {.index = index};
+    size_t rest = index;
+    for (int d = 0; d < paint->mesh->dim; d++) {
+        size_t n = (size_t)paint->mesh->n[d], i = rest % n;
+        rest /= n;
+        cell.lower[d] = paint->edges[d][i];
+        cell.upper[d] = paint->edges[d][i + 1];
+    }
+    return cell;
+}
+
+/* The fraction that a layer covers of all cells of the tile at once: 0, 1, or -1 if it has to be seen. */
+static double paint_cover_tile(const struct paint *paint)
+{
+    const struct shape *shape = paint->values.layer->shape;
+    double middle[3] = {0.0}, square = 0.0;
+    if (!shape) return 1.0;
+    for (int d = 0; d < paint->mesh->dim; d++) {
+        double lower = paint->edges[d][0], upper = paint->edges[d][paint->mesh->n[d]];
+        middle[d] = 0.5 * (lower + upper);
+        square += 0.25 * (upper - lower) * (upper - lower);
+    }
+    double level = shape_level(shape, middle), reach = sqrt(square);
+    return level >= reach ? 0.0 : level <= -reach ? 1.0 : -1.0;
+}
+
+/* What two bodies lose of their kinetic energy when they take one velocity [J/m3]: half their reduced mass times the
+ * square of the difference. 0 to the bit where they move alike or one is not there. */
+static double paint_lost(const struct model *model, const double *a, size_t a_stride, double a_part, const double *b,
+                         size_t b_stride, double b_part)
+{
+    double a_mass = 0.0, b_mass = 0.0, square = 0.0;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        a_mass += a[(model->i_m + l) * a_stride];
+        b_mass += b[(model->i_m + l) * b_stride];
+    }
+    if (!(a_mass > 0.0) || !(b_mass > 0.0)) return 0.0;
+    for (unsigned d = 0; d < model->n_velocity; d++) {
+        double slip = a[(model->i_u + d) * a_stride] / a_mass - b[(model->i_u + d) * b_stride] / b_mass;
+        square += slip * slip;
+    }
+    a_mass *= a_part;
+    b_mass *= b_part;
+    return 0.5 * (a_mass * b_mass / (a_mass + b_mass)) * square;
+}
+
+/* u = (1 - f) u + f layer in one cell; `layer` holds its fields `stride` apart. A cut cell has one velocity; what
+ * kinetic energy that costs is left out, for as heat it would be a hot spot along the surface of a moving body. */
+static void paint_mix(struct paint *paint, size_t cell, double fraction, const double *layer, size_t stride)
+{
+    const struct model *model = paint->model;
+    size_t n_cell = paint->mesh->n_cell;
+    struct paint_stretch_layer stretch = {fraction, paint->covered[cell], layer, stride};
+    double lost = 0.0;
+    if (model->n_stretch) paint_stretch_mix(model, &stretch, n_cell, paint->u + cell);
+    if (fraction < 1.0) lost = paint_lost(model, paint->u + cell, n_cell, 1.0 - fraction, layer, stride, fraction);
+    for (unsigned q = 0; q < model->i_V; q++) {
+        double *u = paint->u + q * n_cell + cell;
+        *u = fraction < 1.0 ? (1.0 - fraction) * *u + fraction * layer[q * stride] : layer[q * stride];
+    }
+    paint->u[model->i_E * n_cell + cell] -= lost;
+    paint->covered[cell] = fraction < 1.0 ? (1.0 - fraction) * paint->covered[cell] + fraction : 1.0;
+}
+
+/* Primitives of a cell before the layer, if it has a state. Its pressure starts from that of 1 bar. */
+static const double *paint_before(const struct paint *paint, size_t cell, double *w)
+{
+    double u[MODEL_FIELDS];
+    if (!(paint->covered[cell] > 0.0)) return NULL;
+    for (unsigned q = 0; q < paint->model->n_field; q++) {
+        double part = q < paint->model->i_V ? paint->covered[cell] : 1.0; /* the stretch is a mean already */
+        u[q] = paint->u[q * paint->mesh->n_cell + cell] / part;
+    }
+    w[paint->model->i_E] = 1e5;
+    mix_primitives(paint->model, 1, 1, u, w);
+    return w;
+}
+
+static const double PAINT_NODE[PAINT_GAUSS] = {-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480,
+                                               0.86113631159405257522};
+
+/* Gauss points of a cell with their weight in the geometry (the weights of the rule come in paint_sum); outside of
+ * the shape it is 0, unless all are. Returns the number of points. */
+static unsigned paint_points(const struct paint *paint, const struct paint_cell *cell, bool cut, double (*x)[3],
+                             double *weight)
+{
+    unsigned n = 1;
+    bool any = false;
+    for (int d = 0; d < paint->mesh->dim; d++) n *= PAINT_GAUSS;
+    for (int pass = 0; pass < 2 && !any; pass++)
+        for (unsigned k = 0; k < n; k++) {
+            unsigned rest = k;
+            for (int d = 0; d < 3; d++) {
+                double middle = 0.5 * (cell->lower[d] + cell->upper[d]), half = 0.5 * (cell->upper[d] - cell->lower[d]);
+                x[k][d] = d < paint->mesh->dim ? middle + half * PAINT_NODE[rest % PAINT_GAUSS] : 0.0;
+                rest /= PAINT_GAUSS;
+            }
+            bool inside = !cut || pass || shape_contains(paint->values.layer->shape, x[k]);
+            weight[k] = inside ? pow(fabs(x[k][0]), paint->mesh->beta) : 0.0;
+            any = any || inside;
+        }
+    return n;
+}
+
+/* Gauss sum over n = 4^dim values, in pairs: mirrored values give the same bits. */
+static double paint_sum(const double *value, unsigned n)
+{
+    double fold[PAINT_POINTS];
+    memcpy(fold, value, n * sizeof *fold);
+    for (; n > 1; n /= PAINT_GAUSS)
+        for (unsigned k = 0; k < n / PAINT_GAUSS; k++) {
+            const double *v = fold + PAINT_GAUSS * k;
+            fold[k] = 0.34785484513745385737 * (v[0] + v[3]) + 0.65214515486254614263 * (v[1] + v[2]);
+        }
+    return fold[0];
+}
+
+/* Means of the conserved fields over the points that count; of the stretch over their solid. */
+static void paint_mean(const struct paint *paint, const double *weight, unsigned n, double *ret_mean)
+{
+    const struct model *model = paint->model;
+    double part[PAINT_POINTS], used[PAINT_POINTS];
+    memcpy(part, weight, n * sizeof *part);
+    for (unsigned q = 0; q < model->n_field; q++) {
+        for (unsigned k = 0, at = 0; k < n && q == model->i_V; k++)
+            if (weight[k] > 0.0) part[k] *= paint_stretch_share(model, &paint->conserved.at[0][at++], PAINT_POINTS);
+        for (unsigned k = 0, at = 0; k < n; k++)
+            used[k] = weight[k] > 0.0 ? part[k] * paint->conserved.at[q][at++] : 0.0;
+        double whole = paint_sum(part, n);
+        ret_mean[q] = whole > 0.0 ? paint_sum(used, n) / whole : q < model->i_V + 3 ? 1.0 : 0.0;
+    }
+}
+
+static int paint_varying(struct paint *paint, const struct paint_cell *cell, double fraction)
+{
+    double x[PAINT_POINTS][3], weight[PAINT_POINTS], below[MODEL_FIELDS];
+    double w[MODEL_FIELDS], mean[MODEL_FIELDS];
+    const double *before = paint->values.whole ? NULL : paint_before(paint, cell->index, below);
+    unsigned n = paint_points(paint, cell, fraction < 1.0, x, weight), n_field = paint->model->n_field;
+    size_t count = 0;
+    for (unsigned k = 0; k < n; k++) {
+        if (!(weight[k] > 0.0)) continue;
+        TRY(paint_values_at(&paint->values, x[k], before, w));
+        for (unsigned q = 0; q < n_field; q++) paint->w.at[q][count] = w[q];
+        count++;
+    }
+    mix_conserved(paint->model, count, PAINT_POINTS, paint->w.at[0], paint->conserved.at[0]);
+    paint_mean(paint, weight, n, mean);
+    paint_mix(paint, cell->index, fraction, mean, 1);
+    return STATUS_OK;
+}
+
+/* A layer of constant values over a state: one point tells all. */
+static int paint_overlay(struct paint *paint, const struct paint_cell *cell, double fraction)
+{
+    double below[MODEL_FIELDS], w[MODEL_FIELDS], u[MODEL_FIELDS], x[3];
+    for (int d = 0; d < 3; d++) x[d] = 0.5 * (cell->lower[d] + cell->upper[d]);
+    TRY(paint_values_at(&paint->values, x, paint_before(paint, cell->index, below), w));
+    mix_conserved(paint->model, 1, 1, w, u);
+    paint_mix(paint, cell->index, fraction, u, 1);
+    return STATUS_OK;
+}
+
+static int paint_layer(struct paint *paint)
+{
+    const struct paint_values *values = &paint->values;
+    const struct mesh *mesh = paint->mesh;
+    double w[MODEL_FIELDS], u[MODEL_FIELDS], cover = paint_cover_tile(paint);
+    bool constant = values->whole && !values->varying;
+    if (cover == 0.0) return STATUS_OK;
+    if (constant) {
+        TRY(paint_values_at(values, values->layer->centre, NULL, w));
+        mix_conserved(paint->model, 1, 1, w, u);
+    }
+    for (size_t c = 0; c < mesh->n_cell; c++) {
+        struct paint_cell cell = paint_cell_at(paint, c);
+        double fraction = cover;
+        if (cover < 0.0) fraction = shape_fraction(values->layer->shape, cell.lower, cell.upper, mesh->dim, mesh->beta);
+        if (fraction <= 0.0) continue;
+        if (constant) paint_mix(paint, c, fraction, u, 1);
+        else TRY(values->varying ? paint_varying(paint, &cell, fraction) : paint_overlay(paint, &cell, fraction));
+    }
+    return STATUS_OK;
+}
+
+/* Every cell must have got a state. */
+static int paint_check(const struct paint *paint)
+{
+    for (size_t c = 0; c < paint->mesh->n_cell; c++) {
+        if (paint->covered[c] > 1.0 - 1e-9) continue;
+        struct paint_cell cell = paint_cell_at(paint, c);
+        struct text place = {0};
+        for (int d = 0; d < paint->mesh->dim; d++)
+            text_add(&place, "%s%.10g", d ? ", " : "", 0.5 * (cell.lower[d] + cell.upper[d]));
+        status_fail(STATUS_CASE,
+                    "%s: initial: the layers give no whole state to the cell at (%s); begin with "
+                    "'{everywhere: true, material: ..., density: ..., pressure: ...}'",
+                    paint->model->scene->path, place.at);
+        text_done(&place);
+        return STATUS_CASE;
+    }
+    return STATUS_OK;
+}
+
+static int paint_layers(struct paint *paint)
+{
+    for (unsigned i = 0; i < paint->model->scene->n_layer; i++) {
+        paint_values_of(paint->model, i, &paint->values);
+        TRY(paint_layer(paint));
+    }
+    return paint_check(paint);
+}
+
+int paint_tile(const struct model *model, const struct mesh *mesh, const struct level *level, const struct tile *tile,
+               double *u)
+{
+    struct paint *paint = mem_new(1, sizeof *paint);
+    paint->model = model;
+    paint->mesh = mesh;
+    paint->u = u;
+    paint->covered = mem_new(mesh->n_cell, sizeof *paint->covered);
+    memset(u, 0, model->n_field * mesh->n_cell * sizeof *u);
+    for (int d = 0; d < mesh->dim; d++) {
+        int cells = level->extent[d] * mesh->n[d], first = tile->at[d] * mesh->n[d];
+        paint->edges[d] = mem_new((size_t)mesh->n[d] + 1, sizeof **paint->edges);
+        for (int i = 0; i <= mesh->n[d]; i++)
+            paint->edges[d][i] = (mesh->lower[d] * (cells - first - i) + mesh->upper[d] * (first + i)) / cells;
+    }
+    int code = paint_layers(paint);
+    if (!code && model->n_stretch) paint_stretch_finish(model, mesh->n_cell, mesh->n_cell, u);
+    for (int d = 0; d < mesh->dim; d++) mem_free(paint->edges[d]);
+    mem_free(paint->covered);
+    mem_free(paint);
+    return code;
+}

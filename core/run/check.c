@@ -1,0 +1,273 @@
+/* check.c - see check.h.
+ *
+ * Steps and time are measured, not guessed: the scene runs for a moment on a coarse copy of its
+ * mesh (which also finds scripts that fail). The last time step there, scaled by the cell size,
+ * gives the number of steps, and the time of a step the cost per cell on this machine. What
+ * happens later in the run may need smaller steps.
+ * With levels the real initial mesh is built too, for its cells; the coarse copy has one level. */
+#include "run/check.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "cli/human.h"
+#include "cli/scenes.h"
+#include "run/progress.h"
+#include "scheme/source.h"
+#include "solve/advance.h"
+#include "solve/tag.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { CHECK_COARSE = 32, CHECK_STEPS = 500 }; /* most cells along an axis of the coarse copy; most steps there */
+static const double check_moment = 0.2;        /* most seconds spent on them */
+static const double check_build = 1 << 30;     /* most bytes of a coarsest level that is built to be refined */
+
+struct check_cost {
+    double steps, seconds;
+    long coarse_steps; /* what they were measured on */
+};
+
+static const char *const check_geometry[] = {"cartesian", "axisymmetric", "spherical"};
+
+static void check_print_sources(const struct scene *scene)
+{
+    struct text text = {0};
+    source_text(scene, &text);
+    if (text.at) printf("  %-12s %s\n", "sources", text.at);
+    text_done(&text);
+}
+
+static void check_print_module(const char *what, const struct instance *instance)
+{
+    const struct bulla_module *module = instance->module;
+    printf("  %-12s %s:%s", what, module->kind, module->name);
+    for (unsigned i = 0; i < instance_param_count(module); i++) {
+        const struct bulla_param *param = &module->params[i];
+        bool pure = !param->unit || strcmp(param->unit, "1") == 0;
+        if (param->type == BULLA_NUMBER)
+            printf("  %s %g%s%s", param->name, instance->values[i].number, pure ? "" : " ", pure ? "" : param->unit);
+        else if (instance->values[i].text) printf("  %s %s", param->name, instance->values[i].text);
+    }
+    putchar('\n');
+}
+
+/* A material, and what makes it a solid. */
+static void check_print_material(const struct scene *scene, const struct model *model, unsigned l)
+{
+    const struct scene_material *material = &scene->material[l];
+    const struct instance *solid = &material->constitutive;
+    char modulus[HUMAN_ROOM], speed[HUMAN_ROOM];
+    double unstretched = 3, e, e_1, e_2, rho = model->eos[l].rho_fill;
+    check_print_module(material->name, &material->eos);
+    if (!solid->module) return;
+    const struct bulla_constitutive *law = solid->module->table;
+    law->energy(solid->self, 1, &unstretched, &unstretched, &e, &e_1, &e_2);
+    double c2 = 2 * (e_1 + e_2); /* of shear waves, whatever the density (elastic.h) */
+    check_print_module("", solid);
+    printf("  %-12s a solid: shear modulus %s at %g kg/m3, shear waves at %s\n", "", human_si(rho * c2, "Pa", modulus),
+           rho, human_si(sqrt(c2), "m/s", speed));
+}
+
+static void check_print_fields(const struct model *model)
+{
+    printf("  %-12s %u:", "fields", model->n_field);
+    for (unsigned i = 0; i < model->n_field; i++) printf(" %s", model->field_names[i]);
+    putchar('\n');
+}
+
+/* Cells of the mesh at the start, by level. */
+struct check_mesh {
+    int n_level;
+    double cells[MESH_LEVELS], all;
+    double parts;   /* steps of the run for one that the coarsest level alone would take: more without subcycling */
+    double updates; /* cells advanced during one of them */
+};
+
+/* Of a state; NULL: of the coarsest level alone. */
+static void check_levels(const struct scene *scene, const struct state *state, struct check_mesh *ret)
+{
+    *ret = (struct check_mesh){.n_level = 1, .cells = {scenes_cells(scene)}};
+    if (state) ret->n_level = state->mesh->n_level;
+    for (int l = 0; state && l < ret->n_level; l++)
+        ret->cells[l] = (double)state->mesh->levels[l].n_tile * (double)state->mesh->n_cell;
+    ret->parts = scene->subcycle ? 1 : ldexp(1, ret->n_level - 1);
+    for (int l = 0; l < ret->n_level; l++) {
+        ret->all += ret->cells[l];
+        ret->updates += scene->subcycle ? ldexp(ret->cells[l], l) : ret->cells[l];
+    }
+}
+
+/* Builds the initial mesh if the case has levels and its coarsest is not too large for a check. */
+static int check_count(const struct scene *scene, struct check_mesh *ret)
+{
+    struct state *state = NULL;
+    if (scene->levels > 0 && scenes_bytes(scene, scenes_cells(scene)) <= check_build) TRY(state_new(scene, &state));
+    check_levels(scene, state, ret);
+    state_free(state);
+    return STATUS_OK;
+}
+
+/* The scene on fewer cells: every axis by about the same factor, in multiples of 8 that tiles
+ * can fill. *ret_ratio: how much smaller the time step of the full mesh is. */
+static struct scene check_coarsen(const struct scene *scene, double *ret_ratio)
+{
+    struct scene coarse = *scene;
+    coarse.levels = 0;
+    int most = 1, limit = scene->dim == 1 ? 8 * CHECK_COARSE : CHECK_COARSE;
+    for (int axis = 0; axis < scene->dim; axis++) most = scene->cells[axis] > most ? scene->cells[axis] : most;
+    int factor = (most + limit - 1) / limit;
+    *ret_ratio = 1;
+    for (int axis = 0; axis < scene->dim && factor > 1; axis++) {
+        int cells = scene->cells[axis] / factor / 8 * 8;
+        if (scene->cells[axis] > 8) coarse.cells[axis] = cells > 8 ? cells : 8;
+        double ratio = (double)scene->cells[axis] / coarse.cells[axis];
+        if (ratio > *ret_ratio) *ret_ratio = ratio;
+    }
+    if (factor > 1) coarse.tile = 0;
+    if (mesh_tile_size(&coarse)) return coarse;
+    *ret_ratio = 1;
+    coarse = *scene;
+    coarse.levels = 0;
+    return coarse;
+}
+
+static int check_measure(struct state *coarse, double ratio, const struct scene *scene, const struct check_mesh *mesh,
+                         struct check_cost *ret)
+{
+    double begin = progress_clock(), spent = 0, dt = advance_dt(coarse);
+    while (coarse->step < CHECK_STEPS && coarse->t < scene->until && spent < check_moment) {
+        dt = advance_dt(coarse);
+        TRY(advance_step(coarse, scene->until - coarse->t));
+        spent = progress_clock() - begin;
+        comm_max(&spent, 1);
+    }
+    if (scene->dt_fixed <= 0) dt /= ratio * mesh->parts;
+    ret->coarse_steps = coarse->step;
+    ret->steps = ceil(scene->until / dt);
+    if (scene->max_steps > 0 && ret->steps > (double)scene->max_steps) ret->steps = (double)scene->max_steps;
+    ret->seconds = ret->steps * spent / (double)coarse->step * mesh->updates / scenes_cells(coarse->scene);
+    return 0;
+}
+
+/* Levels, where they are at the start, and what asks for them. */
+static void check_print_levels(const struct scene *scene, const struct check_mesh *mesh)
+{
+    char text[HUMAN_ROOM];
+    if (scene->levels == 0) {
+        if (scene->n_refine) printf("  %-12s 0: 'refine' is not used\n", "levels");
+        return;
+    }
+    double finest = HUGE_VAL;
+    for (int axis = 0; axis < scene->dim; axis++)
+        finest = fmin(finest, (scene->upper[axis] - scene->lower[axis]) / ldexp(scene->cells[axis], scene->levels));
+    printf("  %-12s %d above the coarsest, finest cells %s; regrid every %d steps, buffer %d%s\n", "levels",
+           scene->levels, human_si(finest, "m", text), scene->regrid_every, scene->buffer,
+           scene->subcycle ? ", subcycled" : "");
+    for (unsigned i = 0; i < scene->n_refine; i++) {
+        char *criterion = tag_describe(scene, i);
+        printf("  %-12s %s\n", i ? "" : "refine", criterion);
+        mem_free(criterion);
+    }
+    printf("  %-12s %s", "at the start", human_count(mesh->cells[0], text));
+    for (int l = 1; l < mesh->n_level; l++) printf(" + %s", human_count(mesh->cells[l], text));
+    printf(" cells\n");
+}
+
+static void check_print(const struct scene *scene, const struct model *model, const struct check_mesh *mesh)
+{
+    char text[HUMAN_ROOM];
+    if (scene->title) printf("  %-12s %s\n", "title", scene->title);
+    printf("  %-12s %dD %s, %d", "domain", scene->dim, check_geometry[scene->geometry], scene->cells[0]);
+    for (int axis = 1; axis < scene->dim; axis++) printf(" x %d", scene->cells[axis]);
+    if (scene->dim > 1) printf(" = %.0f", scenes_cells(scene));
+    int tile = mesh_tile_size(scene);
+    double tiles = 1;
+    for (int axis = 0; axis < scene->dim; axis++) tiles *= scene->cells[axis] / (double)tile;
+    printf(" cells in %.0f tiles of %d", tiles, tile);
+    if (scene->n_velocity > scene->dim) printf("; velocities with %d components", scene->n_velocity);
+    putchar('\n');
+    check_print_levels(scene, mesh);
+    check_print_fields(model);
+    for (unsigned i = 0; i < scene->n_material; i++) check_print_material(scene, model, i);
+    printf("  %-12s %s\n", "closure", scene->closure == SCENE_KAPILA ? "kapila" : "allaire");
+    check_print_module("riemann", &scene->riemann);
+    check_print_module("limiter", &scene->limiter);
+    check_print_sources(scene);
+    if (scene->n_material > 1) check_print_module("interface", &scene->interface_limiter);
+    double bytes = SCENES_BESIDE * scenes_bytes(scene, mesh->all);
+    printf("  %-12s about %s", "memory", human_bytes(bytes, text));
+    if (bytes > mem_machine()) printf(": more than this machine has, %s", human_bytes(mem_machine(), text));
+    putchar('\n');
+}
+
+static void check_print_cost(const struct scene *scene, const struct check_cost *cost)
+{
+    char text[HUMAN_ROOM];
+    printf("  %-12s until %s, about %.0f steps\n", "run", human_si(scene->until, "s", text), cost->steps);
+    printf("  %-12s about %s on one core (from %ld steps on a coarse copy)\n", "time",
+           cost->seconds < 60 ? human_si(cost->seconds, "s", text) : human_duration(cost->seconds, text),
+           cost->coarse_steps);
+    printf("  %-12s %s\n", "output", scene->directory);
+}
+
+/* The steps that remain if all are like the first. */
+static double check_steps(const struct scene *scene, const struct state *state, double dt)
+{
+    double steps = ceil((scene->until - state->t) / dt), most = (double)(scene->max_steps - state->step);
+    if (scene->max_steps > 0 && steps > most) steps = most;
+    return steps > 0 ? steps : 0;
+}
+
+void check_ready(const struct scene *scene, const struct state *state)
+{
+    char begin[HUMAN_ROOM], end[HUMAN_ROOM], step[HUMAN_ROOM];
+    struct check_mesh mesh;
+    double dt = advance_dt(state);
+    check_levels(scene, state, &mesh);
+    if (comm_rank() != 0) return;
+    printf("%s: ready\n", scene->path);
+    check_print(scene, state->model, &mesh);
+    printf("  %-12s %d\n", "ranks", comm_size());
+    printf("  %-12s from %s, step %ld, until %s; the first step is %s: %.0f steps of that size\n", "run",
+           human_si(state->t, "s", begin), state->step, human_si(scene->until, "s", end), human_si(dt, "s", step),
+           check_steps(scene, state, dt));
+    printf("  %-12s %s\n", "output", scene->directory);
+}
+
+static int check_one(const struct cli_given *given, const char *path)
+{
+    struct scene *scene = NULL;
+    int code = scenes_read(given, path, &scene);
+    if (code) return code;
+    double ratio;
+    struct scene coarse_scene = check_coarsen(scene, &ratio);
+    struct state *coarse = NULL;
+    struct check_cost cost = {0};
+    struct check_mesh mesh;
+    if (!mesh_tile_size(scene)) code = STATUS_CASE;
+    if (!code) code = check_count(scene, &mesh);
+    if (!code) code = state_new(&coarse_scene, &coarse);
+    if (!code) code = check_measure(coarse, ratio, scene, &mesh, &cost);
+    if (code) cli_failed(code);
+    else if (comm_rank() == 0) {
+        printf("%s: good\n", scene->path);
+        check_print(scene, coarse->model, &mesh);
+        check_print_cost(scene, &cost);
+    }
+    state_free(coarse);
+    scene_free(scene);
+    return code ? STATUS_CASE : 0;
+}
+
+int check_command(const struct cli_given *given)
+{
+    int worst = 0;
+    for (int i = 0; i < given->n_word; i++) {
+        int code = check_one(given, given->words[i]);
+        if (code > worst) worst = code;
+    }
+    return worst;
+}

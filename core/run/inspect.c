@@ -1,0 +1,74 @@
+/* inspect.c - see inspect.h. Everything goes to stdout, so that it can be piped. */
+#include "run/inspect.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/text.h"
+#include "case/guide.h"
+#include "case/schema.h"
+#include "cli/scenes.h"
+#include "io/dump_show.h"
+#include "io/info.h"
+#include "plug/describe.h"
+#include "plug/registry.h"
+#include "solve/plan.h"
+
+#include <stdio.h>
+
+/* Prints and frees. */
+static void inspect_put(struct text *text)
+{
+    if (comm_rank() == 0 && text->at) fputs(text->at, stdout);
+    text_done(text);
+}
+
+int inspect_show(const struct cli_given *given)
+{
+    struct scene *scene = NULL;
+    int code = scenes_read(given, given->words[0], &scene);
+    if (code) return code;
+    if (comm_rank() == 0) fputs(scene->resolved, stdout);
+    scene_free(scene);
+    return 0;
+}
+
+int inspect_plan(const struct cli_given *given)
+{
+    struct scene *scene = NULL;
+    int code = scenes_read(given, given->words[0], &scene);
+    if (code) return code;
+    struct text text = {0};
+    plan_text(scene, &text);
+    inspect_put(&text);
+    scene_free(scene);
+    return 0;
+}
+
+int inspect_modules(const struct cli_given *given)
+{
+    struct text text = {0};
+    int code = registry_init();
+    for (int i = 0; i < given->n_word && !code; i++) code = describe_one(given->words[i], &text);
+    if (!code && given->n_word == 0) describe_all(&text);
+    inspect_put(&text);
+    return cli_failed(code);
+}
+
+int inspect_info(const struct cli_given *given)
+{
+    int code = 0;
+    bool replay = cli_value(given, "--replay") != NULL;
+    for (int i = 0; i < given->n_word && !code && comm_rank() == 0; i++)
+        code = (replay ? dump_show_replay : info_print)(stdout, given->words[i]);
+    return cli_failed(code);
+}
+
+int inspect_schema(const struct cli_given *given)
+{
+    int code = registry_init();
+    if (code) return cli_failed(code);
+    char *text = cli_value(given, "--markdown") ? guide_text() : schema_text();
+    if (comm_rank() == 0) fputs(text, stdout);
+    mem_free(text);
+    return 0;
+}

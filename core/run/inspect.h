@@ -1,0 +1,13 @@
+/* inspect.h - commands that read and print, and run nothing. */
+#ifndef INSPECT_H
+#define INSPECT_H
+
+#include "cli/cli.h"
+
+int inspect_show(const struct cli_given *given);    /* the resolved case */
+int inspect_plan(const struct cli_given *given);    /* the stages that will run */
+int inspect_modules(const struct cli_given *given); /* the laws there are */
+int inspect_info(const struct cli_given *given);    /* what is inside an output file */
+int inspect_schema(const struct cli_given *given);  /* the JSON Schema of case files */
+
+#endif

@@ -1,0 +1,200 @@
+/* launch.c - see launch.h. */
+#include "run/launch.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { LAUNCH_CROWD = 32 }; /* most ranks for each processor */
+#define LAUNCH_STATUS "BULLA_STATUS_FILE"
+#define LAUNCH_TERMINAL "BULLA_TERMINAL"
+
+char **launch_arguments(long ranks, bool root, const char *program, char **argv)
+{
+    /* Oversubscription is allowed, so ranks must not be bound nor spin; the copy through
+     * another process's memory is off because containers forbid it. */
+    static const char *const fixed[] = {"--oversubscribe",
+                                        "--bind-to",
+                                        "none",
+                                        "--mca",
+                                        "mpi_yield_when_idle",
+                                        "1",
+                                        "--mca",
+                                        "btl_vader_single_copy_mechanism",
+                                        "none"};
+    enum { FIXED = sizeof fixed / sizeof *fixed };
+    size_t n_own = 0, n = 0;
+    while (argv[n_own]) n_own++;
+    char **out = mem_new(FIXED + n_own + 6, sizeof *out);
+    out[n++] = mem_text("mpirun");
+    out[n++] = mem_text("-n");
+    out[n++] = mem_print("%ld", ranks);
+    for (size_t i = 0; i < FIXED; i++) out[n++] = mem_text(fixed[i]);
+    if (root) out[n++] = mem_text("--allow-run-as-root");
+    out[n++] = mem_text(program);
+    for (size_t i = 1; i < n_own; i++) out[n++] = mem_text(argv[i]);
+    return out;
+}
+
+void launch_free_arguments(char **arguments)
+{
+    for (char **at = arguments; at && *at; at++) mem_free(*at);
+    mem_free(arguments);
+}
+
+/* The child: its own process group, so that the terminal's Ctrl-C reaches the parent alone;
+ * it ends when the parent is killed. */
+static void launch_become(char **arguments, const sigset_t *mask)
+{
+    sigprocmask(SIG_SETMASK, mask, NULL);
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    setenv("OMPI_MCA_pml", "^cm", 0); /* not to look for networks of one kind saves 0.2 s at every start */
+    int null = open("/dev/null", O_RDONLY);
+    if (null >= 0) dup2(null, STDIN_FILENO);
+    execvp(arguments[0], arguments);
+    fprintf(stderr, "error: cannot start mpirun: %s; install Open MPI (Debian: openmpi-bin)\n", strerror(errno));
+    _exit(127);
+}
+
+/* What rank 0 has written: its process and, at its end, the exit code; 0 and -1 before. */
+static void launch_read(const char *path, long *ret_pid, int *ret_code)
+{
+    FILE *file = fopen(path, "r");
+    *ret_pid = 0;
+    *ret_code = -1;
+    if (!file) return;
+    if (fscanf(file, "%ld %d", ret_pid, ret_code) < 1) *ret_pid = 0;
+    fclose(file);
+}
+
+/* The first signal goes to rank 0 once there is one (true then), and it tells the others; a
+ * second one ends rank 0 at once, and mpirun. `number` is the one that came last. */
+static bool launch_forward(const char *path, pid_t child, int count, int number)
+{
+    long pid;
+    int code;
+    launch_read(path, &pid, &code);
+    if (count > 1) kill(child, SIGTERM);
+    return pid > 0 && (code >= 0 || !kill((pid_t)pid, number));
+}
+
+/* Waits for the end of mpirun, handing signals on. Returns their number. */
+static int launch_wait(const char *path, pid_t child, const sigset_t *wanted, int *ret_raw)
+{
+    static const struct timespec soon = {.tv_nsec = 50000000};
+    bool passed_on = true;
+    for (int count = 0, last = 0;;) {
+        int number = passed_on ? sigwaitinfo(wanted, NULL) : sigtimedwait(wanted, NULL, &soon);
+        if (number == SIGCHLD && waitpid(child, ret_raw, WNOHANG) == child) return count;
+        if (number > 0 && number != SIGCHLD) {
+            count++;
+            last = number;
+        }
+        if (number != SIGCHLD && count) passed_on = launch_forward(path, child, count, last);
+    }
+}
+
+/* The code that rank 0 wrote, unless mpirun says that another rank did not end well. */
+static int launch_outcome(const char *path, int raw, int signals)
+{
+    long pid;
+    int code, end = WIFEXITED(raw) ? WEXITSTATUS(raw) : -1;
+    launch_read(path, &pid, &code);
+    if (code >= 0 && end == 0) return code;
+    if (signals) return STATUS_STOPPED;
+    if (end == 127) return status_fail(STATUS_RUN, "mpirun did not start");
+    return status_fail(STATUS_RUN,
+                       "a rank ended without finishing the run; with --restart the same command goes on from the "
+                       "newest checkpoint, if there is one");
+}
+
+/* Starts mpirun and stays until it ends. */
+static int launch_supervise(char **arguments, const char *path)
+{
+    sigset_t wanted, before;
+    sigemptyset(&wanted);
+    static const int numbers[] = {SIGINT, SIGTERM, SIGUSR1, SIGHUP, SIGCHLD};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) sigaddset(&wanted, numbers[i]);
+    sigprocmask(SIG_BLOCK, &wanted, &before);
+    pid_t child = fork();
+    if (child == 0) launch_become(arguments, &before);
+    int raw = 0, signals = 0;
+    if (child > 0) signals = launch_wait(path, child, &wanted, &raw);
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    if (child < 0) return status_fail(STATUS_RUN, "cannot start a process: %s", strerror(errno));
+    return launch_outcome(path, raw, signals);
+}
+
+long launch_most(void)
+{
+    static const char *const batch[] = {"SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "JOB_ID",
+                                        "OMPI_MCA_orte_default_hostfile"};
+    for (size_t i = 0; i < sizeof batch / sizeof *batch; i++)
+        if (getenv(batch[i])) return LONG_MAX;
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    return LAUNCH_CROWD * (processors > 0 ? processors : 1);
+}
+
+int launch_run(long ranks, char **argv)
+{
+    char program[4096] = {0};
+    if (readlink("/proc/self/exe", program, sizeof program - 1) < 0)
+        return status_fail(STATUS_RUN, "cannot find the program's own path: %s", strerror(errno));
+    const char *folder = getenv("TMPDIR");
+    char *path = mem_print("%s/bulla-status-XXXXXX", folder && *folder ? folder : "/tmp");
+    int file = mkstemp(path), code;
+    if (file < 0) {
+        code = status_fail(STATUS_RUN, "cannot write %s: %s", path, strerror(errno));
+        mem_free(path);
+        return code;
+    }
+    close(file);
+    setenv(LAUNCH_STATUS, path, 1);
+    if (isatty(STDERR_FILENO)) setenv(LAUNCH_TERMINAL, "1", 1);
+    char **arguments = launch_arguments(ranks, geteuid() == 0, program, argv);
+    code = launch_supervise(arguments, path);
+    unlink(path);
+    mem_free(path);
+    launch_free_arguments(arguments);
+    return code;
+}
+
+/* Adds a number to the parent's file, if there is a parent; false if that failed. */
+static bool launch_write(long number)
+{
+    const char *path = getenv(LAUNCH_STATUS);
+    FILE *file = fopen(path, "r+");
+    if (!file) return false;
+    bool good = !fseek(file, 0, SEEK_END) && fprintf(file, "%ld\n", number) > 0;
+    return fclose(file) == 0 && good;
+}
+
+void launch_announce(void)
+{
+    if (getenv(LAUNCH_STATUS) && comm_active() && comm_rank() == 0) launch_write((long)getpid());
+}
+
+int launch_report(int code)
+{
+    if (!getenv(LAUNCH_STATUS) || !comm_active()) return code;
+    if (comm_rank() != 0) return 0;
+    return launch_write(code) ? 0 : code;
+}
+
+bool launch_terminal(void)
+{
+    return isatty(STDERR_FILENO) || getenv(LAUNCH_TERMINAL) != NULL;
+}

@@ -1,0 +1,209 @@
+/* record.c - see record.h. Snapshots and history rows at times make the run cut its steps; rows of
+ * probes are interpolated between steps and do not, nor do maps, whose rows are those of steps, nor checkpoints: the
+ * numbers of a run must not depend on how often it is saved. A checkpoint comes after all else that is due, so that it
+ * knows what has been written; what ends a run is written after its checkpoint and is cut off again when the run goes
+ * on. */
+#include "run/record.h"
+
+#include "base/mem.h"
+#include "base/status.h"
+#include "io/checkpoint.h"
+#include "io/dump.h"
+#include "io/history.h"
+#include "io/maps.h"
+#include "io/probes.h"
+#include "io/provenance.h"
+#include "io/resume.h"
+#include "io/snapshot.h"
+#include "run/due.h"
+#include "solve/cost.h"
+
+#include <string.h>
+
+struct record {
+    struct snapshots *snapshots;
+    struct history *history;
+    struct probes *probes; /* NULL: the case has none */
+    struct maps *maps;     /* NULL: the case has none */
+    struct checkpoints *checkpoints;
+    struct provenance *provenance;
+    struct due snapshot_due, history_due, checkpoint_due;
+};
+
+static int record_open_files(struct record *record, const struct state *state, int argc, char *const *argv)
+{
+    TRY(snapshot_new(state, &record->snapshots));
+    TRY(history_new(state, &record->history));
+    TRY(probes_new(state, &record->probes));
+    TRY(maps_new(state, &record->maps));
+    record->checkpoints = checkpoint_new(state->scene);
+    return provenance_new(state, argc, argv, &record->provenance);
+}
+
+/* The directory of the run that a checkpoint belongs to: <directory>/checkpoints/FILE. */
+static char *record_origin(const char *path)
+{
+    const char *file = strrchr(path, '/');
+    return file ? mem_print("%.*s/..", (int)(file - path), path) : mem_text("..");
+}
+
+/* Takes up everything as it was when the checkpoint was written. */
+static int record_recall(struct record *record, const struct state *state, const struct resume *from)
+{
+    const struct notes *notes = &from->notes;
+    char *origin = record_origin(from->path);
+    due_recall(&record->snapshot_due, "due.snapshots", notes, state->t, state->step);
+    due_recall(&record->history_due, "due.history", notes, state->t, state->step);
+    due_written(&record->checkpoint_due, state->t, state->step);
+    snapshot_recall(record->snapshots, notes);
+    int code = history_recall(record->history, notes, origin);
+    if (!code) code = probes_recall(record->probes, notes, origin);
+    if (!code) code = maps_recall(record->maps, notes, origin);
+    if (!code) code = provenance_recall(record->provenance, state, notes);
+    mem_free(origin);
+    return code;
+}
+
+int record_open(const struct state *state, int argc, char *const *argv, const struct resume *from,
+                struct record **ret_record)
+{
+    struct record *record = mem_new(1, sizeof *record);
+    due_init(&record->snapshot_due, state->scene->snapshots);
+    due_init(&record->history_due, state->scene->history);
+    due_init(&record->checkpoint_due, state->scene->checkpoints);
+    due_written(&record->checkpoint_due, state->t, state->step); /* the start can be had again */
+    int code = record_open_files(record, state, argc, argv);
+    if (!code && from) code = record_recall(record, state, from);
+    if (code) record_close(record);
+    else *ret_record = record;
+    return code;
+}
+
+double record_target(const struct record *record, double t, double until)
+{
+    const struct due *const dues[] = {&record->snapshot_due, &record->history_due};
+    return due_target(dues, 2, t, until);
+}
+
+int record_now(struct record *record, const struct state *state)
+{
+    return snapshot_write(record->snapshots, state, provenance_text(record->provenance));
+}
+
+static int record_due_snapshot(struct record *record, const struct state *state)
+{
+    TRY(record_now(record, state));
+    due_written(&record->snapshot_due, state->t, state->step);
+    return 0;
+}
+
+static int record_due_row(struct record *record, const struct state *state)
+{
+    TRY(history_write(record->history, state));
+    due_written(&record->history_due, state->t, state->step);
+    return 0;
+}
+
+/* What outputs need to go on as if nothing had happened. */
+static int record_note(const struct record *record, const struct state *state, struct notes *notes)
+{
+    due_keep(&record->snapshot_due, "due.snapshots", notes);
+    due_keep(&record->history_due, "due.history", notes);
+    snapshot_keep(record->snapshots, notes);
+    provenance_keep(record->provenance, state, notes);
+    TRY(history_keep(record->history, notes));
+    TRY(maps_keep(record->maps, notes));
+    return probes_keep(record->probes, notes);
+}
+
+static int record_checkpoint(struct record *record, const struct state *state)
+{
+    struct notes notes = {0};
+    int code = record_note(record, state, &notes);
+    if (!code) code = checkpoint_write(record->checkpoints, state, &notes);
+    text_done(&notes.text);
+    return code;
+}
+
+/* Does some writing, on the account of outputs. */
+static int record_timed(struct record *record, const struct state *state,
+                        int (*write)(struct record *record, const struct state *state))
+{
+    double begin = cost_cpu();
+    int code = write(record, state);
+    provenance_output(record->provenance, cost_cpu() - begin);
+    return code;
+}
+
+int record_save(struct record *record, const struct state *state)
+{
+    return record_timed(record, state, record_checkpoint);
+}
+
+const char *record_saved(const struct record *record)
+{
+    return checkpoint_last(record->checkpoints);
+}
+
+static int record_due_save(struct record *record, const struct state *state)
+{
+    TRY(record_checkpoint(record, state));
+    due_written(&record->checkpoint_due, state->t, state->step);
+    return 0;
+}
+
+static int record_write_due(struct record *record, const struct state *state)
+{
+    TRY(probes_record(record->probes, state));
+    TRY(maps_record(record->maps, state));
+    if (due_now(&record->history_due, state->t, state->step)) TRY(record_due_row(record, state));
+    if (due_now(&record->snapshot_due, state->t, state->step)) TRY(record_due_snapshot(record, state));
+    if (due_now(&record->checkpoint_due, state->t, state->step)) TRY(record_due_save(record, state));
+    return 0;
+}
+
+/* Most steps write nothing and do not even look at the clock. */
+int record_due(struct record *record, const struct state *state)
+{
+    const struct due *const dues[] = {&record->history_due, &record->snapshot_due, &record->checkpoint_due};
+    bool any = record->probes || record->maps;
+    provenance_watch(record->provenance, state);
+    for (int i = 0; i < 3; i++) any = any || due_now(dues[i], state->t, state->step);
+    return any ? record_timed(record, state, record_write_due) : 0;
+}
+
+int record_dump(const struct record *record, const struct state *state, char **ret_path)
+{
+    return dump_write(state, provenance_text(record->provenance), ret_path);
+}
+
+static int record_write_last(struct record *record, const struct state *state)
+{
+    TRY(maps_finish(record->maps, state));
+    if (!state->whole) return record_now(record, state); /* levels at different times: to look at, not to measure */
+    TRY(probes_finish(record->probes, state));
+    TRY(history_write(record->history, state));
+    return record_now(record, state);
+}
+
+int record_last(struct record *record, const struct state *state)
+{
+    return record_timed(record, state, record_write_last);
+}
+
+int record_conclude(struct record *record, const struct state *state, const char *reason, int exit_code)
+{
+    return provenance_write(record->provenance, state, reason, exit_code);
+}
+
+void record_close(struct record *record)
+{
+    if (!record) return;
+    snapshot_free(record->snapshots);
+    history_free(record->history);
+    probes_free(record->probes);
+    maps_free(record->maps);
+    checkpoint_free(record->checkpoints);
+    provenance_free(record->provenance);
+    mem_free(record);
+}

@@ -1,0 +1,9 @@
+/* run.h - `bulla run`: from a case file to its output directory and an exit code. */
+#ifndef RUN_H
+#define RUN_H
+
+#include "cli/cli.h"
+
+int run_command(const struct cli_given *given);
+
+#endif

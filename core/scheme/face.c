@@ -1,0 +1,475 @@
+/* face.c - see face.h; MUSCL on primitives (van Leer 1979, Toro 2009 ch. 14).
+ *
+ * Both edges of all cells of a component lie behind each other in one row, so that one call of an
+ * equation of state serves both sides of the faces. Slopes of the limiter contract keep face values
+ * between neighbouring cells, hence alpha in [0, 1] and densities positive; with three or more
+ * materials the limited fractions are scaled to sum 1. Because alpha_l and rho_l are limited
+ * (not m_l), a contact at uniform p, u and rho_l has face energies linear in alpha: p and u stay
+ * uniform to round-off for every law. */
+#include "scheme/face.h"
+
+#include "base/mem.h"
+#include "phys/present.h"
+#include "scheme/face_stress.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Both edges of the cells of a row lie behind each other, upper then lower, n_cell each: face i
+ * has upper edge i on its left and lower edge i + step on its right. */
+struct face_own {
+    double *difference, *slope;   /* only for limiters without fused edges */
+    double *state;                /* primitives at the edges: [n_field][2 FACE_ROOM] */
+    double *m, *rho, *energy, *c; /* completed: [n_material], then one each, of 2 FACE_ROOM */
+    double *term, *stiffness;     /* one material's rho e and rho c^2 */
+    double *origin, *strain;      /* of the face state: pressure of the side it comes from, compression since */
+    double *zero;                 /* stands in for the velocities of unused axes */
+    double *robust;               /* fluxes of the robust solver, same order as the block behind face_work.alpha */
+    const double *side_u[2][3], *side_m[2][SCENE_MATERIALS], *side_alpha[2][SCENE_MATERIALS];
+    double *flux_m[SCENE_MATERIALS], *flux_u[3], *flux_alpha[SCENE_MATERIALS];
+    double *robust_m[SCENE_MATERIALS], *robust_u[3], *robust_alpha[SCENE_MATERIALS];
+    unsigned n_flux;
+    struct face_stress *stress; /* NULL without a solid */
+};
+
+static double *face_row(size_t components)
+{
+    return mem_new(components * FACE_ROOM, sizeof(double));
+}
+
+/* A block of flux components in the order alpha, m, momentum, energy, u. */
+static void face_split(const struct model *model, double *block, double **alpha, double **m, double **momentum)
+{
+    for (unsigned l = 0; l < model->n_alpha; l++) alpha[l] = block + l * FACE_ROOM;
+    for (unsigned l = 0; l < model->n_material; l++) m[l] = block + (model->n_alpha + l) * FACE_ROOM;
+    for (unsigned d = 0; d < model->n_velocity; d++)
+        momentum[d] = block + (model->n_alpha + model->n_material + d) * FACE_ROOM;
+}
+
+/* Rows that a solver needs for the tangential face velocities. */
+static unsigned face_slides(const struct model *model)
+{
+    return model->n_stretch ? 2 * (model->n_velocity - 1) : 0;
+}
+
+/* The slides stand behind u in the flux blocks. */
+static void face_slide(struct face_work *work, const struct model *model)
+{
+    struct face_own *own = work->own;
+    unsigned half = face_slides(model) / 2, at = own->n_flux - 2 * half;
+    work->slide_left = work->alpha + at * FACE_ROOM;
+    work->slide_right = work->slide_left + half * FACE_ROOM;
+    for (unsigned k = 0; k < half; k++) {
+        own->stress->slide_left[k] = work->slide_left + k * FACE_ROOM;
+        own->stress->slide_right[k] = work->slide_right + k * FACE_ROOM;
+        own->stress->robust_left[k] = own->robust + (at + k) * FACE_ROOM;
+        own->stress->robust_right[k] = own->robust + (at + half + k) * FACE_ROOM;
+    }
+}
+
+struct face_work *face_new(const struct model *model)
+{
+    struct face_work *work = mem_new(1, sizeof *work);
+    struct face_own *own = work->own = mem_new(1, sizeof *own);
+    unsigned n = model->n_material;
+    work->model = model;
+    own->n_flux = model->n_alpha + n + model->n_velocity + 2 + face_slides(model);
+    own->stress = face_stress_new(model);
+    work->frame = face_row(model->n_field);
+    work->mask = face_row(1);
+    own->difference = face_row(1);
+    own->slope = face_row(1);
+    own->state = face_row(2 * model->n_field);
+    own->m = face_row(2 * n);
+    own->rho = face_row(2);
+    own->energy = face_row(2);
+    own->c = face_row(2);
+    own->term = face_row(2);
+    own->stiffness = face_row(2);
+    own->origin = face_row(1);
+    own->strain = face_row(1);
+    own->zero = face_row(2);
+    own->robust = face_row(own->n_flux);
+    work->alpha = face_row(own->n_flux);
+    work->m = work->alpha + model->n_alpha * FACE_ROOM;
+    work->momentum = work->m + n * FACE_ROOM;
+    work->energy = work->momentum + model->n_velocity * FACE_ROOM;
+    work->u = work->energy + FACE_ROOM;
+    work->stretch = model->n_stretch ? face_row(model->n_stretch) : NULL;
+    work->solid = model->n_stretch && model->n_alpha ? face_row(1) : NULL;
+    work->carried = face_row(2 * model->n_alpha);
+    work->strained = work->carried + model->n_alpha * FACE_ROOM;
+    face_split(model, work->alpha, own->flux_alpha, own->flux_m, own->flux_u);
+    face_split(model, own->robust, own->robust_alpha, own->robust_m, own->robust_u);
+    face_slide(work, model);
+    for (int i = 0; i < 4; i++) work->faces.work[i] = face_row(1);
+    return work;
+}
+
+void face_free(struct face_work *work)
+{
+    if (!work) return;
+    struct face_own *own = work->own;
+    double *rows[] = {own->difference,
+                      own->slope,
+                      own->state,
+                      own->m,
+                      own->rho,
+                      own->energy,
+                      own->c,
+                      own->term,
+                      own->stiffness,
+                      own->zero,
+                      own->robust,
+                      work->alpha,
+                      work->frame,
+                      work->mask,
+                      work->faces.work[0],
+                      work->faces.work[1],
+                      work->faces.work[2],
+                      work->faces.work[3],
+                      work->carried,
+                      own->origin,
+                      own->strain,
+                      work->stretch,
+                      work->solid};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) mem_free(rows[i]);
+    face_stress_free(own->stress);
+    mem_free(own);
+    mem_free(work);
+}
+
+static BULLA_KERNEL void face_differ(size_t n, const double *restrict a, const double *restrict b, double *restrict d)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) d[i] = b[i] - a[i];
+}
+
+static BULLA_KERNEL void face_edges(size_t n, const double *restrict w, const double *restrict slope,
+                                    double *restrict lower, double *restrict upper)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double here = w[i], half = 0.5 * slope[i];
+        lower[i] = here - half;
+        upper[i] = here + half;
+    }
+}
+
+/* Edge values of `cells` cells of component q from `w`, by the limiter. */
+static void face_limit(const struct face_work *work, unsigned q, size_t cells, size_t step, const double *w,
+                       double *upper)
+{
+    const struct model *model = work->model;
+    const struct face_own *own = work->own;
+    const struct model_limiter *limiter = model_is_fraction(model, q) ? &model->limiter_alpha : &model->limiter;
+    double *lower = upper + cells;
+    if (limiter->law->edges) {
+        limiter->law->edges(limiter->self, cells, step, w, lower, upper);
+        return;
+    }
+    face_differ(cells + step, w - step, w, own->difference);
+    limiter->law->slope(limiter->self, cells, own->difference, own->difference + step, own->slope);
+    face_edges(cells, w, own->slope, lower, upper);
+}
+
+/* Without K a mixed cell is as stiff as its stiffest material makes it, so an edge must not look like the
+ * pure softer one: the face would yield with that impedance and overshoot. Edges keep at least half of
+ * what the cell has of every material. */
+static BULLA_KERNEL void face_temper(size_t n, const double *restrict alpha, double *restrict edge)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], e = edge[i], least = 0.5 * a, most = 0.5 + 0.5 * a;
+        e = e > least ? e : least;
+        edge[i] = e < most ? e : most;
+    }
+}
+
+/* First-order states at the faces of troubled cells. */
+static void face_flatten(size_t n, size_t step, const double *w, const double *mask, double *left, double *right)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (mask[i] + mask[i + step] == 0.0) continue;
+        left[i] = w[i];
+        right[i] = w[i + step];
+    }
+}
+
+/* Edges of all cells that have two neighbours in the row. */
+static void face_reconstruct(struct face_work *work, const struct frame *frame, size_t cells, bool masked)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    size_t step = frame->inner;
+    if (model->split) face_stress_frame(model, frame->count, work->frame);
+    for (unsigned i = 0; i < model->n_active; i++) {
+        unsigned q = model->active[i];
+        const double *w = work->frame + q * FACE_ROOM + step;
+        double *upper = own->state + 2 * q * FACE_ROOM;
+        face_limit(work, q, cells, step, w, upper);
+        if (model_is_fraction(model, q) && !model->kapila) {
+            face_temper(cells, w, upper);
+            face_temper(cells, w, upper + cells);
+        }
+        if (masked) face_flatten(cells - step, step, w, work->mask + step, upper, upper + cells + step);
+    }
+}
+
+static BULLA_KERNEL void face_sum(size_t n, const double *restrict a, double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) sum[i] += a[i];
+}
+
+static BULLA_KERNEL void face_divide(size_t n, const double *restrict sum, double *restrict a)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) a[i] /= sum[i];
+}
+
+/* Limited fractions of three or more materials need not sum to 1 (of two they do: limiters are odd). */
+static void face_normalise(struct face_work *work, size_t n)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    if (!model->n_alpha || model->scene->n_material < 3) return; /* two of three are scaled as all three would be */
+    memset(own->term, 0, n * sizeof *own->term);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        face_sum(n, own->state + 2 * (model->i_alpha + l) * FACE_ROOM, own->term);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        face_divide(n, own->term, own->state + 2 * (model->i_alpha + l) * FACE_ROOM);
+}
+
+/* One material's share: m = alpha rho, and its parts of rho, rho e and rho c_f^2; the first
+ * material starts the sums. */
+static BULLA_KERNEL void face_first_material(size_t n, const double *restrict alpha, const double *restrict rho_l,
+                                             const double *restrict e, const double *restrict rho_c2,
+                                             double *restrict m, double *restrict rho, double *restrict energy,
+                                             double *restrict sum_c2)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], mass = a * rho_l[i], share = a * e[i], stiff = a * rho_c2[i];
+        m[i] = mass;
+        rho[i] = mass;
+        energy[i] = share;
+        sum_c2[i] = stiff;
+    }
+}
+
+static BULLA_KERNEL void face_add_material(size_t n, const double *restrict alpha, const double *restrict rho_l,
+                                           const double *restrict e, const double *restrict rho_c2, double *restrict m,
+                                           double *restrict rho, double *restrict energy, double *restrict sum_c2)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], mass = a * rho_l[i], share = a * e[i], stiff = a * rho_c2[i];
+        double r = rho[i], sum_e = energy[i], sum_c = sum_c2[i];
+        m[i] = mass;
+        rho[i] = r + mass;
+        energy[i] = sum_e + share;
+        sum_c2[i] = sum_c + stiff;
+    }
+}
+
+/* Kinetic energy, and c from rho c^2. */
+static BULLA_KERNEL void face_finish(size_t n, const double *restrict rho, const double *restrict u,
+                                     const double *restrict v, const double *restrict w, double *restrict energy,
+                                     double *restrict c)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double r = rho[i], a = u[i], b = v[i], d = w[i], e = energy[i], s = c[i];
+        energy[i] = e + 0.5 * r * (a * a + b * b + d * d);
+        c[i] = sqrt(s / r);
+    }
+}
+
+/* Elastic energy, stress and speeds of n edges. */
+static void face_load(struct face_work *work, const struct frame *frame, size_t n, const double *rho)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    const double *m[SCENE_MATERIALS];
+    if (!model->n_stretch) return;
+    for (unsigned s = 0; s < model->n_solid; s++)
+        m[s] = model->n_alpha ? own->m + 2 * model->solids[s].material * FACE_ROOM : rho;
+    struct face_stress_edges edges = {
+        .frame = frame, .n = n, .state = own->state, .m = m, .rho = rho, .energy = own->energy, .rho_c2 = own->c};
+    face_stress_complete(own->stress, model, &edges);
+}
+
+/* Partial densities, total energy and fastest speed of n edges. */
+static void face_complete(struct face_work *work, const struct frame *frame, size_t n)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    if (model->split) face_stress_split(own->stress, model, n, own->state);
+    const double *p = own->state + 2 * model->i_E * FACE_ROOM, *u[3] = {own->zero, own->zero, own->zero};
+    const double *rho = model->n_alpha ? own->rho : own->state + 2 * model->i_m * FACE_ROOM; /* one material: rho_l */
+    for (unsigned d = 0; d < model->n_velocity; d++) u[d] = own->state + 2 * (model->i_u + d) * FACE_ROOM;
+    if (!model->n_alpha) {
+        const double *own_p = model->split ? face_stress_pressure(own->stress, 0) : p;
+        model->eos[0].law->state(model->eos[0].self, n, rho, own_p, own->energy, own->c);
+    }
+    for (unsigned l = 0; l < model->n_alpha; l++) {
+        const double *rho_l = own->state + 2 * (model->i_m + l) * FACE_ROOM,
+                     *alpha = own->state + 2 * (model->i_alpha + l) * FACE_ROOM;
+        double *m = own->m + 2 * l * FACE_ROOM, *stiffness = own->stiffness;
+        const double *own_p = model->split ? face_stress_pressure(own->stress, l) : p;
+        struct present present = {n, alpha, rho_l, own_p};
+        present_state(&model->eos[l], &present, own->term, stiffness);
+        if (l == 0) face_first_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
+        else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
+    }
+    face_load(work, frame, n, rho);
+    face_finish(n, rho, u[0], u[1], u[2], own->energy, own->c);
+}
+
+static void face_point(struct face_work *work, const struct frame *frame, size_t cells)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    struct bulla_faces *faces = &work->faces;
+    faces->n = cells - frame->inner;
+    faces->n_material = model->n_material;
+    faces->n_alpha = model->n_alpha;
+    faces->n_velocity = model->n_velocity;
+    faces->mixed = model->mixed;
+    for (unsigned side = 0; side < 2; side++) {
+        size_t from = side ? cells + frame->inner : 0; /* right: the lower edge of the cell behind the face */
+        for (unsigned d = 0; d < model->n_velocity; d++)
+            own->side_u[side][d] = own->state + 2 * (model->i_u + axis_component(frame->axis, d)) * FACE_ROOM + from;
+        const double *rho = model->n_alpha ? own->rho : own->state + 2 * model->i_m * FACE_ROOM;
+        own->side_m[side][0] = rho + from;
+        for (unsigned l = 0; l < model->n_alpha; l++) own->side_m[side][l] = own->m + 2 * l * FACE_ROOM + from;
+        for (unsigned l = 0; l < model->n_alpha; l++)
+            own->side_alpha[side][l] = own->state + 2 * (model->i_alpha + l) * FACE_ROOM + from;
+        struct bulla_side *states = side ? &faces->right : &faces->left;
+        *states = (struct bulla_side){.rho = rho + from,
+                                      .p = own->state + 2 * model->i_E * FACE_ROOM + from,
+                                      .rho_E = own->energy + from,
+                                      .c = own->c + from,
+                                      .u = own->side_u[side],
+                                      .m = own->side_m[side],
+                                      .alpha = own->side_alpha[side]};
+    }
+    face_stress_point(model->n_stretch ? own->stress : NULL, model, cells + frame->inner, faces);
+    faces->flux = (struct bulla_flux){
+        .m = own->flux_m, .momentum = own->flux_u, .rho_E = work->energy, .u = work->u, .alpha = own->flux_alpha};
+}
+
+/* The robust solver at all faces of the row, taken over at those of troubled cells. */
+static void face_solve_robust(struct face_work *work, const struct frame *frame, size_t n)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    double *energy = own->robust + (size_t)(work->energy - work->alpha), *u = energy + FACE_ROOM;
+    work->faces.flux = (struct bulla_flux){
+        .m = own->robust_m, .momentum = own->robust_u, .rho_E = energy, .u = u, .alpha = own->robust_alpha};
+    if (model->n_stretch) {
+        work->faces.slide_left = own->stress->robust_left;
+        work->faces.slide_right = own->stress->robust_right;
+    }
+    model->robust->solve(NULL, &work->faces);
+    const double *mask = work->mask + frame->inner;
+    for (size_t i = 0; i < n; i++) {
+        if (mask[i] + mask[i + frame->inner] == 0.0) continue;
+        for (unsigned q = 0; q < own->n_flux; q++) work->alpha[q * FACE_ROOM + i] = own->robust[q * FACE_ROOM + i];
+    }
+}
+
+/* The fluid at a face came from the side that u* points away from, and was compressed on the way
+ * by (u_L - u*)/c_L or (u* - u_R)/c_R. */
+static BULLA_KERNEL void face_trace(size_t n, const double *restrict u, const double *restrict p_left,
+                                    const double *restrict p_right, const struct bulla_side *left,
+                                    const struct bulla_side *right, double *restrict origin, double *restrict strain)
+{
+    const double *restrict c_left = left->c, *restrict c_right = right->c, *restrict u_left = left->u[0],
+                           *restrict u_right = right->u[0];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double v = u[i], pl = p_left[i], pr = p_right[i], cl = c_left[i], cr = c_right[i];
+        double dl = u_left[i] - v, dr = v - u_right[i];
+        origin[i] = v >= 0.0 ? pl : pr;
+        strain[i] = (v >= 0.0 ? dl : dr) / (v >= 0.0 ? cl : cr);
+    }
+}
+
+/* alpha* becomes the volume flux alpha* u*; it carries a pressure and a strain along. */
+static BULLA_KERNEL void face_carry(size_t n, const double *restrict u, const double *restrict origin,
+                                    const double *restrict strain, double *restrict alpha, double *restrict carried,
+                                    double *restrict strained)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double volume = alpha[i] * u[i];
+        alpha[i] = volume;
+        carried[i] = volume * origin[i];
+        strained[i] = volume * strain[i];
+    }
+}
+
+/* The stretch that the solids carry through the faces. */
+static void face_drag(struct face_work *work, size_t right)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    size_t n = work->faces.n;
+    memset(own->term, 0, n * sizeof *own->term);
+    for (unsigned s = 0; s < model->n_solid; s++)
+        face_sum(n, work->m + model->solids[s].material * FACE_ROOM, own->term);
+    face_stress_carry(model, n, right, own->state, own->term, work->stretch);
+}
+
+/* Mean of the two sides, added up. */
+static BULLA_KERNEL void face_add_mean(size_t n, const double *restrict left, const double *restrict right,
+                                       double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = left[i], b = right[i], s = sum[i];
+        sum[i] = s + 0.5 * (a + b);
+    }
+}
+
+/* Fraction of all solids at the faces. Not alpha*, which takes a side even where nothing moves. */
+static void face_blend(struct face_work *work)
+{
+    const struct model *model = work->model;
+    const struct bulla_faces *faces = &work->faces;
+    memset(work->solid, 0, faces->n * sizeof *work->solid);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        unsigned l = model->solids[s].material;
+        face_add_mean(faces->n, faces->left.alpha[l], faces->right.alpha[l], work->solid);
+    }
+}
+
+/* Volume fluxes and what they carry. */
+static void face_transport(struct face_work *work, size_t right)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    if (model->n_stretch) face_drag(work, right);
+    if (!model->n_alpha) return;
+    const double *p = own->state + 2 * model->i_E * FACE_ROOM;
+    if (model->n_stretch) face_blend(work);
+    face_trace(work->faces.n, work->u, p, p + right, &work->faces.left, &work->faces.right, own->origin, own->strain);
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        face_carry(work->faces.n, work->u, own->origin, own->strain, work->alpha + l * FACE_ROOM,
+                   work->carried + l * FACE_ROOM, work->strained + l * FACE_ROOM);
+}
+
+void face_solve(struct face_work *work, const struct frame *frame, bool masked)
+{
+    const struct model *model = work->model;
+    size_t cells = frame->count - 2 * frame->inner;
+    face_reconstruct(work, frame, cells, masked);
+    face_normalise(work, 2 * cells);
+    face_complete(work, frame, 2 * cells);
+    face_point(work, frame, cells);
+    model->riemann->solve(model->riemann_self, &work->faces);
+    if (masked) face_solve_robust(work, frame, work->faces.n);
+    face_transport(work, cells + frame->inner);
+}

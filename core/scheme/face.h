@@ -1,0 +1,44 @@
+/* face.h - from a frame of primitives to the fluxes through its faces.
+ *
+ * Reconstruct (limited slopes of alpha_l, rho_l, u_i, p, V), complete both sides (partial
+ * densities, energies, frozen speed; with a solid also stress and elastic speeds, face_stress.h), solve the Riemann problems. All arrays are long rows of a
+ * frame; face k lies between cells k and k + inner, and the row of faces starts at k = inner. */
+#ifndef FACE_H
+#define FACE_H
+
+#include "phys/model.h"
+#include "scheme/frame.h"
+
+enum { FACE_ROOM = FRAME_CELLS + 32 }; /* doubles per component: the frame and vector tails */
+
+struct face_work {
+    const struct model *model;
+    double *frame;                             /* [n_field] primitives of the gathered frame, pitch FACE_ROOM */
+    double *mask;                              /* troubled cells of the frame: 0 or 1; one component */
+    struct bulla_faces faces;                  /* what the Riemann solver got and gave; n faces */
+    double *alpha, *m, *momentum, *energy, *u; /* the fluxes: blocks with pitch FACE_ROOM; momentum[0] normal,
+                                                  alpha: alpha* u*, u: u* */
+    double *carried;                           /* [n_alpha] alpha* u* times the pressure of the side it comes from */
+    double *strained;                          /* [n_alpha] alpha* u* times the compression on the way to the face */
+    double *stretch; /* [n_stretch] V* F, F the mass flux of all solids, V* of the side it comes from */
+    double *solid;   /* fraction of all solids, mean of the sides (mixtures with a solid) */
+    double *slide_left,
+        *slide_right; /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */
+    void *own;        /* scratch of face.c */
+};
+
+struct face_work *face_new(const struct model *model);
+void face_free(struct face_work *work);
+
+/* Fills the flux arrays for the frame in work->frame. Face index f of the row is the lower face of
+ * frame cell f + 2 inner. With `masked`, faces of cells marked in work->mask get first-order
+ * states and the robust solver. */
+void face_solve(struct face_work *work, const struct frame *frame, bool masked);
+
+/* Row index of the lower face of cell (o, i) of the piece, inner index 0; the upper one is `inner` further. */
+static inline size_t face_at(const struct frame *frame, size_t o, size_t i)
+{
+    return frame_at(frame, o, (int)i) - 2 * frame->inner;
+}
+
+#endif

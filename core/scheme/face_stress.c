@@ -1,0 +1,119 @@
+/* face_stress.c - see face_stress.h. */
+#include "scheme/face_stress.h"
+
+#include "base/mem.h"
+#include "phys/elastic.h"
+#include "phys/traction.h"
+
+#include <math.h>
+#include <string.h>
+
+struct face_stress *face_stress_new(const struct model *model)
+{
+    if (!model->n_stretch) return NULL;
+    struct face_stress *stress = mem_new(1, sizeof *stress);
+    double **rows[] = {&stress->energy, &stress->normal, &stress->shear[0], &stress->shear[1],
+                       &stress->stiff,  &stress->rigid,  &stress->traction};
+    double *block = mem_new(sizeof rows / sizeof *rows * 2 * FACE_ROOM, sizeof *block);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) *rows[i] = block + i * 2 * FACE_ROOM;
+    if (model->split) stress->own = mem_new((size_t)model->n_material * 2 * FACE_ROOM, sizeof *block);
+    return stress;
+}
+
+void face_stress_free(struct face_stress *stress)
+{
+    if (stress) mem_free(stress->energy);
+    if (stress) mem_free(stress->own);
+    mem_free(stress);
+}
+
+static BULLA_KERNEL void face_stress_take(size_t n, const double *restrict mean, double *restrict p)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) p[i] -= mean[i];
+}
+
+void face_stress_frame(const struct model *model, size_t n, double *frame)
+{
+    double mean[FACE_ROOM];
+    traction_mean(model, n, FACE_ROOM, frame, mean);
+    face_stress_take(n, mean, frame + model->i_E * FACE_ROOM);
+}
+
+static BULLA_KERNEL void face_stress_press(size_t n, const double *restrict traction, double *restrict own)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) own[i] += traction[i];
+}
+
+void face_stress_split(struct face_stress *stress, const struct model *model, size_t n, const double *state)
+{
+    traction_own(model, n, 2 * FACE_ROOM, state, 2 * FACE_ROOM, stress->own);
+    for (unsigned l = 0; l < model->n_material; l++)
+        face_stress_press(n, state + 2 * model->i_E * FACE_ROOM, stress->own + (size_t)l * 2 * FACE_ROOM);
+}
+
+/* Elastic parts are added; the traction and the shear speed are made. */
+static BULLA_KERNEL void face_stress_add(size_t n, const struct face_stress *stress, const double *restrict p,
+                                         const double *restrict rho, double *restrict energy, double *restrict rho_c2)
+{
+    const double *restrict elastic = stress->energy, *restrict normal = stress->normal, *restrict stiff = stress->stiff;
+    double *restrict rigid = stress->rigid, *restrict traction = stress->traction;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double e = energy[i], s = rho_c2[i], g = rigid[i];
+        energy[i] = e + elastic[i];
+        rho_c2[i] = s + stiff[i];
+        traction[i] = p[i] - normal[i];
+        rigid[i] = sqrt(g / rho[i]);
+    }
+}
+
+void face_stress_complete(struct face_stress *stress, const struct model *model, const struct face_stress_edges *edges)
+{
+    const struct elastic_side side = {.energy = stress->energy,
+                                      .normal = stress->normal,
+                                      .shear = {stress->shear[0], stress->shear[1]},
+                                      .stiff = stress->stiff,
+                                      .rigid = stress->rigid};
+    elastic_sides(model, edges->frame->axis, edges->n, 2 * FACE_ROOM, edges->state + 2 * model->i_V * FACE_ROOM,
+                  edges->m, edges->rho_c2, &side);
+    face_stress_add(edges->n, stress, edges->state + 2 * model->i_E * FACE_ROOM, edges->rho, edges->energy,
+                    edges->rho_c2);
+    if (model->split)
+        memcpy(stress->traction, edges->state + 2 * model->i_E * FACE_ROOM, edges->n * sizeof *edges->rho);
+}
+
+void face_stress_point(struct face_stress *stress, const struct model *model, size_t right, struct bulla_faces *faces)
+{
+    faces->solid = stress != NULL;
+    if (!stress) return;
+    for (unsigned side = 0; side < 2; side++) {
+        size_t from = side ? right : 0;
+        for (unsigned k = 0; k + 1 < model->n_velocity; k++) stress->sides[side][k] = stress->shear[k] + from;
+        *(side ? &faces->shear_right : &faces->shear_left) =
+            (struct bulla_shear){.c_s = stress->rigid + from, .s = stress->sides[side]};
+        (side ? &faces->right : &faces->left)->p = stress->traction + from;
+    }
+    faces->slide_left = stress->slide_left;
+    faces->slide_right = stress->slide_right;
+}
+
+static BULLA_KERNEL void face_stress_upwind(size_t n, const double *restrict mass, const double *restrict left,
+                                            const double *restrict right, double *restrict flux)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double m = mass[i], a = left[i], b = right[i];
+        flux[i] = (m >= 0.0 ? a : b) * m;
+    }
+}
+
+void face_stress_carry(const struct model *model, size_t n, size_t right, const double *state, const double *mass,
+                       double *out)
+{
+    for (unsigned c = 0; c < model->n_stretch; c++) {
+        const double *edges = state + 2 * (model->i_V + c) * FACE_ROOM;
+        face_stress_upwind(n, mass, edges, edges + right, out + c * FACE_ROOM);
+    }
+}

@@ -1,0 +1,64 @@
+/* frame.h - a piece of a tile with two layers of neighbours along one axis, gathered for a sweep.
+ *
+ * Seen along axis a, a tile is [outer][n_a][inner]; a frame is a sub-range of outer and inner
+ * with n_a extended by MESH_GHOST on both sides: [outer][n_a + 4][inner], so that a step of
+ * `inner` doubles is one cell along the axis, whatever the axis, and kernels see one long row.
+ * No corners, no stored ghosts: copying is cheaper than keeping frames (docs/decisions). */
+#ifndef FRAME_H
+#define FRAME_H
+
+#include "mesh/axis.h"
+#include "mesh/halo.h"
+#include "mesh/mesh.h"
+
+#include <stddef.h>
+
+enum { FRAME_CELLS = 1536 }; /* most cells of a frame, the layers included: arrays stay in L2 */
+
+/* Which part of a tile, along which axis. */
+struct frame {
+    int axis;
+    size_t outer, n, inner; /* extents of the piece; n: cells of the tile along the axis */
+    size_t outer_from, inner_from;
+    size_t tile_outer, tile_inner; /* extents of the whole tile */
+    size_t count;                  /* outer * (n + 4) * inner */
+};
+
+/* Where a gather reads: tiles of one level, halo slabs, and what to do at domain boundaries. */
+struct frame_source {
+    const struct mesh *mesh;
+    const struct level *level;
+    double *const *arrays;   /* [n_local] blocks of n_field components */
+    const struct halo *halo; /* finished exchange of the same arrays */
+    const struct link *link; /* strips behind coarse-fine faces; NULL: `boundary` fills those too */
+    unsigned n_field;
+    const unsigned
+        *fields; /* [n_field] components to gather, each keeps its number in the frame; NULL: the first n_field */
+    /* Fills the two layers of all fields behind a boundary (and, without a link, a coarse-fine) face `side`;
+     * `data` is its own. */
+    void (*boundary)(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);
+    void *data;
+};
+
+/* Number of pieces a tile is swept in along an axis, and the piece `index`. */
+size_t frame_pieces(const struct mesh *mesh, int axis);
+struct frame frame_piece(const struct mesh *mesh, int axis, size_t index);
+
+/* Copies the piece of local tile `local` and its neighbours' layers to w, component q at w + q * pitch
+ * (pitch >= count). Layer g of a side lies next to cell 0 or n - 1; see frame_at. */
+void frame_gather(const struct frame_source *source, unsigned local, const struct frame *frame, size_t pitch,
+                  double *w);
+
+/* Offset in a frame of outer index o, axis index i (-2 ... n + 1), inner index 0. */
+static inline size_t frame_at(const struct frame *frame, size_t o, int i)
+{
+    return (o * (frame->n + 2 * MESH_GHOST) + (size_t)(i + MESH_GHOST)) * frame->inner;
+}
+
+/* Offset in a tile's component of the same cell. */
+static inline size_t frame_tile_at(const struct frame *frame, size_t o, size_t i)
+{
+    return ((frame->outer_from + o) * frame->n + i) * frame->tile_inner + frame->inner_from;
+}
+
+#endif

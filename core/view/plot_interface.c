@@ -1,0 +1,143 @@
+/* plot_interface.c - see plot_interface.h. */
+#include "view/plot_interface.h"
+
+#include "base/mem.h"
+#include "base/status.h"
+#include "base/text.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+static const struct snapshot_field *interface_alpha(const struct snapshot *snapshot, unsigned material)
+{
+    char name[READ_NAME + 8];
+    snprintf(name, sizeof name, "alpha_%s", snapshot->materials[material]);
+    return read_field(snapshot, name);
+}
+
+/* The material that fills most of the view, if two or more are known; else n_material. */
+static unsigned interface_background(const struct plot_view *view)
+{
+    const struct snapshot *snapshot = view->snapshot;
+    unsigned background = snapshot->n_material, known = 0;
+    double most = 0.0;
+    for (unsigned m = 0; m < snapshot->n_material; m++) {
+        const struct snapshot_field *alpha = interface_alpha(snapshot, m);
+        double area = 0.0;
+        if (!alpha) continue;
+        known++;
+        for (size_t c = 0; c < view->n; c++) {
+            const struct raster_cell *cell = &view->cells[c];
+            double height = view->n_axis > 1 ? cell->at[1][1] - cell->at[1][0] : 1.0;
+            area += alpha->data[view->source[c]] * (cell->at[0][1] - cell->at[0][0]) * height;
+        }
+        if (area > most) {
+            most = area;
+            background = m;
+        }
+    }
+    return known > 1 ? background : snapshot->n_material;
+}
+
+static int interface_unknown(const struct snapshot *snapshot, const char *name)
+{
+    struct text list = {0};
+    const char **names = mem_new(snapshot->n_material + 1, sizeof *names);
+    for (unsigned m = 0; m < snapshot->n_material; m++) {
+        names[m] = snapshot->materials[m];
+        text_add(&list, "%s%s", m ? ", " : "", names[m]);
+    }
+    const char *near = text_nearest(name, names);
+    int code =
+        status_fail(STATUS_CASE, "--contour %s: no such material%s%s%s; there are: %s", name,
+                    near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "", list.at ? list.at : "none");
+    mem_free(names);
+    text_done(&list);
+    return code;
+}
+
+/* Marks the materials of a list "air,tissue". */
+static int interface_chosen(const struct snapshot *snapshot, const char *contours, bool *wanted)
+{
+    while (*contours) {
+        char name[READ_NAME];
+        size_t length = strcspn(contours, ",");
+        unsigned m = 0;
+        snprintf(name, sizeof name, "%.*s", (int)length, contours);
+        while (m < snapshot->n_material && strcmp(snapshot->materials[m], name) != 0) m++;
+        if (m == snapshot->n_material) return interface_unknown(snapshot, name);
+        if (!interface_alpha(snapshot, m))
+            return status_fail(STATUS_CASE,
+                               "--contour %s: the snapshots have no alpha_%s; add it to the fields of "
+                               "output: snapshots:",
+                               name, name);
+        wanted[m] = true;
+        contours += length + (contours[length] == ',');
+    }
+    return STATUS_OK;
+}
+
+static void interface_add(const struct plot_view *view, unsigned material, struct plot_interfaces *interfaces)
+{
+    const struct snapshot_field *alpha = interface_alpha(view->snapshot, material);
+    if (!alpha || interfaces->n == PICTURE_LINES) return;
+    double *values = mem_new(view->n, sizeof *values);
+    for (size_t c = 0; c < view->n; c++) values[c] = alpha->data[view->source[c]];
+    struct contour *contour = &interfaces->contours[interfaces->n];
+    contour_find(view->n, view->cells, values, 0.5, contour);
+    interfaces->names[interfaces->n] = view->snapshot->materials[material];
+    if (contour->n_line) interfaces->n++;
+    else contour_done(contour);
+    mem_free(values);
+}
+
+/* Which materials' interfaces are asked for: wanted[n_material]. */
+static int interface_wanted(const struct plot_view *view, const char *contours, bool *wanted)
+{
+    const struct snapshot *snapshot = view->snapshot;
+    if (contours) return strcmp(contours, "none") == 0 ? STATUS_OK : interface_chosen(snapshot, contours, wanted);
+    unsigned background = interface_background(view);
+    for (unsigned m = 0; m < snapshot->n_material; m++) wanted[m] = m != background;
+    return STATUS_OK;
+}
+
+int plot_interface_find(const struct plot_view *view, const char *contours, struct plot_interfaces *ret_interfaces)
+{
+    unsigned count = view->snapshot->n_material;
+    bool *wanted = mem_new(count, sizeof *wanted);
+    *ret_interfaces = (struct plot_interfaces){0};
+    int code = interface_wanted(view, contours, wanted);
+    for (unsigned m = 0; !code && m < count; m++)
+        if (wanted[m]) interface_add(view, m, ret_interfaces);
+    mem_free(wanted);
+    return code;
+}
+
+int plot_interface_places(const struct plot_view *view, const char *contours, double **ret_places, size_t *ret_n)
+{
+    unsigned count = view->snapshot->n_material;
+    bool *wanted = mem_new(count, sizeof *wanted);
+    double *places = mem_new(count * view->n, sizeof *places);
+    size_t n = 0;
+    int code = interface_wanted(view, contours, wanted);
+    for (unsigned m = 0; !code && m < count; m++) {
+        const struct snapshot_field *alpha = interface_alpha(view->snapshot, m);
+        for (size_t c = 1; wanted[m] && alpha && c < view->n; c++) {
+            double a = alpha->data[view->source[c - 1]] - 0.5, b = alpha->data[view->source[c]] - 0.5;
+            const double *left = view->cells[c - 1].at[0], *right = view->cells[c].at[0];
+            if ((a >= 0.0) == (b >= 0.0)) continue;
+            places[n++] = (0.5 * (left[0] + left[1]) * b - 0.5 * (right[0] + right[1]) * a) / (b - a);
+        }
+    }
+    mem_free(wanted);
+    *ret_places = places;
+    *ret_n = n;
+    return code;
+}
+
+void plot_interface_done(struct plot_interfaces *interfaces)
+{
+    for (unsigned i = 0; i < interfaces->n; i++) contour_done(&interfaces->contours[i]);
+    *interfaces = (struct plot_interfaces){0};
+}

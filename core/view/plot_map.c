@@ -1,0 +1,168 @@
+/* plot_map.c - see plot_map.h. The table is what a run writes as it goes, so that running and killed runs have
+ * pictures too; a value fills the space half way to the places and times around it. */
+#include "view/plot_map.h"
+
+#include "base/mem.h"
+#include "base/status.h"
+#include "view/map_table.h"
+#include "view/picture.h"
+#include "view/picture_canvas.h"
+#include "view/picture_text.h"
+#include "view/plot_case.h"
+#include "view/plot_picture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+struct map {
+    struct map_table of;
+    struct raster_cell *cells; /* [n_time * n_place], as the rows of the table */
+    double edge[2][2];         /* of all cells */
+};
+
+/* Edges of the cells around n ascending or descending values, `step` apart in the table: [n + 1]. */
+static double *map_edges(const double *values, size_t n, size_t step)
+{
+    double *edges = mem_new(n + 1, sizeof *edges);
+    for (size_t i = 1; i < n; i++) edges[i] = 0.5 * (values[(i - 1) * step] + values[i * step]);
+    edges[0] = values[0];
+    edges[n] = values[(n - 1) * step];
+    return edges;
+}
+
+static void map_cells(struct map *map)
+{
+    double *time = map_edges(map->of.table.columns[0], map->of.n_time, map->of.n_place);
+    double *place = map_edges(map->of.table.columns[1], map->of.n_place, 1);
+    map->cells = mem_new(map->of.n_time * map->of.n_place, sizeof *map->cells);
+    for (size_t i = 0; i < map->of.n_time; i++)
+        for (size_t k = 0; k < map->of.n_place; k++) {
+            double a = place[k], b = place[k + 1];
+            map->cells[i * map->of.n_place + k] =
+                (struct raster_cell){{{a < b ? a : b, a < b ? b : a}, {time[i], time[i + 1]}}};
+        }
+    double a = place[0], b = place[map->of.n_place];
+    map->edge[0][0] = a < b ? a : b;
+    map->edge[0][1] = a < b ? b : a;
+    map->edge[1][0] = time[0];
+    map->edge[1][1] = time[map->of.n_time];
+    mem_free(time);
+    mem_free(place);
+}
+
+static int map_open(const char *directory, const char *name, struct map *map)
+{
+    TRY(map_table_open(directory, name, &map->of));
+    map_cells(map);
+    return STATUS_OK;
+}
+
+static void map_close(struct map *map)
+{
+    map_table_done(&map->of);
+    mem_free(map->cells);
+}
+
+/* Least and largest finite value in the window; of positive ones for a logarithmic scale. */
+static void map_extremes(const struct map *map, const double *values, const double window[2][2], bool log,
+                         double extremes[2])
+{
+    for (size_t i = 0; i < map->of.n_time * map->of.n_place; i++) {
+        const struct raster_cell *cell = &map->cells[i];
+        bool inside = true;
+        for (int axis = 0; axis < 2; axis++)
+            inside = inside && cell->at[axis][1] > window[axis][0] && cell->at[axis][0] < window[axis][1];
+        if (!inside || !isfinite(values[i]) || (log && !(values[i] > 0.0))) continue;
+        if (values[i] < extremes[0]) extremes[0] = values[i];
+        if (values[i] > extremes[1]) extremes[1] = values[i];
+    }
+}
+
+static int map_window(const struct map *map, const struct plot_option *option, double ret_window[2][2])
+{
+    memcpy(ret_window, map->edge, sizeof map->edge);
+    for (int axis = 0; axis < 2; axis++) {
+        const struct plot_option_span *limit = &option->limit[axis];
+        if (!limit->given) continue;
+        if (limit->hi <= map->edge[axis][0] || limit->lo >= map->edge[axis][1])
+            return status_fail(STATUS_CASE, "--%clim %g,%g: the map reaches from %g to %g", 'x' + axis, limit->lo,
+                               limit->hi, map->edge[axis][0], map->edge[axis][1]);
+        ret_window[axis][0] = limit->lo;
+        ret_window[axis][1] = limit->hi;
+    }
+    return STATUS_OK;
+}
+
+/* Axes: the coordinate by its symbol, and t. */
+static void map_axes(const struct map *map, const double window[2][2], struct picture *drawn)
+{
+    char *place = map_table_place(&map->of);
+    const struct picture_scale_inp axes[] = {
+        {.name = place, .unit = "m", .lo = window[0][0], .hi = window[0][1]},
+        {.name = PICTURE_ITALIC "t" PICTURE_UPRIGHT, .unit = "s", .lo = window[1][0], .hi = window[1][1]},
+    };
+    for (int axis = 0; axis < 2; axis++) picture_scale_init(&drawn->axis[axis], &axes[axis]);
+    mem_free(place);
+}
+
+static int map_layer(const struct map *map, const char *field, const struct plot_option *option,
+                     const double window[2][2], struct picture_layer *layer)
+{
+    double extremes[2] = {INFINITY, -INFINITY};
+    layer->cells = map->cells;
+    layer->n = map->of.n_time * map->of.n_place;
+    TRY(map_table_column(&map->of, field, &layer->values));
+    map_extremes(map, layer->values, window, option->log, extremes);
+    const char *colours = option->map ? option->map : colormap_for_field(field, extremes[0], extremes[1]);
+    TRY(colormap_find(colours, &layer->map));
+    TRY(plot_picture_range(&option->range[0], option->log, field, colours, extremes));
+    char *label = map_table_label(&map->of, field);
+    picture_scale_init(&layer->scale, &(struct picture_scale_inp){.name = label,
+                                                                  .unit = map_table_unit(&map->of, field),
+                                                                  .lo = extremes[0],
+                                                                  .hi = extremes[1],
+                                                                  .log = option->log});
+    mem_free(label);
+    return STATUS_OK;
+}
+
+static int map_draw(const struct map *map, const char *directory, const char *field, const struct plot_option *option)
+{
+    char *title = plot_case_title(directory), *path = NULL;
+    struct picture drawn = {.title = title, .note = map->of.name, .n_layer = 1, .aspect = 0.8};
+    double window[2][2];
+    cairo_surface_t *image = NULL;
+    int code = map_window(map, option, window);
+    if (!code) code = map_layer(map, field, option, window, &drawn.layer[0]);
+    if (!code) map_axes(map, window, &drawn);
+    if (!code) code = picture_draw(&drawn, option->width, &image);
+    if (!code) {
+        path = option->output ? mem_text(option->output)
+                              : mem_print("%s/plots/map_%s_%s.png", directory, map->of.name, field);
+        code = picture_canvas_write(image, path);
+    }
+    if (!code) printf("%s\n", path);
+    if (image) cairo_surface_destroy(image);
+    mem_free(path);
+    mem_free(title);
+    return code;
+}
+
+int plot_map_write(const char *directory, const char *const *words, unsigned n, const struct plot_option *option)
+{
+    struct map map = {0};
+    if (n < 1) return map_table_missing(directory, NULL);
+    if (n != 2)
+        return status_fail(STATUS_CASE, "a map and a field are needed: bulla plot %s map %s FIELD", directory,
+                           words[0]);
+    int code = map_open(directory, words[0], &map);
+    if (!code && strchr(words[1], ',') && option->output)
+        code = status_fail(STATUS_CASE, "-o %s: one file for several fields", option->output);
+    char *list = mem_text(words[1]);
+    for (char *field = strtok(list, ","); !code && field; field = strtok(NULL, ","))
+        code = map_draw(&map, directory, field, option);
+    mem_free(list);
+    map_close(&map);
+    return code;
+}

@@ -1,0 +1,43 @@
+/* plot_option.h - what the command line of `bulla plot` asks for, checked. */
+#ifndef PLOT_OPTION_H
+#define PLOT_OPTION_H
+
+#include "cli/cli.h"
+
+#include <stdbool.h>
+
+extern const struct cli_option *const plot_option_table[];
+
+enum { PLOT_RANGES = 3, PLOT_TIMES = 8 };
+
+enum plot_option_when { PLOT_LAST, PLOT_STEP, PLOT_TIME, PLOT_ALL };
+
+struct plot_option_span {
+    bool given;
+    double lo, hi;
+};
+
+struct plot_option {
+    const char *output; /* -o, or NULL */
+    enum plot_option_when when;
+    long step;
+    unsigned n_time;
+    double times[PLOT_TIMES]; /* --time, in the order given */
+    bool sliced[3];           /* by axis */
+    double slice[3];
+    struct plot_option_span
+        range[PLOT_RANGES];           /* values: of the fields of a picture in the order left, right, inside */
+    struct plot_option_span limit[2]; /* x and y of the picture */
+    bool log, mirror, tiles;
+    const char *map;      /* or NULL: by field */
+    const char *contours; /* list of materials, "none", or NULL: all */
+    int width;            /* 0: by layout */
+    const char *left, *right;
+    char inside[64];          /* a material; "": none */
+    const char *inside_field; /* what is shown in it */
+};
+
+/* Reads the options of a command line; what contradicts itself or is no number is STATUS_CASE. */
+int plot_option_read(const struct cli_given *given, struct plot_option *ret_option);
+
+#endif
