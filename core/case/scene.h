@@ -104,6 +104,7 @@ struct scene_sources {
 
 enum scene_closure { SCENE_KAPILA, SCENE_ALLAIRE };
 enum scene_exchange { SCENE_EXCHANGE_AUTO, SCENE_EXCHANGE_FAST, SCENE_EXCHANGE_FULL };
+enum scene_integrator { SCENE_MIDPOINT, SCENE_SSPRK3 }; /* rows of solve/tableau.c */
 enum scene_guard { SCENE_GUARD_NORMAL, SCENE_GUARD_STRICT };
 
 /* `every:`: a time, or a number of steps; both 0: never. */
@@ -245,6 +246,7 @@ struct scene {
     struct instance interface_limiter; /* of the volume fractions */
     double cfl, dt_fixed;              /* dt_fixed 0: from cfl */
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
+    enum scene_integrator integrator;
     enum scene_guard guard;
     double until;    /* s */
     long max_steps;  /* 0: no limit */

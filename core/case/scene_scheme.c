@@ -53,9 +53,10 @@ static const struct key scene_scheme_rows[] = {
             "(ideal-gas to mnasg, tait), else full."},
     {.name = "integrator",
      .type = KEYS_CHOICE,
-     .choices = "midpoint",
+     .choices = "midpoint|ssprk3",
      .fallback = "midpoint",
-     .doc = "The time integrator: the midpoint rule, second order."},
+     .doc = "The time integrator. midpoint: two stages, second order. ssprk3: the three stages of Shu and Osher, third "
+            "order in time; half as dear again, and one array more."},
     {.name = "cfl",
      .type = KEYS_NUMBER,
      .unit = "1",
@@ -129,6 +130,7 @@ void scene_scheme(struct draft *draft)
     struct scene *scene = draft->scene;
     scene->closure = (enum scene_closure)keys_at(scheme, "closure")->integer;
     scene->exchange = (enum scene_exchange)keys_at(scheme, "exchange")->integer;
+    scene->integrator = (enum scene_integrator)keys_at(scheme, "integrator")->integer;
     scene->guard = (enum scene_guard)keys_at(scheme, "guard")->integer;
     scene->cfl = keys_at(scheme, "cfl")->number;
     scene->dt_fixed = keys_at(scheme, "dt")->number;

@@ -83,7 +83,9 @@ static void dump_note(struct notes *notes, const struct state *state, const stru
     notes_put_one(notes, "t", facts->t);
     notes_put_one(notes, "dt", facts->dt);
     notes_put_one(notes, "t.boundary", facts->at);
-    notes_put_one(notes, "stage", facts->stage + 1);
+    const struct tableau *tableau = tableau_numbered(facts->integrator);
+    notes_put_one(notes, "stage", 1 + (blame_moves(facts) ? facts->stage : facts->stage - TABLEAU_STAGES + tableau->n));
+    if (facts->integrator) notes_put_text(notes, "integrator", tableau->name);
     dump_note_place(notes, facts);
     notes_put_one(notes, "pure", facts->pure);
     notes_put_one(notes, "marked", facts->masked);

@@ -93,6 +93,15 @@ static int dump_place(struct dump *dump)
     return STATUS_OK;
 }
 
+/* The midpoint rule goes without saying. */
+static int dump_integrator(struct dump *dump)
+{
+    char *name = notes_get_text(&dump->notes, "integrator");
+    dump->facts.integrator = name ? tableau_named(name) : 0;
+    mem_free(name);
+    return dump->facts.integrator < 0 ? dump_lacks(dump, "integrator") : STATUS_OK;
+}
+
 static int dump_facts(struct dump *dump)
 {
     struct blame_facts *facts = &dump->facts;
@@ -103,8 +112,10 @@ static int dump_facts(struct dump *dump)
     TRY(dump_numbers(dump, "t", 1, &facts->t));
     TRY(dump_numbers(dump, "dt", 1, &facts->dt));
     TRY(dump_numbers(dump, "t.boundary", 1, &facts->at));
-    TRY(dump_whole(dump, "stage", 1, BLAME_TOO_SLOW + 1, &stage));
-    facts->stage = stage - 1;
+    TRY(dump_integrator(dump));
+    int n = tableau_numbered(facts->integrator)->n;
+    TRY(dump_whole(dump, "stage", 1, n + BLAME_TOO_SLOW - TABLEAU_STAGES + 1, &stage));
+    facts->stage = stage <= n ? stage - 1 : stage - 1 - n + TABLEAU_STAGES;
     TRY(dump_place(dump));
     TRY(dump_whole(dump, "pure", -1, SCENE_MATERIALS, &facts->pure));
     TRY(dump_whole(dump, "marked", 0, 1, &masked));

@@ -70,14 +70,15 @@ static void dump_show_modules(FILE *out, const struct dump *dump, bool compare)
 
 static void dump_show_place(FILE *out, const struct dump *dump)
 {
-    static const char *const stages[] = {"stage 1: the midpoint", "stage 2: the new state",
-                                         "after averages and fluxes of a finer level",
-                                         "before a step too short to be taken"};
+    static const char *const between[] = {"after averages and fluxes of a finer level",
+                                          "before a step too short to be taken"};
     const struct blame_facts *facts = &dump->facts;
     unsigned n0 = (unsigned)facts->n[0], n1 = (unsigned)facts->n[1];
     fprintf(out, "step      %ld, from t = %.9g s over dt = %.9g s\n", facts->step, facts->t, facts->dt);
-    fprintf(out, "stage     %s%s\n", stages[facts->stage],
-            facts->masked ? ", with first-order fluxes at marked cells" : "");
+    const struct tableau_stage *row = &tableau_numbered(facts->integrator)->stage[facts->stage % TABLEAU_STAGES];
+    if (blame_moves(facts)) fprintf(out, "stage     stage %d: %s", facts->stage + 1, row->doc);
+    else fprintf(out, "stage     %s", between[facts->stage - TABLEAU_STAGES]);
+    fprintf(out, "%s\n", facts->masked ? ", with first-order fluxes at marked cells" : "");
     fprintf(out, "level     %d, cells of %.6g m\n", facts->level, facts->h[0]);
     fprintf(out, "tile      (%d, %d, %d)", facts->tile[0], facts->tile[1], facts->tile[2]);
     if (facts->pure == SCENE_MATERIALS) fprintf(out, ", advanced as fluids alone");

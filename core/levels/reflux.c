@@ -29,7 +29,7 @@ struct reflux *reflux_new(const struct model *model, const struct mesh *mesh, in
     const struct link *down = reflux->down, *up = reflux->up;
     size_t plane = mesh->n_cell / (size_t)mesh->n[0];
     if (down) reflux->fine = mem_new(down->n_face * down->n_register * down->face_cells, sizeof(double));
-    if (down) reflux->plane = mem_new(2 * down->n_register * plane, sizeof(double));
+    if (down) reflux->plane = mem_new((2 * down->n_register + 1) * plane, sizeof(double));
     if (up) reflux->coarse = mem_new(up->n_source * reflux_rows(model, up) * up->face_cells, sizeof(double));
     return reflux;
 }
@@ -64,28 +64,19 @@ static const double *reflux_slide(const struct model *used, const struct face_wo
 }
 
 /* Flux of register component q in a solved row; NULL: no such flux, where the material is absent. What a narrowed path
- * leaves out is as the whole one would find it: without a solid no stretch is carried. left: the coarse cell lies below. */
-static const double *reflux_row(const struct model *model, const struct model *used, const struct face_work *work,
-                                int axis, unsigned q, bool left)
+ * leaves out is as the whole one would find it: a material alone fills the faces, without a solid no stretch is carried.
+ * left: the coarse cell lies below. */
+static const double *reflux_row(const struct model *model, const struct terms *terms, int axis, unsigned q, bool left)
 {
-    if (q < model->n_alpha) {
-        unsigned l = q - used->first; /* wraps below */
-        if (l >= used->n_material) return NULL;
-        return used->n_alpha ? work->alpha + l * FACE_ROOM : work->u;
+    const struct model *used = terms->model;
+    if (q == model->n_field) return terms->faces->u;
+    if (q > model->n_field) return reflux_slide(used, terms->faces, q - model->n_field - 1, left);
+    for (unsigned i = 0; i < terms->n_flux[axis]; i++) {
+        const struct term_flux *flux = &terms->flux[axis][i];
+        if (flux->rate == q && flux->kind != TERM_TOLD) return flux->below;
     }
-    if (q < model->i_u) {
-        unsigned l = q - model->i_m - used->first;
-        return l < used->n_material ? work->m + l * FACE_ROOM : NULL;
-    }
-    if (q == model->i_E) return work->energy;
-    if (q == model->n_field) return work->u;
-    if (q > model->n_field) return reflux_slide(used, work, q - model->n_field - 1, left);
-    if (q >= model->i_V) {
-        unsigned c = q - model->i_V;
-        return used->n_stretch ? work->stretch + c * FACE_ROOM : NULL;
-    }
-    unsigned a = q - model->i_u, normal = (unsigned)axis; /* the inverse of axis_component */
-    return work->momentum + (a == normal ? 0 : a < normal ? a + 1 : a) * FACE_ROOM;
+    bool alone = q < model->n_alpha && !used->n_alpha && q == used->first;
+    return alone ? terms->faces->u : NULL;
 }
 
 /* A square patch of faces (or cells) of a tile across an axis. */
@@ -107,10 +98,18 @@ static int reflux_extent(const struct mesh *mesh, const struct reflux_patch *pat
     return axis < mesh->dim ? patch->cells : 1;
 }
 
-/* Copies what the piece holds of a patch of faces; row NULL: zeros. */
-static void reflux_copy(const struct mesh *mesh, const struct frame *frame, const double *row,
+/* A value that counts with a weight; the first one is not added to what was there. */
+static void reflux_count(const struct reflux *reflux, double value, double *sum)
+{
+    double counts = reflux->weight * value;
+    *sum = reflux->fresh ? counts : *sum + counts;
+}
+
+/* Takes what the piece holds of a patch of faces; row NULL: zeros. Counted, or as it is. */
+static void reflux_copy(const struct reflux *reflux, bool counted, const struct frame *frame, const double *row,
                         const struct reflux_patch *patch, double *out)
 {
+    const struct mesh *mesh = reflux->mesh;
     int across[2];
     reflux_across(frame->axis, across);
     int n0 = reflux_extent(mesh, patch, across[0]), n1 = reflux_extent(mesh, patch, across[1]);
@@ -124,7 +123,9 @@ static void reflux_copy(const struct mesh *mesh, const struct frame *frame, cons
             for (int d = frame->axis + 1; d < 3; d++, step *= (size_t)mesh->n[d - 1]) outer += at[d] * step;
             if (inner - frame->inner_from >= frame->inner || outer - frame->outer_from >= frame->outer) continue;
             size_t face = face_at(frame, outer - frame->outer_from, (size_t)patch->layer) + inner - frame->inner_from;
-            *out = row ? row[face] : 0.0;
+            double value = row ? row[face] : 0.0;
+            if (counted) reflux_count(reflux, value, out);
+            else *out = value;
         }
 }
 
@@ -134,8 +135,14 @@ static double *reflux_coarse(const struct reflux *reflux, unsigned source)
     return reflux->coarse + source * reflux_rows(reflux->model, up) * up->face_cells;
 }
 
-static void reflux_collect_fine(struct reflux *reflux, const struct model *used, unsigned local,
-                                const struct frame *frame, const struct face_work *work)
+void reflux_weigh(struct reflux *reflux, double weight, bool fresh)
+{
+    reflux->weight = weight;
+    reflux->fresh = fresh;
+}
+
+static void reflux_collect_fine(struct reflux *reflux, const struct terms *terms, unsigned local,
+                                const struct frame *frame)
 {
     const struct mesh *mesh = reflux->mesh;
     size_t plane = mesh->n_cell / (size_t)mesh->n[0];
@@ -143,17 +150,16 @@ static void reflux_collect_fine(struct reflux *reflux, const struct model *used,
         if (reflux->level->neighbours[local][2 * frame->axis + side].kind != NEIGHBOUR_COARSE) continue;
         struct reflux_patch patch = {.layer = side ? mesh->n[frame->axis] : 0, .cells = mesh->n[0]};
         for (unsigned q = 0; q < reflux->down->n_register; q++)
-            reflux_copy(mesh, frame, reflux_row(reflux->model, used, work, frame->axis, q, side == 0), &patch,
+            reflux_copy(reflux, false, frame, reflux_row(reflux->model, terms, frame->axis, q, side == 0), &patch,
                         reflux->plane + ((size_t)side * reflux->down->n_register + q) * plane);
     }
 }
 
-void reflux_collect(struct reflux *reflux, const struct model *used, unsigned local, const struct frame *frame,
-                    const struct face_work *work)
+void reflux_collect(struct reflux *reflux, const struct terms *terms, unsigned local, const struct frame *frame)
 {
     const struct mesh *mesh = reflux->mesh;
     const struct link *up = reflux->up;
-    if (reflux->down) reflux_collect_fine(reflux, used, local, frame, work);
+    if (reflux->down) reflux_collect_fine(reflux, terms, local, frame);
     if (!up) return;
     for (unsigned s = up->source_from[local]; s < up->source_from[local + 1]; s++) {
         const struct link_face *source = &up->sources[s];
@@ -162,7 +168,7 @@ void reflux_collect(struct reflux *reflux, const struct model *used, unsigned lo
         struct reflux_patch patch = {.layer = source->layer + (source->face % 2 == 0), .cells = mesh->n[0] / 2};
         memcpy(patch.from, source->from, sizeof patch.from);
         for (unsigned q = 0; q < up->n_register; q++)
-            reflux_copy(mesh, frame, reflux_row(reflux->model, used, work, frame->axis, q, source->face % 2 == 0),
+            reflux_copy(reflux, true, frame, reflux_row(reflux->model, terms, frame->axis, q, source->face % 2 == 0),
                         &patch, reflux_coarse(reflux, s) + q * up->face_cells);
     }
 }
@@ -176,10 +182,14 @@ void reflux_average(struct reflux *reflux, unsigned local, int axis)
     for (int side = 0; down && side < 2; side++) {
         const struct neighbour *neighbour = &level->neighbours[local][2 * axis + side];
         if (neighbour->kind != NEIGHBOUR_COARSE) continue;
-        double *mean = reflux->fine + (size_t)neighbour->index * down->n_register * down->face_cells;
-        for (unsigned q = 0; q < down->n_register; q++)
+        double *fine = reflux->fine + (size_t)neighbour->index * down->n_register * down->face_cells;
+        double *mean = reflux->plane + 2 * down->n_register * plane;
+        for (unsigned q = 0; q < down->n_register; q++) {
             restrict_face(mesh, level, &level->tiles[level->first + local], axis,
-                          reflux->plane + ((size_t)side * down->n_register + q) * plane, mean + q * down->face_cells);
+                          reflux->plane + ((size_t)side * down->n_register + q) * plane, mean);
+            for (size_t i = 0; i < down->face_cells; i++)
+                reflux_count(reflux, mean[i], fine + q * down->face_cells + i);
+        }
     }
 }
 
@@ -229,7 +239,7 @@ void reflux_keep(struct reflux *reflux, const struct model *used, unsigned local
         for (size_t i = 0; i < up->face_cells; i++) {
             size_t cell = reflux_cell(reflux->mesh, &up->sources[s], i);
             for (unsigned q = 0; q < reflux_keeps(reflux->model); q++)
-                kept[q * up->face_cells + i] = reflux_kept(reflux, used, q, w, K, cell);
+                reflux_count(reflux, reflux_kept(reflux, used, q, w, K, cell), kept + q * up->face_cells + i);
         }
     }
 }

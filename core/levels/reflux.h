@@ -1,15 +1,15 @@
 /* reflux.h - coarse and fine fluxes made one: what the coarse cell at a coarse-fine face gets after the fine level
  * has caught up (Berger & Colella 1989; model.md 7, amr.md 3.6).
  *
- * Of the fluxes of the last stage, which alone make the step of the midpoint rule, a level keeps those
- * through its coarse-fine faces: as the finer side, their means over sub-faces; as the coarser side, its own. With
+ * Rows of fluxes whose rates are evolved fields (term.h) are refluxed, whatever term they belong to. Of the fluxes of the
+ * stages, with their weights in the step (solve/tableau.h), a level keeps those through its coarse-fine faces: as the finer side, their means over sub-faces; as the coarser side, its own. With
  * delta = (sum over fine steps of dt F_fine) - dt F_coarse and the cell on the lower side of the face,
  *     conserved fields:  d q = -(A/V) delta(F)
  *     fractions:         d alpha = -(A/V) [delta(alpha* u*) - (alpha + K) delta(u*)],
  *     stretch:           d V = -(A/V)/m_s [delta(V* F) - V delta(F)] + what dL = delta(u) n/h stretches V by
  *                        (F, m_s: mass flux and partial density of all solids together)
  *                              (elastic_correct),
- * alpha + K and V those of the coarse cell at the midpoint: without the second terms a uniform alpha or V would be asked
+ * alpha + K and V those of the coarse cell, weighted likewise (the midpoint's): without the second terms a uniform alpha or V would be asked
  * to drift. Registers hold, beside all fluxes, u* and in scenes with a solid the face's other velocity components, as
  * the coarse cell sees them where the sides slip. `plain`: the first terms alone. */
 #ifndef REFLUX_H
@@ -17,7 +17,7 @@
 
 #include "mesh/link.h"
 #include "mesh/metric.h"
-#include "scheme/face.h"
+#include "scheme/terms.h"
 
 /* Of one level; links are those of its neighbours when it was made. */
 struct reflux {
@@ -25,10 +25,12 @@ struct reflux {
     const struct mesh *mesh;
     const struct level *level;
     struct link *down, *up; /* to the coarser and from the finer level, or NULL */
-    double *fine;           /* [down->n_face][n_register][face_cells] of the last full stage */
+    double *fine;           /* [down->n_face][n_register][face_cells] of the step under way */
     double *coarse;         /* [up->n_source][n_register + n_alpha + n_stretch + 1][face_cells]: fluxes, then alpha + K,
-                               V and m_s (both with a solid), of the cell at the midpoint */
-    double *plane;          /* scratch: both fine faces of an axis, [2][n_register][n^(d-1)] */
+                               V and m_s (both with a solid), of the cell */
+    double *plane;          /* scratch: both fine faces of an axis, [2][n_register][n^(d-1)], then one mean */
+    double weight;          /* of the stage under way */
+    bool fresh;             /* it is the first one that counts */
 };
 
 struct reflux *reflux_new(const struct model *model, const struct mesh *mesh, int l);
@@ -37,9 +39,11 @@ void reflux_free(struct reflux *reflux);
 /* Has this local tile a coarse-fine face, on either side? */
 bool reflux_concerns(const struct reflux *reflux, unsigned local);
 
-/* Takes the fluxes of one piece of a tile (after face_solve); `used`: the model it was solved with. */
-void reflux_collect(struct reflux *reflux, const struct model *used, unsigned local, const struct frame *frame,
-                    const struct face_work *work);
+/* A stage begins: its fluxes count with `weight`; fresh: none before it did. */
+void reflux_weigh(struct reflux *reflux, double weight, bool fresh);
+
+/* Takes the fluxes of one piece of a tile (after face_solve); `terms`: of the path it was solved with. */
+void reflux_collect(struct reflux *reflux, const struct terms *terms, unsigned local, const struct frame *frame);
 
 /* After all pieces of an axis: means over sub-faces of the tile's own coarse-fine faces. */
 void reflux_average(struct reflux *reflux, unsigned local, int axis);

@@ -8,6 +8,7 @@
 
 #include "mesh/axis.h"
 #include "phys/elastic_tensor.h"
+#include "phys/row.h"
 
 #include <math.h>
 #include <string.h>
@@ -436,16 +437,10 @@ void elastic_speed2(const struct model *model, size_t n, size_t stride, const do
     }
 }
 
-static BULLA_KERNEL void elastic_add_row(size_t n, const double *restrict row, double *restrict sum)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) sum[i] += row[i];
-}
-
 void elastic_sum(const struct model *model, size_t n, size_t stride, const double *block, double *restrict sum)
 {
     memset(sum, 0, n * sizeof *sum);
-    for (unsigned s = 0; s < model->n_solid; s++) elastic_add_row(n, block + model->solids[s].material * stride, sum);
+    for (unsigned s = 0; s < model->n_solid; s++) row_add(n, block + model->solids[s].material * stride, sum);
 }
 
 /* Square of |V - 1|, component by component: weight 2 off the diagonal. */

@@ -8,6 +8,7 @@
 
 #include "phys/elastic.h"
 #include "phys/present.h"
+#include "phys/row.h"
 #include "phys/traction.h"
 
 #include <math.h>
@@ -74,19 +75,6 @@ static BULLA_KERNEL void mix_densities(size_t n, const double *restrict m, const
         alpha[i] = a;
         rho[i] = mass > 0.0 ? density : fill;
     }
-}
-
-static BULLA_KERNEL void mix_add(size_t n, const double *restrict a, double *restrict sum)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) sum[i] += a[i];
-}
-
-static BULLA_KERNEL void mix_add_product(size_t n, const double *restrict a, const double *restrict b,
-                                         double *restrict sum)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) sum[i] += a[i] * b[i];
 }
 
 /* u = momentum / rho, and twice the kinetic energy. */
@@ -177,7 +165,7 @@ static struct mix_effort mix_primitives_batch(const struct model *model, size_t 
     mix_zero(n, &twice);
     unsigned i_m = model->i_m;
     double traces = 0.0;
-    for (unsigned l = 0; l < model->n_material; l++) mix_add(n, u + (i_m + l) * stride, rho.value);
+    for (unsigned l = 0; l < model->n_material; l++) row_add(n, u + (i_m + l) * stride, rho.value);
     if (model->n_alpha) mix_fractions(model, n, stride, u, MIX_NOTHING, -HUGE_VAL, w);
     else memcpy(w + i_m * stride, u + i_m * stride, n * sizeof *w);
     for (unsigned l = 0; l < model->n_alpha; l++)
@@ -218,7 +206,7 @@ static void mix_load(const struct model *model, size_t n, size_t stride, const d
     for (unsigned q = model->i_V; q < model->i_V + model->n_stretch; q++)
         memcpy(u + q * stride, w + q * stride, n * sizeof *u);
     elastic_energy(model, n, stride, w + model->i_V * stride, m, elastic.value);
-    mix_add(n, elastic.value, energy);
+    row_add(n, elastic.value, energy);
 }
 
 static void mix_conserved_batch(const struct model *model, size_t n, size_t stride, const double *w, double *u)
@@ -315,7 +303,7 @@ static void mix_solid_densities(const struct model *model, size_t n, size_t stri
         ret_m[s] = rho;
         if (!model->n_alpha) continue;
         mix_zero(n, &masses[s]);
-        mix_add_product(n, w + (model->i_alpha + l) * stride, rho, masses[s].value);
+        row_add_product(n, w + (model->i_alpha + l) * stride, rho, masses[s].value);
         ret_m[s] = masses[s].value;
     }
 }

@@ -7,6 +7,7 @@
 #include "phys/mix_pressure.h"
 
 #include "phys/present.h"
+#include "phys/row.h"
 #include "phys/traction.h"
 
 #include <float.h>
@@ -39,12 +40,6 @@ void mix_pressure_sum(struct mix_effort *sum, struct mix_effort more)
     sum->steps += more.steps;
     sum->failed += more.failed;
     sum->most = sum->most > more.most ? sum->most : more.most;
-}
-
-static BULLA_KERNEL void mix_pressure_add(size_t n, const double *restrict a, double *restrict sum)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) sum[i] += a[i];
 }
 
 static BULLA_KERNEL void mix_pressure_weigh(size_t n, const double *restrict alpha, const double *restrict a,
@@ -100,7 +95,7 @@ static void mix_pressure_curved(const struct model *model, size_t n, size_t stri
 {
     memset(ret, 0, n * sizeof *ret);
     for (unsigned l = 0; l < model->n_alpha; l++)
-        if (!model->eos[l].law->linear) mix_pressure_add(n, w + (model->i_alpha + l) * stride, ret);
+        if (!model->eos[l].law->linear) row_add(n, w + (model->i_alpha + l) * stride, ret);
     for (size_t i = 0; i < n && !model->n_alpha; i++) ret[i] = 1.0;
 }
 
@@ -194,7 +189,7 @@ static void mix_pressure_residual(struct mix_pressure_points *points)
         const double *p = points->p.value;
         if (points->split) {
             memcpy(points->own.value, p, n * sizeof *p);
-            mix_pressure_add(n, points->lag[l].value, points->own.value);
+            row_add(n, points->lag[l].value, points->own.value);
             p = points->own.value;
         }
         struct present present = {n, points->alpha[l].value, points->rho[l].value, p};

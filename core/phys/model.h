@@ -48,7 +48,7 @@ struct model {
     struct model *fluids; /* the same scene where only its fluids are present; NULL without a solid, with less
                                             than two fluids, or if they do not stand together in the list of materials */
     bool kapila, linear;  /* linear: every law is linear in p, closed-form mixture pressure */
-    bool thermal;         /* materials of a cell exchange volume in full: temperatures are meant (update.h) */
+    bool thermal;         /* materials of a cell exchange volume in full: temperatures are meant (scheme/exchange.h) */
     bool split;           /* the materials of a cell share their normal traction, not their pressure (traction.h) */
     struct model_eos eos[SCENE_MATERIALS];
     struct model_limiter {

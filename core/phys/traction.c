@@ -2,6 +2,7 @@
 #include "phys/traction.h"
 
 #include "phys/elastic.h"
+#include "phys/row.h"
 
 #include <string.h>
 
@@ -48,19 +49,6 @@ void traction_own(const struct model *model, size_t n, size_t stride, const doub
         traction_batch(model, n - i < TRACTION_BATCH ? n - i : TRACTION_BATCH, stride, w + i, pitch, own + i);
 }
 
-static BULLA_KERNEL void traction_add(size_t n, const double *restrict alpha, const double *restrict own,
-                                      double *restrict mean)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) mean[i] += alpha[i] * own[i];
-}
-
-static BULLA_KERNEL void traction_take(size_t n, const double *restrict mean, double *restrict own)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) own[i] -= mean[i];
-}
-
 /* Both for a batch. */
 static void traction_both(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
                           double *own, double *mean)
@@ -69,7 +57,7 @@ static void traction_both(const struct model *model, size_t n, size_t stride, co
     if (!model->n_alpha) memcpy(mean, own, n * sizeof *mean);
     else memset(mean, 0, n * sizeof *mean);
     for (unsigned l = 0; l < model->n_alpha; l++)
-        traction_add(n, w + (model->i_alpha + l) * stride, own + l * pitch, mean);
+        row_add_product(n, w + (model->i_alpha + l) * stride, own + l * pitch, mean);
 }
 
 void traction_mean(const struct model *model, size_t n, size_t stride, const double *w, double *mean)
@@ -85,7 +73,7 @@ void traction_part(const struct model *model, size_t n, size_t stride, const dou
     double mean[TRACTION_BATCH];
     if (!model->split) return;
     traction_both(model, n, stride, w, TRACTION_BATCH, ret->lag[0], mean);
-    for (unsigned l = 0; l < model->n_material; l++) traction_take(n, mean, ret->lag[l]);
+    for (unsigned l = 0; l < model->n_material; l++) row_take(n, mean, ret->lag[l]);
 }
 
 static BULLA_KERNEL void traction_give(size_t n, const double *restrict p, const double *restrict lag,

@@ -38,7 +38,9 @@ int inspect_plan(const struct cli_given *given)
     int code = scenes_read(given, given->words[0], &scene);
     if (code) return code;
     struct text text = {0};
-    plan_text(scene, &text);
+    struct model *model = model_new(scene);
+    plan_text(model, &text);
+    model_free(model);
     inspect_put(&text);
     scene_free(scene);
     return 0;

@@ -10,6 +10,7 @@
 
 #include "base/mem.h"
 #include "phys/present.h"
+#include "phys/row.h"
 #include "scheme/face_stress.h"
 
 #include <math.h>
@@ -202,7 +203,6 @@ static void face_reconstruct(struct face_work *work, const struct frame *frame, 
     const struct model *model = work->model;
     struct face_own *own = work->own;
     size_t step = frame->inner;
-    if (model->split) face_stress_frame(model, frame->count, work->frame);
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
         const double *w = work->frame + q * FACE_ROOM + step;
@@ -216,18 +216,6 @@ static void face_reconstruct(struct face_work *work, const struct frame *frame, 
     }
 }
 
-static BULLA_KERNEL void face_sum(size_t n, const double *restrict a, double *restrict sum)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) sum[i] += a[i];
-}
-
-static BULLA_KERNEL void face_divide(size_t n, const double *restrict sum, double *restrict a)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) a[i] /= sum[i];
-}
-
 /* Limited fractions of three or more materials need not sum to 1 (of two they do: limiters are odd). */
 static void face_normalise(struct face_work *work, size_t n)
 {
@@ -236,9 +224,9 @@ static void face_normalise(struct face_work *work, size_t n)
     if (!model->n_alpha || model->scene->n_material < 3) return; /* two of three are scaled as all three would be */
     memset(own->term, 0, n * sizeof *own->term);
     for (unsigned l = 0; l < model->n_alpha; l++)
-        face_sum(n, own->state + 2 * (model->i_alpha + l) * FACE_ROOM, own->term);
+        row_add(n, own->state + 2 * (model->i_alpha + l) * FACE_ROOM, own->term);
     for (unsigned l = 0; l < model->n_alpha; l++)
-        face_divide(n, own->term, own->state + 2 * (model->i_alpha + l) * FACE_ROOM);
+        row_divide(n, own->term, own->state + 2 * (model->i_alpha + l) * FACE_ROOM);
 }
 
 /* One material's share: m = alpha rho, and its parts of rho, rho e and rho c_f^2; the first
@@ -419,7 +407,7 @@ static void face_drag(struct face_work *work, size_t right)
     size_t n = work->faces.n;
     memset(own->term, 0, n * sizeof *own->term);
     for (unsigned s = 0; s < model->n_solid; s++)
-        face_sum(n, work->m + model->solids[s].material * FACE_ROOM, own->term);
+        row_add(n, work->m + model->solids[s].material * FACE_ROOM, own->term);
     face_stress_carry(model, n, right, own->state, own->term, work->stretch);
 }
 

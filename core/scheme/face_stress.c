@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "phys/elastic.h"
+#include "phys/row.h"
 #include "phys/traction.h"
 
 #include <math.h>
@@ -27,17 +28,16 @@ void face_stress_free(struct face_stress *stress)
     mem_free(stress);
 }
 
-static BULLA_KERNEL void face_stress_take(size_t n, const double *restrict mean, double *restrict p)
+static bool face_stress_wanted(const struct model *path)
 {
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) p[i] -= mean[i];
+    return path->split;
 }
 
-void face_stress_frame(const struct model *model, size_t n, double *frame)
+static void face_stress_frame(const struct term_piece *piece)
 {
-    double mean[FACE_ROOM];
-    traction_mean(model, n, FACE_ROOM, frame, mean);
-    face_stress_take(n, mean, frame + model->i_E * FACE_ROOM);
+    double mean[FACE_ROOM], *w = piece->faces->frame;
+    traction_mean(piece->model, piece->frame->count, FACE_ROOM, w, mean);
+    row_take(piece->frame->count, mean, w + piece->model->i_E * FACE_ROOM);
 }
 
 static BULLA_KERNEL void face_stress_press(size_t n, const double *restrict traction, double *restrict own)
@@ -117,3 +117,11 @@ void face_stress_carry(const struct model *model, size_t n, size_t right, const 
         face_stress_upwind(n, mass, edges, edges + right, out + c * FACE_ROOM);
     }
 }
+
+const struct term face_stress_term = {
+    .name = "traction",
+    .owner = "core/scheme/face_stress.c",
+    .equation = "p_l = p + s'_l,nn - S: -s_nn is common to the materials of a cell, and is reconstructed",
+    .wanted = face_stress_wanted,
+    .frame = face_stress_frame,
+};

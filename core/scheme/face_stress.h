@@ -7,6 +7,7 @@
 #define FACE_STRESS_H
 
 #include "scheme/face.h"
+#include "scheme/term.h"
 
 /* Scratch of one face_work, for paths with a stretch. */
 struct face_stress {
@@ -21,8 +22,9 @@ struct face_stress {
 struct face_stress *face_stress_new(const struct model *model);
 void face_stress_free(struct face_stress *stress);
 
-/* Split models (traction.h) reconstruct the traction -s_nn in place of p: replaces p of n cells of a gathered frame. */
-void face_stress_frame(const struct model *model, size_t n, double *frame);
+/* One traction for all materials of a cell (traction.h): replaces p of a gathered frame by -s_nn, which is what is
+ * reconstructed then. */
+extern const struct term face_stress_term;
 
 /* Pressures of the materials at n edges, from the traction. */
 void face_stress_split(struct face_stress *stress, const struct model *model, size_t n, const double *state);

@@ -11,7 +11,9 @@
 #include "mesh/metric.h"
 #include "phys/elastic.h"
 #include "phys/mix.h"
-#include "scheme/update.h"
+#include "phys/row.h"
+#include "scheme/exchange.h"
+#include "scheme/terms.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -78,13 +80,18 @@ static void source_name_all(struct source *source)
     mem_free(names);
 }
 
-struct source *source_new(const struct model *model, const struct mesh *mesh)
+static bool source_wanted(const struct model *path)
 {
+    return path->scene->sources != NULL;
+}
+
+static void *source_open(const struct term_room *room)
+{
+    const struct model *model = room->model;
     const struct scene_sources *sources = model->scene->sources;
-    if (!sources) return NULL;
     struct source *source = mem_new(1, sizeof *source);
     source->model = model;
-    source->mesh = mesh;
+    source->mesh = room->mesh;
     if (sources->script) source_name_all(source);
     source->rows = mem_new((size_t)SCENE_SOURCES * SOURCE_BATCH, sizeof *source->rows);
     for (unsigned s = 0; s < SCENE_SOURCES; s++) {
@@ -103,23 +110,24 @@ struct source *source_new(const struct model *model, const struct mesh *mesh)
     return source;
 }
 
-void source_free(struct source *source)
+static void source_close(void *own)
 {
-    if (!source) return;
+    struct source *source = own;
     mem_free(source->rows);
     mem_free(source->message);
     mem_free(source);
 }
 
-int source_failure(const struct source *source, const char **ret_message, const char **ret_place)
+static int source_failure(const void *own, const char **ret_message, const char **ret_place)
 {
-    if (!source || !source->status) return STATUS_OK;
+    const struct source *source = own;
+    if (!source->status) return STATUS_OK;
     *ret_message = source->message;
     *ret_place = source->place;
     return source->status;
 }
 
-bool source_spreads(const struct scene *scene)
+static bool source_spreads(const struct scene *scene)
 {
     if (!scene->sources) return false;
     for (unsigned l = 0; l < scene->n_material; l++)
@@ -147,6 +155,12 @@ void source_text(const struct scene *scene, struct text *text)
         comma = ", ";
     }
     if (scene->sources && scene->sources->script) text_add(text, "%slua", comma);
+}
+
+static void source_say(const struct scene *scene, struct text *text)
+{
+    text_add(text, ": ");
+    source_text(scene, text);
 }
 
 /* Middle of the volume between two radii, by the mean of r with the weight r^beta. */
@@ -224,23 +238,6 @@ static void source_evaluate(struct source *source, const struct tile *tile, doub
     }
 }
 
-/* rate += a b */
-static BULLA_KERNEL void source_product(size_t n, const double *restrict a, const double *restrict b,
-                                        double *restrict rate)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double x = a[i], y = b[i], old = rate[i];
-        rate[i] = old + x * y;
-    }
-}
-
-static BULLA_KERNEL void source_plus(size_t n, const double *restrict a, double *restrict rate)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) rate[i] += a[i];
-}
-
 /* One component of the forces: what it gives to the momentum, and its power. */
 static BULLA_KERNEL void source_push(size_t n, const double *restrict acceleration, const double *restrict force,
                                      const double *restrict rho, const double *restrict u, double *restrict momentum,
@@ -302,7 +299,7 @@ static BULLA_KERNEL void source_swell(size_t n, const double *restrict alpha, co
     }
 }
 
-/* Volume moves until the pressures are one again; what the closure of update.h sees of transport stays as it is. */
+/* Volume moves until the pressures are one again; what the exchange sees of transport stays as it is. */
 static BULLA_KERNEL void source_share(size_t n, const double *restrict own, const double *restrict compliance,
                                       const double *restrict sum, const double *restrict all, const double *restrict p,
                                       double *restrict alpha, double *restrict carried)
@@ -319,6 +316,7 @@ static BULLA_KERNEL void source_share(size_t n, const double *restrict own, cons
 /* One batch of one tile: rows of primitives and rates begin at its first cell. */
 struct source_batch {
     const struct model *path;
+    unsigned exchange; /* first row of what volume carries (exchange.h) */
     size_t n, stride;
     const double *w;
     double *rates;
@@ -345,11 +343,11 @@ static void source_begin(const struct source *source, struct source_batch *batch
     memset(batch->rho, 0, batch->n * sizeof *batch->rho);
     memset(batch->all, 0, batch->n * sizeof *batch->all);
     for (unsigned l = 0; l < path->n_material; l++) {
-        source_product(batch->n, source_alpha(batch, l), batch->w + (path->i_m + l) * batch->stride, batch->rho);
+        row_add_product(batch->n, source_alpha(batch, l), batch->w + (path->i_m + l) * batch->stride, batch->rho);
         const double *given = source->row[SCENE_SOURCE_MASS + path->first + l];
         if (!given) continue;
         source_where(batch->n, source_alpha(batch, l), given, batch->mass[l]);
-        source_plus(batch->n, batch->mass[l], batch->all);
+        row_add(batch->n, batch->mass[l], batch->all);
     }
 }
 
@@ -381,13 +379,13 @@ static void source_material(struct source *source, struct source_batch *batch, u
     double rho_e[SOURCE_BATCH], rho_c2[SOURCE_BATCH], de_dp[SOURCE_BATCH], de_drho[SOURCE_BATCH];
     if (!source->heats && !source->fills) return;
     memcpy(batch->heat, source_given(source, SCENE_SOURCE_HEATING), batch->n * sizeof *batch->heat);
-    if (source->row[heat]) source_plus(batch->n, source->row[heat], batch->heat);
-    source_product(batch->n, source_alpha(batch, l), batch->heat, source_rate(batch, path->i_E));
+    if (source->row[heat]) row_add(batch->n, source->row[heat], batch->heat);
+    row_add_product(batch->n, source_alpha(batch, l), batch->heat, source_rate(batch, path->i_E));
     const double *brings = source->row[mass] ? batch->mass[l] : source_zero;
     if (!path->kapila && !source->row[mass]) return;
     eos->law->state(eos->self, batch->n, rho, p, rho_e, rho_c2);
     source_enthalpy(batch->n, brings, rho, p, rho_e, source_rate(batch, path->i_E));
-    source_plus(batch->n, brings, source_rate(batch, path->i_m + l));
+    row_add(batch->n, brings, source_rate(batch, path->i_m + l));
     if (!path->kapila) return;
     eos->law->derivatives(eos->self, batch->n, rho, p, de_dp, de_drho);
     source_swell(batch->n, source_alpha(batch, l), rho, rho_c2, de_dp, batch->heat, brings, source->exchange[l],
@@ -402,16 +400,16 @@ static void source_fractions(const struct source *source, const struct source_ba
     double sum[SOURCE_BATCH] = {0}, all[SOURCE_BATCH] = {0};
     bool shares = path->kapila && (source->heats || source->fills);
     for (unsigned l = 0; l < path->n_alpha && shares; l++) {
-        source_plus(batch->n, source->exchange[l], sum);
-        source_plus(batch->n, source->compliance[l], all);
+        row_add(batch->n, source->exchange[l], sum);
+        row_add(batch->n, source->compliance[l], all);
     }
     for (unsigned l = 0; l < path->n_alpha; l++) {
         const double *given = source->row[SCENE_SOURCE_FRACTION + path->first + l];
         double *alpha = source_rate(batch, path->i_alpha + l);
-        double *carried = path->kapila ? source_rate(batch, path->n_field + 1 + l) : NULL;
+        double *carried = path->kapila ? source_rate(batch, batch->exchange + l) : NULL;
         if (shares) source_share(batch->n, source->exchange[l], source->compliance[l], sum, all, p, alpha, carried);
-        if (given) source_plus(batch->n, given, alpha);
-        if (given && path->kapila) source_product(batch->n, given, p, carried);
+        if (given) row_add(batch->n, given, alpha);
+        if (given && path->kapila) row_add_product(batch->n, given, p, carried);
     }
 }
 
@@ -425,32 +423,33 @@ static void source_stretch(const struct source *source, const struct source_batc
         unsigned l = path->solids[s].material;
         bool given = source->row[SCENE_SOURCE_MASS + path->first + l];
         masses[s] = given ? batch->mass[l] : source_zero;
-        source_product(batch->n, source_alpha(batch, l), batch->w + (path->i_m + l) * batch->stride, m);
-        source_plus(batch->n, masses[s], arrives);
+        row_add_product(batch->n, source_alpha(batch, l), batch->w + (path->i_m + l) * batch->stride, m);
+        row_add(batch->n, masses[s], arrives);
     }
     elastic_energy(path, batch->n, batch->stride, V, masses, energy);
-    source_plus(batch->n, energy, source_rate(batch, path->i_E));
+    row_add(batch->n, energy, source_rate(batch, path->i_E));
     for (unsigned c = 0; c < path->n_stretch; c++) {
         const double *given = source->row[SCENE_SOURCE_STRETCH + c];
-        source_product(batch->n, V + c * batch->stride, arrives, source_rate(batch, path->i_V + c));
-        if (given) source_product(batch->n, given, m, source_rate(batch, path->i_V + c));
+        row_add_product(batch->n, V + c * batch->stride, arrives, source_rate(batch, path->i_V + c));
+        if (given) row_add_product(batch->n, given, m, source_rate(batch, path->i_V + c));
     }
 }
 
-void source_add(struct source *source, const struct model *path, const struct level *level, const struct tile *tile,
-                double t, const double *w, double *rates)
+static void source_cells(struct term_tile *tile)
 {
-    if (!source) return;
+    struct source *source = tile->own;
+    const struct model *path = tile->model;
     struct source_batch batch; /* large: filled as far as it is used */
     bool varies = source->n_varying || source->n_name;
     batch.path = path;
+    batch.exchange = path->kapila ? terms_first(tile->terms, &exchange_term) : 0;
     batch.stride = source->mesh->n_cell;
-    if (varies) source_places(source, level, tile);
+    if (varies) source_places(source, tile->level, tile->tile);
     for (size_t from = 0; from < batch.stride; from += SOURCE_BATCH) {
         batch.n = batch.stride - from < SOURCE_BATCH ? batch.stride - from : SOURCE_BATCH;
-        batch.w = w + from;
-        batch.rates = rates + from;
-        if (varies) source_evaluate(source, tile, t, from, batch.n);
+        batch.w = tile->w + from;
+        batch.rates = tile->rates + from;
+        if (varies) source_evaluate(source, tile->tile, tile->t, from, batch.n);
         source_begin(source, &batch);
         source_forces(source, &batch);
         for (unsigned l = 0; l < path->n_material; l++) source_material(source, &batch, l);
@@ -458,3 +457,17 @@ void source_add(struct source *source, const struct model *path, const struct le
         if (path->n_stretch && (source->fills || source->strains)) source_stretch(source, &batch);
     }
 }
+
+const struct term source_term = {
+    .name = "sources",
+    .owner = "core/scheme/source.c",
+    .equation = "d(m_l, rho u, rho E, alpha_l, V)/dt += what the case gives",
+    .wanted = source_wanted,
+    .moves = true,
+    .spreads = source_spreads,
+    .open = source_open,
+    .close = source_close,
+    .failure = source_failure,
+    .cells = source_cells,
+    .say = source_say,
+};

@@ -8,35 +8,17 @@
  *     fractions, stretch        d alpha_l, d V as they are
  * Mass arrives in the state that the material has there, a solid's with its stretch, and nowhere where the material is absent. With the
  * Kapila closure, what heat and mass would drive the pressures of the materials apart by moves volume between them, as
- * in update.h: d alpha_l = e_l - s_l/S sum_k e_k with the compliances s_l = alpha_l/(rho_l c_l^2), S = sum s_l, and
+ * in exchange.h: d alpha_l = e_l - s_l/S sum_k e_k with the compliances s_l = alpha_l/(rho_l c_l^2), S = sum s_l, and
  * e_l = s_l q_l/(d rho_l e_l/dp) + (mass source)/rho_l. */
 #ifndef SOURCE_H
 #define SOURCE_H
 
 #include "base/text.h"
-#include "mesh/mesh.h"
-#include "phys/model.h"
+#include "scheme/term.h"
 
-/* Work space of one rank, and the first failure of a script. */
-struct source;
-
-/* NULL if the scene has no sources; source_free takes that too. */
-struct source *source_new(const struct model *model, const struct mesh *mesh);
-void source_free(struct source *source);
-
-/* Adds to the rates (update.h) of a tile what the sources give at time t [s]. path: the model that the tile is advanced
- * with; w: its primitives at that time. Where a script fails the rates are NaN, and source_failure tells. A source of
- * NULL adds nothing. */
-void source_add(struct source *source, const struct model *path, const struct level *level, const struct tile *tile,
-                double t, const double *w, double *rates);
-
-/* STATUS_OK, or the status of the first failure since source_new; then its message and place: "at (0, 0.1) m, ...". */
-int source_failure(const struct source *source, const char **ret_message, const char **ret_place);
+extern const struct term source_term;
 
 /* Adds what acts, in words: "acceleration, heating, lua"; nothing without sources. */
 void source_text(const struct scene *scene, struct text *text);
-
-/* Can sources bring a material to where there is none? Then no tile may leave out what it does not hold. */
-bool source_spreads(const struct scene *scene);
 
 #endif

@@ -17,6 +17,7 @@
 #include "solve/plan.h"
 #include "solve/regrid.h"
 #include "solve/sync.h"
+#include "solve/verdict.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -34,22 +35,33 @@ double advance_dt(const struct state *state)
     return state->dt_shrink * scene->cfl / state->signal;
 }
 
-/* Runs the plan once; returns the number of inadmissible cells of all ranks (in the first stage
+/* Runs the plan once. */
+static void advance_run(struct stage *stage)
+{
+    const struct plan *plan = plan_of(stage->tableau);
+    for (int i = 0; i < plan->n; i++) plan->step[i].run(stage, plan->step[i].turn);
+}
+
+/* Runs it as an attempt; returns the number of inadmissible cells of all ranks (in the first stage
  * that has any) and, through *ret_signal, the signal speed of the new state; *ret_blind: a script of a boundary or
- * of a source failed on some rank. */
+ * of a term failed on some rank. */
 static double advance_attempt(struct stage *stage, double *ret_signal, bool *ret_blind)
 {
-    guard_attempt(stage->guard);
-    for (const struct plan_stage *step = plan_stages(); step->name; step++) step->run(stage);
     const char *words, *place;
-    double blind = stage->bound->status || source_failure(stage->work->source, &words, &place) ? 1.0 : 0.0;
-    double found[4] = {(double)stage->guard->bad[0], (double)stage->guard->bad[1], stage->signal, blind};
-    comm_max(found, 4);
+    int n = stage->tableau->n, first = 0;
+    double found[TABLEAU_STAGES + 2];
+    guard_attempt(stage->guard);
+    advance_run(stage);
+    for (int s = 0; s < n; s++) found[s] = (double)stage->guard->bad[s];
+    found[n] = stage->signal;
+    found[n + 1] = stage->bound->status || terms_failure(stage->work->own, &words, &place) ? 1.0 : 0.0;
+    comm_max(found, n + 2);
     cost_lap(&stage->work->cost, COST_EXCHANGE);
-    *ret_signal = found[2];
-    *ret_blind = found[3] > 0.0;
-    if (found[0] > 0.0 || found[1] > 0.0) guard_settle(stage->guard, found[0] > 0.0);
-    return found[0] > 0.0 ? found[0] : found[1];
+    *ret_signal = found[n];
+    *ret_blind = found[n + 1] > 0.0;
+    while (first + 1 < n && found[first] == 0.0) first++;
+    if (found[first] > 0.0) guard_settle(stage->guard, first);
+    return found[first];
 }
 
 /* Attempts with the given dt: plain, then with more and more marked cells. 0, or the last count. What a script does not
@@ -64,9 +76,9 @@ static double advance_rounds(struct state *state, struct stage *stage, double *r
         stage->guard->last = strict || round == GUARD_ROUNDS;
         double bad = advance_attempt(stage, ret_signal, ret_blind);
         if (bad == 0.0 || strict || round == GUARD_ROUNDS || *ret_blind) return bad;
-        state->counts.fallback += stage->guard->bad[0] + stage->guard->bad[1];
+        state->counts.fallback += guard_bad(stage->guard);
         stage->guard->masked = true;
-        stage_reset(stage);
+        verdict_reset(stage);
     }
 }
 
@@ -86,11 +98,12 @@ static void advance_accept(struct state *state, struct stage *stage, double sign
 
 static void advance_stamp(const struct state *state, const struct stage *stage, struct blame *blame)
 {
-    static const double at[] = {0.0, 0.5, 1.0, 0.0};
+    int s = blame->facts.stage;
+    double at = s == BLAME_FAILED_SYNC ? 1.0 : s < stage->tableau->n ? stage->tableau->stage[s].at : 0.0;
     blame->facts.step = state->step + 1;
     blame->facts.t = stage->t;
     blame->facts.dt = stage->dt;
-    blame->facts.at = stage->t + at[blame->facts.stage] * stage->dt;
+    blame->facts.at = stage->t + at * stage->dt;
 }
 
 /* Repeats the last attempt, which failed, with an eye on its first bad cell: an attempt changes nothing that another
@@ -104,8 +117,8 @@ static void advance_watch(const struct state *state, struct stage *stage)
         advance_stamp(state, stage, stage->blame);
     }
     guard_attempt(stage->guard);
-    for (const struct plan_stage *step = plan_stages(); step->name; step++) step->run(stage);
-    stage_reset(stage);
+    advance_run(stage);
+    verdict_reset(stage);
     const struct guard_place *is = &stage->guard->found;
     if (!mine) return;
     stage->blame->turn = -1;
@@ -198,7 +211,7 @@ static int advance_script(const struct state *state, struct stage *stage)
     char place[320] = "";
     const char *message = stage->bound->message, *inside = "";
     if (status && stage->blind >= 0) advance_say_blind(stage, sizeof place, place);
-    if (!status && (status = source_failure(stage->work->source, &message, &inside)))
+    if (!status && (status = terms_failure(stage->work->own, &message, &inside)))
         snprintf(place, sizeof place, ", %s", inside);
     guard_clear(stage->guard);
     stage->guard->last = true; /* no marks, which would make the repetition another attempt */
@@ -217,7 +230,7 @@ static int advance_once(struct state *state, struct stage *stage, bool *ret_good
     bool blind = false, bad = advance_rounds(state, stage, &signal, &blind) > 0.0;
     *ret_good = !bad && !blind;
     if (*ret_good) advance_accept(state, stage, signal);
-    else stage_reset(stage);
+    else verdict_reset(stage);
     cost_close(&state->work->cost, COST_STEP);
     return blind ? advance_script(state, stage) : STATUS_OK;
 }

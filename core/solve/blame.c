@@ -13,14 +13,22 @@
 
 const char *blame_name(enum blame_block block)
 {
-    static const char *const names[] = {"u_old",   "w",       "u",      "w_new",  "K",      "rho_c2", "frame_x",
-                                        "frame_y", "frame_z", "mark_x", "mark_y", "mark_z", "faces"};
+    static const char *const names[] = {"u_old",   "w",       "u",       "w_new",  "K",      "rho_c2", "u_stage",
+                                        "frame_x", "frame_y", "frame_z", "mark_x", "mark_y", "mark_z", "faces"};
     return names[block];
 }
 
 static const struct model *blame_used(const struct model *model, const struct blame_facts *facts)
 {
     return model_numbered(model, facts->pure);
+}
+
+/* The stage that was under way; of failures between steps any. */
+static const struct tableau_stage *blame_row(const struct blame_facts *facts)
+{
+    static const struct tableau_stage none;
+    const struct tableau *tableau = tableau_numbered(facts->integrator);
+    return blame_moves(facts) && facts->stage < tableau->n ? &tableau->stage[facts->stage] : &none;
 }
 
 /* Cells of the whole frame of the tile along an axis. */
@@ -53,6 +61,7 @@ struct blame_shape blame_shape(const struct model *model, const struct blame_fac
     bool closure = used->kapila && blame_moves(facts);
     if (block >= BLAME_FRAME_X) return blame_shape_swept(model, facts, block, name);
     bool material = block == BLAME_K || block == BLAME_STIFFNESS;
+    if (block == BLAME_BASE && !blame_row(facts)->previous) return (struct blame_shape){name, 0, 0};
     unsigned rows = !material ? model->n_field : closure ? used->n_material : 0;
     return (struct blame_shape){name, rows, facts->n_cell};
 }
@@ -92,7 +101,7 @@ static unsigned blame_component(int axis, unsigned e)
 }
 
 /* Row i of a list, where there are values. */
-static const double *blame_row(const double *const *rows, unsigned i)
+static const double *blame_at(const double *const *rows, unsigned i)
 {
     return rows ? rows[i] : NULL;
 }
@@ -105,11 +114,11 @@ static void blame_list_side(struct blame_list *list, const struct model *used, i
     blame_add(list, side->rho_E, group, "energy", "");
     blame_add(list, side->c, group, "sound_speed", "");
     for (unsigned e = 0; e < used->n_velocity; e++)
-        blame_add(list, blame_row(side->u, blame_component(axis, e)), group, "velocity", blame_axes[e]);
+        blame_add(list, blame_at(side->u, blame_component(axis, e)), group, "velocity", blame_axes[e]);
     for (unsigned l = 0; l < used->n_material; l++)
-        blame_add(list, blame_row(side->m, l), group, "partial_density", blame_material(used, l));
+        blame_add(list, blame_at(side->m, l), group, "partial_density", blame_material(used, l));
     for (unsigned l = 0; l < used->n_alpha; l++)
-        blame_add(list, blame_row(side->alpha, l), group, "alpha", blame_material(used, l));
+        blame_add(list, blame_at(side->alpha, l), group, "alpha", blame_material(used, l));
 }
 
 /* What a solid adds to a side. */
@@ -119,55 +128,41 @@ static void blame_list_shear(struct blame_list *list, const struct model *used, 
     if (!used->n_stretch) return;
     blame_add(list, shear->c_s, group, "shear_speed", "");
     for (unsigned d = 1; d < used->n_velocity; d++)
-        blame_add(list, blame_row(shear->s, d - 1), group, "traction", blame_tangents[d - 1]);
+        blame_add(list, blame_at(shear->s, d - 1), group, "traction", blame_tangents[d - 1]);
 }
 
-static void blame_list_block(struct blame_list *list, const struct model *used, const double *block, const char *name,
-                             unsigned n)
+/* What the terms have of fluxes: one column, or two where the cells beside a face see different values. */
+static void blame_list_fluxes(struct blame_list *list, const struct terms *terms, int axis)
 {
-    for (unsigned l = 0; l < n; l++)
-        blame_add(list, block ? block + l * FACE_ROOM : NULL, "flux", name, blame_material(used, l));
-}
-
-/* What moves the stretch of the cells beside a face. */
-static void blame_list_stretch(struct blame_list *list, const struct model *used, const struct face_work *faces)
-{
-    for (unsigned c = 0; c < used->n_stretch; c++)
-        blame_add(list, faces->stretch ? faces->stretch + c * FACE_ROOM : NULL, "flux",
-                  used->field_names[used->i_V + c], "");
-    for (unsigned d = 1; used->n_stretch && d < used->n_velocity; d++) {
-        const char *name = blame_tangents[d - 1];
-        blame_add(list, faces->slide_left ? faces->slide_left + (d - 1) * FACE_ROOM : NULL, "left", "slide", name);
-        blame_add(list, faces->slide_right ? faces->slide_right + (d - 1) * FACE_ROOM : NULL, "right", "slide", name);
+    for (unsigned i = 0; i < terms->n_flux[axis]; i++) {
+        const struct term_flux *flux = &terms->flux[axis][i];
+        if (!*flux->name) continue;
+        if (!flux->sides) blame_add(list, flux->below, "flux", flux->name, "");
+        if (flux->sides) blame_add(list, flux->above, "left", flux->name, "");
+        if (flux->sides) blame_add(list, flux->below, "right", flux->name, "");
     }
 }
 
-/* All columns; without `faces` names alone. */
-static void blame_list_all(struct blame_list *list, const struct model *used, int axis, const struct face_work *faces)
+/* All columns; terms without work space have names alone. */
+static void blame_list_all(struct blame_list *list, const struct terms *terms, int axis)
 {
     static const struct face_work none;
-    if (!faces) faces = &none;
+    const struct face_work *faces = terms->faces ? terms->faces : &none;
+    const struct model *used = terms->model;
     list->n = 0;
     blame_list_side(list, used, axis, "left", &faces->faces.left);
     blame_list_side(list, used, axis, "right", &faces->faces.right);
     blame_list_shear(list, used, "left", &faces->faces.shear_left);
     blame_list_shear(list, used, "right", &faces->faces.shear_right);
-    blame_list_block(list, used, faces->m, "mass", used->n_material);
-    for (unsigned e = 0; e < used->n_velocity; e++)
-        blame_add(list, faces->momentum ? faces->momentum + blame_component(axis, e) * FACE_ROOM : NULL, "flux",
-                  "momentum", blame_axes[e]);
-    blame_add(list, faces->energy, "flux", "energy", "");
-    blame_add(list, faces->u, "flux", "velocity", "");
-    blame_list_block(list, used, faces->alpha, "alpha", used->n_alpha);
-    blame_list_block(list, used, faces->carried, "carried", used->n_alpha);
-    blame_list_block(list, used, faces->strained, "strained", used->n_alpha);
-    blame_list_stretch(list, used, faces);
+    blame_list_fluxes(list, terms, axis);
 }
 
 unsigned blame_columns(const struct model *model, const struct blame_facts *facts, char (*ret_names)[BLAME_NAME])
 {
     struct blame_list list;
-    blame_list_all(&list, blame_used(model, facts), 0, NULL);
+    struct terms *terms = terms_new(blame_used(model, facts), NULL);
+    blame_list_all(&list, terms, 0);
+    terms_free(terms);
     for (unsigned i = 0; i < list.n; i++) memcpy(ret_names[i], list.at[i].name, BLAME_NAME);
     return list.n;
 }
@@ -190,6 +185,7 @@ struct blame *blame_new(const struct model *model, const struct guard *guard)
     blame->local = found->local;
     facts->rank = comm_rank();
     facts->level = guard->l;
+    facts->integrator = (int)model->scene->integrator;
     facts->stage = found->stage;
     facts->covered = tile->covered;
     facts->n_cell = (unsigned)mesh->n_cell;
@@ -251,8 +247,7 @@ static void blame_copy_piece(const struct blame *blame, const struct model *used
 }
 
 /* The two faces of the cell, if they are in this piece. */
-static void blame_copy_faces(struct blame *blame, const struct model *used, const struct frame *frame,
-                             const struct face_work *faces)
+void blame_faces(struct blame *blame, const struct terms *terms, const struct frame *frame)
 {
     size_t cell = blame->facts.cell, per_outer = frame->n * frame->tile_inner;
     size_t outer = cell / per_outer, i = cell % per_outer / frame->tile_inner, inner = cell % frame->tile_inner;
@@ -260,18 +255,17 @@ static void blame_copy_faces(struct blame *blame, const struct model *used, cons
     if (inner < frame->inner_from || inner >= frame->inner_from + frame->inner) return;
     size_t lower = face_at(frame, outer - frame->outer_from, i) + (inner - frame->inner_from);
     struct blame_list list;
-    blame_list_all(&list, used, frame->axis, faces);
+    blame_list_all(&list, terms, frame->axis);
     for (unsigned side = 0; side < 2; side++)
         for (unsigned c = 0; c < list.n; c++)
             blame->block[BLAME_FACES][(2 * (unsigned)frame->axis + side) * list.n + c] =
                 list.at[c].row[lower + side * frame->inner];
 }
 
-void blame_piece(struct blame *blame, const struct model *used, const struct frame *frame,
+void blame_frame(struct blame *blame, const struct model *used, const struct frame *frame,
                  const struct face_work *faces)
 {
     blame_copy_piece(blame, used, frame, faces, true);
-    blame_copy_faces(blame, used, frame, faces);
 }
 
 void blame_give(const struct blame *blame, const struct model *used, const struct frame *frame, struct face_work *faces)
@@ -284,13 +278,14 @@ static void blame_take(struct blame *blame, enum blame_block block, size_t rows,
     if (blame->block[block]) memcpy(blame->block[block], values, rows * blame->facts.n_cell * sizeof *values);
 }
 
-void blame_rates(struct blame *blame, const struct model *model, const struct update_input *in)
+void blame_rates(struct blame *blame, const struct model *model, const struct term_tile *tile, const double *u_old)
 {
     const struct model *used = blame_used(model, &blame->facts); /* a path for fewer materials has fewer rows */
-    blame_take(blame, BLAME_U_OLD, model->n_field, in->u_old);
-    blame_take(blame, BLAME_W, model->n_field, in->w);
-    blame_take(blame, BLAME_K, used->n_material, in->K);
-    blame_take(blame, BLAME_STIFFNESS, used->n_material, in->rho_c2);
+    blame_take(blame, BLAME_U_OLD, model->n_field, u_old);
+    blame_take(blame, BLAME_BASE, model->n_field, tile->u);
+    blame_take(blame, BLAME_W, model->n_field, tile->w);
+    blame_take(blame, BLAME_K, used->n_material, tile->K);
+    blame_take(blame, BLAME_STIFFNESS, used->n_material, tile->rho_c2);
 }
 
 /* What a pure model leaves alone stays out: zero. */

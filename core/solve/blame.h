@@ -6,12 +6,12 @@
 #ifndef BLAME_H
 #define BLAME_H
 
-#include "scheme/update.h"
+#include "scheme/terms.h"
 #include "solve/guard.h"
 
 enum {
-    BLAME_FAILED_SYNC = 2,
-    BLAME_TOO_SLOW = 3,
+    BLAME_FAILED_SYNC = TABLEAU_STAGES,
+    BLAME_TOO_SLOW,
     BLAME_COLUMNS = 9 * SCENE_MATERIALS + 40,
     BLAME_NAME = SCENE_NAME + 32
 };
@@ -21,7 +21,8 @@ struct blame_facts {
     int rank;         /* which has the blocks */
     long step;        /* under way, counted from 1 */
     double t, dt, at; /* where the step of the level began [s], its size [s]; when the stage took boundary values [s] */
-    int level, stage; /* stage: 0 midpoint, 1 new state, BLAME_FAILED_SYNC: after averages and fluxes of a finer level,
+    int integrator;   /* enum scene_integrator */
+    int level, stage; /* stage: of the tableau, BLAME_FAILED_SYNC: after averages and fluxes of a finer level,
                   BLAME_TOO_SLOW: before a step that is too short to be taken (pace.h) */
     int tile[3], extent[3], covered; /* as in struct tile and struct level */
     double h[3];
@@ -48,6 +49,7 @@ enum blame_block {
     BLAME_W_NEW,     /* its primitives */
     BLAME_K,         /* of mix_closure; Kapila closure only */
     BLAME_STIFFNESS, /* rho_l c_l^2 at w, likewise */
+    BLAME_BASE,      /* conserved fields that the stage went on from, where these are not u_old */
     BLAME_FRAME_X,   /* w with two layers of neighbours along an axis: [field][outer][n + 4][inner] */
     BLAME_FRAME_Y,
     BLAME_FRAME_Z,
@@ -92,10 +94,12 @@ static inline bool blame_concerns(const struct blame *blame, unsigned local)
     return blame && blame->local == local && blame->turn == blame->facts.stage;
 }
 
-/* For stage.c, of a watched tile: a piece after its fluxes were found; what the update is made of; what came out. */
-void blame_piece(struct blame *blame, const struct model *used, const struct frame *frame,
+/* For stage.c, of a watched tile: a piece as it was gathered; its fluxes; what the new state is made of (u_old: at the beginning of the
+ * step); what came out. */
+void blame_frame(struct blame *blame, const struct model *used, const struct frame *frame,
                  const struct face_work *faces);
-void blame_rates(struct blame *blame, const struct model *model, const struct update_input *in);
+void blame_faces(struct blame *blame, const struct terms *terms, const struct frame *frame);
+void blame_rates(struct blame *blame, const struct model *model, const struct term_tile *tile, const double *u_old);
 void blame_result(struct blame *blame, const struct model *used, const double *u, const double *w);
 
 /* Of a tile that failed between steps: w there now, and what the guard kept of it ([2][n_field][n_cell]). */

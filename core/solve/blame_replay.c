@@ -4,8 +4,7 @@
 
 #include "base/mem.h"
 #include "phys/mix.h"
-#include "scheme/source.h"
-#include "scheme/update.h"
+#include "scheme/rate.h"
 #include "solve/guard.h"
 #include "solve/pace.h"
 
@@ -20,6 +19,9 @@ struct replay {
     struct level *level;
     struct tile tile;
     struct face_work *faces;
+    struct terms *terms;
+    void *own[TERMS_MOST];
+    const struct tableau *tableau;
     double *rates, *K, *rho_c2, *c2, *u, *w;
 };
 
@@ -57,7 +59,10 @@ static struct replay *replay_new(const struct model *model, const struct blame *
     replay_mesh(replay);
     replay->again = blame_like(model, &blame->facts);
     replay->faces = face_new(replay->used);
-    replay->rates = mem_new(update_rates(replay->used) * n_cell, sizeof(double));
+    replay->terms = terms_new(replay->used, replay->faces);
+    terms_open(&(struct term_room){.model = model, .mesh = &replay->mesh}, replay->own);
+    replay->tableau = tableau_numbered(blame->facts.integrator);
+    replay->rates = mem_new(replay->terms->n_rates * n_cell, sizeof(double));
     replay->K = mem_new(model->n_material * n_cell, sizeof(double));
     replay->rho_c2 = mem_new(model->n_material * n_cell, sizeof(double));
     replay->c2 = mem_new(n_cell, sizeof(double));
@@ -70,62 +75,55 @@ static void replay_free(struct replay *replay)
 {
     double *blocks[] = {replay->rates, replay->K, replay->rho_c2, replay->c2, replay->u, replay->w};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) mem_free(blocks[i]);
+    terms_free(replay->terms);
+    terms_close(replay->own);
     face_free(replay->faces);
     blame_free(replay->again);
     mem_free(replay);
 }
 
-static void replay_sweep(struct replay *replay, int axis, const struct metric *metric, const double *hoop)
+/* A piece of the dump, and of what is recorded again. */
+static void replay_gather(void *data, const struct frame *frame, struct face_work *faces)
 {
-    const struct blame *blame = replay->blame;
-    for (size_t piece = 0; piece < frame_pieces(&replay->mesh, axis); piece++) {
-        struct frame frame = frame_piece(&replay->mesh, axis, piece);
-        blame_give(blame, replay->used, &frame, replay->faces);
-        face_solve(replay->faces, &frame, blame->facts.masked);
-        blame_piece(replay->again, replay->used, &frame, replay->faces);
-        update_add(replay->used, replay->level, metric, &frame, replay->faces, blame->facts.n_cell, hoop,
-                   replay->rates);
-    }
+    const struct replay *replay = data;
+    blame_give(replay->blame, replay->used, frame, faces);
+    blame_frame(replay->again, replay->used, frame, faces);
 }
 
-static void replay_sources(struct replay *replay)
+static void replay_seen(void *data, const struct frame *frame, struct face_work *faces)
 {
-    const struct blame_facts *facts = &replay->blame->facts;
-    struct source *source = source_new(replay->model, &replay->mesh);
-    double at = facts->stage == 0 ? 0.0 : 0.5;
-    source_add(source, replay->used, replay->level, &replay->tile, facts->t + at * facts->dt,
-               replay->blame->block[BLAME_W], replay->rates);
-    source_free(source);
+    const struct replay *replay = data;
+    (void)faces;
+    blame_faces(replay->again, replay->terms, frame);
 }
 
 /* From the frames to the new conserved fields. */
 static void replay_update(struct replay *replay)
 {
     const struct blame *blame = replay->blame;
-    const struct model *used = replay->used;
-    size_t n_cell = blame->facts.n_cell;
-    const double *w = blame->block[BLAME_W];
+    const struct blame_facts *facts = &blame->facts;
+    const struct tableau_stage *row = &replay->tableau->stage[facts->stage];
+    const double *u_old = blame->block[BLAME_U_OLD];
     struct metric metric;
+    struct term_tile tile = {.terms = replay->terms,
+                             .model = replay->used,
+                             .mesh = &replay->mesh,
+                             .level = replay->level,
+                             .tile = &replay->tile,
+                             .metric = &metric,
+                             .n_cell = facts->n_cell,
+                             .t = facts->t + row->at * facts->dt,
+                             .dt = row->step * facts->dt,
+                             .u = row->previous ? blame->block[BLAME_BASE] : u_old,
+                             .w = blame->block[BLAME_W],
+                             .rates = replay->rates,
+                             .K = replay->K,
+                             .rho_c2 = replay->rho_c2};
+    const struct rate_watch watch = {replay, replay_gather, replay_seen, NULL};
     if (replay->mesh.beta) metric_of_tile(&replay->mesh, replay->level, &replay->tile, &metric);
-    const double *hoop = w + used->i_E * n_cell;
-    if (used->beta && used->n_stretch) {
-        mix_hoop(used, n_cell, n_cell, w, replay->c2); /* free until the new state is judged */
-        hoop = replay->c2;
-    }
-    for (int axis = 0; axis < replay->mesh.dim; axis++) replay_sweep(replay, axis, &metric, hoop);
-    if (used->kapila) {
-        mix_stiffness_everywhere(used, n_cell, n_cell, w, replay->rho_c2);
-        mix_closure(used, n_cell, n_cell, w, replay->rho_c2, replay->K);
-    }
-    replay_sources(replay);
-    struct update_input input = {.u_old = blame->block[BLAME_U_OLD],
-                                 .w = w,
-                                 .K = replay->K,
-                                 .rho_c2 = replay->rho_c2,
-                                 .rates = replay->rates,
-                                 .h = update_length(replay->level, replay->mesh.dim)};
-    double part = blame->facts.stage == 0 ? 0.5 : 1.0;
-    update_apply(used, n_cell, part * blame->facts.dt, &input, replay->u);
+    rate_take(&tile, replay->own, &watch, facts->masked);
+    rate_apply(&tile, replay->own, replay->u);
+    rate_mix(&tile, u_old, row->mix, replay->u);
 }
 
 /* The guard's opinion of the new state, which it may change. */
@@ -137,10 +135,11 @@ static void replay_judge(struct replay *replay, struct blame_outcome *outcome)
                           .level = replay->level,
                           .l = facts->level,
                           .n_local = 1,
+                          .n_stage = replay->tableau->n,
                           .repair = facts->repair,
                           .last = true};
     struct guard_tile tile = {.model = replay->used,
-                              .stage = facts->stage == 0 ? 0 : 1,
+                              .stage = blame_moves(facts) ? facts->stage : replay->tableau->n - 1,
                               .u_old = replay->blame->block[BLAME_U_OLD],
                               .u = replay->u,
                               .w = replay->w,

@@ -14,8 +14,8 @@ struct census_tile {
     const struct model *path;       /* the model the tile was last advanced with */
     const struct model *kept;       /* the one of the streak */
     unsigned present, present_next; /* bit l: material l is in the tile now; after this stage */
-    unsigned streak; /* stages in a row on the same narrowed path, up to 3: then what it leaves alone is in place in all
-                        three arrays */
+    unsigned streak; /* stages in a row on the same narrowed path, up to one more than a step has: then what it
+                        leaves alone is in place in all three arrays */
     bool still, still_next, skipped; /* uniform and at rest now; after this stage; copied in it */
     double signal;                   /* largest sum over axes of (|u_a| + c) / h_a at the last close [1/s] */
 };

@@ -19,14 +19,15 @@
 
 enum { GUARD_BATCH = 512 };
 
-/* A mark of the second stage until it is known whether the first was clean everywhere. */
-static const double GUARD_PENDING = 2.0;
+/* A mark of stage s is 1 + s until it is known whether earlier ones were clean everywhere. */
+static const double GUARD_MARK = 1.0;
 
-struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l)
+struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l, int n_stage)
 {
     struct guard *guard = mem_new(1, sizeof *guard);
     const struct level *level = &mesh->levels[l];
-    *guard = (struct guard){.model = model, .mesh = mesh, .level = level, .l = l, .n_local = level->n_local};
+    *guard = (struct guard){
+        .model = model, .mesh = mesh, .level = level, .l = l, .n_local = level->n_local, .n_stage = n_stage};
     guard->repair = model->kapila && model->scene->guard != SCENE_GUARD_STRICT;
     guard->mask = mem_new(level->n_local, sizeof *guard->mask);
     guard->halo = halo_new(mesh, level, 1);
@@ -61,7 +62,8 @@ void guard_clear(struct guard *guard)
 
 void guard_attempt(struct guard *guard)
 {
-    guard->bad[0] = guard->bad[1] = guard->relaxed = 0;
+    memset(guard->bad, 0, sizeof guard->bad);
+    guard->relaxed = 0;
     guard->cause[0] = '\0';
 }
 
@@ -227,15 +229,23 @@ static bool guard_put_back(struct guard *guard, const struct guard_tile *tile, s
     return true;
 }
 
-void guard_settle(struct guard *guard, bool first)
+void guard_settle(struct guard *guard, int first)
 {
     if (!guard->last) guard_allow_marks(guard);
     for (unsigned t = 0; guard->marked && t < guard->n_local; t++)
-        for (size_t c = 0; c < guard->mesh->n_cell; c++)
-            if (guard->mask[t][c] == GUARD_PENDING) guard->mask[t][c] = first ? 0.0 : 1.0;
-    if (!first) return;
-    guard->bad[1] = 0;
-    if (!guard->bad[0]) guard->cause[0] = '\0';
+        for (size_t c = 0; c < guard->mesh->n_cell; c++) {
+            double *mark = &guard->mask[t][c];
+            if (*mark > GUARD_MARK) *mark = *mark > GUARD_MARK + first ? 0.0 : GUARD_MARK;
+        }
+    for (int s = first + 1; s < guard->n_stage; s++) guard->bad[s] = 0;
+    if (!guard->bad[first]) guard->cause[0] = '\0';
+}
+
+long long guard_bad(const struct guard *guard)
+{
+    long long bad = 0;
+    for (int s = 0; s < guard->n_stage; s++) bad += guard->bad[s];
+    return bad;
 }
 
 /* A cell that stays bad: said, counted, marked for the next attempt. */
@@ -246,14 +256,15 @@ static void guard_note(struct guard *guard, const struct guard_tile *tile, size_
     if (guard->last) return;
     guard_allow_marks(guard);
     double *mark = &guard->mask[tile->local][cell];
-    if (*mark == 0.0) *mark = tile->stage ? GUARD_PENDING : 1.0;
+    if (*mark == 0.0) *mark = GUARD_MARK + tile->stage;
 }
 
 void guard_check(struct guard *guard, const struct guard_tile *tile)
 {
     size_t n_cell = guard->mesh->n_cell;
     bool kept = !guard_is_first(guard, tile);
-    if (tile->stage && guard->bad[0]) return;
+    for (int s = 0; s < tile->stage; s++)
+        if (guard->bad[s]) return;
     for (size_t from = 0; from < n_cell; from += GUARD_BATCH) {
         size_t n = n_cell - from < GUARD_BATCH ? n_cell - from : GUARD_BATCH;
         double bad[GUARD_BATCH];

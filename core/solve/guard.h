@@ -13,6 +13,7 @@
 
 #include "mesh/mesh.h"
 #include "phys/model.h"
+#include "solve/tableau.h"
 
 enum { GUARD_ROUNDS = 3, GUARD_RETRIES = 6, GUARD_WORDS = 1024 };
 
@@ -22,7 +23,8 @@ enum { GUARD_ROUNDS = 3, GUARD_RETRIES = 6, GUARD_WORDS = 1024 };
 /* The first bad cell of an attempt: in the tile that comes first in the list, whatever the order of work. */
 struct guard_place {
     unsigned local;
-    int stage, pure; /* pure: model_number of the path the tile was advanced with */
+    int stage,
+        pure; /* stage: of the tableau, or as in blame.h; pure: model_number of the path the tile was advanced with */
     size_t cell;
     char field[SCENE_NAME + 32]; /* which field is wrong */
     double value;
@@ -35,20 +37,22 @@ struct guard {
     const struct level *level;
     int l; /* its number, for messages */
     unsigned n_local;
-    double **mask;            /* [n_local][n_cell]: 1 in troubled cells of this step; NULL until a run has had one */
-    bool marked;              /* masks are there and may hold marks */
-    struct halo *halo;        /* exchange of the masks */
-    bool masked;              /* some cell of some rank is marked */
-    bool repair;              /* relaxation is allowed (Kapila closure, guard not strict) */
-    long long relaxed;        /* cells repaired in the present attempt */
-    long long bad[2];         /* inadmissible cells found after each stage of the present attempt */
-    char cause[GUARD_WORDS];  /* the first of them, in words (rank-local) */
-    struct guard_place found; /* and in numbers; only valid after something was found */
+    double **mask;     /* [n_local][n_cell]: 1 in troubled cells of this step; NULL until a run has had one */
+    bool marked;       /* masks are there and may hold marks */
+    struct halo *halo; /* exchange of the masks */
+    bool masked;       /* some cell of some rank is marked */
+    bool repair;       /* relaxation is allowed (Kapila closure, guard not strict) */
+    long long relaxed; /* cells repaired in the present attempt */
+    int n_stage;       /* stages of a step */
+    long long bad[TABLEAU_STAGES]; /* inadmissible cells found after each stage of the present attempt */
+    char cause[GUARD_WORDS];       /* the first of them, in words (rank-local) */
+    struct guard_place found;      /* and in numbers; only valid after something was found */
     bool last; /* no attempt follows that would use marks: none are made, so that this one can be repeated as it was */
     double *kept; /* [2][n_field][n_cell]: u and w of the tile of `found` as they came to be judged */
 };
 
-struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l);
+/* Of level l, for steps of n_stage stages. */
+struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l, int n_stage);
 void guard_free(struct guard *guard);
 
 enum { GUARD_WHERE = 256 };
@@ -66,17 +70,20 @@ void guard_attempt(struct guard *guard);
 struct guard_tile {
     const struct model *model; /* the guard's, or the pure model the tile was advanced with */
     unsigned local;
-    int stage; /* 0 or 1 */
+    int stage; /* 0 to n_stage - 1 */
     const double *u_old;
     double *u, *w;       /* conserved and primitives now; the fractions of repaired cells change */
     double *rho_c2, *c2; /* rho_l c_l^2 and frozen c^2 (mix_stiffness), likewise */
 };
 
-/* Checks a tile; repairs, notes and marks bad leaf cells; after a bad first stage the second is not judged. */
+/* Checks a tile; repairs, notes and marks bad leaf cells; after a bad stage the later ones are not judged. */
 void guard_check(struct guard *guard, const struct guard_tile *tile);
 
-/* After an attempt with bad cells, on all ranks: if any rank found one in the `first` stage, what the others found in the second
- * is forgotten, so that marks do not depend on the ranks. */
-void guard_settle(struct guard *guard, bool first);
+/* After an attempt with bad cells, on all ranks: `first` is the first stage in which any rank found one; what others found in later
+ * ones is forgotten, so that marks do not depend on the ranks. */
+void guard_settle(struct guard *guard, int first);
+
+/* Bad cells of this attempt, of all stages. */
+long long guard_bad(const struct guard *guard);
 
 #endif

@@ -6,6 +6,7 @@
 #include "phys/elastic.h"
 #include "phys/mix.h"
 #include "solve/stage.h"
+#include "solve/verdict.h"
 
 #include <float.h>
 #include <math.h>
@@ -71,7 +72,7 @@ void pace_judge(const struct guard *guard, const struct model *path, const doubl
     text_done(&text);
 }
 
-/* The cell of a tile whose signal is the largest (as stage_signal in stage.c, which sets the step). */
+/* The cell of a tile whose signal is the largest (as convection_signal, which sets the step). */
 static size_t pace_fastest(const struct stage *stage, const struct model *path, const double *w)
 {
     size_t n_cell = stage->mesh->n_cell, found = 0;
@@ -105,7 +106,7 @@ struct stage *pace_find(const struct state *state, int l, struct guard_place *re
     struct stage *stage = state->stages[pace_level(state, l)];
     unsigned tile = 0;
     double most;
-    stage_survey(stage);
+    verdict_survey(stage);
     most = stage->signal;
     comm_max(&most, 1);
     if (comm_first(stage->level->n_local && stage->signal == most) != comm_rank()) return NULL;

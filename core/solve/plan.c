@@ -1,22 +1,39 @@
 /* plan.c - see plan.h. */
 #include "solve/plan.h"
 
-const struct plan_stage *plan_stages(void)
+#include <string.h>
+
+static void plan_add(struct plan *plan, const char *name, const char *doc, void (*run)(struct stage *stage, int turn),
+                     int turn)
 {
-    static const struct plan_stage stages[] = {
-        {"exchange", "send layers of primitives to neighbouring ranks", stage_exchange},
-        {"ghosts", "with finer levels: what they see behind their edges at the beginning of the step", stage_ghosts},
-        {"half",
-         "u* = u + dt/2 L(w): gather, slopes (%L), states (%E), fluxes (%R), divergence, closure (%C)%S;\n"
-         "              w = primitives of u* at the mixture pressure, admissibility",
-         stage_half},
-        {"exchange", "send layers of primitives to neighbouring ranks", stage_exchange},
-        {"full", "u = u + dt L(w): gather, slopes (%L), states (%E), fluxes (%R), divergence, closure (%C)%S",
-         stage_full},
-        {"close", "w = primitives of u, admissibility, signal speed for the next dt", stage_close},
-        {NULL, NULL, NULL},
-    };
-    return stages;
+    plan->step[plan->n++] = (struct plan_step){name, doc, run, turn};
+}
+
+/* Every stage exchanges and takes; the first one leaves the ghosts of finer levels, the last one is closed. */
+static void plan_make(const struct tableau *tableau, struct plan *plan)
+{
+    plan->n = 0;
+    for (int s = 0; s < tableau->n; s++) {
+        plan_add(plan, "exchange", "send layers of primitives to neighbouring ranks", stage_exchange, s);
+        if (s == 0)
+            plan_add(plan, "ghosts", "with finer levels: what they see behind their edges at the beginning of the step",
+                     stage_ghosts, s);
+        plan_add(plan, tableau->stage[s].name,
+                 s + 1 < tableau->n ? "%U: the terms below; w = primitives of it, admissibility"
+                                    : "%U: the terms below",
+                 stage_take, s);
+    }
+    plan_add(plan, "close", "w = primitives of u, admissibility, signal speed for the next dt", stage_close,
+             tableau->n - 1);
+}
+
+const struct plan *plan_of(const struct tableau *tableau)
+{
+    static struct plan plan;
+    static const struct tableau *made;
+    if (made != tableau) plan_make(tableau, &plan);
+    made = tableau;
+    return &plan;
 }
 
 static void plan_laws(const struct scene *scene, struct text *text)
@@ -29,29 +46,27 @@ static void plan_laws(const struct scene *scene, struct text *text)
     }
 }
 
-static void plan_line(const struct scene *scene, const char *doc, struct text *text)
+static void plan_line(const struct tableau *tableau, const struct plan_step *step, struct text *text)
 {
-    for (; *doc; doc++) {
+    for (const char *doc = step->doc; *doc; doc++) {
         if (*doc != '%') {
             text_add_n(text, doc, 1);
             continue;
         }
         doc++;
-        if (*doc == 'L') text_add(text, "%s", scene->limiter.module->name);
-        if (*doc == 'L' && scene->n_material > 1) text_add(text, "; alpha: %s", scene->interface_limiter.module->name);
-        if (*doc == 'R') text_add(text, "%s", scene->riemann.module->name);
-        if (*doc == 'C')
-            text_add(text, "%s",
-                     scene->n_material < 2            ? "none: one material"
-                     : scene->closure == SCENE_KAPILA ? "kapila"
-                                                      : "allaire");
-        if (*doc == 'E') plan_laws(scene, text);
-        if (*doc == 'S' && scene->sources) {
-            text_add(text, ", sources (");
-            source_text(scene, text);
-            text_add(text, ")");
-        }
+        if (*doc == 'U') text_add(text, "%s", tableau->stage[step->turn].doc);
     }
+}
+
+/* What L(w) is made of at the faces. */
+static void plan_faces(const struct scene *scene, struct text *text)
+{
+    text_add(text, "L(w), tile by tile and axis by axis: gather two layers of neighbours, slopes (%s",
+             scene->limiter.module->name);
+    if (scene->n_material > 1) text_add(text, "; alpha: %s", scene->interface_limiter.module->name);
+    text_add(text, "), states (");
+    plan_laws(scene, text);
+    text_add(text, "), fluxes (%s); then\n", scene->riemann.module->name);
 }
 
 /* How the steps of levels follow each other (advance.c, sync.c, regrid.c). */
@@ -69,15 +84,19 @@ static void plan_levels(const struct scene *scene, struct text *text)
              scene->regrid_every, scene->n_refine);
 }
 
-void plan_text(const struct scene *scene, struct text *ret_text)
+void plan_text(const struct model *model, struct text *ret_text)
 {
-    const struct plan_stage *stages = plan_stages();
-    text_add(ret_text, "one step of %s (explicit midpoint rule):\n", scene->levels ? "each level" : "level 0");
-    for (int i = 0; stages[i].name; i++) {
-        text_add(ret_text, "  %d  %-8s  ", i + 1, stages[i].name);
-        plan_line(scene, stages[i].doc, ret_text);
+    const struct scene *scene = model->scene;
+    const struct tableau *tableau = tableau_of(scene);
+    const struct plan *plan = plan_of(tableau);
+    text_add(ret_text, "one step of %s (%s):\n", scene->levels ? "each level" : "level 0", tableau->doc);
+    for (int i = 0; i < plan->n; i++) {
+        text_add(ret_text, "  %d  %-8s  ", i + 1, plan->step[i].name);
+        plan_line(tableau, &plan->step[i], ret_text);
         text_add(ret_text, "\n");
     }
+    plan_faces(scene, ret_text);
+    terms_say(model, ret_text);
     if (scene->levels) plan_levels(scene, ret_text);
     text_add(ret_text,
              "then: an inadmissible cell makes the step run again with first-order states and rusanov fluxes at its\n"

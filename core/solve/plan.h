@@ -1,4 +1,4 @@
-/* plan.h - the stages of a step, as data: what `bulla plan` prints is what advance.c runs. */
+/* plan.h - the steps of a stage as data: what `bulla plan` prints is what advance.c runs. */
 #ifndef PLAN_H
 #define PLAN_H
 
@@ -6,17 +6,22 @@
 #include "case/scene.h"
 #include "solve/stage.h"
 
-struct plan_stage {
+struct plan_step {
     const char *name;
-    const char *doc;                  /* one line; %L, %R, %C, %E stand for limiter, solver, closure, laws */
-    void (*run)(struct stage *stage); /* never NULL */
+    const char *doc;                            /* one line; %U stands for the formula of the stage */
+    void (*run)(struct stage *stage, int turn); /* never NULL */
+    int turn;                                   /* row of the tableau */
 };
 
-/* The stages of one step of a level, in order; ends with name == NULL. Explicit midpoint rule:
- * u* = u^n + dt/2 L(w^n), u^{n+1} = u^n + dt L(w*). */
-const struct plan_stage *plan_stages(void);
+struct plan {
+    int n;
+    struct plan_step step[3 * TABLEAU_STAGES + 2];
+};
 
-/* The plan of a scene for people. */
-void plan_text(const struct scene *scene, struct text *ret_text);
+/* The steps of one step in time of a level, in order, for an integrator. Valid as long as the program. */
+const struct plan *plan_of(const struct tableau *tableau);
+
+/* The plan of a scene for people: the steps, the terms of its equations and where they live. `model`: of the scene. */
+void plan_text(const struct model *model, struct text *ret_text);
 
 #endif

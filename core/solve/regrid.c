@@ -12,9 +12,11 @@
 #include "mesh/nest.h"
 #include "mesh/partition.h"
 #include "paint/paint.h"
+#include "solve/adopt.h"
 #include "solve/stage.h"
 #include "solve/sync.h"
 #include "solve/tag.h"
+#include "solve/verdict.h"
 
 #include <string.h>
 #include <time.h>
@@ -250,7 +252,7 @@ static int regrid_replace(struct regrid *regrid, int l, enum regrid_origin origi
     *set = (struct nest_set){0};
     if (origin == REGRID_PAINTED) status = regrid_paint(state, l, change.born);
     else regrid_interpolate(state, l, change.born);
-    if (!status) stage_adopt(state->stages[l], change.from, change.born);
+    if (!status) adopt_level(state->stages[l], change.from, change.born);
     mesh_change_free(&change);
     return status;
 }
@@ -263,7 +265,7 @@ static void regrid_share(struct regrid *regrid)
     if (!regrid->root) return;
     mesh_replace(state->mesh, 0, regrid->root, state->mesh->levels[0].n_tile, &change);
     regrid->root = NULL;
-    stage_adopt(state->stages[0], change.from, change.born);
+    adopt_level(state->stages[0], change.from, change.born);
     mesh_change_free(&change);
 }
 
@@ -288,7 +290,7 @@ static int regrid_apply(struct regrid *regrid, enum regrid_origin origin)
     for (int l = mesh->n_level - 1; l > finest; l--) regrid_drop(state, l);
     regrid_share(regrid);
     for (int l = regrid->base + 1; l <= finest; l++) TRY(regrid_replace(regrid, l, origin));
-    for (int l = regrid->base; l < mesh->n_level; l++) stage_adopt(state->stages[l], NULL, NULL);
+    for (int l = regrid->base; l < mesh->n_level; l++) adopt_level(state->stages[l], NULL, NULL);
     TRY(nest_check(mesh));
     state->counts.regrids++;
     return STATUS_OK;
@@ -327,7 +329,7 @@ int regrid_initial(struct state *state)
         regrid_free(&regrid);
     }
     state->counts.regrids = 0;
-    for (int l = 1; l < state->mesh->n_level && !status; l++) status = comm_agree(stage_start(state->stages[l]));
+    for (int l = 1; l < state->mesh->n_level && !status; l++) status = comm_agree(verdict_start(state->stages[l]));
     return status ? status : regrid_settle(state);
 }
 
@@ -335,6 +337,6 @@ void regrid_stages(struct state *state)
 {
     for (int l = 0; l < state->mesh->n_level; l++) {
         if (!state->stages[l]) state->stages[l] = stage_new(state->model, state->mesh, l, state->work);
-        stage_adopt(state->stages[l], NULL, NULL);
+        adopt_level(state->stages[l], NULL, NULL);
     }
 }

@@ -9,7 +9,9 @@
 #include "paint/paint.h"
 #include "phys/mix.h"
 #include "solve/regrid.h"
+#include "solve/adopt.h"
 #include "solve/stage.h"
+#include "solve/verdict.h"
 
 #include <string.h>
 
@@ -31,7 +33,7 @@ static int state_enter(struct state *state, int l)
     bool *born = mem_new(level->n_tile + 1, sizeof *born);
     for (unsigned t = 0; t < level->n_local; t++) from[t] = -1;
     if (!state->stages[l]) state->stages[l] = stage_new(state->model, state->mesh, l, state->work);
-    stage_adopt(state->stages[l], from, born);
+    adopt_level(state->stages[l], from, born);
     mem_free(from);
     mem_free(born);
     return comm_agree(state->stages[l]->bound->status);
@@ -52,7 +54,7 @@ static struct state *state_blank(const struct scene *scene)
 static int state_build(struct state *state)
 {
     TRY(mesh_new(state->scene, state->model->n_field, state->model->n_alpha, &state->mesh));
-    state->work = stage_work_new(state->model, state->mesh);
+    state->work = work_new(state->model, state->mesh);
     return STATUS_OK;
 }
 
@@ -61,7 +63,7 @@ static int state_begin(struct state *state)
     TRY(state_build(state));
     TRY(state_paint(state));
     TRY(state_enter(state, 0));
-    TRY(comm_agree(stage_start(state->stages[0])));
+    TRY(comm_agree(verdict_start(state->stages[0])));
     TRY(regrid_initial(state));
     regrid_signals(state);
     return STATUS_OK;
@@ -135,7 +137,7 @@ void state_free(struct state *state)
 {
     if (!state) return;
     for (int l = 0; l < MESH_LEVELS; l++) stage_free(state->stages[l]);
-    stage_work_free(state->work);
+    work_free(state->work);
     mesh_free(state->mesh);
     model_free(state->model);
     mem_free(state->tagged);

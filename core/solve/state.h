@@ -27,7 +27,7 @@ struct state_counts {
 };
 
 struct stage;
-struct stage_work;
+struct work;
 
 struct state {
     const struct scene *scene;
@@ -44,7 +44,7 @@ struct state {
     double signals[MESH_LEVELS]; /* of each level, over all ranks */
     bool whole;                  /* all levels stand at t: false after a step that failed half way */
     struct stage *stages[MESH_LEVELS]; /* work on each level (stage.h); NULL above the finest in use */
-    struct stage_work *work;           /* scratch of this rank */
+    struct work *work;                 /* scratch of this rank */
     double starved;                    /* tiles that a regrid asked for and memory_limit forbids; 0: none */
     long long *tagged;                 /* [n_refine] cells that each criterion has tagged on this rank so far */
 };

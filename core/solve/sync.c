@@ -8,6 +8,7 @@
 #include "levels/spread.h"
 #include "mesh/halo.h"
 #include "phys/elastic.h"
+#include "solve/verdict.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,17 +30,12 @@ void sync_down(struct stage *coarse, struct stage *fine)
     reflux_clear(coarse->reflux);
 }
 
-static const struct tile *sync_tile(const struct stage *stage, unsigned local)
-{
-    return &stage->level->tiles[stage->level->first + local];
-}
-
 /* Closes a tile whose fields were averaged or moved: averages of stretches are none yet. */
 static void sync_touch(struct stage *stage, unsigned local)
 {
     size_t n_cell = stage->mesh->n_cell;
     elastic_settle(stage->model, n_cell, n_cell, stage->level->u_old[local]);
-    stage_touch(stage, local);
+    verdict_touch(stage, local);
 }
 
 /* Fractions back into [0, 1] and to sum 1 where refluxing has moved them. */
@@ -91,10 +87,10 @@ static struct spread sync_spread(const struct stage *stage, unsigned local, cons
                                  struct metric *metric)
 {
     const struct mesh *mesh = stage->mesh;
-    if (mesh->beta) metric_of_tile(mesh, stage->level, sync_tile(stage, local), metric);
+    if (mesh->beta) metric_of_tile(mesh, stage->level, stage_tile(stage, local), metric);
     return (struct spread){.model = stage->model,
                            .mesh = mesh,
-                           .tile = sync_tile(stage, local),
+                           .tile = stage_tile(stage, local),
                            .metric = metric,
                            .u = work->before,
                            .trouble = work->trouble};
@@ -111,8 +107,8 @@ static long long sync_add(struct stage *stage, unsigned local, const struct sync
     for (size_t i = 0; i < model->n_field * n_cell; i++) u[i] = work->before[i] + work->delta[i];
     long long clipped = sync_bound_fractions(model, n_cell, work->delta, u);
     sync_touch(stage, local);
-    if (stage->guard->bad[1] == 0) stage->clipped += clipped;
-    return stage->guard->bad[1];
+    if (guard_bad(stage->guard) == 0) stage->clipped += clipped;
+    return guard_bad(stage->guard);
 }
 
 /* Fractions that refluxing would make negative have no place for it: what is clipped is missing in the pressure. */
@@ -223,7 +219,7 @@ static int sync_tiles(struct stage *stage, struct sync_work *work)
         bool faces = link->source_from[tile] < link->source_from[tile + 1];
         guard_attempt(stage->guard);
         if (faces) status = sync_tile_faces(stage, tile, work);
-        else if (sync_tile(stage, tile)->covered) sync_touch(stage, tile);
+        else if (stage_tile(stage, tile)->covered) sync_touch(stage, tile);
     }
     return status;
 }
@@ -275,7 +271,7 @@ static void sync_close(struct stage *stage)
 {
     guard_clear(stage->guard);
     guard_attempt(stage->guard);
-    stage_survey(stage);
+    verdict_survey(stage);
 }
 
 /* The finer level takes back what coarse cells could not give it; then the averages are made anew. */
@@ -291,7 +287,7 @@ static int sync_take(struct stage *coarse, struct stage *fine, struct sync_work 
     link_up(link);
     restrict_take(coarse->mesh, fine->l);
     for (unsigned tile = 0; tile < coarse->level->n_local; tile++)
-        if (sync_tile(coarse, tile)->covered) sync_touch(coarse, tile);
+        if (stage_tile(coarse, tile)->covered) sync_touch(coarse, tile);
     return status;
 }
 

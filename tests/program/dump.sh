@@ -214,6 +214,15 @@ has 'rho_c2 = -*nan Pa of material .air.*of level 1 (cell ([0-9]*, [0-9]*, 0) of
 has 'half way through step'
 "$BULLA" info --replay level.out/dump_*.h5 >out 2>&1 || fail "the replay gives something else"
 
+# The same where stages go on from each other: a stage after the first has what it went on from in the dump.
+"$BULLA" run energy.yaml --set scheme.integrator=ssprk3 --set scheme.guard=strict --quiet -o third >out 2>&1 &&
+    fail "it finished"
+"$BULLA" info third/dump_*.h5 >out 2>&1 || fail "info refuses it"
+has '^stage  *stage 2: u2'
+has 'u_stage\['
+"$BULLA" info --replay third/dump_*.h5 >out 2>&1 || fail "the replay gives something else"
+has 'to the bit'
+
 # A sound speed beyond all bounds, in a gas that is heated everywhere: no step of 1e-20 s after the other, but a stop that
 # names the cell, its law and its state, alike on one rank and on two; the checkpoint that it leaves stops where it stopped.
 heated() { # NAME MESH

@@ -146,13 +146,31 @@ static void test_fluids(void **state)
     double *all = mem_new(model->n_field * n, sizeof *all), *K = like->block[BLAME_K];
     for (size_t i = 0; i < 3 * n; i++) given[i] = 1.0, room[i] = -7.0;
     like->block[BLAME_K] = room;
-    blame_rates(like, model, &(struct update_input){.u_old = all, .w = all, .K = given, .rho_c2 = given, .rates = all});
+    blame_rates(like, model, &(struct term_tile){.u = all, .w = all, .K = given, .rho_c2 = given}, all);
     for (size_t i = 0; i < 3 * n; i++) assert_true(room[i] == (i < 2 * n ? 1.0 : -7.0));
     like->block[BLAME_K] = K;
     blame_free(like);
     mem_free(given);
     mem_free(room);
     mem_free(all);
+    flow_stop(&flow);
+}
+
+/* One traction for both materials: the frame of the dump holds pressures, as it was gathered. */
+static void test_split(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow, mem_print("bulla: 1\ntitle: split\ndomain: {lower: [-1], upper: [1], cells: [64], boundaries: "
+                                "{x-: outflow, x+: outflow}}\nmaterials:\n%sinitial:\n  - {everywhere: true, "
+                                "material: water, density: 1000, pressure: 1e5, velocity: ['= x > 0.1 and 900 or "
+                                "-900']}\n  - {half-space: {normal: [1], point: [0.1]}, material: gel, density: 1000, "
+                                "pressure: 1e5}\nscheme: {riemann: hlld, limiter: mc, dt: 1 ms, guard: strict}\n"
+                                "run: {until: 1}\n",
+                                FLOW_WATER DUMP_GEL));
+    assert_true(flow.state->model->split);
+    const struct blame *blame = fail_at_last(&flow, 50);
+    check_same(&flow, blame);
     flow_stop(&flow);
 }
 
@@ -208,7 +226,7 @@ static void test_sync(void **state)
     guard_attempt(stage->guard);
     memcpy(stage->level->u_new[2], stage->level->u_old[2], flow.state->model->n_field * n * sizeof(double));
     stage->level->u_old[2][E * n + 5] = NAN;
-    stage_touch(stage, 2);
+    verdict_touch(stage, 2);
     assert_int_equal(stage->guard->bad[1], 1);
     stage->guard->found.stage = BLAME_FAILED_SYNC;
     stage->blame = blame_new(stage->model, stage->guard);
@@ -232,7 +250,7 @@ static void test_first(void **state)
     guard_attempt(stage->guard);
     for (int i = 0; i < 4; i++) {
         stage->level->u_old[order[i]][E * n + order[i]] = -1e20;
-        stage_touch(stage, order[i]);
+        verdict_touch(stage, order[i]);
     }
     assert_int_equal(stage->guard->bad[1], 4);
     assert_int_equal(stage->guard->found.local, 1);
@@ -345,10 +363,11 @@ static void test_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_line),    cmocka_unit_test(test_strict), cmocka_unit_test(test_disc),
-        cmocka_unit_test(test_pure),    cmocka_unit_test(test_fluids), cmocka_unit_test(test_cube),
-        cmocka_unit_test(test_notices), cmocka_unit_test(test_sync),   cmocka_unit_test(test_first),
-        cmocka_unit_test(test_file),    cmocka_unit_test(test_cut),    cmocka_unit_test(test_nothing),
+        cmocka_unit_test(test_line),    cmocka_unit_test(test_strict),  cmocka_unit_test(test_disc),
+        cmocka_unit_test(test_pure),    cmocka_unit_test(test_fluids),  cmocka_unit_test(test_cube),
+        cmocka_unit_test(test_split),   cmocka_unit_test(test_notices), cmocka_unit_test(test_sync),
+        cmocka_unit_test(test_first),   cmocka_unit_test(test_file),    cmocka_unit_test(test_cut),
+        cmocka_unit_test(test_nothing),
     };
     return cmocka_run_group_tests_name("dump", tests, NULL, NULL);
 }

@@ -9,7 +9,9 @@
 #include "mesh/metric.h"
 #include "phys/mix.h"
 #include "solve/advance.h"
+#include "solve/adopt.h"
 #include "solve/stage.h"
+#include "solve/verdict.h"
 #include "solve/state.h"
 
 #include <math.h>
@@ -103,9 +105,9 @@ static inline void flow_centre(const struct flow *flow, size_t index, double ret
 static inline void flow_close(struct flow *flow)
 {
     struct stage *stage = flow->state->stages[0];
-    if (stage_start(stage)) fail_msg("%s", status_text());
+    if (verdict_start(stage)) fail_msg("%s", status_text());
     flow->state->signal = stage->signal;
-    stage_bind(stage);
+    adopt_bounds(stage);
 }
 
 /* Gives every cell the primitives of a function. */

@@ -192,7 +192,7 @@ static bool accepts(struct flow *flow, const double *w)
     stage->guard->repair = false;
     guard_clear(stage->guard);
     guard_attempt(stage->guard);
-    stage_touch(stage, 1);
+    verdict_touch(stage, 1);
     assert_true(fabs(level->w[1][stage->model->i_E * n + 3] - w[stage->model->i_E]) < 1e-6 * 6e8);
     return stage->guard->bad[1] == 0;
 }
@@ -254,7 +254,7 @@ static void test_elastic(void **state)
     memcpy(stage->level->u_new[1], stage->level->u_old[1], model->n_field * n * sizeof(double));
     for (unsigned c = 0; c < model->n_stretch; c++) stage->level->u_old[1][(model->i_V + c) * n + 3] = NAN;
     guard_attempt(stage->guard);
-    stage_touch(stage, 1);
+    verdict_touch(stage, 1);
     check_says_in(stage->guard->cause,
                   (const char *const[]){"stretch_xx = ", "nan of material 'gel' (gent)",
                                         "before the step (xx = 1, yy = 1", "cell (3, 0, 0)", NULL});
@@ -262,7 +262,7 @@ static void test_elastic(void **state)
     for (unsigned c = 0; c < model->n_stretch; c++)
         stage->level->u_old[1][(model->i_V + c) * n + 3] = c == 0 ? 64.0 : c < 3 ? 0.125 : 0.0;
     guard_attempt(stage->guard);
-    stage_touch(stage, 1);
+    verdict_touch(stage, 1);
     check_says_in(stage->guard->cause, (const char *const[]){"pressure = -", "the elastic law 'gent' of 'gel' holds",
                                                              "at I1 = 4096.03", "beyond its range (I1 <= 31.5", NULL});
     flow_stop(&flow);

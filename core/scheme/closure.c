@@ -1,0 +1,67 @@
+/* closure.c - see closure.h. */
+#include "scheme/closure.h"
+
+#include "phys/mix.h"
+#include "scheme/convection.h"
+#include "scheme/exchange.h"
+#include "scheme/terms.h"
+
+#include <string.h>
+
+enum { CLOSURE_BATCH = 512 };
+
+bool closure_wanted(const struct model *path)
+{
+    return path->kapila;
+}
+
+static void closure_cells(struct term_tile *tile)
+{
+    mix_stiffness_everywhere(tile->model, tile->n_cell, tile->n_cell, tile->w, tile->rho_c2);
+    mix_closure(tile->model, tile->n_cell, tile->n_cell, tile->w, tile->rho_c2, tile->K);
+}
+
+/* alpha after K div u and the exchange. A step below the least value, or below what transport left if that is less, is
+ * cut. */
+static BULLA_KERNEL void closure_bound(size_t n, double dt, const double *restrict K, const double *restrict div,
+                                       const double *restrict exchange, double *restrict alpha, double *restrict cut)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], count = cut[i], push = -dt * (K[i] * div[i]), moved = exchange[i];
+        double most = CLOSURE_SHRINK * a, kept = most > CLOSURE_LEAST ? most : CLOSURE_LEAST;
+        double least = a < kept ? a : kept, wanted = a + (push + moved), next = wanted > least ? wanted : least;
+        next = next < 1.0 ? next : 1.0;
+        double acted = next != wanted ? 1.0 : 0.0;
+        alpha[i] = next;
+        cut[i] = count + acted;
+    }
+}
+
+static size_t closure_apply(const struct term_tile *tile, double *u_new)
+{
+    const struct model *model = tile->model;
+    const double *div = tile->rates + terms_first(tile->terms, &convection_term) * tile->n_cell;
+    const double *exchange = exchange_volume(tile);
+    size_t clipped = 0;
+    for (size_t from = 0; from < tile->n_cell; from += CLOSURE_BATCH) {
+        size_t n = tile->n_cell - from < CLOSURE_BATCH ? tile->n_cell - from : CLOSURE_BATCH;
+        double cut[CLOSURE_BATCH], *alpha = u_new + model->i_alpha * tile->n_cell + from;
+        memset(cut, 0, n * sizeof *cut);
+        for (unsigned l = 0; l < model->n_alpha; l++) {
+            size_t row = l * tile->n_cell + from;
+            closure_bound(n, tile->dt, tile->K + row, div + from, exchange + row, alpha + l * tile->n_cell, cut);
+        }
+        for (size_t i = 0; i < n; i++) clipped += cut[i] > 0.0;
+    }
+    return clipped;
+}
+
+const struct term closure_term = {
+    .name = "closure",
+    .owner = "core/scheme/closure.c",
+    .equation = "d alpha_l/dt += K_l div u* + exchange; no step below a quarter of a fraction",
+    .wanted = closure_wanted,
+    .cells = closure_cells,
+    .apply = closure_apply,
+};

@@ -1,0 +1,105 @@
+/* convection.c - see convection.h. */
+#include "scheme/convection.h"
+
+#include "phys/row.h"
+#include "scheme/terms.h"
+
+#include <math.h>
+
+/* Rows of faces: k rows behind a base, which a list for names does not have. */
+static const double *convection_row(const double *base, unsigned k)
+{
+    return base ? base + k * FACE_ROOM : NULL;
+}
+
+/* Component of vectors at the faces of an axis that points along axis `e` of space. */
+static unsigned convection_component(int axis, unsigned e)
+{
+    unsigned d = 0;
+    while (axis_component(axis, d) != e) d++;
+    return d;
+}
+
+static unsigned convection_rows(const struct model *path)
+{
+    return path->n_alpha || path->n_stretch ? 1 : 0;
+}
+
+static void convection_list(struct terms *terms, int axis, unsigned first, const struct face_work *faces)
+{
+    static const struct face_work none;
+    static const char *const axes[] = {"x", "y", "z"};
+    const struct model *model = terms->model;
+    const struct scene_material *material = model->scene->material + model->first;
+    if (!faces) faces = &none;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const double *row = convection_row(faces->m, l);
+        terms_flux(terms, axis, (struct term_flux){.below = row, .above = row, .rate = model->i_m + l}, "mass",
+                   material[l].name);
+    }
+    for (unsigned e = 0; e < model->n_velocity; e++) {
+        unsigned d = convection_component(axis, e);
+        const double *row = convection_row(faces->momentum, d);
+        terms_flux(terms, axis,
+                   (struct term_flux){.below = row,
+                                      .above = row,
+                                      .rate = model->i_u + e,
+                                      .kind = d == 0 ? TERM_BALANCED : TERM_DIVERGENCE},
+                   "momentum", axes[e]);
+    }
+    terms_flux(terms, axis, (struct term_flux){.below = faces->energy, .above = faces->energy, .rate = model->i_E},
+               "energy", "");
+    terms_flux(terms, axis,
+               (struct term_flux){.below = faces->u,
+                                  .above = faces->u,
+                                  .rate = first,
+                                  .kind = convection_rows(model) ? TERM_DIVERGENCE : TERM_TOLD},
+               "velocity", "");
+}
+
+/* Fields that change by their rates alone: not fractions, not the stretch. */
+static size_t convection_apply(const struct term_tile *tile, double *u_new)
+{
+    const struct model *model = tile->model;
+    for (unsigned i = model->n_alpha; i < model->n_active - model->n_stretch; i++) {
+        size_t at = model->active[i] * tile->n_cell;
+        row_step(tile->n_cell, tile->dt, tile->u + at, tile->rates + at, u_new + at);
+    }
+    return 0;
+}
+
+/* Sum over axes of (|u_a| + c) / h_a. */
+static BULLA_KERNEL void convection_signal(size_t n, const double *restrict c2, const double *const *restrict u,
+                                           const double *restrict per_h, double *restrict rate)
+{
+    const double *restrict u0 = u[0], *restrict u1 = u[1], *restrict u2 = u[2];
+    double h0 = per_h[0], h1 = per_h[1], h2 = per_h[2], all = h0 + h1 + h2;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = fabs(u0[i]), b = fabs(u1[i]), d = fabs(u2[i]), s = c2[i], old = rate[i];
+        rate[i] = old + (all * sqrt(s) + ((h0 * a + h1 * b) + h2 * d)); /* x and y may change places */
+    }
+}
+
+static void convection_pace(const struct term_pace *pace, double *rate)
+{
+    const struct model *model = pace->model;
+    const double *u[3];
+    double per_h[3];
+    for (int d = 0; d < 3; d++) { /* unused axes: any field, with weight zero */
+        bool used = d < model->dim;
+        u[d] = pace->w + (model->i_u + (used ? (unsigned)d : 0)) * pace->n_cell;
+        per_h[d] = used ? 1.0 / pace->level->h[d] : 0.0;
+    }
+    convection_signal(pace->n_cell, pace->c2, u, per_h, rate);
+}
+
+const struct term convection_term = {
+    .name = "convection",
+    .owner = "core/scheme/convection.c",
+    .equation = "d(m_l, rho u, rho E)/dt = -div F; F from the Riemann problems at the faces",
+    .rows = convection_rows,
+    .list = convection_list,
+    .apply = convection_apply,
+    .pace = convection_pace,
+};

@@ -1,0 +1,84 @@
+/* rate.c - see rate.h. */
+#include "scheme/rate.h"
+
+#include "phys/elastic.h"
+#include "scheme/divergence.h"
+
+#include <string.h>
+
+/* Rows of fields that the path leaves alone are nobody's. */
+static void rate_clear(const struct term_tile *tile)
+{
+    const struct model *model = tile->model;
+    size_t n_cell = tile->n_cell;
+    for (unsigned i = 0; i < model->n_active; i++)
+        memset(tile->rates + model->active[i] * n_cell, 0, n_cell * sizeof(double));
+    memset(tile->rates + model->n_field * n_cell, 0, (tile->terms->n_rates - model->n_field) * n_cell * sizeof(double));
+}
+
+static void rate_sweep(const struct term_tile *tile, int axis, const struct rate_watch *watch, bool masked)
+{
+    const struct terms *terms = tile->terms;
+    struct face_work *faces = terms->faces;
+    for (size_t index = 0; index < frame_pieces(tile->mesh, axis); index++) {
+        struct frame frame = frame_piece(tile->mesh, axis, index);
+        struct term_piece piece = {.terms = terms, .model = tile->model, .frame = &frame, .faces = faces};
+        watch->gather(watch->data, &frame, faces);
+        for (unsigned i = 0; i < terms->n; i++)
+            if (terms->at[i]->frame) terms->at[i]->frame(&piece);
+        face_solve(faces, &frame, masked);
+        for (unsigned i = 0; i < terms->n; i++)
+            if (terms->at[i]->faces) terms->at[i]->faces(&piece);
+        watch->seen(watch->data, &frame, faces);
+        divergence_add(tile, &frame);
+    }
+    if (watch->swept) watch->swept(watch->data, axis);
+}
+
+void rate_take(struct term_tile *tile, void *const *own, const struct rate_watch *watch, bool masked)
+{
+    const struct terms *terms = tile->terms;
+    rate_clear(tile);
+    terms->faces->model = tile->model;
+    for (unsigned i = 0; i < terms->n; i++) {
+        tile->own = own[terms->number[i]];
+        if (terms->at[i]->begin) terms->at[i]->begin(tile);
+    }
+    for (int axis = 0; axis < tile->mesh->dim; axis++) rate_sweep(tile, axis, watch, masked);
+    for (unsigned i = 0; i < terms->n; i++) {
+        tile->own = own[terms->number[i]];
+        if (terms->at[i]->cells) terms->at[i]->cells(tile);
+    }
+}
+
+size_t rate_apply(struct term_tile *tile, void *const *own, double *u_new)
+{
+    const struct terms *terms = tile->terms;
+    size_t bounded = 0;
+    for (unsigned i = 0; i < terms->n; i++) {
+        tile->own = own[terms->number[i]];
+        if (terms->at[i]->apply) bounded += terms->at[i]->apply(tile, u_new);
+    }
+    return bounded;
+}
+
+/* Equal values stay: what rests does so under any mean. */
+static BULLA_KERNEL void rate_mean(size_t n, double mix, const double *restrict old, double *restrict now)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = old[i], b = now[i];
+        now[i] = a + mix * (b - a);
+    }
+}
+
+void rate_mix(const struct term_tile *tile, const double *u_old, double mix, double *u_new)
+{
+    const struct model *model = tile->model;
+    if (mix == 1.0) return;
+    for (unsigned i = 0; i < model->n_active; i++) {
+        size_t at = model->active[i] * tile->n_cell;
+        rate_mean(tile->n_cell, mix, u_old + at, u_new + at);
+    }
+    elastic_settle(model, tile->n_cell, tile->n_cell, u_new);
+}

@@ -1,0 +1,113 @@
+/* strain.c - see strain.h. */
+#include "scheme/strain.h"
+
+#include "phys/elastic.h"
+#include "scheme/convection.h"
+#include "scheme/terms.h"
+
+enum { STRAIN_BATCH = 512 };
+
+static bool strain_wanted(const struct model *path)
+{
+    return path->n_stretch > 0;
+}
+
+static unsigned strain_rows(const struct model *path)
+{
+    unsigned dim = (unsigned)path->dim;
+    return path->n_velocity * dim + (path->n_alpha ? dim : 0);
+}
+
+static const double *strain_row(const double *base, unsigned k)
+{
+    return base ? base + k * FACE_ROOM : NULL;
+}
+
+/* The stretch that comes in, and the velocity gradient along the axis: plain differences in all geometries. Tangential
+ * velocities are those that the cell itself sees, as the right neighbour of its lower face and the left one of its upper. */
+static void strain_list(struct terms *terms, int axis, unsigned first, const struct face_work *faces)
+{
+    static const struct face_work none;
+    static const char *const tangents[] = {"1", "2"};
+    const struct model *model = terms->model;
+    unsigned dim = (unsigned)model->dim, along = (unsigned)axis;
+    if (!faces) faces = &none;
+    for (unsigned c = 0; c < model->n_stretch; c++) {
+        const double *row = strain_row(faces->stretch, c);
+        terms_flux(terms, axis, (struct term_flux){.below = row, .above = row, .rate = model->i_V + c},
+                   model->field_names[model->i_V + c], "");
+    }
+    for (unsigned d = 0; d < model->n_velocity; d++)
+        terms_flux(terms, axis,
+                   (struct term_flux){.below = d ? strain_row(faces->slide_right, d - 1) : faces->u,
+                                      .above = d ? strain_row(faces->slide_left, d - 1) : faces->u,
+                                      .rate = first + axis_component(axis, d) * dim + along,
+                                      .kind = TERM_DIFFERENCE,
+                                      .sides = d > 0},
+                   d ? "slide" : "", d ? tangents[d - 1] : "");
+    if (model->n_alpha)
+        terms_flux(terms, axis,
+                   (struct term_flux){.below = faces->solid,
+                                      .above = faces->solid,
+                                      .rate = first + model->n_velocity * dim + along,
+                                      .kind = TERM_DIFFERENCE},
+                   "", "");
+}
+
+/* -(K_s/alpha_s) div u of all solids together; 0 where there is none. */
+static BULLA_KERNEL void strain_squeeze(size_t n, const double *restrict K, const double *restrict alpha,
+                                        const double *restrict div, double *restrict squeeze)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], share = K[i] / a;
+        squeeze[i] = a > 0.0 ? share * div[i] : 0.0;
+    }
+}
+
+/* n cells from `from`. */
+static void strain_batch(const struct term_tile *tile, size_t from, size_t n, double *u_new)
+{
+    const struct model *model = tile->model;
+    size_t n_cell = tile->n_cell, first = model->i_V * n_cell + from;
+    size_t fraction = model->i_alpha * n_cell + from, mass = model->i_m * n_cell + from;
+    const double *div = tile->rates + terms_first(tile->terms, &convection_term) * n_cell + from;
+    const double *gradient = tile->rates + terms_first(tile->terms, &strain_term) * n_cell + from;
+    double solid[STRAIN_BATCH], K[STRAIN_BATCH], squeeze[STRAIN_BATCH], m_old[STRAIN_BATCH], m_new[STRAIN_BATCH];
+    double *V = u_new + first;
+    struct elastic_rates rates = {
+        .carried = tile->rates + first, .m_old = m_old, .m_new = m_new, .div = div, .gradient = gradient};
+    elastic_sum(model, n, n_cell, tile->u + mass, m_old);
+    elastic_sum(model, n, n_cell, u_new + mass, m_new);
+    if (model->kapila) {
+        elastic_sum(model, n, n_cell, tile->K + from, K);
+        elastic_sum(model, n, n_cell, tile->w + fraction, solid);
+        strain_squeeze(n, K, solid, div, squeeze);
+        rates.squeeze = squeeze;
+        rates.slope = gradient + model->n_velocity * (unsigned)model->dim * n_cell;
+    }
+    elastic_advance(model, n, n_cell, tile->dt, tile->u + first, &rates, V);
+    if (model->n_alpha) elastic_sum(model, n, n_cell, u_new + fraction, solid);
+    if (model->n_alpha) elastic_fade(model, n, n_cell, solid, V);
+}
+
+/* The stretch of a tile: moved, faded where its solids are not, unimodular. */
+static size_t strain_apply(const struct term_tile *tile, double *u_new)
+{
+    for (size_t from = 0; from < tile->n_cell; from += STRAIN_BATCH) {
+        size_t rest = tile->n_cell - from;
+        strain_batch(tile, from, rest < STRAIN_BATCH ? rest : STRAIN_BATCH, u_new);
+    }
+    elastic_unimodular(tile->model, tile->n_cell, tile->n_cell, u_new + tile->model->i_V * tile->n_cell);
+    return 0;
+}
+
+const struct term strain_term = {
+    .name = "stretch",
+    .owner = "core/scheme/strain.c",
+    .equation = "dV/dt = -u.grad V + (L V)_sym-part, L = grad u of the solid; det V = 1",
+    .wanted = strain_wanted,
+    .rows = strain_rows,
+    .list = strain_list,
+    .apply = strain_apply,
+};

@@ -1,0 +1,125 @@
+/* terms.c - see terms.h. The list below is the page that shows the equations. */
+#include "scheme/terms.h"
+
+#include "base/mem.h"
+#include "base/status.h"
+#include "scheme/closure.h"
+#include "scheme/convection.h"
+#include "scheme/exchange.h"
+#include "scheme/face_stress.h"
+#include "scheme/fraction.h"
+#include "scheme/hoop.h"
+#include "scheme/source.h"
+#include "scheme/strain.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <string.h>
+
+const struct term *const terms_all[] = {
+    &convection_term,  /* conserved fields through the faces */
+    &hoop_term,        /* what stands against p / r and the hoop stress in curved geometry */
+    &face_stress_term, /* one traction for the materials of a cell, in one dimension */
+    &source_term,      /* forces, heat, mass, Lua */
+    &fraction_term,    /* volume fractions move with the flow */
+    &exchange_term,    /* volume that brings materials back to one pressure */
+    &closure_term,     /* K div u, and what was exchanged */
+    &fraction_sum,     /* fractions sum to 1 */
+    &strain_term,      /* the stretch of solids */
+    NULL,
+};
+
+static bool terms_has(const struct term *term, const struct model *path)
+{
+    return !term->wanted || term->wanted(path);
+}
+
+struct terms *terms_new(const struct model *path, struct face_work *faces)
+{
+    struct terms *terms = mem_new(1, sizeof *terms);
+    terms->model = path;
+    terms->faces = faces;
+    terms->n_rates = path->n_field;
+    for (unsigned i = 0; terms_all[i]; i++) {
+        const struct term *term = terms_all[i];
+        if (!terms_has(term, path)) continue;
+        assert(terms->n < TERMS_MOST);
+        terms->at[terms->n] = term;
+        terms->number[terms->n] = i;
+        terms->first[terms->n++] = terms->n_rates;
+        terms->n_rates += term->rows ? term->rows(path) : 0;
+        terms->moves = terms->moves || term->moves;
+    }
+    for (int axis = 0; axis < path->dim; axis++) {
+        terms->flux[axis] = mem_new(TERMS_FLUXES, sizeof **terms->flux);
+        for (unsigned i = 0; i < terms->n; i++)
+            if (terms->at[i]->list) terms->at[i]->list(terms, axis, terms->first[i], faces);
+    }
+    return terms;
+}
+
+void terms_free(struct terms *terms)
+{
+    if (!terms) return;
+    for (int axis = 0; axis < 3; axis++) mem_free(terms->flux[axis]);
+    mem_free(terms);
+}
+
+void terms_flux(struct terms *terms, int axis, struct term_flux flux, const char *name, const char *suffix)
+{
+    assert(terms->n_flux[axis] < TERMS_FLUXES);
+    snprintf(flux.name, sizeof flux.name, "%s%s%s", name, *suffix ? "_" : "", suffix);
+    terms->flux[axis][terms->n_flux[axis]++] = flux;
+}
+
+unsigned terms_first(const struct terms *terms, const struct term *term)
+{
+    unsigned i = 0;
+    while (terms->at[i] != term) i++;
+    return terms->first[i];
+}
+
+void terms_open(const struct term_room *room, void **ret_own)
+{
+    for (unsigned i = 0; terms_all[i]; i++)
+        ret_own[i] = terms_has(terms_all[i], room->model) && terms_all[i]->open ? terms_all[i]->open(room) : NULL;
+}
+
+void terms_close(void **own)
+{
+    for (unsigned i = 0; terms_all[i]; i++)
+        if (own[i]) terms_all[i]->close(own[i]);
+}
+
+int terms_failure(void *const *own, const char **ret_message, const char **ret_place)
+{
+    int status = STATUS_OK;
+    for (unsigned i = 0; terms_all[i] && !status; i++)
+        if (own[i] && terms_all[i]->failure) status = terms_all[i]->failure(own[i], ret_message, ret_place);
+    return status;
+}
+
+bool terms_spread(const struct scene *scene)
+{
+    bool spread = false;
+    for (unsigned i = 0; terms_all[i]; i++) spread = spread || (terms_all[i]->spreads && terms_all[i]->spreads(scene));
+    return spread;
+}
+
+void terms_pace(const struct terms *terms, const struct term_pace *pace, double *rate)
+{
+    memset(rate, 0, pace->n_cell * sizeof *rate);
+    for (unsigned i = 0; i < terms->n; i++)
+        if (terms->at[i]->pace) terms->at[i]->pace(pace, rate);
+}
+
+void terms_say(const struct model *model, struct text *text)
+{
+    for (unsigned i = 0; terms_all[i]; i++) {
+        const struct term *term = terms_all[i];
+        if (!terms_has(term, model)) continue;
+        text_add(text, "  %-10s  %s", term->name, term->equation);
+        if (term->say) term->say(model->scene, text);
+        text_add(text, "  [%s]\n", term->owner);
+    }
+}

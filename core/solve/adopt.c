@@ -1,0 +1,57 @@
+/* adopt.c - see adopt.h. */
+#include "solve/adopt.h"
+
+#include "base/mem.h"
+#include "phys/mix.h"
+#include "solve/verdict.h"
+
+#include <string.h>
+
+void adopt_bounds(struct stage *stage)
+{
+    bound_free(stage->bound);
+    stage->bound = bound_new(stage->model, stage->mesh, stage->level);
+}
+
+static void adopt_tile(struct stage *stage, unsigned local, bool born)
+{
+    const struct level *level = stage->level;
+    size_t n_cell = stage->mesh->n_cell;
+    double *w = level->w[local];
+    if (born) mix_primitives(stage->model, n_cell, n_cell, level->u_old[local], w);
+    memcpy(level->u_new[local], level->u_old[local],
+           stage->model->n_field * n_cell * sizeof *w); /* for verdict_touch */
+    verdict_welcome(stage, local);
+}
+
+/* The tiles of the level are others: those that stayed keep what is known of them. */
+static void adopt_tiles(struct stage *stage, const int *from, const bool *born)
+{
+    const struct level *level = stage->level;
+    struct census_tile *before = stage->census.tiles;
+    stage->census.tiles = mem_new(level->n_local, sizeof *stage->census.tiles);
+    for (unsigned tile = 0; tile < level->n_local; tile++) {
+        if (from[tile] >= 0) stage->census.tiles[tile] = before[from[tile]];
+        else adopt_tile(stage, tile, born[level->first + tile]);
+    }
+    mem_free(before);
+    stage->bound = bound_paint(stage->model, stage->mesh, level, stage->bound, from);
+    guard_free(stage->guard);
+    stage->guard = guard_new(stage->model, stage->mesh, stage->l, stage->tableau->n);
+    mem_free(stage->previous);
+    stage->previous = NULL;
+    if (tableau_keeps(stage->tableau))
+        stage->previous =
+            mem_new(level->n_local * stage->model->n_field * stage->mesh->n_cell, sizeof *stage->previous);
+    verdict_survey(stage);
+}
+
+void adopt_level(struct stage *stage, const int *from, const bool *born)
+{
+    const struct level *level = stage->level;
+    if (from) adopt_tiles(stage, from, born);
+    reflux_free(stage->reflux);
+    stage->reflux = reflux_new(stage->model, stage->mesh, stage->l);
+    mem_free(stage->census.behind);
+    stage->census.behind = mem_new(level->link ? level->link->n_face : 0, sizeof *stage->census.behind);
+}

@@ -1,0 +1,106 @@
+/* verdict.c - see verdict.h. */
+#include "solve/verdict.h"
+
+#include "base/status.h"
+#include "phys/mix.h"
+#include "phys/row.h"
+
+#include <string.h>
+
+static int verdict_last(const struct stage *stage)
+{
+    return stage->tableau->n - 1;
+}
+
+void verdict_judge(struct stage *stage, unsigned local, int judged, const double *before, double *u, double *w)
+{
+    struct work *work = stage->work;
+    const struct model *model = stage->census.tiles[local].path;
+    size_t n_cell = stage->mesh->n_cell;
+    mix_pressure_sum(&stage->effort, mix_primitives(model, n_cell, n_cell, u, w));
+    mix_stiffness(model, n_cell, n_cell, w, work->rho_c2);
+    mix_speed2(model, n_cell, n_cell, w, work->rho_c2, work->c2);
+    if (blame_concerns(stage->blame, local)) blame_result(stage->blame, model, u, w);
+    struct guard_tile tile = {.model = model,
+                              .local = local,
+                              .stage = judged,
+                              .u_old = before,
+                              .u = u,
+                              .w = w,
+                              .rho_c2 = work->rho_c2,
+                              .c2 = work->c2};
+    guard_check(stage->guard, &tile);
+    census_note(&stage->census, local, u, w);
+    cost_lap(&work->cost, COST_PRIMITIVES);
+}
+
+void verdict_measure(struct stage *stage, unsigned local, const double *w)
+{
+    size_t n_cell = stage->mesh->n_cell;
+    const struct term_pace pace = {
+        .model = stage->model, .level = stage->level, .n_cell = n_cell, .w = w, .c2 = stage->work->c2};
+    terms_pace(stage->work->terms[0], &pace, stage->work->rates); /* rates are free between stages */
+    stage->census.tiles[local].signal = row_most(n_cell, stage->work->rates);
+}
+
+void verdict_survey(struct stage *stage)
+{
+    stage->signal = 0.0;
+    for (unsigned tile = 0; tile < stage->level->n_local; tile++)
+        if (stage->census.tiles[tile].signal > stage->signal) stage->signal = stage->census.tiles[tile].signal;
+}
+
+void verdict_touch(struct stage *stage, unsigned local)
+{
+    const struct level *level = stage->level;
+    struct census_tile *tile = &stage->census.tiles[local];
+    double *u = level->u_old[local], *w = level->w[local];
+    unsigned present = census_materials(stage->model, stage->mesh->n_cell, u);
+    if (tile->path != stage->model && present != tile->present) tile->path = stage->model;
+    verdict_judge(stage, local, verdict_last(stage), level->u_new[local], u, w);
+    verdict_measure(stage, local, w);
+    census_turn(tile);
+}
+
+void verdict_reset(struct stage *stage)
+{
+    const struct level *level = stage->level;
+    size_t n_cell = stage->mesh->n_cell;
+    for (unsigned tile = 0; tile < level->n_local; tile++) {
+        mix_primitives(stage->model, n_cell, n_cell, level->u_old[tile], level->w[tile]);
+        census_forget(&stage->census, tile);
+    }
+}
+
+int verdict_start(struct stage *stage)
+{
+    const struct level *level = stage->level;
+    size_t bytes = stage->model->n_field * stage->mesh->n_cell * sizeof(double);
+    bool repair = stage->guard->repair;
+    verdict_reset(stage);
+    guard_attempt(stage->guard);
+    stage->guard->repair = false;
+    for (unsigned tile = 0; tile < level->n_local; tile++) {
+        memcpy(level->u_new[tile], level->u_old[tile], bytes); /* an earlier state, for verdict_touch */
+        verdict_judge(stage, tile, verdict_last(stage), level->u_new[tile], level->u_old[tile], level->w[tile]);
+        verdict_measure(stage, tile, level->w[tile]);
+        census_turn(&stage->census.tiles[tile]);
+    }
+    verdict_survey(stage);
+    stage->guard->repair = repair;
+    guard_clear(stage->guard);
+    if (!stage->guard->cause[0]) return STATUS_OK;
+    return status_fail(STATUS_CASE, "the initial state is not admissible: %s", stage->guard->cause);
+}
+
+void verdict_welcome(struct stage *stage, unsigned local)
+{
+    const struct model *model = stage->model;
+    struct work *work = stage->work;
+    const double *w = stage->level->w[local];
+    size_t n_cell = stage->mesh->n_cell;
+    census_forget(&stage->census, local);
+    mix_stiffness(model, n_cell, n_cell, w, work->rho_c2);
+    mix_speed2(model, n_cell, n_cell, w, work->rho_c2, work->c2);
+    verdict_measure(stage, local, w);
+}

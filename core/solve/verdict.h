@@ -1,0 +1,30 @@
+/* verdict.h - a tile whose conserved fields are new: its primitives, the guard's judgement, the signal that sets the step. */
+#ifndef VERDICT_H
+#define VERDICT_H
+
+#include "solve/stage.h"
+
+/* Primitives of u, into w, made with the path the tile was advanced with, and the guard's judgement as stage `judged`;
+ * `before`: an earlier admissible state. */
+void verdict_judge(struct stage *stage, unsigned local, int judged, const double *before, double *u, double *w);
+
+/* Signal of the tile that was judged last: its speeds are in the work space. */
+void verdict_measure(struct stage *stage, unsigned local, const double *w);
+
+/* The largest signal of the tiles, anew. */
+void verdict_survey(struct stage *stage);
+
+/* Tile `local` after its u_old was changed from outside (averages, refluxing; u_new holds an earlier admissible
+ * state): primitives, the guard's judgement as the last stage, signal. */
+void verdict_touch(struct stage *stage, unsigned local);
+
+/* w = primitives of u_old: before the first step and before a step is repeated. */
+void verdict_reset(struct stage *stage);
+
+/* An initial state in u_old: primitives, judgement without repair, signal. STATUS_CASE: inadmissible. Not collective. */
+int verdict_start(struct stage *stage);
+
+/* A tile whose primitives are there, from another rank or just made: census and signal. */
+void verdict_welcome(struct stage *stage, unsigned local);
+
+#endif

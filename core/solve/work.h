@@ -1,0 +1,27 @@
+/* work.h - scratch of one rank, used by its levels and tiles in turn: what a tile needs while it is worked on. */
+#ifndef WORK_H
+#define WORK_H
+
+#include "levels/prolong.h"
+#include "scheme/rate.h"
+#include "solve/cost.h"
+
+struct work {
+    const struct model *model;
+    struct face_work *faces;
+    struct face_work *faces_pure;             /* of paths of one material; NULL if the scene has no more */
+    struct face_work *faces_fluids;           /* of the path of all fluids, or NULL */
+    struct terms *terms[SCENE_MATERIALS + 2]; /* by model_number + 1; NULL: the scene has no such path */
+    void *own[TERMS_MOST];                    /* memory of the terms */
+    struct prolong *prolong;
+    double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
+    struct cost cost;                         /* where the time goes, of all levels */
+};
+
+struct work *work_new(const struct model *model, const struct mesh *mesh);
+void work_free(struct work *work); /* NULL is fine */
+
+/* The terms of a path of the scene. */
+const struct terms *work_terms(const struct work *work, const struct model *path);
+
+#endif
