@@ -14,6 +14,9 @@
 
 enum { SCENE_AXES = 3, SCENE_MATERIALS = 16, SCENE_NAME = 64, SCENE_SETTINGS = 64 };
 
+/* Layers of neighbours that a sweep over a tile may need on each side: fewest and most. */
+enum { SCENE_GHOSTS = 2, SCENE_GHOSTS_MOST = 3 };
+
 enum scene_geometry { SCENE_CARTESIAN = 0, SCENE_AXISYMMETRIC = 1, SCENE_SPHERICAL = 2 }; /* value = beta */
 
 /* A number, or a Lua expression evaluated where and when it is needed. */
@@ -244,6 +247,7 @@ struct scene {
     enum scene_closure closure;
     struct instance riemann, limiter;
     struct instance interface_limiter; /* of the volume fractions */
+    int ghosts;                        /* layers of neighbours that the reconstruction needs on each side of a tile */
     double cfl, dt_fixed;              /* dt_fixed 0: from cfl */
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;

@@ -137,6 +137,7 @@ void scene_scheme(struct draft *draft)
     scene_scheme_riemann_open(draft, scheme);
     scene_material_open(draft, keys_at(scheme, "limiter"), &scene->limiter);
     scene_material_open(draft, keys_at(scheme, "interface-limiter"), &scene->interface_limiter);
+    scene->ghosts = SCENE_GHOSTS;
     scene->until = keys_at(run, "until")->number;
     scene->max_steps = keys_at(run, "max-steps")->integer;
     scene->dt_least = keys_at(run, "smallest-step")->given ? keys_at(run, "smallest-step")->number : -1.0;

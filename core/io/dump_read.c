@@ -141,7 +141,7 @@ static int dump_blocks(struct dump *dump, struct h5 *file)
         if (!h5in_has(file, path)) continue;
         TRY(h5in_shape(file, path, &rows, &columns));
         bool cells = i < BLAME_FRAME_X, frame = !cells && i != BLAME_FACES;
-        size_t most = frame ? (size_t)dump->facts.n_cell * (1 + 2 * MESH_GHOST) : BLAME_COLUMNS;
+        size_t most = frame ? (size_t)dump->facts.n_cell * (1 + 2 * SCENE_GHOSTS_MOST) : BLAME_COLUMNS;
         if (rows == 0 || rows > MODEL_FIELDS || (cells && columns != dump->facts.n_cell) ||
             (!cells && (columns == 0 || columns > most)))
             return dump_lacks(dump, shape->name);

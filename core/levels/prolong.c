@@ -55,7 +55,7 @@ struct prolong *prolong_new(const struct model *model, const struct mesh *mesh)
         prolong->cells *= (size_t)mesh->n[d] + 2;
     }
     for (int axis = 0; axis < mesh->dim; axis++) prolong_edges(mesh, axis, prolong);
-    prolong->pitch = (size_t)mesh->n[0] * ((size_t)mesh->n[0] + 2 * MESH_GHOST);
+    prolong->pitch = (size_t)mesh->n[0] * ((size_t)mesh->n[0] + 2 * (size_t)mesh->ghosts);
     prolong->frame = mem_new(model->n_field * prolong->pitch, sizeof(double));
     prolong->w = mem_new(model->n_field * prolong->cells, sizeof(double));
     prolong->u = mem_new(model->n_field * prolong->cells, sizeof(double));
@@ -116,7 +116,12 @@ struct prolong_box {
 /* Cells of a box on one line across an axis, with all cells of the tile along it. k: index along the third axis. */
 static struct frame prolong_line(const struct mesh *mesh, int axis, const struct prolong_box *box, size_t k)
 {
-    struct frame frame = {.axis = axis, .outer = 1, .inner = 1, .n = (size_t)mesh->n[axis], .tile_inner = 1};
+    struct frame frame = {.axis = axis,
+                          .outer = 1,
+                          .inner = 1,
+                          .n = (size_t)mesh->n[axis],
+                          .ghosts = (size_t)mesh->ghosts,
+                          .tile_inner = 1};
     for (int d = 0; d < axis; d++) frame.tile_inner *= (size_t)mesh->n[d];
     frame.tile_outer = mesh->n_cell / frame.n / frame.tile_inner;
     if (axis == 0) {
@@ -127,7 +132,7 @@ static struct frame prolong_line(const struct mesh *mesh, int axis, const struct
         frame.inner_from = box->from[0] + (axis == 1 ? 0 : (size_t)mesh->n[0] * k);
         frame.inner = box->to[0] - box->from[0];
     }
-    frame.count = frame.outer * (frame.n + 2 * MESH_GHOST) * frame.inner;
+    frame.count = frame.outer * frame_layers(&frame) * frame.inner;
     return frame;
 }
 
@@ -216,6 +221,13 @@ static BULLA_KERNEL void prolong_normalise(size_t n, unsigned n_alpha, double *a
     }
 }
 
+/* Coarse cells along axis d of the patch that the strip of a face across `axis` is made from. */
+static size_t prolong_across(const struct mesh *mesh, int axis, int d)
+{
+    if (d == axis) return (size_t)link_depth(mesh);
+    return d < mesh->dim ? (size_t)mesh->n[d] / 2 : 1;
+}
+
 static void prolong_strip(const struct prolong *prolong, const struct mesh *mesh, const struct link_face *face,
                           double *strip)
 {
@@ -228,7 +240,7 @@ static void prolong_strip(const struct prolong *prolong, const struct mesh *mesh
         row.fine[d] = size;
         row.count[d] = used ? 2 : 1;
         row.stride[d] = prolong->stride[d];
-        patch[d] = used && d != axis ? (size_t)mesh->n[d] / 2 : 1;
+        patch[d] = prolong_across(mesh, axis, d);
         size *= patch[d] * row.count[d];
         from += (size_t)face->from[d] * prolong->stride[d];
     }
@@ -251,7 +263,7 @@ static struct prolong_box prolong_patch(const struct mesh *mesh, const struct li
     struct prolong_box box;
     for (int d = 0; d < 3; d++) {
         box.from[d] = (size_t)face->from[d];
-        box.to[d] = box.from[d] + (d < mesh->dim && d != face->face / 2 ? (size_t)mesh->n[d] / 2 : 1);
+        box.to[d] = box.from[d] + prolong_across(mesh, face->face / 2, d);
     }
     return box;
 }

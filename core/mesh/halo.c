@@ -35,7 +35,7 @@ static int halo_compare(const void *a, const void *b)
 static struct post_item halo_item(const struct halo *halo, const struct level *level, const struct halo_send *send)
 {
     const struct mesh *mesh = halo->mesh;
-    size_t cells = mesh->n_cell / (size_t)mesh->n[send->face / 2] * MESH_GHOST;
+    size_t cells = mesh->n_cell / (size_t)mesh->n[send->face / 2] * (size_t)mesh->ghosts;
     return (struct post_item){.rank = level->tiles[send->to].rank, .doubles = halo->n_field * cells};
 }
 
@@ -77,7 +77,7 @@ void halo_free(struct halo *halo)
     mem_free(halo);
 }
 
-/* The layers next to a face: the first or last MESH_GHOST of the axis. */
+/* The layers next to a face: the first or last of the axis. */
 static void halo_pack(const struct halo *halo, const double *array, int face, double *slab)
 {
     const struct mesh *mesh = halo->mesh;
@@ -85,7 +85,7 @@ static void halo_pack(const struct halo *halo, const double *array, int face, do
     size_t inner = 1;
     for (int d = 0; d < axis; d++) inner *= (size_t)mesh->n[d];
     size_t outer = mesh->n_cell / inner / (size_t)n;
-    size_t skip = face % 2 ? (size_t)(n - MESH_GHOST) * inner : 0, length = MESH_GHOST * inner;
+    size_t skip = face % 2 ? (size_t)(n - mesh->ghosts) * inner : 0, length = (size_t)mesh->ghosts * inner;
     for (size_t block = 0; block < halo->n_field * outer; block++)
         memcpy(slab + block * length, array + block * inner * (size_t)n + skip, length * sizeof *slab);
 }

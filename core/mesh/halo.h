@@ -1,6 +1,6 @@
 /* halo.h - slabs of cells from tiles on other ranks.
  *
- * A slab is the MESH_GHOST layers next to a face, of all fields: [n_field][outer][2][inner],
+ * A slab is the mesh's ghosts layers next to a face, of all fields: [n_field][outer][ghosts][inner],
  * where inner and outer are the products of the tile's extents before and after the axis.
  * Both sides derive the list of slabs from the replicated topology; there is one message per
  * pair of ranks, with persistent requests made once per topology. */

@@ -34,8 +34,10 @@ static void link_patch(const struct mesh *mesh, int octant, struct link_face *fa
 {
     int axis = face->face / 2;
     for (int d = 0; d < 3; d++) face->from[d] = d < mesh->dim ? (octant >> d & 1) * mesh->n[d] / 2 : 0;
-    if (face->face % 2 == 0) face->from[axis] += mesh->n[axis] / 2 - 1;
     face->layer = face->from[axis];
+    if (face->face % 2) return;
+    face->layer += mesh->n[axis] / 2 - 1;
+    face->from[axis] = face->layer + 1 - link_depth(mesh);
 }
 
 /* The coarse tile above a place of the fine level. */
@@ -300,7 +302,7 @@ struct link *link_new(const struct mesh *mesh, int fine_level)
     link->face_cells = link->octant_cells = 1;
     for (int d = 0; d < mesh->dim; d++) link->octant_cells *= (size_t)mesh->n[d] / 2;
     link->face_cells = link->octant_cells / ((size_t)mesh->n[0] / 2);
-    link->strip_doubles = mesh->n_field * MESH_GHOST * mesh->n_cell / (size_t)mesh->n[0];
+    link->strip_doubles = mesh->n_field * 2 * (size_t)link_depth(mesh) * mesh->n_cell / (size_t)mesh->n[0];
     link->own = mem_new(1, sizeof(struct link_own));
     link_list_faces(&draft);
     link_list_children(&draft);

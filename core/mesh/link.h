@@ -1,8 +1,8 @@
 /* link.h - what a level and the next coarser one tell each other: ghosts down, averages and fluxes up.
  *
  * Down: for every face of a fine tile that no fine tile covers, a strip of fine ghost primitives,
- * [n_field][outer][MESH_GHOST][inner] like a slab of the halo, at the beginning and at the end of a step of the
- * coarse level. The owner of the coarse tile behind the face makes it (levels/prolong.h), so that only finished
+ * [n_field][outer][layers][inner] like a slab of the halo, at the beginning and at the end of a step of the
+ * coarse level. Its layers are those of whole coarse cells: as many as the mesh's ghosts, or one more. The owner of the coarse tile behind the face makes it (levels/prolong.h), so that only finished
  * ghosts travel. A face looks at exactly one octant of one coarse tile.
  * Up: per such face the sum over fine steps and sub-faces of the fluxes (the register), and per fine tile its
  * average on the octant above. Where both tiles are on one rank the two ends share memory. */
@@ -16,10 +16,10 @@ struct link_face {
     unsigned fine, coarse; /* tiles: indices in the lists of the levels */
     int face;              /* 2 * axis + side of the fine tile */
     int layer;             /* along the axis: the layer of coarse cells next to the face, in the coarse tile */
-    int from[3];           /* first cell of that patch in the coarse tile (from[axis] == layer); n/2 cells along
-                              the other axes */
-    double *strip[2];      /* at the beginning and at the end of the coarse step */
-    double *flux;          /* register: [n_register][(n/2)^(d-1)], lower axes fastest: sum of dt times mean flux */
+    int from[3];           /* first cell of the patch that strips are made from, in the coarse tile: link_depth cells
+                              along the axis, `layer` among them, n/2 along the other axes */
+    double *strip[2]; /* [n_field][outer][2 link_depth][inner]: at the beginning and at the end of the coarse step */
+    double *flux;     /* register: [n_register][(n/2)^(d-1)], lower axes fastest: sum of dt times mean flux */
 };
 
 /* A fine tile and the octant under which it lies. */
@@ -49,6 +49,12 @@ struct link {
     struct link_child *octants;
     void *own;
 };
+
+/* Coarse cells along the axis that the ghosts behind a coarse-fine face lie in. */
+static inline int link_depth(const struct mesh *mesh)
+{
+    return (mesh->ghosts + 1) / 2;
+}
 
 /* The link between fine_level and fine_level - 1, both with tiles and with their neighbours and covered flags made;
  * NULL if a local fine tile lies in no coarse tile or looks at none. Not collective. */

@@ -41,10 +41,10 @@ static int mesh_refuse(const struct scene *scene, int common)
     return 0;
 }
 
-/* Refined tiles lie under octants of n / 2 cells, which must hold the MESH_GHOST layers. */
+/* Refined tiles lie under octants of n / 2 cells, which must hold the layers that a neighbour needs. */
 static bool mesh_tile_halves(const struct scene *scene, int n)
 {
-    return !scene->levels || (n % 2 == 0 && n >= MESH_TILE_LEAST);
+    return !scene->levels || (n % 2 == 0 && n >= 2 * scene->ghosts);
 }
 
 static int mesh_tile_given(const struct scene *scene, int common)
@@ -57,7 +57,7 @@ static int mesh_tile_given(const struct scene *scene, int common)
     if (mesh_tile_halves(scene, scene->tile)) return scene->tile;
     status_fail(STATUS_CASE,
                 "%s: mesh.tile: %d cannot be refined: with mesh.levels above 0 it must be even and at least %d",
-                scene->cells_place, scene->tile, MESH_TILE_LEAST);
+                scene->cells_place, scene->tile, 2 * scene->ghosts);
     return 0;
 }
 
@@ -133,6 +133,7 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
     mesh->beta = (int)scene->geometry;
     mesh->n_field = n_field;
     mesh->n_alpha = n_alpha;
+    mesh->ghosts = scene->ghosts;
     mesh->n_face_u = n_alpha > 0;
     for (unsigned l = 0; l < scene->n_material; l++)
         if (scene->material[l].constitutive.module) mesh->n_face_u = (unsigned)scene->n_velocity;

@@ -10,7 +10,7 @@
  * Level 0 covers the domain. A tile of level l + 1 at b lies under exactly one octant of (n/2)^d
  * cells of the tile b >> 1 of level l; the coarse cells under it stay allocated. Levels nest: the
  * 3^d octants around every fine tile lie in tiles of the coarser level or outside the domain, so
- * that what a tile's two ghost layers need exists on the next coarser level at the latest
+ * that what a tile's ghost layers need exists on the next coarser level at the latest
  * (Berger & Colella 1989, J. Comput. Phys. 82, 64, on fixed tiles). */
 #ifndef MESH_H
 #define MESH_H
@@ -20,7 +20,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { MESH_LEVELS = 16, MESH_FACES = 6, MESH_GHOST = 2, MESH_OCTANTS = 8 };
+enum { MESH_LEVELS = 16, MESH_FACES = 6, MESH_OCTANTS = 8 };
 
 struct tile {
     uint64_t key; /* Morton key of `at` */
@@ -61,6 +61,8 @@ struct mesh {
     double lower[3], upper[3];
     int n[3];          /* cells of a tile per axis: n, or 1 beyond dim */
     size_t n_cell;     /* cells of a tile */
+    int ghosts;        /* layers of neighbours that a sweep needs on each side of a tile: 2 or 3; at most n, and n / 2
+                          where tiles are refined */
     unsigned n_field;  /* evolved fields */
     unsigned n_alpha;  /* volume fractions among them (the first), for the sizes of registers */
     unsigned n_face_u; /* components of the face velocity that registers keep: all with a solid, the normal one with

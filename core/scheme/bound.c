@@ -19,7 +19,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { BOUND_ROW = FRAME_CELLS / (2 * MESH_GHOST) }; /* most face cells of a frame */
+enum { BOUND_ROW = FRAME_CELLS / (2 * SCENE_GHOSTS) }; /* most face cells of a frame */
 
 static const struct scene_boundary *bound_of(const struct bound *bound, const struct frame *frame, int side)
 {
@@ -125,7 +125,7 @@ void bound_free(struct bound *bound)
     mem_free(bound);
 }
 
-/* Frame layer behind the face, counted from it (0, 1), and the layer inside that mirrors it. */
+/* Frame layer behind the face, counted from it, and the layer inside that mirrors it. */
 static int bound_layer(const struct frame *frame, int side, int ghost)
 {
     return side ? (int)frame->n + ghost : -1 - ghost;
@@ -138,7 +138,7 @@ static int bound_inside(const struct frame *frame, int side, int ghost)
 
 static void bound_layers(const struct frame *frame, int side, bool mirror, double factor, double *w)
 {
-    for (int ghost = 0; ghost < MESH_GHOST; ghost++)
+    for (int ghost = 0; ghost < (int)frame->ghosts; ghost++)
         for (size_t o = 0; o < frame->outer; o++) {
             double *to = w + frame_at(frame, o, bound_layer(frame, side, ghost));
             const double *from = w + frame_at(frame, o, bound_inside(frame, side, mirror ? ghost : 0));
@@ -193,7 +193,7 @@ static void bound_put(const struct model *model, const struct frame *frame, int 
                       const struct bound_row *row, double *w)
 {
     for (unsigned a = 0; a < model->n_active; a++)
-        for (int ghost = 0; ghost < MESH_GHOST; ghost++)
+        for (int ghost = 0; ghost < (int)frame->ghosts; ghost++)
             for (size_t o = 0; o < frame->outer; o++)
                 memcpy(w + model->active[a] * pitch + frame_at(frame, o, bound_layer(frame, side, ghost)),
                        row->w + model->active[a] * row->stride + o * frame->inner, frame->inner * sizeof *w);

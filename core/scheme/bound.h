@@ -1,6 +1,6 @@
 /* bound.h - the states behind the domain's boundaries (model.md 8).
  *
- * Every boundary gives the two layers next to a face from the primitives inside, the time and,
+ * Every boundary gives the layers next to a face from the primitives inside, the time and,
  * for non-reflecting and incoming-wave boundaries, the pressure and normal velocity that stood
  * there at the start (kept here per boundary cell). */
 #ifndef BOUND_H

@@ -197,7 +197,13 @@ static void face_flatten(size_t n, size_t step, const double *w, const double *m
     }
 }
 
-/* Edges of all cells that have two neighbours in the row. */
+/* From the first cell of a frame to the first that has edges: all neighbours that they are made from are in the row. */
+static size_t face_reach(const struct frame *frame)
+{
+    return (frame->ghosts - 1) * frame->inner;
+}
+
+/* Edges of all cells but the outermost. */
 static void face_reconstruct(struct face_work *work, const struct frame *frame, size_t cells, bool masked)
 {
     const struct model *model = work->model;
@@ -205,14 +211,14 @@ static void face_reconstruct(struct face_work *work, const struct frame *frame, 
     size_t step = frame->inner;
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
-        const double *w = work->frame + q * FACE_ROOM + step;
+        const double *w = work->frame + q * FACE_ROOM + face_reach(frame);
         double *upper = own->state + 2 * q * FACE_ROOM;
         face_limit(work, q, cells, step, w, upper);
         if (model_is_fraction(model, q) && !model->kapila) {
             face_temper(cells, w, upper);
             face_temper(cells, w, upper + cells);
         }
-        if (masked) face_flatten(cells - step, step, w, work->mask + step, upper, upper + cells + step);
+        if (masked) face_flatten(cells - step, step, w, work->mask + face_reach(frame), upper, upper + cells + step);
     }
 }
 
@@ -361,7 +367,7 @@ static void face_solve_robust(struct face_work *work, const struct frame *frame,
         work->faces.slide_right = own->stress->robust_right;
     }
     model->robust->solve(NULL, &work->faces);
-    const double *mask = work->mask + frame->inner;
+    const double *mask = work->mask + face_reach(frame);
     for (size_t i = 0; i < n; i++) {
         if (mask[i] + mask[i + frame->inner] == 0.0) continue;
         for (unsigned q = 0; q < own->n_flux; q++) work->alpha[q * FACE_ROOM + i] = own->robust[q * FACE_ROOM + i];
@@ -452,7 +458,7 @@ static void face_transport(struct face_work *work, size_t right)
 void face_solve(struct face_work *work, const struct frame *frame, bool masked)
 {
     const struct model *model = work->model;
-    size_t cells = frame->count - 2 * frame->inner;
+    size_t cells = frame->count - 2 * face_reach(frame);
     face_reconstruct(work, frame, cells, masked);
     face_normalise(work, 2 * cells);
     face_complete(work, frame, 2 * cells);

@@ -31,14 +31,14 @@ struct face_work *face_new(const struct model *model);
 void face_free(struct face_work *work);
 
 /* Fills the flux arrays for the frame in work->frame. Face index f of the row is the lower face of
- * frame cell f + 2 inner. With `masked`, faces of cells marked in work->mask get first-order
+ * frame cell f + ghosts inner. With `masked`, faces of cells marked in work->mask get first-order
  * states and the robust solver. */
 void face_solve(struct face_work *work, const struct frame *frame, bool masked);
 
 /* Row index of the lower face of cell (o, i) of the piece, inner index 0; the upper one is `inner` further. */
 static inline size_t face_at(const struct frame *frame, size_t o, size_t i)
 {
-    return frame_at(frame, o, (int)i) - 2 * frame->inner;
+    return frame_at(frame, o, (int)i) - frame->ghosts * frame->inner;
 }
 
 #endif

@@ -7,10 +7,10 @@
 
 static struct frame frame_whole(const struct mesh *mesh, int axis)
 {
-    struct frame frame = {.axis = axis, .n = (size_t)mesh->n[axis], .tile_inner = 1};
+    struct frame frame = {.axis = axis, .n = (size_t)mesh->n[axis], .ghosts = (size_t)mesh->ghosts, .tile_inner = 1};
     for (int d = 0; d < axis; d++) frame.tile_inner *= (size_t)mesh->n[d];
     frame.tile_outer = mesh->n_cell / frame.n / frame.tile_inner;
-    size_t length = frame.n + 2 * MESH_GHOST;
+    size_t length = frame_layers(&frame);
     frame.inner = frame.tile_inner;
     while (frame.inner * length > FRAME_CELLS) frame.inner = (frame.inner + 1) / 2;
     frame.outer = FRAME_CELLS / (length * frame.inner);
@@ -38,7 +38,7 @@ struct frame frame_piece(const struct mesh *mesh, int axis, size_t index)
     frame.inner_from = index % across * frame.inner;
     if (frame.outer > frame.tile_outer - frame.outer_from) frame.outer = frame.tile_outer - frame.outer_from;
     if (frame.inner > frame.tile_inner - frame.inner_from) frame.inner = frame.tile_inner - frame.inner_from;
-    frame.count = frame.outer * (frame.n + 2 * MESH_GHOST) * frame.inner;
+    frame.count = frame.outer * frame_layers(&frame) * frame.inner;
     return frame;
 }
 
@@ -59,7 +59,7 @@ static void frame_copy(const struct frame *frame, const double *block, size_t de
     size_t rows = whole ? 1 : layers, length = whole ? layers * frame->inner : frame->inner;
     const double *source = block + (frame->outer_from * depth + from) * frame->tile_inner + frame->inner_from;
     double *target = w + frame_at(frame, 0, to);
-    size_t source_slice = depth * frame->tile_inner, slice = (frame->n + 2 * MESH_GHOST) * frame->inner;
+    size_t source_slice = depth * frame->tile_inner, slice = frame_layers(frame) * frame->inner;
     for (size_t o = 0; o < frame->outer; o++, source += source_slice, target += slice)
         for (size_t row = 0; row < rows; row++)
             frame_row(length, source + row * frame->tile_inner, target + row * frame->inner);
@@ -89,16 +89,18 @@ static inline void frame_blend_density(size_t n, double theta, const double *res
     }
 }
 
-/* The two layers behind a coarse-fine face, of field q: linear in time between two strips. */
+/* The layers behind a coarse-fine face, of field q: linear in time between two strips, which may hold one layer more
+ * than is needed, the one furthest from the face. */
 static void frame_copy_strip(const struct frame_source *source, const struct link_face *face, unsigned q,
                              const struct frame *frame, int to, double *w)
 {
-    size_t slice = MESH_GHOST * frame->tile_inner, block = frame->tile_outer * slice, n_alpha = source->mesh->n_alpha;
-    size_t at = frame->outer_from * slice + frame->inner_from;
+    size_t depth = 2 * (size_t)link_depth(source->mesh), skip = to < 0 ? depth - frame->ghosts : 0;
+    size_t slice = depth * frame->tile_inner, block = frame->tile_outer * slice, n_alpha = source->mesh->n_alpha;
+    size_t at = frame->outer_from * slice + skip * frame->tile_inner + frame->inner_from;
     double theta = source->link->theta;
     const double *first = face->strip[0], *last = theta > 0.0 ? face->strip[1] : first;
     for (size_t o = 0; o < frame->outer; o++, at += slice)
-        for (int row = 0; row < MESH_GHOST; row++) {
+        for (int row = 0; row < (int)frame->ghosts; row++) {
             size_t from = q * block + at + (size_t)row * frame->tile_inner, back = n_alpha * block;
             double *target = w + frame_at(frame, o, to + row);
             if (q < n_alpha || q >= 2 * n_alpha) frame_blend(frame->inner, theta, first + from, last + from, target);
@@ -112,7 +114,7 @@ static void frame_coarse(const struct frame_source *source, unsigned index, cons
                          size_t pitch, double *w)
 {
     const struct link_face *face = &source->link->faces[index];
-    int to = side ? (int)frame->n : -MESH_GHOST;
+    int to = side ? (int)frame->n : -(int)frame->ghosts;
     for (unsigned i = 0; i < source->n_field; i++) {
         unsigned q = frame_field(source, i);
         frame_copy_strip(source, face, q, frame, to, w + q * pitch);
@@ -132,13 +134,13 @@ static void frame_side(const struct frame_source *source, unsigned local, const 
         return;
     }
     bool remote = neighbour->kind == NEIGHBOUR_REMOTE;
-    size_t depth = remote ? MESH_GHOST : frame->n, from = remote || side ? 0 : frame->n - MESH_GHOST;
-    size_t block = remote ? frame->tile_outer * MESH_GHOST * frame->tile_inner : source->mesh->n_cell;
+    size_t depth = remote ? frame->ghosts : frame->n, from = remote || side ? 0 : frame->n - frame->ghosts;
+    size_t block = remote ? frame->tile_outer * frame->ghosts * frame->tile_inner : source->mesh->n_cell;
     const double *data = remote ? halo_slab(source->halo, neighbour->index) : source->arrays[neighbour->index];
-    int to = side ? (int)frame->n : -MESH_GHOST;
+    int to = side ? (int)frame->n : -(int)frame->ghosts;
     for (unsigned i = 0; i < source->n_field; i++) {
         unsigned q = frame_field(source, i);
-        frame_copy(frame, data + q * block, depth, from, to, MESH_GHOST, w + q * pitch);
+        frame_copy(frame, data + q * block, depth, from, to, frame->ghosts, w + q * pitch);
     }
 }
 

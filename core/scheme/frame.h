@@ -1,7 +1,7 @@
-/* frame.h - a piece of a tile with two layers of neighbours along one axis, gathered for a sweep.
+/* frame.h - a piece of a tile with some layers of neighbours along one axis, gathered for a sweep.
  *
  * Seen along axis a, a tile is [outer][n_a][inner]; a frame is a sub-range of outer and inner
- * with n_a extended by MESH_GHOST on both sides: [outer][n_a + 4][inner], so that a step of
+ * with n_a extended by the mesh's ghosts on both sides: [outer][n_a + 2 ghosts][inner], so that a step of
  * `inner` doubles is one cell along the axis, whatever the axis, and kernels see one long row.
  * No corners, no stored ghosts: copying is cheaper than keeping frames (docs/decisions). */
 #ifndef FRAME_H
@@ -19,9 +19,10 @@ enum { FRAME_CELLS = 1536 }; /* most cells of a frame, the layers included: arra
 struct frame {
     int axis;
     size_t outer, n, inner; /* extents of the piece; n: cells of the tile along the axis */
+    size_t ghosts;          /* layers on each side */
     size_t outer_from, inner_from;
     size_t tile_outer, tile_inner; /* extents of the whole tile */
-    size_t count;                  /* outer * (n + 4) * inner */
+    size_t count;                  /* outer * frame_layers * inner */
 };
 
 /* Where a gather reads: tiles of one level, halo slabs, and what to do at domain boundaries. */
@@ -34,7 +35,7 @@ struct frame_source {
     unsigned n_field;
     const unsigned
         *fields; /* [n_field] components to gather, each keeps its number in the frame; NULL: the first n_field */
-    /* Fills the two layers of all fields behind a boundary (and, without a link, a coarse-fine) face `side`;
+    /* Fills the layers of all fields behind a boundary (and, without a link, a coarse-fine) face `side`;
      * `data` is its own. */
     void (*boundary)(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);
     void *data;
@@ -49,10 +50,16 @@ struct frame frame_piece(const struct mesh *mesh, int axis, size_t index);
 void frame_gather(const struct frame_source *source, unsigned local, const struct frame *frame, size_t pitch,
                   double *w);
 
-/* Offset in a frame of outer index o, axis index i (-2 ... n + 1), inner index 0. */
+/* Cells of a frame along its axis. */
+static inline size_t frame_layers(const struct frame *frame)
+{
+    return frame->n + 2 * frame->ghosts;
+}
+
+/* Offset in a frame of outer index o, axis index i (-ghosts ... n + ghosts - 1), inner index 0. */
 static inline size_t frame_at(const struct frame *frame, size_t o, int i)
 {
-    return (o * (frame->n + 2 * MESH_GHOST) + (size_t)(i + MESH_GHOST)) * frame->inner;
+    return (o * frame_layers(frame) + (size_t)(i + (int)frame->ghosts)) * frame->inner;
 }
 
 /* Offset in a tile's component of the same cell. */

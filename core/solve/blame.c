@@ -32,10 +32,10 @@ static const struct tableau_stage *blame_row(const struct blame_facts *facts)
 }
 
 /* Cells of the whole frame of the tile along an axis. */
-static size_t blame_frame_cells(const struct blame_facts *facts, int axis)
+static size_t blame_frame_cells(const struct model *model, const struct blame_facts *facts, int axis)
 {
     size_t n = (size_t)facts->n[axis];
-    return facts->n_cell / n * (n + 2 * MESH_GHOST);
+    return facts->n_cell / n * (n + 2 * (size_t)model->scene->ghosts);
 }
 
 /* Blocks that hold frames, marks, faces; they exist where a stage was gone through. */
@@ -49,9 +49,9 @@ static struct blame_shape blame_shape_swept(const struct model *model, const str
     if (block == BLAME_FACES) return (struct blame_shape){name, 2 * dim, blame_columns(model, facts, columns)};
     if (mask < 0)
         return (struct blame_shape){name, frame < model->dim ? model->n_field : 0,
-                                    frame < model->dim ? blame_frame_cells(facts, frame) : 0};
+                                    frame < model->dim ? blame_frame_cells(model, facts, frame) : 0};
     return (struct blame_shape){name, facts->masked && mask < model->dim ? 1 : 0,
-                                mask < model->dim ? blame_frame_cells(facts, mask) : 0};
+                                mask < model->dim ? blame_frame_cells(model, facts, mask) : 0};
 }
 
 struct blame_shape blame_shape(const struct model *model, const struct blame_facts *facts, enum blame_block block)
@@ -224,11 +224,11 @@ void blame_free(struct blame *blame)
 /* Copies a piece between the whole frame of the tile and the work space; to the whole one if `record`. */
 static void blame_copy(const struct frame *frame, double *whole, double *piece, bool record)
 {
-    size_t layers = frame->n + 2 * MESH_GHOST;
+    size_t layers = frame_layers(frame);
     for (size_t o = 0; o < frame->outer; o++)
         for (size_t i = 0; i < layers; i++) {
             double *there = whole + ((frame->outer_from + o) * layers + i) * frame->tile_inner + frame->inner_from;
-            double *here = piece + frame_at(frame, o, (int)i - MESH_GHOST);
+            double *here = piece + frame_at(frame, o, (int)i - (int)frame->ghosts);
             memcpy(record ? there : here, record ? here : there, frame->inner * sizeof *here);
         }
 }
@@ -237,7 +237,7 @@ static void blame_copy(const struct frame *frame, double *whole, double *piece, 
 static void blame_copy_piece(const struct blame *blame, const struct model *used, const struct frame *frame,
                              const struct face_work *faces, bool record)
 {
-    size_t cells = blame_frame_cells(&blame->facts, frame->axis);
+    size_t cells = blame_frame_cells(used, &blame->facts, frame->axis);
     double *frames = blame->block[BLAME_FRAME_X + frame->axis], *marks = blame->block[BLAME_MASK_X + frame->axis];
     for (unsigned i = 0; i < used->n_active; i++) {
         unsigned q = used->active[i];

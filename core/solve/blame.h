@@ -50,7 +50,7 @@ enum blame_block {
     BLAME_K,         /* of mix_closure; Kapila closure only */
     BLAME_STIFFNESS, /* rho_l c_l^2 at w, likewise */
     BLAME_BASE,      /* conserved fields that the stage went on from, where these are not u_old */
-    BLAME_FRAME_X,   /* w with two layers of neighbours along an axis: [field][outer][n + 4][inner] */
+    BLAME_FRAME_X,   /* w with layers of neighbours along an axis: [field][outer][n + 2 ghosts][inner] */
     BLAME_FRAME_Y,
     BLAME_FRAME_Z,
     BLAME_MASK_X, /* marked cells of the same frames */

@@ -35,6 +35,7 @@ static void replay_mesh(struct replay *replay)
                           .n_cell = facts->n_cell,
                           .n_field = replay->model->n_field,
                           .n_alpha = replay->model->n_alpha,
+                          .ghosts = scene->ghosts,
                           .n_level = facts->level + 1};
     replay->tile = (struct tile){.covered = (unsigned char)facts->covered};
     replay->level = &mesh->levels[facts->level];

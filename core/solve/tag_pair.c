@@ -43,7 +43,7 @@ static void tag_pair_across(const struct tag_pair *pair, unsigned local, int fac
     int axis = face / 2, side = face % 2;
     size_t n = (size_t)pair->mesh->n[axis], inner = 1;
     for (int d = 0; d < axis; d++) inner *= (size_t)pair->mesh->n[d];
-    size_t outer = pair->mesh->n_cell / n / inner, depth = remote ? MESH_GHOST : n;
+    size_t outer = pair->mesh->n_cell / n / inner, depth = remote ? (size_t)pair->mesh->ghosts : n;
     const double *own = values[local] + (side ? n - 1 : 0) * inner;
     const double *other = remote ? halo_slab(pair->halo, neighbour->index) : values[neighbour->index];
     other += (side ? 0 : depth - 1) * inner;

@@ -112,7 +112,7 @@ void traffic_count(const struct mesh *mesh, const struct traffic_graph *graphs, 
                    struct traffic *ret_traffic)
 {
     double tiles = 0.0, remote = 0.0, field = 8.0 * mesh->n_field, face = (double)mesh->n_cell / mesh->n[0];
-    double octants = 1 << mesh->dim, slab = MESH_GHOST * face * field;
+    double octants = 1 << mesh->dim, slab = mesh->ghosts * face * field;
     double flux = 8.0 * (mesh->n_field + 1) * face / (octants / 2.0), average = (double)mesh->n_cell / octants * field;
     *ret_traffic = (struct traffic){0};
     for (int l = 0; l < mesh->n_level; l++) {

@@ -1,6 +1,6 @@
 /* traffic.h - what a partition costs: load of each rank and level, and the messages that follow from it.
  *
- * Counted as the mesh sends them: per stage a slab of MESH_GHOST layers for every face to a remote tile of the same
+ * Counted as the mesh sends them: per stage a slab of the mesh's ghosts for every face to a remote tile of the same
  * level (halo.h); per step of the coarser level two strips for every coarse-fine face whose coarse tile is remote,
  * its register back, and the average of every tile whose parent is remote (link.h). */
 #ifndef TRAFFIC_H

@@ -61,7 +61,7 @@ static void check_layer(const struct flow *flow, const struct rule *rule, const 
 {
     const struct model *model = flow->state->model;
     int n = (int)frame->n;
-    for (int ghost = 0; ghost < MESH_GHOST; ghost++) {
+    for (int ghost = 0; ghost < (int)frame->ghosts; ghost++) {
         int to = side ? n + ghost : -1 - ghost, inner = rule->mirror ? ghost : 0, from = side ? n - 1 - inner : inner;
         if (rule->wrap) from = side ? ghost : n - 1 - ghost;
         for (unsigned q = 0; q < model->n_field; q++) {

@@ -196,7 +196,8 @@ static void test_notices(void **state)
     const struct blame *blame = fail_at_last(&flow, 50);
     check_same(&flow, blame);
     const struct blame_facts *facts = &blame->facts;
-    size_t row = (size_t)facts->n[0] + 4, at = flow.state->model->i_E * row + facts->cell + MESH_GHOST;
+    size_t ghosts = (size_t)flow.state->mesh->ghosts, row = (size_t)facts->n[0] + 2 * ghosts,
+           at = flow.state->model->i_E * row + facts->cell + ghosts;
     uint64_t bits;
     double *value = &blame->block[BLAME_FRAME_X][at];
     memcpy(&bits, value, sizeof bits);

@@ -96,13 +96,13 @@ static void check_slab(const struct levels *levels, int l, const struct tile *ti
     const struct mesh *mesh = levels->mesh;
     int axis = face / 2, n = mesh->n[axis];
     int ends[3] = {mesh->n[0], mesh->n[1], mesh->n[2]}, c[3];
-    ends[axis] = MESH_GHOST;
+    ends[axis] = mesh->ghosts;
     for (unsigned q = 0; q < LEVELS_FIELDS; q++)
         for (c[2] = 0; c[2] < ends[2]; c[2]++)
             for (c[1] = 0; c[1] < ends[1]; c[1]++)
                 for (c[0] = 0; c[0] < ends[0]; c[0]++) {
                     int own[3] = {c[0], c[1], c[2]};
-                    if (face % 2 == 0) own[axis] += n - MESH_GHOST; /* upper layers of the lower neighbour */
+                    if (face % 2 == 0) own[axis] += n - mesh->ghosts; /* upper layers of the lower neighbour */
                     int cell = own[0] + mesh->n[0] * (own[1] + mesh->n[1] * own[2]);
                     assert_true(*slab++ == -levels_value(levels, l, tile, q, (size_t)cell));
                 }
@@ -341,7 +341,7 @@ static void test_removal(void **state)
 static void test_sides(void **state)
 {
     (void)state;
-    struct scene scene = {.dim = 2, .cells = {60, 90, 1}, .cells_place = "case.yaml:5:10"};
+    struct scene scene = {.dim = 2, .cells = {60, 90, 1}, .ghosts = SCENE_GHOSTS, .cells_place = "case.yaml:5:10"};
     assert_int_equal(mesh_tile_size(&scene), 15);
     scene.levels = 2;
     assert_int_equal(mesh_tile_size(&scene), 6);

@@ -191,7 +191,11 @@ static inline void levels_fill(struct levels *levels, int l)
 
 static inline void levels_open(struct levels *levels, const struct levels_shape *shape, uint64_t seed)
 {
-    struct scene scene = {.dim = shape->dim, .levels = shape->levels, .tile = shape->n, .cells_place = "case.yaml:1:1"};
+    struct scene scene = {.dim = shape->dim,
+                          .levels = shape->levels,
+                          .tile = shape->n,
+                          .ghosts = SCENE_GHOSTS,
+                          .cells_place = "case.yaml:1:1"};
     for (int d = 0; d < 3; d++) {
         scene.cells[d] = d < shape->dim ? shape->tiles[d] * shape->n : 1;
         scene.lower[d] = d < shape->dim ? -1.5 : 0.0;

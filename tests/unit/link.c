@@ -134,7 +134,7 @@ static void check_sizes(struct levels *levels, int l)
     assert_int_equal(link->n_register, LEVELS_FIELDS + 1);
     assert_int_equal(link->face_cells, cells);
     assert_int_equal(link->octant_cells, cells * half);
-    assert_int_equal(link->strip_doubles, LEVELS_FIELDS * MESH_GHOST * (cells << (mesh->dim - 1)));
+    assert_int_equal(link->strip_doubles, LEVELS_FIELDS * 2 * (size_t)link_depth(mesh) * (cells << (mesh->dim - 1)));
 }
 
 static void check_lists(struct levels *levels, int l)

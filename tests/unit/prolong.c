@@ -10,7 +10,7 @@ static void patches_of_tile(const struct twolevel *two, unsigned tile, struct li
 {
     const struct mesh *mesh = two->mesh;
     int n = mesh->n[0], layers[] = {0, n / 2 - 1, n / 2, n - 1};
-    size_t strip = mesh->n_field * (mesh->n_cell / (size_t)n) * MESH_GHOST;
+    size_t strip = mesh->n_field * (mesh->n_cell / (size_t)n) * 2 * (size_t)link_depth(mesh);
     for (int axis = 0; axis < mesh->dim; axis++)
         for (int corner = 0; corner < 1 << mesh->dim; corner++)
             for (int i = 0; i < 4; i++) {
@@ -185,11 +185,11 @@ static void check_face(const struct twolevel *two, const struct link_face *face)
     const struct mesh *mesh = two->mesh;
     const struct tile *tile = &two->fine->tiles[face->fine];
     int axis = face->face / 2, extent[3], size = 1;
-    for (int d = 0; d < 3; d++) size *= extent[d] = d == axis ? MESH_GHOST : mesh->n[d];
+    for (int d = 0; d < 3; d++) size *= extent[d] = d == axis ? mesh->ghosts : mesh->n[d];
     for (int c = 0; c < size; c++) {
         int fine[3], coarse[3];
         for (int d = 0, rest = c; d < 3; rest /= extent[d], d++) {
-            int behind = face->face % 2 ? mesh->n[d] : -MESH_GHOST;
+            int behind = face->face % 2 ? mesh->n[d] : -mesh->ghosts;
             fine[d] = tile->at[d] * mesh->n[d] + rest % extent[d] + (d == axis ? behind : 0);
             coarse[d] = d < mesh->dim ? fine[d] / 2 : 0;
         }

@@ -89,14 +89,14 @@ static void check_third_strip(const struct twolevel *two, const struct link_face
     const struct mesh *mesh = two->mesh;
     const struct tile *tile = &mesh->levels[2].tiles[face->fine];
     int axis = face->face / 2, extent[3], size = 1;
-    for (int d = 0; d < 3; d++) size *= extent[d] = d == axis ? MESH_GHOST : mesh->n[d];
+    for (int d = 0; d < 3; d++) size *= extent[d] = d == axis ? mesh->ghosts : mesh->n[d];
     for (int c = 0; c < size; c++) {
         int at[3];
         for (int d = 0, rest = c; d < 3; rest /= extent[d], d++)
             at[d] = tile->at[d] * mesh->n[d] + rest % extent[d] +
                     (d != axis        ? 0
                      : face->face % 2 ? mesh->n[d]
-                                      : -MESH_GHOST);
+                                      : -mesh->ghosts);
         check_third(two, face->strip[0] + c, (size_t)size, two->model->i_m, at);
         check_third(two, face->strip[0] + c, (size_t)size, two->model->i_E, at);
     }
