@@ -5,6 +5,7 @@
 #ifndef SCENE_H
 #define SCENE_H
 
+#include "case/scene_boundary.h"
 #include "case/script.h"
 #include "case/shape.h"
 #include "plug/instance.h"
@@ -24,18 +25,6 @@ struct scene_value {
     bool given;
     double number;               /* when `script` is NULL */
     const struct script *script; /* expression or function of x, y, z, r, t */
-};
-
-enum scene_boundary_type {
-    SCENE_AXIS,       /* mirror, at r = 0 */
-    SCENE_SYMMETRY,   /* mirror */
-    SCENE_REFLECTING, /* mirror: rigid slip wall */
-    SCENE_NO_SLIP,    /* mirror with all velocities reversed */
-    SCENE_OUTFLOW,    /* zero gradient */
-    SCENE_NONREFLECTING,
-    SCENE_PERIODIC,
-    SCENE_INFLOW,
-    SCENE_INCOMING_WAVE,
 };
 
 enum scene_pulse {

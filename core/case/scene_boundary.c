@@ -1,9 +1,10 @@
-/* scene_boundary.c - what lies behind the faces of the domain. */
-#include "case/scene_draft.h"
+/* scene_boundary.c - what lies behind the faces of the domain: see scene_boundary.h. */
+#include "case/scene_boundary.h"
 
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "case/scene_draft.h"
 #include "case/series.h"
 
 #include <string.h>
@@ -134,44 +135,6 @@ static const struct key scene_boundary_far[] = {
     {0},
 };
 
-/* What scene_boundary_read_inflow wants. */
-#define SCENE_BOUNDARY_INFLOW                                                                                         \
-    "{'required': ['density', 'pressure', 'velocity'], 'properties': {'temperature': false}, 'anyOf': [{'required': " \
-    "['material']}, {'required': ['fractions']}]}"
-
-static const struct keys_section scene_boundary_types[] = {
-    {.name = "axis", .doc = "The axis or centre r = 0."},
-    {.name = "symmetry", .doc = "Plane of symmetry."},
-    {.name = "reflecting", .doc = "Rigid wall along which the fluid slips."},
-    {.name = "no-slip", .doc = "Rigid wall at which the fluid rests."},
-    {.name = "outflow", .doc = "Zero gradient."},
-    {.name = "non-reflecting", .keys = scene_boundary_far, .doc = "Outgoing waves leave, none comes in."},
-    {.name = "periodic", .doc = "What leaves here enters at the opposite face."},
-    {.name = "inflow", .keys = scene_state_rows, .rules = SCENE_BOUNDARY_INFLOW, .doc = "A fixed state flows in."},
-    {.name = "incoming-wave",
-     .keys = scene_boundary_wave,
-     .selector = "pulse",
-     .cases = scene_boundary_pulse_cases,
-     .doc = "A pressure wave comes in; outgoing waves leave."},
-};
-
-static const struct keys_section *const scene_boundary_cases[] = {&scene_boundary_types[0], &scene_boundary_types[1],
-                                                                  &scene_boundary_types[2], &scene_boundary_types[3],
-                                                                  &scene_boundary_types[4], &scene_boundary_types[5],
-                                                                  &scene_boundary_types[6], &scene_boundary_types[7],
-                                                                  &scene_boundary_types[8], NULL};
-
-static const struct key scene_boundary_rows[] = {
-    {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "What lies behind this face."},
-    {0},
-};
-
-const struct keys_section scene_boundary_keys = {.name = "boundary",
-                                                 .doc = "What lies behind a face of the domain.",
-                                                 .keys = scene_boundary_rows,
-                                                 .selector = "type",
-                                                 .cases = scene_boundary_cases};
-
 static double *scene_boundary_copy(const double *numbers, unsigned count)
 {
     double *copy = mem_new(count, sizeof *copy);
@@ -207,6 +170,12 @@ static void scene_boundary_read_series(struct draft *draft, struct scene_boundar
     series_done(&series);
 }
 
+static void scene_boundary_read_far(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+{
+    (void)draft;
+    boundary->pressure = scene_state_value(keys_at(map, "pressure"));
+}
+
 static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     boundary->pressure = scene_state_value(keys_at(map, "pressure"));
@@ -224,7 +193,7 @@ static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary 
     if (keys_at(map, "lua")->given) boundary->script = scene_file_lua(draft, keys_at(map, "lua"));
 }
 
-static void scene_boundary_read_inflow(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+static void scene_boundary_read_state(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     struct keys_value here = {.node = map->node, .path = map->path};
     boundary->pressure = scene_state_value(keys_at(map, "pressure"));
@@ -239,14 +208,61 @@ static void scene_boundary_read_inflow(struct draft *draft, struct scene_boundar
         keys_error(&draft->keys, &here, "an inflow needs material (or fractions), density, pressure and velocity");
 }
 
+struct scene_boundary_row {
+    struct keys_section section;
+    void (*read)(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map); /* or NULL */
+    unsigned traits;
+};
+
+/* What may be written beside the type, and who reads it. */
+#define SCENE_BOUNDARY_NOTHING .read = NULL
+#define SCENE_BOUNDARY_FAR .section.keys = scene_boundary_far, .read = scene_boundary_read_far
+#define SCENE_BOUNDARY_STATE                                                                                    \
+    .section.keys = scene_state_rows, .read = scene_boundary_read_state,                                        \
+    .section.rules = "{'required': ['density', 'pressure', 'velocity'], 'properties': {'temperature': false}, " \
+                     "'anyOf': [{'required': "                                                                  \
+                     "['material']}, {'required': ['fractions']}]}"
+#define SCENE_BOUNDARY_WAVE                                                                                        \
+    .section.keys = scene_boundary_wave, .section.selector = "pulse", .section.cases = scene_boundary_pulse_cases, \
+    .read = scene_boundary_read_wave
+
+#define SCENE_BOUNDARY_ROW(type, word, what, written, fill, means) \
+    [SCENE_##type] = {.section.name = word, .section.doc = what, .traits = (means), SCENE_BOUNDARY_##written},
+#define SCENE_BOUNDARY_CASE(type, ...) &scene_boundary_types[SCENE_##type].section,
+
+static const struct scene_boundary_row scene_boundary_types[] = {SCENE_BOUNDARY_TABLE(SCENE_BOUNDARY_ROW)};
+static const struct keys_section *const scene_boundary_cases[] = {SCENE_BOUNDARY_TABLE(SCENE_BOUNDARY_CASE) NULL};
+
+_Static_assert(sizeof scene_boundary_types / sizeof *scene_boundary_types == SCENE_BOUNDARY_TYPES, "a row per type");
+
+static const struct key scene_boundary_rows[] = {
+    {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "What lies behind this face."},
+    {0},
+};
+
+const struct keys_section scene_boundary_keys = {.name = "boundary",
+                                                 .doc = "What lies behind a face of the domain.",
+                                                 .keys = scene_boundary_rows,
+                                                 .selector = "type",
+                                                 .cases = scene_boundary_cases};
+
+bool scene_boundary_is(const struct scene *scene, int face, unsigned traits)
+{
+    return (scene_boundary_types[scene->boundary[face / 2][face % 2].type].traits & traits) == traits;
+}
+
+const char *scene_boundary_name(enum scene_boundary_type type)
+{
+    return scene_boundary_types[type].section.name;
+}
+
 static void scene_boundary_read(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     const struct keys_value *type = keys_at(map, "type");
     if (!type->given) return;
     boundary->type = (enum scene_boundary_type)type->integer;
-    if (boundary->type == SCENE_NONREFLECTING) boundary->pressure = scene_state_value(keys_at(map, "pressure"));
-    if (boundary->type == SCENE_INFLOW) scene_boundary_read_inflow(draft, boundary, map);
-    if (boundary->type == SCENE_INCOMING_WAVE) scene_boundary_read_wave(draft, boundary, map);
+    const struct scene_boundary_row *row = &scene_boundary_types[boundary->type];
+    if (row->read) row->read(draft, boundary, map);
 }
 
 /* Rules that concern the type and the place together. */
@@ -255,27 +271,29 @@ static void scene_boundary_place(struct draft *draft, int axis, int side, const 
     const struct scene *scene = draft->scene;
     const struct keys_value *type = keys_at(map, "type");
     if (!type->given) return;
-    enum scene_boundary_type here = scene->boundary[axis][side].type;
+    int face = 2 * axis + side;
     bool radial = scene->geometry != SCENE_CARTESIAN && axis == 0,
          centre = radial && side == 0 && scene->lower[0] == 0.0;
-    if (here == SCENE_AXIS && !centre)
+    if (scene_boundary_is(scene, face, SCENE_BOUNDARY_CENTRE) && !centre)
         keys_error(&draft->keys, type,
                    radial && side == 0 ? "the axis is at r = 0, but the domain begins elsewhere"
                                        : "only 'x-' of axisymmetric or spherical domains is an axis");
-    if (centre && here != SCENE_AXIS && here != SCENE_SYMMETRY) {
+    if (centre && !scene_boundary_is(scene, face, SCENE_BOUNDARY_MIDDLE)) {
         keys_error(&draft->keys, type, "at r = 0 there is the axis or a symmetry, not '%s'", type->text);
         diag_help(draft->keys.diag, "write 'x-: axis'");
     }
-    if (radial && here == SCENE_PERIODIC) keys_error(&draft->keys, type, "the radius is not periodic");
+    if (radial && scene_boundary_is(scene, face, SCENE_BOUNDARY_WRAPS))
+        keys_error(&draft->keys, type, "the radius is not periodic");
 }
 
 /* Both faces of an axis are periodic, or none. */
 static void scene_boundary_pair(struct draft *draft, int axis, const struct keys_value *pair[2])
 {
+    const struct scene *scene = draft->scene;
     for (int side = 0; side < 2; side++) {
         const struct keys_value *type = keys_at(pair[side]->map, "type"), *other = keys_at(pair[1 - side]->map, "type");
-        if (!type->given || !other->given || draft->scene->boundary[axis][side].type != SCENE_PERIODIC) continue;
-        if (draft->scene->boundary[axis][1 - side].type == SCENE_PERIODIC) continue;
+        if (!type->given || !other->given || !scene_boundary_is(scene, 2 * axis + side, SCENE_BOUNDARY_WRAPS)) continue;
+        if (scene_boundary_is(scene, 2 * axis + 1 - side, SCENE_BOUNDARY_WRAPS)) continue;
         keys_error(&draft->keys, type, "periodic faces come in pairs, but '%s' is '%s'", pair[1 - side]->key->name,
                    other->text);
     }
@@ -286,11 +304,11 @@ static bool scene_boundary_default(struct draft *draft, int axis, int side, cons
 {
     const struct scene *scene = draft->scene;
     if (axis || side || scene->geometry == SCENE_CARTESIAN || scene->lower[0] != 0.0) return false;
-    bool sphere = scene->geometry == SCENE_SPHERICAL;
+    enum scene_boundary_type type = scene->geometry == SCENE_SPHERICAL ? SCENE_SYMMETRY : SCENE_AXIS;
     struct node *map = tree_map(draft->keys.forest, &boundaries->node->mark);
     tree_set(draft->keys.forest, map, "type",
-             tree_scalar(draft->keys.forest, &map->mark, TREE_PLAIN, sphere ? "symmetry" : "axis"));
-    draft->scene->boundary[0][0].type = sphere ? SCENE_SYMMETRY : SCENE_AXIS;
+             tree_scalar(draft->keys.forest, &map->mark, TREE_PLAIN, scene_boundary_name(type)));
+    draft->scene->boundary[0][0].type = type;
     tree_set(draft->keys.forest, boundaries->node, "x-", map);
     tree_first(boundaries->node, boundaries->node->count - 1);
     return true;

@@ -8,15 +8,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Layers behind the domain's boundary. What non-reflecting boundaries send in depends on the start of the run; here
- * they go on with the value inside. */
+/* Layers behind the domain's boundary. Of the start of the run nothing is known here: where a boundary refers to it the
+ * value inside goes on. */
 static void derive_slope_behind(void *data, unsigned local, const struct frame *frame, int side, size_t pitch,
                                 double *w)
 {
     const struct bound *bound = data;
     const struct model *model = bound->model;
-    enum scene_boundary_type type = model->scene->boundary[frame->axis][side].type;
-    if (type != SCENE_NONREFLECTING && type != SCENE_INCOMING_WAVE) {
+    if (!scene_boundary_is(model->scene, 2 * frame->axis + side, SCENE_BOUNDARY_REFERS)) {
         bound_fill(data, local, frame, side, pitch, w);
         return;
     }

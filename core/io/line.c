@@ -25,10 +25,8 @@ static int line_row(const struct state *state, const struct level *level, int ax
 {
     const struct mesh *mesh = state->mesh;
     int cells = level->extent[axis] * mesh->n[axis];
-    for (int side = 0; side < 2 && axis < mesh->dim; side++) {
-        enum scene_boundary_type type = state->scene->boundary[axis][side].type;
-        if (type == SCENE_AXIS || type == SCENE_SYMMETRY) return side ? cells - 1 : 0;
-    }
+    for (int side = 0; side < 2 && axis < mesh->dim; side++)
+        if (scene_boundary_is(state->scene, 2 * axis + side, SCENE_BOUNDARY_MIDDLE)) return side ? cells - 1 : 0;
     return cells / 2; /* on finer levels inside the same cell */
 }
 

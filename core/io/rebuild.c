@@ -173,7 +173,7 @@ static int rebuild_nests(const struct rebuild *rebuild, int n_level)
     mesh->n_level = n_level;
     for (int d = 0; d < 3; d++) {
         mesh->n[d] = d < scene->dim ? rebuild->tile : 1;
-        mesh->periodic[d] = d < scene->dim && scene->boundary[d][0].type == SCENE_PERIODIC;
+        mesh->periodic[d] = d < scene->dim && scene_boundary_is(scene, 2 * d, SCENE_BOUNDARY_WRAPS);
     }
     for (int l = 0; l < n_level; l++) {
         struct level *level = &mesh->levels[l];

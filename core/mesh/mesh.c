@@ -114,7 +114,7 @@ static void mesh_measure(struct mesh *mesh, const struct scene *scene, int n)
         mesh->upper[d] = scene->upper[d];
         mesh->n[d] = used ? n : 1;
         mesh->n_cell *= (size_t)mesh->n[d];
-        mesh->periodic[d] = used && scene->boundary[d][0].type == SCENE_PERIODIC;
+        mesh->periodic[d] = used && scene_boundary_is(scene, 2 * d, SCENE_BOUNDARY_WRAPS);
         mesh->levels[0].extent[d] = used ? scene->cells[d] / n : 1;
         mesh->levels[0].h[d] = used ? (scene->upper[d] - scene->lower[d]) / scene->cells[d] : 1.0;
         for (int l = 1; l <= mesh->most_level; l++) {

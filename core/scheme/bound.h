@@ -2,7 +2,7 @@
  *
  * Every boundary gives the layers next to a face from the primitives inside, the time and,
  * for non-reflecting and incoming-wave boundaries, the pressure and normal velocity that stood
- * there at the start (kept here per boundary cell). */
+ * there at the start (kept here per boundary cell). What a type of boundary means to others: case/scene_boundary.h. */
 #ifndef BOUND_H
 #define BOUND_H
 

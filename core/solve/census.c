@@ -42,7 +42,7 @@ static bool census_within(const struct census *census, unsigned local, int face,
     if (neighbour->kind == NEIGHBOUR_LOCAL) return !(census->tiles[neighbour->index].present & ~materials);
     if (neighbour->kind == NEIGHBOUR_COARSE) return !(census->behind[neighbour->index] & ~materials);
     return neighbour->kind == NEIGHBOUR_BOUNDARY &&
-           census->model->scene->boundary[face / 2][face % 2].type != SCENE_INFLOW;
+           !scene_boundary_is(census->model->scene, face, SCENE_BOUNDARY_BRINGS);
 }
 
 /* Can a tile make do with a narrowed path? */
@@ -81,14 +81,14 @@ static bool census_is_still(const struct model *model, size_t n_cell, const doub
     return true;
 }
 
-/* Does what lies behind a face of a resting tile rest in the same state? Boundaries that only mirror or copy do. */
+/* Does what lies behind a face of a resting tile rest in the same state? */
 static bool census_rests_behind(const struct census *census, unsigned local, int face)
 {
     const struct level *level = census->level;
     const struct neighbour *neighbour = &level->neighbours[local][face];
     size_t n_cell = census->mesh->n_cell;
     if (neighbour->kind == NEIGHBOUR_BOUNDARY)
-        return census->model->scene->boundary[face / 2][face % 2].type <= SCENE_OUTFLOW;
+        return scene_boundary_is(census->model->scene, face, SCENE_BOUNDARY_RESTS);
     if (neighbour->kind != NEIGHBOUR_LOCAL) return false;
     const struct census_tile *other = &census->tiles[neighbour->index];
     if (!other->still || other->present != census->tiles[local].present) return false;

@@ -118,6 +118,83 @@ static void test_layers(void **state)
         for (int axis = 0; axis < 3; axis++) check_rule(&rules[i], axis);
 }
 
+/* How a case writes a type. */
+static const char *written(enum scene_boundary_type type)
+{
+    if (type == SCENE_INFLOW)
+        return "{type: inflow, fractions: {water: 0.5, air: 0.5}, density: {water: 1000, air: 1}, pressure: 2e5, "
+               "velocity: [1, 1]}";
+    if (type == SCENE_INCOMING_WAVE) return "{type: incoming-wave, pulse: sine, amplitude: 1e4, frequency: 1 MHz}";
+    return scene_boundary_name(type);
+}
+
+/* Some pressure and motion, but one material. */
+static void set_air(const struct model *model, const double x[3], double *w)
+{
+    set_noise(model, x, w);
+    w[0] = 0.0;
+    w[1] = 1.0;
+}
+
+/* Do the layers behind y+ of the only tile equal the cells inside? Do they hold no other material than air? */
+static void look_behind(const struct flow *flow, bool *ret_equal, bool *ret_pure)
+{
+    const struct level *level = flow_level(flow);
+    struct bound *bound = flow->state->stages[0]->bound;
+    bound->t = 1e-7;
+    const struct frame_source source = {.mesh = flow->state->mesh,
+                                        .level = level,
+                                        .arrays = level->w,
+                                        .halo = level->halo,
+                                        .n_field = flow->state->model->n_field,
+                                        .boundary = bound_fill,
+                                        .data = bound};
+    double *w = mem_new((size_t)source.n_field * FRAME_CELLS, sizeof *w);
+    struct frame frame = frame_piece(source.mesh, 1, 0);
+    frame_gather(&source, 0, &frame, FRAME_CELLS, w);
+    *ret_equal = *ret_pure = true;
+    for (int ghost = 0; ghost < (int)flow->state->mesh->ghosts; ghost++)
+        for (unsigned q = 0; q < source.n_field; q++)
+            for (size_t k = 0; k < frame.inner; k++) {
+                double behind = w[q * FRAME_CELLS + frame_at(&frame, 0, (int)frame.n + ghost) + k];
+                double inside = w[q * FRAME_CELLS + frame_at(&frame, 0, (int)frame.n - 1) + k];
+                if (!(behind == inside)) *ret_equal = false;
+                if (q == 0 && behind != 0.0) *ret_pure = false;
+            }
+    mem_free(w);
+}
+
+/* What the table says of a type holds for its function. */
+static void check_traits(enum scene_boundary_type type)
+{
+    struct flow flow;
+    bool equal, pure;
+    flow_start(&flow, mem_print("bulla: 1\ntitle: traits\ndomain: {lower: [0, 0], upper: [1, 1], cells: [8, 8], "
+                                "boundaries: {x-: outflow, x+: outflow, y-: outflow, y+: %s}}\nmesh: {tile: 8}\n"
+                                "materials:\n" FLOW_WATER FLOW_AIR
+                                "initial:\n  - {everywhere: true, material: air, density: 1, pressure: 1e5}\n"
+                                "run: {until: 1}\n",
+                                type == SCENE_AXIS ? "symmetry" : written(type)));
+    flow.scene->boundary[1][1].type = type; /* no case has the axis there, but it can be filled */
+    look_behind(&flow, &equal, &pure);
+    print_message("%s: %s beside rest", scene_boundary_name(type), equal ? "rest" : "motion");
+    if (scene_boundary_is(flow.scene, 3, SCENE_BOUNDARY_RESTS)) assert_true(equal);
+    flow_set(&flow, set_air);
+    look_behind(&flow, &equal, &pure);
+    print_message(", %s\n", pure ? "the material inside alone" : "other materials");
+    if (!scene_boundary_is(flow.scene, 3, SCENE_BOUNDARY_BRINGS)) assert_true(pure);
+    bool refers = flow.state->stages[0]->bound->reference[3] != NULL;
+    assert_int_equal(refers, scene_boundary_is(flow.scene, 3, SCENE_BOUNDARY_REFERS));
+    flow_stop(&flow);
+}
+
+static void test_traits(void **state)
+{
+    (void)state;
+    for (int type = 0; type < SCENE_BOUNDARY_TYPES; type++)
+        if (type != SCENE_PERIODIC) check_traits((enum scene_boundary_type)type);
+}
+
 static const char WATER[] = "material: water, density: 1000, pressure: 1e5";
 
 static double sound(void)
@@ -281,8 +358,9 @@ static void test_script_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layers),    cmocka_unit_test(test_leaving), cmocka_unit_test(test_entering),
-        cmocka_unit_test(test_far_field), cmocka_unit_test(test_inflow),  cmocka_unit_test(test_script_fails),
+        cmocka_unit_test(test_layers),       cmocka_unit_test(test_traits),    cmocka_unit_test(test_leaving),
+        cmocka_unit_test(test_entering),     cmocka_unit_test(test_far_field), cmocka_unit_test(test_inflow),
+        cmocka_unit_test(test_script_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

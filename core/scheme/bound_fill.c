@@ -1,0 +1,298 @@
+/* bound_fill.c - see bound.h: the layers behind a boundary, one function for each way to fill them. Which type is filled
+ * in which way stands in case/scene_boundary.h.
+ *
+ * Mirrors and copies act on layers. Characteristic boundaries (non-reflecting, incoming wave)
+ * compose the state behind the face from the outgoing Riemann invariant of the cell inside and
+ * the incoming one of the far field plus the wave,
+ *     p + Z u = p_i + Z u_i,      p - Z u = (p_0 + p') - Z (u_0 - p'/Z),      Z = rho c,
+ * u along the outward normal, so that a wave at normal incidence enters or leaves without a
+ * reflection to first order. Densities follow each material's isentrope from inside. */
+#include "scheme/bound.h"
+
+#include "base/mem.h"
+#include "base/status.h"
+#include "case/pulse.h"
+#include "phys/elastic.h"
+#include "phys/mix.h"
+#include "scheme/bound_layer.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { BOUND_FILL_ROW = FRAME_CELLS / (2 * SCENE_GHOSTS) }; /* most face cells of a frame */
+
+/* The layers behind one side of a gathered piece of a local tile. */
+struct bound_fill {
+    struct bound *bound;
+    unsigned local;
+    const struct frame *frame;
+    int side;
+    size_t pitch;
+    double *w;
+};
+
+/* What lies inside, twice. Nobody looks behind periodic faces in this way: there are neighbours. */
+static void bound_fill_copy(const struct bound_fill *fill)
+{
+    const struct model *model = fill->bound->model;
+    for (unsigned i = 0; i < model->n_active; i++)
+        bound_layer_fill(fill->frame, fill->side, false, 1.0, fill->w + model->active[i] * fill->pitch);
+}
+
+/* Is this component of the stretch one of those that a mirror across `axis` turns round? */
+static bool bound_fill_is_crossed(const struct model *model, int axis, unsigned q)
+{
+    unsigned n = (unsigned)axis;
+    if (q < model->i_V + 3) return false;
+    return q == model->i_V + elastic_component(n, (n + 1) % 3) || q == model->i_V + elastic_component(n, (n + 2) % 3);
+}
+
+static void bound_fill_mirror(const struct bound_fill *fill, bool no_slip)
+{
+    const struct model *model = fill->bound->model;
+    int axis = fill->frame->axis;
+    for (unsigned i = 0; i < model->n_active; i++) {
+        unsigned q = model->active[i];
+        bool velocity = q >= model->i_u && q < model->i_E;
+        bool reversed =
+            velocity ? no_slip || q == model->i_u + (unsigned)axis : !no_slip && bound_fill_is_crossed(model, axis, q);
+        bound_layer_fill(fill->frame, fill->side, true, reversed ? -1.0 : 1.0, fill->w + q * fill->pitch);
+    }
+}
+
+static void bound_fill_slip(const struct bound_fill *fill)
+{
+    bound_fill_mirror(fill, false);
+}
+
+static void bound_fill_no_slip(const struct bound_fill *fill)
+{
+    bound_fill_mirror(fill, true);
+}
+
+/* One row of boundary cells taken out of the frame: [n_field] components of `stride` points. */
+struct bound_fill_row {
+    size_t n, stride;
+    double *w;
+};
+
+static void bound_fill_take(const struct bound_fill *fill, struct bound_fill_row *row)
+{
+    const struct model *model = fill->bound->model;
+    const struct frame *frame = fill->frame;
+    for (unsigned a = 0; a < model->n_active; a++)
+        for (size_t q = model->active[a], o = 0; o < frame->outer; o++)
+            memcpy(row->w + q * row->stride + o * frame->inner,
+                   fill->w + q * fill->pitch + frame_at(frame, o, bound_layer_inside(frame, fill->side, 0)),
+                   frame->inner * sizeof *fill->w);
+}
+
+static void bound_fill_put(const struct bound_fill *fill, const struct bound_fill_row *row)
+{
+    const struct model *model = fill->bound->model;
+    const struct frame *frame = fill->frame;
+    for (unsigned a = 0; a < model->n_active; a++)
+        for (int ghost = 0; ghost < (int)frame->ghosts; ghost++)
+            for (size_t q = model->active[a], o = 0; o < frame->outer; o++)
+                memcpy(fill->w + q * fill->pitch + frame_at(frame, o, bound_layer_behind(frame, fill->side, ghost)),
+                       row->w + q * row->stride + o * frame->inner, frame->inner * sizeof *fill->w);
+}
+
+/* Fills both layers with the states that `compose` makes of the cells inside. */
+static void bound_fill_composed(const struct bound_fill *fill,
+                                void (*compose)(const struct bound_fill *fill, struct bound_fill_row *row))
+{
+    double space[MODEL_FIELDS * (size_t)BOUND_FILL_ROW];
+    struct bound_fill_row row = {.n = fill->frame->outer * fill->frame->inner, .stride = BOUND_FILL_ROW, .w = space};
+    bound_fill_take(fill, &row);
+    compose(fill, &row);
+    bound_fill_put(fill, &row);
+}
+
+static const struct scene_boundary *bound_fill_boundary(const struct bound_fill *fill)
+{
+    return &fill->bound->model->scene->boundary[fill->frame->axis][fill->side];
+}
+
+/* Index of point c of a row among the cells of the tile's face. */
+static size_t bound_fill_face_cell(const struct frame *frame, size_t c)
+{
+    return (frame->outer_from + c / frame->inner) * frame->tile_inner + frame->inner_from + c % frame->inner;
+}
+
+/* Centre of the boundary face of point c of a row. */
+static void bound_fill_position(const struct bound_fill *fill, size_t c, double ret_x[3])
+{
+    const struct mesh *mesh = fill->bound->mesh;
+    const struct level *level = fill->bound->level;
+    const struct frame *frame = fill->frame;
+    size_t o = frame->outer_from + c / frame->inner, i = frame->inner_from + c % frame->inner;
+    size_t below = 1, at[3];
+    mesh_corner(mesh, level, &level->tiles[level->first + fill->local], ret_x);
+    for (int d = 0; d < 3; d++) {
+        if (d == frame->axis) {
+            below = 1;
+            continue;
+        }
+        size_t index = d < frame->axis ? i : o;
+        at[d] = index / below % (size_t)mesh->n[d];
+        below *= (size_t)mesh->n[d];
+        ret_x[d] += d < mesh->dim ? ((double)at[d] + 0.5) * level->h[d] : 0.0;
+    }
+    ret_x[frame->axis] = fill->side ? mesh->upper[frame->axis] : mesh->lower[frame->axis];
+}
+
+/* Keeps the first failure: of which value, at which point, beside which cell of the tile. */
+static void bound_fill_fail(const struct bound_fill *fill, int status, const char *what, const double x[3])
+{
+    struct bound *bound = fill->bound;
+    const struct mesh *mesh = bound->mesh;
+    const struct level *level = bound->level;
+    double corner[3];
+    int cell[3] = {0};
+    if (bound->status) return;
+    bound->status = status;
+    bound->message = mem_text(status_text());
+    mesh_corner(mesh, level, &level->tiles[level->first + fill->local], corner);
+    for (int d = 0; d < mesh->dim; d++) {
+        int at = (int)floor((x[d] - corner[d]) / level->h[d]);
+        cell[d] = at < 0 ? 0 : at < mesh->n[d] ? at : mesh->n[d] - 1;
+    }
+    snprintf(bound->blind, sizeof bound->blind, "%s at (%.9g, %.9g, %.9g) m, beside cell (%d, %d, %d)", what, x[0],
+             x[1], x[2], cell[0], cell[1], cell[2]);
+}
+
+/* A value of the boundary at a point into `ret`; NaN where its script fails. False then. */
+static bool bound_fill_ask(const struct bound_fill *fill, const struct scene_value *value, const char *what,
+                           const double x[3], double *ret)
+{
+    int status = scene_value_at(value, x, x[0], fill->bound->t, ret);
+    if (!status) return true;
+    bound_fill_fail(fill, status, what, x);
+    *ret = (double)NAN;
+    return false;
+}
+
+/* rho_l moved along its isentrope by dp: midpoint rule on d rho / dp = 1/c^2. */
+static void bound_fill_isentrope(const struct model_eos *eos, size_t n, const double *p, const double *p_new,
+                                 double *rho, double *scratch)
+{
+    double *e = scratch, *rho_c2 = scratch + n, *half_rho = scratch + 2 * n, *half_p = scratch + 3 * n;
+    eos->law->state(eos->self, n, rho, p, e, rho_c2);
+    for (size_t i = 0; i < n; i++) {
+        half_p[i] = 0.5 * (p[i] + p_new[i]);
+        half_rho[i] = rho[i] + 0.5 * (p_new[i] - p[i]) * rho[i] / rho_c2[i];
+    }
+    eos->law->state(eos->self, n, half_rho, half_p, e, rho_c2);
+    for (size_t i = 0; i < n; i++) rho[i] += (p_new[i] - p[i]) * half_rho[i] / rho_c2[i];
+}
+
+/* What comes from outside at the points of a row: the far-field pressure, where the case gives one, and the gauge pressure
+ * of the wave, if there is one. */
+static void bound_fill_outside(const struct bound_fill *fill, size_t n, bool wave, double *far, double *gauge)
+{
+    const struct scene_boundary *boundary = bound_fill_boundary(fill);
+    for (size_t c = 0; c < n; c++) {
+        double x[3];
+        bound_fill_position(fill, c, x);
+        if (boundary->pressure.given) bound_fill_ask(fill, &boundary->pressure, "far-field pressure", x, &far[c]);
+        gauge[c] = 0.0;
+        int status = wave ? pulse_pressure(boundary, fill->bound->t, x, &gauge[c]) : STATUS_OK;
+        if (!status) continue;
+        bound_fill_fail(fill, status, "pressure of the wave", x);
+        gauge[c] = (double)NAN;
+    }
+}
+
+static void bound_fill_characteristic(const struct bound_fill *fill, struct bound_fill_row *row, bool wave)
+{
+    const struct model *model = fill->bound->model;
+    const struct frame *frame = fill->frame;
+    size_t n = row->n, cells = frame->tile_outer * frame->tile_inner;
+    double far[BOUND_FILL_ROW], gauge[BOUND_FILL_ROW], old[BOUND_FILL_ROW], c2[BOUND_FILL_ROW];
+    double stiff[SCENE_MATERIALS * BOUND_FILL_ROW], scratch[4 * BOUND_FILL_ROW];
+    const double *reference =
+        fill->bound->reference[fill->local * MESH_FACES + (unsigned)(2 * frame->axis + fill->side)];
+    double *p = row->w + model->i_E * row->stride, *u = row->w + (model->i_u + (unsigned)frame->axis) * row->stride;
+    double outward = fill->side ? 1.0 : -1.0;
+    for (size_t c = 0; c < n; c++) far[c] = reference[bound_fill_face_cell(frame, c)];
+    bound_fill_outside(fill, n, wave, far, gauge);
+    mix_stiffness(model, n, row->stride, row->w, stiff);
+    mix_speed2(model, n, row->stride, row->w, stiff, c2);
+    memcpy(old, p, n * sizeof *p);
+    for (size_t c = 0; c < n; c++) {
+        double rho = 0.0, sound = sqrt(c2[c]), inside = outward * u[c];
+        for (unsigned l = 0; l < model->n_material; l++)
+            rho += (model->n_alpha ? row->w[(model->i_alpha + l) * row->stride + c] : 1.0) *
+                   row->w[(model->i_m + l) * row->stride + c];
+        if (inside >= sound) continue; /* supersonic outflow: nothing comes back */
+        double Z = rho * sound, leaving = old[c] + Z * inside;
+        double entering = far[c] + 2.0 * gauge[c] - Z * reference[cells + bound_fill_face_cell(frame, c)];
+        p[c] = 0.5 * (leaving + entering);
+        u[c] = outward * (0.5 * (leaving - entering) / Z);
+    }
+    for (unsigned l = 0; l < model->n_material; l++)
+        bound_fill_isentrope(&model->eos[l], n, old, p, row->w + (model->i_m + l) * row->stride, scratch);
+}
+
+static void bound_fill_compose_far(const struct bound_fill *fill, struct bound_fill_row *row)
+{
+    bound_fill_characteristic(fill, row, false);
+}
+
+static void bound_fill_far(const struct bound_fill *fill)
+{
+    bound_fill_composed(fill, bound_fill_compose_far);
+}
+
+static void bound_fill_compose_wave(const struct bound_fill *fill, struct bound_fill_row *row)
+{
+    bound_fill_characteristic(fill, row, true);
+}
+
+static void bound_fill_wave(const struct bound_fill *fill)
+{
+    bound_fill_composed(fill, bound_fill_compose_wave);
+}
+
+static void bound_fill_compose_state(const struct bound_fill *fill, struct bound_fill_row *row)
+{
+    static const char *const velocity[] = {"velocity_x", "velocity_y", "velocity_z"};
+    const struct model *model = fill->bound->model;
+    const struct scene_boundary *boundary = bound_fill_boundary(fill);
+    for (size_t c = 0; c < row->n; c++) {
+        double x[3], *at = row->w + c;
+        bound_fill_position(fill, c, x);
+        bool good = bound_fill_ask(fill, &boundary->pressure, "pressure", x, &at[model->i_E * row->stride]);
+        for (unsigned l = 0; l < model->n_material; l++) {
+            if (model->n_alpha) at[(model->i_alpha + l) * row->stride] = boundary->fractions[l];
+            double *rho = &at[(model->i_m + l) * row->stride];
+            *rho = model->eos[l].rho_fill;
+            if (boundary->density[l].given && good)
+                good = bound_fill_ask(fill, &boundary->density[l], "density", x, rho);
+        }
+        for (unsigned d = 0; d < model->n_velocity; d++) {
+            double *u = &at[(model->i_u + d) * row->stride];
+            *u = 0.0;
+            if (boundary->velocity[d].given && good)
+                good = bound_fill_ask(fill, &boundary->velocity[d], velocity[d], x, u);
+        }
+        for (unsigned v = 0; v < model->n_stretch; v++) at[(model->i_V + v) * row->stride] = v < 3 ? 1.0 : 0.0;
+    }
+}
+
+static void bound_fill_state(const struct bound_fill *fill)
+{
+    bound_fill_composed(fill, bound_fill_compose_state);
+}
+
+#define BOUND_FILL_WAY(type, word, what, written, way, means) [SCENE_##type] = bound_fill_##way,
+static void (*const bound_fill_ways[])(const struct bound_fill *fill) = {SCENE_BOUNDARY_TABLE(BOUND_FILL_WAY)};
+_Static_assert(sizeof bound_fill_ways / sizeof *bound_fill_ways == SCENE_BOUNDARY_TYPES, "a way for each type");
+
+void bound_fill(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w)
+{
+    const struct bound_fill fill = {data, local, frame, side, pitch, w};
+    bound_fill_ways[bound_fill_boundary(&fill)->type](&fill);
+}
