@@ -8,6 +8,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "levels/prolong_cell.h"
+#include "levels/prolong_slope.h"
 #include "mesh/metric.h"
 #include "mesh/post.h"
 #include "phys/elastic.h"
@@ -183,17 +184,6 @@ struct prolong_row {
     size_t fine[3], count[3];  /* strides of the strip; children per axis: 2, 1 beyond dim */
 };
 
-static inline double prolong_minmod(double a, double b)
-{
-    double x = a < 0.0 ? -a : a, y = b < 0.0 ? -b : b, least = x < y ? a : b;
-    return a * b > 0.0 ? least : 0.0;
-}
-
-static inline double prolong_slope(const double *w, size_t stride)
-{
-    return 0.25 * prolong_minmod(w[0] - *(w - stride), w[stride] - w[0]);
-}
-
 static BULLA_KERNEL void prolong_fill_row(const struct prolong_row *row, const double *restrict w,
                                           double *restrict strip)
 {
@@ -208,16 +198,6 @@ static BULLA_KERNEL void prolong_fill_row(const struct prolong_row *row, const d
                 pair[0] = c + ((y - sx) + z);
                 pair[row->fine[0]] = c + ((y + sx) + z);
             }
-    }
-}
-
-/* Fractions of three or more materials, limited one by one, need not add up to 1. */
-static BULLA_KERNEL void prolong_normalise(size_t n, unsigned n_alpha, double *alpha)
-{
-    for (size_t i = 0; i < n; i++) {
-        double sum = 0.0;
-        for (unsigned l = 0; l < n_alpha; l++) sum += alpha[l * n + i];
-        for (unsigned l = 0; l < n_alpha; l++) alpha[l * n + i] /= sum;
     }
 }
 
@@ -253,7 +233,7 @@ static void prolong_strip(const struct prolong *prolong, const struct mesh *mesh
                                  prolong->w + q * prolong->cells + from + j * prolong->stride[across] +
                                      k * prolong->stride[2],
                                  strip + q * size + 2 * j * row.fine[across] + 2 * k * row.fine[2]);
-    if (model->n_alpha > 2) prolong_normalise(size, model->n_alpha, strip);
+    if (model->n_alpha > 2) prolong_slope_normalise(size, model->n_alpha, strip);
     elastic_settle(model, size, size, strip);
 }
 

@@ -17,6 +17,7 @@
 #include "mesh/morton.h"
 #include "mesh/move.h"
 #include "mesh/pool.h"
+#include "mesh/rim.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -140,6 +141,7 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
     mesh->most_level = scene->levels;
     mesh_measure(mesh, scene, n);
     mesh->pool = pool_new(n_field * mesh->n_cell);
+    mesh->rims = rim_shelf_new();
     unsigned n_tile;
     struct tile *tiles = mesh_fill(mesh->levels[0].extent, &n_tile);
     struct mesh_change change;
@@ -167,6 +169,7 @@ void mesh_free(struct mesh *mesh)
 {
     if (!mesh) return;
     for (int l = 0; l < mesh->n_level; l++) mesh_drop(&mesh->levels[l]);
+    rim_shelf_free(mesh->rims);
     pool_free(mesh->pool);
     mem_free(mesh);
 }
@@ -196,6 +199,8 @@ void mesh_replace(struct mesh *mesh, int l, struct tile *tiles, unsigned n_tile,
 {
     struct level *level = &mesh->levels[l];
     mesh->revision++;
+    rim_shelf_drop(mesh->rims, l);
+    rim_shelf_drop(mesh->rims, l + 1);
     move_blocks(mesh, l, tiles, n_tile, ret_change);
     level_adopt(level, tiles, n_tile);
     if (!n_tile) {

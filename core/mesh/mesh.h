@@ -41,6 +41,7 @@ struct neighbour {
 struct halo;
 struct link;
 struct pool;
+struct rim;
 
 struct level {
     double h[3];   /* cell size [m]; 1 beyond dim */
@@ -73,6 +74,7 @@ struct mesh {
                           tile makes it anew when this has moved */
     struct level levels[MESH_LEVELS];
     struct pool *pool; /* where blocks of tiles come from */
+    struct rim **rims; /* by level: what terms that need edges and corners have asked for (mesh/rim.h) */
     bool periodic[3];
 };
 

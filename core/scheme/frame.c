@@ -2,6 +2,7 @@
 #include "scheme/frame.h"
 
 #include "mesh/link.h"
+#include "scheme/blend.h"
 
 #include <string.h>
 
@@ -70,25 +71,6 @@ static unsigned frame_field(const struct frame_source *source, unsigned i)
     return source->fields ? source->fields[i] : i;
 }
 
-/* A row between the values at the beginning and at the end of the coarse step. */
-static inline void frame_blend(size_t n, double theta, const double *restrict begin, const double *restrict end,
-                               double *restrict target)
-{
-    for (size_t i = 0; i < n; i++) target[i] = begin[i] + theta * (end[i] - begin[i]); /* equal values stay */
-}
-
-/* The same for the density of a material that moves in or out meanwhile: alpha and alpha rho are linear in time. A
- * density that belongs to a trace alone does not meet the fraction of the other end. */
-static inline void frame_blend_density(size_t n, double theta, const double *restrict begin, const double *restrict end,
-                                       const double *restrict alpha_begin, const double *restrict alpha_end,
-                                       double *restrict target)
-{
-    for (size_t i = 0; i < n; i++) {
-        double late = theta * alpha_end[i], all = (1.0 - theta) * alpha_begin[i] + late;
-        target[i] = begin[i] + (all > 0.0 ? late / all : theta) * (end[i] - begin[i]);
-    }
-}
-
 /* The layers behind a coarse-fine face, of field q: linear in time between two strips, which may hold one layer more
  * than is needed, the one furthest from the face. */
 static void frame_copy_strip(const struct frame_source *source, const struct link_face *face, unsigned q,
@@ -103,10 +85,10 @@ static void frame_copy_strip(const struct frame_source *source, const struct lin
         for (int row = 0; row < (int)frame->ghosts; row++) {
             size_t from = q * block + at + (size_t)row * frame->tile_inner, back = n_alpha * block;
             double *target = w + frame_at(frame, o, to + row);
-            if (q < n_alpha || q >= 2 * n_alpha) frame_blend(frame->inner, theta, first + from, last + from, target);
+            if (q < n_alpha || q >= 2 * n_alpha) blend_row(frame->inner, theta, first + from, last + from, target);
             else
-                frame_blend_density(frame->inner, theta, first + from, last + from, first + from - back,
-                                    last + from - back, target);
+                blend_density(frame->inner, theta, first + from, last + from, first + from - back, last + from - back,
+                              target);
         }
 }
 

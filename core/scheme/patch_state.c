@@ -1,0 +1,87 @@
+/* patch_state.c - see patch_state.h. */
+#include "scheme/patch_state.h"
+
+#include "base/mem.h"
+#include "phys/elastic.h"
+
+void patch_state_rules(const struct scene *scene, bool given, enum patch_rule ret_rules[MESH_FACES])
+{
+    for (int face = 0; face < MESH_FACES; face++) switch (scene->boundary[face / 2][face % 2].type) {
+        case SCENE_AXIS:
+        case SCENE_SYMMETRY:
+        case SCENE_REFLECTING: ret_rules[face] = PATCH_MIRROR; break;
+        case SCENE_NO_SLIP: ret_rules[face] = PATCH_NO_SLIP; break;
+        case SCENE_PERIODIC: /* has neighbours, never a boundary */
+        case SCENE_OUTFLOW: ret_rules[face] = PATCH_COPY; break;
+        case SCENE_NONREFLECTING:
+        case SCENE_INCOMING_WAVE:
+        case SCENE_INFLOW: ret_rules[face] = given && face < 2 * scene->dim ? PATCH_GIVEN : PATCH_COPY; break;
+        }
+}
+
+/* One piece of a tile as a frame with nothing beside it but what bound_fill writes; its outer layers into the block. */
+static void patch_state_piece(struct bound *bound, unsigned local, int face, const struct frame *frame, double *w,
+                              const struct box_block *ret)
+{
+    const double *own = bound->level->w[local];
+    size_t n_cell = bound->mesh->n_cell, g = ret->size[face / 2];
+    for (unsigned q = 0; q < bound->model->n_field; q++)
+        for (size_t o = 0; o < frame->outer; o++)
+            for (size_t i = 0; i < frame->n; i++)
+                for (size_t c = 0; c < frame->inner; c++)
+                    w[q * FRAME_CELLS + frame_at(frame, o, (int)i) + c] =
+                        own[q * n_cell + frame_tile_at(frame, o, i) + c];
+    bound_fill(bound, local, frame, face % 2, FRAME_CELLS, w);
+    for (unsigned q = 0; q < bound->model->n_field; q++)
+        for (size_t o = 0; o < frame->outer; o++)
+            for (size_t i = 0; i < g; i++)
+                for (size_t c = 0; c < frame->inner; c++) {
+                    size_t to = ((frame->outer_from + o) * g + i) * frame->tile_inner + frame->inner_from + c;
+                    int from = face % 2 ? (int)(frame->n + i) : (int)i - (int)g;
+                    ret->data[q * ret->pitch + to] = w[q * FRAME_CELLS + frame_at(frame, o, from) + c];
+                }
+}
+
+static void patch_state_given(void *data, unsigned local, int face, const struct box_block *ret)
+{
+    struct bound *bound = data;
+    double *w = mem_new((size_t)bound->model->n_field * FRAME_CELLS, sizeof *w);
+    for (size_t piece = 0; piece < frame_pieces(bound->mesh, face / 2); piece++) {
+        struct frame frame = frame_piece(bound->mesh, face / 2, piece);
+        patch_state_piece(bound, local, face, &frame, w, ret);
+    }
+    mem_free(w);
+}
+
+static void patch_state_describe(const struct model *model, struct patch_state *ret)
+{
+    for (unsigned q = 0; q < model->n_field; q++) {
+        bool density = q >= model->i_m && q < model->i_m + model->n_alpha;
+        ret->parity[q] = 0;
+        ret->weight[q] = density ? (int)(q - model->i_m + model->i_alpha) : -1;
+    }
+    for (unsigned d = 0; d < model->n_velocity; d++)
+        ret->parity[model->i_u + d] = (unsigned char)(1u << d | PATCH_VELOCITY);
+    for (unsigned i = 0; i < 3; i++)
+        for (unsigned j = 0; j < i; j++) {
+            unsigned component = elastic_component(i, j);
+            if (component < model->n_stretch) ret->parity[model->i_V + component] = (unsigned char)(1u << i | 1u << j);
+        }
+}
+
+struct patch_source patch_state_source(const struct model *model, const struct mesh *mesh, int l, int g, int slots,
+                                       struct bound *bound, struct patch_state *keep)
+{
+    struct patch_source source = {.mesh = mesh,
+                                  .level = &mesh->levels[l],
+                                  .arrays = mesh->levels[l].w,
+                                  .parity = keep->parity,
+                                  .weight = keep->weight,
+                                  .given = patch_state_given,
+                                  .data = bound};
+    patch_state_describe(model, keep);
+    patch_state_rules(model->scene, true, source.rules);
+    const struct rim_form form = {model->n_field, g, slots, patch_given(source.rules)};
+    source.rim = rim_of(mesh, l, &form);
+    return source;
+}
