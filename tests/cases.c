@@ -17,7 +17,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CASES_TIMEOUT = 600 }; /* s */
+enum { CASES_TIMEOUT = 1800 }; /* s */
 
 static const struct key cases_entry_rows[] = {
     {.name = "label", .type = KEYS_TEXT, .required = true, .doc = "Label of its tests: ctest -L LABEL."},

@@ -17,13 +17,13 @@ foreach(row ${fuzz_counts})
     list(APPEND fuzz_targets fuzz-${name})
   else()
     add_test(NAME fuzz-${name} COMMAND fuzz-${name} ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name} ${count})
-    set_tests_properties(fuzz-${name} PROPERTIES ENVIRONMENT "${BULLA_TEST_ENV}" TIMEOUT 300)
+    set_tests_properties(fuzz-${name} PROPERTIES ENVIRONMENT "${BULLA_TEST_ENV}" TIMEOUT 900)
   endif()
 endforeach()
 if(BULLA_FUZZ)
   add_custom_target(fuzz DEPENDS ${fuzz_targets} program)
-elseif(NOT BULLA_SANITIZE) # hunts, which build all that they need by themselves: 5 s each, and 5 minutes each at night
-  add_test(NAME fuzz-short COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/run.sh 5)
+elseif(NOT BULLA_SANITIZE) # hunts, which build all that they need by themselves: 2000 inputs each, and 5 minutes each at night
+  add_test(NAME fuzz-short COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/run.sh 2000x)
   add_test(NAME nightly-fuzz CONFIGURATIONS Nightly COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/run.sh 300)
   set_tests_properties(fuzz-short nightly-fuzz PROPERTIES ENVIRONMENT "BULLA_FUZZ_BUILD=${CMAKE_BINARY_DIR}/fuzz-short"
                        TIMEOUT 5400 SKIP_RETURN_CODE 77 COST 1000 RESOURCE_LOCK fuzz-build)

@@ -1,7 +1,7 @@
 /* replay.c - runs a fuzz target without libFuzzer: `fuzz-NAME FOLDER COUNT` tries every file of the folder, and of
  * each COUNT changed copies: bits flipped, pieces removed, repeated, taken from another file. The changes are the
  * same every time, so that what fails, fails again. An input that kills the program, or takes more than ten
- * seconds, is left in fuzz-failed.bin. */
+ * seconds of processor time, is left in fuzz-failed.bin. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -46,11 +47,18 @@ static size_t replay_load(const char *path, uint8_t *room)
     return size;
 }
 
+/* SIGPROF after so many seconds of processor time; 0: never. */
+static void replay_limit(long seconds)
+{
+    const struct itimerval limit = {.it_value.tv_sec = seconds};
+    setitimer(ITIMER_PROF, &limit, NULL);
+}
+
 static void replay_run(void)
 {
-    alarm(REPLAY_SECONDS);
+    replay_limit(REPLAY_SECONDS);
     LLVMFuzzerTestOneInput(replay_now, replay_size);
-    alarm(0);
+    replay_limit(0);
 }
 
 /* One change to the input. */
@@ -96,7 +104,7 @@ static int replay_wanted(const struct dirent *entry)
 
 int main(int argc, char **argv)
 {
-    static const int fatal[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGALRM};
+    static const int fatal[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGPROF};
     struct dirent **files = NULL;
     struct rusage usage;
     char *folder = argc == 3 ? realpath(argv[1], NULL) : NULL, path[4096], partner[4096];

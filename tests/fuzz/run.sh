@@ -1,12 +1,14 @@
 #!/bin/sh
-# run.sh [SECONDS [TARGET...]] - builds the fuzz targets with clang's libFuzzer, ASan and UBSan (in build-fuzz/, or
-# $BULLA_FUZZ_BUILD) and runs each for so many seconds (300), one after the other, from the corpus in the tree. Inputs
+# run.sh [EFFORT [TARGET...]] - builds the fuzz targets with clang's libFuzzer, ASan and UBSan (in build-fuzz/, or
+# $BULLA_FUZZ_BUILD) and runs each, one after the other, from the corpus in the tree: for EFFORT seconds (300), or, when it ends
+# with an x, for that many executions, which are the same ones every time. BULLA_SEED sets another seed than 1. Inputs
 # that are new go to found/TARGET there, crashes to crash/. Ends with 1 if any target crashed, leaked, hung or grew, with
 # 77 where there is no clang with libFuzzer.
 set -eu
 cd "$(dirname -- "$0")/../.."
 build=${BULLA_FUZZ_BUILD:-$PWD/build-fuzz}
-seconds=${1:-300}
+effort=${1:-300}
+seed=${BULLA_SEED:-1}
 [ $# -eq 0 ] || shift
 mkdir -p "$build"
 echo 'int LLVMFuzzerTestOneInput(const char *d, long n); int LLVMFuzzerTestOneInput(const char *d, long n) { return !d && n; }' |
@@ -19,12 +21,18 @@ export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0"
 mkdir -p "$build/crash"
 "$build/bin/bulla" schema | tr -c 'a-zA-Z0-9-' '\n' | sort -u | awk 'length > 2 && length < 24 { print "\"" $0 "\"" }' \
     >"$build/words" # what cases are made of
+case $effort in
+*x) limit=-runs=${effort%x} ;;
+*) limit=-max_total_time=$effort ;;
+esac
+echo "seed $seed (BULLA_SEED)"
 status=0
 for name; do
+    case $effort in *x) rm -rf "$build/found/$name" ;; esac # what another run has found would make it another one
     mkdir -p "$build/found/$name"
     log=$build/$name.log
-    "$build/fuzz/fuzz-$name" "$build/found/$name" "$PWD/tests/fuzz/corpus/$name" -max_total_time="$seconds" \
-        -timeout=20 -rss_limit_mb=256 -artifact_prefix="$build/crash/$name-" -print_final_stats=1 \
+    "$build/fuzz/fuzz-$name" "$build/found/$name" "$PWD/tests/fuzz/corpus/$name" "$limit" -seed="$seed" \
+        -timeout=100 -rss_limit_mb=256 -artifact_prefix="$build/crash/$name-" -print_final_stats=1 \
         -dict="$build/words" >"$log" 2>&1 || status=1
     awk -v name="$name" '/stat::/ { value[$1] = $2 } /SUMMARY|ERROR: libFuzzer/ { said = said "\n  " $0 }
         END { printf "%-11s %s executions, peak %s MB%s\n", name, value["stat::number_of_executed_units:"],

@@ -2,8 +2,8 @@
 # materials, in 3D, axisymmetric with an interface that leaves the levels at an angle (refluxing is spread), with steps that the
 # guard repairs, and without subcycling.
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 same="$BULLA_BUILD/tests/test-unit-snapshot"
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
 
 materials='materials:
   water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}

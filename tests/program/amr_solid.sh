@@ -1,8 +1,8 @@
 # Levels with a solid give the same bits on 1, 2 and 3 ranks, and so does a run that is stopped and continued on another
 # number: a shock meets a stretched block beside a bubble, in the plane with motion across it, and round an axis.
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 fields="$BULLA_BUILD/tests/test-unit-snapshot" same="$BULLA_BUILD/tests/test-unit-checkpoint"
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
 
 materials='materials:
   water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}

@@ -2,8 +2,8 @@
 # ranks with exit code 3 and the reason, the older checkpoint is intact, no draft is left, and with room again the run
 # goes on to the bits of an undisturbed one.
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 same="$BULLA_BUILD/tests/test-unit-checkpoint"
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
 cat >tube.yaml <<'END'
 bulla: 1
 title: A tube
@@ -57,7 +57,7 @@ rm -rf out
 # A disk of its own, where it may be mounted: half a checkpoint fits.
 mkdir disk
 mount -t tmpfs -o size=2m none disk 2>/dev/null || { echo "no disk of its own: that part is skipped"; exit 0; }
-trap 'umount disk' EXIT
+at_end='umount disk'
 for ranks in 1 3; do
     "$BULLA" run tube.yaml -o disk/out --quiet --max-steps 20 -n $ranks
     head -c "$(($(df --output=avail -B1 disk | tail -n 1) - 50000))" /dev/zero >disk/other

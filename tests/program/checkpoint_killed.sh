@@ -1,9 +1,9 @@
-# A run that is killed (kill -9) at random moments, on one rank and on several, one rank of them or all: it can always
+# A run that is killed (kill -9) at moments that are drawn, on one rank and on several, one rank of them or all: it can always
 # be taken up, loses one interval of checkpoints at most, and in the end has the bits of a run that nobody touched.
 # BULLA_KILLS: how often (24).
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 same="$BULLA_BUILD/tests/test-unit-checkpoint"
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
 every=3
 cat >bubble.yaml <<END
 bulla: 1
@@ -30,19 +30,41 @@ output:
   probes: {every: 10 ns, top: {at: [0.3 mm, 0.3 mm], fields: [pressure]}}
 END
 
-number() { od -An -N2 -tu2 /dev/urandom | awk -v most="$1" '{ print $1 % most }'; }
-descendants() { # PID: the process and all below it
-    echo "$1"
-    for child in $(ps -o pid= --ppid "$1"); do descendants "$child"; done
+rows() { cat out/history.csv 2>/dev/null | wc -l; }
+draw_moment() { # how far the run comes before it is struck
+    draw 8
+    case $drawn in
+    0) moment=start ;;
+    1) moment=ranks ;;
+    2) moment=files ;;
+    3) moment=draft ;;
+    *) draw 90 && moment=$(($(rows) + drawn)) ;;
+    esac
 }
-strike() { # PID HOW: everything, or one rank
-    victims=$(descendants "$1")
-    if [ "$2" = rank ]; then
-        ranks=$(for pid in $victims; do ps -o pid=,args= -p "$pid"; done | awk '/[b]ulla run/ { print $1 }' | tail -n +2)
-        [ -z "$ranks" ] || victims=$(echo "$ranks" | tail -n "$((1 + $(number 2)))" | head -n 1)
+reached() { # the moment, or the end
+    alive "$run" || return 0
+    case $moment in
+    start) ;;
+    ranks) [ "$(ranks_of "$run" | wc -l)" = "$ranks" ] ;;
+    files) [ -e out/history.csv ] ;;
+    draft) ls out/checkpoints/*.tmp >/dev/null 2>&1 ;;
+    *) [ "$(rows)" -ge "$moment" ] ;;
+    esac
+}
+ranks_of() { # SESSION
+    [ "$ranks" -gt 1 ] || { echo "$1"; return; }
+    ps -o pid=,comm=,stat= -s "$1" | awk -v first="$1" '$2 == "bulla" && $3 !~ /^Z/ && $1 != first { print $1 }'
+}
+strike() { # everything, or one rank, of which the others hear
+    draw "$ranks"
+    victim=
+    [ $how = all ] || victim=$(ranks_of "$run" | tail -n +$((drawn + 1)) | head -n 1)
+    if [ -n "$victim" ]; then
+        kill -9 "$victim" 2>/dev/null || true
+        ended "$run"
+    else
+        killed "$run"
     fi
-    # shellcheck disable=SC2086
-    kill -9 $victims 2>/dev/null || true
 }
 step_of() { basename "$1" .chk | sed 's/.*_0*\([0-9]\)/\1/'; }
 judge() { # after a kill: the newest whole checkpoint is not far behind the last row
@@ -50,10 +72,10 @@ judge() { # after a kill: the newest whole checkpoint is not far behind the last
     newest=0
     for file in out/checkpoints/*.chk; do
         [ -e "$file" ] || continue
-        "$BULLA" info "$file" >info.txt 2>&1 || { cat info.txt; echo "a checkpoint under its name is damaged"; exit 1; }
+        "$BULLA" info "$file" >info.txt 2>&1 || fail "a checkpoint under its name is damaged" info.txt
         [ "$(step_of "$file")" -le "$newest" ] || newest=$(step_of "$file")
     done
-    [ "$((${row:-0} - newest))" -le "$every" ] || { echo "row $row, but checkpoint $newest"; exit 1; }
+    [ "$((${row:-0} - newest))" -le "$every" ] || fail "row $row, but checkpoint $newest"
 }
 finish() {
     cmp whole/history.csv out/history.csv
@@ -64,25 +86,22 @@ finish() {
 
 "$BULLA" run bubble.yaml --quiet
 mv out whole
-kills=0
-late=0 # a rank that started while the others were killed holds the directory until it notices
+kills=0 rounds=0
 while [ "$kills" -lt "${BULLA_KILLS:-24}" ]; do
+    rounds=$((rounds + 1))
+    [ $rounds -le $((20 * ${BULLA_KILLS:-24})) ] || fail "only $kills kills in $rounds runs"
     ranks=1 how=all # mostly: starting MPI takes longer than the run
-    if [ "$(number 4)" = 0 ]; then
-        ranks=$((2 + $(number 3)))
-        [ "$(number 2)" = 0 ] || how=rank
+    draw 4
+    if [ "$drawn" = 0 ]; then
+        draw 3 && ranks=$((2 + drawn))
+        draw 2 && [ "$drawn" = 0 ] || how=rank
     fi
     restart=--restart
     ls out/checkpoints/*.chk >/dev/null 2>&1 || restart=--overwrite
-    "$BULLA" run bubble.yaml -n $ranks --quiet $restart >said 2>&1 &
-    run=$!
-    sleep "0.$((10 + $(number $((20 * ranks)))))"
-    if kill -0 $run 2>/dev/null; then
-        strike $run $how
-        kills=$((kills + 1))
-    fi
-    code=0
-    wait $run || code=$?
+    draw_moment
+    start "$BULLA" run bubble.yaml -n $ranks --quiet $restart >said 2>&1
+    await "$moment" reached
+    strike
     case $how-$code in
     *-0) # it was faster
         finish
@@ -90,16 +109,12 @@ while [ "$kills" -lt "${BULLA_KILLS:-24}" ]; do
         continue
         ;;
     all-137 | rank-137) ;;
-    rank-3) grep -q 'a rank ended without finishing\|error' said || { cat said; exit 1; } ;;
-    *-2)
-        late=$((late + 1))
-        grep -q 'another run is at work' said && [ "$late" -le 20 ] || { cat said; exit 1; }
-        sleep 1
-        continue
-        ;;
-    *) echo "exit code $code on $ranks ranks ($how)"; cat said; exit 1 ;;
+    rank-3) grep -q 'a rank ended without finishing\|error' said || fail "no reason is given" said ;;
+    *) fail "exit code $code on $ranks ranks ($how, $moment)" said ;;
     esac
+    kills=$((kills + 1))
     [ ! -e out ] || judge
 done
+echo "$kills kills in $rounds runs"
 [ ! -d out ] || "$BULLA" run bubble.yaml --quiet "$(ls out/checkpoints/*.chk >/dev/null 2>&1 && echo --restart || echo --overwrite)"
 [ ! -d out ] || finish

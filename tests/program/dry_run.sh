@@ -1,6 +1,6 @@
 # bulla run --dry-run: everything up to the first step, exit code 0 or 2, and not a file written.
 set -eu
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
+. "$BULLA_SOURCE/tests/lib.sh"
 cat >bubble.yaml <<'END'
 bulla: 1
 title: A bubble

@@ -1,6 +1,7 @@
 # A law that gives no number in the middle of a run: the message says at which step, where, in which field and stage; so
 # does the dump, which is the same on any number of ranks and gives the same bits when it is replayed.
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 fail() {
     echo "$1"
     cat out
@@ -242,7 +243,7 @@ END
 heated slow ""
 for ranks in 1 2; do
     code=0
-    timeout 120 "$BULLA" run slow.yaml --quiet --overwrite -n $ranks >out 2>&1 || code=$?
+    limited "$BULLA" run slow.yaml --quiet --overwrite -n $ranks >out 2>&1 || code=$?
     [ $code = 3 ] || fail "exit code $code"
     has 'step [0-9]* at t = 0.000[45][0-9]* s: the time step has fallen to [0-9.]*e-1[0-9] s, below 1e-06 of the longest so far; sound speed 1e+12 m/s, velocity 0 m/s, pressure [0-9.e+]* Pa in the cell at (0.015625, 0.015625, 0) m of level 0 (cell (0, 0, 0) of tile (0, 0, 0)); air (brittle) fraction 1, density 1.2 kg/m3, temperature [0-9.]* K, sound speed 1e+12 m/s'
     "$BULLA" info slow.out/dump_*.h5 >info 2>&1 || fail "info refuses it"
@@ -262,7 +263,7 @@ has 'step 1 at t = 0 s: .* below run.smallest-step; sound speed 341.6 m/s'
 
 # On a finer level, which holds up the coarser one.
 heated below ", levels: 1, refine: [{region: {box: {lower: [0.3, 0.1], upper: [0.5, 0.3]}}}]"
-timeout 120 "$BULLA" run below.yaml --quiet -n 2 >out 2>&1 && fail "it finished"
+limited "$BULLA" run below.yaml --quiet -n 2 >out 2>&1 && fail "it finished"
 has 'the time step has fallen to [0-9.]*e-1[0-9] s, below 1e-06 .* of level [01] (cell ([0-9]*, [0-9]*, 0) of tile'
 "$BULLA" info --replay below.out/dump_*.h5 >out 2>&1 || fail "the replay gives something else"
 

@@ -1,7 +1,7 @@
 # A failed step whose dump cannot be written: the reason, once, beside the reason of the failure; the last good state is
 # saved all the same, provenance says why the run ended, no draft is left, and the exit code is 3, on any number of ranks.
 set -eu
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
+. "$BULLA_SOURCE/tests/lib.sh"
 cat >torn.yaml <<'CASE'
 bulla: 1
 title: Water torn apart, in steps that are far too long

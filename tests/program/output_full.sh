@@ -1,6 +1,7 @@
 # A full disk while a snapshot is written: the run ends on all ranks with exit code 3 and one reason, what was
 # written before stays readable, and provenance says why.
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 [ -w /dev/full ] || { echo "skipped: no /dev/full"; exit 77; }
 cat >tube.yaml <<'END'
 bulla: 1
@@ -16,23 +17,23 @@ run: {until: 1 s}
 output:
   snapshots: {every: 1000 steps}
 END
+begun() { [ -e out/fields/tube_000000.hdf ] || ! alive "$run"; }
 for ranks in 1 3; do
     rm -rf out
-    ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" \
-        "$BULLA" run tube.yaml -o out -n "$ranks" --quiet 2>errors.txt &
-    run=$!
-    until [ -e out/fields/tube_000000.hdf ]; do
-        kill -0 "$run" || { echo "the run ended by itself"; exit 1; }
-    done
-    number=1000 # from now on the disk is full: one of these is the next file, a good while away
+    start "$BULLA" run tube.yaml -o out -n "$ranks" --quiet 2>errors.txt
+    await "the first snapshot" begun
+    # shellcheck disable=SC2046
+    kill -s STOP $(members "$run")
+    number=1000 # from now on the disk is full: one of these is the next file
     while [ "$number" -le 40000 ]; do
-        ln -sf /dev/full "out/fields/$(printf 'tube_%06d.hdf.tmp' "$number")" 2>/dev/null || true
+        ln -sf /dev/full "out/fields/$(printf 'tube_%06d.hdf.tmp' "$number")"
         number=$((number + 1000))
     done
-    code=0
-    wait "$run" || code=$?
-    [ "$code" -eq 3 ] || { echo "exit code $code on $ranks ranks, not 3"; cat errors.txt; exit 1; }
-    grep -q 'tube_[0-9]*.hdf.tmp: cannot .*No space left on device' errors.txt || { cat errors.txt; exit 1; }
+    # shellcheck disable=SC2046
+    kill -s CONT $(members "$run")
+    ended "$run"
+    [ "$code" -eq 3 ] || fail "exit code $code on $ranks ranks, not 3" errors.txt
+    grep -q 'tube_[0-9]*.hdf.tmp: cannot .*No space left on device' errors.txt || fail "not said" errors.txt
     grep -q '"exit_reason": ".*No space left on device' out/provenance.json
     grep -q '"exit_code": 3' out/provenance.json
     "$BULLA" info out/fields/tube_000000.hdf >/dev/null

@@ -1,6 +1,7 @@
 # A killed run leaves readable files: whole rows, whole snapshots under their names, and a provenance that says
 # "running".
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 cat >tube.yaml <<'END'
 bulla: 1
 title: A tube
@@ -16,13 +17,11 @@ output:
   history: {columns: {mass: {total: mass}}}
 END
 rm -rf out
-"$BULLA" run tube.yaml -o out --quiet &
-run=$!
-until [ -e out/fields/tube_000050.hdf ]; do
-    kill -0 "$run" || { echo "the run ended by itself"; exit 1; }
-done
-kill -9 "$run"
-wait "$run" || true
+begun() { [ -e out/fields/tube_000050.hdf ] || ! alive "$run"; }
+start "$BULLA" run tube.yaml -o out --quiet
+await "snapshots" begun
+alive "$run" || fail "the run ended by itself"
+killed "$run"
 grep -q '"exit_reason": "running"' out/provenance.json
 awk -F, 'NR == 1 { n = NF } NF != n { print "line " NR " has " NF " columns, not " n; exit 1 }' out/history.csv
 [ "$(tail -c 1 out/history.csv | od -An -c | tr -d ' ')" = '\n' ] || { echo "the last row is broken"; exit 1; }

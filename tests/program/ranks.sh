@@ -1,8 +1,7 @@
 # The bits of a 3D run, and of runs whose steps the guard redoes, halves and relaxes, are the same on 1, 2, 3 and 4 ranks.
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 same="$BULLA_BUILD/tests/test-unit-snapshot"
-# Open MPI leaks by itself: the leak checker of a sanitized build would only see that
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 
 cat >space.yaml <<'END'
 bulla: 1

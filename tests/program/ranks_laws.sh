@@ -1,10 +1,9 @@
 # Real fluids beside a law in closed form and a solid, on levels of refinement: the bits are the same on 1, 2 and 3 ranks,
 # and after a stop, from a checkpoint, on other ranks.
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 same="$BULLA_BUILD/tests/test-unit-snapshot"
 again="$BULLA_BUILD/tests/test-unit-checkpoint"
-# Open MPI leaks by itself: the leak checker of a sanitized build would only see that
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 
 cat >laws.yaml <<'END'
 bulla: 1

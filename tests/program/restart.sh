@@ -2,10 +2,9 @@
 # and probes, on the same number of ranks or another one, with schedules that the stop falls between, columns that
 # remember the start, a boundary in Lua, repaired cells; also when the end time is moved.
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 same="$BULLA_BUILD/tests/test-unit-checkpoint"
 fields="$BULLA_BUILD/tests/test-unit-snapshot"
-# Open MPI leaks by itself: the leak checker of a sanitized build would only see that
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 
 cat >bubble.yaml <<'END'
 bulla: 1

@@ -2,8 +2,8 @@
 # prints goes on to the same bits as a run that nobody stopped. A second signal stops at once. A file called
 # output_now asks for a snapshot. A failed run leaves a checkpoint of its last good state.
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 same="$BULLA_BUILD/tests/test-unit-checkpoint"
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
 cat >tube.yaml <<'END'
 bulla: 1
 title: A tube
@@ -23,78 +23,78 @@ END
 rm -rf whole first
 "$BULLA" run tube.yaml -o whole --quiet --set output.checkpoints.every=30000steps
 
-await() { # FOLDER: until the run has written some rows
-    tries=0
-    until [ -e "$1/history.csv" ] && [ "$(wc -l <"$1/history.csv")" -gt 12 ]; do
-        tries=$((tries + 1))
-        [ $tries -lt 2000 ] || { echo "the run does not begin"; exit 1; }
-        sleep 0.01
-    done
+begun() { [ "$(cat first/history.csv 2>/dev/null | wc -l)" -gt 12 ] || ! alive "$run"; }
+begin() { # OPTIONS...: until the run has written some rows, or is over
+    rm -rf first
+    start "$BULLA" run tube.yaml -o first "$@" >said 2>&1
+    await "the first rows" begun
 }
-stopped() { # PID WHAT: exit code 4, and a message that names what stopped it
-    code=0
-    wait "$1" || code=$?
-    [ "$code" = 4 ] || { echo "$2: exit code $code, not 4"; cat said; exit 1; }
-    grep -q "interrupted.*$2.*saved as first/checkpoints/tube_[0-9]*.chk; to go on: bulla run" said || { cat said; exit 1; }
+stopped() { # WHAT: exit code 4, and a message that names what stopped it; false: too late, the run had finished
+    ended "$run"
+    [ "$code" != 0 ] || return 1
+    [ "$code" = 4 ] || fail "$1: exit code $code, not 4" said
+    grep -q "interrupted.*$1.*saved as first/checkpoints/tube_[0-9]*.chk; to go on: bulla run" said || fail "$1 is not said" said
+}
+interrupt() { # SIGNAL OPTIONS...
+    signal=$1
+    shift
+    begin "$@"
+    kill -s "$signal" "$run" 2>/dev/null || true
+    stopped "SIG$signal"
 }
 go_on() { # with the command that was printed
     sed -n "s/.*to go on: bulla/\"\$BULLA\"/p" said >command
-    . ./command >said 2>&1 || { echo "going on failed"; cat command said; exit 1; }
+    . ./command >said 2>&1 || fail "going on failed" command said
 }
 finished() {
     for file in history.csv probes.csv fields/tube.hdf.series; do cmp whole/$file first/$file; done
-    [ "$(ls whole/fields)" = "$(ls first/fields)" ] || { echo "other snapshots"; exit 1; }
+    [ "$(ls whole/fields)" = "$(ls first/fields)" ] || fail "other snapshots"
     # the whole run ends with a checkpoint because its case asks for them
     "$BULLA" run tube.yaml -o first --quiet --restart --set output.checkpoints.every=30000steps
     "$same" whole/checkpoints/tube_030000.chk first/checkpoints/tube_030000.chk
     rm -rf first
 }
 
-# A shell starts background jobs with SIGINT ignored; env makes it count again.
 for signal in INT TERM USR1; do
-    env --default-signal=INT "$BULLA" run tube.yaml -o first >said 2>&1 &
-    await first
-    kill -s $signal $!
-    stopped $! "SIG$signal"
-    [ $signal = TERM ] || rm -rf first # one of them goes on
-    [ ! -d first ] || { go_on; finished; }
+    insist interrupt $signal
+    [ $signal = TERM ] || continue # one of them goes on
+    go_on
+    finished
 done
 
 # Through mpirun, where the parent passes the signal on.
-env --default-signal=INT "$BULLA" run tube.yaml -o first -n 2 >said 2>&1 &
-await first
-kill -s INT $!
-stopped $! SIGINT
+insist interrupt INT -n 2
 go_on
 finished
 
 # Before the first step, too.
-"$BULLA" run tube.yaml -o first --walltime 0 >said 2>&1 &
-stopped $! walltime
+start "$BULLA" run tube.yaml -o first --walltime 0 >said 2>&1
+stopped walltime || fail "it was not stopped" said
 "$BULLA" run tube.yaml -o first --quiet --restart
 finished
 
 # Two signals that arrive together: the second ends the run.
-"$BULLA" run tube.yaml -o first >said 2>&1 &
-run=$!
-await first
-kill -s STOP $run
-kill -s TERM $run
-kill -s USR1 $run
-kill -s CONT $run
-code=0
-wait $run || code=$?
-[ "$code" = 4 ] && grep -q 'stopped at once' said || { echo "exit code $code after two signals"; cat said; exit 1; }
-[ ! -e first/checkpoints ] || { echo "saved after a second signal"; exit 1; }
-rm -rf first
+twice() {
+    begin
+    for signal in STOP TERM USR1 CONT; do kill -s $signal "$run" 2>/dev/null || true; done
+    ended "$run"
+    [ "$code" != 0 ]
+}
+insist twice
+[ "$code" = 4 ] && grep -q 'stopped at once' said || fail "exit code $code after two signals" said
+[ ! -e first/checkpoints ] || fail "saved after a second signal"
 
 # A snapshot on request; the run and its bits are not disturbed.
-"$BULLA" run tube.yaml -o first --set output.snapshots.every=1e3 --set output.checkpoints.every=30000steps >said 2>&1 &
-run=$!
-await first
-touch first/output_now
-while [ -e first/output_now ]; do kill -0 $run || { echo "the request was not seen"; exit 1; }; done
-wait $run
+answered() { [ ! -e first/output_now ] || ! alive "$run"; }
+request() {
+    begin --set output.snapshots.every=1e3 --set output.checkpoints.every=30000steps
+    touch first/output_now
+    await "an answer" answered
+    ended "$run"
+    [ "$code" = 0 ] || fail "exit code $code" said
+    [ ! -e first/output_now ]
+}
+insist request
 asked=$(sed -n 's/.*a snapshot of step \([0-9]*\), as .*output_now asked.*/\1/p' said)
 "$BULLA" info "first/fields/tube_$(printf %06d "$asked").hdf" >/dev/null
 cmp whole/history.csv first/history.csv
@@ -105,7 +105,7 @@ sed 's/pressure: 1 bar}/pressure: 1 bar, velocity: [-18 km\/s]}/; s/pressure: 0.
     tube.yaml >torn.yaml
 code=0
 "$BULLA" run torn.yaml -o torn --set scheme.guard=strict >said 2>&1 || code=$?
-[ "$code" = 3 ] || { echo "exit code $code, not 3"; cat said; exit 1; }
+[ "$code" = 3 ] || fail "exit code $code, not 3" said
 step=$(sed -n 's/.*error: step \([0-9]*\) at t.*/\1/p' said)
 [ -e "torn/checkpoints/torn_$(printf %06d $((step - 1))).chk" ] || { cat said; ls torn/checkpoints; exit 1; }
 "$BULLA" run torn.yaml -o torn --restart --set scheme.guard=normal --max-steps $((step + 20)) >said 2>&1 || { cat said; exit 1; }
@@ -115,7 +115,7 @@ step=$(sed -n 's/.*error: step \([0-9]*\) at t.*/\1/p' said)
 sed 's/^mesh:.*/mesh: {tile: 16, levels: 1, refine: [{region: {everywhere: true}}]}/' torn.yaml >deep.yaml
 code=0
 "$BULLA" run deep.yaml -o deep --set scheme.guard=strict --set output.checkpoints.every=2steps >said 2>&1 || code=$?
-[ "$code" = 3 ] || { echo "exit code $code, not 3"; cat said; exit 1; }
+[ "$code" = 3 ] || fail "exit code $code, not 3" said
 left=$(sed -n 's/^error: a finer level failed half way through step .*; the newest checkpoint is //p' said)
 [ "$left" = "$(ls deep/checkpoints/*.chk | tail -n 1)" ] || { cat said; ls deep/checkpoints; exit 1; }
 "$BULLA" run deep.yaml -o deep --restart --quiet --max-steps 20

@@ -1,6 +1,6 @@
 # Ranks: -n N and mpirun give the same numbers as one process, and exit codes arrive.
 set -eu
-export ASAN_OPTIONS=detect_leaks=0 # Open MPI's own leaks; its parts are unloaded by then and cannot be named
+. "$BULLA_SOURCE/tests/lib.sh"
 cp "$BULLA_SOURCE/tests/data/cli/tube.yaml" .
 "$BULLA" run tube.yaml -o one --overwrite --quiet
 "$BULLA" run tube.yaml -o two --overwrite --quiet -n 2 >said 2>&1

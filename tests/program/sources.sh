@@ -1,7 +1,7 @@
 # Sources: closed forms of what gravity, heat and mass do; the same bits whatever the ranks, the tiles and a restart; a
 # script that fails is named with its place.
 set -eu
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
+. "$BULLA_SOURCE/tests/lib.sh"
 fail() {
     echo "$*" >&2
     exit 1

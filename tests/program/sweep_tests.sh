@@ -25,7 +25,7 @@ case-tour-tube.strict
 END
 diff wanted names
 grep -qF -- "/cases/verify/r01.yaml]==] --variant [==[fine]==] --quiet --overwrite -o [==[/runs/case-verify-r01.limiter=minmod,variant=fine,ranks=3]==] -n 3 --set [==[scheme.limiter=minmod]==] --set [==[domain.cells=[8, 4]]==])" tests.cmake
-grep -qF -- 'PROPERTIES ENVIRONMENT [==[A=1;B=2]==] LABELS [==[case;verify;many]==] TIMEOUT 600 PROCESSORS 3)' tests.cmake
+grep -qF -- 'PROPERTIES ENVIRONMENT [==[A=1;B=2]==] LABELS [==[case;verify;many]==] TIMEOUT 1800 PROCESSORS 3)' tests.cmake
 
 refused() { # TEXT, then a file on stdin
     cat >bad.yaml

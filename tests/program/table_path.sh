@@ -1,7 +1,7 @@
 # The file of a law is found beside the case file in which its name stands, from wherever bulla is started, through `extends`
 # too; one table on several ranks gives the bits of one process.
 set -eu
-export ASAN_OPTIONS=detect_leaks=0 # Open MPI's own leaks
+. "$BULLA_SOURCE/tests/lib.sh"
 mkdir -p laws cases/deep elsewhere
 awk 'BEGIN {
     print "rho[kg/m3],T[K],p[Pa],e[J/kg],c[m/s],s[J/kg/K]"

@@ -7,4 +7,4 @@ add_test(NAME study-partition COMMAND partition-study tiny)
 add_test(NAME study-nest-ranks COMMAND mpirun -n 3 --oversubscribe --allow-run-as-root --mca mpi_yield_when_idle 1
          --bind-to none $<TARGET_FILE:test-unit-nest>)
 set_tests_properties(study-partition study-nest-ranks PROPERTIES ENVIRONMENT
-                     "${BULLA_TEST_ENV};ASAN_OPTIONS=detect_leaks=0" TIMEOUT 300)
+                     "${BULLA_TEST_ENV};ASAN_OPTIONS=detect_leaks=0" TIMEOUT 900)

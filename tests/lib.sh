@@ -1,0 +1,88 @@
+# lib.sh - what tests in shell share: `. "$BULLA_SOURCE/tests/lib.sh"`. No test depends on how fast the machine is, or on
+# luck: it waits for what it needs (await), not for a time; it looks at files when every process of a run is gone
+# (ended, killed); what it draws comes from a seed that it prints (draw, noise; BULLA_SEED sets another one); what is
+# still running when it ends is killed. Where a signal may come too late, it is sent to another run (insist).
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
+
+fail() { # MESSAGE [FILE...]: ends the test; shows the files
+    echo "$1"
+    shift
+    [ $# -eq 0 ] || cat "$@"
+    exit 1
+}
+lib_limit=600 # s; only what hangs takes so long
+limited() { timeout -k 5 "$lib_limit" "$@"; } # COMMAND...: 124 if it hangs
+
+# --- waiting ---
+await() { # WHAT COMMAND...: until the command succeeds
+    await_what=$1 await_tries=0
+    shift
+    until "$@"; do
+        await_tries=$((await_tries + 1))
+        [ "$await_tries" -lt "$((lib_limit * 100))" ] || fail "this never came: $await_what"
+        sleep 0.01
+    done
+}
+insist() { # COMMAND...: a try that may come too late, until one does not
+    insist_tries=0
+    until "$@"; do
+        insist_tries=$((insist_tries + 1))
+        [ "$insist_tries" -lt 50 ] || fail "too late in each of 50 tries, or without effect: $*" said
+    done
+}
+
+# --- processes: each run is a session of its own, which its ranks cannot leave ---
+lib_sessions=
+start() { # COMMAND...: in the background; $run is its process and its session
+    # A shell starts background jobs with SIGINT ignored; env makes it count again.
+    setsid env --default-signal=INT "$@" &
+    run=$!
+    lib_sessions="$lib_sessions $run"
+}
+alive() { # PROCESS: it is there, in $state (R S D T, see proc(5)); one that has ended and is not waited for (Z) is not
+    state=none
+    read -r _ _ state _ 2>/dev/null <"/proc/$1/stat" && [ "$state" != Z ]
+}
+members() { # SESSION: its processes
+    ps -o pid=,stat= -s "$1" | awk '$2 !~ /^Z/ { print $1 }'
+}
+gone() { [ -z "$(members "$1")" ]; }
+ended() { # SESSION: waits for all its processes; $code is the exit code of the first
+    code=0
+    wait "$1" || code=$?
+    await "the end of all processes of session $1" gone "$1"
+}
+kill_all() { # SESSION: and whatever starts meanwhile
+    kill -9 "$1" 2>/dev/null || true
+    until gone "$1"; do
+        # shellcheck disable=SC2046
+        kill -9 $(members "$1") 2>/dev/null || true
+    done
+}
+killed() { # SESSION: kills it and waits as `ended` does
+    kill_all "$1"
+    ended "$1"
+}
+at_end=: # a command
+lib_end() {
+    for lib_session in $lib_sessions; do gone "$lib_session" || kill_all "$lib_session"; done
+    eval "$at_end"
+}
+trap lib_end EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+trap 'exit 129' HUP
+
+# --- numbers ---
+lib_random=${BULLA_SEED:-1}
+echo "seed $lib_random (BULLA_SEED)"
+draw() { # MOST: sets $drawn, 0 to MOST - 1
+    lib_random=$(((lib_random * 1103515245 + 12345) % 2147483648))
+    drawn=$((lib_random / 64 % $1))
+}
+noise() { # BYTES: so many, of all values
+    # shellcheck disable=SC2059
+    printf '%b' "$(awk -v n="$1" -v s="$lib_random" 'BEGIN {
+        for (i = 0; i < n; i++) { s = (s * 69069 + 1) % 4294967296; printf "\\0%03o", int(s / 16777216) }
+    }')"
+}

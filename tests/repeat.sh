@@ -1,0 +1,54 @@
+#!/bin/sh
+# repeat.sh BUILD COUNT LOAD [TEST...] - runs tests of tests/program (their names without .sh) COUNT times each, each time
+# with another seed, while LOAD processes keep the machine busy. Without TEST: those that kill, stop, lock and wait. Says
+# how often each held; what failed stays in BUILD/tests/runs/repeat/TEST-SEED, with its output
+# in `output`. A process that a test leaves behind counts as a failure. Ends with 1 if anything failed.
+set -eu
+[ $# -ge 3 ] || { sed -n '2,5s/^# //p' "$0"; exit 2; }
+BULLA_SOURCE=$(cd "$(dirname -- "$0")/.." && pwd)
+BULLA_BUILD=$(cd "$1" && pwd)
+BULLA=$BULLA_BUILD/bin/bulla
+BULLA_MODULE_PATH=$BULLA_BUILD/lib/bulla/modules
+export BULLA_SOURCE BULLA_BUILD BULLA BULLA_MODULE_PATH
+count=$2 load=$3
+shift 3
+[ $# -gt 0 ] || set -- checkpoint_killed checkpoint_faults checkpoint_full output_full output_killed restart restart_stop \
+    run_codes run_ranks run_stop run_twice sweep sweep_stop
+
+busy=
+trap 'for process in $busy; do kill "$process" 2>/dev/null || true; done' EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+while [ "$load" -gt 0 ]; do
+    nice -n 10 sh -c 'while :; do :; done' &
+    busy="$busy $!"
+    load=$((load - 1))
+done
+
+left() { # FOLDER: processes that still work there
+    find /proc -maxdepth 2 -name cwd -lname "$1*" 2>/dev/null | cut -d/ -f3
+}
+try() { # TEST SEED: in a fresh folder
+    place=$BULLA_BUILD/tests/runs/repeat/$1-$2
+    rm -rf "$place"
+    mkdir -p "$place"
+    code=0
+    (cd "$place" && BULLA_SEED=$2 sh "$BULLA_SOURCE/tests/program/$1.sh" >output 2>&1) || code=$?
+    [ -z "$(left "$place")" ] || { echo "left behind: $(left "$place" | tr '\n' ' ')" >>"$place/output"; code=1; }
+    case $code in
+    0) rm -rf "$place" ;;
+    77) rm -rf "$place" && return 0 ;;
+    *) echo "$1 fails with seed $2 (exit code $code): $place/output"; tail -n 5 "$place/output" ;;
+    esac
+    return $code
+}
+status=0
+for test; do
+    held=0 seed=1
+    while [ "$seed" -le "$count" ]; do
+        if try "$test" "$seed"; then held=$((held + 1)); else status=1; fi
+        seed=$((seed + 1))
+    done
+    echo "$test: $held of $count"
+done
+exit $status
