@@ -4,9 +4,10 @@
 # $BULLA_MUTANTS_BUILD; they stay, and the next run builds little. -n says what would be run; -a runs all unit tests, too,
 # for what its own tests miss.
 #
-# One line per seed: `killed` by a test, `survived` them all, `known` to survive for the reason in the table, `found` though
-# it was known to survive, or `broken` if it does not compile. results.txt there has the lines, results/NAME.log what was
-# said. Ends with 1 if a seed survived that was not known to, was broken, or does not apply.
+# One line per seed: `killed` by a test, `survived` them all, `elsewhere` if only -a finds it, `known` to survive for the
+# reason in the table, `found` though it was known to survive, or `broken` if it does not compile or its tests do not exist.
+# results.txt there has the lines, results/NAME.log what was said. Ends with 1 if a seed survived that was not known to, was
+# broken, or does not apply.
 set -eu
 cd "$(dirname -- "$0")/../.."
 root=$PWD
@@ -33,15 +34,15 @@ table=$build/table
 awk -f tests/mutants/seeds.awk tests/mutants/seeds.txt "$build/sources" >"$table" || exit 1
 [ -z "$plan" ] || { cat "$table"; exit 0; }
 
-# A fresh copy, with the times of the files, so that what was built of it stays; but a file that a run left spoilt is new.
-spoilt=$(cat "$build/spoilt" 2>/dev/null || true)
+# A fresh copy, with the times of the files, so that what was built of it stays; but files that a run has spoilt are new.
 rm -rf "$tree"
 mkdir -p "$tree"
 for entry in CHANGELOG.md CMakeLists.txt CMakePresets.json LICENSE README.md bulla cases core docs modules schemas tests; do
     cp -pR "$entry" "$tree/"
 done
-[ -z "$spoilt" ] || touch "$tree/$spoilt"
-rm -f "$build/spoilt"
+[ ! -f "$build/spoilt" ] || sort -u "$build/spoilt" | while read -r file; do
+    [ ! -f "$tree/$file" ] || touch "$tree/$file"
+done
 
 # -O1 and one instruction set: values do not depend on either, and it builds three times as fast.
 launcher=
@@ -52,17 +53,17 @@ cmake -S "$tree" -B "$build/build" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_CO
 jobs=${BULLA_MUTANTS_JOBS:-1}
 ctest -N --test-dir "$build/build" | awk '$1 == "Test" { print $3 }' >"$build/tests"
 
-# What has to be built for a test: a unit test is a program; the others run the program and its modules, some of them
-# programs of unit tests on several ranks.
+# What has to be built for a test: a unit test is a program; the others run the program, some of them programs of unit
+# tests, on several ranks or to compare files. Modules are loaded by all.
 targets() { # REGEX
     grep -E -- "$1" "$build/tests" | while read -r test; do
         case $test in
         unit-* | module-*) echo "test-$test" ;;
         program-ranks-mesh) echo test-unit-post test-unit-levels test-unit-link ;;
-        program-amr-ranks) echo test-unit-prolong-ranks ;;
+        *) echo program test-unit-snapshot test-unit-checkpoint ;;
         esac
     done
-    echo program
+    ninja -C "$build/build" -t targets all | sed -n 's/^\(module-[a-z0-9-]*\): phony$/\1/p'
 }
 
 make_targets() { # REGEX
@@ -96,14 +97,14 @@ judge() { # NAME FILE TESTS REASON: prints the verdict
 restore() { # FILE
     cp -p "$root/$1" "$tree/$1"
     touch "$tree/$1"
-    rm -f "$build/spoilt"
 }
 
 tab=$(printf '\t')
-names=$(cut -f 4 "$table" | sort -u | while read -r tests; do grep -E -- "$tests" "$build/tests" || true; done | sort -u)
-regex="^($(echo $names | tr ' ' '|'))\$"
-make_targets "$regex" >"$build/build.log" 2>&1 || { tail -n 40 "$build/build.log"; exit 1; }
 if [ "$wanted" = "  " ]; then # what fails without a mistake kills nothing
+    names=$(cut -f 4 "$table" | sort -u | while read -r tests; do grep -E -- "$tests" "$build/tests" || true; done | sort -u)
+    regex="^($(echo $names | tr ' ' '|'))\$"
+    make_targets "$regex" >"$build/build.log" 2>&1 || { tail -n 40 "$build/build.log"; exit 1; }
+    rm -f "$build/spoilt"
     passes "$regex" >"$build/clean.log" 2>&1 || { tail -n 40 "$build/clean.log"; exit 1; }
 fi
 
@@ -112,7 +113,7 @@ status=0
 trap 'exit 130' INT TERM
 while IFS=$(printf '\001') read -r name file line tests reason said; do
     case $wanted in "  " | *" $name "*) ;; *) continue ;; esac
-    echo "$file" >"$build/spoilt"
+    echo "$file" >>"$build/spoilt"
     awk -v seed="$name" -f tests/mutants/seeds.awk tests/mutants/seeds.txt "$build/sources" >"$build/mutant"
     cat "$build/mutant" >"$tree/$file"
     verdict=$(judge "$name" "$file" "$tests" "$reason" </dev/null)

@@ -177,8 +177,29 @@ static void test_bound(void **state)
     }
 }
 
+/* What stands against the hoop stress where zz stands alone. */
+static void test_hoop(void **state)
+{
+    (void)state;
+    static const struct law *const laws[] = {&CURVED, &PLAIN};
+    srand(8);
+    for (int i = 0; i < 40; i++) {
+        struct model model = model_of(laws[i % 2]);
+        double a = 0.7 + 0.6 * rand() / RAND_MAX, b = 0.7 + 0.6 * rand() / RAND_MAX, c = 0.2 * rand() / RAND_MAX;
+        double rows[6] = {a, b, 1.0 / (a * b - c * c), c, 0.0, 0.0}, p = 3e5, rho = DENSITY, got, wanted[3];
+        const double *const m[] = {&rho};
+        const matrix V = {{a, c, 0.0}, {c, b, 0.0}, {0.0, 0.0, rows[2]}};
+        matrix B;
+        product(V, V, B);
+        traction(laws[i % 2], B, DENSITY, 2, wanted);
+        elastic_hoop(&model, 1, 1, rows, m, &p, &got);
+        assert_close(got, p - wanted[2], 1e-12 * (p + fabs(wanted[2])));
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_speeds), cmocka_unit_test(test_bound)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_speeds), cmocka_unit_test(test_bound),
+                                       cmocka_unit_test(test_hoop)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,8 +49,46 @@ static void test_slide(void **state)
     for (slide_axis = 0; slide_axis < 3; slide_axis++) check_slide(3, "hlld");
 }
 
+static void set_band(const struct model *model, const double x[3], double *w)
+{
+    double stretch = fabs(x[slide_axis] - 0.5) < 0.15 ? 1.25 : 1.0;
+    w[model->i_V] = stretch;
+    w[model->i_V + 1] = 1.0 / stretch;
+    w[model->i_u + (unsigned)slide_axis] = slide_axis ? -100.0 : 100.0;
+}
+
+/* A band of a solid that hardly bears any stress is carried along with its stretch, from the side it comes from. */
+static void test_carried(void **state)
+{
+    (void)state;
+    for (slide_axis = 0; slide_axis < 2; slide_axis++) {
+        struct flow flow;
+        flow_start(&flow,
+                   mem_print("bulla: 1\ntitle: carried\ndomain: {lower: [0, 0], upper: [1, 1], cells: [16, 16], "
+                             "boundaries: {x-: periodic, x+: periodic, y-: periodic, y+: periodic}}\nmesh: {tile: "
+                             "8}\nmaterials:\n  gel: {eos: {type: stiffened-gas, gamma: 1.4, p-inf: 0}, "
+                             "constitutive: {type: neo-hookean, shear-modulus: 1e-6, reference-density: 1000}}\n"
+                             "initial:\n  - {everywhere: true, material: gel, density: 1, pressure: 1e3}\n"
+                             "scheme: {limiter: minmod}\nrun: {until: 1}\n"));
+        flow_set(&flow, set_band);
+        flow_until(&flow, 2e-3); /* a fifth of the domain */
+        double *V = flow_primitive(&flow, flow.state->model->i_V), sum = 0.0, place = 0.0;
+        for (size_t i = 0; i < flow.n_cell; i++) {
+            double x[3];
+            flow_centre(&flow, i, x);
+            assert_true(V[i] >= 1.0 - 1e-6 && V[i] <= 1.25 + 1e-6);
+            sum += V[i] - 1.0;
+            place += (V[i] - 1.0) * x[slide_axis];
+        }
+        print_message("the middle of the band is at %.4f\n", place / sum);
+        assert_true(fabs(place / sum - (slide_axis ? 0.3 : 0.7)) < 0.02);
+        mem_free(V);
+        flow_stop(&flow);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_slide)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_slide), cmocka_unit_test(test_carried)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
