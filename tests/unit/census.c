@@ -1,0 +1,62 @@
+/* What need not be computed: a tile of one solid that is uniform and at rest may be carried on only if it is unstretched,
+ * because mirrors and hoops feel a stretch. */
+#include "flow.h"
+
+static void set_stretched(const struct model *model, const double x[3], double *w)
+{
+    (void)x;
+    w[model->i_V] = 1.25;
+    w[model->i_V + 1] = 0.8;
+}
+
+static void start(struct flow *flow)
+{
+    flow_start(flow,
+               mem_print("bulla: 1\ntitle: stretched\ndomain: {geometry: axisymmetric, lower: [0, 0], upper: [1, 1], "
+                         "cells: [16, 16], boundaries: {x-: axis, x+: reflecting, y-: symmetry, y+: outflow}}\n"
+                         "mesh: {tile: 8}\nmaterials:\n  gel: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 "
+                         "MPa}, constitutive: {type: neo-hookean, shear-modulus: 1 MPa, reference-density: 1000}}\n"
+                         "initial:\n  - {everywhere: true, material: gel, density: 1000, pressure: 1e5}\n"
+                         "run: {until: 1}\n"));
+}
+
+static void test_stretched(void **state)
+{
+    (void)state;
+    struct flow flow;
+    start(&flow);
+    const struct model *model = flow.state->model;
+    flow_set(&flow, set_stretched);
+    for (unsigned t = 0; t < flow_level(&flow)->n_local; t++)
+        assert_false(flow.state->stages[0]->census.tiles[t].still);
+    flow_steps(&flow, 1);
+    assert_true(flow.state->counts.carried == 0);
+    double *u = flow_primitive(&flow, model->i_u), dt = flow.state->dt;
+    for (size_t i = 0; i < flow.n_cell;
+         i++) { /* rho du/dt = (s_rr - s_tt)/r = G (B_rr - B_tt)/r, away from the walls */
+        double x[3], wanted;
+        flow_centre(&flow, i, x);
+        if (i % 16 < 5 || i % 16 > 10 || i / 16 < 5 || i / 16 > 10) continue;
+        wanted = dt * 1e6 * (1.25 * 1.25 - 1.0) / (1000.0 * x[0]);
+        assert_true(fabs(u[i] / wanted - 1.0) < 1e-3);
+    }
+    mem_free(u);
+    flow_stop(&flow);
+}
+
+/* Unstretched, all of it is carried on. */
+static void test_level(void **state)
+{
+    (void)state;
+    struct flow flow;
+    start(&flow);
+    flow_steps(&flow, 2);
+    assert_true(flow.state->counts.carried > 0 && flow.state->counts.carried == flow.state->counts.cells);
+    flow_stop(&flow);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_stretched), cmocka_unit_test(test_level)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
