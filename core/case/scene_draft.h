@@ -19,6 +19,8 @@ extern const struct keys_section scene_domain_keys, scene_mesh_keys, scene_refin
 extern const struct keys_section scene_material_keys, scene_scheme_keys;
 extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_stretch_keys, scene_source_keys;
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
+extern const struct keys_section scene_pulse_units;
+extern const struct keys_section *const scene_boundary_pulse_cases[]; /* ends with NULL */
 extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_map_list_keys, scene_expect_keys;
 
 /* In the order in which they are called; each reads its section of draft->root. */
@@ -34,6 +36,12 @@ void scene_output(struct draft *draft);
 void scene_history(struct draft *draft);
 void scene_map(struct draft *draft);
 void scene_expect(struct draft *draft);
+
+/* The table of times and pressures of a measured pulse. */
+void scene_pulse(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map);
+
+/* Is it a key of a pulse, which goes when the pulse changes? Those of all incoming waves are not. */
+bool scene_pulse_owns(const char *key);
 
 /* Axis 0..2 that an `along:` names, or -1, perhaps after a recorded error. */
 int scene_history_axis(struct draft *draft, const struct keys_value *along);
