@@ -56,7 +56,7 @@ static void steps_smoothly_and_ends(void **state)
         double here = value_of(text);
         snprintf(text, sizeof text, "bulla.smooth(%.17g, 0.2)", -1e-3 * i);
         if (here > before || fabs(here + value_of(text) - 1.0) > 1e-15) fail_msg("at %d: %.17g", i, here);
-        if (fabs(here - 0.5 * (1.0 - tanh(1e-3 * i / 0.2))) > 0.026) fail_msg("far from a tanh at %d", i);
+        if (fabs(here - 0.5 * (1.0 - tanh(1e-3 * i / 0.2))) > 0.042) fail_msg("far from a tanh at %d", i);
         before = here;
     }
     assert_true(fabs(slope + 1.0 / (2.0 * 0.2)) < 1e-6);
