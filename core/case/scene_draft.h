@@ -90,6 +90,11 @@ struct scene_value *scene_state_density(struct draft *draft, const struct keys_m
 void scene_state_check(struct draft *draft, const struct keys_map *map, const double *fractions,
                        const struct scene_value *density);
 
+/* Warns if a state of one material is far from all that its law is stated for. `temperature`: the given one, or 0; `value`:
+ * what says the density, for the place. */
+void scene_far(struct draft *draft, unsigned material, double rho, double p, double temperature,
+               const struct keys_value *value);
+
 /* A list of as many values as velocities have components; nothing after a recorded error. */
 void scene_state_vector(struct draft *draft, const struct keys_value *value, struct scene_value ret[SCENE_AXES]);
 
