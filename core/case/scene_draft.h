@@ -52,6 +52,11 @@ void scene_map_done(struct scene *scene);
 /* Warns about parameters that nothing uses, those of overlays that are not applied included. */
 void scene_spare(struct draft *draft, const struct node *root);
 
+/* Warns about what a right scene asks for and never gets (materials that are nowhere, outputs after the end, regions
+ * outside), and about what its cells are too coarse for (waves, bubbles). */
+void scene_idle(struct draft *draft, const struct node *root);
+void scene_coarse(struct draft *draft);
+
 /* A list of `dim` numbers into ret[3] (rest 0); false after a recorded error. */
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES]);
 
