@@ -5,6 +5,7 @@
 
 #include "base/comm.h"
 #include "base/log.h"
+#include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
 #include "base/version.h"
@@ -147,9 +148,9 @@ static void command_list(FILE *stream)
 {
     fputs("bulla COMMAND ...: simulates bubbles, shocks and soft materials from case files\n\n", stream);
     for (size_t i = 0; i < COMMANDS; i++) {
-        char left[64];
-        snprintf(left, sizeof left, "%s %s", command_table[i].name, command_table[i].words);
-        fprintf(stream, "  %-28s %s\n", left, command_table[i].doc);
+        char *words = mem_print("%s %s", command_table[i].name, command_table[i].words);
+        cli_line(stream, words, command_table[i].doc);
+        mem_free(words);
     }
     fputs("\nFrom the source tree also: ./bulla setup (packages and build), ./bulla test (all tests).\n"
           "`bulla COMMAND -h` has the options of a command.\n"

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-enum { MATRIX_ROWS = 10000 };
+enum { MATRIX_ROWS = 10000, MATRIX_LEVELS = 100 }; /* most combinations; more levels than any case has */
 
 /* Product of a list of numbers, and "64 x 64"; 0 if it is none. */
 static double matrix_cells(const struct node *node, char **ret_text)
@@ -47,6 +47,16 @@ static void matrix_fill(const struct node *lists, const struct node *own_cells, 
     row->dim = cells && cells->count ? cells->count : 1;
 }
 
+/* mesh.levels; -1 if it is no plain number. */
+static int matrix_levels(const struct node *root)
+{
+    const struct node *levels = tree_get(tree_get(root, "mesh"), "levels");
+    double value;
+    if (!levels) return 0;
+    bool plain = levels->kind == TREE_SCALAR && text_number(levels->text, &value) == strlen(levels->text);
+    return plain && value >= 0 && value <= MATRIX_LEVELS ? (int)value : -1;
+}
+
 int matrix_combine(const struct node *root, struct matrix *ret_matrix)
 {
     const struct node *lists = tree_get(root, "matrix"), *title = tree_get(root, "title");
@@ -61,6 +71,7 @@ int matrix_combine(const struct node *root, struct matrix *ret_matrix)
     }
     *ret_matrix = (struct matrix){.title = mem_text(title && title->kind == TREE_SCALAR ? title->text : ""),
                                   .count = matrix_cells(own_cells, NULL),
+                                  .levels = matrix_levels(root),
                                   .n_set = lists ? lists->count : 0,
                                   .n_row = rows,
                                   .rows = mem_new(rows, sizeof *ret_matrix->rows)};

@@ -18,6 +18,7 @@ struct matrix_row {
 struct matrix {
     char *title;  /* of the case */
     double count; /* cells of the case as it stands; 0 if it cannot be read off */
+    int levels;   /* mesh.levels of it; -1 if it is an expression */
     unsigned n_set, n_row;
     struct matrix_row *rows; /* one row without sets when the case has no matrix */
 };

@@ -20,10 +20,12 @@ static char *study_id(const char *path)
     return mem_text_n(name, dot ? (size_t)(dot - name) : strlen(name));
 }
 
-/* mesh.levels of the case as it stands; 0 if it cannot be read, which its runs will report. */
-static int study_levels(const char *path)
+/* mesh.levels of the case as it stands; 0 if it cannot be read, which its runs will report. A case with laws that make
+ * tables takes seconds to read, so that is done for an expression alone. */
+static int study_levels(const char *path, const struct matrix *matrix)
 {
     struct scene *scene = NULL;
+    if (matrix->levels >= 0) return matrix->levels;
     FILE *nowhere = fopen("/dev/null", "w");
     if (!nowhere) return 0;
     int levels = scene_read(path, &(struct scene_options){.messages = nowhere}, &scene) ? 0 : scene->levels;
@@ -37,7 +39,7 @@ static void study_refine(struct study *study)
 {
     static const char key[] = "mesh.levels=";
     struct matrix *matrix = &study->matrix;
-    int own = study_levels(study->path);
+    int own = study_levels(study->path, matrix);
     unsigned dim = matrix->n_row ? matrix->rows[0].dim : 1;
     matrix->count = ldexp(matrix->count, own * (int)dim);
     for (unsigned i = 0; i < matrix->n_row; i++) {

@@ -2,6 +2,7 @@
 #include "case/merge.h"
 
 #include "case/parse.h"
+#include "case/scene_draft.h"
 #include "case/show.h"
 
 #include <limits.h>
@@ -17,17 +18,34 @@ struct merge {
     unsigned n_open;
 };
 
+/* The value of a key, if it is a scalar. */
+static const char *merge_word(const struct node *map, const char *key)
+{
+    const struct node *node = tree_get(map, key);
+    return node && node->kind == TREE_SCALAR ? node->text : NULL;
+}
+
 static bool merge_type_changes(const struct node *base, const struct node *over)
 {
-    const struct node *was = tree_get(base, "type"), *is = tree_get(over, "type");
-    bool both = was && is && was->kind == TREE_SCALAR && is->kind == TREE_SCALAR;
-    return both && strcmp(was->text, is->text) != 0;
+    const char *was = merge_word(base, "type"), *is = merge_word(over, "type");
+    return was && is && strcmp(was, is) != 0;
+}
+
+/* An incoming wave whose pulse changes: what was the old pulse's own goes, what is the wave's (its delay, the pressure
+ * far away) stays. */
+static void merge_pulse(struct node *base, const struct node *over)
+{
+    const char *type = merge_word(base, "type"), *was = merge_word(base, "pulse"), *is = merge_word(over, "pulse");
+    if (!type || !was || !is || strcmp(type, "incoming-wave") != 0 || strcmp(was, is) == 0) return;
+    for (unsigned i = base->count; i-- > 0;)
+        if (scene_pulse_owns(base->keys[i]->text)) tree_remove(base, i);
 }
 
 /* Lays `over` onto the map `base`. What null would delete must be there. */
 static void merge_onto(struct merge *merge, struct node *base, const struct node *over)
 {
     struct forest *forest = merge->forest;
+    merge_pulse(base, over);
     for (unsigned i = 0; i < over->count; i++) {
         struct node *item = over->items[i];
         int at = tree_find(base, over->keys[i]->text);

@@ -1,8 +1,8 @@
 /* merge.h - one tree from many: `extends:`, `variants:`, `--set`.
  *
  * Maps are merged key by key, everything else is replaced; null deletes a key. A map whose
- * `type` changes is replaced whole, since its other keys belonged to the old type. Every node
- * keeps the mark of the text it came from. */
+ * `type` changes is replaced whole, since its other keys belonged to the old type; when the `pulse` of an
+ * incoming wave changes, the keys of the old pulse go. Every node keeps the mark of the text it came from. */
 #ifndef MERGE_H
 #define MERGE_H
 

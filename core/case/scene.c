@@ -115,6 +115,8 @@ static void scene_build(struct draft *draft, struct node *root)
     draft->root = keys_read(&draft->keys, root, &scene_root_keys, "");
     if (draft->root) scene_fill(draft);
     if (diag_errors(draft->keys.diag)) return;
+    scene_idle(draft, root);
+    scene_coarse(draft);
     scene_spare(draft, root);
     scene_resolve(draft, root);
 }

@@ -2,12 +2,8 @@
 #include "case/scene_boundary.h"
 
 #include "base/mem.h"
-#include "base/status.h"
 #include "base/text.h"
 #include "case/scene_draft.h"
-#include "case/series.h"
-
-#include <string.h>
 
 #define AMPLITUDE                                                                                                      \
     {                                                                                                                  \
@@ -76,12 +72,29 @@ static const struct key scene_boundary_series[] = {
     {.name = "file",
      .type = KEYS_TEXT,
      .required = true,
-     .doc = "CSV file with a time [s] (ascending) and a gauge pressure [Pa], relative to this file."},
+     .doc = "CSV file with a time (ascending) and a gauge pressure, relative to this file; in s and Pa if neither the "
+            "header (`t[us]`, `p (MPa)`, `t_us`) nor `units` says otherwise."},
     {.name = "columns",
      .type = KEYS_TEXT,
      .many = KEYS_LIST,
      .fallback = "[1, 2]",
      .doc = "Names or numbers of the columns of time and pressure."},
+    {.name = "units",
+     .type = KEYS_SECTION,
+     .section = &scene_pulse_units,
+     .doc = "Units of these columns, {t: us, p: MPa} or [us, MPa]; they win over the header."},
+    {.name = "amplitude",
+     .type = KEYS_NUMBER,
+     .unit = "Pa",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .doc = "Largest magnitude of the pressure: the pulse is scaled to it, whatever unit it is in."},
+    {.name = "scale",
+     .type = KEYS_NUMBER,
+     .unit = "1",
+     .min = -KEYS_MOST,
+     .max = KEYS_MOST,
+     .doc = "Factor by which the pressures are multiplied, instead of an amplitude."},
     {0},
 };
 
@@ -103,9 +116,9 @@ static const struct keys_section scene_boundary_pulses[] = {
     {.name = "lua", .keys = scene_boundary_lua, .doc = "Gauge pressure from a Lua function."},
 };
 
-static const struct keys_section *const scene_boundary_pulse_cases[] = {
-    &scene_boundary_pulses[0], &scene_boundary_pulses[1], &scene_boundary_pulses[2],
-    &scene_boundary_pulses[3], &scene_boundary_pulses[4], NULL};
+const struct keys_section *const scene_boundary_pulse_cases[] = {&scene_boundary_pulses[0], &scene_boundary_pulses[1],
+                                                                 &scene_boundary_pulses[2], &scene_boundary_pulses[3],
+                                                                 &scene_boundary_pulses[4], NULL};
 
 static const struct key scene_boundary_wave[] = {
     {.name = "pulse", .type = KEYS_CHOICE, .required = true, .doc = "The form of the wave in time."},
@@ -135,41 +148,6 @@ static const struct key scene_boundary_far[] = {
     {0},
 };
 
-static double *scene_boundary_copy(const double *numbers, unsigned count)
-{
-    double *copy = mem_new(count, sizeof *copy);
-    memcpy(copy, numbers, count * sizeof *copy);
-    return copy;
-}
-
-static int scene_boundary_series_take(struct scene_boundary *boundary, const struct series *series, const char *time,
-                                      const char *pressure)
-{
-    const double *t, *p;
-    TRY(series_column(series, time, &t));
-    TRY(series_column(series, pressure, &p));
-    TRY(series_ascending(series, time));
-    boundary->n_series = (unsigned)series->n_row;
-    boundary->series_t = scene_boundary_copy(t, boundary->n_series);
-    boundary->series_p = scene_boundary_copy(p, boundary->n_series);
-    return STATUS_OK;
-}
-
-static void scene_boundary_read_series(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
-{
-    const struct keys_value *file = keys_at(map, "file"), *columns = keys_at(map, "columns");
-    if (!file->given || !columns->given) return;
-    if (columns->count != 2) {
-        keys_error(&draft->keys, columns, "two columns are needed, time and pressure, not %u", columns->count);
-        return;
-    }
-    struct series series = {0};
-    int code = series_read(scene_file(draft, file), &series);
-    if (!code) code = scene_boundary_series_take(boundary, &series, columns->list[0].text, columns->list[1].text);
-    if (code) keys_error(&draft->keys, file, "%s", status_text());
-    series_done(&series);
-}
-
 static void scene_boundary_read_far(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     (void)draft;
@@ -189,7 +167,7 @@ static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary 
     boundary->width = keys_at(map, "width")->number;
     boundary->delay = keys_at(map, "delay")->number;
     boundary->compressive_only = keys_at(map, "compressive-only")->integer != 0;
-    if (boundary->pulse == SCENE_PULSE_SERIES) scene_boundary_read_series(draft, boundary, map);
+    if (boundary->pulse == SCENE_PULSE_SERIES) scene_pulse(draft, boundary, map);
     if (keys_at(map, "lua")->given) boundary->script = scene_file_lua(draft, keys_at(map, "lua"));
 }
 

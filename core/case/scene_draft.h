@@ -19,6 +19,8 @@ extern const struct keys_section scene_domain_keys, scene_mesh_keys, scene_refin
 extern const struct keys_section scene_material_keys, scene_scheme_keys;
 extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_stretch_keys, scene_source_keys;
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
+extern const struct keys_section scene_pulse_units;
+extern const struct keys_section *const scene_boundary_pulse_cases[]; /* ends with NULL */
 extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_map_list_keys, scene_expect_keys;
 
 /* In the order in which they are called; each reads its section of draft->root. */
@@ -35,6 +37,12 @@ void scene_history(struct draft *draft);
 void scene_map(struct draft *draft);
 void scene_expect(struct draft *draft);
 
+/* The table of times and pressures of a measured pulse. */
+void scene_pulse(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map);
+
+/* Is it a key of a pulse, which goes when the pulse changes? Those of all incoming waves are not. */
+bool scene_pulse_owns(const char *key);
+
 /* Axis 0..2 that an `along:` names, or -1, perhaps after a recorded error. */
 int scene_history_axis(struct draft *draft, const struct keys_value *along);
 
@@ -43,6 +51,11 @@ void scene_map_done(struct scene *scene);
 
 /* Warns about parameters that nothing uses, those of overlays that are not applied included. */
 void scene_spare(struct draft *draft, const struct node *root);
+
+/* Warns about what a right scene asks for and never gets (materials that are nowhere, outputs after the end, regions
+ * outside), and about what its cells are too coarse for (waves, bubbles). */
+void scene_idle(struct draft *draft, const struct node *root);
+void scene_coarse(struct draft *draft);
 
 /* A list of `dim` numbers into ret[3] (rest 0); false after a recorded error. */
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES]);
@@ -81,6 +94,11 @@ struct scene_value *scene_state_density(struct draft *draft, const struct keys_m
 /* Records an error if the state, as far as it is constant, is none that the materials' laws know. */
 void scene_state_check(struct draft *draft, const struct keys_map *map, const double *fractions,
                        const struct scene_value *density);
+
+/* Warns if a state of one material is far from all that its law is stated for. `temperature`: the given one, or 0; `value`:
+ * what says the density, for the place. */
+void scene_far(struct draft *draft, unsigned material, double rho, double p, double temperature,
+               const struct keys_value *value);
 
 /* A list of as many values as velocities have components; nothing after a recorded error. */
 void scene_state_vector(struct draft *draft, const struct keys_value *value, struct scene_value ret[SCENE_AXES]);

@@ -196,10 +196,11 @@ bool scene_field_list(struct draft *draft, const struct keys_value *list, char (
     char(*names)[SCENE_NAME] = mem_new(list->count + 1, sizeof *names);
     bool good = list->given;
     for (unsigned i = 0; i < list->count; i++) {
-        good &= scene_field(draft, &list->list[i], names[i]);
-        for (unsigned k = 0; k < i; k++)
-            if (list->list[i].given && strcmp(names[i], names[k]) == 0)
+        bool known = scene_field(draft, &list->list[i], names[i]); /* else it has no name to compare */
+        for (unsigned k = 0; known && k < i; k++)
+            if (strcmp(names[i], names[k]) == 0)
                 keys_error(&draft->keys, &list->list[i], "'%s' is listed twice", names[i]);
+        good &= known;
     }
     *ret_names = names;
     *ret_count = list->count;

@@ -60,7 +60,7 @@ static void scene_initial_look(struct draft *draft, const struct scene_layer *la
     for (int axis = 0; axis < scene->dim; axis++)
         if (scene->upper[axis] <= scene->lower[axis]) return;
     double covered = shape_fraction(layer->shape, scene->lower, scene->upper, scene->dim, 0);
-    if (covered > 0.0 && covered < 1.0) return;
+    if (covered < 1.0 && shape_reaches(layer->shape, scene->lower, scene->upper, scene->dim)) return;
     diag_warn(draft->keys.diag, &value->node->mark, "%s: this shape %s", value->path,
               covered > 0.0 ? "covers the whole domain" : "lies outside of the domain");
     diag_help(draft->keys.diag, "the domain is %g to %g m along the first axis: are the units right?", scene->lower[0],

@@ -5,6 +5,7 @@
 #include "bulla/eos.h"
 
 #include <math.h>
+#include <string.h>
 
 const struct key scene_state_rows[] = {
     {.name = "material", .type = KEYS_TEXT, .doc = "The only material here."},
@@ -139,19 +140,29 @@ void scene_state_vector(struct draft *draft, const struct keys_value *value, str
 }
 
 /* Is the state of one material one that its law knows? A forgotten sign or prefix shows here. */
-static void scene_state_check_one(struct draft *draft, unsigned material, double rho, double p,
+static bool scene_state_check_one(struct draft *draft, unsigned material, double rho, double p,
                                   const struct keys_value *pressure)
 {
     const struct instance *eos = &draft->scene->material[material].eos;
     const char *name = draft->scene->material[material].name;
-    if (!eos->module) return;
+    if (!eos->module) return false;
     const struct bulla_eos *law = eos->module->table;
     double rho_e, c2, least;
     law->p_min(eos->self, 1, &rho, &least);
     law->state(eos->self, 1, &rho, &p, &rho_e, &c2);
-    if (p > least && c2 > 0.0 && isfinite(c2) && isfinite(rho_e)) return;
+    if (p > least && c2 > 0.0 && isfinite(c2) && isfinite(rho_e)) return true;
     keys_error(&draft->keys, pressure, "%.6g Pa at %.6g kg/m3 is no state of '%s'", p, rho, name);
     diag_help(draft->keys.diag, "the pressure of '%s' is above %.6g Pa there", name, least + 0.0);
+    return false;
+}
+
+/* What says the density of a material: its entry of a map, the only density, or the temperature. */
+static const struct keys_value *scene_state_source(const struct keys_map *map, const char *material)
+{
+    const struct keys_value *density = keys_at(map, "density");
+    for (unsigned i = 0; i < density->count; i++)
+        if (density->list[i].name && strcmp(density->list[i].name, material) == 0) return &density->list[i];
+    return density->given ? density : keys_at(map, "temperature");
 }
 
 void scene_state_check(struct draft *draft, const struct keys_map *map, const double *fractions,
@@ -165,6 +176,8 @@ void scene_state_check(struct draft *draft, const struct keys_map *map, const do
         bool warm = temperature->given && !temperature->script && eos->module;
         if (fractions[i] <= 0.0 || density[i].script || !(density[i].given || warm)) continue;
         if (warm) ((const struct bulla_eos *)eos->module->table)->density(eos->self, 1, &p, &temperature->number, &rho);
-        scene_state_check_one(draft, i, rho, p, pressure);
+        if (scene_state_check_one(draft, i, rho, p, pressure))
+            scene_far(draft, i, rho, p, warm ? temperature->number : 0.0,
+                      scene_state_source(map, draft->scene->material[i].name));
     }
 }

@@ -59,15 +59,36 @@ static unsigned series_count(const char *line, char separator)
     return count;
 }
 
+/* What stands in brackets behind a name, or NULL. */
+static char *series_unit(const char *name)
+{
+    const char *open = strpbrk(name, "[("), *close = open ? strchr(open, *open == '[' ? ']' : ')') : NULL;
+    return close ? mem_text_n(open + 1, (size_t)(close - open - 1)) : NULL;
+}
+
+/* A unit belongs to the name before it, where blanks separate columns. */
+static void series_squeeze(char *line)
+{
+    char *to = line;
+    for (const char *at = line; *at; at++) {
+        const char *next = at + strspn(at, " \t");
+        if (to > line && (*next == '[' || *next == '(')) at = next;
+        *to++ = *at;
+    }
+    *to = '\0';
+}
+
 /* Names from a line, if it has as many cells as there are columns. */
 static void series_take_names(struct series *series, const char *line, char separator, bool remark)
 {
     if (series_count(line, separator) != series->n_column) return;
     char *copy = mem_text(line), *rest = copy;
     series->names = mem_new(series->n_column + 1, sizeof *series->names);
+    series->units = mem_new(series->n_column + 1, sizeof *series->units);
     for (unsigned i = 0; i < series->n_column; i++) {
         char *name = series_cell(&rest, separator);
         size_t length = strlen(name), cut = strcspn(name, " [(");
+        series->units[i] = series_unit(name);
         if (remark && cut > 0) name[cut] = '\0';
         if (length > 1 && *name == '"' && name[length - 1] == '"') {
             name[length - 1] = '\0';
@@ -141,6 +162,7 @@ static int series_line(struct series_reader *reader, char *line)
     }
     if (!reader->series->n_column) {
         bool header;
+        if (series_separator(line) == ' ') series_squeeze(line);
         TRY(series_start(reader, line, &header));
         if (header) return STATUS_OK;
     }
@@ -208,26 +230,45 @@ void series_done(struct series *series)
 {
     for (unsigned c = 0; c < series->n_column; c++) {
         if (series->names) mem_free(series->names[c]);
+        if (series->units) mem_free(series->units[c]);
         if (series->columns) mem_free(series->columns[c]);
     }
     mem_free(series->names);
+    mem_free(series->units);
     mem_free(series->columns);
     mem_free(series->lines);
     mem_free(series->path);
     *series = (struct series){0};
 }
 
-int series_column(const struct series *series, const char *name, const double **ret_column)
+/* The first column that has this name, by itself or before a unit; or -1. */
+static int series_named(const struct series *series, const char *name, bool before_unit)
+{
+    for (unsigned c = 0; series->names && c < series->n_column; c++) {
+        const char *here = series->names[c];
+        size_t length = before_unit && series->units[c] ? strcspn(here, " [(") : strlen(here);
+        if (length == strlen(name) && strncmp(here, name, length) == 0) return (int)c;
+    }
+    return -1;
+}
+
+/* The column of that number, from 1; or -1. */
+static int series_numbered(const struct series *series, const char *name)
 {
     char *end;
     unsigned long number = isdigit((unsigned char)*name) ? strtoul(name, &end, 10) : 0;
-    bool numbered = number > 0 && !*end && number <= series->n_column;
-    for (unsigned c = 0; c < series->n_column; c++)
-        if (series->names ? strcmp(series->names[c], name) == 0 || (numbered && c + 1 == number)
-                          : numbered && c + 1 == number) {
-            *ret_column = series->columns[c];
-            return STATUS_OK;
-        }
+    return number > 0 && !*end && number <= series->n_column ? (int)number - 1 : -1;
+}
+
+int series_find(const struct series *series, const char *name, unsigned *ret_column)
+{
+    int found = series_named(series, name, false);
+    if (found < 0) found = series_numbered(series, name);
+    if (found < 0) found = series_named(series, name, true);
+    if (found >= 0) {
+        *ret_column = (unsigned)found;
+        return STATUS_OK;
+    }
     struct text all = {0};
     text_add(&all, "%s: no column '%s'; there ", series->path, name);
     text_add(&all, series->n_column == 1 ? "is" : "are");
@@ -237,6 +278,14 @@ int series_column(const struct series *series, const char *name, const double **
     status_fail(STATUS_CASE, "%s", all.at);
     text_done(&all);
     return STATUS_CASE;
+}
+
+int series_column(const struct series *series, const char *name, const double **ret_column)
+{
+    unsigned column;
+    TRY(series_find(series, name, &column));
+    *ret_column = series->columns[column];
+    return STATUS_OK;
 }
 
 int series_ascending(const struct series *series, const char *name)

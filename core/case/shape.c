@@ -263,6 +263,79 @@ double shape_fraction(const struct shape *shape, const double lower[3], const do
     return fraction < 1.0 - SHAPE_PURE ? fraction : 1.0;
 }
 
+/* Reach */
+
+/* The box around a primitive with corners or edges. */
+static void shape_bounds(const struct shape *shape, int axis, double *ret_low, double *ret_high)
+{
+    *ret_low = shape->a[axis];
+    *ret_high = shape->b[axis];
+    if (shape->type == SHAPE_CYLINDER) {
+        *ret_low = fmin(shape->a[axis], shape->b[axis]) - shape->radius;
+        *ret_high = fmax(shape->a[axis], shape->b[axis]) + shape->radius;
+    } else if (shape->type == SHAPE_POLYGON) {
+        *ret_low = axis < 2 ? INFINITY : -INFINITY;
+        *ret_high = -*ret_low;
+        for (unsigned i = 0; axis < 2 && i < shape->n; i++) {
+            *ret_low = fmin(*ret_low, shape->vertex[i][axis]);
+            *ret_high = fmax(*ret_high, shape->vertex[i][axis]);
+        }
+    }
+}
+
+static int shape_reaches_bounds(const struct shape *shape, const double lower[3], const double upper[3], int dim)
+{
+    for (int d = 0; d < dim; d++) {
+        double low, high;
+        shape_bounds(shape, d, &low, &high);
+        if (low > upper[d] || high < lower[d]) return 0;
+    }
+    return 1;
+}
+
+/* Round shapes: the point of the box that is nearest to the centre decides. */
+static int shape_reaches_round(const struct shape *shape, const double lower[3], const double upper[3], int dim)
+{
+    double x[3] = {shape->a[0], shape->a[1], shape->a[2]};
+    for (int d = 0; d < dim; d++) x[d] = x[d] < lower[d] ? lower[d] : x[d] > upper[d] ? upper[d] : x[d];
+    return shape->type == SHAPE_ELLIPSOID ? shape_level_ellipsoid(shape, x) <= 0.0
+                                          : shape_distance(x, shape->a) <= shape->radius;
+}
+
+/* Is any corner of the box inside a half-space? */
+static int shape_reaches_plane(const struct shape *shape, const double lower[3], const double upper[3], int dim)
+{
+    double x[3] = {0.0};
+    for (int d = 0; d < dim; d++) x[d] = shape->b[d] > 0.0 ? upper[d] : lower[d];
+    return shape_level(shape, x) <= 0.0;
+}
+
+static int shape_reaches_parts(const struct shape *shape, const double lower[3], const double upper[3], int dim)
+{
+    unsigned reached = 0;
+    for (unsigned i = 0; i < shape->n; i++) reached += shape_reaches(shape->parts[i], lower, upper, dim) != 0;
+    return shape->type == SHAPE_UNION ? reached > 0 : reached == shape->n;
+}
+
+int shape_reaches(const struct shape *shape, const double lower[3], const double upper[3], int dim)
+{
+    if (!shape) return 1;
+    switch (shape->type) {
+    case SHAPE_EVERYWHERE: return 1;
+    case SHAPE_COMPLEMENT: return shape_fraction(shape->parts[0], lower, upper, dim, 0) < 1.0;
+    case SHAPE_UNION:
+    case SHAPE_INTERSECTION: return shape_reaches_parts(shape, lower, upper, dim);
+    case SHAPE_HALF_SPACE: return shape_reaches_plane(shape, lower, upper, dim);
+    case SHAPE_SPHERE:
+    case SHAPE_RING:
+    case SHAPE_ELLIPSOID: return shape_reaches_round(shape, lower, upper, dim);
+    case SHAPE_BOX:
+    case SHAPE_CYLINDER:
+    case SHAPE_POLYGON: break;
+    }
+    return shape_reaches_bounds(shape, lower, upper, dim);
+}
+
 void shape_free(struct shape *shape)
 {
     if (!shape) return;

@@ -47,6 +47,10 @@ int shape_contains(const struct shape *shape, const double x[3]);
  * In cartesian geometry mirrored cells get the same bits. NULL shape: 1. */
 double shape_fraction(const struct shape *shape, const double lower[3], const double upper[3], int dim, int beta);
 
+/* Does the shape reach into a box of `dim` axes? 0 only if it surely does not; it may be as small as it likes. NULL shape:
+ * 1. */
+int shape_reaches(const struct shape *shape, const double lower[3], const double upper[3], int dim);
+
 void shape_free(struct shape *shape); /* parts too; NULL is fine */
 
 #endif

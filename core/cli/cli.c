@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CLI_NAMES = 64 };
+enum { CLI_NAMES = 64, CLI_WORDS = 28 }; /* options of a command; columns for the words of a list */
 
 static int cli_unknown(const struct cli_command *command, const char *word)
 {
@@ -136,6 +136,12 @@ int cli_count(const struct cli_given *given, const char *name, long least, long 
     return 0;
 }
 
+void cli_line(FILE *stream, const char *words, const char *doc)
+{
+    if (strlen(words) <= CLI_WORDS) fprintf(stream, "  %-*s %s\n", CLI_WORDS, words, doc);
+    else fprintf(stream, "  %s\n  %-*s %s\n", words, CLI_WORDS, "", doc);
+}
+
 void cli_help(FILE *stream, const struct cli_command *command)
 {
     fprintf(stream, "bulla %s %s%s\n\n%s\n", command->name, command->words, command->options ? " [options]" : "",
@@ -143,10 +149,10 @@ void cli_help(FILE *stream, const struct cli_command *command)
     if (command->options) fputs("\n", stream);
     for (const struct cli_option *const *o = command->options; o && *o; o++) {
         if (!(*o)->doc) continue;
-        char left[64];
-        snprintf(left, sizeof left, "%s%s%s %s", (*o)->letter ? (*o)->letter : "", (*o)->letter ? ", " : "", (*o)->name,
-                 (*o)->value ? (*o)->value : "");
-        fprintf(stream, "  %-28s %s\n", left, (*o)->doc);
+        char *words = mem_print("%s%s%s %s", (*o)->letter ? (*o)->letter : "", (*o)->letter ? ", " : "", (*o)->name,
+                                (*o)->value ? (*o)->value : "");
+        cli_line(stream, words, (*o)->doc);
+        mem_free(words);
     }
 }
 

@@ -48,6 +48,9 @@ const char *cli_value(const struct cli_given *given, const char *name);
  * when the option was not given. */
 int cli_count(const struct cli_given *given, const char *name, long least, long *ret);
 
+/* One line of a list: words, and beside them, or below if they are long, what they mean. */
+void cli_line(FILE *stream, const char *words, const char *doc);
+
 /* Help of one command. */
 void cli_help(FILE *stream, const struct cli_command *command);
 

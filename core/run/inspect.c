@@ -3,6 +3,7 @@
 
 #include "base/comm.h"
 #include "base/mem.h"
+#include "base/status.h"
 #include "base/text.h"
 #include "case/guide.h"
 #include "case/schema.h"
@@ -62,6 +63,7 @@ int inspect_info(const struct cli_given *given)
     bool replay = cli_value(given, "--replay") != NULL;
     for (int i = 0; i < given->n_word && !code && comm_rank() == 0; i++)
         code = (replay ? dump_show_replay : info_print)(stdout, given->words[i]);
+    if (code == STATUS_RUN) code = STATUS_CASE; /* a file that is none of ours, or a broken one: nothing ran */
     return cli_failed(code);
 }
 

@@ -17,11 +17,11 @@
 #include <unistd.h>
 
 /* What a run writes; folders only with files that end in one of ours. */
-static const char *const outdir_files[] = {"case.yaml",  "provenance.json", "history.csv",
-                                           "probes.csv", "expect.json",     "log.txt"};
+static const char *const outdir_files[] = {"case.yaml",   "provenance.json", "history.csv", "probes.csv",
+                                           "columns.csv", "expect.json",     "log.txt"};
 static const char *const outdir_folders[] = {"fields", "checkpoints", "maps"};
 static const char *const outdir_endings[] = {".hdf", ".hdf.series", ".chk", ".tmp"};
-enum { FILES = 6, FOLDERS = 3, ENDINGS = 4 };
+enum { FILES = 7, FOLDERS = 3, ENDINGS = 4 };
 
 static bool outdir_is_ours(const char *name)
 {

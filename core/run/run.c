@@ -12,6 +12,7 @@
 #include "cli/human.h"
 #include "cli/scenes.h"
 #include "io/rebuild.h"
+#include "io/units.h"
 #include "judge/expect.h"
 #include "run/again.h"
 #include "run/check.h"
@@ -250,11 +251,22 @@ static int run_judge(struct run *run)
     return code > STATUS_EXPECT ? cli_failed(code) : code;
 }
 
+/* What the numbers of history.csv and probes.csv are. */
+static int run_units(const struct run *run, const char *directory)
+{
+    struct text text = {0};
+    int code = units_text(run->state, &text);
+    if (!code) code = outdir_write(directory, "columns.csv", text.at);
+    text_done(&text);
+    return code;
+}
+
 static int run_files(struct run *run, const struct cli_given *given)
 {
     const char *directory = run->scene->directory;
     TRY((run->in_place ? outdir_go_on : outdir_prepare)(directory));
     TRY(outdir_write(directory, "case.yaml", run->scene->resolved));
+    TRY(run_units(run, directory));
     char *log = mem_print("%s/log.txt", directory);
     int code = comm_agree(log_open(log, run->in_place));
     mem_free(log);

@@ -4,19 +4,23 @@
 #include "base/mem.h"
 #include "phys/elastic.h"
 
+/* What corners go by, for each way in which layers behind a boundary are filled. */
+#define PATCH_STATE_slip PATCH_MIRROR
+#define PATCH_STATE_no_slip PATCH_NO_SLIP
+#define PATCH_STATE_copy PATCH_COPY
+#define PATCH_STATE_far PATCH_GIVEN
+#define PATCH_STATE_state PATCH_GIVEN
+#define PATCH_STATE_wave PATCH_GIVEN
+#define PATCH_STATE_RULE(type, word, doc, keys, fill, traits) [SCENE_##type] = PATCH_STATE_##fill,
+
 void patch_state_rules(const struct scene *scene, bool given, enum patch_rule ret_rules[MESH_FACES])
 {
-    for (int face = 0; face < MESH_FACES; face++) switch (scene->boundary[face / 2][face % 2].type) {
-        case SCENE_AXIS:
-        case SCENE_SYMMETRY:
-        case SCENE_REFLECTING: ret_rules[face] = PATCH_MIRROR; break;
-        case SCENE_NO_SLIP: ret_rules[face] = PATCH_NO_SLIP; break;
-        case SCENE_PERIODIC: /* has neighbours, never a boundary */
-        case SCENE_OUTFLOW: ret_rules[face] = PATCH_COPY; break;
-        case SCENE_NONREFLECTING:
-        case SCENE_INCOMING_WAVE:
-        case SCENE_INFLOW: ret_rules[face] = given && face < 2 * scene->dim ? PATCH_GIVEN : PATCH_COPY; break;
-        }
+    static const enum patch_rule rules[] = {SCENE_BOUNDARY_TABLE(PATCH_STATE_RULE)};
+    for (int face = 0; face < MESH_FACES; face++) {
+        enum patch_rule rule = rules[scene->boundary[face / 2][face % 2].type];
+        bool known = given && face < 2 * scene->dim;
+        ret_rules[face] = rule == PATCH_GIVEN && !known ? PATCH_COPY : rule;
+    }
 }
 
 /* One piece of a tile as a frame with nothing beside it but what bound_fill writes; its outer layers into the block. */

@@ -3,6 +3,7 @@
 #include "view/plot_unit.h"
 
 #include "base/mem.h"
+#include "io/units.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -35,39 +36,13 @@ static const char *unit_of_field(const char *field)
     return "";
 }
 
-/* Whole volumes in three dimensions and where the metric closes them; else per length of what is not there. */
-static const char *unit_of_measure(const struct scene *scene, const struct scene_column *column)
-{
-    static const char *const volumes[] = {"m", "m2", "m3"}, *const masses[] = {"kg/m2", "kg/m", "kg"};
-    int extent = scene->geometry == SCENE_CARTESIAN ? scene->dim - 1 : 2;
-    switch (column->measure) {
-    case SCENE_VOLUME: return volumes[extent];
-    case SCENE_MASS: return masses[extent];
-    case SCENE_CENTROID:
-    case SCENE_PENETRATION:
-    case SCENE_EQUIVALENT_RADIUS: return "m";
-    case SCENE_JET_SPEED: return "m/s";
-    case SCENE_MIN:
-    case SCENE_MAX:
-    case SCENE_MEAN:
-    case SCENE_ISOSURFACE_MEAN:
-    case SCENE_ISOSURFACE_MIN:
-    case SCENE_ISOSURFACE_MAX: return unit_of_field(column->field);
-    case SCENE_INTEGRAL:
-    case SCENE_PLANE_INTEGRAL:
-    case SCENE_TOTAL:
-    case SCENE_OUTSIDE:
-    case SCENE_VALUE: return "";
-    }
-    return "";
-}
-
 const char *plot_unit_of(const struct scene *scene, const char *column)
 {
     const char *dot = strchr(column, '.');
     if (dot) return unit_of_field(dot + 1);
     if (strcmp(column, "dt") == 0) return "s";
     for (unsigned c = 0; scene && c < scene->n_column; c++)
-        if (strcmp(scene->columns[c].name, column) == 0) return unit_of_measure(scene, &scene->columns[c]);
+        if (strcmp(scene->columns[c].name, column) == 0)
+            return units_of(scene, &scene->columns[c], unit_of_field(scene->columns[c].field));
     return "";
 }

@@ -352,9 +352,9 @@ snapshot=whole/fields/good_000004.hdf
 size=$(wc -c <"$snapshot")
 for length in 0 100 2000 $((size / 2)) $((size - 1)); do
     head -c "$length" "$snapshot" >cut.hdf
-    once 3 'cut.hdf: ' info cut.hdf
+    once 2 'cut.hdf: ' info cut.hdf
 done
-for file in pipe.yaml /dev/zero . nowhere zeros.yaml good.yaml cut.chk flipped.chk; do once 3 "$file" info "$file"; done
+for file in pipe.yaml /dev/zero . nowhere zeros.yaml good.yaml cut.chk flipped.chk; do once 2 "$file" info "$file"; done
 
 echo "milliseconds of processor time, ranks, exit code, what: the slowest"
 sort -rn times.txt | head -n 12

@@ -36,6 +36,6 @@ say 0 '^ *mc ' modules
 say 0 'p-inf +Pa' modules stiffened-gas
 say 2 'stiffened-gas' modules stifened-gas
 say 0 'density +kg/m3' info run/fields/tube_000000.hdf
-say 3 'tube.yaml' info tube.yaml
-say 3 'nowhere' info nowhere.hdf
+say 2 'tube.yaml' info tube.yaml
+say 2 'nowhere' info nowhere.hdf
 say 0 '"\$schema"' schema

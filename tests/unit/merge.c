@@ -88,6 +88,22 @@ static void maps_merge_lists_and_types_replace_null_deletes(void **state)
     check(NULL, NULL, "{a: {x: 1, y: {p: 1, q: 3}}, l: [4], t: {type: new, m: 2}}");
 }
 
+/* Keys of the old pulse go with it; those of every incoming wave, and of maps that are none, stay. */
+static void pulses_replace_their_keys(void **state)
+{
+    (void)state;
+    put("base.yaml", "w: {type: incoming-wave, pulse: sine, amplitude: 1, frequency: 2, delay: 3}\n"
+                     "p: {pulse: 1, frequency: 2}\n");
+    put("case.yaml", "extends: base.yaml\nw: {pulse: gaussian, width: 4}\np: {pulse: 5}\n");
+    check(NULL, NULL, "{w: {type: incoming-wave, delay: 3, pulse: gaussian, width: 4}, p: {frequency: 2, pulse: 5}}");
+    put("case.yaml", "extends: base.yaml\nw: {pulse: sine, frequency: 4}\n");
+    check(NULL, NULL,
+          "{w: {type: incoming-wave, amplitude: 1, delay: 3, pulse: sine, frequency: 4}, p: {pulse: 1, frequency: 2}}");
+    put("case.yaml", "extends: base.yaml\nvariants: {v: {w: {pulse: series, file: a.csv}}}\n");
+    check("v", "variants=null",
+          "{w: {type: incoming-wave, delay: 3, pulse: series, file: a.csv}, p: {pulse: 1, frequency: 2}}");
+}
+
 static void variants_lie_over_the_file_and_settings_over_variants(void **state)
 {
     (void)state;
@@ -176,6 +192,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(maps_merge_lists_and_types_replace_null_deletes),
+        cmocka_unit_test(pulses_replace_their_keys),
         cmocka_unit_test(variants_lie_over_the_file_and_settings_over_variants),
         cmocka_unit_test(settings_find_their_place),
         cmocka_unit_test(files_that_extend_in_circles_or_too_deep),

@@ -42,6 +42,26 @@ static double value_of(const char *text)
     return value;
 }
 
+/* Exact ends, monotone between them, antisymmetric about the surface, with the slope of a tanh of that width there. */
+static void steps_smoothly_and_ends(void **state)
+{
+    (void)state;
+    assert_true(value_of("bulla.smooth(0, 0.2)") == 0.5);
+    assert_true(value_of("bulla.smooth(0.375, 0.2)") == 0.0 && value_of("bulla.smooth(-0.375, 0.2)") == 1.0);
+    assert_true(value_of("bulla.smooth(1e300, 1e-300)") == 0.0 && value_of("bulla.smooth(-1e300, 1e-300)") == 1.0);
+    double before = 1.0, slope = (value_of("bulla.smooth(1e-4, 0.2)") - 0.5) / 1e-4;
+    for (int i = -400; i <= 400; i++) {
+        char text[80];
+        snprintf(text, sizeof text, "bulla.smooth(%.17g, 0.2)", 1e-3 * i);
+        double here = value_of(text);
+        snprintf(text, sizeof text, "bulla.smooth(%.17g, 0.2)", -1e-3 * i);
+        if (here > before || fabs(here + value_of(text) - 1.0) > 1e-15) fail_msg("at %d: %.17g", i, here);
+        if (fabs(here - 0.5 * (1.0 - tanh(1e-3 * i / 0.2))) > 0.042) fail_msg("far from a tanh at %d", i);
+        before = here;
+    }
+    assert_true(fabs(slope + 1.0 / (2.0 * 0.2)) < 1e-6);
+}
+
 static void evaluates(void **state)
 {
     (void)state;
@@ -50,7 +70,6 @@ static void evaluates(void **state)
     assert_true(value_of("7 // 2") == 3.0);
     assert_true(value_of("bulla.sphere(3,4,0, 0,0,0, 1)") == 4.0);
     assert_true(value_of("bulla.smooth(-1, 0)") == 1.0 && value_of("bulla.smooth(1, 0)") == 0.0);
-    assert_true(value_of("bulla.smooth(0.3, 0.2)") == 0.5 * (1.0 - tanh(0.3 / 0.2)));
     assert_true(fabs(value_of("bulla.lithotripter(0, 3e7)") - 3e7) < 1.0 &&
                 value_of("bulla.lithotripter(-1, 3e7)") == 0.0);
     assert_true(value_of("math.tanh(0.5)") == tanh(0.5) && value_of("math.erf(0.5)") == erf(0.5));
@@ -340,6 +359,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ends_what_takes_too_long_in_all), /* first: after each call that was ended, less is allowed */
         cmocka_unit_test(evaluates),
+        cmocka_unit_test(steps_smoothly_and_ends),
         cmocka_unit_test(says_what_is_wrong),
         cmocka_unit_test(refuses_the_outside),
         cmocka_unit_test(ends_bombs),

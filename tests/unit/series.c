@@ -79,6 +79,25 @@ static void reads_forms(void **state)
     series_done(&(struct series){0});
 }
 
+/* What stands in brackets behind a name is a unit, and the name is found without it. */
+static void knows_units(void **state)
+{
+    (void)state;
+    static const char *const forms[] = {"t[us],p [MPa]\n1,2\n", "t [us]\tp (MPa)\n1 2\n",
+                                        "# columns: t [us], p[MPa]\n1,2\n", "\"t (us)\";\"p [MPa]\"\n1;2\n"};
+    for (unsigned i = 0; i < sizeof forms / sizeof *forms; i++) {
+        struct series series = good(forms[i]);
+        assert_int_equal(series.n_column, 2);
+        assert_string_equal(series.units[0], "us");
+        assert_string_equal(series.units[1], "MPa");
+        assert_true(column(&series, "t")[0] == 1.0 && column(&series, "p")[0] == 2.0);
+        series_done(&series);
+    }
+    struct series series = good("t_us,p [MPa],p\n1,2,3\n");
+    assert_true(!series.units[0] && column(&series, "p")[0] == 3.0 && column(&series, "p [MPa]")[0] == 2.0);
+    series_done(&series);
+}
+
 static void grows(void **state)
 {
     (void)state;
@@ -152,10 +171,8 @@ static void names_columns(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_forms),
-        cmocka_unit_test(grows),
-        cmocka_unit_test(refuses),
-        cmocka_unit_test(names_columns),
+        cmocka_unit_test(reads_forms), cmocka_unit_test(knows_units),   cmocka_unit_test(grows),
+        cmocka_unit_test(refuses),     cmocka_unit_test(names_columns),
     };
     return cmocka_run_group_tests(tests, make_file, drop_file);
 }
