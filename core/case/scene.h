@@ -57,6 +57,7 @@ struct scene_material {
     char name[SCENE_NAME];
     struct instance eos;
     struct instance constitutive; /* of a solid; module NULL: a fluid */
+    double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
 };
 
 /* One layer of paint. Layers are applied in order; a later one covers an earlier one by its

@@ -39,6 +39,13 @@ static const struct key scene_material_rows[] = {
      .type = KEYS_SECTION,
      .section = &scene_material_constitutive,
      .doc = "The elastic law, which makes the material a solid; its pressure is that of the equation of state."},
+    {.name = "drag",
+     .type = KEYS_NUMBER,
+     .unit = "kg/m3/s",
+     .max = KEYS_MOST,
+     .fallback = "0",
+     .doc = "Resistance k of the material against its motion, as in a porous medium (viscosity over permeability): a "
+            "force -alpha k u, whose work is heat."},
     {0},
 };
 
@@ -120,5 +127,6 @@ void scene_material(struct draft *draft)
                        SCENE_NAME / 2);
         scene_material_open(draft, keys_at(entry->map, "eos"), &material->eos);
         scene_material_open(draft, keys_at(entry->map, "constitutive"), &material->constitutive);
+        material->drag = entry->map ? keys_at(entry->map, "drag")->number : 0.0;
     }
 }

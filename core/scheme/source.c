@@ -13,13 +13,14 @@
 #include "phys/mix.h"
 #include "phys/row.h"
 #include "scheme/exchange.h"
+#include "scheme/swell.h"
 #include "scheme/terms.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { SOURCE_BATCH = 256, SOURCE_NAMES = 2 * SCENE_SOURCES };
+enum { SOURCE_BATCH = SWELL_BATCH, SOURCE_NAMES = 2 * SCENE_SOURCES };
 
 struct source {
     const struct model *model;
@@ -32,7 +33,7 @@ struct source {
     unsigned n_name;
     unsigned char slot[SOURCE_NAMES]; /* which value each name of the table means */
     double x[3][METRIC_CELLS];        /* middles of the cells of the tile */
-    double exchange[SCENE_MATERIALS][SOURCE_BATCH], compliance[SCENE_MATERIALS][SOURCE_BATCH];
+    struct swell swell;
     int status;
     char *message, place[192];
 };
@@ -285,34 +286,6 @@ static BULLA_KERNEL void source_kinetic(size_t n, const double *restrict mass, c
     }
 }
 
-/* What one material would have for a volume rate of its own, and its compliance. */
-static BULLA_KERNEL void source_swell(size_t n, const double *restrict alpha, const double *restrict rho,
-                                      const double *restrict rho_c2, const double *restrict de_dp,
-                                      const double *restrict heat, const double *restrict mass, double *restrict own,
-                                      double *restrict compliance)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double a = alpha[i], part = a / rho_c2[i], volume = part * heat[i] / de_dp[i] + mass[i] / rho[i];
-        own[i] = a > MIX_ABSENT ? volume : 0.0;
-        compliance[i] = a > MIX_ABSENT ? part : 0.0;
-    }
-}
-
-/* Volume moves until the pressures are one again; what the exchange sees of transport stays as it is. */
-static BULLA_KERNEL void source_share(size_t n, const double *restrict own, const double *restrict compliance,
-                                      const double *restrict sum, const double *restrict all, const double *restrict p,
-                                      double *restrict alpha, double *restrict carried)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double s = all[i], part = compliance[i] / s, rate = own[i] - part * sum[i], a = alpha[i], c = carried[i];
-        rate = s > 0.0 ? rate : 0.0;
-        alpha[i] = a + rate;
-        carried[i] = c + p[i] * rate;
-    }
-}
-
 /* One batch of one tile: rows of primitives and rates begin at its first cell. */
 struct source_batch {
     const struct model *path;
@@ -376,7 +349,7 @@ static void source_material(struct source *source, struct source_batch *batch, u
     const struct model_eos *eos = &path->eos[l];
     unsigned heat = SCENE_SOURCE_HEATING_OF + path->first + l, mass = SCENE_SOURCE_MASS + path->first + l;
     const double *rho = batch->w + (path->i_m + l) * batch->stride, *p = batch->w + path->i_E * batch->stride;
-    double rho_e[SOURCE_BATCH], rho_c2[SOURCE_BATCH], de_dp[SOURCE_BATCH], de_drho[SOURCE_BATCH];
+    double rho_e[SOURCE_BATCH], rho_c2[SOURCE_BATCH];
     if (!source->heats && !source->fills) return;
     memcpy(batch->heat, source_given(source, SCENE_SOURCE_HEATING), batch->n * sizeof *batch->heat);
     if (source->row[heat]) row_add(batch->n, source->row[heat], batch->heat);
@@ -387,29 +360,19 @@ static void source_material(struct source *source, struct source_batch *batch, u
     source_enthalpy(batch->n, brings, rho, p, rho_e, source_rate(batch, path->i_E));
     row_add(batch->n, brings, source_rate(batch, path->i_m + l));
     if (!path->kapila) return;
-    eos->law->derivatives(eos->self, batch->n, rho, p, de_dp, de_drho);
-    source_swell(batch->n, source_alpha(batch, l), rho, rho_c2, de_dp, batch->heat, brings, source->exchange[l],
-                 source->compliance[l]);
+    swell_material(&source->swell, l, source_alpha(batch, l), rho, p, rho_c2, batch->heat, brings);
 }
 
-/* The closure's part of the fractions, and the rates that are given. */
+/* The rates that are given. */
 static void source_fractions(const struct source *source, const struct source_batch *batch)
 {
     const struct model *path = batch->path;
     const double *p = batch->w + path->i_E * batch->stride;
-    double sum[SOURCE_BATCH] = {0}, all[SOURCE_BATCH] = {0};
-    bool shares = path->kapila && (source->heats || source->fills);
-    for (unsigned l = 0; l < path->n_alpha && shares; l++) {
-        row_add(batch->n, source->exchange[l], sum);
-        row_add(batch->n, source->compliance[l], all);
-    }
     for (unsigned l = 0; l < path->n_alpha; l++) {
         const double *given = source->row[SCENE_SOURCE_FRACTION + path->first + l];
-        double *alpha = source_rate(batch, path->i_alpha + l);
-        double *carried = path->kapila ? source_rate(batch, batch->exchange + l) : NULL;
-        if (shares) source_share(batch->n, source->exchange[l], source->compliance[l], sum, all, p, alpha, carried);
-        if (given) row_add(batch->n, given, alpha);
-        if (given && path->kapila) row_add_product(batch->n, given, p, carried);
+        if (!given) continue;
+        row_add(batch->n, given, source_rate(batch, path->i_alpha + l));
+        if (path->kapila) row_add_product(batch->n, given, p, source_rate(batch, batch->exchange + l));
     }
 }
 
@@ -452,7 +415,9 @@ static void source_cells(struct term_tile *tile)
         if (varies) source_evaluate(source, tile->tile, tile->t, from, batch.n);
         source_begin(source, &batch);
         source_forces(source, &batch);
+        swell_begin(&source->swell, path, batch.n);
         for (unsigned l = 0; l < path->n_material; l++) source_material(source, &batch, l);
+        if (path->kapila && (source->heats || source->fills)) swell_share(&source->swell, tile, from);
         if (path->n_alpha) source_fractions(source, &batch);
         if (path->n_stretch && (source->fills || source->strains)) source_stretch(source, &batch);
     }

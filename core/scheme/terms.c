@@ -5,6 +5,7 @@
 #include "base/status.h"
 #include "scheme/closure.h"
 #include "scheme/convection.h"
+#include "scheme/drag.h"
 #include "scheme/exchange.h"
 #include "scheme/face_stress.h"
 #include "scheme/fraction.h"
@@ -21,6 +22,7 @@ const struct term *const terms_all[] = {
     &hoop_term,        /* what stands against p / r and the hoop stress in curved geometry */
     &face_stress_term, /* one traction for the materials of a cell, in one dimension */
     &source_term,      /* forces, heat, mass, Lua */
+    &drag_term,        /* resistance of porous media */
     &fraction_term,    /* volume fractions move with the flow */
     &exchange_term,    /* volume that brings materials back to one pressure */
     &closure_term,     /* K div u, and what was exchanged */

@@ -69,12 +69,12 @@ static void test_blend(void **state)
                 frame_gather(&source, t, &frame, FRAME_CELLS, w);
                 for (unsigned q = 0; q < model->n_field; q++)
                     for (size_t o = 0; o < frame.outer; o++)
-                        for (int row = 0; row < MESH_GHOST; row++)
+                        for (int row = 0; row < (int)frame.ghosts; row++)
                             for (size_t i = 0; i < frame.inner; i++) {
-                                int to = face % 2 ? (int)frame.n + row : row - MESH_GHOST;
+                                int to = face % 2 ? (int)frame.n + row : row - (int)frame.ghosts;
                                 double got = w[q * FRAME_CELLS + frame_at(&frame, o, to) + i];
                                 double value = wanted(&link->faces[neighbour->index], link, model, q,
-                                                      (o * MESH_GHOST + (size_t)row) * frame.tile_inner + i);
+                                                      (o * frame.ghosts + (size_t)row) * frame.tile_inner + i);
                                 assert_true(fabs(got - value) <= 1e-12 * fabs(value));
                                 checked++;
                             }
