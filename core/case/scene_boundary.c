@@ -186,6 +186,11 @@ static void scene_boundary_read_state(struct draft *draft, struct scene_boundary
         keys_error(&draft->keys, &here, "an inflow needs material (or fractions), density, pressure and velocity");
 }
 
+/* What scene_boundary_read_state wants. */
+static const char scene_boundary_state_rules[] =
+    "{'required': ['density', 'pressure', 'velocity'], 'properties': {'temperature': false}, "
+    "'anyOf': [{'required': ['material']}, {'required': ['fractions']}]}";
+
 struct scene_boundary_row {
     struct keys_section section;
     void (*read)(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map); /* or NULL */
@@ -195,11 +200,8 @@ struct scene_boundary_row {
 /* What may be written beside the type, and who reads it. */
 #define SCENE_BOUNDARY_NOTHING .read = NULL
 #define SCENE_BOUNDARY_FAR .section.keys = scene_boundary_far, .read = scene_boundary_read_far
-#define SCENE_BOUNDARY_STATE                                                                                    \
-    .section.keys = scene_state_rows, .read = scene_boundary_read_state,                                        \
-    .section.rules = "{'required': ['density', 'pressure', 'velocity'], 'properties': {'temperature': false}, " \
-                     "'anyOf': [{'required': "                                                                  \
-                     "['material']}, {'required': ['fractions']}]}"
+#define SCENE_BOUNDARY_STATE \
+    .section.keys = scene_state_rows, .section.rules = scene_boundary_state_rules, .read = scene_boundary_read_state
 #define SCENE_BOUNDARY_WAVE                                                                                        \
     .section.keys = scene_boundary_wave, .section.selector = "pulse", .section.cases = scene_boundary_pulse_cases, \
     .read = scene_boundary_read_wave

@@ -1,7 +1,7 @@
 /* derive.c - named fields from primitives, see derive.h.
  *
- * One table row per quantity; a row is either a point-wise function of a tile's primitives, here or, for
- * solids, in derive_stress.c, or needs the gradient of something (derive_slope.c). */
+ * One table row per quantity: a point-wise function of a tile's primitives, here or, for solids, in derive_stress.c, or
+ * one of gradients (derive_slope.c), and what it needs that the tile does not hold. */
 #include "derive/derive.h"
 
 #include "base/comm.h"
@@ -22,6 +22,15 @@ struct derive_quantity {
     enum { DERIVE_ONE, DERIVE_VECTOR, DERIVE_AXIS, DERIVE_MATERIAL, DERIVE_SOLID, DERIVE_TENSOR } form;
     void (*compute)(const struct derive_view *tile, double *out);
     int index; /* DERIVE_SOLID: tells rows with the same function apart */
+    unsigned needs;
+};
+
+/* What a quantity needs beyond the primitives of a tile; derive_prepare brings it. */
+enum {
+    DERIVE_ALONE = 0,
+    DERIVE_LAYERS = 1,   /* the layers of neighbours */
+    DERIVE_STEEPEST = 2, /* the largest density gradient of all, in field->scale */
+    DERIVE_PRESENCE = 4, /* the density from which on its material is felt (presence.h), in field->scale */
 };
 
 static void derive_density(const struct derive_view *tile, double *out)
@@ -176,41 +185,41 @@ static void derive_cost(const struct derive_view *tile, double *out)
 }
 
 static const struct derive_quantity derive_table[] = {
-    {"density", "kg/m3", DERIVE_ONE, derive_density, 0},
-    {"pressure", "Pa", DERIVE_ONE, derive_pressure, 0},
-    {"velocity", "m/s", DERIVE_VECTOR, derive_velocity, 0},
-    {"velocity_", "m/s", DERIVE_AXIS, derive_velocity_axis, 0},
-    {"temperature", "K", DERIVE_ONE, derive_temperature, 0},
-    {"sound_speed", "m/s", DERIVE_ONE, derive_sound_speed, 0},
-    {"mach", "1", DERIVE_ONE, derive_mach, 0},
-    {"internal_energy", "J/kg", DERIVE_ONE, derive_internal_energy, 0},
-    {"total_energy", "J/m3", DERIVE_ONE, derive_total_energy, 0},
-    {"vorticity", "1/s", DERIVE_VECTOR, derive_slope_vorticity, 0},
-    {"schlieren", "1", DERIVE_ONE, derive_slope_schlieren, 0},
-    {"level", "1", DERIVE_ONE, derive_level, 0},
-    {"rank", "1", DERIVE_ONE, derive_rank, 0},
-    {"cost", "1", DERIVE_ONE, derive_cost, 0},
-    {"alpha_", "1", DERIVE_MATERIAL, derive_fraction, 0},
-    {"density_", "kg/m3", DERIVE_MATERIAL, derive_material_density, 0},
-    {"temperature_", "K", DERIVE_MATERIAL, derive_material_temperature, 0},
-    {"partial_density_", "kg/m3", DERIVE_MATERIAL, derive_partial_density, 0},
-    {"stress_", "Pa", DERIVE_TENSOR, derive_stress_cauchy, 0},
-    {"stretch_max", "1", DERIVE_SOLID, derive_stress_stretch_max, 0},
-    {"stretch_", "1", DERIVE_TENSOR, derive_stress_stretch, 0},
-    {"sigma_max", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MAX},
-    {"sigma_min", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MIN},
-    {"sigma_shear", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_SHEAR},
-    {"sigma_max_dev", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MAX_DEV},
-    {"sigma_min_dev", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MIN_DEV},
-    {"principal_max", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MAX},
-    {"principal_min", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MIN},
-    {"principal_shear", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_SHEAR},
-    {"principal_max_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MAX_DEV},
-    {"principal_min_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MIN_DEV},
-    {"von_mises", "Pa", DERIVE_SOLID, derive_stress_von_mises, 0},
-    {"strain_energy", "J/m3", DERIVE_SOLID, derive_stress_energy, 0},
-    {"invariant_1", "1", DERIVE_SOLID, derive_stress_invariant, 0},
-    {"invariant_2", "1", DERIVE_SOLID, derive_stress_invariant, 1},
+    {"density", "kg/m3", DERIVE_ONE, derive_density, 0, DERIVE_ALONE},
+    {"pressure", "Pa", DERIVE_ONE, derive_pressure, 0, DERIVE_ALONE},
+    {"velocity", "m/s", DERIVE_VECTOR, derive_velocity, 0, DERIVE_ALONE},
+    {"velocity_", "m/s", DERIVE_AXIS, derive_velocity_axis, 0, DERIVE_ALONE},
+    {"temperature", "K", DERIVE_ONE, derive_temperature, 0, DERIVE_ALONE},
+    {"sound_speed", "m/s", DERIVE_ONE, derive_sound_speed, 0, DERIVE_ALONE},
+    {"mach", "1", DERIVE_ONE, derive_mach, 0, DERIVE_ALONE},
+    {"internal_energy", "J/kg", DERIVE_ONE, derive_internal_energy, 0, DERIVE_ALONE},
+    {"total_energy", "J/m3", DERIVE_ONE, derive_total_energy, 0, DERIVE_ALONE},
+    {"vorticity", "1/s", DERIVE_VECTOR, derive_slope_vorticity, 0, DERIVE_LAYERS},
+    {"schlieren", "1", DERIVE_ONE, derive_slope_schlieren, 0, DERIVE_LAYERS | DERIVE_STEEPEST},
+    {"level", "1", DERIVE_ONE, derive_level, 0, DERIVE_ALONE},
+    {"rank", "1", DERIVE_ONE, derive_rank, 0, DERIVE_ALONE},
+    {"cost", "1", DERIVE_ONE, derive_cost, 0, DERIVE_ALONE},
+    {"alpha_", "1", DERIVE_MATERIAL, derive_fraction, 0, DERIVE_ALONE},
+    {"density_", "kg/m3", DERIVE_MATERIAL, derive_material_density, 0, DERIVE_ALONE},
+    {"temperature_", "K", DERIVE_MATERIAL, derive_material_temperature, 0, DERIVE_PRESENCE},
+    {"partial_density_", "kg/m3", DERIVE_MATERIAL, derive_partial_density, 0, DERIVE_ALONE},
+    {"stress_", "Pa", DERIVE_TENSOR, derive_stress_cauchy, 0, DERIVE_ALONE},
+    {"stretch_max", "1", DERIVE_SOLID, derive_stress_stretch_max, 0, DERIVE_ALONE},
+    {"stretch_", "1", DERIVE_TENSOR, derive_stress_stretch, 0, DERIVE_ALONE},
+    {"sigma_max", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MAX, DERIVE_ALONE},
+    {"sigma_min", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MIN, DERIVE_ALONE},
+    {"sigma_shear", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_SHEAR, DERIVE_ALONE},
+    {"sigma_max_dev", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MAX_DEV, DERIVE_ALONE},
+    {"sigma_min_dev", "Pa", DERIVE_SOLID, derive_stress_sigma, DERIVE_STRESS_MIN_DEV, DERIVE_ALONE},
+    {"principal_max", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MAX, DERIVE_ALONE},
+    {"principal_min", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MIN, DERIVE_ALONE},
+    {"principal_shear", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_SHEAR, DERIVE_ALONE},
+    {"principal_max_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MAX_DEV, DERIVE_ALONE},
+    {"principal_min_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MIN_DEV, DERIVE_ALONE},
+    {"von_mises", "Pa", DERIVE_SOLID, derive_stress_von_mises, 0, DERIVE_ALONE},
+    {"strain_energy", "J/m3", DERIVE_SOLID, derive_stress_energy, 0, DERIVE_ALONE},
+    {"invariant_1", "1", DERIVE_SOLID, derive_stress_invariant, 0, DERIVE_ALONE},
+    {"invariant_2", "1", DERIVE_SOLID, derive_stress_invariant, 1, DERIVE_ALONE},
 };
 
 enum { DERIVE_ROWS = sizeof derive_table / sizeof *derive_table };
@@ -276,21 +285,49 @@ static struct derive_view derive_view(const struct model *model, const struct me
                                 .n = mesh->n_cell};
 }
 
-void derive_prepare(const struct model *model, const struct mesh *mesh, double t, struct derive *field)
+struct derive_moment derive_moment(const struct model *model, const struct mesh *mesh, double t)
 {
-    void (*compute)(const struct derive_view *, double *) = derive_table[field->what].compute;
-    if (compute == derive_material_temperature) field->scale = presence_density(model, mesh, (unsigned)field->index);
-    if (compute == derive_slope_schlieren || compute == derive_slope_vorticity) derive_slope_exchange(model, mesh, t);
-    if (compute != derive_slope_schlieren) return;
+    return (struct derive_moment){.model = model, .mesh = mesh, .t = t};
+}
+
+static void derive_bring_layers(struct derive_moment *moment)
+{
+    if (moment->exchanges) return;
+    derive_slope_exchange(moment->model, moment->mesh, moment->t);
+    moment->exchanges++;
+}
+
+/* Wants the layers. */
+static double derive_steepest(struct derive_moment *moment)
+{
+    const struct mesh *mesh = moment->mesh;
+    if (moment->has_steepest) return moment->steepest;
     double *gradient = mem_new(mesh->n_cell, sizeof *gradient);
-    field->scale = 0.0;
     for (int l = 0; l < mesh->n_level; l++)
         for (unsigned tile = 0; tile < mesh->levels[l].n_local; tile++) {
-            struct derive_view view = derive_view(model, mesh, l, tile, t, field);
-            derive_slope_steepest(&view, gradient, &field->scale);
+            struct derive_view view = derive_view(moment->model, mesh, l, tile, moment->t, NULL);
+            derive_slope_steepest(&view, gradient, &moment->steepest);
         }
     mem_free(gradient);
-    comm_max(&field->scale, 1);
+    comm_max(&moment->steepest, 1);
+    moment->has_steepest = true;
+    return moment->steepest;
+}
+
+static double derive_presence(struct derive_moment *moment, unsigned material)
+{
+    if (!moment->has_presence[material])
+        moment->presence[material] = presence_density(moment->model, moment->mesh, material);
+    moment->has_presence[material] = true;
+    return moment->presence[material];
+}
+
+void derive_prepare(struct derive_moment *moment, struct derive *field)
+{
+    unsigned needs = derive_table[field->what].needs;
+    if (needs & DERIVE_LAYERS) derive_bring_layers(moment);
+    if (needs & DERIVE_STEEPEST) field->scale = derive_steepest(moment);
+    if (needs & DERIVE_PRESENCE) field->scale = derive_presence(moment, (unsigned)field->index);
 }
 
 void derive_tile(const struct model *model, const struct mesh *mesh, int level, unsigned local, double t,

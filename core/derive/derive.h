@@ -25,8 +25,22 @@ int derive_material(const struct derive *field);
 /* NULL-terminated list of all names this scene offers; valid as long as the model. */
 const char *const *derive_names(const struct model *model);
 
-/* Once per output time, before tiles are derived: global values of the field. Collective. */
-void derive_prepare(const struct model *model, const struct mesh *mesh, double t, struct derive *field);
+/* A moment at which fields are looked at: what has been brought for one of them is there for all. It is over as soon as
+ * any primitive changes; then a new one is begun. */
+struct derive_moment {
+    const struct model *model;
+    const struct mesh *mesh;
+    double t;
+    unsigned exchanges; /* times that the layers of neighbours were brought: 0 or 1 */
+    bool has_steepest, has_presence[SCENE_MATERIALS];
+    double steepest, presence[SCENE_MATERIALS]; /* global values, once somebody has asked */
+};
+
+/* Begins one; nothing to release. */
+struct derive_moment derive_moment(const struct model *model, const struct mesh *mesh, double t);
+
+/* Before tiles are derived: brings what the field needs and the moment does not have yet. Collective. */
+void derive_prepare(struct derive_moment *moment, struct derive *field);
 
 /* Values in the cells of a local tile of any level: out[component][cell], cells x fastest; under finer tiles those
  * of the averages. Gradients are central differences; beside a coarser level they see what the solver sees there

@@ -100,7 +100,7 @@ static int history_compute(const struct scene *scene, double t, double *columns)
     return comm_agree(code);
 }
 
-int history_write(struct history *history, const struct state *state)
+int history_write(struct history *history, const struct state *state, struct derive_moment *moment)
 {
     if (history->last == state->step) return STATUS_OK;
     unsigned n = state->scene->n_column;
@@ -109,7 +109,7 @@ int history_write(struct history *history, const struct state *state)
     row[0] = (double)state->step;
     row[1] = state->t;
     row[2] = state->dt;
-    measure_take(history->measures, state, columns);
+    measure_take(history->measures, state, moment, columns);
     TRY(history_compute(state->scene, state->t, columns));
     guard[0] = (double)counts.fallback;
     guard[1] = (double)counts.relaxed;

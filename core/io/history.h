@@ -6,6 +6,7 @@
 #ifndef HISTORY_H
 #define HISTORY_H
 
+#include "derive/derive.h"
 #include "io/notes.h"
 #include "solve/state.h"
 
@@ -23,6 +24,6 @@ int history_recall(struct history *history, const struct notes *notes, const cha
 
 /* Appends the row of the present state, unless this step was the last written. A `value` that
  * cannot be computed (0/0, a column that is NaN) is NaN; one that does not end is STATUS_RUN. */
-int history_write(struct history *history, const struct state *state);
+int history_write(struct history *history, const struct state *state, struct derive_moment *moment);
 
 #endif

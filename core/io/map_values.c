@@ -83,13 +83,13 @@ static void map_values_surface(struct map_values *values, const struct state *st
     mem_free(sums);
 }
 
-void map_values_take(struct map_values *values, const struct state *state)
+void map_values_take(struct map_values *values, const struct state *state, struct derive_moment *moment)
 {
     double *to = values->values;
     region_follow(values->where, state->mesh);
     for (unsigned i = 0; i < values->n_field; i++) {
         struct derive *field = &values->fields[i];
-        derive_prepare(state->model, state->mesh, state->t, field);
+        derive_prepare(moment, field);
         (values->map->at ? map_values_line : map_values_surface)(values, state, field, to);
         to += values->map->at ? field->components : 1;
     }

@@ -22,6 +22,6 @@ int map_values_init(struct map_values *values, const struct state *state, const 
 void map_values_done(struct map_values *values);
 
 /* Fills `values` for the present time: the same on all ranks. Collective. */
-void map_values_take(struct map_values *values, const struct state *state);
+void map_values_take(struct map_values *values, const struct state *state, struct derive_moment *moment);
 
 #endif

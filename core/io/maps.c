@@ -122,12 +122,12 @@ int maps_recall(struct maps *maps, const struct notes *notes, const char *origin
 }
 
 /* Adds the present time to one map. */
-static int maps_write(struct maps_one *one, const struct state *state)
+static int maps_write(struct maps_one *one, const struct state *state, struct derive_moment *moment)
 {
     const struct scene_map *map = one->values.map;
     unsigned n_value = one->values.n_value;
     double *row = one->rows;
-    map_values_take(&one->values, state);
+    map_values_take(&one->values, state, moment);
     for (unsigned i = 0; i < map->n_point; i++, row += 2 + n_value) {
         row[0] = state->t;
         row[1] = map->place[i];
@@ -136,20 +136,20 @@ static int maps_write(struct maps_one *one, const struct state *state)
     return csv_rows(one->csv, map->n_point, 2 + n_value, one->rows);
 }
 
-static int maps_write_all(struct maps *maps, const struct state *state)
+static int maps_write_all(struct maps *maps, const struct state *state, struct derive_moment *moment)
 {
-    for (unsigned i = 0; i < maps->n; i++) TRY(maps_write(&maps->ones[i], state));
+    for (unsigned i = 0; i < maps->n; i++) TRY(maps_write(&maps->ones[i], state, moment));
     maps_schedule(maps, state->t);
     return STATUS_OK;
 }
 
-int maps_record(struct maps *maps, const struct state *state)
+int maps_record(struct maps *maps, const struct state *state, struct derive_moment *moment)
 {
     if (!maps || state->t <= maps->t_row) return STATUS_OK;
     double every = maps->every.time;
     bool due =
         every > 0.0 ? (double)maps->next * every <= state->t + 1e-9 * every : state->step % maps->every.steps == 0;
-    return due ? maps_write_all(maps, state) : STATUS_OK;
+    return due ? maps_write_all(maps, state, moment) : STATUS_OK;
 }
 
 /* maps/NAME.hdf beside maps/NAME.csv. */
@@ -161,10 +161,10 @@ static int maps_store(const struct maps_one *one, const struct scene *scene)
     return code;
 }
 
-int maps_finish(struct maps *maps, const struct state *state)
+int maps_finish(struct maps *maps, const struct state *state, struct derive_moment *moment)
 {
     if (!maps) return STATUS_OK;
-    if (state->whole && state->t > maps->t_row) TRY(maps_write_all(maps, state));
+    if (state->whole && state->t > maps->t_row) TRY(maps_write_all(maps, state, moment));
     for (unsigned i = 0; i < maps->n; i++) TRY(maps_store(&maps->ones[i], state->scene));
     return STATUS_OK;
 }

@@ -10,6 +10,7 @@
 #ifndef MAPS_H
 #define MAPS_H
 
+#include "derive/derive.h"
 #include "io/notes.h"
 #include "solve/state.h"
 
@@ -26,9 +27,9 @@ int maps_keep(struct maps *maps, struct notes *notes);
 int maps_recall(struct maps *maps, const struct notes *notes, const char *origin);
 
 /* To be called with the initial state and after every step: writes what is due. */
-int maps_record(struct maps *maps, const struct state *state);
+int maps_record(struct maps *maps, const struct state *state, struct derive_moment *moment);
 
 /* The end of a run: a last time, if the state is whole, and the arrays. */
-int maps_finish(struct maps *maps, const struct state *state);
+int maps_finish(struct maps *maps, const struct state *state, struct derive_moment *moment);
 
 #endif

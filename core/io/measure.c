@@ -378,7 +378,7 @@ static double measure_result(struct measures *measures, const struct measure_col
 }
 
 /* Makes room for the tiles of this moment, and brings everything up to date that hangs on them. */
-static void measure_begin(struct measures *measures, const struct state *state)
+static void measure_begin(struct measures *measures, const struct state *state, struct derive_moment *moment)
 {
     size_t tiles = tally_tiles(state->mesh) + 1, row = measures->n * MEASURE_SLOTS;
     measures->state = state;
@@ -389,15 +389,15 @@ static void measure_begin(struct measures *measures, const struct state *state)
     }
     for (size_t i = 0; i < row; i++) measures->extremes[i] = -INFINITY;
     for (unsigned i = 0; i < measures->n; i++) region_follow(measures->columns[i].where, state->mesh);
-    for (unsigned i = 0; i < measures->n_field; i++)
-        derive_prepare(state->model, state->mesh, state->t, &measures->fields[i]);
+    for (unsigned i = 0; i < measures->n_field; i++) derive_prepare(moment, &measures->fields[i]);
 }
 
-void measure_take(struct measures *measures, const struct state *state, double *ret_values)
+void measure_take(struct measures *measures, const struct state *state, struct derive_moment *moment,
+                  double *ret_values)
 {
     const struct mesh *mesh = state->mesh;
     unsigned slots = measures->n * MEASURE_SLOTS;
-    measure_begin(measures, state);
+    measure_begin(measures, state, moment);
     double *totals = mem_new(slots, sizeof *totals), *sums = measures->sums;
     for (measures->l = 0; measures->l < mesh->n_level; measures->l++) {
         measures->level = &mesh->levels[measures->l];

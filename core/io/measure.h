@@ -25,6 +25,7 @@
 #ifndef MEASURE_H
 #define MEASURE_H
 
+#include "derive/derive.h"
 #include "io/notes.h"
 #include "solve/state.h"
 
@@ -40,6 +41,7 @@ void measure_keep(const struct measures *measures, struct notes *notes);
 void measure_recall(struct measures *measures, const struct notes *notes);
 
 /* One number per column of the scene, NaN for `value` columns; equal on all ranks. Collective. */
-void measure_take(struct measures *measures, const struct state *state, double *ret_values);
+void measure_take(struct measures *measures, const struct state *state, struct derive_moment *moment,
+                  double *ret_values);
 
 #endif

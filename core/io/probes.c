@@ -160,11 +160,11 @@ int probes_recall(struct probes *probes, const struct notes *notes, const char *
     return code;
 }
 
-static void probes_sample(struct probes *probes, const struct state *state)
+static void probes_sample(struct probes *probes, const struct state *state, struct derive_moment *moment)
 {
     for (unsigned i = 0; i < probes->n_trace; i++) {
         struct probes_trace *trace = &probes->traces[i];
-        derive_prepare(state->model, state->mesh, state->t, &trace->field);
+        derive_prepare(moment, &trace->field);
         sample_collect(probes->sample, state, &trace->field, trace->point, 1, probes->parts + trace->part);
     }
     comm_max(probes->parts, (int)probes->n_part);
@@ -203,10 +203,10 @@ static int probes_rows(struct probes *probes, const struct state *state)
     return STATUS_OK;
 }
 
-int probes_record(struct probes *probes, const struct state *state)
+int probes_record(struct probes *probes, const struct state *state, struct derive_moment *moment)
 {
     if (!probes || probes->step == state->step) return STATUS_OK;
-    probes_sample(probes, state);
+    probes_sample(probes, state, moment);
     TRY(probes_rows(probes, state));
     memcpy(probes->before, probes->now, probes->n_value * sizeof *probes->before);
     probes->t_before = state->t;
@@ -214,10 +214,10 @@ int probes_record(struct probes *probes, const struct state *state)
     return STATUS_OK;
 }
 
-int probes_finish(struct probes *probes, const struct state *state)
+int probes_finish(struct probes *probes, const struct state *state, struct derive_moment *moment)
 {
     if (!probes) return STATUS_OK;
-    TRY(probes_record(probes, state));
+    TRY(probes_record(probes, state, moment));
     if (probes->t_row >= state->t) return STATUS_OK;
     memcpy(probes->now, probes->before, probes->n_value * sizeof *probes->now);
     return probes_row(probes, state->t, state->t);

@@ -7,6 +7,7 @@
 #ifndef PROBES_H
 #define PROBES_H
 
+#include "derive/derive.h"
 #include "io/notes.h"
 #include "solve/state.h"
 
@@ -24,9 +25,9 @@ int probes_recall(struct probes *probes, const struct notes *notes, const char *
 
 /* To be called with the initial state and after every step: writes the rows that fall between the
  * last call and this state. */
-int probes_record(struct probes *probes, const struct state *state);
+int probes_record(struct probes *probes, const struct state *state, struct derive_moment *moment);
 
 /* Writes a row for this state if the last row lies before it: the end of a run. */
-int probes_finish(struct probes *probes, const struct state *state);
+int probes_finish(struct probes *probes, const struct state *state, struct derive_moment *moment);
 
 #endif

@@ -175,13 +175,12 @@ static int snapshot_fill(struct h5 *file, const struct state *state, const struc
 }
 
 /* Writes the draft of a file. */
-static int snapshot_draft(struct snapshots *snapshots, const struct state *state, const char *path,
-                          const char *provenance)
+static int snapshot_draft(struct snapshots *snapshots, const struct state *state, struct derive_moment *moment,
+                          const char *path, const char *provenance)
 {
     struct vtkhdf_fields fields = {snapshots->n_field, snapshots->fields,
                                    snapshots->scene->snapshot_double ? H5_F64 : H5_F32};
-    for (unsigned i = 0; i < snapshots->n_field; i++)
-        derive_prepare(state->model, state->mesh, state->t, &snapshots->fields[i]);
+    for (unsigned i = 0; i < snapshots->n_field; i++) derive_prepare(moment, &snapshots->fields[i]);
     char *draft = place_draft(path);
     struct h5 *file;
     int code = h5_create(draft, &file);
@@ -193,12 +192,13 @@ static int snapshot_draft(struct snapshots *snapshots, const struct state *state
     return code;
 }
 
-int snapshot_write(struct snapshots *snapshots, const struct state *state, const char *provenance)
+int snapshot_write(struct snapshots *snapshots, const struct state *state, struct derive_moment *moment,
+                   const char *provenance)
 {
     if (snapshots->last == state->step) return STATUS_OK;
     char *name = mem_print("%s_%06ld.hdf", state->scene->name, state->step);
     char *path = mem_print("%s/%s", snapshots->folder, name);
-    int code = snapshot_draft(snapshots, state, path, provenance);
+    int code = snapshot_draft(snapshots, state, moment, path, provenance);
     if (code) place_reject(path);
     else code = place_accept(path);
     if (!code) {

@@ -13,6 +13,7 @@
 #ifndef SNAPSHOT_H
 #define SNAPSHOT_H
 
+#include "derive/derive.h"
 #include "io/notes.h"
 #include "solve/state.h"
 
@@ -30,6 +31,7 @@ void snapshot_recall(struct snapshots *snapshots, const struct notes *notes);
 
 /* Writes the present state unless this step was the last written; `provenance` is the text of
  * provenance.json, equal on all ranks. Collective. */
-int snapshot_write(struct snapshots *snapshots, const struct state *state, const char *provenance);
+int snapshot_write(struct snapshots *snapshots, const struct state *state, struct derive_moment *moment,
+                   const char *provenance);
 
 #endif

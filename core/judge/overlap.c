@@ -1,7 +1,8 @@
-/* overlap.c - see overlap.h. Cells are found by their place on the lattice of their own width, through a hash table. */
+/* overlap.c - see overlap.h. Cells are found by their place on the lattice of their own width, through a table of slots. */
 #include "judge/overlap.h"
 
 #include "base/mem.h"
+#include "base/slots.h"
 #include "base/status.h"
 
 #include <math.h>
@@ -19,8 +20,7 @@ struct overlap_table {
     const struct snapshot *snapshot;
     double finest[3]; /* widths at level 0 */
     int levels;
-    size_t mask;
-    size_t *slot; /* cell + 1, or 0 */
+    struct slots slots;
 };
 
 static double overlap_size(const struct snapshot *snapshot, size_t cell)
@@ -39,36 +39,28 @@ static struct overlap_key overlap_key(const struct overlap_table *table, const s
     return key;
 }
 
-static size_t overlap_hash(const struct overlap_key *key)
+static bool overlap_is_at(const void *data, unsigned cell, const void *wanted)
 {
-    uint64_t mixed = (uint64_t)key->level + 1;
-    for (int d = 0; d < 3; d++) mixed = (mixed ^ (uint64_t)key->at[d]) * 0x9E3779B97F4A7C15u;
-    return (size_t)(mixed ^ mixed >> 31);
+    const struct overlap_table *table = data;
+    const struct overlap_key key = overlap_key(table, table->snapshot, cell), *other = wanted;
+    return key.level == other->level && !memcmp(key.at, other->at, sizeof key.at);
 }
 
-static bool overlap_equal(const struct overlap_key *a, const struct overlap_key *b)
+/* The slot of a cell at `key`. */
+static unsigned *overlap_slot(const struct overlap_table *table, const struct overlap_key *key)
 {
-    return a->level == b->level && !memcmp(a->at, b->at, sizeof a->at);
-}
-
-/* The slot of a cell at `key`: empty, if there is none. */
-static size_t *overlap_slot(const struct overlap_table *table, const struct overlap_key *key)
-{
-    for (size_t i = overlap_hash(key) & table->mask;; i = (i + 1) & table->mask) {
-        if (!table->slot[i]) return &table->slot[i];
-        struct overlap_key there = overlap_key(table, table->snapshot, table->slot[i] - 1);
-        if (overlap_equal(&there, key)) return &table->slot[i];
-    }
+    uint64_t hash = slots_hash(0, (uint64_t)key->level);
+    for (int d = 0; d < 3; d++) hash = slots_hash(hash, (uint64_t)key->at[d]);
+    return slots_find(&table->slots, hash, overlap_is_at, table, key);
 }
 
 static void overlap_fill(struct overlap_table *table)
 {
-    for (table->mask = 15; table->mask < 2 * table->snapshot->n_cell;) table->mask = 2 * table->mask + 1;
-    table->slot = mem_new(table->mask + 1, sizeof *table->slot);
+    slots_start(&table->slots, table->snapshot->n_cell);
     for (size_t c = 0; c < table->snapshot->n_cell; c++) {
         struct overlap_key key = overlap_key(table, table->snapshot, c);
         if (key.level >= table->levels) table->levels = key.level + 1;
-        *overlap_slot(table, &key) = c + 1;
+        *overlap_slot(table, &key) = (unsigned)c + 1;
     }
 }
 
@@ -79,7 +71,7 @@ static bool overlap_find(const struct overlap_table *table, const struct snapsho
 {
     struct overlap_key key = overlap_key(table, other, cell);
     for (int step = 0; key.level < table->levels; step++) {
-        size_t found = step >= coarser ? *overlap_slot(table, &key) : 0;
+        unsigned found = step >= coarser ? *overlap_slot(table, &key) : 0;
         if (found) {
             *ret_cell = found - 1;
             return true;
@@ -143,7 +135,7 @@ static int overlap_half(const struct overlap_side *coarse, const struct overlap_
     }
     mem_free(sums.value);
     mem_free(sums.size);
-    mem_free(table.slot);
+    slots_done(&table.slots);
     return code;
 }
 

@@ -1,5 +1,5 @@
-/* level.c - see level.h. Tiles are found by an open-addressing table of their indices: a build asks some ten
- * times per tile, and bisection of a long list costs several times as much. */
+/* level.c - see level.h. Tiles are found by a table of slots: a build asks some ten times per tile, and
+ * bisection of a long list costs several times as much. */
 #include "mesh/level.h"
 
 #include "base/comm.h"
@@ -16,22 +16,17 @@ void level_local(const struct tile *tiles, unsigned n_tile, unsigned *ret_first,
     *ret_n_local = end - first;
 }
 
-/* Fibonacci hashing: the highest bits of a product with 2^64 / golden ratio. */
-static size_t level_place(const struct level *level, uint64_t key)
+static bool level_has(const void *tiles, unsigned index, const void *key)
 {
-    return (size_t)(key * 0x9e3779b97f4a7c15u >> (64 - level->table_bits));
+    return ((const struct tile *)tiles)[index].key == *(const uint64_t *)key;
 }
 
 static void level_tabulate(struct level *level)
 {
-    for (level->table_bits = 1; (level->n_tile >> (level->table_bits - 1)) > 0;) level->table_bits++;
-    size_t last = ((size_t)1 << level->table_bits) - 1;
-    mem_free(level->table);
-    level->table = mem_new(last + 1, sizeof *level->table);
+    slots_start(&level->slots, level->n_tile);
     for (unsigned i = 0; i < level->n_tile; i++) {
-        size_t place = level_place(level, level->tiles[i].key);
-        while (level->table[place]) place = (place + 1) & last;
-        level->table[place] = i + 1;
+        uint64_t key = level->tiles[i].key;
+        *slots_find(&level->slots, key, level_has, level->tiles, &key) = i + 1;
     }
 }
 
@@ -47,10 +42,9 @@ void level_adopt(struct level *level, struct tile *tiles, unsigned n_tile)
 void level_drop(struct level *level)
 {
     mem_free(level->neighbours);
-    mem_free(level->table);
+    slots_done(&level->slots);
     mem_free(level->tiles);
     level->neighbours = NULL;
-    level->table = NULL;
     level->tiles = NULL;
     level->n_tile = level->first = level->n_local = 0;
 }
@@ -58,10 +52,7 @@ void level_drop(struct level *level)
 int level_find(const struct level *level, uint64_t key)
 {
     if (!level->n_tile) return -1;
-    size_t last = ((size_t)1 << level->table_bits) - 1, place = level_place(level, key);
-    for (unsigned entry; (entry = level->table[place]); place = (place + 1) & last)
-        if (level->tiles[entry - 1].key == key) return (int)(entry - 1);
-    return -1;
+    return (int)*slots_find(&level->slots, key, level_has, level->tiles, &key) - 1;
 }
 
 bool level_step(const struct mesh *mesh, const struct level *level, const struct tile *tile, int face, int ret_at[3])

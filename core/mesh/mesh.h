@@ -15,6 +15,7 @@
 #ifndef MESH_H
 #define MESH_H
 
+#include "base/slots.h"
 #include "case/scene.h"
 
 #include <stddef.h>
@@ -48,8 +49,7 @@ struct level {
     int extent[3]; /* tiles per axis if the level covered the domain */
     unsigned n_tile, first, n_local;
     struct tile *tiles;                         /* [n_tile], replicated, Morton order */
-    unsigned *table;                            /* for mesh_find: 1 + index of a tile, 0 free; by hash of the key */
-    int table_bits;                             /* 2^table_bits entries */
+    struct slots slots;                         /* for mesh_find: the tiles by their keys */
     struct neighbour (*neighbours)[MESH_FACES]; /* [n_local] */
     double **u_old, **u_new; /* [n_local] conserved at t^n and the one being made: [n_field][n^d], 64-byte aligned */
     double **w;              /* [n_local] primitives of the last completed stage: [n_prim][n^d] */

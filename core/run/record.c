@@ -85,21 +85,27 @@ double record_target(const struct record *record, double t, double until)
     return due_target(dues, 2, t, until);
 }
 
-int record_now(struct record *record, const struct state *state)
+static int record_snapshot(struct record *record, const struct state *state, struct derive_moment *moment)
 {
-    return snapshot_write(record->snapshots, state, provenance_text(record->provenance));
+    return snapshot_write(record->snapshots, state, moment, provenance_text(record->provenance));
 }
 
-static int record_due_snapshot(struct record *record, const struct state *state)
+int record_now(struct record *record, const struct state *state)
 {
-    TRY(record_now(record, state));
+    struct derive_moment moment = derive_moment(state->model, state->mesh, state->t);
+    return record_snapshot(record, state, &moment);
+}
+
+static int record_due_snapshot(struct record *record, const struct state *state, struct derive_moment *moment)
+{
+    TRY(record_snapshot(record, state, moment));
     due_written(&record->snapshot_due, state->t, state->step);
     return 0;
 }
 
-static int record_due_row(struct record *record, const struct state *state)
+static int record_due_row(struct record *record, const struct state *state, struct derive_moment *moment)
 {
-    TRY(history_write(record->history, state));
+    TRY(history_write(record->history, state, moment));
     due_written(&record->history_due, state->t, state->step);
     return 0;
 }
@@ -152,12 +158,14 @@ static int record_due_save(struct record *record, const struct state *state)
     return 0;
 }
 
+/* One moment for all that is due: what one output has brought for its fields the others find. */
 static int record_write_due(struct record *record, const struct state *state)
 {
-    TRY(probes_record(record->probes, state));
-    TRY(maps_record(record->maps, state));
-    if (due_now(&record->history_due, state->t, state->step)) TRY(record_due_row(record, state));
-    if (due_now(&record->snapshot_due, state->t, state->step)) TRY(record_due_snapshot(record, state));
+    struct derive_moment moment = derive_moment(state->model, state->mesh, state->t);
+    TRY(probes_record(record->probes, state, &moment));
+    TRY(maps_record(record->maps, state, &moment));
+    if (due_now(&record->history_due, state->t, state->step)) TRY(record_due_row(record, state, &moment));
+    if (due_now(&record->snapshot_due, state->t, state->step)) TRY(record_due_snapshot(record, state, &moment));
     if (due_now(&record->checkpoint_due, state->t, state->step)) TRY(record_due_save(record, state));
     return 0;
 }
@@ -179,11 +187,13 @@ int record_dump(const struct record *record, const struct state *state, char **r
 
 static int record_write_last(struct record *record, const struct state *state)
 {
-    TRY(maps_finish(record->maps, state));
-    if (!state->whole) return record_now(record, state); /* levels at different times: to look at, not to measure */
-    TRY(probes_finish(record->probes, state));
-    TRY(history_write(record->history, state));
-    return record_now(record, state);
+    struct derive_moment moment = derive_moment(state->model, state->mesh, state->t);
+    TRY(maps_finish(record->maps, state, &moment));
+    if (state->whole) { /* else levels are at different times: to look at, not to measure */
+        TRY(probes_finish(record->probes, state, &moment));
+        TRY(history_write(record->history, state, &moment));
+    }
+    return record_snapshot(record, state, &moment);
 }
 
 int record_last(struct record *record, const struct state *state)

@@ -51,7 +51,7 @@ void regrid_signals(struct state *state)
 }
 
 /* Tags a level and collects which tiles of the next one they ask for. */
-static int regrid_tag(struct regrid *regrid, int l)
+static int regrid_tag(struct regrid *regrid, struct derive_moment *moment, int l)
 {
     struct state *state = regrid->state;
     const struct mesh *mesh = state->mesh;
@@ -59,7 +59,7 @@ static int regrid_tag(struct regrid *regrid, int l)
     double **marks = mem_new(level->n_local + 1, sizeof *marks);
     double *all = mem_new(level->n_local * mesh->n_cell, sizeof *all);
     for (unsigned t = 0; t < level->n_local; t++) marks[t] = all + t * mesh->n_cell;
-    int status = tag_level(state->model, mesh, l, state->t, state->stages[l]->guard->halo, marks, state->tagged);
+    int status = tag_level(moment, l, state->stages[l]->guard->halo, marks, state->tagged);
     for (unsigned t = 0; t < level->n_local && !status; t++)
         nest_wish(mesh, level, &level->tiles[level->first + t], marks[t], state->scene->buffer, &regrid->wishes[l + 1]);
     mem_free(all);
@@ -70,8 +70,9 @@ static int regrid_tag(struct regrid *regrid, int l)
 static int regrid_sets(struct regrid *regrid, int patience)
 {
     const struct mesh *mesh = regrid->state->mesh;
+    struct derive_moment moment = derive_moment(regrid->state->model, mesh, regrid->state->t);
     for (int l = regrid->base; l < mesh->most_level && l < mesh->n_level; l++) {
-        TRY(regrid_tag(regrid, l));
+        TRY(regrid_tag(regrid, &moment, l));
         nest_join(&regrid->wishes[l + 1]);
     }
     nest_sets(mesh, regrid->base, regrid->wishes, patience, regrid->sets);

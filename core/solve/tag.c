@@ -8,7 +8,6 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
-#include "derive/derive.h"
 #include "solve/tag_pair.h"
 
 #include <math.h>
@@ -23,7 +22,7 @@ struct tag {
     const struct mesh *mesh;
     const struct level *level;
     int l;
-    double t;
+    struct derive_moment *moment;
     struct halo *halo;
     double radius;                     /* half the diagonal of a cell */
     const struct scene_refine *refine; /* the criterion at hand */
@@ -107,13 +106,13 @@ static void tag_exchange(const struct tag *tag, double *const *values)
 static int tag_find(const struct tag *tag, const char *name, struct derive *ret_field)
 {
     TRY(derive_find(tag->model, name, ret_field));
-    derive_prepare(tag->model, tag->mesh, tag->t, ret_field);
+    derive_prepare(tag->moment, ret_field);
     return STATUS_OK;
 }
 
 static void tag_derive(const struct tag *tag, unsigned local, const struct derive *field, double *out)
 {
-    derive_tile(tag->model, tag->mesh, tag->l, local, tag->t, field, out);
+    derive_tile(tag->model, tag->mesh, tag->l, local, tag->moment->t, field, out);
 }
 
 /* One component of a field in the local tiles that need be looked at twice. Few do, and memory that is written once
@@ -312,7 +311,7 @@ static int tag_ask(const struct tag *tag, unsigned local, const struct tag_argum
         tag_point(tag, local, i, 0.5, x);
         for (unsigned k = 0; k < refine->n_use; k++)
             in[k] = arguments[k].from == 4   ? arguments[k].values[i]
-                    : arguments[k].from == 3 ? tag->t
+                    : arguments[k].from == 3 ? tag->moment->t
                                              : x[arguments[k].from];
         TRY(script_test(refine->script, in, refine->n_use, &yes));
         found[i] = yes ? 1.0 : 0.0;
@@ -351,12 +350,19 @@ static int tag_criterion(struct tag *tag)
     }
 }
 
-int tag_level(const struct model *model, const struct mesh *mesh, int l, double t, struct halo *halo, double **marks,
-              long long *hits)
+int tag_level(struct derive_moment *moment, int l, struct halo *halo, double **marks, long long *hits)
 {
+    const struct model *model = moment->model;
+    const struct mesh *mesh = moment->mesh;
     const struct scene *scene = model->scene;
-    struct tag tag = {
-        .model = model, .mesh = mesh, .level = &mesh->levels[l], .l = l, .t = t, .halo = halo, .marks = marks};
+    double t = moment->t;
+    struct tag tag = {.model = model,
+                      .mesh = mesh,
+                      .level = &mesh->levels[l],
+                      .l = l,
+                      .moment = moment,
+                      .halo = halo,
+                      .marks = marks};
     int status = STATUS_OK;
     for (int d = 0; d < mesh->dim; d++) tag.radius += 0.25 * tag.level->h[d] * tag.level->h[d];
     tag.radius = 1.001 * sqrt(tag.radius);

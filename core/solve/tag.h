@@ -9,15 +9,13 @@
 #ifndef TAG_H
 #define TAG_H
 
+#include "derive/derive.h"
 #include "mesh/halo.h"
-#include "mesh/mesh.h"
-#include "phys/model.h"
 
 /* Sets marks[n_local][n_cell] of level l to 1 where a criterion asks for level l + 1, else 0. w is that of a
- * completed step; `halo` exchanges one component on this level. hits[n_refine] counts the cells of this
+ * completed step, the moment one of it; `halo` exchanges one component on this level. hits[n_refine] counts the cells of this
  * rank that each criterion tagged (added to what is there). STATUS_RUN or STATUS_CASE: a script failed. Collective. */
-int tag_level(const struct model *model, const struct mesh *mesh, int l, double t, struct halo *halo, double **marks,
-              long long *hits);
+int tag_level(struct derive_moment *moment, int l, struct halo *halo, double **marks, long long *hits);
 
 /* What a criterion is, with its line in the case file: "mesh.refine[0] (line 12): jump of density above 0.05 of the
  * larger cell". Free with mem_free. */

@@ -1,4 +1,4 @@
-/* contour_dual.c - vertices are found through a hash table of lattice positions.
+/* contour_dual.c - vertices are found through a table of slots by lattice positions.
  *
  * The lattice has the spacing of the smallest cell. Each cell first registers at its four
  * corners; then, where a vertex lies in the middle of one of its edges (a neighbour is one level
@@ -6,6 +6,7 @@
 #include "view/contour_dual.h"
 
 #include "base/mem.h"
+#include "base/slots.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,8 +15,8 @@
 static const int contour_dual_quadrant[2][2] = {{2, 1}, {3, 0}};
 
 struct contour_dual_table {
-    size_t mask, n, capacity;
-    long *slot; /* index of a vertex, or CONTOUR_DUAL_NONE */
+    size_t n, capacity;
+    struct slots slots; /* of the vertices */
     struct contour_dual_vertex *vertices;
     double origin[2], step[2];
 };
@@ -25,27 +26,24 @@ static int64_t contour_dual_key(const struct contour_dual_table *table, int axis
     return llround((x - table->origin[axis]) / table->step[axis]);
 }
 
-static size_t contour_dual_hash(const int64_t key[2])
+static bool contour_dual_is_at(const void *vertices, unsigned index, const void *key)
 {
-    uint64_t mixed = (uint64_t)key[0] * 0x9E3779B97F4A7C15u ^ (uint64_t)key[1] * 0xC2B2AE3D27D4EB4Fu;
-    return (size_t)(mixed ^ mixed >> 29);
+    return !memcmp(((const struct contour_dual_vertex *)vertices)[index].key, key, sizeof(int64_t[2]));
 }
 
 /* The vertex at `key`; with `add` made if it is not there, else NULL. */
 static struct contour_dual_vertex *contour_dual_get(struct contour_dual_table *table, const int64_t key[2], int add)
 {
-    size_t at = contour_dual_hash(key) & table->mask;
-    for (; table->slot[at] != CONTOUR_DUAL_NONE; at = (at + 1) & table->mask) {
-        struct contour_dual_vertex *vertex = &table->vertices[table->slot[at]];
-        if (vertex->key[0] == key[0] && vertex->key[1] == key[1]) return vertex;
-    }
+    uint64_t hash = slots_hash(slots_hash(0, (uint64_t)key[0]), (uint64_t)key[1]);
+    unsigned *slot = slots_find(&table->slots, hash, contour_dual_is_at, table->vertices, key);
+    if (*slot) return &table->vertices[*slot - 1];
     if (!add) return NULL;
     if (table->n == table->capacity) {
         table->capacity = 2 * table->n;
         table->vertices = mem_grow(table->vertices, table->n, table->capacity, sizeof *table->vertices);
     }
-    table->slot[at] = (long)table->n;
     struct contour_dual_vertex *vertex = &table->vertices[table->n++];
+    *slot = (unsigned)table->n;
     for (int axis = 0; axis < 2; axis++) {
         vertex->key[axis] = key[axis];
         vertex->at[axis] = table->origin[axis] + table->step[axis] * (double)key[axis];
@@ -101,16 +99,14 @@ void contour_dual_build(size_t n, const struct raster_cell *cells, struct contou
 {
     *ret_dual = (struct contour_dual){0};
     if (!n) return;
-    struct contour_dual_table table = {.mask = 15, .capacity = n + n / 4 + 16};
-    while (table.mask < 4 * n) table.mask = 2 * table.mask + 1; /* never full: at most four vertices per cell */
-    table.slot = mem_new(table.mask + 1, sizeof *table.slot);
-    memset(table.slot, 0xff, (table.mask + 1) * sizeof *table.slot);
+    struct contour_dual_table table = {.capacity = n + n / 4 + 16};
+    slots_start(&table.slots, 4 * n); /* at most four vertices per cell */
     table.vertices = mem_new(table.capacity, sizeof *table.vertices);
     contour_dual_lattice(&table, n, cells);
     for (size_t c = 0; c < n; c++) contour_dual_corners(&table, (long)c, &cells[c]);
     for (size_t c = 0; c < n; c++)
         for (int axis = 0; axis < 2; axis++) contour_dual_edges(&table, (long)c, &cells[c], axis);
-    mem_free(table.slot);
+    slots_done(&table.slots);
     ret_dual->n = table.n;
     ret_dual->vertices = table.vertices;
 }

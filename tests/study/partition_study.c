@@ -161,7 +161,7 @@ static double study_bytes(const struct study *study)
     double bytes = 0.0;
     for (int l = 0; l < study->mesh.n_level; l++) {
         const struct level *level = &study->mesh.levels[l];
-        bytes += (double)level->n_tile * sizeof *level->tiles + ldexp(sizeof *level->table, level->table_bits);
+        bytes += (double)level->n_tile * sizeof *level->tiles + ldexp(sizeof *level->slots.taken, level->slots.bits);
     }
     return bytes / study->tiles;
 }

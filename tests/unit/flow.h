@@ -171,7 +171,8 @@ static inline double *flow_derived(const struct flow *flow, const char *name, un
     const struct state *state = flow->state;
     size_t n = state->mesh->n_cell;
     if (derive_find(state->model, name, &field)) fail_msg("%s", status_text());
-    derive_prepare(state->model, state->mesh, state->t, &field);
+    struct derive_moment moment = derive_moment(state->model, state->mesh, state->t);
+    derive_prepare(&moment, &field);
     double *all = mem_new(flow->n_cell, sizeof *all), *out = mem_new(field.components * n, sizeof *out);
     for (unsigned t = 0; t < flow_level(flow)->n_local; t++) {
         derive_tile(state->model, state->mesh, 0, t, state->t, &field, out);

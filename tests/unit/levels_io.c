@@ -87,13 +87,13 @@ static void test_measures(void **state)
     double values[COUNT];
     start_case(&small);
     assert_int_equal(measure_new(small.state, &measures), 0);
-    measure_take(measures, small.state, values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), values);
     expect_painted(values);
     refine(&small);
-    measure_take(measures, small.state, values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), values);
     expect_painted(values);
     levels_spoil(small.state);
-    measure_take(measures, small.state, values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), values);
     expect_painted(values);
     measure_free(measures);
     small_stop(&small);
@@ -149,11 +149,11 @@ static void test_surface(void **state)
     refine(&small);
     make_ball(small.state, radius, 0.0);
     assert_int_equal(measure_new(small.state, &measures), 0);
-    measure_take(measures, small.state, values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), values);
     assert_true(fabs(values[SURFACE] - 1e5) < 0.01 * 1e8 * radius);
     assert_true(values[DEPTH] == 0.0);
     make_ball(small.state, radius, 0.1e-3);
-    measure_take(measures, small.state, values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), values);
     assert_true(fabs(values[DEPTH] - 0.1e-3) < 0.02 * h);
     measure_free(measures);
     small_stop(&small);
@@ -171,7 +171,7 @@ static void test_crossing(void **state)
     make_ball(small.state, 0.5e-3, 0.0);
     assert_int_equal(measure_new(small.state, &measures), 0);
     levels_spoil(small.state);
-    measure_take(measures, small.state, values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), values);
     assert_true(values[DEPTH] == 0.0);
     measure_free(measures);
     small_stop(&small);
@@ -260,7 +260,7 @@ static void expect_file(struct small *small)
     struct snapshots *snapshots;
     struct snapshot *snapshot;
     assert_int_equal(snapshot_new(small->state, &snapshots), 0);
-    assert_int_equal(snapshot_write(snapshots, small->state, "{}"), 0);
+    assert_int_equal(snapshot_write(snapshots, small->state, SMALL_NOW(small->state), "{}"), 0);
     snapshot_free(snapshots);
     char *path = small_path(small, "fields/tiny_000000.hdf");
     int code = read_snapshot(path, NULL, &snapshot), dim = small->state->mesh->dim;
@@ -397,8 +397,9 @@ static void test_gradients(void **state)
     mesh->levels[0].w[hidden][63] = 1e6; /* in the middle: nobody has it beside him */
     assert_int_equal(derive_find(small.state->model, "vorticity", &vorticity), 0);
     assert_int_equal(derive_find(small.state->model, "schlieren", &schlieren), 0);
-    derive_prepare(small.state->model, mesh, 0.0, &vorticity);
-    derive_prepare(small.state->model, mesh, 0.0, &schlieren);
+    struct derive_moment moment = derive_moment(small.state->model, mesh, 0.0);
+    derive_prepare(&moment, &vorticity);
+    derive_prepare(&moment, &schlieren);
     close_to(schlieren.scale, sqrt(5.0), 1e-9);
     for (int l = 0; l < 3; l++)
         for (unsigned t = 0; t < mesh->levels[l].n_tile; t++) {
@@ -430,7 +431,7 @@ static void test_norms(void **state)
     double part = 0.0, norm;
     small_start_levels(&small, LINE, 2);
     assert_int_equal(snapshot_new(small.state, &snapshots), 0);
-    assert_int_equal(snapshot_write(snapshots, small.state, "{}"), 0);
+    assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), 0);
     levels_add(small.state, left);
     levels_add(small.state, middle);
     struct level *finest = &small.state->mesh->levels[2];
@@ -438,7 +439,7 @@ static void test_norms(void **state)
         for (size_t i = 0; i < 8; i++, part += finest->h[0]) finest->w[t][i] += 0.1;
     assert_true(part > 0.2 && part < 0.5);
     small_skip(&small, 1e-3);
-    assert_int_equal(snapshot_write(snapshots, small.state, "{}"), 0);
+    assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), 0);
     snapshot_free(snapshots);
     char kind[] = "L1", field[] = "density", initial[] = "initial", *out = small_path(&small, "");
     char *profile = small_path(&small, "profile.csv");

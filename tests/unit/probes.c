@@ -58,7 +58,7 @@ static void test_space(void **state)
     struct probes *probes;
     small_start(&small, SMALL_AXISYMMETRIC PROBES);
     assert_int_equal(probes_new(small.state, &probes), 0);
-    assert_int_equal(probes_record(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     probes_free(probes);
     char *text = small_text(&small, "probes.csv");
     assert_ptr_equal(strstr(text, "t,a.pressure,a.velocity_x,a.velocity_y,a.velocity_z,top.pressure,seam.pressure\n0,"),
@@ -83,7 +83,7 @@ static void test_absent(void **state)
                                            "    edge: {at: [0.51 mm, 0], fields: [temperature_air]}\n"
                                            "    out: {at: [0.9 mm, 0], fields: [temperature_air]}\n");
     assert_int_equal(probes_new(small.state, &probes), 0);
-    assert_int_equal(probes_record(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     probes_free(probes);
     assert_true(cell(&small, 0, 1) > 280.0);
     assert_true(fabs(cell(&small, 0, 2) - cell(&small, 0, 1)) < 5.0);
@@ -99,12 +99,12 @@ static void test_time(void **state)
     small_start(&small, SMALL_AXISYMMETRIC PROBES);
     double start = 1e5 + 1e8 * 0.31e-3;
     assert_int_equal(probes_new(small.state, &probes), 0);
-    assert_int_equal(probes_record(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     step_on(&small, 0.4e-6, 1e4); /* t = 0.4 us */
-    assert_int_equal(probes_record(probes, small.state), 0);
-    assert_int_equal(probes_record(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     step_on(&small, 0.7e-6, 1e4); /* t = 1.1 us */
-    assert_int_equal(probes_record(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     assert_int_equal(rows(&small), 5);
     const double times[5] = {0, 0.25e-6, 0.5e-6, 0.75e-6, 1e-6};
     const double rise[5] = {0, 0.625e4, 1e4 + 1e4 / 7, 1e4 + 5e4 / 10, 1e4 + 6e4 / 7};
@@ -112,18 +112,18 @@ static void test_time(void **state)
         close_to(cell(&small, i, 0), times[i]);
         close_to(cell(&small, i, 1), start + rise[i]);
     }
-    assert_int_equal(probes_finish(probes, small.state), 0);
-    assert_int_equal(probes_finish(probes, small.state), 0);
+    assert_int_equal(probes_finish(probes, small.state, SMALL_NOW(small.state)), 0);
+    assert_int_equal(probes_finish(probes, small.state, SMALL_NOW(small.state)), 0);
     assert_int_equal(rows(&small), 6);
     close_to(cell(&small, 5, 0), 1.1e-6);
     close_to(cell(&small, 5, 1), start + 2e4);
     probes_free(probes);
     small.state->t = 0.6e-6; /* taken up again: rows up to 0.5 us stay, the next is due at 0.75 us */
     assert_int_equal(probes_new(small.state, &probes), 0);
-    assert_int_equal(probes_record(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     assert_int_equal(rows(&small), 3);
     step_on(&small, 0.3e-6, 1e4);
-    assert_int_equal(probes_record(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     assert_int_equal(rows(&small), 4);
     close_to(cell(&small, 3, 0), 0.75e-6);
     close_to(cell(&small, 3, 1), start + 2.5e4);
@@ -143,7 +143,8 @@ static void test_steps(void **state)
                 "run: {until: 1 ms}\n"
                 "output: {probes: {every: 2 steps, end: {at: [0], fields: [density]}}}\n");
     assert_int_equal(probes_new(small.state, &probes), 0);
-    for (int i = 0; i < 5; i++, small_skip(&small, 0.5)) assert_int_equal(probes_record(probes, small.state), 0);
+    for (int i = 0; i < 5; i++, small_skip(&small, 0.5))
+        assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     probes_free(probes);
     assert_int_equal(rows(&small), 3);
     close_to(cell(&small, 1, 0), 1.0);
@@ -171,13 +172,13 @@ static void test_levels(void **state)
                                           "    side: {at: [0.7499 mm, 0.4999 mm], fields: [pressure]}\n",
                        1);
     assert_int_equal(probes_new(small.state, &probes), 0);
-    assert_int_equal(probes_record(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     levels_add(small.state, near);
     small_skip(&small, 0.5);
-    assert_int_equal(probes_record(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     levels_spoil(small.state);
     small_skip(&small, 0.5);
-    assert_int_equal(probes_record(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     probes_free(probes);
     const double places[4] = {0.31e-3, 0.4999e-3, 0.5001e-3, 0.4999e-3};
     const int columns[4] = {1, 3, 4, 5};
@@ -196,8 +197,8 @@ static void test_none(void **state)
     small_start(&small, SMALL_AXISYMMETRIC);
     assert_int_equal(probes_new(small.state, &probes), 0);
     assert_null(probes);
-    assert_int_equal(probes_record(probes, small.state), 0);
-    assert_int_equal(probes_finish(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
+    assert_int_equal(probes_finish(probes, small.state, SMALL_NOW(small.state)), 0);
     probes_free(probes);
     small_stop(&small);
 }

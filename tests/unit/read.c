@@ -15,7 +15,7 @@ static void write_snapshot(struct small *small, const char *text)
     struct snapshots *snapshots;
     small_start(small, text);
     assert_int_equal(snapshot_new(small->state, &snapshots), 0);
-    assert_int_equal(snapshot_write(snapshots, small->state, "{\"ranks\": 1}"), 0);
+    assert_int_equal(snapshot_write(snapshots, small->state, SMALL_NOW(small->state), "{\"ranks\": 1}"), 0);
     snapshot_free(snapshots);
 }
 
@@ -30,7 +30,7 @@ static void expect_state(const struct snapshot *snapshot, const struct state *st
         assert_int_equal(derive_find(state->model, snapshot->fields[f].name, &field), 0);
         assert_string_equal(snapshot->fields[f].unit, field.unit);
         assert_int_equal(snapshot->fields[f].components, field.components);
-        derive_prepare(state->model, mesh, state->t, &field);
+        derive_prepare(SMALL_NOW(state), &field);
         for (unsigned i = 0; i < level->n_local; i++) {
             derive_tile(state->model, mesh, 0, i, state->t, &field, values);
             for (size_t cell = 0; cell < mesh->n_cell; cell++)

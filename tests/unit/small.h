@@ -24,6 +24,9 @@ struct small {
     struct state *state;
 };
 
+/* A moment of its own for one output. */
+#define SMALL_NOW(state) (&(struct derive_moment){.model = (state)->model, .mesh = (state)->mesh, .t = (state)->t})
+
 /* Reads and paints a case that may have `levels` above the coarsest; prints why not. */
 static inline void small_start_levels(struct small *small, const char *text, int levels)
 {

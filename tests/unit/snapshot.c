@@ -48,7 +48,7 @@ static void write_one(struct small *small, const char *text, const char *objects
     struct text list = {0};
     small_start(small, text);
     assert_int_equal(snapshot_new(small->state, &snapshots), 0);
-    int code = snapshot_write(snapshots, small->state, "{}");
+    int code = snapshot_write(snapshots, small->state, SMALL_NOW(small->state), "{}");
     if (code) print_error("%s\n", status_text());
     assert_int_equal(code, 0);
     snapshot_free(snapshots);
@@ -185,7 +185,7 @@ static void test_view(void **state)
     struct snapshots *snapshots;
     small_start(&small, SMALL_AXISYMMETRIC "output: {snapshots: {every: 1 us, fields: [density, velocity]}}\n");
     assert_int_equal(snapshot_new(small.state, &snapshots), 0);
-    assert_int_equal(snapshot_write(snapshots, small.state, "{}"), 0);
+    assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), 0);
     snapshot_free(snapshots);
     hid_t file = open_file(&small, "fields/tiny_000000.hdf");
     static float data[4 * 2048], density[2048], velocity[2048][3];
@@ -253,7 +253,7 @@ static void test_volume(void **state)
                 "run: {until: 1 ms}\n");
     struct snapshots *snapshots;
     assert_int_equal(snapshot_new(small.state, &snapshots), 0);
-    assert_int_equal(snapshot_write(snapshots, small.state, "{}"), 0);
+    assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), 0);
     snapshot_free(snapshots);
     hid_t file = open_file(&small, "fields/tiny_000000.hdf");
     expect_grid(file, 3, 384, 13 * 9 * 5); /* the two ends of a periodic axis are two places */
@@ -272,8 +272,8 @@ static void test_series(void **state)
     char *out = small_path(&small, ""), *draft = small_path(&small, "fields/tiny_000000.hdf.tmp");
     for (int i = 0; i < 3; i++, small_skip(&small, 1e-7)) {
         if (i == 0) assert_int_equal(snapshot_new(small.state, &snapshots), 0);
-        assert_int_equal(snapshot_write(snapshots, small.state, "{}"), 0);
-        assert_int_equal(snapshot_write(snapshots, small.state, "{}"), 0);
+        assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), 0);
+        assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), 0);
     }
     snapshot_free(snapshots);
     assert_int_equal(access(draft, F_OK), -1);
@@ -285,7 +285,7 @@ static void test_series(void **state)
     small.state->step = 1;
     assert_int_equal(snapshot_new(small.state, &snapshots), 0);
     small_skip(&small, 3e-8);
-    assert_int_equal(snapshot_write(snapshots, small.state, "{}"), 0);
+    assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), 0);
     snapshot_free(snapshots);
     assert_int_equal(read_series(out, &series), 0);
     assert_int_equal(series.n, 3);
@@ -306,7 +306,7 @@ static void test_failure(void **state)
     assert_int_equal(snapshot_new(small.state, &snapshots), 0);
     char *folder = small_path(&small, "fields");
     assert_int_equal(rmdir(folder), 0);
-    assert_int_equal(snapshot_write(snapshots, small.state, "{}"), STATUS_RUN);
+    assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), STATUS_RUN);
     assert_non_null(strstr(status_text(), "tiny_000000.hdf"));
     assert_non_null(strstr(status_text(), "No such file"));
     snapshot_free(snapshots);

@@ -229,7 +229,8 @@ static void failing_scripts_are_reported(void **state)
     struct world world;
     world_open(&world, 2, "outflow", "{lua: \"= x > 0 and pressure .. 'a' or 1\"}");
     world_rest(&world);
-    assert_int_equal(tag_level(world.model, world.mesh, 0, 0.0, world.halo, world.marks, world.hits), STATUS_CASE);
+    struct derive_moment moment = derive_moment(world.model, world.mesh, 0.0);
+    assert_int_equal(tag_level(&moment, 0, world.halo, world.marks, world.hits), STATUS_CASE);
     assert_non_null(strstr(status_text(), ".yaml:3: a number is needed here"));
     assert_non_null(strstr(status_text(), "pressure = "));
     world_close(&world);
@@ -383,7 +384,8 @@ static void coarse_fine_faces_are_no_jumps(void **state)
                 fine->w[t][q * world.mesh->n_cell + c] = q < 2 ? 0.25 + 0.5 * q : 1.0 + q;
     struct halo *halo = halo_new(world.mesh, fine, 1);
     memset(world.hits, 0, sizeof world.hits);
-    assert_int_equal(tag_level(world.model, world.mesh, 1, 0.0, halo, marks, world.hits), STATUS_OK);
+    struct derive_moment moment = derive_moment(world.model, world.mesh, 0.0);
+    assert_int_equal(tag_level(&moment, 1, halo, marks, world.hits), STATUS_OK);
     for (size_t c = 0; c < world.mesh->n_cell; c++) assert_true(marks[0][c] == (fine->n_local ? 1.0 : 0.0));
     assert_true(world.hits[0] == 0 && world.hits[2] == 0); /* a uniform mixture: only the surface */
     halo_free(halo);

@@ -123,8 +123,8 @@ static inline void world_rest(struct world *world)
 static inline void world_tag(struct world *world, double t)
 {
     memset(world->hits, 0, sizeof world->hits);
-    if (tag_level(world->model, world->mesh, 0, t, world->halo, world->marks, world->hits))
-        fail_msg("%s", status_text());
+    struct derive_moment moment = derive_moment(world->model, world->mesh, t);
+    if (tag_level(&moment, 0, world->halo, world->marks, world->hits)) fail_msg("%s", status_text());
 }
 
 /* Are the marks those of a function of the cell? And are there marked and unmarked ones? */
