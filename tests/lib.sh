@@ -37,7 +37,7 @@ start() { # COMMAND...: in the background; $run is its process and its session
     # A shell starts background jobs with SIGINT ignored; env makes it count again.
     setsid env --default-signal=INT "$@" &
     run=$!
-    lib_sessions="$lib_sessions $run"
+    lib_sessions="$lib_sessions $run,"
 }
 alive() { # PROCESS: it is there, in $state (R S D T, see proc(5)); one that has ended and is not waited for (Z) is not
     state=none
@@ -51,6 +51,11 @@ ended() { # SESSION: waits for all its processes; $code is the exit code of the 
     code=0
     wait "$1" || code=$?
     await "the end of all processes of session $1" gone "$1"
+    lib_sessions="${lib_sessions%% "$1",*}${lib_sessions#* "$1",}"
+}
+complete() { # COMMAND...: until its last process is gone, also where a rank ends before the others; $code
+    start "$@"
+    ended "$run"
 }
 kill_all() { # SESSION: and whatever starts meanwhile
     kill -9 "$1" 2>/dev/null || true
@@ -65,7 +70,7 @@ killed() { # SESSION: kills it and waits as `ended` does
 }
 at_end=: # a command
 lib_end() {
-    for lib_session in $lib_sessions; do gone "$lib_session" || kill_all "$lib_session"; done
+    for lib_session in $(echo "$lib_sessions" | tr -d ,); do gone "$lib_session" || kill_all "$lib_session"; done
     eval "$at_end"
 }
 trap lib_end EXIT

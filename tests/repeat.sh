@@ -3,8 +3,9 @@
 # with another seed, while LOAD processes keep the machine busy. Without TEST: those that kill, stop, lock and wait. Says
 # how often each held; what failed stays in BUILD/tests/runs/repeat/TEST-SEED, with its output
 # in `output`. A process that a test leaves behind counts as a failure. Ends with 1 if anything failed.
+# Ended by a signal (`timeout 300 tests/repeat.sh ...`), it says what has been seen so far.
 set -eu
-[ $# -ge 3 ] || { sed -n '2,5s/^# //p' "$0"; exit 2; }
+[ $# -ge 3 ] || { sed -n '2,6s/^# //p' "$0"; exit 2; }
 BULLA_SOURCE=$(cd "$(dirname -- "$0")/.." && pwd)
 BULLA_BUILD=$(cd "$1" && pwd)
 BULLA=$BULLA_BUILD/bin/bulla
@@ -15,8 +16,10 @@ shift 3
 [ $# -gt 0 ] || set -- checkpoint_killed checkpoint_faults checkpoint_full output_full output_killed restart restart_stop \
     run_codes run_ranks run_stop run_twice sweep sweep_stop
 
+test=
+say() { [ -z "$test" ] || echo "$test: $held of $tried"; }
 busy=
-trap 'for process in $busy; do kill "$process" 2>/dev/null || true; done' EXIT
+trap 'say; for process in $busy; do kill "$process" 2>/dev/null || true; done' EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 while [ "$load" -gt 0 ]; do
@@ -44,11 +47,12 @@ try() { # TEST SEED: in a fresh folder
 }
 status=0
 for test; do
-    held=0 seed=1
-    while [ "$seed" -le "$count" ]; do
-        if try "$test" "$seed"; then held=$((held + 1)); else status=1; fi
-        seed=$((seed + 1))
+    held=0 tried=0
+    while [ "$tried" -lt "$count" ]; do
+        if try "$test" $((tried + 1)); then held=$((held + 1)); else status=1; fi
+        tried=$((tried + 1))
     done
-    echo "$test: $held of $count"
+    say
 done
+test=
 exit $status

@@ -25,8 +25,7 @@ rm -rf whole disk out
 failed() { # PATTERN COMMAND...: exit code 3 and the reason
     pattern=$1
     shift
-    code=0
-    "$@" >said 2>&1 || code=$?
+    complete "$@" >said 2>&1
     [ "$code" = 3 ] || { echo "exit code $code, not 3: $*"; cat said; exit 1; }
     grep -q "error: .*$pattern" said || { echo "no '$pattern':"; cat said; exit 1; }
 }

@@ -52,11 +52,10 @@ cpu() { # sets $spent, milliseconds of processor time of all that this script ha
 attempt() { # NAME RANKS WANTED-CODE WORDS ARGUMENTS...
     title=$1 count=$2 wanted=$3 words=$4
     shift 4
-    code=0
     [ "$count" = 1 ] || set -- "$@" -n "$count"
     cpu
     before=$spent
-    limited "$BULLA" "$@" >said.txt 2>&1 || code=$?
+    complete timeout -k 5 "$lib_limit" "$BULLA" "$@" >said.txt 2>&1
     cpu
     judge "$title" "$count" "$wanted" "$words" "$code" "$((spent - before))"
 }

@@ -12,18 +12,17 @@ mpirun -n 3 --oversubscribe --allow-run-as-root --mca mpi_yield_when_idle 1 --bi
     "$BULLA" run tube.yaml -o three --overwrite --quiet
 cmp one/history.csv three/history.csv
 
-code() { # WANTED ARGS...
+exits() { # WANTED ARGS...
     wanted=$1
     shift
-    got=0
-    "$BULLA" run "$@" >said 2>&1 || got=$?
-    [ "$got" = "$wanted" ] || { echo "run $*: exit code $got, not $wanted"; cat said; exit 1; }
+    complete "$BULLA" run "$@" >said 2>&1
+    [ "$code" = "$wanted" ] || fail "run $*: exit code $code, not $wanted" said
 }
-code 1 tube.yaml --variant wrong -o wrong --overwrite -n 2
-code 2 tube.yaml -o two -n 2
+exits 1 tube.yaml --variant wrong -o wrong --overwrite -n 2
+exits 2 tube.yaml -o two -n 2
 [ "$(grep -c 'holds a run' said)" = 1 ] || { echo "not said once:"; cat said; exit 1; }
-code 2 tube.yaml -o never -n 2 --set run.until=-1
+exits 2 tube.yaml -o never -n 2 --set run.until=-1
 [ "$(grep -c 'not above 0' said)" = 1 ] || { echo "not said once:"; cat said; exit 1; }
-code 2 tube.yaml -o never -n none
-code 3 tube.yaml -o tube.yaml/below -n 2
+exits 2 tube.yaml -o never -n none
+exits 3 tube.yaml -o tube.yaml/below -n 2
 if grep -q 'mpirun has exited' said; then exit 1; fi
