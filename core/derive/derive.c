@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "derive/derive_curvature.h"
 #include "derive/derive_slope.h"
 #include "derive/derive_stress.h"
 #include "phys/mix.h"
@@ -194,6 +195,7 @@ static const struct derive_quantity derive_table[] = {
     {"density_", "kg/m3", DERIVE_MATERIAL, derive_material_density, 0},
     {"temperature_", "K", DERIVE_MATERIAL, derive_material_temperature, 0},
     {"partial_density_", "kg/m3", DERIVE_MATERIAL, derive_partial_density, 0},
+    {"curvature_", "1/m", DERIVE_MATERIAL, derive_curvature, 0},
     {"stress_", "Pa", DERIVE_TENSOR, derive_stress_cauchy, 0},
     {"stretch_max", "1", DERIVE_SOLID, derive_stress_stretch_max, 0},
     {"stretch_", "1", DERIVE_TENSOR, derive_stress_stretch, 0},
@@ -280,6 +282,7 @@ void derive_prepare(const struct model *model, const struct mesh *mesh, double t
 {
     void (*compute)(const struct derive_view *, double *) = derive_table[field->what].compute;
     if (compute == derive_material_temperature) field->scale = presence_density(model, mesh, (unsigned)field->index);
+    if (compute == derive_curvature) derive_curvature_exchange(model, mesh);
     if (compute == derive_slope_schlieren || compute == derive_slope_vorticity) derive_slope_exchange(model, mesh, t);
     if (compute != derive_slope_schlieren) return;
     double *gradient = mem_new(mesh->n_cell, sizeof *gradient);
