@@ -3,11 +3,14 @@
  * memory per tile; and the making of a rim. Rank 0 prints. No test: times are those of the machine. */
 #include "base/comm.h"
 #include "base/mem.h"
+#include "levels/prolong_rim.h"
 #include "mesh/halo.h"
+#include "mesh/morton.h"
 #include "scheme/frame.h"
 #include "scheme/patch.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <time.h>
 
 enum { PASSES = 40 };
@@ -21,7 +24,7 @@ static double seconds(void)
 
 static struct mesh *domain(int dim, int tiles, int n, unsigned n_field)
 {
-    struct scene scene = {.dim = dim, .tile = n, .cells_place = "bench"};
+    struct scene scene = {.dim = dim, .tile = n, .levels = 1, .cells_place = "bench"};
     struct mesh *mesh;
     for (int d = 0; d < 3; d++) {
         scene.cells[d] = d < dim ? tiles * n : 1;
@@ -98,6 +101,62 @@ static void bench(int dim, int tiles, int n, unsigned n_field)
     mesh_free(mesh);
 }
 
+static int compare(const void *a, const void *b)
+{
+    uint64_t x = ((const struct tile *)a)->key, y = ((const struct tile *)b)->key;
+    return (x > y) - (x < y);
+}
+
+/* Every fourth tile along the first axis is refined; fine tiles belong to the owner of the coarse one. */
+static void refine(struct mesh *mesh)
+{
+    const struct level *coarse = &mesh->levels[0];
+    struct tile *tiles = mem_new((size_t)coarse->n_tile << mesh->dim, sizeof *tiles);
+    struct mesh_change change;
+    unsigned n = 0;
+    for (unsigned i = 0; i < coarse->n_tile << mesh->dim; i++) {
+        const struct tile *above = &coarse->tiles[i >> mesh->dim];
+        if (above->at[0] % 4) continue;
+        tiles[n].rank = above->rank;
+        for (int d = 0; d < mesh->dim; d++) tiles[n].at[d] = 2 * above->at[d] + (int)(i >> d & 1);
+        tiles[n].key = morton_key(tiles[n].at);
+        n++;
+    }
+    qsort(tiles, n, sizeof *tiles, compare);
+    mesh_replace(mesh, 1, tiles, n, &change);
+    mesh_change_free(&change);
+}
+
+/* Pieces on the coarser level: planes of fine tiles, so that every coarse tile beside one makes as many. */
+static void bench_levels(int dim, int tiles, int n, unsigned n_field)
+{
+    struct mesh *mesh = domain(dim, tiles, n, n_field);
+    refine(mesh);
+    for (int g = 1; g <= RIM_LAYERS; g++) {
+        const struct rim_form form = {n_field, g, 2, 0};
+        const struct level *level = &mesh->levels[0];
+        const struct patch_source source = {.mesh = mesh,
+                                            .level = level,
+                                            .arrays = level->w,
+                                            .rim = rim_of(mesh, 0, &form)};
+        struct rim *fine = rim_of(mesh, 1, &form);
+        double best = 1e9;
+        unsigned makers = 0;
+        for (unsigned t = 0; t < level->n_local; t++) makers += fine->source_from[t] < fine->source_from[t + 1];
+        patch_start(&source);
+        patch_finish(&source);
+        for (int pass = 0; pass < PASSES; pass++) {
+            double start = seconds();
+            prolong_rim(&source, fine, 0, NULL);
+            best = least(best, seconds() - start);
+        }
+        if (comm_rank() == 0)
+            printf("%dD, %u fields, tiles of %d, g = %d: %u coarse tiles make %u pieces: %.0f ns per tile and slot\n",
+                   dim, n_field, n, g, makers, fine->n_source, 1e9 * best / makers);
+    }
+    mesh_free(mesh);
+}
+
 int main(int argc, char **argv)
 {
     comm_init(&argc, &argv);
@@ -107,6 +166,8 @@ int main(int argc, char **argv)
     bench(3, 8, 8, 8);
     bench(2, 32, 16, 1);
     bench(3, 4, 16, 1);
+    bench_levels(2, 16, 16, 7);
+    bench_levels(3, 4, 16, 8);
     comm_done();
     return 0;
 }
