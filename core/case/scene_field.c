@@ -31,6 +31,7 @@ static const struct scene_field scene_field_by_material[] = {
     {"density", "kg/m3", SCENE_FIELD_VANISHING},
     {"temperature", "K", SCENE_FIELD_VANISHING},
     {"partial_density", "kg/m3", SCENE_FIELD_VANISHING},
+    {"curvature", "1/m", SCENE_FIELD_VANISHING | SCENE_FIELD_SIGNED},
 };
 
 enum {
@@ -167,6 +168,10 @@ const char *scene_field_constant(struct draft *draft, const char *name)
     if (strcmp(name, "vorticity") == 0 && scene->n_velocity == 1) return "0 everywhere: velocities have one component";
     if (one && (strcmp(name, "cost") == 0 || strncmp(name, "alpha_", 6) == 0))
         return "1 everywhere: there is one material";
+    if (strncmp(name, "curvature_", 10) == 0) {
+        if (one) return "0 everywhere: there is one material";
+        if (scene->dim == 1 && scene->geometry == SCENE_CARTESIAN) return "0 everywhere: surfaces are planes";
+    }
     return NULL;
 }
 

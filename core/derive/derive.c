@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "derive/derive_curvature.h"
 #include "derive/derive_slope.h"
 #include "derive/derive_stress.h"
 #include "phys/mix.h"
@@ -30,6 +31,7 @@ enum {
     DERIVE_ALONE = 0,
     DERIVE_LAYERS = 1,   /* the layers of neighbours */
     DERIVE_STEEPEST = 2, /* the largest density gradient of all, in field->scale */
+    DERIVE_AROUND = 8,   /* what lies around tiles, edges and corners too */
     DERIVE_PRESENCE = 4, /* the density from which on its material is felt (presence.h), in field->scale */
 };
 
@@ -203,6 +205,7 @@ static const struct derive_quantity derive_table[] = {
     {"density_", "kg/m3", DERIVE_MATERIAL, derive_material_density, 0, DERIVE_ALONE},
     {"temperature_", "K", DERIVE_MATERIAL, derive_material_temperature, 0, DERIVE_PRESENCE},
     {"partial_density_", "kg/m3", DERIVE_MATERIAL, derive_partial_density, 0, DERIVE_ALONE},
+    {"curvature_", "1/m", DERIVE_MATERIAL, derive_curvature, 0, DERIVE_AROUND},
     {"stress_", "Pa", DERIVE_TENSOR, derive_stress_cauchy, 0, DERIVE_ALONE},
     {"stretch_max", "1", DERIVE_SOLID, derive_stress_stretch_max, 0, DERIVE_ALONE},
     {"stretch_", "1", DERIVE_TENSOR, derive_stress_stretch, 0, DERIVE_ALONE},
@@ -297,6 +300,12 @@ static void derive_bring_layers(struct derive_moment *moment)
     moment->exchanges++;
 }
 
+static void derive_bring_around(struct derive_moment *moment)
+{
+    if (!moment->has_around) derive_curvature_exchange(moment->model, moment->mesh);
+    moment->has_around = true;
+}
+
 /* Wants the layers. */
 static double derive_steepest(struct derive_moment *moment)
 {
@@ -326,6 +335,7 @@ void derive_prepare(struct derive_moment *moment, struct derive *field)
 {
     unsigned needs = derive_table[field->what].needs;
     if (needs & DERIVE_LAYERS) derive_bring_layers(moment);
+    if (needs & DERIVE_AROUND) derive_bring_around(moment);
     if (needs & DERIVE_STEEPEST) field->scale = derive_steepest(moment);
     if (needs & DERIVE_PRESENCE) field->scale = derive_presence(moment, (unsigned)field->index);
 }

@@ -53,7 +53,7 @@ static void model_name_derived(struct model *model)
                                         "sigma_max_dev",   "sigma_min_dev",     "principal_max",     "principal_min",
                                         "principal_shear", "principal_max_dev", "principal_min_dev", "von_mises",
                                         "strain_energy",   "invariant_1",       "invariant_2"};
-    size_t n_plain = sizeof plain / sizeof *plain, n_each = 4, at = 0;
+    size_t n_plain = sizeof plain / sizeof *plain, n_each = 5, at = 0;
     size_t n_solid = model->elastic ? sizeof solid / sizeof *solid : 0;
     model->names = mem_new(n_plain + n_solid + n_each * model->n_material + 1, sizeof *model->names);
     for (size_t i = 0; i < n_plain; i++) model->names[at++] = mem_text(plain[i]);
@@ -64,6 +64,7 @@ static void model_name_derived(struct model *model)
         model->names[at++] = mem_print("density_%s", name);
         model->names[at++] = mem_print("temperature_%s", name);
         model->names[at++] = mem_print("partial_density_%s", name);
+        model->names[at++] = mem_print("curvature_%s", name);
     }
 }
 

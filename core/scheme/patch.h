@@ -1,13 +1,12 @@
 /* patch.h - a tile with g layers all around it, edges and corners included, gathered for terms that need them.
  *
  * [n_field][n_z + 2g][n_y + 2g][n_x + 2g], g = 1 or 2 (no layers along axes that are not used). Frames (frame.h)
- * are cheaper and enough for what looks along one axis at a time; tangential gradients at faces and normals at
- * corners look across edges. Fields may be any set of numbers per cell, primitives (patch_state.h) or what a term made of
- * them. Pieces of neighbours come as they are, from ranks and from the coarser level (mesh/rim.h). What lies
- * behind boundaries is made here out of what is inside: mirrors and copies act on one axis after the other
- * and do not mind in which order, so that corners behind two boundaries are mirrors of mirrors, and the exchange of
- * x and y keeps all bits. Where all boundaries behind which a corner lies are given, the mean of the nearest
- * given values stands there. */
+ * are enough for what looks along one axis at a time; tangential gradients at faces and normals at corners look
+ * across edges. Fields may be any numbers per cell, primitives (patch_state.h) or what a term made of them. Pieces of
+ * neighbours come as they are, from ranks and from the coarser level (mesh/rim.h). What lies behind boundaries is
+ * made here out of what is inside: mirrors and copies act on one axis after the other and do not mind in which order,
+ * so that corners behind two boundaries are mirrors of mirrors, and the exchange of x and y keeps all bits. Where all
+ * boundaries behind which a corner lies are given, the mean of the nearest given values stands there. */
 #ifndef PATCH_H
 #define PATCH_H
 
@@ -23,8 +22,8 @@ enum patch_rule {
     PATCH_GIVEN    /* what `given` writes */
 };
 
-/* Parity of a field: in which axes a mirror changes its sign. 0: a scalar; of u_y: PATCH_Y | PATCH_VELOCITY; of a tensor's
- * component xy: PATCH_X | PATCH_Y. */
+/* Parity of a field: in which axes a mirror changes its sign. 0: a scalar; of u_y: PATCH_Y | PATCH_VELOCITY; of the
+ * component xy of a tensor: PATCH_X | PATCH_Y. */
 enum { PATCH_X = 1, PATCH_Y = 2, PATCH_Z = 4, PATCH_VELOCITY = 8 };
 
 /* What is gathered. */

@@ -37,7 +37,7 @@ static void test_walls(void **state)
     small_start(&small, text);
     mem_free(text);
     assert_int_equal(probes_new(small.state, &probes), 0);
-    assert_int_equal(probes_record(probes, small.state), 0);
+    assert_int_equal(probes_record(probes, small.state, SMALL_NOW(small.state)), 0);
     probes_free(probes);
     char *file = small_text(&small, "probes.csv"), *at = strchr(file, '\n') + 1;
     strtod(at, &at); /* t */
