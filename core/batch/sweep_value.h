@@ -1,6 +1,6 @@
 /* sweep_value.h - values that a sweep asks of every combination: "min(V)/first(V)", "t_c = argmin(R)".
  *
- * Expressions over the histories and probes of a run, as in `expect:` (formula.h). */
+ * Expressions over the histories and probes of a run, as in `expect:` (case/formula.h). */
 #ifndef SWEEP_VALUE_H
 #define SWEEP_VALUE_H
 

@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "base/text.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <jansson.h>
 #include <stdarg.h>
@@ -266,6 +267,39 @@ static void diag_excerpt(FILE *to, const struct mark *mark)
     fprintf(to, "\n       | %*s^", column - 1, "");
     for (int i = 1; i < width; i++) fputc('~', to);
     fputc('\n', to);
+}
+
+static bool diag_is_word(char byte)
+{
+    return isalnum((unsigned char)byte) || byte == '_';
+}
+
+/* Is it the piece, and not a part of a longer word? `from`: where the text begins. */
+static bool diag_matches(const char *from, const char *at, const char *piece, size_t length)
+{
+    if (strncmp(at, piece, length) != 0) return false;
+    if (at > from && diag_is_word(at[-1]) && diag_is_word(*piece)) return false;
+    return !(diag_is_word(piece[length - 1]) && diag_is_word(at[length]));
+}
+
+struct mark diag_within(const struct mark *mark, const char *text, size_t at, size_t length)
+{
+    unsigned before = 0;
+    size_t line_length;
+    if (!mark->source || length == 0) return *mark;
+    for (size_t i = 0; i < at; i++) before += diag_matches(text, text + i, text + at, length);
+    const char *line = diag_line(mark->source, mark->line, &line_length);
+    const char *from = line + diag_bytes(line, line_length, mark->column - 1);
+    struct mark place = {mark->source, mark->line, mark->column, 0};
+    for (const char *byte = from; *byte; byte++) {
+        if (diag_matches(from, byte, text + at, length) && before-- == 0) {
+            for (size_t i = 0; i < length; i++) place.width += !diag_continues(text[at + i]);
+            return place;
+        }
+        place.column = *byte == '\n' ? 1 : place.column + !diag_continues(byte[1]);
+        place.line += *byte == '\n';
+    }
+    return *mark;
 }
 
 static void diag_print_entry(const struct diag_entry *entry, FILE *to)

@@ -161,15 +161,6 @@ static bool params_known(const char *name, const char *arguments)
     return params_listed(name, arguments);
 }
 
-/* Does the sandbox offer this name to scripts? */
-static bool params_global(const struct params *params, const char *name)
-{
-    char text[PARAMS_WORD + 32];
-    double found = 0.0;
-    snprintf(text, sizeof text, "(%s ~= nil) and 1 or 0", name);
-    return !script_evaluate(params->host, text, "name", 1, &found) && found > 0.0;
-}
-
 /* Names that are nothing at all: better said by us, with a suggestion, than by Lua as "nil". */
 static bool params_check_names(struct params *params, const struct node *node, const char *path, const char *arguments)
 {
@@ -178,8 +169,10 @@ static bool params_check_names(struct params *params, const struct node *node, c
     for (unsigned i = 0; i < params->count; i++) names[i] = params->list[i].name;
     names[params->count] = NULL;
     while (params_next(&text, name)) {
-        if (params_find(params, name) || params_known(name, arguments) || params_global(params, name)) continue;
-        diag_error(params->diag, &node->mark, "%s: '%s' is neither a parameter nor known to expressions", path, name);
+        if (params_find(params, name) || params_known(name, arguments) || script_has(params->host, name)) continue;
+        struct mark place =
+            diag_within(&node->mark, node->text, (size_t)(text - node->text) - strlen(name), strlen(name));
+        diag_error(params->diag, &place, "%s: '%s' is neither a parameter nor known to expressions", path, name);
         const char *nearest = text_nearest(name, names);
         struct unit unit;
         char bad[32];
@@ -298,10 +291,19 @@ static bool params_resolve(struct params *params, struct param *param)
     return good;
 }
 
+/* Does a name mean something that a parameter must not hide? Functions of math without "math." may be hidden. */
+static bool params_taken(const struct params *params, const char *name)
+{
+    static const char *const open[] = {"abs", "sqrt", "exp", "log", "min", "max"};
+    for (size_t i = 0; i < sizeof open / sizeof *open; i++)
+        if (strcmp(open[i], name) == 0) return false;
+    return script_has(params->host, name);
+}
+
 static bool params_is_free(struct params *params, const struct node *key)
 {
     bool good = text_is_identifier(key->text) && strlen(key->text) < PARAMS_WORD;
-    bool taken = good && (params_known(key->text, PARAMS_FIELD) || params_global(params, key->text));
+    bool taken = good && (params_known(key->text, PARAMS_FIELD) || params_taken(params, key->text));
     if (good && !taken) return true;
     diag_error(params->diag, &key->mark,
                taken ? "parameters: '%s' already means something in expressions"

@@ -131,6 +131,9 @@ enum {
 const struct scene_field *scene_field_all(struct draft *draft);
 const struct scene_field *scene_field_find(struct draft *draft, const char *name);
 
+/* Has a field three components, each with a column of its own? */
+bool scene_field_is_vector(const char *name);
+
 /* For the schema: the fields of every case and of those with a solid, and what with _MATERIAL is one. NULL-terminated, in the forest. */
 const char *const *scene_field_always(struct forest *forest);
 const char *const *scene_field_each(struct forest *forest);

@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "case/scene_columns.h"
 #include "case/table.h"
 
 #include <stdio.h>
@@ -11,7 +12,7 @@
 static const struct key scene_expect_rows[] = {
     {.name = "value",
      .type = KEYS_TREE,
-     .doc = "Expression over history and probe columns: `min(V)/first(V)`, `max(wall.pressure)`."},
+     .doc = "Lua over history and probe columns, with the parameters: `min(V)/first(V)`, `max(wall.pressure)`."},
     {.name = "norm", .type = KEYS_CHOICE, .choices = "L1|L2|Linf", .doc = "Norm of a difference to a reference."},
     {.name = "at-most", .type = KEYS_NUMBER, .doc = "Largest value that passes."},
     {.name = "at-least", .type = KEYS_NUMBER, .doc = "Least value that passes."},
@@ -64,68 +65,42 @@ static char *scene_expect_text(const struct keys_value *value)
     return value->given ? mem_text(value->text) : NULL;
 }
 
-/* Names an expression over a run may use: columns, probes, parameters, a few of every run. NULL-terminated. */
-static const char *const *scene_expect_names(struct draft *draft)
+/* Records what is wrong with an expression; a parameter that has no value is an error of its own, recorded already. */
+static void scene_expect_complain(struct draft *draft, const struct keys_value *value, size_t head,
+                                  const struct formula_fault *fault)
 {
-    static const char *const always[] = {
-        "t", "step", "dt", "guard_fallback", "guard_relaxed", "guard_clipped", "guard_retries", "pi"};
-    const struct scene *scene = draft->scene;
-    const struct node *parameters = tree_get(draft->root->node, "parameters");
-    unsigned count = sizeof always / sizeof *always, n_param = parameters ? parameters->count : 0;
-    const char **names =
-        tree_take(draft->keys.forest, (count + scene->n_column + scene->n_probe + n_param + 1) * sizeof *names);
-    memcpy(names, always, sizeof always);
-    for (unsigned i = 0; i < scene->n_column; i++) names[count++] = scene->columns[i].name;
-    for (unsigned i = 0; i < scene->n_probe; i++) names[count++] = scene->probes[i].name;
-    for (unsigned i = 0; i < n_param; i++) names[count++] = parameters->keys[i]->text;
-    return names;
-}
-
-/* A mistyped column would be found only after the run. Words before a bracket are functions, which the evaluator knows. */
-static void scene_expect_check(struct draft *draft, const char *text, const struct keys_value *value)
-{
-    const char *const *names = scene_expect_names(draft);
-    char name[PARAMS_WORD];
-    while (params_next(&text, name)) {
-        bool known = text[strspn(text, " ")] == '(';
-        for (const char *const *at = names; *at && !known; at++) known = strcmp(*at, name) == 0;
-        if (known) continue;
-        keys_error(&draft->keys, value, "there is no column, probe or parameter '%s'", name);
-        diag_suggest(draft->keys.diag, name, names);
-        return;
+    const struct node *node = value->node;
+    char *word = mem_text_n(node->text + head + fault->at, fault->length);
+    struct mark place = diag_within(&node->mark, node->text, head + fault->at, fault->length);
+    if (!params_has(draft->keys.params, word) || !diag_errors(draft->keys.diag)) {
+        diag_error(draft->keys.diag, &place, "%s: %s", value->path, fault->said);
+        if (fault->help) diag_help(draft->keys.diag, "%s", fault->help);
     }
+    mem_free(word);
 }
 
 /* Parameters that the expression uses stay in the resolved case. */
-static void scene_expect_value(struct draft *draft, struct scene_expect *expect, const struct keys_value *value)
+static void scene_expect_value(struct draft *draft, struct formula *plan, struct scene_expect *expect,
+                               const struct keys_value *value)
 {
     if (value->node->kind != TREE_SCALAR || tree_is_null(value->node)) {
         keys_error(&draft->keys, value, "an expression is needed, not %s", tree_describe(value->node));
         return;
     }
     const char *text = value->node->text;
-    text += strspn(text, " ");
-    expect->value = mem_text(*text == '=' ? text + 1 : text);
-    scene_expect_check(draft, expect->value, value);
+    size_t head = strspn(text, " \n");
+    struct formula_fault fault = {0};
+    double number;
+    if (text[head] == '=') head++;
+    expect->value = mem_text(text + head);
+    if (formula_value(plan, expect->value, &number, &fault)) scene_expect_complain(draft, value, head, &fault);
+    formula_fault_done(&fault);
     params_keep(draft->keys.params, expect->value);
 }
 
 static bool scene_expect_word(const char *name)
 {
     return strcmp(name, "exact-riemann") == 0 || strcmp(name, "initial") == 0;
-}
-
-/* Is it a column of the history ("V") or of the probes ("wall.pressure")? */
-static bool scene_expect_is_column(const struct scene *scene, const char *name)
-{
-    for (unsigned i = 0; i < scene->n_column; i++)
-        if (strcmp(scene->columns[i].name, name) == 0) return true;
-    const char *dot = strchr(name, '.');
-    for (unsigned i = 0; dot && i < scene->n_probe; i++)
-        if (strlen(scene->probes[i].name) == (size_t)(dot - name) &&
-            strncmp(scene->probes[i].name, name, (size_t)(dot - name)) == 0)
-            return true;
-    return false;
 }
 
 /* What would be found only after the run, and what would not be found at all. */
@@ -171,7 +146,8 @@ static bool scene_expect_is_written(const struct scene *scene, const char *name)
     return scene->n_snapshot_field == 0; /* then those that make sense: found out when they are written */
 }
 
-static void scene_expect_norm(struct draft *draft, struct scene_expect *expect, const struct keys_map *map)
+static void scene_expect_norm(struct draft *draft, const struct formula *plan, struct scene_expect *expect,
+                              const struct keys_map *map)
 {
     const struct keys_value *norm = keys_at(map, "norm"), *field = keys_at(map, "field"),
                             *reference = keys_at(map, "reference"), *column = keys_at(map, "column");
@@ -180,7 +156,8 @@ static void scene_expect_norm(struct draft *draft, struct scene_expect *expect, 
         keys_error(&draft->keys, norm, "'reference' is missing: a CSV file, 'exact-riemann' or 'initial'");
     if (!field->given || !reference->given) return;
     char name[SCENE_NAME];
-    bool over_time = scene_expect_is_column(draft->scene, field->text);
+    struct trace trace;
+    bool over_time = formula_column(plan, field->text, &trace);
     if (!over_time) scene_field(draft, field, name);
     if (!over_time && !scene_expect_is_written(draft->scene, field->text)) {
         keys_error(&draft->keys, field, "'%s' is not among the fields of the snapshots", field->text);
@@ -215,7 +192,8 @@ static void scene_expect_bounds(struct draft *draft, struct scene_expect *expect
         keys_error(&draft->keys, equals, "a 'tolerance' or 'relative' one is needed beside 'equals'");
 }
 
-static void scene_expect_read(struct draft *draft, struct scene_expect *expect, const struct keys_map *map)
+static void scene_expect_read(struct draft *draft, struct formula *plan, struct scene_expect *expect,
+                              const struct keys_map *map)
 {
     if (!map) return;
     const struct keys_value *value = keys_at(map, "value"), *norm = keys_at(map, "norm"),
@@ -228,8 +206,8 @@ static void scene_expect_read(struct draft *draft, struct scene_expect *expect, 
         diag_error(draft->keys.diag, &map->node->mark, "%s: one of 'value' and 'norm' is needed", map->path);
         return;
     }
-    if (value->node) scene_expect_value(draft, expect, value);
-    if (norm->given) scene_expect_norm(draft, expect, map);
+    if (value->node) scene_expect_value(draft, plan, expect, value);
+    if (norm->given) scene_expect_norm(draft, plan, expect, map);
     scene_expect_bounds(draft, expect, map);
 }
 
@@ -237,7 +215,9 @@ void scene_expect(struct draft *draft)
 {
     const struct keys_value *list = keys_at(draft->root, "expect");
     struct scene *scene = draft->scene;
+    struct formula *plan = scene_columns_plan(scene);
     scene->expects = mem_new(list->count + 1, sizeof *scene->expects);
     for (unsigned i = 0; i < list->count; i++)
-        scene_expect_read(draft, &scene->expects[scene->n_expect++], list->list[i].map);
+        scene_expect_read(draft, plan, &scene->expects[scene->n_expect++], list->list[i].map);
+    formula_free(plan);
 }

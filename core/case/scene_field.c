@@ -85,6 +85,13 @@ static bool scene_field_is_solid(const char *name)
     return false;
 }
 
+bool scene_field_is_vector(const char *name)
+{
+    for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++)
+        if (strcmp(scene_field_plain[i].name, name) == 0) return scene_field_plain[i].is & SCENE_FIELD_VECTOR;
+    return false;
+}
+
 /* What people write on paper. */
 static const char *scene_field_of_symbol(const char *symbol)
 {

@@ -120,7 +120,7 @@ static const struct key scene_root[] = {
  * scene_stretch.c. */
 #define SCENE_ROOT_RULES                                                                                              \
     "{'properties': {'parameters': {'propertyNames': {'pattern': '^(?!([xyzrt]|and|or|not|true|false|nil|function|"   \
-    "return|end|if|then|else|elseif|local|for|while|do|in|repeat|until|break|goto|math|string|table)$)[A-Za-z_]"      \
+    "return|end|if|then|else|elseif|local|for|while|do|in|repeat|until|break|goto|pi|math|string|table)$)[A-Za-z_]"   \
     "[A-Za-z0-9_]{0,62}$', 'patternErrorMessage': 'The name of a parameter is an identifier (letters, digits and _) " \
     "that means nothing in expressions yet.'}},"                                                                      \
     "'materials': {'minProperties': 1, 'maxProperties': 16, 'propertyNames': {'pattern': '^[A-Za-z_][A-Za-z0-9_]"     \

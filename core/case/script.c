@@ -24,14 +24,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SCRIPT_MEMORY = 64 << 20 };
+enum { SCRIPT_MEMORY = 64 << 20, SCRIPT_TICK = 1000000000 };
 #define SCRIPT_CHUNK "=\1"
 
 static void *script_allocate(void *user, void *block, size_t old, size_t size)
 {
     struct script_host *host = user;
     size_t held = block ? old : 0;
-    if (size > held && host->used - held + size > SCRIPT_MEMORY) return NULL;
+    if (size > held && host->used - held + size > SCRIPT_MEMORY + host->room) return NULL;
     void *moved = mem_try(block, size);
     if (moved || !size) host->used = host->used - held + size;
     return moved;
@@ -71,9 +71,10 @@ void script_limit(struct script_host *host, double seconds)
 }
 
 /* Of the guard, in microseconds: a call ends after one to two of them. */
-static int script_tick(const struct script_host *host)
+static int script_tick(const struct script_host *host, double extra)
 {
-    return (int)(0.5e6 * host->limit);
+    double tick = 0.5e6 * (host->limit + extra);
+    return tick < SCRIPT_TICK ? (int)tick : SCRIPT_TICK;
 }
 
 void script_host_free(struct script_host *host)
@@ -163,14 +164,36 @@ void script_set_number(struct script_host *host, const char *name, double value)
     if (lua_pcall(host->lua, 1, 0, 0)) lua_pop(host->lua, 1); /* no memory: scripts will find the name missing */
 }
 
-/* Compiling */
+/* [protected] Is the text a global? */
+static int script_find_global(lua_State *lua)
+{
+    const struct script_number *wanted = lua_touserdata(lua, 1);
+    lua_rawgeti(lua, LUA_REGISTRYINDEX, wanted->host->globals);
+    lua_getfield(lua, -1, wanted->name);
+    lua_pushboolean(lua, !lua_isnil(lua, -1));
+    return 1;
+}
 
-struct script_source {
-    struct script_host *host;
-    const char *text; /* whole chunk, newlines before it included */
-    bool own;         /* has globals of its own while it is loaded */
-    bool load;        /* only look whether it can be compiled */
-};
+bool script_has(struct script_host *host, const char *name)
+{
+    struct script_number wanted = {host, name, 0.0};
+    lua_pushcfunction(host->lua, script_find_global);
+    lua_pushlightuserdata(host->lua, &wanted);
+    bool found = lua_pcall(host->lua, 1, 1, 0) == LUA_OK && lua_toboolean(host->lua, -1);
+    lua_pop(host->lua, 1);
+    return found;
+}
+
+void script_numbers(struct script_host *host, void (*visit)(void *context, const char *name), void *context)
+{
+    lua_State *lua = host->lua;
+    lua_rawgeti(lua, LUA_REGISTRYINDEX, host->globals);
+    for (lua_pushnil(lua); lua_next(lua, -2); lua_pop(lua, 1))
+        if (lua_type(lua, -1) == LUA_TNUMBER) visit(context, lua_tostring(lua, -2));
+    lua_pop(lua, 1);
+}
+
+/* Compiling */
 
 /* __newindex of a chunk's environment. Upvalues: the host, the chunk's globals. */
 static int script_assign(lua_State *lua)
@@ -210,19 +233,18 @@ static int script_run_chunk(lua_State *lua)
     if (luaL_loadbufferx(lua, source->text, strlen(source->text), SCRIPT_CHUNK, "t")) return lua_error(lua);
     if (source->load) return 0;
     if (source->own) script_push_environment(lua, source->host);
-    else lua_rawgeti(lua, LUA_REGISTRYINDEX, source->host->frozen);
+    else lua_rawgeti(lua, LUA_REGISTRYINDEX, source->environment ? source->environment : source->host->frozen);
     lua_setupvalue(lua, -2, 1);
     lua_call(lua, 0, 1);
     return 1;
 }
 
-/* On success the chunk's result is on the stack (nothing with source.load). */
-static int script_run(const struct script_source *source, const char *file, int line)
+int script_run(const struct script_source *source, const char *file, int line)
 {
     struct script_host *host = source->host;
     lua_pushcfunction(host->lua, script_run_chunk);
     lua_pushlightuserdata(host->lua, (void *)(uintptr_t)source);
-    script_guard_enter(host->lua, script_tick(host));
+    script_guard_enter(host->lua, script_tick(host, source->extra));
     host->loading = true;
     int failed = lua_pcall(host->lua, 1, source->load ? 0 : 1, 0);
     host->loading = false;
@@ -382,7 +404,7 @@ int script_begin(const struct script *script, const double *in, unsigned n_in, u
     lua_checkstack(lua, 2 * SCRIPT_ARGUMENTS);
     lua_rawgeti(lua, LUA_REGISTRYINDEX, script->function);
     for (unsigned i = 0; i < n_in; i++) lua_pushnumber(lua, in[i]);
-    script_guard_enter(lua, script_tick(host));
+    script_guard_enter(lua, script_tick(host, 0.0));
     int failed = lua_pcall(lua, (int)n_in, (int)n_out, 0);
     struct script_guard_end end = script_guard_leave(lua);
     if (!failed) return STATUS_OK;

@@ -27,6 +27,12 @@ void script_limit(struct script_host *host, double seconds);
 /* Makes a number visible to all scripts as a global (a case parameter). */
 void script_set_number(struct script_host *host, const char *name, double value);
 
+/* Is there a global of that name: a number, a function, a library? */
+bool script_has(struct script_host *host, const char *name);
+
+/* Visits the names of all numbers that scripts see (parameters, pi), in no order. */
+void script_numbers(struct script_host *host, void (*visit)(void *context, const char *name), void *context);
+
 /* Evaluates an expression ("1.1 * R0") to a number at once. `file`, `line`: where its text
  * stands. Errors: STATUS_CASE. A non-finite result is an error. */
 int script_evaluate(struct script_host *host, const char *text, const char *file, int line, double *ret_value);

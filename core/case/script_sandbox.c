@@ -250,6 +250,8 @@ static const char *const script_sandbox_math[] = {
     "fmod", "huge", "log",  "max",  "maxinteger", "min",  "mininteger", "modf", "pi",
     "rad",  "sin",  "sqrt", "tan",  "tointeger",  "type", "ult",        NULL,
 };
+/* Those of math that need no "math." before them. */
+static const char *const script_sandbox_bare[] = {"pi", "abs", "sqrt", "exp", "log", "min", "max", NULL};
 static const char *const script_sandbox_string[] = {"len", "sub", "upper", "lower", "byte", "char", "format", NULL};
 static const char *const script_sandbox_table[] = {"concat", "unpack", NULL};
 
@@ -295,6 +297,10 @@ void script_sandbox_open(lua_State *lua)
     luaL_newlib(lua, base);
     script_sandbox_take(lua, "_G", luaopen_base, script_sandbox_base);
     script_sandbox_open_math(lua);
+    for (const char *const *name = script_sandbox_bare; *name; name++) {
+        lua_getfield(lua, -1, *name);
+        lua_setfield(lua, -3, *name);
+    }
     lua_setfield(lua, -2, "math");
     script_sandbox_open_string(lua);
     lua_setfield(lua, -2, "string");

@@ -1,4 +1,4 @@
-/* script_state.h - the inside of the Lua host, shared by script.c and script_table.c alone. */
+/* script_state.h - the inside of the Lua host, shared by script.c, script_table.c and formula.c alone. */
 #ifndef SCRIPT_STATE_H
 #define SCRIPT_STATE_H
 
@@ -10,7 +10,7 @@ struct script_table;
 
 struct script_host {
     lua_State *lua;
-    size_t used;                /* bytes that Lua holds */
+    size_t used, room;          /* bytes that Lua holds; that it may hold beside the usual ones */
     int globals;                /* registry: the numbers and libraries that all scripts see */
     int frozen;                 /* registry: the same behind glass, the environment of expressions */
     bool loading;               /* a chunk is being run: its globals can be written */
@@ -27,6 +27,20 @@ struct script {
     int line, function;     /* function: registry */
     bool constant;
 };
+
+/* A chunk that is compiled and run. */
+struct script_source {
+    struct script_host *host;
+    const char *text; /* newlines before it included */
+    bool own;         /* has globals of its own while it is loaded */
+    bool load;        /* only look whether it can be compiled */
+    int environment;  /* registry; 0: the globals behind glass */
+    double extra;     /* seconds of CPU time beside the host's limit */
+};
+
+/* Runs a chunk. On success its result is on the stack (nothing with source.load); else the message begins with file
+ * and line. STATUS_CASE. */
+int script_run(const struct script_source *source, const char *file, int line);
 
 /* Calls; on success n_out results are on the stack, on failure nothing. */
 int script_begin(const struct script *script, const double *in, unsigned n_in, unsigned n_out);

@@ -1,13 +1,13 @@
-/* expect.c - see expect.h. Names mean, in this order: a column of history.csv, `probe.field` of
- * probes.csv, a number that the case's scripts know (parameters), pi. */
+/* expect.c - see expect.h. Columns are those of history.csv, then those of probes.csv. */
 #include "judge/expect.h"
 
 #include "base/comm.h"
+#include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "case/formula.h"
 #include "case/table.h"
-#include "judge/formula.h"
 #include "judge/norm.h"
 
 #include <jansson.h>
@@ -20,69 +20,49 @@ struct expect_run {
     const struct scene *scene;
     const char *directory;
     struct table tables[2]; /* history, probes */
-    const char **known;     /* their names, NULL after the last */
+    struct formula *formula;
 };
 
 struct expect_result {
-    char *what, *bound;
+    char *what, *bound, *fault; /* fault: why there is no value, or NULL */
     double value;
     bool passed;
 };
 
-static bool expect_column(void *context, const char *name, struct trace *ret_trace)
+static void expect_add_columns(struct expect_run *run, const struct table *table)
 {
-    const struct expect_run *run = context;
-    for (int i = 0; i < 2; i++) {
-        const double *v = table_column(&run->tables[i], name);
-        if (!v) continue;
-        *ret_trace = (struct trace){run->tables[i].n_row, table_column(&run->tables[i], "t"), v};
-        return ret_trace->t != NULL;
+    const double *t = table_column(table, "t");
+    for (unsigned c = 0; t && c < table->n_column; c++) {
+        struct trace trace = {table->n_row, t, table->columns[c]};
+        formula_add(run->formula, table->names[c], &trace);
     }
-    return false;
-}
-
-static bool expect_number(void *context, const char *name, double *ret_value)
-{
-    const struct expect_run *run = context;
-    return run->scene->host && text_is_identifier(name) &&
-           script_evaluate(run->scene->host, name, run->scene->path, 0, ret_value) == STATUS_OK;
 }
 
 static int expect_open(struct expect_run *run)
 {
     static const char *const files[2] = {"history.csv", "probes.csv"};
-    unsigned n = 0;
+    run->formula = formula_new(run->scene->host, false);
     for (int i = 0; i < 2; i++) {
         char *path = mem_print("%s/%s", run->directory, files[i]);
         int code = access(path, F_OK) == 0 ? table_read(path, TABLE_OF_RUN, &run->tables[i]) : STATUS_OK;
         mem_free(path);
         TRY(code);
-        unsigned more = run->tables[i].n_column;
-        run->known = mem_grow(run->known, n, n + more + 1, sizeof *run->known);
-        for (unsigned c = 0; c < more; c++) run->known[n++] = run->tables[i].names[c];
+        expect_add_columns(run, &run->tables[i]);
     }
-    run->known[n] = NULL;
     return STATUS_OK;
 }
 
 static void expect_close(struct expect_run *run)
 {
+    formula_free(run->formula);
     table_done(&run->tables[0]);
     table_done(&run->tables[1]);
-    mem_free(run->known);
 }
 
-static int expect_text(struct expect_run *run, const char *text, double *ret_value)
-{
-    struct formula_names names = {run, expect_column, expect_number, run->known};
-    return formula_evaluate(text, &names, ret_value);
-}
-
-static int expect_value(struct expect_run *run, const struct scene_expect *expect, double *ret_value)
+static int expect_norm(const struct expect_run *run, const struct scene_expect *expect, double *ret_value)
 {
     struct trace trace;
-    if (expect->value) return expect_text(run, expect->value, ret_value);
-    if (expect_column(run, expect->field, &trace)) return norm_of_trace(expect, &trace, ret_value);
+    if (formula_column(run->formula, expect->field, &trace)) return norm_of_trace(expect, &trace, ret_value);
     return norm_of_field(run->scene, expect, run->directory, ret_value);
 }
 
@@ -113,16 +93,26 @@ static char *expect_what(const struct scene_expect *expect)
     return mem_print("%s(%s)", expect->norm, expect->field);
 }
 
+static int expect_result_of(struct expect_run *run, const struct scene_expect *expect, struct expect_result *ret)
+{
+    double value = NAN;
+    char *fault = NULL;
+    int code =
+        expect->value ? formula_value(run->formula, expect->value, &value, NULL) : expect_norm(run, expect, &value);
+    if (code) status_wrap(code, "%s:%d: expect: ", run->scene->path, expect->line);
+    if (code && !expect->value) return code;
+    if (code) {
+        fault = mem_text(status_text());
+        log_warn("%s", fault);
+    }
+    *ret = (struct expect_result){expect_what(expect), expect_bound(expect), fault, value, expect_holds(expect, value)};
+    return STATUS_OK;
+}
+
 static int expect_evaluate(struct expect_run *run, struct expect_result *results)
 {
-    for (unsigned i = 0; i < run->scene->n_expect; i++) {
-        const struct scene_expect *expect = &run->scene->expects[i];
-        double value = NAN;
-        int code = expect_value(run, expect, &value);
-        if (code) return status_wrap(code, "%s:%d: expect: ", run->scene->path, expect->line);
-        results[i] =
-            (struct expect_result){expect_what(expect), expect_bound(expect), value, expect_holds(expect, value)};
-    }
+    for (unsigned i = 0; i < run->scene->n_expect; i++)
+        TRY(expect_result_of(run, &run->scene->expects[i], &results[i]));
     return STATUS_OK;
 }
 
@@ -147,6 +137,7 @@ static json_t *expect_json(const struct scene *scene, const struct expect_result
         json_t *item = json_object();
         json_object_set_new(item, "what", json_string(results[i].what));
         json_object_set_new(item, "value", isfinite(results[i].value) ? json_real(results[i].value) : json_null());
+        if (results[i].fault) json_object_set_new(item, "fault", json_string(results[i].fault));
         json_object_set_new(item, "bound", json_string(results[i].bound));
         json_object_set_new(item, "passed", json_boolean(results[i].passed));
         json_object_set_new(item, "norm", scene->expects[i].value ? json_null() : json_string(scene->expects[i].norm));
@@ -187,6 +178,7 @@ static int expect_on_one_rank(const struct scene *scene, const char *directory, 
     for (unsigned i = 0; i < scene->n_expect; i++) {
         mem_free(results[i].what);
         mem_free(results[i].bound);
+        mem_free(results[i].fault);
     }
     mem_free(results);
     expect_close(&run);
@@ -207,7 +199,7 @@ int expect_formula(const struct scene *scene, const char *directory, const char 
 {
     struct expect_run run = {.scene = scene, .directory = directory};
     int code = expect_open(&run);
-    if (!code) code = expect_text(&run, text, ret_value);
+    if (!code) code = formula_value(run.formula, text, ret_value, NULL);
     expect_close(&run);
     return code;
 }

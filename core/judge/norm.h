@@ -10,7 +10,7 @@
 #define NORM_H
 
 #include "case/scene.h"
-#include "judge/formula.h"
+#include "case/trace.h"
 
 /* Before the run: has the scene an exact solution, where one is asked for, and does it have that field? STATUS_CASE with
  * the line of the case. (CSV files are looked at when the case is read.) */

@@ -56,6 +56,42 @@ grep -q "no column 'z'; it has x y step" stderr
 { head; echo '  - {norm: L1, field: density, reference: exact-riemann, at-most: 1}'; } >case.yaml
 run 2
 grep -q 'two layers that meet at one point' stderr
-{ head; echo '  - {value: "max(rhoo)", at-most: 1}'; } >case.yaml
-run 2
-grep -q "did you mean 'rho'" stderr
+
+# Expressions are Lua over whole columns, checked before anything is run: no output directory is made.
+rm -rf out
+for wrong in 'max(rhoo):18:did you mean .rho.' 'mxa(rho):14:did you mean .max.' 'max(p.presure):18:mean .p.pressure.' \
+    'max(2):14:max: a column of the run is needed, not a number' 'at(rho, rho):14:a time is needed' 'rho:14:whole column'; do
+    { head; echo "  - {value: \"${wrong%%:*}\", at-most: 1}"; } >case.yaml
+    rest=${wrong#*:}
+    run 2
+    grep -q "^case.yaml:9:${rest%%:*}: error: expect\[0\].value: " stderr || { cat stderr; exit 1; }
+    grep -q "${rest#*:}" stderr || { cat stderr; exit 1; }
+    got=0
+    "$BULLA" check case.yaml >stdout 2>stderr || got=$?
+    [ "$got" = 2 ]
+    [ ! -e out ]
+done
+
+# What the check takes for a column is one, and pi is pi wherever a formula can stand.
+{
+    head | sed 's/fields: \[pressure\]}/fields: [pressure, velocity, vorticity, temperature]}/; s/density: 1, pressure: 1}/density: = 1 + pi - math.pi, pressure: "= cos0 * (1 + 0 * x * pi)"}/
+        s/^bulla: 1/&\nparameters: {cos0: = math.cos(2 * pi) + pi - math.pi}/; s/rho: {max: density}/&, c: {value: "rho * pi"}, d: {value: "rho * math.pi"}/' |
+        sed 's/gamma: 1.4/&, cv: 718/'
+    cat <<'END'
+  - {value: "max(p.pressure + p.velocity_x + p.velocity_y + p.velocity_z)", equals: 1, tolerance: 1.0e-13}
+  - {value: "max(abs(p.vorticity_x + p.vorticity_y + p.vorticity_z)) + 0 * max(p.temperature)", equals: 0, tolerance: 1.0e-13}
+  - {value: "last(t) - last(step) * 0 + 0 * max(dt + guard_fallback + guard_relaxed + guard_clipped + guard_retries)", equals: 0.1, tolerance: 1.0e-13}
+  - {value: "max(abs(c - d)) + pi - math.pi", equals: 0, tolerance: 0}
+  - {value: "max(math.sin(pi * t)) > 0.3 and cos0 or 2", equals: 1, tolerance: 1.0e-13}
+END
+} >case.yaml
+run 0
+[ "$(grep -c '^ *pass' stdout)" = 5 ]
+
+# What only the run can tell: the expectation fails and says why, the others are judged, and there is an expect.json.
+{ head; echo '  - {value: "at(rho, 5)", at-most: 2}'; echo '  - {value: "1/(max(rho) - max(rho))", at-most: 2}'; echo '  - {value: "max(rho)", at-most: 2}'; } >case.yaml
+run 1
+grep -q '^warning: case.yaml:9: expect: .at(rho, 5)., character 1: at: the run has no such time: 5.0 is outside of 0.0 to 0.1$' stderr
+[ "$(grep -c '^ *FAIL' stdout)" = 2 ]
+[ "$(grep -c '^ *pass' stdout)" = 1 ]
+grep -q '"fault": "case.yaml:9: ' out/expect.json

@@ -114,7 +114,9 @@ expect_code 2 "$BULLA" sweep base.yaml -o bad --set 'matrix[scheme.limiter]=[mc,
 says "did you mean 'minmod'"
 says 'in the combination p_1=1bar,cells=32,limiter=minmood'
 expect_code 2 "$BULLA" sweep base.yaml -o bad --value 'min(q)'
-says "no column or parameter 'q'"
+says "there is no column, probe or parameter 'q'"
+expect_code 2 "$BULLA" sweep base.yaml -o bad --value 'late = last(t) == 1 and mxa(p) or 0'
+says "'last(t) == 1 and mxa(p) or 0', character 18: there is no function 'mxa'; did you mean 'max'?"
 expect_code 2 "$BULLA" sweep base.yaml -o bad --value 'between(p, 1, 2)'
 says 'whole column'
 expect_code 2 "$BULLA" sweep base.yaml -o bad --set 'matrix[domain.cells]=[[32], [64], [32]]'

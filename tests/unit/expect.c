@@ -16,6 +16,7 @@
 #include "judge/expect.h"
 
 static char folder[] = "/tmp/bulla-expect-XXXXXX";
+static struct script_host *host;
 
 static void write_file(const char *name, const char *text)
 {
@@ -31,6 +32,7 @@ static int make_run(void **state)
 {
     (void)state;
     if (!mkdtemp(folder)) return -1;
+    host = script_host_new();
     write_file("history.csv", "step,t,dt,V\n0,0,0,8\n1,1,1,2\n2,2,1,4\n3,4,2,6\n");
     write_file("probes.csv", "t,wall.pressure\n0,1e5\n4,3e5\n");
     write_file("reference.csv", "# columns: t/tc, t[s], V (volume)\n0,-1,7\n1,1,3\n2,4,6\n");
@@ -41,6 +43,7 @@ static int remove_run(void **state)
 {
     static const char *const names[] = {"history.csv", "probes.csv", "reference.csv", "expect.json"};
     (void)state;
+    script_host_free(host);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[128];
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
@@ -52,7 +55,7 @@ static int remove_run(void **state)
 static int judge(struct scene_expect *expects, unsigned n)
 {
     char path[] = "case.yaml";
-    struct scene scene = {.path = path, .n_expect = n, .expects = expects};
+    struct scene scene = {.path = path, .n_expect = n, .expects = expects, .host = host};
     for (unsigned i = 0; i < n; i++)
         if (expects[i].scale == 0) expects[i].scale = 1;
     return expect_judge(&scene, folder, true);
@@ -125,14 +128,31 @@ static void test_norms_over_time(void **state)
     json_decref(root);
 }
 
+/* A value that these files do not have fails, says why, and holds up nothing else. */
+static void test_values_that_cannot_be_had(void **state)
+{
+    (void)state;
+    struct scene_expect expects[] = {
+        {.value = "max(wall.presure)", .line = 12, .has_at_least = true},
+        {.value = "at(V, 5)", .line = 13, .has_at_least = true},
+        {.value = "min(V)", .line = 14, .has_at_least = true},
+    };
+    assert_int_equal(judge(expects, 3), STATUS_EXPECT);
+    json_t *root = report(), *list = json_object_get(root, "expectations");
+    const char *first = json_string_value(json_object_get(json_array_get(list, 0), "fault"));
+    const char *second = json_string_value(json_object_get(json_array_get(list, 1), "fault"));
+    assert_true(first && strstr(first, "case.yaml:12: expect: ") && strstr(first, "did you mean 'wall.pressure'"));
+    assert_true(second && strstr(second, "case.yaml:13: expect: ") && strstr(second, "no such time"));
+    assert_true(json_is_null(json_object_get(json_array_get(list, 0), "value")));
+    assert_null(json_object_get(json_array_get(list, 2), "fault"));
+    assert_true(json_is_true(json_object_get(json_array_get(list, 2), "passed")));
+    json_decref(root);
+}
+
 static void test_nonsense_names_its_line(void **state)
 {
     (void)state;
     char reference[] = "/nowhere/reference.csv", L1[] = "L1", field[] = "V";
-    struct scene_expect unknown = {.value = "max(wall.presure)", .line = 12};
-    assert_int_equal(judge(&unknown, 1), STATUS_CASE);
-    assert_non_null(strstr(status_text(), "case.yaml:12"));
-    assert_non_null(strstr(status_text(), "did you mean 'wall.pressure'"));
     struct scene_expect missing = {.reference = reference, .norm = L1, .field = field, .line = 13};
     assert_int_equal(judge(&missing, 1), STATUS_RUN);
     assert_non_null(strstr(status_text(), "case.yaml:13"));
@@ -145,6 +165,7 @@ int main(void)
         cmocka_unit_test(test_bounds),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_norms_over_time),
+        cmocka_unit_test(test_values_that_cannot_be_had),
         cmocka_unit_test(test_nonsense_names_its_line),
     };
     return cmocka_run_group_tests(tests, make_run, remove_run);

@@ -1,4 +1,4 @@
-/* formula.c - expressions over columns, and the tables they come from. */
+/* formula.c - expressions over columns: values, what is refused and where; and the tables they come from. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,35 +12,49 @@
 #include <unistd.h>
 
 #include "base/status.h"
+#include "case/formula.h"
 #include "case/table.h"
-#include "judge/formula.h"
 
 static const double t[] = {0, 1, 2, 4}, V[] = {8, 2, 4, 6}, p[] = {-1, 3, -5, 2}, bad[] = {1, NAN, 2, 3};
 static const double tp[] = {0, 0.5, 4}, wall[] = {10, 20, 30};
 
-static bool column(void *context, const char *name, struct trace *ret)
+static struct script_host *host;
+static struct formula *run, *plan;
+
+static void add(const char *name, size_t n, const double *times, const double *values)
 {
-    (void)context;
-    if (strcmp(name, "t") == 0) *ret = (struct trace){4, t, t};
-    else if (strcmp(name, "V") == 0) *ret = (struct trace){4, t, V};
-    else if (strcmp(name, "p") == 0) *ret = (struct trace){4, t, p};
-    else if (strcmp(name, "bad") == 0) *ret = (struct trace){4, t, bad};
-    else if (strcmp(name, "none") == 0) *ret = (struct trace){0, t, V};
-    else if (strcmp(name, "wall.pressure") == 0) *ret = (struct trace){3, tp, wall};
-    else return false;
-    return true;
+    formula_add(run, name, &(struct trace){n, times, values});
+    formula_plan(plan, name);
 }
 
-static bool number(void *context, const char *name, double *ret)
+static int make_columns(void **state)
 {
-    (void)context;
-    if (strcmp(name, "R0") != 0) return false;
-    *ret = 0.5;
-    return true;
+    (void)state;
+    host = script_host_new();
+    script_set_number(host, "R0", 0.5);
+    script_set_number(host, "mean_V", 2.0);
+    script_set_number(host, "exp", 3.0); /* a parameter goes before a function */
+    run = formula_new(host, false);
+    plan = formula_new(host, true);
+    add("t", 4, t, t);
+    add("V", 4, t, V);
+    add("p", 4, t, p);
+    add("bad", 4, t, bad);
+    add("none", 0, t, V);
+    add("wall.pressure", 3, tp, wall);
+    add("wall.velocity_x", 3, tp, wall);
+    add("p.density", 4, t, V); /* a probe that is called like a column */
+    return 0;
 }
 
-static const char *const known[] = {"t", "V", "p", "bad", "none", "wall.pressure", "R0", NULL};
-static const struct formula_names names = {NULL, column, number, known};
+static int free_columns(void **state)
+{
+    (void)state;
+    formula_free(plan);
+    formula_free(run);
+    script_host_free(host);
+    return 0;
+}
 
 static void test_values(void **state)
 {
@@ -71,17 +85,28 @@ static void test_values(void **state)
         {"min(2 * V / p)", -16},
         {"max(-p)", 5},
         {"min(V)/R0", 4},
-        {"sqrt(16) + exp(0) + log(1)", 5},
+        {"sqrt(16) + math.exp(0) + log(1) + exp", 8},
         {"max(sqrt(V)) ^ 2", 8},
         {"max(wall.pressure) - at(wall.pressure, 0.25)", 15},
         {"last(t)", 4},
         {"2*pi", 6.283185307179586},
+        {"math.pi - pi", 0},
+        {"min(3, 2) + max(1, 7, 5) + math.min(V)", 11},
+        {"max(p.density) + max(p)", 11},
+        {"(V and 1 or 2) -- a comment", 1},
+        {"max(math.sin(V)) - math.max(math.sin(2), math.sin(4), math.sin(6), math.sin(8))", 0},
+        {"max(V // 3) + max(V % 5)", 6},
+        {"last(math.atan(V, 2)) - math.atan(3)", 0},
+        {"log(8, 2) + abs(-R0) + mean_V", 5.5},
+        {"min(V) < 3 and max(V) or 0", 8},
+        {"at(wall.pressure,\n 0.25)", 15},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double value = NAN;
-        if (formula_evaluate(cases[i].text, &names, &value)) fail_msg("%s: %s", cases[i].text, status_text());
+        if (formula_value(run, cases[i].text, &value, NULL)) fail_msg("%s: %s", cases[i].text, status_text());
         if (!(fabs(value - cases[i].value) <= 1e-14 * fabs(cases[i].value)))
             fail_msg("%s = %.17g, wanted %.17g", cases[i].text, value, cases[i].value);
+        if (formula_value(plan, cases[i].text, &value, NULL)) fail_msg("planned: %s", status_text());
     }
 }
 
@@ -89,51 +114,121 @@ static void test_nan_is_never_skipped(void **state)
 {
     (void)state;
     double value = 0;
-    assert_int_equal(formula_evaluate("max(bad)", &names, &value), STATUS_OK);
+    assert_int_equal(formula_value(run, "max(bad)", &value, NULL), STATUS_OK);
     assert_true(isnan(value));
-    assert_int_equal(formula_evaluate("min(abs(bad))", &names, &value), STATUS_OK);
+    assert_int_equal(formula_value(run, "min(abs(bad))", &value, NULL), STATUS_OK);
     assert_true(isnan(value));
 }
 
+/* Refused when it is checked, and again over a run: the part of the text that is wrong, and a piece of the message. */
 static void test_refusals(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *part, *message;
+    } cases[] = {
+        {"min(walls.pressure)", "walls", "no column, probe or parameter 'walls'"},
+        {"2 * minn(V)", "minn", "no function 'minn'; did you mean 'min'? known are min max first"},
+        {"max(wall.presure)", "wall.presure", "did you mean 'wall.pressure'"},
+        {"3 * quux", "quux", "no column, probe or parameter 'quux'; known are t V p"},
+        {"1 and nope or 3", "nope", "'nope'"},
+        {"max(VV) + 1", "VV", "did you mean 'V'"},
+        {"max(V) + wall", "wall", "'wall' is a probe; which of its fields, as in 'wall.pressure'"},
+        {"max(V.pressure)", "V.pressure", "no column, probe or parameter 'V.pressure'"},
+        {"V", "V", "reduce it"},
+        {"V + 1", "V + 1", "reduce it"},
+        {"V > 1 and 2 or 3", "1", "attempt to compare number with column"},
+        {"min(V) > 1", "min(V) > 1", "the value is a boolean"},
+        {"'4'", "'4'", "the value is a string"},
+        {"1 +", "+", "unexpected symbol near <eof>"},
+        {"", "", "an expression is needed"},
+        {" -- nothing", " -- nothing", "an expression is needed"},
+        {"(1 + 2", "2", "')' expected"},
+        {"min(V", "V", "')' expected"},
+        {"1) + (2", ")", "near ')'"},
+        {"1 2", "2", "near '2'"},
+        {"1, 2", ",", "near ','"},
+        {"min(1)", "min", "min: a column of the run is needed, not a number"},
+        {"max(V) + min(V, p)", "min", "min takes one column, or numbers"},
+        {"min(1, V)", "min", "a number is needed as argument 2, not a column"},
+        {"min()", "min", "min takes one column, or numbers"},
+        {"first(R0)", "first", "first: a column of the run is needed, not a number"},
+        {"first(first(V)) + first(V)", "first", "first: a column of the run is needed, not a number"},
+        {"last(V) - at(V)", "at", "at takes a column and a time"},
+        {"at(1, V)", "at", "at: a column of the run is needed, not a number"},
+        {"at(V, V)", "at", "at: a time is needed as argument 2, not a column"},
+        {"max(between(V, 1))", "between", "between takes a column and two times"},
+        {"max(V) + abs(nil)", "abs", "a number or a column is needed as argument 1, not a nil"},
+        {"abs()", "abs", "abs takes a number or a column"},
+        {"max(V + 'x')", "+", "a column and a string cannot be combined"},
+        {"math.sgrt(2)", "math", "field 'sgrt'"},
+        {"R0(3)", "R0", "attempt to call a number value (global 'R0')"},
+        {"V(1)", "V", "attempt to call a column value (global 'V')"},
+        {"(function() V = 1 end)()", "1", "a global ('V') cannot be written here"},
+        {"(function() while true do end end)()", "do", "ran for too long"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int planned = 0; planned < 2; planned++) {
+            struct formula_fault fault;
+            double value = 42;
+            assert_int_equal(formula_value(planned ? plan : run, cases[i].text, &value, &fault), STATUS_CASE);
+            if (!strstr(status_text(), cases[i].message)) fail_msg("%s: %s", cases[i].text, status_text());
+            if (fault.length != strlen(cases[i].part) ||
+                strncmp(cases[i].text + fault.at, cases[i].part, fault.length) != 0)
+                fail_msg("%s: '%.*s', %s", cases[i].text, (int)fault.length, cases[i].text + fault.at, status_text());
+            assert_true(value == 42);
+            formula_fault_done(&fault);
+        }
+    char deep[2000];
+    memset(deep, '(', sizeof deep - 1);
+    deep[sizeof deep - 1] = '\0';
+    double value;
+    assert_int_equal(formula_value(run, deep, &value, NULL), STATUS_CASE);
+    assert_non_null(strstr(status_text(), "overflow"));
+}
+
+/* What only a run can tell: no reason to refuse a case. */
+static void test_faults_of_a_run(void **state)
 {
     (void)state;
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"min(walls.pressure)", "did you mean 'wall.pressure'"},
-        {"minn(V)", "did you mean 'min'"},
-        {"max(wall.presure)", "did you mean 'wall.pressure'"},
-        {"V", "reduce it"},
-        {"V + 1", "reduce it"},
-        {"1 +", "expected"},
-        {"", "expected"},
-        {"(1 + 2", "')' expected"},
-        {"min(V", "')' expected"},
-        {"1 2", "not understood"},
-        {"min(1)", "wrong arguments"},
-        {"min(V, p)", "wrong arguments"},
-        {"at(V)", "wrong arguments"},
-        {"at(1, V)", "wrong arguments"},
-        {"at(V, 5)", "no such time"},
-        {"max(between(V, 2.5, 3))", "no rows"},
-        {"max(none)", "no rows"},
-        {"max(V * wall.pressure)", "different rows"},
-        {"abs(1, 2, 3, 4)", "too many"},
-        {"3 * nope", "no column or parameter 'nope'"},
+        {"at(V, 5)", "character 1: at: the run has no such time: 5.0 is outside of 0.0 to 4.0"},
+        {"1 + max(between(V, 2.5, 3))", "character 9: between: no rows in that time span, 2.5 to 3.0"},
+        {"max(none)", "character 1: the run wrote no rows of 'none'"},
+        {"1 - max(none + 1)", "character 14: the run wrote no rows of 'none'"},
+        {"max(V * wall.pressure)", "character 7: these columns have different rows"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double value = 42;
-        assert_int_equal(formula_evaluate(cases[i].text, &names, &value), STATUS_CASE);
+        assert_int_equal(formula_value(run, cases[i].text, &value, NULL), STATUS_CASE);
         if (!strstr(status_text(), cases[i].message)) fail_msg("%s: %s", cases[i].text, status_text());
-        assert_true(value == 42);
+        assert_int_equal(formula_value(plan, cases[i].text, &value, NULL), STATUS_OK);
     }
-    char deep[2000];
-    memset(deep, '(', sizeof deep - 1);
-    deep[sizeof deep - 1] = '\0';
     double value;
-    assert_int_equal(formula_evaluate(deep, &names, &value), STATUS_CASE);
-    assert_non_null(strstr(status_text(), "deep"));
+    assert_int_equal(formula_value(run, "min(V)/0", &value, NULL), STATUS_OK);
+    assert_true(isinf(value));
+    assert_int_equal(formula_value(run, "0/0 * max(V)", &value, NULL), STATUS_OK);
+    assert_true(isnan(value));
+}
+
+/* Rows may take more memory and time than scripts have by themselves. */
+static void test_long_columns(void **state)
+{
+    (void)state;
+    enum { ROWS = 2000000 };
+    double *rows = malloc(ROWS * sizeof *rows), value;
+    assert_non_null(rows);
+    for (int i = 0; i < ROWS; i++) rows[i] = i;
+    struct formula *big = formula_new(host, false);
+    formula_add(big, "x", &(struct trace){ROWS, rows, rows});
+    const char *text =
+        "max(((x + 1) + ((x + 2) + ((x + 3) + ((x + 4) + ((x + 5) + (x + 6)))))) - 6 * x) + last(sqrt(x^2))";
+    if (formula_value(big, text, &value, NULL)) fail_msg("%s", status_text());
+    assert_true(value == 21 + ROWS - 1);
+    formula_free(big);
+    free(rows);
 }
 
 static void read_text(const char *text, enum table_kind kind, int code, struct table *table)
@@ -227,9 +322,10 @@ static void test_interpolation(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),   cmocka_unit_test(test_nan_is_never_skipped),
-        cmocka_unit_test(test_refusals), cmocka_unit_test(test_tables),
-        cmocka_unit_test(test_no_text),  cmocka_unit_test(test_interpolation),
+        cmocka_unit_test(test_values),       cmocka_unit_test(test_nan_is_never_skipped),
+        cmocka_unit_test(test_refusals),     cmocka_unit_test(test_faults_of_a_run),
+        cmocka_unit_test(test_long_columns), cmocka_unit_test(test_tables),
+        cmocka_unit_test(test_no_text),      cmocka_unit_test(test_interpolation),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_columns, free_columns);
 }

@@ -73,6 +73,8 @@ static void evaluates(void **state)
     assert_true(fabs(value_of("bulla.lithotripter(0, 3e7)") - 3e7) < 1.0 &&
                 value_of("bulla.lithotripter(-1, 3e7)") == 0.0);
     assert_true(value_of("math.tanh(0.5)") == tanh(0.5) && value_of("math.erf(0.5)") == erf(0.5));
+    assert_true(value_of("pi - math.pi") == 0.0 && value_of("sqrt(4) + abs(-1) + exp(0) + log(1)") == 4.0);
+    assert_true(value_of("min(3, 2) + max(3, 2)") == 5.0);
     script_set_number(host, "R0", 3.0);
     assert_true(value_of("R0") == 3.0);
     script_set_number(host, "R0", 2.0);
