@@ -7,11 +7,11 @@ const struct plan_stage *plan_stages(void)
         {"exchange", "send layers of primitives to neighbouring ranks", stage_exchange},
         {"ghosts", "with finer levels: what they see behind their edges at the beginning of the step", stage_ghosts},
         {"half",
-         "u* = u + dt/2 L(w): gather, slopes (%L), states (%E), fluxes (%R), divergence, closure (%C)%S;\n"
+         "u* = u + dt/2 L(w): gather, reconstruction (%L), states (%E), fluxes (%R), divergence, closure (%C)%S;\n"
          "              w = primitives of u* at the mixture pressure, admissibility",
          stage_half},
         {"exchange", "send layers of primitives to neighbouring ranks", stage_exchange},
-        {"full", "u = u + dt L(w): gather, slopes (%L), states (%E), fluxes (%R), divergence, closure (%C)%S",
+        {"full", "u = u + dt L(w): gather, reconstruction (%L), states (%E), fluxes (%R), divergence, closure (%C)%S",
          stage_full},
         {"close", "w = primitives of u, admissibility, signal speed for the next dt", stage_close},
         {NULL, NULL, NULL},
@@ -37,7 +37,7 @@ static void plan_line(const struct scene *scene, const char *doc, struct text *t
             continue;
         }
         doc++;
-        if (*doc == 'L') text_add(text, "%s", scene->limiter.module->name);
+        if (*doc == 'L') text_add(text, "%s with %s", scene->reconstruction.module->name, scene->limiter.module->name);
         if (*doc == 'L' && scene->n_material > 1) text_add(text, "; alpha: %s", scene->interface_limiter.module->name);
         if (*doc == 'R') text_add(text, "%s", scene->riemann.module->name);
         if (*doc == 'C')

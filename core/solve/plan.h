@@ -8,7 +8,7 @@
 
 struct plan_stage {
     const char *name;
-    const char *doc;                  /* one line; %L, %R, %C, %E stand for limiter, solver, closure, laws */
+    const char *doc;                  /* one line; %L, %R, %C, %E stand for reconstruction, solver, closure, laws */
     void (*run)(struct stage *stage); /* never NULL */
 };
 
