@@ -5,13 +5,21 @@
  *     c + (5 d2 - 2 d1)/6,   c + (d2 + 2 d3)/6,   c + (4 d3 - d4)/6
  * with the ideal weights 1/10, 6/10, 3/10, each times 1 + (tau/(beta + eps))^2, tau = |beta_0 - beta_2|. The lower edge is that
  * of the mirrored cells. In differences equal cells give their value to the bit, and mirrored ones mirrored edges.
- * eps only keeps 0/0 away. */
+ * eps only keeps 0/0 away.
+ *
+ * Beside interfaces of materials everything has limited slopes, unless the case says otherwise: parabolas through two
+ * materials make strong shocks ring there (docs/verification.md). */
 #include "bulla/reconstruction.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #define WENO_EPSILON 1e-40
+
+/* A fraction that varies by more than this makes an interface. */
+#define WENO_TRACE 1e-6
+
+enum { WENO_BLOCK = 128 }; /* cells at a time */
 
 struct weno_values {
     int fractions; /* is the scheme for fractions too? */
@@ -53,6 +61,42 @@ BULLA_KERNEL static void weno_edges(size_t n, size_t step, const double *w, doub
     }
 }
 
+/* 1 where a fraction varies over the five cells, added up over fractions. */
+BULLA_KERNEL static void weno_mix(size_t n, size_t step, const double *w, double *BULLA_RESTRICT mixed)
+{
+    const double *wa = w - 2 * step, *wb = w - step, *wd = w + step, *we = w + 2 * step;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = wa[i], b = wb[i], c = w[i], d = wd[i], e = we[i], was = mixed[i];
+        double spread = (fabs(a - c) + fabs(e - c)) + (fabs(b - c) + fabs(d - c));
+        mixed[i] = was + (spread > WENO_TRACE ? 1.0 : 0.0);
+    }
+}
+
+BULLA_KERNEL static void weno_choose(size_t n, const double *BULLA_RESTRICT mixed, const double *BULLA_RESTRICT limited,
+                                     double *BULLA_RESTRICT edge)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double m = mixed[i], a = limited[i], b = edge[i];
+        edge[i] = m > 0.0 ? a : b;
+    }
+}
+
+/* Limited edges beside interfaces, of n cells from `from`. */
+static void weno_yield(const struct bulla_cells *cells, size_t from, size_t n)
+{
+    double mixed[WENO_BLOCK] = {0.0}, lower[WENO_BLOCK], upper[WENO_BLOCK], any = 0.0;
+    for (uint32_t l = 0; l < cells->n_alpha; l++) weno_mix(n, cells->step, cells->w[cells->i_alpha + l] + from, mixed);
+    for (size_t i = 0; i < n; i++) any += mixed[i];
+    for (uint32_t q = cells->i_rho; any > 0.0 && q < cells->n_row; q++) {
+        const struct bulla_limited *limited = cells->limited[q];
+        limited->edges(limited, n, cells->step, cells->w[q] + from, lower, upper);
+        weno_choose(n, mixed, lower, cells->lower[q] + from);
+        weno_choose(n, mixed, upper, cells->upper[q] + from);
+    }
+}
+
 static void weno_all(const void *self, const struct bulla_cells *cells)
 {
     const struct weno_values *values = self;
@@ -63,6 +107,8 @@ static void weno_all(const void *self, const struct bulla_cells *cells)
             limited->edges(limited, cells->n, cells->step, cells->w[q], cells->lower[q], cells->upper[q]);
         else weno_edges(cells->n, cells->step, cells->w[q], cells->lower[q], cells->upper[q]);
     }
+    for (size_t from = 0; cells->n_alpha && !values->fractions && from < cells->n; from += WENO_BLOCK)
+        weno_yield(cells, from, cells->n - from < WENO_BLOCK ? cells->n - from : WENO_BLOCK);
 }
 
 static const struct bulla_reconstruction weno_table = {.size = sizeof(struct bulla_reconstruction),
@@ -73,7 +119,7 @@ static const struct bulla_param weno_params[] = {
     {.name = "fractions",
      .type = BULLA_CHOICE,
      .choices = "limited|weno",
-     .doc = "volume fractions: by `interface-limiter`, which keeps interfaces sharp, or by the scheme itself"},
+     .doc = "what interfaces of materials get: limited slopes, of all components, or the scheme itself, fractions too"},
     {0},
 };
 

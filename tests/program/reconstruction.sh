@@ -52,7 +52,7 @@ $materials
 initial:
   - {everywhere: true, material: water, density: 1000, pressure: 1 bar, velocity: [0, 200]}
   - {sphere: {center: [0, -0.2 mm], radius: 0.4 mm}, material: air, density: 1.2, pressure: 1 bar, velocity: [0, 200]}
-$scheme
+scheme: {reconstruction: weno5-z}
 run: {until: 1, max-steps: 12}
 $output
 END2
@@ -71,7 +71,7 @@ initial:
   - {everywhere: true, material: water, density: 1000, pressure: 1 bar, velocity: [0, 200, 0]}
   - {half-space: {point: [-0.6 mm, 0, 0], normal: [-1, 0, 0]}, material: water, density: 1010, pressure: 300 bar, velocity: [0, 200, 0]}
   - {sphere: {center: [-0.3 mm, 0.1 mm, -0.2 mm], radius: 0.3 mm}, material: air, density: 1.2, pressure: 1 bar, velocity: [0, 200, 0]}
-$scheme
+scheme: {reconstruction: weno5-z}
 run: {until: 1, max-steps: 6}
 $output
 END2
