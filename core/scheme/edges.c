@@ -184,7 +184,8 @@ static BULLA_KERNEL void edges_mark_value(size_t n, double part, const double *b
         low = z < low ? z : low;
         high = z > high ? z : high;
         double slack = EDGES_SLACK * (high - low), floor = part * low, least = low - slack, most = high + slack;
-        least = (floor > 0.0) & (floor > least) ? floor : least;
+        int nearer = (floor > 0.0) & (floor > least);
+        least = nearer ? floor : least;
         int good = (a >= least) & (a <= most) & (b >= least) & (b <= most);
         mark[i] = good ? 0.0 : 1.0;
     }
