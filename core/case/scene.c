@@ -268,6 +268,7 @@ void scene_free(struct scene *scene)
         instance_done(&scene->material[i].constitutive);
     }
     instance_done(&scene->riemann);
+    instance_done(&scene->reconstruction);
     instance_done(&scene->limiter);
     instance_done(&scene->interface_limiter);
     for (unsigned i = 0; i < scene->n_variant; i++) mem_free(scene->variants[i]);

@@ -235,7 +235,7 @@ struct scene {
     struct scene_layer *layers;
     struct scene_sources *sources; /* NULL: none */
     enum scene_closure closure;
-    struct instance riemann, limiter;
+    struct instance riemann, reconstruction, limiter;
     struct instance interface_limiter; /* of the volume fractions */
     int ghosts;                        /* layers of neighbours that the reconstruction needs on each side of a tile */
     double cfl, dt_fixed;              /* dt_fixed 0: from cfl */

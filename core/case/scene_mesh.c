@@ -77,6 +77,12 @@ static int scene_mesh_misfit(const struct scene *scene, int n)
     return -1;
 }
 
+/* The least side of a tile: what is refined has halves that hold the layers which neighbours need. */
+static int scene_mesh_least(const struct scene *scene)
+{
+    return scene->levels > 0 && 2 * scene->ghosts > SCENE_MESH_LEAST ? 2 * scene->ghosts : SCENE_MESH_LEAST;
+}
+
 /* Counts rounded up to multiples of n: "[48, 80]". */
 static const char *scene_mesh_multiples(struct draft *draft, int n)
 {
@@ -96,11 +102,18 @@ static void scene_mesh_given(struct draft *draft, const struct keys_value *tile)
         diag_help(draft->keys.diag, "a tile of a finer level lies under one half of a coarser one along each axis");
         return;
     }
+    if (n < scene_mesh_least(scene)) {
+        keys_error(&draft->keys, tile, "with 'levels' above 0 and this reconstruction a tile has a side of at least %d",
+                   scene_mesh_least(scene));
+        diag_help(draft->keys.diag, "its halves must hold the %d layers of cells that '%s' looks at", scene->ghosts,
+                  scene->reconstruction.module->name);
+        return;
+    }
     if (axis < 0) return;
     keys_error(&draft->keys, tile, "%d does not divide domain.cells[%d], which is %d", n, axis, scene->cells[axis]);
     int other = n - n % step;
-    while (other >= SCENE_MESH_LEAST && scene_mesh_misfit(scene, other) >= 0) other -= step;
-    if (other >= SCENE_MESH_LEAST)
+    while (other >= scene_mesh_least(scene) && scene_mesh_misfit(scene, other) >= 0) other -= step;
+    if (other >= scene_mesh_least(scene))
         diag_help(draft->keys.diag, "cells: [%s] would do, or tile: %d", scene_mesh_multiples(draft, n), other);
     else diag_help(draft->keys.diag, "cells: [%s] would do", scene_mesh_multiples(draft, n));
 }
@@ -117,9 +130,9 @@ int scene_mesh_tile(const struct scene *scene)
 {
     bool fine = scene->levels > 0, line = scene->dim == 1;
     int most = line ? 64 : 16, wish = !fine ? most : line ? 16 : 8, step = fine ? 2 : 1, largest = 0;
-    for (int n = wish; n >= SCENE_MESH_LEAST; n -= step)
+    for (int n = wish; n >= scene_mesh_least(scene); n -= step)
         if (scene_mesh_fits(scene, n)) return n;
-    for (int n = SCENE_MESH_LEAST; n <= most; n += step) {
+    for (int n = scene_mesh_least(scene); n <= most; n += step) {
         if (n > wish && scene_mesh_fits(scene, n)) return n;
         if (scene_mesh_misfit(scene, n) < 0) largest = n;
     }
@@ -131,7 +144,7 @@ static void scene_mesh_divisor(struct draft *draft, const struct keys_value *cel
 {
     if (scene_mesh_tile(draft->scene)) return;
     keys_error(&draft->keys, cells, "with 'levels' above 0 the counts need a common even divisor from %d to %d",
-               SCENE_MESH_LEAST, draft->scene->dim == 1 ? 64 : 16);
+               scene_mesh_least(draft->scene), draft->scene->dim == 1 ? 64 : 16);
     diag_help(draft->keys.diag, "[%s] would do: the domain is cut into tiles of that side",
               scene_mesh_multiples(draft, draft->scene->dim == 1 ? 16 : 8));
 }

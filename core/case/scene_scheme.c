@@ -1,6 +1,7 @@
 /* scene_scheme.c - the numerical method. */
 #include "case/scene_draft.h"
 
+#include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
 
 #include <stddef.h>
@@ -15,6 +16,7 @@
                                                                  .kind = #kind_name};
 
 MODULE_SECTION(riemann, "The Riemann solver.")
+MODULE_SECTION(reconstruction, "From cells to the values at their faces.")
 MODULE_SECTION(limiter, "The slope limiter.")
 
 static const struct key scene_scheme_rows[] = {
@@ -29,6 +31,13 @@ static const struct key scene_scheme_rows[] = {
      .doc =
          "The Riemann solver: a name, or {type: NAME, ...} with its keys. Default: hlld where a material is a solid, "
          "else hllc."},
+    {.name = "reconstruction",
+     .type = KEYS_SECTION,
+     .section = &scene_scheme_reconstruction,
+     .fallback = "muscl",
+     .doc = "From cells to the values at their faces: a name, or {type: NAME, ...} with its keys. muscl takes the "
+            "slopes of "
+            "the limiters; other schemes fall back on them where they would overshoot."},
     {.name = "limiter",
      .type = KEYS_SECTION,
      .section = &scene_scheme_limiter,
@@ -124,6 +133,15 @@ static void scene_scheme_riemann_open(struct draft *draft, const struct keys_map
     scene_scheme_solid(draft, &value);
 }
 
+/* The scheme says how many layers of neighbours tiles need. */
+static void scene_scheme_reconstruct(struct draft *draft, const struct keys_map *scheme)
+{
+    struct scene *scene = draft->scene;
+    scene_material_open(draft, keys_at(scheme, "reconstruction"), &scene->reconstruction);
+    const struct bulla_module *module = scene->reconstruction.module;
+    scene->ghosts = module ? (int)((const struct bulla_reconstruction *)module->table)->layers : SCENE_GHOSTS;
+}
+
 void scene_scheme(struct draft *draft)
 {
     const struct keys_map *scheme = keys_at(draft->root, "scheme")->map, *run = keys_at(draft->root, "run")->map;
@@ -135,9 +153,9 @@ void scene_scheme(struct draft *draft)
     scene->cfl = keys_at(scheme, "cfl")->number;
     scene->dt_fixed = keys_at(scheme, "dt")->number;
     scene_scheme_riemann_open(draft, scheme);
+    scene_scheme_reconstruct(draft, scheme);
     scene_material_open(draft, keys_at(scheme, "limiter"), &scene->limiter);
     scene_material_open(draft, keys_at(scheme, "interface-limiter"), &scene->interface_limiter);
-    scene->ghosts = SCENE_GHOSTS;
     scene->until = keys_at(run, "until")->number;
     scene->max_steps = keys_at(run, "max-steps")->integer;
     scene->dt_least = keys_at(run, "smallest-step")->given ? keys_at(run, "smallest-step")->number : -1.0;

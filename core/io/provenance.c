@@ -149,6 +149,7 @@ static json_t *provenance_modules(const struct scene *scene)
         if (scene->material[l].constitutive.module)
             provenance_add_module(modules, scene->material[l].constitutive.module);
     }
+    provenance_add_module(modules, scene->reconstruction.module);
     provenance_add_module(modules, scene->limiter.module);
     provenance_add_module(modules, scene->interface_limiter.module);
     provenance_add_module(modules, scene->riemann.module);

@@ -158,6 +158,8 @@ struct model *model_new(const struct scene *scene)
     model->limiter = (struct model_limiter){scene->limiter.module->table, scene->limiter.self};
     model->limiter_alpha =
         (struct model_limiter){scene->interface_limiter.module->table, scene->interface_limiter.self};
+    model->reconstruction = scene->reconstruction.module->table;
+    model->reconstruction_self = scene->reconstruction.self;
     model->riemann = scene->riemann.module->table;
     model->riemann_self = scene->riemann.self;
     const struct registry_entry *robust = registry_find("riemann", "rusanov");

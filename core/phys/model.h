@@ -9,6 +9,7 @@
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/limiter.h"
+#include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
 #include "case/scene.h"
 
@@ -55,6 +56,8 @@ struct model {
         const struct bulla_limiter *law;
         const void *self;
     } limiter, limiter_alpha; /* of the primitives, and of the volume fractions */
+    const struct bulla_reconstruction *reconstruction;
+    const void *reconstruction_self;
     const struct bulla_riemann *riemann;
     const void *riemann_self;
     const struct bulla_riemann *robust; /* rusanov: faces of troubled cells (solve/guard.h) */

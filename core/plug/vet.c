@@ -6,6 +6,7 @@
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/limiter.h"
+#include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
 
 #include <ctype.h>
@@ -42,6 +43,7 @@ static const struct vet_kind vet_kinds[] = {
       VET_SLOT(bulla_eos, entropy), VET_SLOT(bulla_eos, density), VET_SLOT(bulla_eos, p_min),
       VET_SLOT(bulla_eos, range)}},
     {"limiter", sizeof(struct bulla_limiter), {VET_SLOT(bulla_limiter, slope)}},
+    {"reconstruction", sizeof(struct bulla_reconstruction), {{0}}},
     {"riemann", offsetof(struct bulla_riemann, solids), {VET_SLOT(bulla_riemann, solve)}},
 };
 
@@ -93,7 +95,9 @@ static int vet_table(const struct bulla_module *module)
     for (int i = 0; i < VET_KINDS; i++)
         if (module->kind && strcmp(module->kind, vet_kinds[i].name) == 0) kind = &vet_kinds[i];
     if (!kind)
-        return status_fail(STATUS_CASE, "is of the unknown kind '%s'; kinds are constitutive, eos, limiter, riemann",
+        return status_fail(STATUS_CASE,
+                           "is of the unknown kind '%s'; kinds are constitutive, eos, limiter, "
+                           "reconstruction, riemann",
                            module->kind ? module->kind : "");
     if (!module->table) return status_fail(STATUS_CASE, "has no table of functions");
     uint32_t size;
@@ -107,6 +111,20 @@ static int vet_table(const struct bulla_module *module)
         if (!function)
             return status_fail(STATUS_CASE, "has no function '%s', which kind %s needs", slot->name, kind->name);
     }
+    return STATUS_OK;
+}
+
+/* What is more than a list of functions. */
+static int vet_reconstruction(const struct bulla_module *module)
+{
+    const struct bulla_reconstruction *table = module->table;
+    if (strcmp(module->kind, "reconstruction") != 0) return STATUS_OK;
+    if (table->layers != 2 && table->layers != 3)
+        return status_fail(STATUS_CASE, "asks for %u layers of neighbours; 2 or 3 can be had", table->layers);
+    if (table->bounded > 1) return status_fail(STATUS_CASE, "says 'bounded' is %u; it is 0 or 1", table->bounded);
+    if (!table->edges && !table->all)
+        return status_fail(STATUS_CASE, "has neither of the functions 'edges' and 'all', of which kind reconstruction "
+                                        "needs one");
     return STATUS_OK;
 }
 
@@ -203,6 +221,7 @@ int vet_module(const struct bulla_module *module, size_t space)
 {
     TRY(vet_head(module, space));
     TRY(vet_table(module));
+    TRY(vet_reconstruction(module));
     TRY(vet_params(module));
     return vet_presets(module);
 }
@@ -214,6 +233,46 @@ static bool vet_try_limiter(const struct bulla_limiter *limiter, const void *sel
     double slope[] = {(double)NAN, (double)NAN, (double)NAN};
     limiter->slope(self, 3, minus, plus, slope);
     return isfinite(slope[0]) && isfinite(slope[1]) && isfinite(slope[2]);
+}
+
+/* No slopes: what a scheme may ask for while it is tried. */
+static void vet_flat(const struct bulla_limited *limited, size_t n, size_t step, const double *w,
+                     double *BULLA_RESTRICT lower, double *BULLA_RESTRICT upper)
+{
+    (void)limited;
+    (void)step;
+    memcpy(lower, w, n * sizeof *w);
+    memcpy(upper, w, n * sizeof *w);
+}
+
+/* Edges of a gas that moves and whose density rises, in a row of as many cells as one needs. */
+static bool vet_try_reconstruction(const struct bulla_reconstruction *scheme, const void *self)
+{
+    enum { ROWS = 3, CELLS = 5 };
+    static const struct bulla_limited flat = {.size = sizeof flat, .edges = vet_flat};
+    const double gas[ROWS][CELLS] = {{1, 2, 3, 4, 5}, {10, 10, 10, 10, 10}, {1e5, 1e5, 1e5, 1e5, 1e5}};
+    double edges[2][ROWS] = {{(double)NAN, (double)NAN, (double)NAN}, {(double)NAN, (double)NAN, (double)NAN}};
+    const double *w[ROWS] = {gas[0] + 2, gas[1] + 2, gas[2] + 2};
+    double *lower[ROWS] = {&edges[0][0], &edges[0][1], &edges[0][2]};
+    double *upper[ROWS] = {&edges[1][0], &edges[1][1], &edges[1][2]}, sum = 0.0;
+    const struct bulla_limited *limited[ROWS] = {&flat, &flat, &flat};
+    const struct bulla_cells cells = {.size = sizeof cells,
+                                      .n = 1,
+                                      .step = 1,
+                                      .n_row = ROWS,
+                                      .n_rho = 1,
+                                      .n_u = 1,
+                                      .i_u = 1,
+                                      .i_p = 2,
+                                      .i_stretch = ROWS,
+                                      .w = w,
+                                      .lower = lower,
+                                      .upper = upper,
+                                      .limited = limited};
+    if (scheme->all) scheme->all(self, &cells);
+    for (int q = 0; q < ROWS && !scheme->all; q++) scheme->edges(self, &flat, 1, 1, w[q], lower[q], upper[q]);
+    for (int q = 0; q < ROWS; q++) sum += *lower[q] + *upper[q];
+    return isfinite(sum);
 }
 
 /* A gas that moves through a face, the same on both sides. */
@@ -257,6 +316,9 @@ int vet_instance(const struct bulla_module *module, const void *self)
     if (strcmp(module->kind, "constitutive") == 0 && !vet_try_constitutive(module->table, self))
         return status_fail(STATUS_CASE,
                            "constitutive '%s' gives no finite energy that rises at stretches of 1, 2 and 4",
+                           module->name);
+    if (strcmp(module->kind, "reconstruction") == 0 && !vet_try_reconstruction(module->table, self))
+        return status_fail(STATUS_CASE, "reconstruction '%s' gives no finite edges for a gas of rising density",
                            module->name);
     if (strcmp(module->kind, "riemann") == 0 && !vet_try_riemann(module->table, self))
         return status_fail(STATUS_CASE, "riemann '%s' gives no finite fluxes for air that moves at 10 m/s",

@@ -194,6 +194,7 @@ static void check_print(const struct scene *scene, const struct model *model, co
     for (unsigned i = 0; i < scene->n_material; i++) check_print_material(scene, model, i);
     printf("  %-12s %s\n", "closure", scene->closure == SCENE_KAPILA ? "kapila" : "allaire");
     check_print_module("riemann", &scene->riemann);
+    check_print_module("scheme", &scene->reconstruction);
     check_print_module("limiter", &scene->limiter);
     check_print_sources(scene);
     if (scene->n_material > 1) check_print_module("interface", &scene->interface_limiter);

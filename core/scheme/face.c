@@ -1,16 +1,13 @@
-/* face.c - see face.h; MUSCL on primitives (van Leer 1979, Toro 2009 ch. 14).
+/* face.c - see face.h.
  *
- * Both edges of all cells of a component lie behind each other in one row, so that one call of an
- * equation of state serves both sides of the faces. Slopes of the limiter contract keep face values
- * between neighbouring cells, hence alpha in [0, 1] and densities positive; with three or more
- * materials the limited fractions are scaled to sum 1. Because alpha_l and rho_l are limited
- * (not m_l), a contact at uniform p, u and rho_l has face energies linear in alpha: p and u stay
- * uniform to round-off for every law. */
+ * Both edges of all cells of a component lie behind each other in one row (edges.h), so that one call of an
+ * equation of state serves both sides of the faces. */
 #include "scheme/face.h"
 
 #include "base/mem.h"
 #include "phys/present.h"
 #include "phys/row.h"
+#include "scheme/edges.h"
 #include "scheme/face_stress.h"
 
 #include <math.h>
@@ -19,7 +16,7 @@
 /* Both edges of the cells of a row lie behind each other, upper then lower, n_cell each: face i
  * has upper edge i on its left and lower edge i + step on its right. */
 struct face_own {
-    double *difference, *slope;   /* only for limiters without fused edges */
+    struct edges *edges;
     double *state;                /* primitives at the edges: [n_field][2 FACE_ROOM] */
     double *m, *rho, *energy, *c; /* completed: [n_material], then one each, of 2 FACE_ROOM */
     double *term, *stiffness;     /* one material's rho e and rho c^2 */
@@ -78,8 +75,7 @@ struct face_work *face_new(const struct model *model)
     own->stress = face_stress_new(model);
     work->frame = face_row(model->n_field);
     work->mask = face_row(1);
-    own->difference = face_row(1);
-    own->slope = face_row(1);
+    own->edges = edges_new(model, FACE_ROOM);
     own->state = face_row(2 * model->n_field);
     own->m = face_row(2 * n);
     own->rho = face_row(2);
@@ -111,9 +107,7 @@ void face_free(struct face_work *work)
 {
     if (!work) return;
     struct face_own *own = work->own;
-    double *rows[] = {own->difference,
-                      own->slope,
-                      own->state,
+    double *rows[] = {own->state,
                       own->m,
                       own->rho,
                       own->energy,
@@ -135,104 +129,10 @@ void face_free(struct face_work *work)
                       work->stretch,
                       work->solid};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) mem_free(rows[i]);
+    edges_free(own->edges);
     face_stress_free(own->stress);
     mem_free(own);
     mem_free(work);
-}
-
-static BULLA_KERNEL void face_differ(size_t n, const double *restrict a, const double *restrict b, double *restrict d)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) d[i] = b[i] - a[i];
-}
-
-static BULLA_KERNEL void face_edges(size_t n, const double *restrict w, const double *restrict slope,
-                                    double *restrict lower, double *restrict upper)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double here = w[i], half = 0.5 * slope[i];
-        lower[i] = here - half;
-        upper[i] = here + half;
-    }
-}
-
-/* Edge values of `cells` cells of component q from `w`, by the limiter. */
-static void face_limit(const struct face_work *work, unsigned q, size_t cells, size_t step, const double *w,
-                       double *upper)
-{
-    const struct model *model = work->model;
-    const struct face_own *own = work->own;
-    const struct model_limiter *limiter = model_is_fraction(model, q) ? &model->limiter_alpha : &model->limiter;
-    double *lower = upper + cells;
-    if (limiter->law->edges) {
-        limiter->law->edges(limiter->self, cells, step, w, lower, upper);
-        return;
-    }
-    face_differ(cells + step, w - step, w, own->difference);
-    limiter->law->slope(limiter->self, cells, own->difference, own->difference + step, own->slope);
-    face_edges(cells, w, own->slope, lower, upper);
-}
-
-/* Without K a mixed cell is as stiff as its stiffest material makes it, so an edge must not look like the
- * pure softer one: the face would yield with that impedance and overshoot. Edges keep at least half of
- * what the cell has of every material. */
-static BULLA_KERNEL void face_temper(size_t n, const double *restrict alpha, double *restrict edge)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double a = alpha[i], e = edge[i], least = 0.5 * a, most = 0.5 + 0.5 * a;
-        e = e > least ? e : least;
-        edge[i] = e < most ? e : most;
-    }
-}
-
-/* First-order states at the faces of troubled cells. */
-static void face_flatten(size_t n, size_t step, const double *w, const double *mask, double *left, double *right)
-{
-    for (size_t i = 0; i < n; i++) {
-        if (mask[i] + mask[i + step] == 0.0) continue;
-        left[i] = w[i];
-        right[i] = w[i + step];
-    }
-}
-
-/* From the first cell of a frame to the first that has edges: all neighbours that they are made from are in the row. */
-static size_t face_reach(const struct frame *frame)
-{
-    return (frame->ghosts - 1) * frame->inner;
-}
-
-/* Edges of all cells but the outermost. */
-static void face_reconstruct(struct face_work *work, const struct frame *frame, size_t cells, bool masked)
-{
-    const struct model *model = work->model;
-    struct face_own *own = work->own;
-    size_t step = frame->inner;
-    for (unsigned i = 0; i < model->n_active; i++) {
-        unsigned q = model->active[i];
-        const double *w = work->frame + q * FACE_ROOM + face_reach(frame);
-        double *upper = own->state + 2 * q * FACE_ROOM;
-        face_limit(work, q, cells, step, w, upper);
-        if (model_is_fraction(model, q) && !model->kapila) {
-            face_temper(cells, w, upper);
-            face_temper(cells, w, upper + cells);
-        }
-        if (masked) face_flatten(cells - step, step, w, work->mask + face_reach(frame), upper, upper + cells + step);
-    }
-}
-
-/* Limited fractions of three or more materials need not sum to 1 (of two they do: limiters are odd). */
-static void face_normalise(struct face_work *work, size_t n)
-{
-    const struct model *model = work->model;
-    struct face_own *own = work->own;
-    if (!model->n_alpha || model->scene->n_material < 3) return; /* two of three are scaled as all three would be */
-    memset(own->term, 0, n * sizeof *own->term);
-    for (unsigned l = 0; l < model->n_alpha; l++)
-        row_add(n, own->state + 2 * (model->i_alpha + l) * FACE_ROOM, own->term);
-    for (unsigned l = 0; l < model->n_alpha; l++)
-        row_divide(n, own->term, own->state + 2 * (model->i_alpha + l) * FACE_ROOM);
 }
 
 /* One material's share: m = alpha rho, and its parts of rho, rho e and rho c_f^2; the first
@@ -367,7 +267,7 @@ static void face_solve_robust(struct face_work *work, const struct frame *frame,
         work->faces.slide_right = own->stress->robust_right;
     }
     model->robust->solve(NULL, &work->faces);
-    const double *mask = work->mask + face_reach(frame);
+    const double *mask = work->mask + frame_reach(frame);
     for (size_t i = 0; i < n; i++) {
         if (mask[i] + mask[i + frame->inner] == 0.0) continue;
         for (unsigned q = 0; q < own->n_flux; q++) work->alpha[q * FACE_ROOM + i] = own->robust[q * FACE_ROOM + i];
@@ -458,9 +358,9 @@ static void face_transport(struct face_work *work, size_t right)
 void face_solve(struct face_work *work, const struct frame *frame, bool masked)
 {
     const struct model *model = work->model;
-    size_t cells = frame->count - 2 * face_reach(frame);
-    face_reconstruct(work, frame, cells, masked);
-    face_normalise(work, 2 * cells);
+    struct face_own *own = work->own;
+    size_t cells = frame_edged(frame);
+    edges_fill(own->edges, model, frame, work->frame, masked ? work->mask : NULL, own->state);
     face_complete(work, frame, 2 * cells);
     face_point(work, frame, cells);
     model->riemann->solve(model->riemann_self, &work->faces);

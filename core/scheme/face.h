@@ -1,6 +1,6 @@
 /* face.h - from a frame of primitives to the fluxes through its faces.
  *
- * Reconstruct (limited slopes of alpha_l, rho_l, u_i, p, V), complete both sides (partial
+ * Reconstruct (alpha_l, rho_l, u_i, p, V; edges.h), complete both sides (partial
  * densities, energies, frozen speed; with a solid also stress and elastic speeds, face_stress.h), solve the Riemann problems. All arrays are long rows of a
  * frame; face k lies between cells k and k + inner, and the row of faces starts at k = inner. */
 #ifndef FACE_H

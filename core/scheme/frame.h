@@ -62,6 +62,17 @@ static inline size_t frame_at(const struct frame *frame, size_t o, int i)
     return (o * frame_layers(frame) + (size_t)(i + (int)frame->ghosts)) * frame->inner;
 }
 
+/* From the first cell of a frame to the first that has edges, whose neighbours are all in the row; and how many have. */
+static inline size_t frame_reach(const struct frame *frame)
+{
+    return (frame->ghosts - 1) * frame->inner;
+}
+
+static inline size_t frame_edged(const struct frame *frame)
+{
+    return frame->count - 2 * frame_reach(frame);
+}
+
 /* Offset in a tile's component of the same cell. */
 static inline size_t frame_tile_at(const struct frame *frame, size_t o, size_t i)
 {

@@ -61,8 +61,8 @@ static void plan_line(const struct tableau *tableau, const struct plan_step *ste
 /* What L(w) is made of at the faces. */
 static void plan_faces(const struct scene *scene, struct text *text)
 {
-    text_add(text, "L(w), tile by tile and axis by axis: gather two layers of neighbours, slopes (%s",
-             scene->limiter.module->name);
+    text_add(text, "L(w), tile by tile and axis by axis: gather %d layers of neighbours, reconstruction (%s with %s",
+             scene->ghosts, scene->reconstruction.module->name, scene->limiter.module->name);
     if (scene->n_material > 1) text_add(text, "; alpha: %s", scene->interface_limiter.module->name);
     text_add(text, "), states (");
     plan_laws(scene, text);

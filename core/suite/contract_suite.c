@@ -4,6 +4,7 @@
 #include "suite/contract_constitutive.h"
 #include "suite/contract_eos.h"
 #include "suite/contract_limiter.h"
+#include "suite/contract_reconstruction.h"
 #include "suite/contract_riemann.h"
 
 #include <stddef.h>
@@ -16,6 +17,7 @@ static const struct {
 } contract_suite_table[] = {{"constitutive", contract_constitutive_run, contract_constitutive_probe},
                             {"eos", contract_eos_run, contract_eos_probe},
                             {"limiter", contract_limiter_run, contract_limiter_probe},
+                            {"reconstruction", contract_reconstruction_run, contract_reconstruction_probe},
                             {"riemann", contract_riemann_run, contract_riemann_probe}};
 
 enum { SUITE_KINDS = sizeof contract_suite_table / sizeof *contract_suite_table };

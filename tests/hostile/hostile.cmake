@@ -17,7 +17,7 @@ target_compile_definitions(hostile-aborts PRIVATE FLAW_ABORTS)
 target_link_options(hostile-fast_math PRIVATE -ffast-math)
 
 # Modules that load and then give NaN, for program/hostile.sh.
-foreach(kind CONSTITUTIVE EOS LIMITER RIEMANN)
+foreach(kind CONSTITUTIVE EOS LIMITER RECONSTRUCTION RIEMANN)
   string(TOLOWER nan_${kind} name)
   add_library(hostile-${name} MODULE hostile/nan.c)
   set_target_properties(hostile-${name} PROPERTIES PREFIX "" OUTPUT_NAME ${name}

@@ -1,9 +1,10 @@
 /* nan.c - laws in good order that give NaN when they are used, for program/hostile.sh. Built once per kind with
- * -DNAN_CONSTITUTIVE, -DNAN_EOS, -DNAN_LIMITER or -DNAN_RIEMANN. The gas is an ideal one up to 3 bar, the solid neo-Hookean
+ * -DNAN_CONSTITUTIVE, -DNAN_EOS, -DNAN_LIMITER, -DNAN_RECONSTRUCTION or -DNAN_RIEMANN. The gas is an ideal one up to 3 bar, the solid neo-Hookean
  * up to I1 = 18. */
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/limiter.h"
+#include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
 
 #include <math.h>
@@ -101,6 +102,17 @@ static void nan_slope(const void *self, size_t n, const double *BULLA_RESTRICT d
 }
 
 static const struct bulla_limiter nan_table = {.size = sizeof nan_table, .slope = nan_slope};
+#elif defined(NAN_RECONSTRUCTION)
+#define NAN_KIND "reconstruction"
+
+static void nan_edges(const void *self, const struct bulla_limited *limited, size_t n, size_t step, const double *w,
+                      double *BULLA_RESTRICT lower, double *BULLA_RESTRICT upper)
+{
+    (void)self, (void)limited, (void)step, (void)w;
+    for (size_t i = 0; i < n; i++) lower[i] = upper[i] = (double)NAN;
+}
+
+static const struct bulla_reconstruction nan_table = {.size = sizeof nan_table, .layers = 2, .edges = nan_edges};
 #else
 #define NAN_KIND "riemann"
 

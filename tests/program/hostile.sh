@@ -264,6 +264,7 @@ done
 both 2 'the moon is not full' --set "modules=[$made/open_fails.so]" --set 'scheme.limiter={type: hostile}'
 both 2 'is damaged: trying to load it ended with SIGABRT' --set "modules=[$made/aborts.so]"
 both 2 'gives no finite slopes' --set "modules=[$made/nan/nan_limiter.so]" --set 'scheme.limiter=nan'
+both 2 'gives no finite edges' --set "modules=[$made/nan/nan_reconstruction.so]" --set 'scheme.reconstruction=nan'
 both 2 'gives no finite fluxes' --set "modules=[$made/nan/nan_riemann.so]" --set 'scheme.riemann=nan'
 gas="modules=[$made/nan/nan_eos.so]"
 both 2 'is no state of' --set "$gas" --set materials.air.eos=nan --set 'initial.1.pressure=4 bar'

@@ -78,7 +78,7 @@ static void check_layer(const struct flow *flow, const struct rule *rule, const 
 }
 
 /* One tile, so that the layers on both sides of a frame are those of the boundary or of the tile itself. */
-static void check_rule(const struct rule *rule, int axis)
+static void check_rule(const struct rule *rule, const char *scheme, int axis)
 {
     struct flow flow;
     flow_start(&flow,
@@ -86,8 +86,8 @@ static void check_rule(const struct rule *rule, int axis)
                          "boundaries: {x-: %s, x+: %s, y-: %s, y+: %s, z-: %s, z+: %s}}\nmesh: {tile: 8}\n"
                          "materials:\n" FLOW_WATER FLOW_AIR
                          "initial:\n  - {everywhere: true, material: air, density: 1, pressure: 1e5}\n"
-                         "run: {until: 1}\n",
-                         rule->type, rule->type, rule->type, rule->type, rule->type, rule->type));
+                         "scheme: {reconstruction: %s}\nrun: {until: 1}\n",
+                         rule->type, rule->type, rule->type, rule->type, rule->type, rule->type, scheme));
     flow_set(&flow, set_noise);
     const struct frame_source source = {.mesh = flow.state->mesh,
                                         .level = flow_level(&flow),
@@ -115,7 +115,10 @@ static void test_layers(void **state)
                                  {"outflow", .mirror = false},
                                  {"periodic", .wrap = true}};
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
-        for (int axis = 0; axis < 3; axis++) check_rule(&rules[i], axis);
+        for (int axis = 0; axis < 3; axis++) {
+            check_rule(&rules[i], "muscl", axis);
+            check_rule(&rules[i], "weno5-z", axis); /* three layers */
+        }
 }
 
 /* How a case writes a type. */

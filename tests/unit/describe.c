@@ -24,10 +24,11 @@ static void test_all(void **state)
     assert_int_equal(strncmp(text.at, "constitutive\n  fung", 19), 0);
     assert_says(&text, "\neos\n  helmholtz-air");
     assert_says(&text, "\nlimiter\n  mc             1.0    Monotonized central: ");
+    assert_says(&text, "\nreconstruction\n  muscl ");
     assert_says(&text, "\nriemann\n  hll ");
     size_t lines = 0;
     for (const char *at = text.at; *at; at++) lines += *at == '\n';
-    assert_int_equal(lines, registry_count() + 4 + 3); /* heads of four kinds, three blank lines */
+    assert_int_equal(lines, registry_count() + 5 + 4); /* heads of five kinds, four blank lines */
     text_done(&text);
 }
 
@@ -54,6 +55,9 @@ static void test_kind_and_name(void **state)
     assert_int_equal(describe_one("riemann/hllc", &text), 0);
     assert_says(&text, "  no parameters\n");
     assert_says(&text, "scheme: {riemann: hllc}\n");
+    text_done(&text);
+    assert_int_equal(describe_one("weno5-z", &text), 0);
+    assert_says(&text, "scheme: {reconstruction: weno5-z}\n");
     text_done(&text);
     assert_int_equal(describe_one("limiter/hllc", &text), STATUS_CASE);
 }

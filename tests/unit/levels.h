@@ -194,7 +194,7 @@ static inline void levels_open(struct levels *levels, const struct levels_shape 
     struct scene scene = {.dim = shape->dim,
                           .levels = shape->levels,
                           .tile = shape->n,
-                          .ghosts = SCENE_GHOSTS,
+                          .ghosts = seed % 2 && shape->n >= 6 ? SCENE_GHOSTS_MOST : SCENE_GHOSTS,
                           .cells_place = "case.yaml:1:1"};
     for (int d = 0; d < 3; d++) {
         scene.cells[d] = d < shape->dim ? shape->tiles[d] * shape->n : 1;

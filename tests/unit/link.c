@@ -29,13 +29,13 @@ static void check_patch(const struct levels *levels, int l, const struct link_fa
     const struct mesh *mesh = levels->mesh;
     const struct tile *fine = &mesh->levels[l].tiles[face->fine], *coarse = &mesh->levels[l - 1].tiles[face->coarse];
     int axis = face->face / 2, octant = 0;
-    assert_int_equal(face->layer, face->from[axis]);
+    assert_int_equal(face->layer, face->from[axis] + (face->face % 2 ? 0 : link_depth(mesh) - 1));
     for (int d = 0; d < 3; d++) {
         int n = mesh->n[d], first = fine->at[d] * n, half = d < mesh->dim ? 2 : 1;
         int cells = mesh->levels[l].extent[d] * n;
         if (d == axis) first += face->face % 2 ? n : -1;
         first = (first + cells) % cells; /* wraps: only a periodic face looks over the end */
-        assert_int_equal(coarse->at[d] * n + face->from[d], first / half);
+        assert_int_equal(coarse->at[d] * n + (d == axis ? face->layer : face->from[d]), first / half);
         assert_true(face->from[d] >= 0 && face->from[d] < n);
         if (d != axis && d < mesh->dim) assert_int_equal(face->from[d] % (n / 2), 0);
         if (d < mesh->dim && face->from[d] >= n / 2) octant |= 1 << d;

@@ -46,7 +46,7 @@ static void set_wave(const struct model *model, const double x[3], double *w)
 }
 
 /* L1 error of the density in units of the wave after half a period. */
-static double error_at(int dim, int cells, const char *limiter)
+static double error_at(int dim, int cells, const char *scheme)
 {
     static const char *const lower[] = {"0", "0, 0", "0, 0, 0"};
     bool thin = wave.k[0] == 0.0; /* nothing varies along x: eight cells do */
@@ -61,9 +61,9 @@ static double error_at(int dim, int cells, const char *limiter)
                mem_print("bulla: 1\ntitle: wave\ndomain: {lower: [%s], upper: [%s], cells: [%s], boundaries: {x-: "
                          "periodic, x+: periodic%s%s}}\nmaterials:\n" FLOW_AIR
                          "initial:\n  - {everywhere: true, material: air, density: 1.2, pressure: 1e5}\n"
-                         "scheme: {limiter: %s, cfl: 0.4}\nrun: {until: 1}\n",
+                         "scheme: {%s}\nrun: {until: 1}\n",
                          lower[dim - 1], upper, n, dim > 1 ? ", y-: periodic, y+: periodic" : "",
-                         dim > 2 ? ", z-: periodic, z+: periodic" : "", limiter));
+                         dim > 2 ? ", z-: periodic, z+: periodic" : "", scheme));
     mem_free(n);
     mem_free(upper);
     wave.t = 0.0;
@@ -84,11 +84,13 @@ static double error_at(int dim, int cells, const char *limiter)
     return sum;
 }
 
+static const char *scheme = "limiter: mc, cfl: 0.4";
+
 static void check(const char *what, bool acoustic, const double k[3], int dim, int cells, double least)
 {
     wave.acoustic = acoustic;
     memcpy(wave.k, k, sizeof wave.k);
-    double coarse = error_at(dim, cells, "mc"), fine = error_at(dim, 2 * cells, "mc"), rate = log2(coarse / fine);
+    double coarse = error_at(dim, cells, scheme), fine = error_at(dim, 2 * cells, scheme), rate = log2(coarse / fine);
     print_message("%s, %dD: error %.2e at %d, %.2e at %d cells: order %.2f\n", what, dim, coarse, cells, fine,
                   2 * cells, rate);
     if (!(rate >= least)) fail_msg("order %.3f is below %.2f", rate, least);
@@ -111,8 +113,22 @@ static void test_entropy(void **state)
     check("oblique entropy wave", false, (const double[]){1, 1, 0}, 2, 48, 1.9);
 }
 
+/* Edges of fifth order: with small steps it is seen, for waves so small that a mean is as good as a point; with usual
+ * ones the midpoint rule sets the order, at a fraction of the error. */
+static void test_weno(void **state)
+{
+    (void)state;
+    scheme = "reconstruction: weno5-z, cfl: 0.01";
+    check("entropy wave, small steps", false, (const double[]){1, 0, 0}, 1, 20, 4.7);
+    scheme = "reconstruction: weno5-z, cfl: 0.3";
+    check("acoustic wave", true, (const double[]){1, 0, 0}, 1, 64, 1.9);
+    check("oblique acoustic wave", true, (const double[]){1, 1, 0}, 2, 48, 1.9);
+    if (!(error_at(2, 48, scheme) < 0.2 * error_at(2, 48, "limiter: mc, cfl: 0.3"))) fail_msg("muscl is as good");
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_acoustic), cmocka_unit_test(test_entropy)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_acoustic), cmocka_unit_test(test_entropy),
+                                       cmocka_unit_test(test_weno)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

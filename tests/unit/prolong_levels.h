@@ -134,6 +134,10 @@ static const char *const TWOLEVEL_PAIR[] = {FLOW_HELIUM FLOW_AIR, FLOW_WATER FLO
                                             TWOLEVEL_MNASG FLOW_AIR, TWOLEVEL_MNASG FLOW_HELIUM};
 enum { TWOLEVEL_PAIRS = 5 };
 
+/* Reconstructions that need two and three ghost layers; that of the next cases. */
+static const char *const TWOLEVEL_SCHEMES[] = {"muscl", "weno5-z"};
+static const char *twolevel_scheme = "muscl";
+
 /* A case of `dim` axes in [0, 2], 32 cells an axis (16 in 3D), tiles of 8, everything of the first material. */
 static inline char *twolevel_case(int dim, const char *geometry, const char *materials)
 {
@@ -144,10 +148,11 @@ static inline char *twolevel_case(int dim, const char *geometry, const char *mat
     sscanf(materials, " %63[^:]", first);
     return mem_print("bulla: 1\ntitle: two levels\ndomain: {geometry: %s, lower: [%s], upper: [%s], cells: [%s], "
                      "boundaries: {x-: %s, x+: outflow%s%s}}\nmesh: {tile: 8}\nmaterials:\n%sinitial:\n"
-                     "  - {everywhere: true, material: %s, density: 1000, pressure: 1e5}\nrun: {until: 1}\n",
+                     "  - {everywhere: true, material: %s, density: 1000, pressure: 1e5}\nscheme: {reconstruction: "
+                     "%s}\nrun: {until: 1}\n",
                      geometry, lower[dim - 1], upper[dim - 1], cells[dim - 1],
                      strcmp(geometry, "cartesian") == 0 ? "outflow" : "axis", dim > 1 ? sides[1] : "",
-                     dim > 2 ? sides[2] : "", materials, first);
+                     dim > 2 ? sides[2] : "", materials, first, twolevel_scheme);
 }
 
 static const char *const TWOLEVEL_GEOMETRY[] = {"cartesian", "axisymmetric", "spherical"};

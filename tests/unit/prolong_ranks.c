@@ -60,8 +60,10 @@ static void play(const char *path)
 {
     char *own = mem_print("%s.%d", path, comm_rank());
     FILE *out = fopen(own, "w");
-    for (int dim = 1; dim <= 3; dim++) {
+    for (int i = 0; i < 6; i++) { /* in 1D to 3D, with two and with three ghost layers */
         struct twolevel two;
+        int dim = i % 3 + 1;
+        twolevel_scheme = TWOLEVEL_SCHEMES[i / 3];
         twolevel_start(&two, twolevel_case(dim, "cartesian", FLOW_WATER FLOW_AIR), twolevel_shock, in_corner);
         if (comm_size() > 1) scatter(&two);
         halo_start(two.coarse->halo, two.coarse->w);
@@ -74,11 +76,11 @@ static void play(const char *path)
         prolong_strips(prolong, two.mesh, 0, two.bound, 1);
         link_down(two.fine->link);
         for (unsigned t = 0; t < two.fine->n_local; t++)
-            for (size_t i = 0; i < two.mesh->n_cell; i++) two.fine->u_old[t][i] *= 1.0 + 0.01 * (double)(i % 7);
+            for (size_t c = 0; c < two.mesh->n_cell; c++) two.fine->u_old[t][c] *= 1.0 + 0.01 * (double)(c % 7);
         restrict_averages(two.mesh, 1);
         link_up(two.fine->link);
         restrict_take(two.mesh, 1);
-        write_state(&two, dim, out);
+        write_state(&two, i, out);
         prolong_free(prolong);
         mem_free(born);
         twolevel_stop(&two);

@@ -45,7 +45,8 @@ static void test_running(void **state)
     assert_int_equal(json_integer_value(json_object_get(root, "ranks")), 1);
     assert_int_equal(json_object_size(json_object_get(root, "hosts")), 1);
     json_t *modules = json_object_get(root, "modules"), *module = json_array_get(modules, 0);
-    assert_int_equal(json_array_size(modules), 6); /* two equations of state, two limiters, two Riemann solvers */
+    assert_int_equal(json_array_size(modules),
+                     7); /* two equations of state, one reconstruction, two limiters, two Riemann solvers */
     assert_string_equal(text_of(module, "name"), "stiffened-gas");
     assert_int_equal(strlen(text_of(module, "xxh64")), 16);
     assert_int_equal(*text_of(module, "path"), '/');
