@@ -247,6 +247,7 @@ struct scene {
     double dt_least; /* s; below 0: the program's choice (solve/pace.h) */
     char *directory; /* output directory, resolved against the working directory */
     struct scene_every snapshots, history, probes_every, maps_every, checkpoints;
+    double checkpoints_wall; /* s of wall time between two checkpoints; 0: they do not count */
     int checkpoints_keep;
     char (*snapshot_fields)[SCENE_NAME];
     unsigned n_snapshot_field;

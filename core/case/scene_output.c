@@ -85,8 +85,15 @@ static const struct key scene_output_checkpoint_rows[] = {
      .unit = "s",
      .min = KEYS_POSITIVE,
      .max = KEYS_MOST,
-     .required = true,
-     .doc = "Time, or `N steps`, between two checkpoints."},
+     .doc = "Time, or `N steps`, between two checkpoints, and one at the end."},
+    {.name = "wall",
+     .type = KEYS_NUMBER,
+     .unit = "s",
+     .min = 0,
+     .max = KEYS_MOST,
+     .fallback = "30 min",
+     .doc = "Wall time after which a checkpoint is written if there was none meanwhile; 0: never. One that cannot be "
+            "written is a warning."},
     {.name = "keep", .type = KEYS_INTEGER, .min = 1, .max = 1000, .fallback = "2", .doc = "How many to keep."},
     {0},
 };
@@ -129,6 +136,7 @@ static const struct key scene_output_rows[] = {
     {.name = "checkpoints",
      .type = KEYS_SECTION,
      .section = &scene_output_checkpoints,
+     .fallback = "{}",
      .doc = "Exact states to go on from."},
     {0},
 };
@@ -193,5 +201,6 @@ void scene_output(struct draft *draft)
     scene->history = scene_output_every(keys_at(keys_at(output, "history")->map, "every"));
     scene_output_probes_read(draft, keys_at(output, "probes")->map);
     scene->checkpoints = scene_output_every(keys_at(checkpoints, "every"));
+    scene->checkpoints_wall = keys_at(checkpoints, "wall")->number;
     scene->checkpoints_keep = (int)keys_at(checkpoints, "keep")->integer;
 }

@@ -27,6 +27,17 @@ void due_written(struct due *due, double t, long step)
     if (every > 0) due->next = (long)floor(t / every + due_same) + 1;
 }
 
+bool due_wall_now(struct due_wall *due, double clock)
+{
+    due->now = clock;
+    return due->every > 0.0 && clock - due->last >= due->every;
+}
+
+void due_wall_written(struct due_wall *due)
+{
+    due->last = due->now;
+}
+
 void due_keep(const struct due *due, const char *name, struct notes *notes)
 {
     const double values[] = {due->every.time, (double)due->every.steps, (double)due->next, (double)due->last_step};

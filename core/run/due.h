@@ -17,6 +17,19 @@ struct due {
     long last_step; /* the step written last, -1 before the first */
 };
 
+/* A schedule by the wall clock. */
+struct due_wall {
+    double every; /* s; 0: never */
+    double now;   /* the clock when it was looked at last */
+    double last;  /* when the output was written last */
+};
+
+/* Is an output due at this time of the clock [s]? */
+bool due_wall_now(struct due_wall *due, double clock);
+
+/* Notes that the output has been written, or could not be: it is due again after the whole interval. */
+void due_wall_written(struct due_wall *due);
+
 /* A schedule that starts at t = 0 with step 0 (both are due at once). */
 void due_init(struct due *due, struct scene_every every);
 

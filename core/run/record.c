@@ -5,6 +5,7 @@
  * on. */
 #include "run/record.h"
 
+#include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/checkpoint.h"
@@ -28,6 +29,7 @@ struct record {
     struct checkpoints *checkpoints;
     struct provenance *provenance;
     struct due snapshot_due, history_due, checkpoint_due;
+    struct due_wall late; /* checkpoints by the wall clock; of the rank that looks at it */
 };
 
 static int record_open_files(struct record *record, const struct state *state, int argc, char *const *argv)
@@ -37,6 +39,7 @@ static int record_open_files(struct record *record, const struct state *state, i
     TRY(probes_new(state, &record->probes));
     TRY(maps_new(state, &record->maps));
     record->checkpoints = checkpoint_new(state->scene);
+    record->late.every = state->scene->checkpoints_wall;
     return provenance_new(state, argc, argv, &record->provenance);
 }
 
@@ -128,6 +131,7 @@ static int record_checkpoint(struct record *record, const struct state *state)
     int code = record_note(record, state, &notes);
     if (!code) code = checkpoint_write(record->checkpoints, state, &notes);
     text_done(&notes.text);
+    if (!code) due_wall_written(&record->late);
     return code;
 }
 
@@ -144,6 +148,17 @@ static int record_timed(struct record *record, const struct state *state,
 int record_save(struct record *record, const struct state *state)
 {
     return record_timed(record, state, record_checkpoint);
+}
+
+bool record_late(struct record *record, double clock)
+{
+    return due_wall_now(&record->late, clock);
+}
+
+void record_rescue(struct record *record, const struct state *state)
+{
+    if (record_save(record, state)) log_warn("%s; the run goes on without it", status_text());
+    due_wall_written(&record->late);
 }
 
 const char *record_saved(const struct record *record)

@@ -4,6 +4,8 @@
 
 #include "solve/state.h"
 
+#include <stdbool.h>
+
 struct record;
 struct resume;
 
@@ -23,6 +25,14 @@ int record_now(struct record *record, const struct state *state);
 
 /* Writes a checkpoint, unless this state has one. */
 int record_save(struct record *record, const struct state *state);
+
+/* Has so much wall time passed without a checkpoint that one is due? `clock`: seconds since the run began. Not
+ * collective: one rank asks. */
+bool record_late(struct record *record, double clock);
+
+/* Writes the checkpoint that is late. If that fails it is a warning, and the next one comes after as much time again:
+ * nobody has asked for it, and the run is whole without it. */
+void record_rescue(struct record *record, const struct state *state);
 
 /* The checkpoint written last, or NULL. */
 const char *record_saved(const struct record *record);

@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/text.h"
 #include "cli/human.h"
 #include "cli/scenes.h"
 #include "io/rebuild.h"
@@ -30,6 +31,7 @@
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -46,6 +48,7 @@ struct run {
     bool shortened; /* the command line ended the run before the case does */
     bool quiet, json;
     double walltime;   /* seconds, or infinity */
+    double pace;       /* seconds of wall time that count for each step; 0: the clock counts */
     char *now;         /* a file by this name asks for a snapshot; NULL: nobody looks */
     char reason[1024]; /* why the run ended */
 };
@@ -57,6 +60,8 @@ static int run_options(struct run *run, const struct cli_given *given)
     run->quiet = cli_value(given, "--quiet") != NULL;
     run->json = cli_value(given, "--json") != NULL;
     run->walltime = INFINITY;
+    const char *pace = getenv("BULLA_STEP_SECONDS");
+    if (pace) text_number(pace, &run->pace);
     if (run->quiet && run->json) return status_fail(STATUS_CASE, "--quiet and --json exclude each other");
     const char *walltime = cli_value(given, "--walltime");
     if (walltime && human_read_duration(walltime, &run->walltime)) return status_wrap(STATUS_CASE, "--walltime: ");
@@ -82,15 +87,28 @@ static int run_snapshot(struct run *run)
     return STATUS_OK;
 }
 
-/* Wishes from outside before the next step, agreed on by all ranks: a snapshot, an end. */
+/* Wall time since the run began. Tests let it pass with the steps. */
+static double run_clock(const struct run *run)
+{
+    if (run->pace > 0.0) return run->pace * (double)(run->state->step - run->step_0);
+    return progress_clock() - run->progress.start;
+}
+
+/* Wishes from outside before the next step, agreed on by all ranks: an end, a snapshot, a checkpoint because the last one
+ * is long ago. */
 static int run_interruption(struct run *run)
 {
-    double wish[2] = {RUN_GO, 0.0};
-    if (comm_rank() == 0 && progress_clock() - run->progress.start >= run->walltime) wish[0] = RUN_CLOCK;
+    double wish[3] = {RUN_GO, 0.0, 0.0};
+    if (comm_rank() == 0) {
+        double clock = run_clock(run);
+        if (clock >= run->walltime) wish[0] = RUN_CLOCK;
+        wish[1] = run->now && !access(run->now, F_OK);
+        wish[2] = record_late(run->record, clock);
+    }
     if (stop_signal()) wish[0] = RUN_SIGNAL + stop_signal();
-    if (comm_rank() == 0 && run->now && !access(run->now, F_OK)) wish[1] = 1.0;
-    comm_max(wish, 2);
+    comm_max(wish, 3);
     if (wish[1] > 0.0) TRY(run_snapshot(run));
+    if (wish[2] > 0.0 && wish[0] == RUN_GO) record_rescue(run->record, run->state); /* an end saves the state itself */
     if (wish[0] == RUN_GO) return 0;
     if (wish[0] == RUN_CLOCK) run_because(run, "interrupted by %s", "walltime");
     else run_because(run, "interrupted by SIG%s", sigabbrev_np((int)wish[0] - RUN_SIGNAL));

@@ -74,12 +74,27 @@ static void remainders(void **state)
     assert_true(due_step(1, 0.1) == 0.1);
 }
 
+/* Half an hour by the wall clock, counted from the last time that an output was written, or could not be. */
+static void wall_time_passes(void **state)
+{
+    (void)state;
+    struct due_wall due = {.every = 1800.0}, never = {.every = 0.0};
+    assert_false(due_wall_now(&due, 0.0));
+    assert_false(due_wall_now(&due, 1799.9));
+    assert_true(due_wall_now(&due, 2000.0) && due_wall_now(&due, 2001.0));
+    due_wall_written(&due);
+    assert_false(due_wall_now(&due, 2001.0) || due_wall_now(&due, 3800.9));
+    assert_true(due_wall_now(&due, 3801.0));
+    assert_false(due_wall_now(&never, 1e9));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(times_are_hit_once_without_slivers),
         cmocka_unit_test(steps_are_counted),
         cmocka_unit_test(remainders),
+        cmocka_unit_test(wall_time_passes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

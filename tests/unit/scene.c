@@ -254,7 +254,7 @@ static void expressions_become_numbers_or_scripts(void **state)
     struct scene *scene = good("expressions");
     const double x[SCENE_AXES] = {2e-3, 0.0, 0.0};
     double value;
-    assert_int_equal(scene->cells[0], 64);
+    assert_int_equal(scene->cells[0], 128);
     assert_true(scene->until == 1.5 * (0.915 * 1e-3 * sqrt(998.2 / (20 * 101325.0))));
     assert_int_equal(scene->boundary[0][0].type, SCENE_SYMMETRY);
     assert_non_null(scene->layers[0].pressure.script);
@@ -278,7 +278,7 @@ static void overlays_are_laid_in_order(void **state)
     assert_int_equal(scene->cells[0], 32);
     assert_int_equal(scene->n_material, 2);
     assert_string_equal(scene->material[1].eos.module->name, "nasg");
-    assert_true(scene->layers[1].shape->radius == 20e-6);
+    assert_true(scene->layers[1].shape->radius == 40e-6);
     assert_int_equal(scene->n_column, 2);
     assert_string_equal(scene->columns[1].name, "p");
     assert_string_equal(scene->limiter.module->name, "minmod");

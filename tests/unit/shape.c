@@ -344,6 +344,35 @@ static void frees(void **state)
     shape_free(NULL);
 }
 
+/* A shape reaches into a box however small its part is, and does not where it surely stays outside. */
+static void reaches(void **state)
+{
+    (void)state;
+    const double lower[3] = {0.0, 0.0, 0.0}, upper[3] = {1.0, 2.0, 3.0};
+    struct shape speck = {.type = SHAPE_SPHERE, .a = {0.5, 0.5, 0.5}, .radius = 1e-9};
+    struct shape corner = {.type = SHAPE_SPHERE, .a = {-0.1, -0.1, -0.1}, .radius = 0.15};
+    struct shape plane = {.type = SHAPE_HALF_SPACE, .a = {0.0, 0.0, 3.5}, .b = {0.0, 0.0, 1.0}};
+    struct shape triangle = {.type = SHAPE_POLYGON, .n = 3};
+    double vertices[3][2] = {{1.5, 0.0}, {2.0, 0.0}, {2.0, 1.0}};
+    struct shape *parts[] = {&speck, &corner};
+    struct shape both = {.type = SHAPE_INTERSECTION, .n = 2, .parts = parts}, one = both, none = both;
+    triangle.vertex = vertices;
+    one.type = SHAPE_UNION;
+    none.type = SHAPE_COMPLEMENT;
+    assert_true(shape_reaches(NULL, lower, upper, 3) && shape_reaches(&speck, lower, upper, 3));
+    assert_true(shape_fraction(&speck, lower, upper, 3, 0) == 0.0);
+    assert_false(shape_reaches(&corner, lower, upper, 3)); /* its bounds reach in, it does not */
+    assert_true(shape_reaches(&corner, lower, upper, 2) && shape_reaches(&one, lower, upper, 3));
+    assert_false(shape_reaches(&both, lower, upper, 3));
+    assert_true(shape_reaches(&none, lower, upper, 3)); /* all but a speck */
+    assert_false(shape_reaches(&plane, lower, upper, 3));
+    plane.b[2] = -1.0;
+    assert_true(shape_reaches(&plane, lower, upper, 3));
+    assert_false(shape_reaches(&triangle, lower, upper, 2));
+    vertices[0][0] = 0.9;
+    assert_true(shape_reaches(&triangle, lower, upper, 2));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -357,6 +386,7 @@ int main(void)
         cmocka_unit_test(mirrors_to_the_bit),
         cmocka_unit_test(keeps_pure_cells_pure),
         cmocka_unit_test(frees),
+        cmocka_unit_test(reaches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
