@@ -11,6 +11,7 @@
 #include "scheme/edges.h"
 
 #include "base/mem.h"
+#include "phys/row.h"
 
 #include <string.h>
 
@@ -285,20 +286,11 @@ static void edges_settle(const struct edges *edges, const struct model *model, c
 }
 
 /* Rows of n fractions over their sum. */
-static BULLA_KERNEL void edges_scale(size_t n, unsigned n_alpha, size_t pitch, double *restrict alpha,
-                                     double *restrict sum)
+static void edges_scale(size_t n, unsigned n_alpha, size_t pitch, double *alpha, double *sum)
 {
-    for (size_t i = 0; i < n; i++) sum[i] = 0.0;
-    for (unsigned l = 0; l < n_alpha; l++) {
-        const double *row = alpha + l * pitch;
-#pragma omp simd
-        for (size_t i = 0; i < n; i++) sum[i] += row[i];
-    }
-    for (unsigned l = 0; l < n_alpha; l++) {
-        double *row = alpha + l * pitch;
-#pragma omp simd
-        for (size_t i = 0; i < n; i++) row[i] /= sum[i];
-    }
+    memset(sum, 0, n * sizeof *sum);
+    for (unsigned l = 0; l < n_alpha; l++) row_add(n, alpha + l * pitch, sum);
+    for (unsigned l = 0; l < n_alpha; l++) row_divide(n, sum, alpha + l * pitch);
 }
 
 /* Limited fractions of three or more materials need not sum to 1 (of two they do: limiters are odd). */

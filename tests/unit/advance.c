@@ -71,9 +71,31 @@ static void test_signal(void **state)
     flow_stop(&flow);
 }
 
+/* Both halves of a finer level's step know their time: heat that grows with t, taken at midpoints, adds up exactly. */
+static void test_time(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow,
+               mem_print(
+                   "bulla: 1\ntitle: time\ndomain: {lower: [0], upper: [1], cells: [32], boundaries: {x-: periodic, "
+                   "x+: periodic}}\nmesh: {levels: 1, tile: 8, refine: [{region: {box: {lower: [0], upper: "
+                   "[1]}}}]}\nmaterials:\n" FLOW_AIR
+                   "initial:\n  - {everywhere: true, material: air, density: 1, pressure: 1e5}\n"
+                   "sources: {heating: \"= 1e12 * t\"}\nscheme: {dt: 10 us}\nrun: {until: 1}\n"));
+    flow_steps(&flow, 10);
+    const struct mesh *mesh = flow.state->mesh;
+    double t = flow.state->t, wanted = 1e5 + 0.4 * 0.5e12 * t * t;
+    const double *p = mesh->levels[1].w[0] + flow.state->model->i_E * mesh->n_cell;
+    print_message("p = %.9g Pa, should be %.9g\n", p[3], wanted);
+    assert_int_equal(mesh->n_level, 2);
+    assert_true(fabs(p[3] / wanted - 1.0) < 1e-12);
+    flow_stop(&flow);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_recover), cmocka_unit_test(test_halved),
-                                       cmocka_unit_test(test_signal)};
+                                       cmocka_unit_test(test_signal), cmocka_unit_test(test_time)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,6 +45,24 @@ static void test_order(void **state)
     }
 }
 
+/* A stream goes in and out through both sides as it is. */
+static void test_stream(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow,
+               mem_print("bulla: 1\ntitle: stream\ndomain: {lower: [0], upper: [1], cells: [8], boundaries: {x-: "
+                         "non-reflecting, x+: non-reflecting}}\nmaterials:\n" FLOW_AIR
+                         "initial:\n  - {everywhere: true, material: air, density: 1.2, pressure: 1e5, velocity: "
+                         "[100]}\nrun: {until: 1}\n"));
+    flow_steps(&flow, 20);
+    double *u = flow_primitive(&flow, flow.state->model->i_u), *p = flow_primitive(&flow, flow.state->model->i_E);
+    for (size_t i = 0; i < flow.n_cell; i++) assert_true(fabs(u[i] - 100.0) < 1e-9 && fabs(p[i] - 1e5) < 1e-6);
+    mem_free(u);
+    mem_free(p);
+    flow_stop(&flow);
+}
+
 static void set_strained(const struct model *model, const double x[3], double *w)
 {
     for (unsigned c = 0; c < model->n_stretch; c++)
@@ -96,6 +114,7 @@ static void test_stretch(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_order), cmocka_unit_test(test_stretch)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_order), cmocka_unit_test(test_stream),
+                                       cmocka_unit_test(test_stretch)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,8 +55,28 @@ static void test_level(void **state)
     flow_stop(&flow);
 }
 
+/* Beside finer tiles nothing may be carried on, at rest or not: refluxing asks for the fluxes. */
+static void test_beside(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow,
+               mem_print("bulla: 1\ntitle: beside\ndomain: {lower: [0, 0], upper: [1, 1], cells: [48, 48], boundaries: "
+                         "{x-: reflecting, x+: reflecting, y-: reflecting, y+: reflecting}}\nmesh: {levels: 1, tile: "
+                         "8, refine: [{region: {box: {lower: [0.4, 0.4], upper: [0.6, 0.6]}}}]}\nmaterials:\n" FLOW_AIR
+                         "initial:\n  - {everywhere: true, material: air, density: 1, pressure: 1e5}\n"
+                         "run: {until: 1}\n"));
+    flow_steps(&flow, 3);
+    double *u = flow_primitive(&flow, flow.state->model->i_u);
+    assert_true(flow.state->mesh->n_level == 2 && flow.state->counts.carried > 0);
+    for (size_t i = 0; i < flow.n_cell; i++) assert_true(u[i] == 0.0);
+    mem_free(u);
+    flow_stop(&flow);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_stretched), cmocka_unit_test(test_level)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_stretched), cmocka_unit_test(test_level),
+                                       cmocka_unit_test(test_beside)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

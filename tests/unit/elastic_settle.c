@@ -73,6 +73,16 @@ static void test_kept(void **state)
     }
 }
 
+/* det V <= 0 is no stretch: that must not look like one. */
+static void test_inside_out(void **state)
+{
+    (void)state;
+    const struct model model = model_of(false);
+    double V[6] = {-1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+    elastic_unimodular(&model, 1, 1, V);
+    for (int c = 0; c < 3; c++) assert_true(isnan(V[c]));
+}
+
 /* |V - 1| <= (phi/ELASTIC_FADE)^2. */
 static void test_faded(void **state)
 {
@@ -92,6 +102,6 @@ static void test_faded(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_nearest), cmocka_unit_test(test_kept),
-                                       cmocka_unit_test(test_faded)};
+                                       cmocka_unit_test(test_faded), cmocka_unit_test(test_inside_out)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

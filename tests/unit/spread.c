@@ -116,9 +116,9 @@ static void test_change(void **state)
 static void test_amount(void **state)
 {
     (void)state;
-    static const double parts[] = {-0.1, -3.0, -40.0};
+    static const double parts[] = {-0.1, -3.0, -40.0, -45.0}; /* the last needs all that there is: field by field */
     for (int i = 0; i < 2; i++)
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 4; k++) {
             struct tile_world world;
             double amount[FLOW_FIELDS] = {0};
             start(&world, GEOMETRIES[i]);

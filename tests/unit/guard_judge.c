@@ -1,0 +1,107 @@
+/* What the guard calls inadmissible, one cell at a time: no number, no stiffness, less than no mass; and whose marks stay when
+ * the first stage of an attempt was bad. */
+#include "flow.h"
+
+/* A tile with its speeds, as a stage hands it over. */
+struct judged {
+    struct flow flow;
+    struct guard *guard;
+    double *u, *w, *rho_c2, *c2;
+    size_t n;
+    struct guard_tile tile;
+};
+
+static void start(struct judged *judged)
+{
+    flow_start(&judged->flow,
+               mem_print(
+                   "bulla: 1\ntitle: judge\ndomain: {lower: [0], upper: [1], cells: [16], boundaries: {x-: outflow, "
+                   "x+: outflow}}\nmesh: {tile: 16}\nmaterials:\n" FLOW_WATER FLOW_AIR
+                   "initial:\n  - {everywhere: true, fractions: {water: 0.6, air: 0.4}, density: {water: 1000, air: "
+                   "1.2}, pressure: 1e5}\nrun: {until: 1}\n"));
+    const struct model *model = judged->flow.state->model;
+    const struct level *level = flow_level(&judged->flow);
+    size_t n = judged->n = judged->flow.state->mesh->n_cell;
+    judged->guard = judged->flow.state->stages[0]->guard;
+    judged->guard->repair = false;
+    judged->u = mem_new(model->n_field * n, sizeof(double));
+    judged->w = mem_new(model->n_field * n, sizeof(double));
+    judged->rho_c2 = mem_new(2 * n, sizeof(double));
+    judged->c2 = mem_new(n, sizeof(double));
+    memcpy(judged->u, level->u_old[0], model->n_field * n * sizeof(double));
+    memcpy(judged->w, level->w[0], model->n_field * n * sizeof(double));
+    mix_stiffness(model, n, n, judged->w, judged->rho_c2);
+    mix_speed2(model, n, n, judged->w, judged->rho_c2, judged->c2);
+    judged->tile = (struct guard_tile){.model = model,
+                                       .stage = 1,
+                                       .u_old = level->u_old[0],
+                                       .u = judged->u,
+                                       .w = judged->w,
+                                       .rho_c2 = judged->rho_c2,
+                                       .c2 = judged->c2};
+    guard_clear(judged->guard);
+}
+
+static void stop(struct judged *judged)
+{
+    double *all[] = {judged->u, judged->w, judged->rho_c2, judged->c2};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) mem_free(all[k]);
+    flow_stop(&judged->flow);
+}
+
+static long long bad_with(struct judged *judged, double *place, double value)
+{
+    double before = *place;
+    *place = value;
+    guard_attempt(judged->guard);
+    guard_check(judged->guard, &judged->tile);
+    *place = before;
+    return judged->guard->bad[1];
+}
+
+static void test_values(void **state)
+{
+    (void)state;
+    struct judged judged;
+    start(&judged);
+    const struct model *model = judged.flow.state->model;
+    double *p = judged.w + model->i_E * judged.n + 5, *E = judged.u + model->i_E * judged.n + 5;
+    double *m = judged.u + model->i_m * judged.n + 5;
+    const double wrong[] = {(double)NAN, HUGE_VAL, -HUGE_VAL};
+    assert_int_equal(bad_with(&judged, p, *p), 0);
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(bad_with(&judged, p, wrong[i]), 1);
+        assert_int_equal(bad_with(&judged, E, wrong[i]), 1);
+        assert_int_equal(bad_with(&judged, &judged.c2[5], wrong[i]), 1);
+    }
+    assert_int_equal(bad_with(&judged, &judged.c2[5], 0.0), 1);
+    assert_int_equal(bad_with(&judged, &judged.rho_c2[5], -1.0), 1);
+    assert_int_equal(bad_with(&judged, &judged.rho_c2[judged.n + 5], 0.0), 1);
+    assert_int_equal(bad_with(&judged, m, -1.0), 1);
+    assert_int_equal(bad_with(&judged, m, (double)NAN), 1);
+    assert_int_equal(bad_with(&judged, m + judged.n, -1e-2), 1);
+    assert_int_equal(bad_with(&judged, m + judged.n, -1e-9), 0); /* round-off of 600 kg/m3 */
+    stop(&judged);
+}
+
+/* Marks of the second stage count only if the first was clean on all ranks. */
+static void test_marks(void **state)
+{
+    (void)state;
+    for (int first = 0; first < 2; first++) {
+        struct judged judged;
+        start(&judged);
+        judged.guard->last = false;
+        assert_int_equal(bad_with(&judged, &judged.c2[5], (double)NAN), 1);
+        guard_settle(judged.guard, first);
+        assert_true(judged.guard->mask[0][5] == (first ? 0.0 : 1.0) && judged.guard->mask[0][6] == 0.0);
+        assert_int_equal(judged.guard->bad[1], first ? 0 : 1);
+        stop(&judged);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_marks)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
