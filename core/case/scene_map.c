@@ -63,7 +63,7 @@ static const struct key scene_map_row = {.name = "NAME",
                                          .section = &scene_map_keys,
                                          .doc = "A map; the file is maps/NAME.csv."};
 
-static const struct key scene_maps_rows[] = {
+static const struct key scene_map_all[] = {
     {.name = "every",
      .type = KEYS_EVERY,
      .unit = "s",
@@ -77,7 +77,7 @@ static const struct key scene_maps_rows[] = {
 const struct keys_section scene_map_list_keys = {.name = "maps",
                                                  .doc =
                                                      "Fields along lines and surfaces over time: maps/NAME.csv, .hdf.",
-                                                 .keys = scene_maps_rows,
+                                                 .keys = scene_map_all,
                                                  .others = &scene_map_row,
                                                  .rules = "{'propertyNames': {'pattern': '^[A-Za-z_][A-Za-z0-9_]"
                                                           "{0,62}$', 'patternErrorMessage': 'The name of a map "

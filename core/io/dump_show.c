@@ -16,7 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static void dump_line(FILE *out, const struct dump *dump, const char *label, const char *name)
+static void dump_show_line(FILE *out, const struct dump *dump, const char *label, const char *name)
 {
     char *text = notes_get_text(&dump->notes, name);
     if (text && *text) fprintf(out, "%-10s%s\n", label, text);
@@ -24,7 +24,7 @@ static void dump_line(FILE *out, const struct dump *dump, const char *label, con
 }
 
 /* Word i of a list of names; "?" beyond its end. */
-static void dump_word(const char *words, unsigned i, size_t room, char *ret)
+static void dump_show_word(const char *words, unsigned i, size_t room, char *ret)
 {
     snprintf(ret, room, "?");
     for (; words && *words; words += strspn(words, " ")) {
@@ -38,7 +38,7 @@ static void dump_word(const char *words, unsigned i, size_t room, char *ret)
 }
 
 /* Is the module here now, and the same? */
-static const char *dump_compare_module(const json_t *module)
+static const char *dump_show_compare_module(const json_t *module)
 {
     const char *kind = json_string_value(json_object_get(module, "kind"));
     const char *name = json_string_value(json_object_get(module, "name"));
@@ -63,7 +63,7 @@ static void dump_show_modules(FILE *out, const struct dump *dump, bool compare)
             if (!texts[k]) texts[k] = "?";
         }
         fprintf(out, "%-10s%-8s %-16s %-8s xxh64 %s%s%s\n", i ? "" : "modules", texts[0], texts[1], texts[2], texts[3],
-                compare ? "  " : "", compare ? dump_compare_module(module) : "");
+                compare ? "  " : "", compare ? dump_show_compare_module(module) : "");
     }
     json_decref(root);
 }
@@ -88,7 +88,7 @@ static void dump_show_place(FILE *out, const struct dump *dump)
     fprintf(out, "field     %s = %.17g\nverdict   %s\n", facts->field, facts->value, facts->verdict);
 }
 
-static double dump_value(const struct dump *dump, enum blame_block block, unsigned row)
+static double dump_show_value(const struct dump *dump, enum blame_block block, unsigned row)
 {
     return dump->block[block][row * dump->shape[block].columns + dump->facts.cell];
 }
@@ -99,20 +99,20 @@ static void dump_show_cell(FILE *out, const struct dump *dump)
     bool old = dump->block[BLAME_U_OLD] != NULL;
     fprintf(out, "\n%-28s  %22s  %22s\n", "the cell: conserved", old ? "before the step" : "", "after");
     for (unsigned q = 0; q < dump->n_field; q++) {
-        dump_word(fields, q, sizeof name, name);
+        dump_show_word(fields, q, sizeof name, name);
         fprintf(out, "%-28s  ", name);
-        if (old) fprintf(out, "%22.15g", dump_value(dump, BLAME_U_OLD, q));
+        if (old) fprintf(out, "%22.15g", dump_show_value(dump, BLAME_U_OLD, q));
         else fprintf(out, "%22s", "");
-        fprintf(out, "  %22.15g\n", dump_value(dump, BLAME_U, q));
+        fprintf(out, "  %22.15g\n", dump_show_value(dump, BLAME_U, q));
     }
     fprintf(out, "%-28s  %22s  %22s\n", "primitives", "where rates were taken", "after");
     for (unsigned q = 0; q < dump->n_field; q++) {
-        dump_word(fields, q, sizeof name, name);
+        dump_show_word(fields, q, sizeof name, name);
         const char *of = !strcmp(name, "total_energy") ? "pressure" : name;
         if (!strncmp(of, "partial_", 8)) of += 8; /* of the material itself */
         bool velocity = !strncmp(of, "momentum_", 9);
         fprintf(out, "%s%-*s  %22.15g  %22.15g\n", velocity ? "velocity_" : "", velocity ? 19 : 28,
-                velocity ? of + 9 : of, dump_value(dump, BLAME_W, q), dump_value(dump, BLAME_W_NEW, q));
+                velocity ? of + 9 : of, dump_show_value(dump, BLAME_W, q), dump_show_value(dump, BLAME_W_NEW, q));
     }
     mem_free(fields);
 }
@@ -127,7 +127,7 @@ static void dump_show_faces(FILE *out, const struct dump *dump)
     for (unsigned f = 0; f < shape->rows; f++) fprintf(out, "  %12c%c", "xyz"[f / 2 % 3], "-+"[f % 2]);
     fputc('\n', out);
     for (unsigned c = 0; c < shape->columns; c++) {
-        dump_word(columns, c, sizeof name, name);
+        dump_show_word(columns, c, sizeof name, name);
         fprintf(out, "%-28s", name);
         for (unsigned f = 0; f < shape->rows; f++) fprintf(out, "  %13.6g", values[f * shape->columns + c]);
         fputc('\n', out);
@@ -149,10 +149,10 @@ int dump_show(FILE *out, const char *path)
     struct dump *dump;
     TRY(dump_read(path, &dump));
     fprintf(out, "dump      %s\n", path);
-    dump_line(out, dump, "case", "case.name");
-    dump_line(out, dump, "title", "case.title");
-    dump_line(out, dump, "by", "written.by");
-    dump_line(out, dump, "commit", "written.commit");
+    dump_show_line(out, dump, "case", "case.name");
+    dump_show_line(out, dump, "title", "case.title");
+    dump_show_line(out, dump, "by", "written.by");
+    dump_show_line(out, dump, "commit", "written.commit");
     dump_show_place(out, dump);
     dump_show_modules(out, dump, false);
     dump_show_cell(out, dump);
@@ -163,7 +163,7 @@ int dump_show(FILE *out, const char *path)
 }
 
 /* The case of a dump, through a file that is gone again. */
-static int dump_scene(const struct dump *dump, struct scene **ret_scene)
+static int dump_show_scene(const struct dump *dump, struct scene **ret_scene)
 {
     const char *folder = getenv("TMPDIR");
     char *path = mem_print("%s/bulla-dump-XXXXXX.yaml", folder ? folder : "/tmp");
@@ -181,7 +181,7 @@ static int dump_scene(const struct dump *dump, struct scene **ret_scene)
 }
 
 /* Do scene and file mean the same blocks? */
-static int dump_fits(const struct dump *dump, const struct model *model)
+static int dump_show_fits(const struct dump *dump, const struct model *model)
 {
     const struct blame_facts *facts = &dump->facts;
     bool fits = (unsigned)model->dim == dump->dim && model_numbered(model, facts->pure);
@@ -194,7 +194,7 @@ static int dump_fits(const struct dump *dump, const struct model *model)
                 : status_fail(STATUS_RUN, "%s: broken dump: its blocks are not those of its case", dump->path);
 }
 
-static int dump_compare(FILE *out, const struct dump *dump, const struct model *model)
+static int dump_show_compare(FILE *out, const struct dump *dump, const struct model *model)
 {
     struct blame blame = {.facts = dump->facts};
     struct blame_outcome outcome;
@@ -215,13 +215,13 @@ int dump_show_replay(FILE *out, const char *path)
     struct dump *dump;
     struct scene *scene = NULL;
     TRY(dump_read(path, &dump));
-    int code = dump_scene(dump, &scene);
+    int code = dump_show_scene(dump, &scene);
     if (!code) {
         struct model *model = model_new(scene);
         fprintf(out, "dump      %s\n", path);
         dump_show_modules(out, dump, true);
-        code = dump_fits(dump, model);
-        if (!code) code = dump_compare(out, dump, model);
+        code = dump_show_fits(dump, model);
+        if (!code) code = dump_show_compare(out, dump, model);
         model_free(model);
     }
     scene_free(scene);

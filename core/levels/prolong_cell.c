@@ -25,31 +25,31 @@
 /* Part of |p| by which the energy of motion and strain may move p out of its range. */
 #define CELL_PART 0.1
 
-struct cell_range {
+struct prolong_cell_range {
     double low, high;
 };
 
-static void cell_widen(struct cell_range *range, double value)
+static void prolong_cell_widen(struct prolong_cell_range *range, double value)
 {
     range->low = value < range->low ? value : range->low;
     range->high = value > range->high ? value : range->high;
 }
 
 /* Of a component over the coarse cell and its face neighbours; with `weight`, where that is positive. */
-static struct cell_range cell_range(const struct prolong_cells *source, size_t at, const double *values,
-                                    const double *weight)
+static struct prolong_cell_range prolong_cell_range(const struct prolong_cells *source, size_t at, const double *values,
+                                                    const double *weight)
 {
-    struct cell_range range = {HUGE_VAL, -HUGE_VAL};
+    struct prolong_cell_range range = {HUGE_VAL, -HUGE_VAL};
     for (int axis = 0; axis < source->model->dim; axis++)
         for (int step = -1; step <= 1; step++) {
             size_t cell = step < 0 ? at - source->stride[axis] : at + (size_t)step * source->stride[axis];
-            if (!weight || weight[cell] > 0.0) cell_widen(&range, values[cell]);
+            if (!weight || weight[cell] > 0.0) prolong_cell_widen(&range, values[cell]);
         }
     return range;
 }
 
 /* What a field may leave its range by. */
-static double cell_slack(const struct prolong_cells *source, size_t at, unsigned q)
+static double prolong_cell_slack(const struct prolong_cells *source, size_t at, unsigned q)
 {
     const struct model *model = source->model;
     double stiffness = source->rho_c2[at], rho = 0.0;
@@ -65,12 +65,12 @@ static double cell_slack(const struct prolong_cells *source, size_t at, unsigned
 typedef double cell_difference[PROLONG_FIELDS][3];
 
 /* Largest phi that keeps field q of all children in its range. */
-static double cell_share(const struct prolong_cells *source, size_t at, unsigned q, double mean,
-                         const double give[3][2], const double difference[3])
+static double prolong_cell_share(const struct prolong_cells *source, size_t at, unsigned q, double mean,
+                                 const double give[3][2], const double difference[3])
 {
-    struct cell_range range = cell_range(source, at, source->u + q * source->pitch, NULL);
-    double slack = cell_slack(source, at, q), up = 0.0, down = 0.0, phi = 1.0;
-    cell_widen(&range, mean);
+    struct prolong_cell_range range = prolong_cell_range(source, at, source->u + q * source->pitch, NULL);
+    double slack = prolong_cell_slack(source, at, q), up = 0.0, down = 0.0, phi = 1.0;
+    prolong_cell_widen(&range, mean);
     bool positive = q < source->model->i_u && range.low >= 0.0;
     double low = range.low - slack, high = range.high + slack;
     if (positive && low < 0.5 * range.low) low = 0.5 * range.low;
@@ -85,33 +85,33 @@ static double cell_share(const struct prolong_cells *source, size_t at, unsigned
 }
 
 /* give times the differences along all axes: mirrors and the exchange of x and y keep the bits. */
-static double cell_step(const double give[3][2], const double difference[3], int o)
+static double prolong_cell_step(const double give[3][2], const double difference[3], int o)
 {
     double x = give[0][o & 1] * difference[0], y = give[1][o >> 1 & 1] * difference[1];
     return (x + y) + give[2][o >> 2] * difference[2];
 }
 
 /* Mean and slopes. What must not be negative may have become so by a rounding. */
-static void cell_fill(const struct model *model, const double *mean, const cell_difference difference,
-                      const double give[3][2], double phi, struct prolong_children *ret)
+static void prolong_cell_fill(const struct model *model, const double *mean, const cell_difference difference,
+                              const double give[3][2], double phi, struct prolong_children *ret)
 {
     for (unsigned q = 0; q < model->n_field; q++)
         for (int o = 0; o < 1 << model->dim; o++) {
-            double value = mean[q] + phi * cell_step(give, difference[q], o);
+            double value = mean[q] + phi * prolong_cell_step(give, difference[q], o);
             ret->u[q][o] = q < model->i_u && mean[q] >= 0.0 && value < 0.0 ? 0.0 : value;
         }
     elastic_settle(model, (size_t)1 << model->dim, PROLONG_CHILDREN, ret->u[0]);
 }
 
-static void cell_differ(const struct prolong_cells *source, const double *values, double ret_difference[3])
+static void prolong_cell_differ(const struct prolong_cells *source, const double *values, double ret_difference[3])
 {
     for (int axis = 0; axis < 3; axis++)
         ret_difference[axis] = values[source->stride[axis]] - *(values - source->stride[axis]);
 }
 
 /* The children's elastic energy against that of the coarse cells, interpolated as the total energy is. */
-static void cell_strain(const struct prolong_cells *source, size_t at, const double give[3][2], double phi,
-                        struct prolong_children *children)
+static void prolong_cell_strain(const struct prolong_cells *source, size_t at, const double give[3][2], double phi,
+                                struct prolong_children *children)
 {
     const struct model *model = source->model;
     double difference[3], energy[PROLONG_CHILDREN];
@@ -120,44 +120,46 @@ static void cell_strain(const struct prolong_cells *source, size_t at, const dou
     if (!source->elastic) return;
     for (unsigned s = 0; s < model->n_solid; s++) m[s] = children->u[model->i_m + model->solids[s].material];
     elastic_energy(model, (size_t)1 << model->dim, PROLONG_CHILDREN, children->u[model->i_V], m, energy);
-    cell_differ(source, source->elastic + at, difference);
+    prolong_cell_differ(source, source->elastic + at, difference);
     for (int o = 0; o < 1 << model->dim; o++)
-        children->strain[o] = fabs(energy[o] - (source->elastic[at] + phi * cell_step(give, difference, o)));
+        children->strain[o] = fabs(energy[o] - (source->elastic[at] + phi * prolong_cell_step(give, difference, o)));
 }
 
 /* Is rho_l of child o within its range, and the material well-posed? */
-static bool cell_material(const struct prolong_cells *source, size_t at, unsigned l, int o, double rho_c2,
-                          const struct prolong_children *children)
+static bool prolong_cell_material(const struct prolong_cells *source, size_t at, unsigned l, int o, double rho_c2,
+                                  const struct prolong_children *children)
 {
     const struct model *model = source->model;
     const double *weight = model->n_alpha ? source->w + (model->i_alpha + l) * source->pitch : NULL;
     double alpha = model->n_alpha ? children->w[model->i_alpha + l][o] : 1.0, rho = children->w[model->i_m + l][o];
     if (alpha > CELL_TRACE && !(rho_c2 > 0.0)) return false;
     if (!(alpha > 0.0)) return true;
-    struct cell_range range = cell_range(source, at, source->w + (model->i_m + l) * source->pitch, weight);
+    struct prolong_cell_range range =
+        prolong_cell_range(source, at, source->w + (model->i_m + l) * source->pitch, weight);
     double slack = (1e-8 + 1e-14 / alpha) * rho; /* rho_l = m_l / alpha_l, and alpha_l has round-off of 1 */
     return rho >= range.low - slack && rho <= range.high + slack;
 }
 
-static bool cell_pressure(const struct prolong_cells *source, size_t at, int o, double rho,
-                          const struct prolong_children *children)
+static bool prolong_cell_pressure(const struct prolong_cells *source, size_t at, int o, double rho,
+                                  const struct prolong_children *children)
 {
     const struct model *model = source->model;
     const double *pressures = source->w + model->i_E * source->pitch;
-    struct cell_range range = cell_range(source, at, pressures, NULL);
+    struct prolong_cell_range range = prolong_cell_range(source, at, pressures, NULL);
     double p = children->w[model->i_E][o], motion = 4.0 * children->strain[o], most = CELL_PART * fabs(pressures[at]);
     for (unsigned q = model->i_u; q < model->i_E; q++) {
         double du = children->w[q][o] - source->w[q * source->pitch + at];
         motion += 2.0 * rho * du * du;
     }
-    double slack = CELL_ROUND_OFF * cell_range(source, at, source->rho_c2, NULL).high;
+    double slack = CELL_ROUND_OFF * prolong_cell_range(source, at, source->rho_c2, NULL).high;
     slack += motion < most ? motion : most;
     return p >= range.low - slack && p <= range.high + slack;
 }
 
 /* Written so that a NaN counts as bad. */
-static bool cell_child(const struct prolong_cells *source, size_t at, int o,
-                       double (*const stiffness)[PROLONG_CHILDREN], double c2, const struct prolong_children *children)
+static bool prolong_cell_child(const struct prolong_cells *source, size_t at, int o,
+                               double (*const stiffness)[PROLONG_CHILDREN], double c2,
+                               const struct prolong_children *children)
 {
     const struct model *model = source->model;
     double rho = 0.0;
@@ -165,24 +167,24 @@ static bool cell_child(const struct prolong_cells *source, size_t at, int o,
     if (!(rho > 0.0 && rho < HUGE_VAL && c2 > 0.0 && c2 < HUGE_VAL)) return false;
     for (unsigned l = 0; l < model->n_material; l++)
         if (!(children->u[model->i_m + l][o] >= -CELL_DEFICIT * rho) ||
-            !cell_material(source, at, l, o, stiffness[l][o], children))
+            !prolong_cell_material(source, at, l, o, stiffness[l][o], children))
             return false;
-    return cell_pressure(source, at, o, rho, children);
+    return prolong_cell_pressure(source, at, o, rho, children);
 }
 
 /* Children with slopes times phi and their primitives; iterated closures start from the coarse pressure. */
-static void cell_make(const struct prolong_cells *source, size_t at, const double *mean,
-                      const cell_difference difference, const double give[3][2], double phi,
-                      struct prolong_children *ret)
+static void prolong_cell_make(const struct prolong_cells *source, size_t at, const double *mean,
+                              const cell_difference difference, const double give[3][2], double phi,
+                              struct prolong_children *ret)
 {
     const struct model *model = source->model;
-    cell_fill(model, mean, difference, give, phi, ret);
-    cell_strain(source, at, give, phi, ret);
+    prolong_cell_fill(model, mean, difference, give, phi, ret);
+    prolong_cell_strain(source, at, give, phi, ret);
     for (int o = 0; o < PROLONG_CHILDREN; o++) ret->w[model->i_E][o] = source->w[model->i_E * source->pitch + at];
     mix_primitives(model, (size_t)1 << model->dim, PROLONG_CHILDREN, ret->u[0], ret->w[0]);
 }
 
-static bool cell_good(const struct prolong_cells *source, size_t at, const struct prolong_children *children)
+static bool prolong_cell_good(const struct prolong_cells *source, size_t at, const struct prolong_children *children)
 {
     const struct model *model = source->model;
     size_t count = (size_t)1 << model->dim;
@@ -190,7 +192,7 @@ static bool cell_good(const struct prolong_cells *source, size_t at, const struc
     mix_stiffness(model, count, PROLONG_CHILDREN, children->w[0], stiffness[0]);
     mix_speed2(model, count, PROLONG_CHILDREN, children->w[0], stiffness[0], c2);
     for (int o = 0; o < 1 << model->dim; o++)
-        if (!cell_child(source, at, o, stiffness, c2[o], children)) return false;
+        if (!prolong_cell_child(source, at, o, stiffness, c2[o], children)) return false;
     return true;
 }
 
@@ -202,14 +204,14 @@ double prolong_cell_children(const struct prolong_cells *source, size_t at, cons
     cell_difference difference;
     double most = 1.0;
     for (unsigned q = 0; q < model->n_field; q++) {
-        cell_differ(source, source->u + q * source->pitch + at, difference[q]);
-        double phi = cell_share(source, at, q, mean[q], give, difference[q]);
+        prolong_cell_differ(source, source->u + q * source->pitch + at, difference[q]);
+        double phi = prolong_cell_share(source, at, q, mean[q], give, difference[q]);
         most = phi < most ? phi : most;
     }
     for (size_t i = 0; i < sizeof tries / sizeof *tries; i++) {
-        cell_make(source, at, mean, difference, give, tries[i] * most, ret);
-        if (cell_good(source, at, ret)) return tries[i] * most;
+        prolong_cell_make(source, at, mean, difference, give, tries[i] * most, ret);
+        if (prolong_cell_good(source, at, ret)) return tries[i] * most;
     }
-    cell_make(source, at, mean, difference, give, 0.0, ret);
+    prolong_cell_make(source, at, mean, difference, give, 0.0, ret);
     return 0.0;
 }

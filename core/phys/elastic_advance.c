@@ -34,7 +34,7 @@ struct move_rows {
     double *out[6];
 };
 
-static ELASTIC_BODY struct move_matrix move_product(struct move_matrix a, struct move_matrix b)
+static ELASTIC_BODY struct move_matrix elastic_advance_product(struct move_matrix a, struct move_matrix b)
 {
     return (struct move_matrix){a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy,
                                 a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.yx + a.yz * b.zx,
@@ -43,13 +43,13 @@ static ELASTIC_BODY struct move_matrix move_product(struct move_matrix a, struct
                                 a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
 }
 
-static ELASTIC_BODY struct move_matrix move_general(struct elastic_tensor t)
+static ELASTIC_BODY struct move_matrix elastic_advance_general(struct elastic_tensor t)
 {
     return (struct move_matrix){t.xx, t.xy, t.xz, t.xy, t.yy, t.yz, t.xz, t.yz, t.zz};
 }
 
 /* 2 (1 - A)^-1 - 1 = (1 - A)^-1 (1 + A), by cofactors, in an order that keeps the bits where x and y are exchanged. */
-static ELASTIC_BODY struct move_matrix move_cayley(struct move_matrix A)
+static ELASTIC_BODY struct move_matrix elastic_advance_cayley(struct move_matrix A)
 {
     double a = 1.0 - A.xx, e = 1.0 - A.yy, i = 1.0 - A.zz, b = -A.xy, c = -A.xz, d = -A.yx, f = -A.yz, g = -A.zx,
            h = -A.zy;
@@ -61,7 +61,7 @@ static ELASTIC_BODY struct move_matrix move_cayley(struct move_matrix A)
 }
 
 /* V = M R^T in the x-y plane; zz stands alone. Written so that mirrored and exchanged axes give mirrored bits. */
-static ELASTIC_BODY struct elastic_tensor move_polar_plane(struct move_matrix M)
+static ELASTIC_BODY struct elastic_tensor elastic_advance_polar_plane(struct move_matrix M)
 {
     double t = M.xx + M.yy, s = M.yx - M.xy, per = 1.0 / sqrt(t * t + s * s), c = t * per, w = s * per;
     double xy = M.xx * w + M.xy * c, yx = M.yx * c - M.yy * w;
@@ -69,7 +69,7 @@ static ELASTIC_BODY struct elastic_tensor move_polar_plane(struct move_matrix M)
 }
 
 /* One turn towards a symmetric M: M R^T with R from (tr V 1 - V) phi = axial(M - M^T), V the symmetric part. */
-static ELASTIC_BODY struct move_matrix move_turn(struct move_matrix M)
+static ELASTIC_BODY struct move_matrix elastic_advance_turn(struct move_matrix M)
 {
     double xy = 0.5 * (M.xy + M.yx), xz = 0.5 * (M.xz + M.zx), yz = 0.5 * (M.yz + M.zy);
     double a = M.yy + M.zz, e = M.xx + M.zz, i = M.xx + M.yy, rx = M.zy - M.yz, ry = M.xz - M.zx, rz = M.yx - M.xy;
@@ -84,18 +84,18 @@ static ELASTIC_BODY struct move_matrix move_turn(struct move_matrix M)
                             per * (x * y + z),        diagonal + per * (y * y), per * (y * z - x),
                             per * (x * z - y),        per * (y * z + x),        diagonal + per * (z * z)};
     struct move_matrix back = {R.xx, R.yx, R.zx, R.xy, R.yy, R.zy, R.xz, R.yz, R.zz};
-    return move_product(M, back);
+    return elastic_advance_product(M, back);
 }
 
-static ELASTIC_BODY struct elastic_tensor move_polar(struct move_matrix M, int nv)
+static ELASTIC_BODY struct elastic_tensor elastic_advance_polar(struct move_matrix M, int nv)
 {
     if (nv < 2) return (struct elastic_tensor){M.xx, M.yy, M.zz, 0.0, 0.0, 0.0};
-    if (nv < 3) return move_polar_plane(M);
-    M = move_turn(move_turn(move_turn(M)));
+    if (nv < 3) return elastic_advance_polar_plane(M);
+    M = elastic_advance_turn(elastic_advance_turn(elastic_advance_turn(M)));
     return (struct elastic_tensor){M.xx, M.yy, M.zz, 0.5 * (M.xy + M.yx), 0.5 * (M.xz + M.zx), 0.5 * (M.yz + M.zy)};
 }
 
-static ELASTIC_BODY double move_cut(double a)
+static ELASTIC_BODY double elastic_advance_cut(double a)
 {
     a = a < MOVE_MOST ? a : MOVE_MOST;
     return a > -MOVE_MOST ? a : -MOVE_MOST;
@@ -107,7 +107,7 @@ struct move_hoop {
 };
 
 /* n n^T of a slope times what is squeezed out across it; nothing where there is no slope. */
-static ELASTIC_BODY struct elastic_tensor move_squeeze(double amount, double x, double y, double z)
+static ELASTIC_BODY struct elastic_tensor elastic_advance_squeeze(double amount, double x, double y, double z)
 {
     double square = x * x + y * y + z * z, per = amount / (square + MOVE_FLAT);
     return (struct elastic_tensor){per * (x * x), per * (y * y), per * (z * z),
@@ -115,19 +115,19 @@ static ELASTIC_BODY struct elastic_tensor move_squeeze(double amount, double x, 
 }
 
 /* dt L/4 with hoop stretching. G: gradient, negative, without entries of its own where the hoop goes; Q: the squeeze. */
-static ELASTIC_BODY struct move_matrix move_strain(struct move_matrix G, struct elastic_tensor Q, double div,
-                                                   double quarter, struct move_hoop to, int nv)
+static ELASTIC_BODY struct move_matrix elastic_advance_strain(struct move_matrix G, struct elastic_tensor Q, double div,
+                                                              double quarter, struct move_hoop to, int nv)
 {
     double hoop = to.share * ((div - G.xx) - G.yy), yy = G.yy + to.y * hoop, zz = G.zz + to.z * hoop;
-    struct move_matrix A = {move_cut(-quarter * (G.xx + Q.xx)),
-                            nv > 1 ? move_cut(-quarter * (G.xy + Q.xy)) : 0.0,
-                            nv > 2 ? move_cut(-quarter * (G.xz + Q.xz)) : 0.0,
-                            nv > 1 ? move_cut(-quarter * (G.yx + Q.xy)) : 0.0,
-                            move_cut(-quarter * (yy + Q.yy)),
-                            nv > 2 ? move_cut(-quarter * (G.yz + Q.yz)) : 0.0,
-                            nv > 2 ? move_cut(-quarter * (G.zx + Q.xz)) : 0.0,
-                            nv > 2 ? move_cut(-quarter * (G.zy + Q.yz)) : 0.0,
-                            move_cut(-quarter * (zz + Q.zz))};
+    struct move_matrix A = {elastic_advance_cut(-quarter * (G.xx + Q.xx)),
+                            nv > 1 ? elastic_advance_cut(-quarter * (G.xy + Q.xy)) : 0.0,
+                            nv > 2 ? elastic_advance_cut(-quarter * (G.xz + Q.xz)) : 0.0,
+                            nv > 1 ? elastic_advance_cut(-quarter * (G.yx + Q.xy)) : 0.0,
+                            elastic_advance_cut(-quarter * (yy + Q.yy)),
+                            nv > 2 ? elastic_advance_cut(-quarter * (G.yz + Q.yz)) : 0.0,
+                            nv > 2 ? elastic_advance_cut(-quarter * (G.zx + Q.xz)) : 0.0,
+                            nv > 2 ? elastic_advance_cut(-quarter * (G.zy + Q.yz)) : 0.0,
+                            elastic_advance_cut(-quarter * (zz + Q.zz))};
     double mean = (1.0 / 3.0) * ((A.xx + A.yy) + A.zz);
     A.xx -= mean;
     A.yy -= mean;
@@ -137,20 +137,21 @@ static ELASTIC_BODY struct move_matrix move_strain(struct move_matrix G, struct 
 
 /* What the solid mass in the cell has for a stretch after other mass came and went: a mean by mass, V + [dt come -
  * V (m_new - m_old)]/m with m = m_new, at least MOVE_LEFT m_old. */
-static ELASTIC_BODY struct elastic_tensor move_blend(struct elastic_tensor V, double keep, struct elastic_tensor come)
+static ELASTIC_BODY struct elastic_tensor elastic_advance_blend(struct elastic_tensor V, double keep,
+                                                                struct elastic_tensor come)
 {
     return (struct elastic_tensor){keep * V.xx + come.xx, keep * V.yy + come.yy, keep * V.zz + come.zz,
                                    keep * V.xy + come.xy, keep * V.xz + come.xz, keep * V.yz + come.yz};
 }
 
 /* One point: half of the deformation, the transport, the other half. */
-static ELASTIC_BODY struct elastic_tensor move_point(struct move_matrix A, struct elastic_tensor old, double keep,
-                                                     struct elastic_tensor come, int nv)
+static ELASTIC_BODY struct elastic_tensor elastic_advance_point(struct move_matrix A, struct elastic_tensor old,
+                                                                double keep, struct elastic_tensor come, int nv)
 {
-    struct move_matrix E = move_cayley(A);
-    struct elastic_tensor half = move_polar(move_product(E, move_general(old)), nv);
-    struct elastic_tensor mean = elastic_tensor_nearest(move_blend(half, keep, come));
-    return move_polar(move_product(E, move_general(mean)), nv);
+    struct move_matrix E = elastic_advance_cayley(A);
+    struct elastic_tensor half = elastic_advance_polar(elastic_advance_product(E, elastic_advance_general(old)), nv);
+    struct elastic_tensor mean = elastic_tensor_nearest(elastic_advance_blend(half, keep, come));
+    return elastic_advance_polar(elastic_advance_product(E, elastic_advance_general(mean)), nv);
 }
 
 /* Value of an optional row. */
@@ -202,8 +203,10 @@ static ELASTIC_BODY struct elastic_tensor move_point(struct move_matrix A, struc
                                           take * MOVE_IF((nv) > 1, c3),                                          \
                                           take * MOVE_IF((nv) > 2, c4),                                          \
                                           take * MOVE_IF((nv) > 2, c5)};                                         \
-            struct elastic_tensor Q = move_squeeze(q[i], n0[i], MOVE_IF((nv) > 1, n1), MOVE_IF((nv) > 2, n2));   \
-            struct elastic_tensor V = move_point(move_strain(G, Q, d, quarter, hoop, nv), old, keep, come, nv);  \
+            struct elastic_tensor Q =                                                                            \
+                elastic_advance_squeeze(q[i], n0[i], MOVE_IF((nv) > 1, n1), MOVE_IF((nv) > 2, n2));              \
+            struct elastic_tensor V =                                                                            \
+                elastic_advance_point(elastic_advance_strain(G, Q, d, quarter, hoop, nv), old, keep, come, nv);  \
             r0[i] = V.xx, r1[i] = V.yy, r2[i] = V.zz;                                                            \
             if ((nv) > 1) r3[i] = V.xy;                                                                          \
             if ((nv) > 2) r4[i] = V.xz, r5[i] = V.yz;                                                            \
@@ -215,7 +218,7 @@ MOVE_KERNEL(3)
 
 enum { MOVE_BATCH = 512 };
 
-static const double move_zero[MOVE_BATCH];
+static const double elastic_advance_zero[MOVE_BATCH];
 
 void elastic_advance(const struct model *model, size_t n, size_t stride, double dt, const double *V_old,
                      const struct elastic_rates *rates, double *V_new)
@@ -229,11 +232,12 @@ void elastic_advance(const struct model *model, size_t n, size_t stride, double 
         struct move_rows rows = {.div = rates->div + from, .m_old = rates->m_old + from, .m_new = rates->m_new + from};
         for (unsigned i = 0; i < 3; i++)
             for (unsigned k = 0; k < 3; k++)
-                rows.gradient[3 * i + k] =
-                    i < model->n_velocity && k < dim ? rates->gradient + (i * dim + k) * stride + from : move_zero;
-        rows.squeeze = rates->squeeze ? rates->squeeze + from : move_zero;
+                rows.gradient[3 * i + k] = i < model->n_velocity && k < dim
+                                               ? rates->gradient + (i * dim + k) * stride + from
+                                               : elastic_advance_zero;
+        rows.squeeze = rates->squeeze ? rates->squeeze + from : elastic_advance_zero;
         for (unsigned k = 0; k < 3; k++)
-            rows.slope[k] = rates->squeeze && k < dim ? rates->slope + k * stride + from : move_zero;
+            rows.slope[k] = rates->squeeze && k < dim ? rates->slope + k * stride + from : elastic_advance_zero;
         for (unsigned c = 0; c < 6; c++) {
             size_t at = (c < count ? c : 0) * stride + from;
             rows.old[c] = V_old + at;

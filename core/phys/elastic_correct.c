@@ -14,7 +14,7 @@
 
 typedef double correct_matrix[3][3];
 
-static void correct_unpack(const struct model *model, const double *V, correct_matrix full)
+static void elastic_correct_unpack(const struct model *model, const double *V, correct_matrix full)
 {
     for (unsigned i = 0; i < 3; i++)
         for (unsigned j = 0; j < 3; j++) {
@@ -24,7 +24,7 @@ static void correct_unpack(const struct model *model, const double *V, correct_m
 }
 
 /* Change of the velocity gradient, its trace taken off. Around the axis or the centre it is what div u has beside it. */
-static void correct_gradient(const struct model *model, const struct elastic_correction *in, correct_matrix M)
+static void elastic_correct_gradient(const struct model *model, const struct elastic_correction *in, correct_matrix M)
 {
     memset(M, 0, sizeof(correct_matrix));
     for (unsigned i = 0; i < model->n_velocity; i++) M[i][in->axis] = in->velocity[i];
@@ -38,7 +38,7 @@ static void correct_gradient(const struct model *model, const struct elastic_cor
 }
 
 /* Solves (tr V - V) w = z; 0 where V is none, as before the first step. */
-static void correct_spin(const correct_matrix V, const double z[3], double w[3])
+static void elastic_correct_spin(const correct_matrix V, const double z[3], double w[3])
 {
     double a = V[1][1] + V[2][2], b = V[0][0] + V[2][2], c = V[0][0] + V[1][1];
     double f = -V[0][1], g = -V[0][2], h = -V[1][2];
@@ -52,7 +52,7 @@ static void correct_spin(const correct_matrix V, const double z[3], double w[3])
 }
 
 /* What the transport asks for, as far as det stays: a mean of stretches is put back to det 1 along the gradient of det. */
-static void correct_carried(const struct model *model, const struct elastic_correction *in, double *ret_dV)
+static void elastic_correct_carried(const struct model *model, const struct elastic_correction *in, double *ret_dV)
 {
     double V[6] = {0}, all = 0.0, along = 0.0;
     for (unsigned c = 0; c < model->n_stretch; c++) V[c] = in->V[c];
@@ -71,12 +71,12 @@ void elastic_correct(const struct model *model, const struct elastic_correction 
 {
     correct_matrix V, M, P = {{0}};
     double w[3];
-    correct_carried(model, in, ret_dV);
-    correct_unpack(model, in->V, V);
-    correct_gradient(model, in, M);
+    elastic_correct_carried(model, in, ret_dV);
+    elastic_correct_unpack(model, in->V, V);
+    elastic_correct_gradient(model, in, M);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) P[i][j] = M[i][0] * V[0][j] + M[i][1] * V[1][j] + M[i][2] * V[2][j];
-    correct_spin(V, (const double[]){P[2][1] - P[1][2], P[0][2] - P[2][0], P[1][0] - P[0][1]}, w);
+    elastic_correct_spin(V, (const double[]){P[2][1] - P[1][2], P[0][2] - P[2][0], P[1][0] - P[0][1]}, w);
     const correct_matrix W = {{0.0, -w[2], w[1]}, {w[2], 0.0, -w[0]}, {-w[1], w[0], 0.0}};
     for (unsigned i = 0; i < 3; i++)
         for (unsigned j = i; j < 3; j++) {

@@ -10,7 +10,7 @@
 enum { SETTLE_BATCH = 128 };
 
 /* What rounding can do to the components of V on the way to det V = 1: as much as to its determinant. */
-static double settle_round_off(const double V[6])
+static double elastic_settle_round_off(const double V[6])
 {
     double xx = fabs(V[ELASTIC_XX]), yy = fabs(V[ELASTIC_YY]), zz = fabs(V[ELASTIC_ZZ]);
     double xy = fabs(V[ELASTIC_XY]), xz = fabs(V[ELASTIC_XZ]), yz = fabs(V[ELASTIC_YZ]);
@@ -19,7 +19,7 @@ static double settle_round_off(const double V[6])
 }
 
 /* The nearest stretches of det 1, up to what elastic_unimodular corrects. */
-static void settle_nearest(const struct model *model, size_t n, size_t stride, double *V)
+static void elastic_settle_nearest(const struct model *model, size_t n, size_t stride, double *V)
 {
     for (size_t i = 0; i < n; i++) {
         double at[6] = {0};
@@ -32,13 +32,13 @@ static void settle_nearest(const struct model *model, size_t n, size_t stride, d
 }
 
 /* n <= SETTLE_BATCH points; alpha NULL: nothing but solid. */
-static void settle_batch(const struct model *model, size_t n, size_t stride, const double *alpha, double *V)
+static void elastic_settle_batch(const struct model *model, size_t n, size_t stride, const double *alpha, double *V)
 {
     double before[6][SETTLE_BATCH] = {{0}}, phi[SETTLE_BATCH];
     for (unsigned c = 0; c < model->n_stretch; c++) memcpy(before[c], V + c * stride, n * sizeof *V);
     if (alpha) elastic_sum(model, n, stride, alpha, phi);
     if (alpha) elastic_fade(model, n, stride, phi, V);
-    settle_nearest(model, n, stride, V);
+    elastic_settle_nearest(model, n, stride, V);
     elastic_unimodular(model, n, stride, V);
     for (size_t i = 0; i < n; i++) {
         double was[6], most = 0.0;
@@ -47,7 +47,7 @@ static void settle_batch(const struct model *model, size_t n, size_t stride, con
             double moved = fabs(V[c * stride + i] - was[c]);
             most = moved <= most ? most : moved; /* a NaN stays one */
         }
-        if (!(most <= settle_round_off(was)) || (alpha && !(phi[i] > 0.0))) continue;
+        if (!(most <= elastic_settle_round_off(was)) || (alpha && !(phi[i] > 0.0))) continue;
         for (unsigned c = 0; c < model->n_stretch; c++) V[c * stride + i] = was[c];
     }
 }
@@ -56,7 +56,7 @@ void elastic_settle(const struct model *model, size_t n, size_t stride, double *
 {
     if (!model->n_stretch) return;
     for (size_t from = 0; from < n; from += SETTLE_BATCH)
-        settle_batch(model, n - from < SETTLE_BATCH ? n - from : SETTLE_BATCH, stride,
-                     model->n_alpha ? fields + model->i_alpha * stride + from : NULL,
-                     fields + model->i_V * stride + from);
+        elastic_settle_batch(model, n - from < SETTLE_BATCH ? n - from : SETTLE_BATCH, stride,
+                             model->n_alpha ? fields + model->i_alpha * stride + from : NULL,
+                             fields + model->i_V * stride + from);
 }

@@ -9,7 +9,7 @@ enum { UNIMODULAR_BATCH = 512 };
 
 /* d^(-1/3) for 1/8 < d < 8 to round-off, by the series of (1 - e)^(-1/3) with e = 1 - d x^3; NaN for d <= 0. Farther
  * out det V comes nearer to 1 by each call. */
-static ELASTIC_BODY double unimodular_root(double d)
+static ELASTIC_BODY double elastic_unimodular_root(double d)
 {
     double x = 2.0 / (1.0 + d);
     for (int round = 0; round < 4; round++) {
@@ -24,13 +24,13 @@ static ELASTIC_BODY double unimodular_root(double d)
     {                                                                                                         \
         ELASTIC_LOCAL(V);                                                                                     \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++) factor[i] =                                        \
-            unimodular_root(elastic_tensor_det(ELASTIC_AT(i, nv)));                                           \
+            elastic_unimodular_root(elastic_tensor_det(ELASTIC_AT(i, nv)));                                   \
     }
 UNIMODULAR_FACTOR(1)
 UNIMODULAR_FACTOR(2)
 UNIMODULAR_FACTOR(3)
 
-static BULLA_KERNEL void unimodular_scale(size_t n, const double *restrict factor, double *restrict V)
+static BULLA_KERNEL void elastic_unimodular_scale(size_t n, const double *restrict factor, double *restrict V)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) V[i] *= factor[i];
@@ -43,6 +43,6 @@ void elastic_unimodular(const struct model *model, size_t n, size_t stride, doub
         size_t part = n - from < UNIMODULAR_BATCH ? n - from : UNIMODULAR_BATCH;
         struct elastic_rows rows = elastic_tensor_rows(V + from, stride, model->n_stretch);
         ELASTIC_CHOOSE(model->n_velocity, unimodular_factor, part, rows, factor);
-        for (unsigned c = 0; c < model->n_stretch; c++) unimodular_scale(part, factor, V + c * stride + from);
+        for (unsigned c = 0; c < model->n_stretch; c++) elastic_unimodular_scale(part, factor, V + c * stride + from);
     }
 }

@@ -25,7 +25,7 @@ struct replay {
     double *rates, *K, *rho_c2, *c2, *u, *w;
 };
 
-static void replay_mesh(struct replay *replay)
+static void blame_replay_mesh(struct replay *replay)
 {
     const struct blame_facts *facts = &replay->blame->facts;
     const struct scene *scene = replay->model->scene;
@@ -50,14 +50,14 @@ static void replay_mesh(struct replay *replay)
     }
 }
 
-static struct replay *replay_new(const struct model *model, const struct blame *blame)
+static struct replay *blame_replay_new(const struct model *model, const struct blame *blame)
 {
     struct replay *replay = mem_new(1, sizeof *replay);
     size_t n_cell = blame->facts.n_cell;
     replay->model = model;
     replay->used = model_numbered(model, blame->facts.pure);
     replay->blame = blame;
-    replay_mesh(replay);
+    blame_replay_mesh(replay);
     replay->again = blame_like(model, &blame->facts);
     replay->faces = face_new(replay->used);
     replay->terms = terms_new(replay->used, replay->faces);
@@ -72,7 +72,7 @@ static struct replay *replay_new(const struct model *model, const struct blame *
     return replay;
 }
 
-static void replay_free(struct replay *replay)
+static void blame_replay_free(struct replay *replay)
 {
     double *blocks[] = {replay->rates, replay->K, replay->rho_c2, replay->c2, replay->u, replay->w};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) mem_free(blocks[i]);
@@ -84,14 +84,14 @@ static void replay_free(struct replay *replay)
 }
 
 /* A piece of the dump, and of what is recorded again. */
-static void replay_gather(void *data, const struct frame *frame, struct face_work *faces)
+static void blame_replay_gather(void *data, const struct frame *frame, struct face_work *faces)
 {
     const struct replay *replay = data;
     blame_give(replay->blame, replay->used, frame, faces);
     blame_frame(replay->again, replay->used, frame, faces);
 }
 
-static void replay_seen(void *data, const struct frame *frame, struct face_work *faces)
+static void blame_replay_seen(void *data, const struct frame *frame, struct face_work *faces)
 {
     const struct replay *replay = data;
     (void)faces;
@@ -99,7 +99,7 @@ static void replay_seen(void *data, const struct frame *frame, struct face_work 
 }
 
 /* From the frames to the new conserved fields. */
-static void replay_update(struct replay *replay)
+static void blame_replay_update(struct replay *replay)
 {
     const struct blame *blame = replay->blame;
     const struct blame_facts *facts = &blame->facts;
@@ -120,7 +120,7 @@ static void replay_update(struct replay *replay)
                              .rates = replay->rates,
                              .K = replay->K,
                              .rho_c2 = replay->rho_c2};
-    const struct rate_watch watch = {replay, replay_gather, replay_seen, NULL};
+    const struct rate_watch watch = {replay, blame_replay_gather, blame_replay_seen, NULL};
     if (replay->mesh.beta) metric_of_tile(&replay->mesh, replay->level, &replay->tile, &metric);
     rate_take(&tile, replay->own, &watch, facts->masked);
     rate_apply(&tile, replay->own, replay->u);
@@ -128,7 +128,7 @@ static void replay_update(struct replay *replay)
 }
 
 /* The guard's opinion of the new state, which it may change. */
-static void replay_judge(struct replay *replay, struct blame_outcome *outcome)
+static void blame_replay_judge(struct replay *replay, struct blame_outcome *outcome)
 {
     const struct blame_facts *facts = &replay->blame->facts;
     struct guard guard = {.model = replay->model,
@@ -163,7 +163,7 @@ static void replay_judge(struct replay *replay, struct blame_outcome *outcome)
 }
 
 /* Columns of a block in which any row differs. */
-static size_t replay_differences(const struct replay *replay, enum blame_block block)
+static size_t blame_replay_differences(const struct replay *replay, enum blame_block block)
 {
     struct blame_shape shape = blame_shape(replay->model, &replay->blame->facts, block);
     const double *was = replay->blame->block[block], *is = replay->again->block[block];
@@ -181,17 +181,17 @@ static size_t replay_differences(const struct replay *replay, enum blame_block b
 
 void blame_replay(const struct model *model, const struct blame *blame, struct blame_outcome *ret_outcome)
 {
-    struct replay *replay = replay_new(model, blame);
+    struct replay *replay = blame_replay_new(model, blame);
     const struct blame_facts *facts = &blame->facts;
     size_t bytes = model->n_field * facts->n_cell * sizeof(double);
     memcpy(replay->u, blame->block[blame_moves(facts) ? BLAME_U_OLD : BLAME_U], bytes);
     memcpy(replay->w, blame->block[BLAME_W], bytes); /* where an iteration starts */
-    if (blame_moves(facts)) replay_update(replay);
+    if (blame_moves(facts)) blame_replay_update(replay);
     mix_primitives(replay->used, facts->n_cell, facts->n_cell, replay->u, replay->w);
     blame_result(replay->again, replay->used, replay->u, replay->w);
-    ret_outcome->faces = replay_differences(replay, BLAME_FACES);
-    size_t u = replay_differences(replay, BLAME_U), w = replay_differences(replay, BLAME_W_NEW);
+    ret_outcome->faces = blame_replay_differences(replay, BLAME_FACES);
+    size_t u = blame_replay_differences(replay, BLAME_U), w = blame_replay_differences(replay, BLAME_W_NEW);
     ret_outcome->cells = u > w ? u : w;
-    replay_judge(replay, ret_outcome);
-    replay_free(replay);
+    blame_replay_judge(replay, ret_outcome);
+    blame_replay_free(replay);
 }

@@ -34,7 +34,7 @@ void contract_batch_one(const struct contract *contract, const struct contract_c
 }
 
 /* Runs points first ... first + n - 1 of the inputs; results begin behind the outputs' guard band. */
-static void batch_row(struct batch *batch, size_t first, size_t n)
+static void contract_batch_row(struct batch *batch, size_t first, size_t n)
 {
     const double *in[CONTRACT_BATCH_IN];
     double *out[CONTRACT_BATCH_OUT];
@@ -48,7 +48,7 @@ static void batch_row(struct batch *batch, size_t first, size_t n)
     batch->call->run(batch->contract, batch->call, n, in, out);
 }
 
-static void batch_look(struct batch *batch, size_t first, size_t n)
+static void contract_batch_look(struct batch *batch, size_t first, size_t n)
 {
     char where[CONTRACT_WHERE];
     snprintf(where, sizeof where, "%s, row of %zu", batch->call->name, n);
@@ -63,7 +63,7 @@ static void batch_look(struct batch *batch, size_t first, size_t n)
     contract_holds(batch->contract, memcmp(batch->kept, batch->in, sizeof batch->in) == 0, where);
 }
 
-static void batch_compare(struct batch *batch, size_t first, size_t n, size_t skip, const char *check)
+static void contract_batch_compare(struct batch *batch, size_t first, size_t n, size_t skip, const char *check)
 {
     contract_begin(batch->contract, check, 0.0);
     for (unsigned k = 0; k < batch->call->n_out; k++)
@@ -76,18 +76,18 @@ static void batch_compare(struct batch *batch, size_t first, size_t n, size_t sk
 }
 
 /* Every start, and lengths from one to the whole row. */
-static void batch_places(struct batch *batch)
+static void contract_batch_places(struct batch *batch)
 {
     for (size_t first = 0; first < 9; first++)
         for (size_t n = 1; first + n <= BATCH_ROW; n += n < 18 ? 1 : 7) {
-            batch_row(batch, first, n);
-            batch_compare(batch, first, n, BATCH_ROW, "a row gives what single points give, bitwise");
-            batch_look(batch, first, n);
+            contract_batch_row(batch, first, n);
+            contract_batch_compare(batch, first, n, BATCH_ROW, "a row gives what single points give, bitwise");
+            contract_batch_look(batch, first, n);
         }
 }
 
 /* A point that no solver should produce: it may come out as anything, but alone. */
-static void batch_bad(struct batch *batch)
+static void contract_batch_bad(struct batch *batch)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY, 0.0, -1.0, 1e300};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
@@ -95,14 +95,14 @@ static void batch_bad(struct batch *batch)
             size_t at = (7 * i + 3 * k) % BATCH_ROW;
             double good = batch->in[k][BATCH_BAND + at];
             batch->in[k][BATCH_BAND + at] = bad[i];
-            batch_row(batch, 0, BATCH_ROW);
-            batch_compare(batch, 0, BATCH_ROW, at, "bad numbers (NaN, inf, 0, -1) leave other points alone");
-            batch_look(batch, 0, BATCH_ROW);
+            contract_batch_row(batch, 0, BATCH_ROW);
+            contract_batch_compare(batch, 0, BATCH_ROW, at, "bad numbers (NaN, inf, 0, -1) leave other points alone");
+            contract_batch_look(batch, 0, BATCH_ROW);
             batch->in[k][BATCH_BAND + at] = good;
         }
 }
 
-static double batch_now(void)
+static double contract_batch_now(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -110,7 +110,7 @@ static double batch_now(void)
 }
 
 /* The least of a few rounds: what else the machine does only adds. */
-static void batch_time(struct batch *batch)
+static void contract_batch_time(struct batch *batch)
 {
     const struct contract_call *call = batch->call;
     double *block = mem_new((size_t)(CONTRACT_BATCH_IN + CONTRACT_BATCH_OUT) * BATCH_TIMED, sizeof *block);
@@ -122,9 +122,9 @@ static void batch_time(struct batch *batch)
         for (size_t i = 0; i < BATCH_TIMED; i++) block[k * BATCH_TIMED + i] = batch->in[k][BATCH_BAND + i % BATCH_ROW];
     }
     for (int round = 0; round < 5; round++) {
-        double start = batch_now();
+        double start = contract_batch_now();
         for (int i = 0; i < BATCH_CALLS; i++) call->run(batch->contract, call, BATCH_TIMED, in, out);
-        double spent = (batch_now() - start) / BATCH_CALLS / BATCH_TIMED;
+        double spent = (contract_batch_now() - start) / BATCH_CALLS / BATCH_TIMED;
         if (spent < least) least = spent;
     }
     contract_cost(batch->contract, call->name, least);
@@ -148,8 +148,8 @@ void contract_batch_run(struct contract *contract, const struct contract_call *c
         contract_batch_one(contract, call, in, out);
         for (unsigned k = 0; k < call->n_out; k++) batch->want[k][i] = out[k];
     }
-    batch_places(batch);
-    batch_bad(batch);
-    batch_time(batch);
+    contract_batch_places(batch);
+    contract_batch_bad(batch);
+    contract_batch_time(batch);
     mem_free(batch);
 }

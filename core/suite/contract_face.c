@@ -28,12 +28,12 @@ unsigned contract_face_n_alpha(const struct contract_shape *shape)
     return shape->n_material > 1 ? shape->n_material : 0;
 }
 
-static double face_most(double a, double b)
+static double contract_face_most(double a, double b)
 {
     return a > b ? a : b;
 }
 
-static struct contract_side face_draw_side(uint64_t *seed, unsigned n_material, double mach)
+static struct contract_side contract_face_draw_side(uint64_t *seed, unsigned n_material, double mach)
 {
     struct contract_side side = {0};
     double sum = 0.0, kinetic = 0.0;
@@ -53,7 +53,7 @@ static struct contract_side face_draw_side(uint64_t *seed, unsigned n_material, 
 }
 
 /* Makes a solid of a side, soft or stiff; some of a scene of several materials stay fluids. */
-static void face_draw_shear(uint64_t *seed, struct contract_side *side, bool several)
+static void contract_face_draw_shear(uint64_t *seed, struct contract_side *side, bool several)
 {
     if (several && contract_random(seed, 0.0, 1.0) < 0.4) return;
     side->c_s = side->c * pow(10.0, contract_random(seed, -3.0, -0.3));
@@ -64,16 +64,16 @@ static void face_draw_shear(uint64_t *seed, struct contract_side *side, bool sev
 struct contract_face contract_face_draw(uint64_t *seed, struct contract_shape shape, double mach)
 {
     struct contract_face face = {.shape = shape};
-    face.left = face_draw_side(seed, shape.n_material, mach);
-    face.right = face_draw_side(seed, shape.n_material, mach);
+    face.left = contract_face_draw_side(seed, shape.n_material, mach);
+    face.right = contract_face_draw_side(seed, shape.n_material, mach);
     if (!shape.solid) return face;
     bool several = shape.n_material > 1 || shape.mixed;
-    face_draw_shear(seed, &face.left, several);
-    face_draw_shear(seed, &face.right, several);
+    contract_face_draw_shear(seed, &face.left, several);
+    contract_face_draw_shear(seed, &face.right, several);
     return face;
 }
 
-static struct bulla_side face_side(const double *const *in)
+static struct bulla_side contract_face_side(const double *const *in)
 {
     return (struct bulla_side){.rho = in[0],
                                .p = in[1],
@@ -84,13 +84,13 @@ static struct bulla_side face_side(const double *const *in)
                                .alpha = in + FACE_ALPHA};
 }
 
-static struct bulla_shear face_shear(const double *const *in)
+static struct bulla_shear contract_face_shear(const double *const *in)
 {
     return (struct bulla_shear){.c_s = in[FACE_SHEAR], .s = in + FACE_SHEAR + 1};
 }
 
 /* Is output row k one that the shape has? */
-static bool face_used(const struct contract_shape *shape, unsigned k)
+static bool contract_face_used(const struct contract_shape *shape, unsigned k)
 {
     unsigned tangents = shape->solid ? shape->n_velocity - 1 : 0, slide = (k - FACE_SLIDE) % (CONTRACT_FACE_AXES - 1);
     if (k >= FACE_SLIDE) return slide < tangents;
@@ -98,8 +98,8 @@ static bool face_used(const struct contract_shape *shape, unsigned k)
            (k >= FACE_ENERGY && k < FACE_FRACTION + contract_face_n_alpha(shape));
 }
 
-static void face_run(const struct contract *contract, const struct contract_call *call, size_t n,
-                     const double *const *in, double *const *out)
+static void contract_face_run(const struct contract *contract, const struct contract_call *call, size_t n,
+                              const double *const *in, double *const *out)
 {
     static double work[4][FACE_ROW];
     const struct contract_shape *shape = call->context;
@@ -108,8 +108,8 @@ static void face_run(const struct contract *contract, const struct contract_call
                                 .n_material = shape->n_material,
                                 .n_alpha = contract_face_n_alpha(shape),
                                 .n_velocity = shape->n_velocity,
-                                .left = face_side(in),
-                                .right = face_side(in + FACE_SIDE),
+                                .left = contract_face_side(in),
+                                .right = contract_face_side(in + FACE_SIDE),
                                 .flux = {.m = out,
                                          .momentum = out + FACE_MOMENTUM,
                                          .rho_E = out[FACE_ENERGY],
@@ -119,17 +119,18 @@ static void face_run(const struct contract *contract, const struct contract_call
                                 .mixed = shape->mixed || shape->n_material > 1};
     if (shape->solid) {
         faces.solid = 1;
-        faces.shear_left = face_shear(in);
-        faces.shear_right = face_shear(in + FACE_SIDE);
+        faces.shear_left = contract_face_shear(in);
+        faces.shear_right = contract_face_shear(in + FACE_SIDE);
         faces.slide_left = out + FACE_SLIDE;
         faces.slide_right = out + FACE_SLIDE + CONTRACT_FACE_AXES - 1;
     }
     for (unsigned k = 0; k < FACE_FLUX; k++)
-        if (!face_used(shape, k)) memset(out[k], 0, n * sizeof *out[k]);
+        if (!contract_face_used(shape, k)) memset(out[k], 0, n * sizeof *out[k]);
     riemann->solve(contract->self, &faces);
 }
 
-static void face_draw_row(const struct contract *contract, const struct contract_call *call, uint64_t *seed, double *in)
+static void contract_face_draw_row(const struct contract *contract, const struct contract_call *call, uint64_t *seed,
+                                   double *in)
 {
     (void)contract;
     struct contract_face face = contract_face_draw(seed, *(const struct contract_shape *)call->context, 2.0);
@@ -139,7 +140,7 @@ static void face_draw_row(const struct contract *contract, const struct contract
 
 struct contract_call contract_face_call(const struct contract_shape *shape)
 {
-    return (struct contract_call){"solve", 2 * FACE_SIDE, FACE_FLUX, face_run, face_draw_row, shape};
+    return (struct contract_call){"solve", 2 * FACE_SIDE, FACE_FLUX, contract_face_run, contract_face_draw_row, shape};
 }
 
 struct contract_flux contract_face_solve(const struct contract *contract, const struct contract_face *face)
@@ -173,13 +174,15 @@ struct contract_flux contract_face_physical(const struct contract_shape *shape, 
 struct contract_flux contract_face_scale(const struct contract_face *face)
 {
     const struct contract_side *l = &face->left, *r = &face->right;
-    double S = face_most(fabs(l->u[0]) + l->c, fabs(r->u[0]) + r->c), rho = face_most(l->rho, r->rho), most = 0.0;
-    double p = face_most(l->p, r->p);
-    for (int k = 0; k < CONTRACT_FACE_AXES; k++) most = face_most(most, face_most(fabs(l->u[k]), fabs(r->u[k])));
-    struct contract_flux scale = {.u = S, .rho_E = S * (face_most(l->rho_E, r->rho_E) + p + rho * S * S)};
+    double S = contract_face_most(fabs(l->u[0]) + l->c, fabs(r->u[0]) + r->c), rho = contract_face_most(l->rho, r->rho),
+           most = 0.0;
+    double p = contract_face_most(l->p, r->p);
+    for (int k = 0; k < CONTRACT_FACE_AXES; k++)
+        most = contract_face_most(most, contract_face_most(fabs(l->u[k]), fabs(r->u[k])));
+    struct contract_flux scale = {.u = S, .rho_E = S * (contract_face_most(l->rho_E, r->rho_E) + p + rho * S * S)};
     for (unsigned k = 0; k < CONTRACT_FACE_AXES; k++) scale.momentum[k] = rho * S * (S + most) + p;
     for (unsigned i = 0; i < CONTRACT_FACE_MATERIALS; i++) {
-        scale.m[i] = 10.0 * S * face_most(l->m[i], r->m[i]) + 1e-300;
+        scale.m[i] = 10.0 * S * contract_face_most(l->m[i], r->m[i]) + 1e-300;
         scale.alpha[i] = 1.0;
     }
     for (unsigned k = 0; k + 1 < CONTRACT_FACE_AXES; k++) /* a traction moves a surface by s/(rho c_s) */

@@ -12,7 +12,7 @@
 
 enum { LIMITER_PAIRS = 20000, LIMITER_ROW = 41, LIMITER_PITCH = 9 };
 
-static double limiter_slope(const struct contract *contract, double a, double b)
+static double contract_limiter_slope(const struct contract *contract, double a, double b)
 {
     const struct bulla_limiter *limiter = contract->module->table;
     double value = NAN;
@@ -21,21 +21,21 @@ static double limiter_slope(const struct contract *contract, double a, double b)
 }
 
 /* Differences of all sizes and signs. */
-static double limiter_draw(uint64_t *seed)
+static double contract_limiter_draw(uint64_t *seed)
 {
     double size = pow(10.0, contract_random(seed, -12.0, 12.0));
     return contract_random(seed, 0.0, 1.0) < 0.5 ? -size : size;
 }
 
-static double limiter_least(double a, double b)
+static double contract_limiter_least(double a, double b)
 {
     return fabs(a) < fabs(b) ? fabs(a) : fabs(b);
 }
 
 /* Opposite signs or a zero: no slope. Else the same sign, and at most twice the smaller one. */
-static void limiter_region(struct contract *contract, double a, double b)
+static void contract_limiter_region(struct contract *contract, double a, double b)
 {
-    double value = limiter_slope(contract, a, b), most = 2.0 * limiter_least(a, b);
+    double value = contract_limiter_slope(contract, a, b), most = 2.0 * contract_limiter_least(a, b);
     if ((a > 0.0) != (b > 0.0) || most == 0.0) {
         contract_begin(contract, "no slope at an extreme or beside a zero", 0.0);
         contract_error(contract, value != 0.0, "slope(%.9g, %.9g) = %.9g", a, b, value);
@@ -46,54 +46,55 @@ static void limiter_region(struct contract *contract, double a, double b)
                    b, value);
 }
 
-static void limiter_pairs(struct contract *contract)
+static void contract_limiter_pairs(struct contract *contract)
 {
     uint64_t seed = 2;
     for (int i = 0; i < LIMITER_PAIRS; i++) {
-        double a = limiter_draw(&seed), b = i % 2 ? limiter_draw(&seed) : a * contract_random(&seed, -3.0, 3.0);
-        limiter_region(contract, a, b);
+        double a = contract_limiter_draw(&seed),
+               b = i % 2 ? contract_limiter_draw(&seed) : a * contract_random(&seed, -3.0, 3.0);
+        contract_limiter_region(contract, a, b);
     }
     static const double ends[] = {0.0, -0.0, 5e-324, 1e-310, 1e-200, 1.0, 3.0, -3.0, 1e200, 8e307};
     enum { COUNT = sizeof ends / sizeof *ends };
-    for (int i = 0; i < COUNT * COUNT; i++) limiter_region(contract, ends[i / COUNT], ends[i % COUNT]);
+    for (int i = 0; i < COUNT * COUNT; i++) contract_limiter_region(contract, ends[i / COUNT], ends[i % COUNT]);
 }
 
-static void limiter_symmetry(struct contract *contract)
+static void contract_limiter_symmetry(struct contract *contract)
 {
     uint64_t seed = 3;
     for (int i = 0; i < LIMITER_PAIRS; i++) {
-        double a = limiter_draw(&seed), b = a * contract_random(&seed, -1.0, 4.0);
-        double value = limiter_slope(contract, a, b), size = limiter_least(a, b);
+        double a = contract_limiter_draw(&seed), b = a * contract_random(&seed, -1.0, 4.0);
+        double value = contract_limiter_slope(contract, a, b), size = contract_limiter_least(a, b);
         char where[64];
         snprintf(where, sizeof where, "slope at (%.9g, %.9g)", a, b);
         contract_begin(contract, "odd: slope(-a, -b) = -slope(a, b), bitwise", 0.0);
-        contract_holds(contract, limiter_slope(contract, -a, -b) == -value, where);
+        contract_holds(contract, contract_limiter_slope(contract, -a, -b) == -value, where);
         contract_begin(contract, "symmetric: slope(b, a) = slope(a, b)", contract->strict ? 0.0 : 1e-14);
-        contract_near(contract, limiter_slope(contract, b, a), value, size, where);
+        contract_near(contract, contract_limiter_slope(contract, b, a), value, size, where);
         double k = pow(10.0, contract_random(&seed, -9.0, 9.0));
         contract_begin(contract, "homogeneous: slope(k a, k b) = k slope(a, b)", 1e-13);
-        contract_near(contract, limiter_slope(contract, k * a, k * b), k * value, k * size, where);
+        contract_near(contract, contract_limiter_slope(contract, k * a, k * b), k * value, k * size, where);
         snprintf(where, sizeof where, "slope at (%.9g, %.9g)", a, a);
         contract_begin(contract, "equal differences are the slope (second order)", contract->strict ? 0.0 : 1e-14);
-        contract_near(contract, limiter_slope(contract, a, a), a, fabs(a), where);
+        contract_near(contract, contract_limiter_slope(contract, a, a), a, fabs(a), where);
     }
 }
 
 /* The values at both edges of cells, along rows and across them: bitwise what the slope gives. */
-static void limiter_edges(struct contract *contract)
+static void contract_limiter_edges(struct contract *contract)
 {
     const struct bulla_limiter *limiter = contract->module->table;
     contract_begin(contract, "edges are w -+ slope/2, bitwise", 0.0);
     if (!limiter->edges) return;
     uint64_t seed = 6;
     double w[LIMITER_ROW + 2 * LIMITER_PITCH], lower[LIMITER_ROW], upper[LIMITER_ROW];
-    for (size_t i = 0; i < sizeof w / sizeof *w; i++) w[i] = limiter_draw(&seed);
+    for (size_t i = 0; i < sizeof w / sizeof *w; i++) w[i] = contract_limiter_draw(&seed);
     for (size_t step = 1; step <= LIMITER_PITCH; step += LIMITER_PITCH - 1)
         for (size_t n = LIMITER_ROW; n > LIMITER_ROW - 9; n--) {
             limiter->edges(contract->self, n, step, w + LIMITER_PITCH, lower, upper);
             for (size_t i = 0; i < n; i++) {
                 const double *here = w + LIMITER_PITCH + i;
-                double half = 0.5 * limiter_slope(contract, *here - *(here - step), *(here + step) - *here);
+                double half = 0.5 * contract_limiter_slope(contract, *here - *(here - step), *(here + step) - *here);
                 contract_begin(contract, "edges are w -+ slope/2, bitwise", 0.0);
                 contract_error(contract, !(lower[i] == *here - half && upper[i] == *here + half),
                                "cell %zu of %zu, step %zu: %.17g to %.17g", i, n, step, lower[i], upper[i]);
@@ -103,8 +104,8 @@ static void limiter_edges(struct contract *contract)
 
 /* The functions as rows. */
 
-static void limiter_run_slope(const struct contract *contract, const struct contract_call *call, size_t n,
-                              const double *const *in, double *const *out)
+static void contract_limiter_run_slope(const struct contract *contract, const struct contract_call *call, size_t n,
+                                       const double *const *in, double *const *out)
 {
     const struct bulla_limiter *limiter = contract->module->table;
     (void)call;
@@ -112,8 +113,8 @@ static void limiter_run_slope(const struct contract *contract, const struct cont
 }
 
 /* Three rows below each other are an array with the step n. */
-static void limiter_run_edges(const struct contract *contract, const struct contract_call *call, size_t n,
-                              const double *const *in, double *const *out)
+static void contract_limiter_run_edges(const struct contract *contract, const struct contract_call *call, size_t n,
+                                       const double *const *in, double *const *out)
 {
     const struct bulla_limiter *limiter = contract->module->table;
     static double rows[3 * 512];
@@ -122,31 +123,31 @@ static void limiter_run_edges(const struct contract *contract, const struct cont
     limiter->edges(contract->self, n, n, rows + n, out[0], out[1]);
 }
 
-static void limiter_draw_row(const struct contract *contract, const struct contract_call *call, uint64_t *seed,
-                             double *in)
+static void contract_limiter_draw_row(const struct contract *contract, const struct contract_call *call, uint64_t *seed,
+                                      double *in)
 {
     (void)contract;
-    in[0] = limiter_draw(seed);
+    in[0] = contract_limiter_draw(seed);
     for (unsigned k = 1; k < call->n_in; k++) in[k] = in[0] * contract_random(seed, -1.0, 4.0);
 }
 
 void contract_limiter_run(struct contract *contract)
 {
     const struct bulla_limiter *limiter = contract->module->table;
-    const struct contract_call slope = {"slope", 2, 1, limiter_run_slope, limiter_draw_row, NULL};
-    const struct contract_call edges = {"edges", 3, 2, limiter_run_edges, limiter_draw_row, NULL};
+    const struct contract_call slope = {"slope", 2, 1, contract_limiter_run_slope, contract_limiter_draw_row, NULL};
+    const struct contract_call edges = {"edges", 3, 2, contract_limiter_run_edges, contract_limiter_draw_row, NULL};
     contract_doing(contract, "slopes of pairs");
-    limiter_pairs(contract);
+    contract_limiter_pairs(contract);
     contract_doing(contract, "symmetries of slopes");
-    limiter_symmetry(contract);
+    contract_limiter_symmetry(contract);
     contract_doing(contract, "edges");
-    limiter_edges(contract);
+    contract_limiter_edges(contract);
     contract_batch_run(contract, &slope);
     if (limiter->edges) contract_batch_run(contract, &edges);
 }
 
 void contract_limiter_probe(const struct contract *contract, double out[static CONTRACT_PROBE])
 {
-    out[0] = limiter_slope(contract, 1.0, 3.0);
-    out[1] = limiter_slope(contract, 2.0, 2.2);
+    out[0] = contract_limiter_slope(contract, 1.0, 3.0);
+    out[1] = contract_limiter_slope(contract, 2.0, 2.2);
 }

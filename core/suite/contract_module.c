@@ -13,7 +13,7 @@
 #include <string.h>
 
 /* The suite on one set of values. */
-static int module_try(struct contract *contract, const struct bulla_value *values, const char *preset)
+static int contract_module_try(struct contract *contract, const struct bulla_value *values, const char *preset)
 {
     struct instance instance = {0};
     TRY(instance_open(contract->module, values, &instance));
@@ -25,19 +25,19 @@ static int module_try(struct contract *contract, const struct bulla_value *value
     return STATUS_OK;
 }
 
-static int module_presets(struct contract *contract, struct bulla_value *values)
+static int contract_module_presets(struct contract *contract, struct bulla_value *values)
 {
     const struct bulla_module *module = contract->module;
     for (const struct bulla_preset *preset = module->presets; preset && preset->name; preset++) {
         for (unsigned i = 0; i < instance_param_count(module); i++)
             if (module->params[i].type == BULLA_NUMBER) values[i].number = preset->values[i];
-        TRY(module_try(contract, values, preset->name));
+        TRY(contract_module_try(contract, values, preset->name));
     }
     return STATUS_OK;
 }
 
 /* The ends of each range, one at a time: the table has promised that they may be given. */
-static void module_ends(struct contract *contract, struct bulla_value *values)
+static void contract_module_ends(struct contract *contract, struct bulla_value *values)
 {
     const struct bulla_module *module = contract->module;
     contract_doing(contract, "ends of parameter ranges");
@@ -57,7 +57,7 @@ static void module_ends(struct contract *contract, struct bulla_value *values)
 }
 
 /* Other values than these: the last preset, or ends of ranges. */
-static struct bulla_value *module_other(const struct bulla_module *module, const struct bulla_value *values)
+static struct bulla_value *contract_module_other(const struct bulla_module *module, const struct bulla_value *values)
 {
     unsigned count = instance_param_count(module);
     struct bulla_value *other = mem_new(count + 1, sizeof *other);
@@ -74,10 +74,10 @@ static struct bulla_value *module_other(const struct bulla_module *module, const
 }
 
 /* What one instance says before, beside and after another with other values: `open` may leave nothing in globals. */
-static void module_apart(struct contract *contract, const struct bulla_value *values)
+static void contract_module_apart(struct contract *contract, const struct bulla_value *values)
 {
     const struct bulla_module *module = contract->module;
-    struct bulla_value *other = module_other(module, values);
+    struct bulla_value *other = contract_module_other(module, values);
     struct instance one = {0}, two = {0};
     double said[3][CONTRACT_PROBE];
     bool both = instance_open(module, values, &one) == STATUS_OK;
@@ -98,7 +98,7 @@ static void module_apart(struct contract *contract, const struct bulla_value *va
     module_values_free(module, other);
 }
 
-static void module_units(struct contract *contract)
+static void contract_module_units(struct contract *contract)
 {
     for (unsigned i = 0; i < instance_param_count(contract->module); i++) {
         const struct bulla_param *row = &contract->module->params[i];
@@ -112,19 +112,19 @@ static void module_units(struct contract *contract)
     }
 }
 
-static int module_all(struct contract *contract, const char *const *sets, struct bulla_value *values)
+static int contract_module_all(struct contract *contract, const char *const *sets, struct bulla_value *values)
 {
     const struct bulla_module *module = contract->module;
     bool presets = module->presets && module->presets->name && !(sets && *sets);
     const char *missing = module_values_missing(module, values);
     if (!presets) TRY(module_values_check(module, values));
-    if (!missing) TRY(module_try(contract, values, presets ? "defaults" : ""));
-    if (presets) TRY(module_presets(contract, values));
+    if (!missing) TRY(contract_module_try(contract, values, presets ? "defaults" : ""));
+    if (presets) TRY(contract_module_presets(contract, values));
     contract->preset = "";
-    module_units(contract);
-    module_ends(contract, values);
+    contract_module_units(contract);
+    contract_module_ends(contract, values);
     contract_doing(contract, "two instances");
-    if (instance_param_count(module)) module_apart(contract, values);
+    if (instance_param_count(module)) contract_module_apart(contract, values);
     return STATUS_OK;
 }
 
@@ -133,7 +133,7 @@ int contract_module_run(struct contract *contract, const char *const *sets)
     struct bulla_value *values;
     contract->preset = "";
     TRY(module_values(contract->module, sets, &values));
-    int code = module_all(contract, sets, values);
+    int code = contract_module_all(contract, sets, values);
     module_values_free(contract->module, values);
     return code;
 }

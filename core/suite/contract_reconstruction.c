@@ -32,8 +32,8 @@ struct reconstruction_edges {
 };
 
 /* Minmod: the slopes that a scheme may ask for here. */
-static void reconstruction_limited(const struct bulla_limited *limited, size_t n, size_t step, const double *w,
-                                   double *BULLA_RESTRICT lower, double *BULLA_RESTRICT upper)
+static void contract_reconstruction_limited(const struct bulla_limited *limited, size_t n, size_t step, const double *w,
+                                            double *BULLA_RESTRICT lower, double *BULLA_RESTRICT upper)
 {
     (void)limited;
     for (size_t i = 0; i < n; i++) {
@@ -44,21 +44,21 @@ static void reconstruction_limited(const struct bulla_limited *limited, size_t n
     }
 }
 
-static const struct bulla_limited reconstruction_slopes = {.size = sizeof reconstruction_slopes,
-                                                           .edges = reconstruction_limited};
+static const struct bulla_limited contract_reconstruction_slopes = {.size = sizeof contract_reconstruction_slopes,
+                                                                    .edges = contract_reconstruction_limited};
 
-static const struct bulla_reconstruction *reconstruction_table(const struct contract *contract)
+static const struct bulla_reconstruction *contract_reconstruction_table(const struct contract *contract)
 {
     return contract->module->table;
 }
 
 /* n cells of all rows. */
-static void reconstruction_call(const struct contract *contract, size_t n, size_t step, const double *const *w,
-                                double *const *lower, double *const *upper)
+static void contract_reconstruction_call(const struct contract *contract, size_t n, size_t step, const double *const *w,
+                                         double *const *lower, double *const *upper)
 {
-    const struct bulla_reconstruction *table = reconstruction_table(contract);
+    const struct bulla_reconstruction *table = contract_reconstruction_table(contract);
     const struct bulla_limited *limited[RECONSTRUCTION_ROWS];
-    for (int q = 0; q < RECONSTRUCTION_ROWS; q++) limited[q] = &reconstruction_slopes;
+    for (int q = 0; q < RECONSTRUCTION_ROWS; q++) limited[q] = &contract_reconstruction_slopes;
     const struct bulla_cells cells = {.size = sizeof cells,
                                       .n = n,
                                       .step = step,
@@ -80,13 +80,14 @@ static void reconstruction_call(const struct contract *contract, size_t n, size_
 }
 
 /* The edges of one cell, with `beyond` in all cells that must not be looked at. */
-static struct reconstruction_edges reconstruction_ask(const struct contract *contract,
-                                                      const struct reconstruction_stencil *stencil, double beyond)
+static struct reconstruction_edges contract_reconstruction_ask(const struct contract *contract,
+                                                               const struct reconstruction_stencil *stencil,
+                                                               double beyond)
 {
     double rows[RECONSTRUCTION_ROWS][RECONSTRUCTION_WIDTH + 2], *edge[2][RECONSTRUCTION_ROWS];
     const double *w[RECONSTRUCTION_ROWS];
     struct reconstruction_edges edges;
-    int reach = (int)reconstruction_table(contract)->layers - 1, middle = RECONSTRUCTION_REACH + 1;
+    int reach = (int)contract_reconstruction_table(contract)->layers - 1, middle = RECONSTRUCTION_REACH + 1;
     for (int q = 0; q < RECONSTRUCTION_ROWS; q++) {
         for (int i = 0; i < RECONSTRUCTION_WIDTH + 2; i++) rows[q][i] = beyond;
         for (int i = 0; i < 2 * reach + 1; i++)
@@ -97,31 +98,31 @@ static struct reconstruction_edges reconstruction_ask(const struct contract *con
             edge[side][q] = &edges.at[side][q];
         }
     }
-    reconstruction_call(contract, 1, 1, w, edge[0], edge[1]);
+    contract_reconstruction_call(contract, 1, 1, w, edge[0], edge[1]);
     return edges;
 }
 
-static struct reconstruction_edges reconstruction_of(const struct contract *contract,
-                                                     const struct reconstruction_stencil *stencil)
+static struct reconstruction_edges contract_reconstruction_of(const struct contract *contract,
+                                                              const struct reconstruction_stencil *stencil)
 {
-    return reconstruction_ask(contract, stencil, 1.0);
+    return contract_reconstruction_ask(contract, stencil, 1.0);
 }
 
 /* Size of a row: of what is compared in it. */
-static double reconstruction_size(const struct reconstruction_stencil *stencil, int q)
+static double contract_reconstruction_size(const struct reconstruction_stencil *stencil, int q)
 {
     double most = 1e-300;
     for (int i = 0; i < RECONSTRUCTION_WIDTH; i++) most = fabs(stencil->w[q][i]) > most ? fabs(stencil->w[q][i]) : most;
     return most;
 }
 
-static double reconstruction_sign(uint64_t *seed)
+static double contract_reconstruction_sign(uint64_t *seed)
 {
     return contract_random(seed, 0.0, 1.0) < 0.5 ? -1.0 : 1.0;
 }
 
 /* Cells of a mixture: fractions that sum to 1, densities and pressures of all sizes, velocities of both signs. */
-static void reconstruction_draw_cells(uint64_t *seed, struct reconstruction_stencil *ret)
+static void contract_reconstruction_draw_cells(uint64_t *seed, struct reconstruction_stencil *ret)
 {
     double size[RECONSTRUCTION_ROWS], spread = pow(10.0, contract_random(seed, -6.0, 0.0));
     for (int q = 0; q < RECONSTRUCTION_ROWS; q++) size[q] = pow(10.0, contract_random(seed, -3.0, 9.0));
@@ -131,79 +132,85 @@ static void reconstruction_draw_cells(uint64_t *seed, struct reconstruction_sten
         for (int q = RECONSTRUCTION_ALPHAS; q < RECONSTRUCTION_ROWS; q++) {
             bool velocity = q >= RECONSTRUCTION_U && q < RECONSTRUCTION_P;
             ret->w[q][i] = size[q] * (1.0 + spread * contract_random(seed, -0.9, 0.9));
-            if (velocity) ret->w[q][i] *= reconstruction_sign(seed);
+            if (velocity) ret->w[q][i] *= contract_reconstruction_sign(seed);
         }
     }
 }
 
-static void reconstruction_where(const struct reconstruction_stencil *stencil, int q, size_t room, char *where)
+static void contract_reconstruction_where(const struct reconstruction_stencil *stencil, int q, size_t room, char *where)
 {
     const double *w = stencil->w[q];
     snprintf(where, room, "row %d of cells %.6g %.6g %.6g %.6g %.6g", q, w[0], w[1], w[2], w[3], w[4]);
 }
 
 /* One row of edges against what they should be. */
-static void reconstruction_near(struct contract *contract, const struct reconstruction_stencil *stencil, int q,
-                                const double got[2], double lower, double upper)
+static void contract_reconstruction_near(struct contract *contract, const struct reconstruction_stencil *stencil, int q,
+                                         const double got[2], double lower, double upper)
 {
     char where[CONTRACT_WHERE];
-    reconstruction_where(stencil, q, sizeof where, where);
-    contract_near(contract, got[0], lower, reconstruction_size(stencil, q), where);
-    contract_near(contract, got[1], upper, reconstruction_size(stencil, q), where);
+    contract_reconstruction_where(stencil, q, sizeof where, where);
+    contract_near(contract, got[0], lower, contract_reconstruction_size(stencil, q), where);
+    contract_near(contract, got[1], upper, contract_reconstruction_size(stencil, q), where);
 }
 
-static void reconstruction_equal(struct contract *contract, const struct reconstruction_stencil *drawn)
+static void contract_reconstruction_equal(struct contract *contract, const struct reconstruction_stencil *drawn)
 {
     struct reconstruction_stencil flat;
     for (int q = 0; q < RECONSTRUCTION_ROWS; q++)
         for (int i = 0; i < RECONSTRUCTION_WIDTH; i++) flat.w[q][i] = drawn->w[q][0];
-    struct reconstruction_edges edges = reconstruction_of(contract, &flat);
+    struct reconstruction_edges edges = contract_reconstruction_of(contract, &flat);
     contract_begin(contract, "equal cells have edges that are their value, bitwise", 0.0);
     for (int q = 0; q < RECONSTRUCTION_ROWS; q++)
-        reconstruction_near(contract, &flat, q, (double[]){edges.at[0][q], edges.at[1][q]}, flat.w[q][0], flat.w[q][0]);
+        contract_reconstruction_near(contract, &flat, q, (double[]){edges.at[0][q], edges.at[1][q]}, flat.w[q][0],
+                                     flat.w[q][0]);
 }
 
 /* Schemes that sharpen interfaces need not leave lines of fractions as they are. */
-static void reconstruction_line(struct contract *contract, const struct reconstruction_stencil *drawn)
+static void contract_reconstruction_line(struct contract *contract, const struct reconstruction_stencil *drawn)
 {
     struct reconstruction_stencil line;
     for (int q = 0; q < RECONSTRUCTION_ROWS; q++)
         for (int i = 0; i < RECONSTRUCTION_WIDTH; i++)
             line.w[q][i] = drawn->w[q][0] + (i - RECONSTRUCTION_REACH) * 0.1 * (drawn->w[q][1] - drawn->w[q][0]);
-    struct reconstruction_edges edges = reconstruction_of(contract, &line);
+    struct reconstruction_edges edges = contract_reconstruction_of(contract, &line);
     contract_begin(contract, "edges of a straight line lie on it", 1e-13);
-    for (int q = reconstruction_table(contract)->all ? RECONSTRUCTION_ALPHAS : 0; q < RECONSTRUCTION_ROWS; q++) {
+    for (int q = contract_reconstruction_table(contract)->all ? RECONSTRUCTION_ALPHAS : 0; q < RECONSTRUCTION_ROWS;
+         q++) {
         double half = 0.05 * (drawn->w[q][1] - drawn->w[q][0]), here = line.w[q][RECONSTRUCTION_REACH];
-        reconstruction_near(contract, &line, q, (double[]){edges.at[0][q], edges.at[1][q]}, here - half, here + half);
+        contract_reconstruction_near(contract, &line, q, (double[]){edges.at[0][q], edges.at[1][q]}, here - half,
+                                     here + half);
     }
 }
 
-static void reconstruction_mirror(struct contract *contract, const struct reconstruction_stencil *drawn)
+static void contract_reconstruction_mirror(struct contract *contract, const struct reconstruction_stencil *drawn)
 {
     struct reconstruction_stencil turned;
     for (int q = 0; q < RECONSTRUCTION_ROWS; q++)
         for (int i = 0; i < RECONSTRUCTION_WIDTH; i++)
             turned.w[q][i] = (q == RECONSTRUCTION_U ? -1.0 : 1.0) * drawn->w[q][RECONSTRUCTION_WIDTH - 1 - i];
-    struct reconstruction_edges one = reconstruction_of(contract, drawn), two = reconstruction_of(contract, &turned);
+    struct reconstruction_edges one = contract_reconstruction_of(contract, drawn),
+                                two = contract_reconstruction_of(contract, &turned);
     contract_begin(contract, "mirrored cells have mirrored edges, bitwise", 0.0);
     for (int q = 0; q < RECONSTRUCTION_ROWS; q++) {
         double sign = q == RECONSTRUCTION_U ? -1.0 : 1.0;
-        reconstruction_near(contract, &turned, q, (double[]){two.at[0][q], two.at[1][q]}, sign * one.at[1][q],
-                            sign * one.at[0][q]);
+        contract_reconstruction_near(contract, &turned, q, (double[]){two.at[0][q], two.at[1][q]}, sign * one.at[1][q],
+                                     sign * one.at[0][q]);
     }
 }
 
 /* What lies too far away is a number here and none there. */
-static void reconstruction_reach(struct contract *contract, const struct reconstruction_stencil *drawn)
+static void contract_reconstruction_reach(struct contract *contract, const struct reconstruction_stencil *drawn)
 {
-    struct reconstruction_edges one = reconstruction_of(contract, drawn);
-    struct reconstruction_edges two = reconstruction_ask(contract, drawn, (double)NAN);
+    struct reconstruction_edges one = contract_reconstruction_of(contract, drawn);
+    struct reconstruction_edges two = contract_reconstruction_ask(contract, drawn, (double)NAN);
     contract_begin(contract, "cells further away than layers - 1 are not looked at", 0.0);
     for (int q = 0; q < RECONSTRUCTION_ROWS; q++)
-        reconstruction_near(contract, drawn, q, (double[]){two.at[0][q], two.at[1][q]}, one.at[0][q], one.at[1][q]);
+        contract_reconstruction_near(contract, drawn, q, (double[]){two.at[0][q], two.at[1][q]}, one.at[0][q],
+                                     one.at[1][q]);
 }
 
-static void reconstruction_units(struct contract *contract, const struct reconstruction_stencil *drawn, uint64_t *seed)
+static void contract_reconstruction_units(struct contract *contract, const struct reconstruction_stencil *drawn,
+                                          uint64_t *seed)
 {
     struct reconstruction_stencil scaled = *drawn;
     double unit[RECONSTRUCTION_ROWS];
@@ -211,29 +218,31 @@ static void reconstruction_units(struct contract *contract, const struct reconst
         unit[q] = q < RECONSTRUCTION_ALPHAS ? 1.0 : ldexp(1.0, (int)contract_random(seed, -20.0, 20.0));
         for (int i = 0; i < RECONSTRUCTION_WIDTH; i++) scaled.w[q][i] *= unit[q];
     }
-    struct reconstruction_edges one = reconstruction_of(contract, drawn), two = reconstruction_of(contract, &scaled);
+    struct reconstruction_edges one = contract_reconstruction_of(contract, drawn),
+                                two = contract_reconstruction_of(contract, &scaled);
     contract_begin(contract, "units do not matter: edges(k w) = k edges(w)", 1e-12);
     for (int q = 0; q < RECONSTRUCTION_ROWS; q++)
-        reconstruction_near(contract, &scaled, q, (double[]){two.at[0][q], two.at[1][q]}, unit[q] * one.at[0][q],
-                            unit[q] * one.at[1][q]);
+        contract_reconstruction_near(contract, &scaled, q, (double[]){two.at[0][q], two.at[1][q]},
+                                     unit[q] * one.at[0][q], unit[q] * one.at[1][q]);
 }
 
 /* No further from the cell than the nearer neighbour, on the side of its own neighbour, and fractions that fill a cell do so
  * at its edges. */
-static void reconstruction_bounds(struct contract *contract, const struct reconstruction_stencil *drawn)
+static void contract_reconstruction_bounds(struct contract *contract, const struct reconstruction_stencil *drawn)
 {
-    if (!reconstruction_table(contract)->bounded) return;
-    struct reconstruction_edges edges = reconstruction_of(contract, drawn);
+    if (!contract_reconstruction_table(contract)->bounded) return;
+    struct reconstruction_edges edges = contract_reconstruction_of(contract, drawn);
     contract_begin(contract, "bounded: edges no further away than the nearer neighbour", 4e-16);
     for (int q = 0; q < RECONSTRUCTION_ROWS; q++) {
         const double *w = drawn->w[q] + RECONSTRUCTION_REACH;
         double a = w[0] - w[-1], b = w[1] - w[0], most = a * b > 0.0 ? (fabs(a) < fabs(b) ? fabs(a) : fabs(b)) : 0.0;
         char where[CONTRACT_WHERE];
-        reconstruction_where(drawn, q, sizeof where, where);
+        contract_reconstruction_where(drawn, q, sizeof where, where);
         for (int side = 0; side < 2; side++) {
             double away = (side ? 1.0 : -1.0) * copysign(1.0, b) * (edges.at[side][q] - w[0]);
             double excess = away < 0.0 ? -away : away > most ? away - most : away >= 0.0 ? 0.0 : (double)NAN;
-            contract_error(contract, excess / reconstruction_size(drawn, q), "%s: edge %.9g", where, edges.at[side][q]);
+            contract_error(contract, excess / contract_reconstruction_size(drawn, q), "%s: edge %.9g", where,
+                           edges.at[side][q]);
         }
     }
     contract_begin(contract, "bounded: fractions of two materials sum to 1 at edges", 4e-16);
@@ -242,14 +251,14 @@ static void reconstruction_bounds(struct contract *contract, const struct recons
 }
 
 /* Worst error of the edges of an exponential, cells of width h, relative. */
-static double reconstruction_error(const struct contract *contract, double h)
+static double contract_reconstruction_error(const struct contract *contract, double h)
 {
     struct reconstruction_stencil wave;
     double worst = 0.0, mean = sinh(0.5 * h) / (0.5 * h);
     for (int q = 0; q < RECONSTRUCTION_ROWS; q++)
         for (int i = 0; i < RECONSTRUCTION_WIDTH; i++)
             wave.w[q][i] = q < RECONSTRUCTION_ALPHAS ? 0.5 : exp((i - RECONSTRUCTION_REACH) * h) * mean;
-    struct reconstruction_edges edges = reconstruction_of(contract, &wave);
+    struct reconstruction_edges edges = contract_reconstruction_of(contract, &wave);
     for (int q = RECONSTRUCTION_ALPHAS; q < RECONSTRUCTION_ROWS; q++)
         for (int side = 0; side < 2; side++) {
             double error = fabs(edges.at[side][q] - exp((side ? 0.5 : -0.5) * h));
@@ -258,18 +267,19 @@ static double reconstruction_error(const struct contract *contract, double h)
     return worst;
 }
 
-static void reconstruction_order(struct contract *contract)
+static void contract_reconstruction_order(struct contract *contract)
 {
     contract_begin(contract, "edges of a smooth row: second order or more", 0.0);
     for (double h = 0.2; h > 0.04; h *= 0.5) {
-        double order = log2(reconstruction_error(contract, h) / reconstruction_error(contract, 0.5 * h));
+        double order =
+            log2(contract_reconstruction_error(contract, h) / contract_reconstruction_error(contract, 0.5 * h));
         contract_error(contract, !(order >= 1.8), "order %.2f between cells of %g and %g", order, h, 0.5 * h);
     }
 }
 
 /* Stencils as inputs of points; rows below each other are an array whose step is their length. */
-static void reconstruction_run(const struct contract *contract, const struct contract_call *call, size_t n,
-                               const double *const *in, double *const *out)
+static void contract_reconstruction_rows_run(const struct contract *contract, const struct contract_call *call,
+                                             size_t n, const double *const *in, double *const *out)
 {
     static double rows[RECONSTRUCTION_ROWS][RECONSTRUCTION_WIDTH * RECONSTRUCTION_POINTS];
     const double *w[RECONSTRUCTION_ROWS];
@@ -279,39 +289,39 @@ static void reconstruction_run(const struct contract *contract, const struct con
             memcpy(rows[q] + (size_t)i * n, in[q * RECONSTRUCTION_WIDTH + i], n * sizeof **rows);
         w[q] = rows[q] + RECONSTRUCTION_REACH * n;
     }
-    reconstruction_call(contract, n, n, w, out, out + RECONSTRUCTION_ROWS);
+    contract_reconstruction_call(contract, n, n, w, out, out + RECONSTRUCTION_ROWS);
 }
 
-static void reconstruction_draw(const struct contract *contract, const struct contract_call *call, uint64_t *seed,
-                                double *in)
+static void contract_reconstruction_draw(const struct contract *contract, const struct contract_call *call,
+                                         uint64_t *seed, double *in)
 {
     struct reconstruction_stencil stencil;
     (void)contract;
     (void)call;
-    reconstruction_draw_cells(seed, &stencil);
+    contract_reconstruction_draw_cells(seed, &stencil);
     memcpy(in, &stencil, sizeof stencil);
 }
 
 void contract_reconstruction_run(struct contract *contract)
 {
-    const struct bulla_reconstruction *table = reconstruction_table(contract);
+    const struct bulla_reconstruction *table = contract_reconstruction_table(contract);
     const struct contract_call call = {table->all ? "all" : "edges", RECONSTRUCTION_ROWS * RECONSTRUCTION_WIDTH,
-                                       2 * RECONSTRUCTION_ROWS,      reconstruction_run,
-                                       reconstruction_draw,          NULL};
+                                       2 * RECONSTRUCTION_ROWS,      contract_reconstruction_rows_run,
+                                       contract_reconstruction_draw, NULL};
     uint64_t seed = 5;
     contract_doing(contract, "edges of cells");
     for (int i = 0; i < RECONSTRUCTION_TRIES; i++) {
         struct reconstruction_stencil stencil;
-        reconstruction_draw_cells(&seed, &stencil);
-        reconstruction_equal(contract, &stencil);
-        reconstruction_line(contract, &stencil);
-        reconstruction_mirror(contract, &stencil);
-        reconstruction_reach(contract, &stencil);
-        reconstruction_units(contract, &stencil, &seed);
-        reconstruction_bounds(contract, &stencil);
+        contract_reconstruction_draw_cells(&seed, &stencil);
+        contract_reconstruction_equal(contract, &stencil);
+        contract_reconstruction_line(contract, &stencil);
+        contract_reconstruction_mirror(contract, &stencil);
+        contract_reconstruction_reach(contract, &stencil);
+        contract_reconstruction_units(contract, &stencil, &seed);
+        contract_reconstruction_bounds(contract, &stencil);
     }
     contract_doing(contract, "smooth rows");
-    reconstruction_order(contract);
+    contract_reconstruction_order(contract);
     contract_batch_run(contract, &call);
     contract_fact(contract, "looks at two cells on each side", table->layers == 3);
     contract_fact(contract, "promises bounds", table->bounded);
@@ -321,7 +331,7 @@ void contract_reconstruction_probe(const struct contract *contract, double out[s
 {
     uint64_t seed = 7;
     struct reconstruction_stencil stencil;
-    reconstruction_draw_cells(&seed, &stencil);
-    struct reconstruction_edges edges = reconstruction_of(contract, &stencil);
+    contract_reconstruction_draw_cells(&seed, &stencil);
+    struct reconstruction_edges edges = contract_reconstruction_of(contract, &stencil);
     for (int i = 0; i < CONTRACT_PROBE; i++) out[i] = edges.at[1][2 * i];
 }

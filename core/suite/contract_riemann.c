@@ -17,14 +17,14 @@
 enum { RIEMANN_FACES = 200 };
 
 /* How many materials; last one that core lists alone in a scene of several. */
-static const struct contract_shape riemann_shapes[] = {
+static const struct contract_shape contract_riemann_shapes[] = {
     {.n_material = 1}, {.n_material = 2}, {.n_material = 3}, {.n_material = 5}, {.n_material = 1, .mixed = true}};
 
 /* The same with solids. */
-static const struct contract_shape riemann_solids[] = {{.n_material = 1, .solid = true},
-                                                       {.n_material = 2, .solid = true},
-                                                       {.n_material = 3, .solid = true},
-                                                       {.n_material = 1, .mixed = true, .solid = true}};
+static const struct contract_shape contract_riemann_solids[] = {{.n_material = 1, .solid = true},
+                                                                {.n_material = 2, .solid = true},
+                                                                {.n_material = 3, .solid = true},
+                                                                {.n_material = 1, .mixed = true, .solid = true}};
 
 /* The names of facts and of checks that several places share. */
 #define RIEMANN_CONTACT "keeps contacts of one material sharp"
@@ -33,8 +33,8 @@ static const struct contract_shape riemann_solids[] = {{.n_material = 1, .solid 
 #define RIEMANN_REST "with several materials nothing moves in a fluid at rest"
 
 /* The errors of all fluxes under the check at work. */
-static void riemann_compare(struct contract *contract, const struct contract_face *face,
-                            const struct contract_flux *got, const struct contract_flux *want)
+static void contract_riemann_compare(struct contract *contract, const struct contract_face *face,
+                                     const struct contract_flux *got, const struct contract_flux *want)
 {
     static const char *const names[] = {"m", "momentum", "energy", "u*", "alpha*", "u*_t"};
     static const unsigned ends[] = {CONTRACT_FACE_MATERIALS,
@@ -58,17 +58,17 @@ static void riemann_compare(struct contract *contract, const struct contract_fac
 }
 
 /* F(U, U) = F(U). */
-static void riemann_consistent(struct contract *contract, struct contract_face face)
+static void contract_riemann_consistent(struct contract *contract, struct contract_face face)
 {
     face.right = face.left;
     struct contract_flux got = contract_face_solve(contract, &face);
     struct contract_flux want = contract_face_physical(&face.shape, &face.left);
     contract_begin(contract, "equal sides give the physical flux", 1e-14);
-    riemann_compare(contract, &face, &got, &want);
+    contract_riemann_compare(contract, &face, &got, &want);
 }
 
 /* Seen in a mirror the odd fluxes have the other sign. */
-static void riemann_mirror(struct contract *contract, struct contract_face face)
+static void contract_riemann_mirror(struct contract *contract, struct contract_face face)
 {
     struct contract_face image = face;
     image.left = face.right;
@@ -90,11 +90,11 @@ static void riemann_mirror(struct contract *contract, struct contract_face face)
         seen.slide_right[k] = slide;
     }
     contract_begin(contract, "mirrored sides give mirrored fluxes", contract->strict ? 0.0 : 1e-13);
-    riemann_compare(contract, &face, &got, &seen);
+    contract_riemann_compare(contract, &face, &got, &seen);
 }
 
 /* A side against its own mirror image, as at a wall: nothing goes through but pressure. */
-static void riemann_wall(struct contract *contract, struct contract_face face)
+static void contract_riemann_wall(struct contract *contract, struct contract_face face)
 {
     face.right = face.left;
     face.right.u[0] = -face.left.u[0];
@@ -105,11 +105,11 @@ static void riemann_wall(struct contract *contract, struct contract_face face)
     memset(want.m, 0, sizeof want.m);
     memset(want.momentum + 1, 0, sizeof want.momentum - sizeof *want.momentum);
     contract_begin(contract, "nothing but pressure goes through a wall", contract->strict ? 0.0 : 1e-14);
-    riemann_compare(contract, &face, &got, &want);
+    contract_riemann_compare(contract, &face, &got, &want);
 }
 
 /* Tractions that do not jump; where one side is a fluid there are none. */
-static void riemann_even(struct contract_face *face)
+static void contract_riemann_even(struct contract_face *face)
 {
     bool both = face->left.c_s > 0.0 && face->right.c_s > 0.0;
     if (!both) memset(face->left.s, 0, sizeof face->left.s);
@@ -117,7 +117,7 @@ static void riemann_even(struct contract_face *face)
 }
 
 /* Uniform p and u, any jump of alpha and densities (and with several materials of energy, whatever the laws). */
-static void riemann_level(struct contract_face *face, uint64_t *seed)
+static void contract_riemann_level(struct contract_face *face, uint64_t *seed)
 {
     double u = contract_random(seed, -3.0, 3.0) * face->left.c, p = face->left.p, kinetic = 0.0;
     struct contract_side *sides[2] = {&face->left, &face->right};
@@ -132,7 +132,7 @@ static void riemann_level(struct contract_face *face, uint64_t *seed)
 }
 
 /* Adds what the tractions of the left side do to momentum and energy, and how their face moves. */
-static void riemann_pull(const struct contract_face *face, struct contract_flux *flux)
+static void contract_riemann_pull(const struct contract_face *face, struct contract_flux *flux)
 {
     const struct contract_side *side = &face->left;
     for (unsigned k = 1; face->shape.solid && k < face->shape.n_velocity; k++) {
@@ -145,10 +145,10 @@ static void riemann_pull(const struct contract_face *face, struct contract_flux 
 /* u* is u, momentum goes with the mass, and mass, fraction and energy are those of one state between
  * the sides (rho E*, m*, alpha*): mostly the upwind one. One material: diffused mass takes its kinetic
  * energy along and leaves p alone. */
-static void riemann_equilibrium(struct contract *contract, struct contract_face face, uint64_t *seed)
+static void contract_riemann_equilibrium(struct contract *contract, struct contract_face face, uint64_t *seed)
 {
-    riemann_level(&face, seed);
-    riemann_even(&face);
+    contract_riemann_level(&face, seed);
+    contract_riemann_even(&face);
     const struct contract_side *l = &face.left, *r = &face.right;
     struct contract_flux got = contract_face_solve(contract, &face), want = {.u = l->u[0]};
     double u = l->u[0], mass = 0.0, kinetic = 0.5 * u * u;
@@ -170,28 +170,28 @@ static void riemann_equilibrium(struct contract *contract, struct contract_face 
         const struct contract_side *from = u >= 0.0 ? l : r;
         contract_fact(contract, RIEMANN_CONTACT, fabs(got.m[0] - from->rho * u) <= 1e-12 * fabs(from->rho * u));
     }
-    riemann_pull(&face, &want);
+    contract_riemann_pull(&face, &want);
     contract_begin(contract, "uniform p and u stay so, whatever jumps beside them", 1e-13);
-    riemann_compare(contract, &face, &got, &want);
+    contract_riemann_compare(contract, &face, &got, &want);
 }
 
 /* A contact in a fluid at rest. */
-static void riemann_rest(struct contract *contract, struct contract_face face)
+static void contract_riemann_rest(struct contract *contract, struct contract_face face)
 {
     if (face.shape.n_material == 1 && !face.shape.mixed) return; /* may be smeared: a fact, see above */
     memset(face.left.u, 0, sizeof face.left.u);
     memset(face.right.u, 0, sizeof face.right.u);
     face.right.p = face.left.p;
-    riemann_even(&face);
+    contract_riemann_even(&face);
     struct contract_flux got = contract_face_solve(contract, &face), want = {.momentum = {face.left.p}};
     memcpy(want.alpha, got.alpha, sizeof want.alpha);
-    riemann_pull(&face, &want);
+    contract_riemann_pull(&face, &want);
     contract_begin(contract, RIEMANN_REST, contract->strict ? 0.0 : 1e-14);
-    riemann_compare(contract, &face, &got, &want);
+    contract_riemann_compare(contract, &face, &got, &want);
 }
 
 /* alpha* lies between its sides and sums to 1. */
-static void riemann_fractions(struct contract *contract, struct contract_face face)
+static void contract_riemann_fractions(struct contract *contract, struct contract_face face)
 {
     struct contract_flux got = contract_face_solve(contract, &face);
     unsigned n_alpha = contract_face_n_alpha(&face.shape);
@@ -212,7 +212,7 @@ static void riemann_fractions(struct contract *contract, struct contract_face fa
 }
 
 /* The same fluid seen as one material of a mixed scene: the sum of the masses, the rest alike. */
-static void riemann_sum(struct contract *contract, struct contract_face face)
+static void contract_riemann_sum(struct contract *contract, struct contract_face face)
 {
     struct contract_face single = face;
     single.shape.n_material = 1;
@@ -227,11 +227,11 @@ static void riemann_sum(struct contract *contract, struct contract_face face)
     got.m[0] = mass;
     if (face.shape.n_material == 1) return;
     contract_begin(contract, "mass fluxes sum to that of rho", 1e-14);
-    riemann_compare(contract, &single, &got, &one);
+    contract_riemann_compare(contract, &single, &got, &one);
 }
 
 /* Where a tile holds one material only, core lists it alone: the bits must be those of the full list. */
-static void riemann_alone(struct contract *contract, struct contract_face face)
+static void contract_riemann_alone(struct contract *contract, struct contract_face face)
 {
     if (face.shape.n_material == 1) return;
     struct contract_side *sides[2] = {&face.left, &face.right};
@@ -255,7 +255,7 @@ static void riemann_alone(struct contract *contract, struct contract_face face)
 
 /* A jump of tangential velocity alone: if it is diffused, then from the faster to the slower side,
  * taking the mean velocity's work along. */
-static void riemann_shear(struct contract *contract, struct contract_face face)
+static void contract_riemann_shear(struct contract *contract, struct contract_face face)
 {
     if (face.shape.n_velocity < 2 || face.shape.solid) return;
     for (int k = 0; k < CONTRACT_FACE_AXES; k++) {
@@ -278,7 +278,7 @@ static void riemann_shear(struct contract *contract, struct contract_face face)
 }
 
 /* Both sides move over the face faster than any signal could return. */
-static void riemann_supersonic(struct contract *contract, struct contract_face face)
+static void contract_riemann_supersonic(struct contract *contract, struct contract_face face)
 {
     double most = face.left.c > face.right.c ? face.left.c : face.right.c;
     double u[2] = {2.0 * most, 2.5 * most};
@@ -296,32 +296,33 @@ static void riemann_supersonic(struct contract *contract, struct contract_face f
         contract_near(contract, got.alpha[l], face.left.alpha[l], 1.0, "alpha*");
 }
 
-static void riemann_checks(struct contract *contract, struct contract_shape shape, uint64_t *seed)
+static void contract_riemann_checks(struct contract *contract, struct contract_shape shape, uint64_t *seed)
 {
     for (int j = 0; j < RIEMANN_FACES; j++) {
         struct contract_face face = contract_face_draw(seed, shape, j % 2 ? 2.0 : 0.3);
-        riemann_consistent(contract, face);
-        riemann_mirror(contract, face);
-        riemann_wall(contract, face);
-        riemann_equilibrium(contract, face, seed);
-        riemann_rest(contract, face);
-        riemann_fractions(contract, face);
-        riemann_sum(contract, face);
-        riemann_alone(contract, face);
-        riemann_shear(contract, face);
-        riemann_supersonic(contract, face);
+        contract_riemann_consistent(contract, face);
+        contract_riemann_mirror(contract, face);
+        contract_riemann_wall(contract, face);
+        contract_riemann_equilibrium(contract, face, seed);
+        contract_riemann_rest(contract, face);
+        contract_riemann_fractions(contract, face);
+        contract_riemann_sum(contract, face);
+        contract_riemann_alone(contract, face);
+        contract_riemann_shear(contract, face);
+        contract_riemann_supersonic(contract, face);
         if (shape.solid) contract_solid_face(contract, &face);
     }
 }
 
 /* All checks on scenes of the given kinds, and rows of such faces. */
-static void riemann_scenes(struct contract *contract, const struct contract_shape *shapes, size_t n, uint64_t *seed)
+static void contract_riemann_scenes(struct contract *contract, const struct contract_shape *shapes, size_t n,
+                                    uint64_t *seed)
 {
     for (size_t i = 0; i < n * CONTRACT_FACE_AXES; i++) {
         struct contract_shape shape = shapes[i / CONTRACT_FACE_AXES];
         shape.n_velocity = 1 + (unsigned)(i % CONTRACT_FACE_AXES);
         contract_doing(contract, "single faces");
-        riemann_checks(contract, shape, seed);
+        contract_riemann_checks(contract, shape, seed);
         struct contract_call call = contract_face_call(&shape);
         contract_batch_run(contract, &call);
     }
@@ -331,19 +332,22 @@ void contract_riemann_run(struct contract *contract)
 {
     const struct bulla_riemann *riemann = contract->module->table;
     uint64_t seed = 11;
-    riemann_scenes(contract, riemann_shapes, sizeof riemann_shapes / sizeof *riemann_shapes, &seed);
+    contract_riemann_scenes(contract, contract_riemann_shapes,
+                            sizeof contract_riemann_shapes / sizeof *contract_riemann_shapes, &seed);
     bool told = riemann->size >= offsetof(struct bulla_riemann, solids) + sizeof riemann->solids;
     uint32_t solids = told ? riemann->solids : 0;
     contract_fact(contract, "knows solids", solids == 1);
     contract_begin(contract, "solids is 0 or 1", 0.0);
     contract_error(contract, solids > 1, "solids = %u", solids);
-    if (solids) riemann_scenes(contract, riemann_solids, sizeof riemann_solids / sizeof *riemann_solids, &seed);
+    if (solids)
+        contract_riemann_scenes(contract, contract_riemann_solids,
+                                sizeof contract_riemann_solids / sizeof *contract_riemann_solids, &seed);
 }
 
 void contract_riemann_probe(const struct contract *contract, double out[static CONTRACT_PROBE])
 {
     uint64_t seed = 1;
-    struct contract_face face = contract_face_draw(&seed, riemann_shapes[0], 0.3);
+    struct contract_face face = contract_face_draw(&seed, contract_riemann_shapes[0], 0.3);
     struct contract_flux flux = contract_face_solve(contract, &face);
     out[0] = flux.u;
     out[1] = flux.rho_E;

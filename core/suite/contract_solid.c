@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* Where both sides are fluids a scene with solids gives the bits of one without. */
-static void solid_fluids(struct contract *contract, struct contract_face face)
+static void contract_solid_fluids(struct contract *contract, struct contract_face face)
 {
     struct contract_side *sides[2] = {&face.left, &face.right};
     for (int i = 0; i < 2; i++) {
@@ -29,7 +29,7 @@ static void solid_fluids(struct contract *contract, struct contract_face face)
 }
 
 /* Nothing moves through the face: what is left is shear. */
-static void solid_still(struct contract_face *face)
+static void contract_solid_still(struct contract_face *face)
 {
     struct contract_side *sides[2] = {&face->left, &face->right};
     for (int i = 0; i < 2; i++) {
@@ -42,7 +42,8 @@ static void solid_still(struct contract_face *face)
 
 /* A traction s that changes a velocity by du: how far du lies beyond what the impedances of the shear wave and of the
  * fastest signal give, on the scale of the velocities that it was computed from. */
-static double solid_beyond(const struct contract_face *face, const struct contract_side *side, double s, double du)
+static double contract_solid_beyond(const struct contract_face *face, const struct contract_side *side, double s,
+                                    double du)
 {
     double fastest = face->left.c > face->right.c ? face->left.c : face->right.c, size = fabs(s), most = fabs(du);
     double least_du = size / (side->rho * fastest), most_du = size / (side->rho * side->c_s);
@@ -54,12 +55,12 @@ static double solid_beyond(const struct contract_face *face, const struct contra
 
 /* A solid on itself, moving apart along the face at the speeds -+v: s** = s + Z v with an impedance Z of the solver's
  * choice; then at one speed with opposed tractions: u** = v - s/Z. No work goes through in either. */
-static double solid_welded(struct contract *contract, struct contract_face face)
+static double contract_solid_welded(struct contract *contract, struct contract_face face)
 {
     struct contract_side *l = &face.left, *r = &face.right;
     double v = 0.1 * l->c_s;
     char where[CONTRACT_NAME];
-    solid_still(&face);
+    contract_solid_still(&face);
     for (unsigned k = 1; k < face.shape.n_velocity; k++) {
         l->rho_E += 0.5 * l->rho * (v * v - l->u[k] * l->u[k]);
         l->u[k] = -v;
@@ -75,8 +76,9 @@ static double solid_welded(struct contract *contract, struct contract_face face)
     double impedance = -(apart.momentum[1] + l->s[0]) / v;
     for (unsigned k = 1; k < face.shape.n_velocity; k++) {
         double s = l->s[k - 1], slide = torn.slide_left[k - 1];
-        contract_error(contract, solid_beyond(&face, l, -(apart.momentum[k] + s), v), "%s, moving apart", where);
-        contract_error(contract, solid_beyond(&face, l, s, v - slide), "%s, opposed tractions", where);
+        contract_error(contract, contract_solid_beyond(&face, l, -(apart.momentum[k] + s), v), "%s, moving apart",
+                       where);
+        contract_error(contract, contract_solid_beyond(&face, l, s, v - slide), "%s, opposed tractions", where);
         contract_error(contract, slide != torn.slide_right[k - 1], "%s: the sides slip", where);
         contract_near(contract, torn.momentum[k], 0.0, scale.momentum[k], where);
     }
@@ -87,10 +89,10 @@ static double solid_welded(struct contract *contract, struct contract_face face)
 }
 
 /* Two different solids: a solver that keeps shear waves sharp gives the state between them (model.md 5). */
-static void solid_star(struct contract *contract, struct contract_face face)
+static void contract_solid_star(struct contract *contract, struct contract_face face)
 {
     const struct contract_side *l = &face.left, *r = &face.right;
-    solid_still(&face);
+    contract_solid_still(&face);
     double Z_l = l->rho * l->c_s, Z_r = r->rho * r->c_s;
     struct contract_flux got = contract_face_solve(contract, &face), scale = contract_face_scale(&face);
     double work = 0.0;
@@ -110,11 +112,11 @@ static void solid_star(struct contract *contract, struct contract_face face)
 }
 
 /* A fluid on a solid: no traction, no work, the fluid goes on as it was and the solid as at a free surface. */
-static void solid_slip(struct contract *contract, struct contract_face face)
+static void contract_solid_slip(struct contract *contract, struct contract_face face)
 {
     bool left = face.left.c_s > 0.0;
     struct contract_side *solid = left ? &face.left : &face.right, *fluid = left ? &face.right : &face.left;
-    solid_still(&face);
+    contract_solid_still(&face);
     for (unsigned k = 1; k < face.shape.n_velocity; k++) {
         solid->rho_E -= 0.5 * solid->rho * solid->u[k] * solid->u[k];
         solid->u[k] = 0.0; /* what its surface gains would drown in a large one */
@@ -129,7 +131,7 @@ static void solid_slip(struct contract *contract, struct contract_face face)
         double jump = left ? -surface : surface;
         contract_near(contract, got.momentum[k], 0.0, scale.momentum[k], where);
         contract_near(contract, own, fluid->u[k], scale.slide_left[k - 1], where);
-        contract_error(contract, solid_beyond(&face, solid, solid->s[k - 1], jump), "%s: free surface", where);
+        contract_error(contract, contract_solid_beyond(&face, solid, solid->s[k - 1], jump), "%s: free surface", where);
     }
     contract_near(contract, got.rho_E, 0.0, scale.rho_E, where);
 }
@@ -138,10 +140,10 @@ void contract_solid_face(struct contract *contract, const struct contract_face *
 {
     const struct contract_face face = *given;
     bool left = face.left.c_s > 0.0, right = face.right.c_s > 0.0;
-    solid_fluids(contract, face);
+    contract_solid_fluids(contract, face);
     if (face.shape.n_velocity < 2) return;
-    if (left != right) solid_slip(contract, face);
+    if (left != right) contract_solid_slip(contract, face);
     if (!left || !right) return;
-    bool sharp = fabs(solid_welded(contract, face)) <= 1e-9;
-    if (sharp) solid_star(contract, face);
+    bool sharp = fabs(contract_solid_welded(contract, face)) <= 1e-9;
+    if (sharp) contract_solid_star(contract, face);
 }

@@ -30,7 +30,7 @@ struct module_watch {
     volatile int ended; /* the child came to its end, whatever that was */
 };
 
-static const struct registry_entry *module_entry(const char *path)
+static const struct registry_entry *module_check_entry(const char *path)
 {
     char *real = realpath(path, NULL);
     const struct registry_entry *found = NULL;
@@ -41,12 +41,12 @@ static const struct registry_entry *module_entry(const char *path)
 }
 
 /* The entry of a file: loaded now, or found on the search path already (perhaps as a copy). */
-static int module_load(const char *path, struct registry_entry *ret_entry)
+static int module_check_load(const char *path, struct registry_entry *ret_entry)
 {
     char *local = strchr(path, '/') ? mem_text(path) : mem_print("./%s", path);
     TRY(registry_init());
     int code = registry_load(local);
-    const struct registry_entry *entry = code ? NULL : module_entry(local);
+    const struct registry_entry *entry = code ? NULL : module_check_entry(local);
     mem_free(local);
     if (code) return code;
     if (!entry)
@@ -56,7 +56,7 @@ static int module_load(const char *path, struct registry_entry *ret_entry)
     return STATUS_OK;
 }
 
-static void module_print(const struct registry_entry *entry, const struct contract *contract)
+static void module_check_print(const struct registry_entry *entry, const struct contract *contract)
 {
     struct text text = {0};
     unsigned failed = contract_failed(contract), tried = 0;
@@ -71,23 +71,23 @@ static void module_print(const struct registry_entry *entry, const struct contra
 }
 
 /* In the child. */
-static int module_judge(const char *path, const char *const *sets, struct module_watch *watch)
+static int module_check_judge(const char *path, const char *const *sets, struct module_watch *watch)
 {
     struct registry_entry entry = {0};
-    int code = module_load(path, &entry);
+    int code = module_check_load(path, &entry);
     if (code) return cli_failed(code);
     struct contract *contract = mem_new(1, sizeof *contract);
     *contract = (struct contract){.module = entry.module, .progress = watch->progress};
     code = contract_module_run(contract, sets);
     if (code) status_wrap(code, "%s: ", path);
-    else module_print(&entry, contract);
+    else module_check_print(&entry, contract);
     unsigned failed = contract_failed(contract);
     mem_free(contract);
     return code ? cli_failed(code) : failed ? STATUS_EXPECT : STATUS_OK;
 }
 
 /* Waits for the child; false when one check took too long and the child had to be ended. */
-static bool module_wait(pid_t child, const struct module_watch *watch, int *ret_raw)
+static bool module_check_wait(pid_t child, const struct module_watch *watch, int *ret_raw)
 {
     static const struct timespec tick = {.tv_nsec = MODULE_TICK * 1000000L};
     char last[CONTRACT_NAME] = "";
@@ -104,7 +104,7 @@ static bool module_wait(pid_t child, const struct module_watch *watch, int *ret_
 }
 
 /* A child that did not come to its end: says what it was doing. Before the first check nothing has run. */
-static int module_lost(const char *path, const struct module_watch *watch, bool waited, int raw)
+static int module_check_lost(const char *path, const struct module_watch *watch, bool waited, int raw)
 {
     bool loading = !*watch->progress;
     const char *when = loading ? "being loaded or opened" : watch->progress;
@@ -125,15 +125,15 @@ static int module_check(const char *path, const char *const *sets)
     pid_t child = fork();
     if (child < 0) return cli_failed(status_fail(STATUS_RUN, "cannot start a process: %s", strerror(errno)));
     if (child == 0) {
-        int code = module_judge(path, sets, watch);
+        int code = module_check_judge(path, sets, watch);
         fflush(NULL);
         watch->ended = 1;
         _exit(code);
     }
     int raw = 0;
-    bool waited = module_wait(child, watch, &raw);
+    bool waited = module_check_wait(child, watch, &raw);
     bool ended = waited && watch->ended && WIFEXITED(raw);
-    int code = ended ? WEXITSTATUS(raw) : cli_failed(module_lost(path, watch, waited, raw));
+    int code = ended ? WEXITSTATUS(raw) : cli_failed(module_check_lost(path, watch, waited, raw));
     munmap(watch, sizeof *watch);
     return code;
 }

@@ -36,7 +36,7 @@ struct module_plan {
     struct module_word words[MODULE_WORDS];
 };
 
-static int module_kind(const char *kind)
+static int module_new_kind(const char *kind)
 {
     const char *const *kinds = contract_suite_kinds();
     struct text list = {0};
@@ -55,7 +55,7 @@ static int module_kind(const char *kind)
 }
 
 /* [a-z][a-z0-9]*([-_][a-z0-9]+)*: an identifier once hyphens are underscores, and a name in cases. */
-static int module_name(const char *word, struct module_plan *plan)
+static int module_new_name(const char *word, struct module_plan *plan)
 {
     size_t length = strlen(word);
     bool good = islower((unsigned char)word[0]) && length < MODULE_NAME;
@@ -79,7 +79,7 @@ static int module_name(const char *word, struct module_plan *plan)
 }
 
 /* The program's own path and ../include beside its folder, in build and install tree alike. */
-static int module_places(struct module_plan *plan)
+static int module_new_places(struct module_plan *plan)
 {
     char program[4096];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
@@ -97,7 +97,7 @@ static int module_places(struct module_plan *plan)
     return plan->sdk ? STATUS_OK : STATUS_RUN;
 }
 
-static void module_replace(const struct module_plan *plan, const char *from, struct text *to)
+static void module_new_replace(const struct module_plan *plan, const char *from, struct text *to)
 {
     while (*from) {
         const struct module_word *found = NULL;
@@ -109,7 +109,7 @@ static void module_replace(const struct module_plan *plan, const char *from, str
     }
 }
 
-static int module_read(const char *path, struct text *text)
+static int module_new_read(const char *path, struct text *text)
 {
     FILE *file = fopen(path, "r");
     char part[4096];
@@ -120,7 +120,7 @@ static int module_read(const char *path, struct text *text)
     return bad ? status_fail(STATUS_RUN, "%s cannot be read: %s", path, strerror(errno)) : STATUS_OK;
 }
 
-static int module_write(const char *path, const struct text *text)
+static int module_new_write(const char *path, const struct text *text)
 {
     FILE *file = fopen(path, "w");
     bool good = file && fwrite(text->at, 1, text->length, file) == text->length;
@@ -128,35 +128,35 @@ static int module_write(const char *path, const struct text *text)
     return good ? STATUS_OK : status_fail(STATUS_RUN, "%s cannot be written: %s", path, strerror(errno));
 }
 
-static int module_copy(const struct module_plan *plan, const char *from, const char *name)
+static int module_new_copy(const struct module_plan *plan, const char *from, const char *name)
 {
     struct text to = {0}, content = {0}, filled = {0};
     text_add(&to, "%s/", plan->folder);
-    module_replace(plan, name, &to);
-    int code = module_read(from, &content);
-    if (!code) module_replace(plan, content.at ? content.at : "", &filled);
-    if (!code) code = module_write(to.at, &filled);
+    module_new_replace(plan, name, &to);
+    int code = module_new_read(from, &content);
+    if (!code) module_new_replace(plan, content.at ? content.at : "", &filled);
+    if (!code) code = module_new_write(to.at, &filled);
     text_done(&to);
     text_done(&content);
     text_done(&filled);
     return code;
 }
 
-static int module_visible(const struct dirent *entry)
+static int module_new_visible(const struct dirent *entry)
 {
     return entry->d_name[0] != '.';
 }
 
 /* All files of one folder of skeletons. */
-static int module_fill(const struct module_plan *plan, const char *which)
+static int module_new_fill(const struct module_plan *plan, const char *which)
 {
     char *folder = mem_print("%s/bulla/skeleton/%s", plan->sdk, which);
     struct dirent **files;
-    int count = scandir(folder, &files, module_visible, alphasort), code = STATUS_OK;
+    int count = scandir(folder, &files, module_new_visible, alphasort), code = STATUS_OK;
     if (count < 0) code = status_fail(STATUS_RUN, "%s cannot be read: %s", folder, strerror(errno));
     for (int i = 0; i < count; i++) {
         char *from = mem_print("%s/%s", folder, files[i]->d_name);
-        if (!code) code = module_copy(plan, from, files[i]->d_name);
+        if (!code) code = module_new_copy(plan, from, files[i]->d_name);
         mem_free(from);
         free(files[i]);
     }
@@ -165,9 +165,9 @@ static int module_fill(const struct module_plan *plan, const char *which)
     return code;
 }
 
-static int module_make(struct module_plan *plan)
+static int module_new_make(struct module_plan *plan)
 {
-    TRY(module_places(plan));
+    TRY(module_new_places(plan));
     const struct module_word words[MODULE_WORDS] = {{"the_name", plan->identifier},
                                                     {"the-name", plan->name},
                                                     {"@KIND@", plan->kind},
@@ -179,8 +179,8 @@ static int module_make(struct module_plan *plan)
             return status_fail(STATUS_CASE, "%s is there already; choose another name, or remove it", plan->folder);
         return status_fail(STATUS_RUN, "%s cannot be made: %s", plan->folder, strerror(errno));
     }
-    TRY(module_fill(plan, plan->kind));
-    return module_fill(plan, "any");
+    TRY(module_new_fill(plan, plan->kind));
+    return module_new_fill(plan, "any");
 }
 
 int module_new_command(const struct cli_given *given)
@@ -190,9 +190,9 @@ int module_new_command(const struct cli_given *given)
     int code = STATUS_OK;
     if (strcmp(given->words[0], "module") != 0)
         code = status_fail(STATUS_CASE, "new does not know '%s'; usage: bulla new module KIND NAME", given->words[0]);
-    if (!code) code = module_kind(plan.kind);
-    if (!code) code = module_name(plan.folder, &plan);
-    if (!code) code = module_make(&plan);
+    if (!code) code = module_new_kind(plan.kind);
+    if (!code) code = module_new_name(plan.folder, &plan);
+    if (!code) code = module_new_make(&plan);
     if (!code)
         printf("%s/ holds the module '%s' of kind %s, which works as it is; %s/README.md says what is what.\n\n"
                "  cd %s\n  make          builds %s-%s.so\n  make check    tests it and runs case.yaml with it\n",

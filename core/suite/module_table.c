@@ -26,8 +26,8 @@
 enum { TABLE_RHO, TABLE_T, TABLE_P, TABLE_E, TABLE_C, TABLE_S, TABLE_COLUMNS };
 enum { TABLE_LEAST = 8, TABLE_MOST = 1500, TABLE_USUAL = 100 };
 
-static const char *const table_names[TABLE_COLUMNS] = {"rho", "T", "p", "e", "c", "s"};
-static const char *const table_units[TABLE_COLUMNS] = {"kg/m3", "K", "Pa", "J/kg", "m/s", "J/kg/K"};
+static const char *const module_table_names[TABLE_COLUMNS] = {"rho", "T", "p", "e", "c", "s"};
+static const char *const module_table_units[TABLE_COLUMNS] = {"kg/m3", "K", "Pa", "J/kg", "m/s", "J/kg/K"};
 
 struct table {
     const struct bulla_eos *eos;
@@ -39,7 +39,7 @@ struct table {
 };
 
 /* "A..B", each with or without a unit; *ret stays where nothing is given. */
-static int table_range(const struct cli_given *given, const char *option, const char *unit, double ret[2])
+static int module_table_range(const struct cli_given *given, const char *option, const char *unit, double ret[2])
 {
     const char *text = cli_value(given, option), *dots = text ? strstr(text, "..") : NULL;
     struct unit wanted, got;
@@ -61,7 +61,7 @@ static int table_range(const struct cli_given *given, const char *option, const 
 }
 
 /* What the command line says, else what the law states. */
-static int table_box(const struct cli_given *given, struct table *table)
+static int module_table_box(const struct cli_given *given, struct table *table)
 {
     struct bulla_eos_range range;
     const char *states = cli_value(given, "--states");
@@ -72,8 +72,8 @@ static int table_box(const struct cli_given *given, struct table *table)
     table->T[0] = range.T_min;
     table->T[1] = range.T_max;
     table->n_rho = table->n_T = TABLE_USUAL;
-    TRY(table_range(given, "--density", "kg/m3", table->rho));
-    TRY(table_range(given, "--temperature", "K", table->T));
+    TRY(module_table_range(given, "--density", "kg/m3", table->rho));
+    TRY(module_table_range(given, "--temperature", "K", table->T));
     if (states && (sscanf(states, "%zux%zu%n", &table->n_rho, &table->n_T, &length) != 2 || states[length]))
         return status_fail(STATUS_CASE, "--states %s: NxM is wanted, densities x temperatures", states);
     if (table->n_rho < TABLE_LEAST || table->n_T < TABLE_LEAST || table->n_rho > TABLE_MOST || table->n_T > TABLE_MOST)
@@ -85,7 +85,7 @@ static int table_box(const struct cli_given *given, struct table *table)
 }
 
 /* The pressure with this temperature: the highest at which the law is not hotter. False: there is none. */
-static bool table_pressure(const struct table *table, double rho, double T, double *ret_p)
+static bool module_table_pressure(const struct table *table, double rho, double T, double *ret_p)
 {
     double low, high = 1e5, at;
     table->eos->p_min(table->self, 1, &rho, &low);
@@ -107,11 +107,11 @@ static bool table_pressure(const struct table *table, double rho, double T, doub
 }
 
 /* One state; the temperature of the axis is replaced by none: p is as exact as T(rho, p) allows. */
-static int table_state(struct table *table, size_t i, size_t j)
+static int module_table_state(struct table *table, size_t i, size_t j)
 {
     double rho = table->column[TABLE_RHO][i], T = table->column[TABLE_T][j], p, rho_e, rho_c2, s;
     size_t at = i * table->n_T + j;
-    if (!table_pressure(table, rho, T, &p))
+    if (!module_table_pressure(table, rho, T, &p))
         return status_fail(STATUS_CASE,
                            "the law has no state at %.6g kg/m3 and %.6g K: change --density or --temperature", rho, T);
     table->eos->state(table->self, 1, &rho, &p, &rho_e, &rho_c2);
@@ -126,28 +126,30 @@ static int table_state(struct table *table, size_t i, size_t j)
     return STATUS_OK;
 }
 
-static double table_between(const double ends[2], size_t i, size_t n)
+static double module_table_between(const double ends[2], size_t i, size_t n)
 {
     if (i + 1 == n) return ends[1];
     return ends[0] * pow(ends[1] / ends[0], (double)i / (double)(n - 1));
 }
 
-static int table_fill(struct table *table)
+static int module_table_fill(struct table *table)
 {
     for (int k = 0; k < TABLE_COLUMNS; k++) table->column[k] = mem_new(table->n_rho * table->n_T, sizeof(double));
-    for (size_t i = 0; i < table->n_rho; i++) table->column[TABLE_RHO][i] = table_between(table->rho, i, table->n_rho);
-    for (size_t j = 0; j < table->n_T; j++) table->column[TABLE_T][j] = table_between(table->T, j, table->n_T);
     for (size_t i = 0; i < table->n_rho; i++)
-        for (size_t j = 0; j < table->n_T; j++) TRY(table_state(table, i, j));
+        table->column[TABLE_RHO][i] = module_table_between(table->rho, i, table->n_rho);
+    for (size_t j = 0; j < table->n_T; j++) table->column[TABLE_T][j] = module_table_between(table->T, j, table->n_T);
+    for (size_t i = 0; i < table->n_rho; i++)
+        for (size_t j = 0; j < table->n_T; j++) TRY(module_table_state(table, i, j));
     return STATUS_OK;
 }
 
-static int table_csv(const struct table *table, const char *path, const char *law)
+static int module_table_csv(const struct table *table, const char *path, const char *law)
 {
     FILE *out = fopen(path, "w");
     if (!out) return status_fail(STATUS_RUN, "%s cannot be written: %s", path, strerror(errno));
     fprintf(out, "# states of %s\n", law);
-    for (int k = 0; k < TABLE_COLUMNS; k++) fprintf(out, "%s%s[%s]", k ? "," : "", table_names[k], table_units[k]);
+    for (int k = 0; k < TABLE_COLUMNS; k++)
+        fprintf(out, "%s%s[%s]", k ? "," : "", module_table_names[k], module_table_units[k]);
     fputc('\n', out);
     for (size_t at = 0; at < table->n_rho * table->n_T; at++)
         for (int k = 0; k < TABLE_COLUMNS; k++) {
@@ -159,23 +161,23 @@ static int table_csv(const struct table *table, const char *path, const char *la
     return STATUS_OK;
 }
 
-static int table_h5(const struct table *table, const char *path, const char *law)
+static int module_table_h5(const struct table *table, const char *path, const char *law)
 {
     struct h5 *file;
     TRY(h5_create(path, &file));
     h5_attribute_text(file, "/", "law", law);
     for (int k = 0; k < TABLE_COLUMNS; k++) {
-        char *name = mem_print("/%s", table_names[k]);
+        char *name = mem_print("/%s", module_table_names[k]);
         size_t n = k == TABLE_T ? table->n_T : table->n_rho;
         h5out_array(file, name, H5_F64, n, k <= TABLE_T ? 0 : (unsigned)table->n_T, table->column[k]);
-        h5out_unit(file, name, table_units[k]);
+        h5out_unit(file, name, module_table_units[k]);
         mem_free(name);
     }
     return h5_close(file);
 }
 
 /* Is the file one that `type: table` takes? It says itself how good it is. */
-static int table_try(const char *path)
+static int module_table_try(const char *path)
 {
     const struct registry_entry *entry = registry_find("eos", "table");
     struct bulla_value value = {.text = path};
@@ -187,20 +189,20 @@ static int table_try(const char *path)
     return STATUS_OK;
 }
 
-static int table_write(const struct cli_given *given, const struct bulla_module *module, struct table *table)
+static int module_table_write(const struct cli_given *given, const struct bulla_module *module, struct table *table)
 {
     const char *path = given->words[2], *dot = strrchr(path, '.');
     bool arrays = dot && (!strcmp(dot, ".h5") || !strcmp(dot, ".hdf5"));
-    TRY(table_box(given, table));
-    TRY(table_fill(table));
+    TRY(module_table_box(given, table));
+    TRY(module_table_fill(table));
     if (table->outside)
         log_warn("%zu of %zu states are beyond the formulas of %s: made up by its continuation", table->outside,
                  table->n_rho * table->n_T, module->name);
-    TRY((arrays ? table_h5 : table_csv)(table, path, module->name));
-    return table_try(path);
+    TRY((arrays ? module_table_h5 : module_table_csv)(table, path, module->name));
+    return module_table_try(path);
 }
 
-static int table_of_law(const struct cli_given *given, const char *const *sets)
+static int module_table_of_law(const struct cli_given *given, const char *const *sets)
 {
     struct bulla_value *values;
     struct instance instance = {0};
@@ -213,7 +215,7 @@ static int table_of_law(const struct cli_given *given, const char *const *sets)
     module_values_free(entry->module, values);
     if (code) return code;
     struct table table = {.eos = entry->module->table, .self = instance.self};
-    code = table_write(given, entry->module, &table);
+    code = module_table_write(given, entry->module, &table);
     for (int k = 0; k < TABLE_COLUMNS; k++) mem_free(table.column[k]);
     instance_done(&instance);
     return code;
@@ -227,7 +229,7 @@ int module_table_command(const struct cli_given *given)
     const char **sets = mem_new((size_t)given->n_option + 1, sizeof *sets);
     for (int i = 0, n = 0; i < given->n_option; i++)
         if (!strcmp(given->options[i]->name, "--set")) sets[n++] = given->values[i];
-    int code = table_of_law(given, sets);
+    int code = module_table_of_law(given, sets);
     mem_free(sets);
     return cli_failed(code);
 }
