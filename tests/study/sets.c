@@ -77,7 +77,8 @@ struct nest_keys sets_wishes(const struct sets_scene *scene, const struct mesh *
 
 static void sets_begin(const struct sets_scene *scene, struct mesh *mesh)
 {
-    *mesh = (struct mesh){.dim = scene->dim, .n_cell = 1, .n_level = 1, .most_level = scene->levels};
+    *mesh = (struct mesh){
+        .dim = scene->dim, .n_cell = 1, .n_level = 1, .ghosts = SCENE_GHOSTS, .most_level = scene->levels};
     unsigned n_tile = 1, count = 0;
     for (int d = 0; d < 3; d++) {
         bool used = d < scene->dim;
