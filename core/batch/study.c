@@ -28,7 +28,7 @@ static int study_levels(const char *path, const struct matrix *matrix)
     if (matrix->levels >= 0) return matrix->levels;
     FILE *nowhere = fopen("/dev/null", "w");
     if (!nowhere) return 0;
-    int levels = scene_read(path, &(struct scene_options){.messages = nowhere}, &scene) ? 0 : scene->levels;
+    int levels = scene_read(path, &(struct scene_options){.messages = nowhere}, &scene) ? 0 : scene->mesh.levels;
     scene_free(scene);
     fclose(nowhere);
     return levels;

@@ -133,7 +133,7 @@ static int sweep_plan_place(const struct cli_given *given, struct sweep_plan *pl
     const char *directory = cli_value(given, "--output");
     struct scene *scene = NULL;
     TRY(sweep_plan_read(plan, NULL, messages, &scene));
-    plan->directory = directory ? mem_text(directory) : mem_print("%s-sweep", scene->directory);
+    plan->directory = directory ? mem_text(directory) : mem_print("%s-sweep", scene->output.directory);
     scene_free(scene);
     return STATUS_OK;
 }

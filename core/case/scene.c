@@ -126,7 +126,7 @@ static int scene_make(const char *path, const struct scene_options *options, str
     struct forest *forest = tree_forest_new();
     scene->path = mem_text(path);
     scene->name = scene_base_name(path);
-    scene->directory = mem_text(options->directory);
+    scene->output.directory = mem_text(options->directory);
     scene->host = script_host_new();
     struct params *params = params_new(forest, diag, scene->host);
     struct draft draft = {{forest, diag, params, &scene_root_keys}, scene, NULL};
@@ -218,7 +218,7 @@ int scene_value_at(const struct scene_value *value, const double x[SCENE_AXES], 
 static void scene_free_boundaries(struct scene *scene)
 {
     for (int face = 0; face < 2 * SCENE_AXES; face++) {
-        struct scene_boundary *boundary = &scene->boundary[face / 2][face % 2];
+        struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
         mem_free(boundary->series_t);
         mem_free(boundary->series_p);
         mem_free(boundary->fractions);
@@ -228,20 +228,20 @@ static void scene_free_boundaries(struct scene *scene)
 
 static void scene_free_output(struct scene *scene)
 {
-    for (unsigned i = 0; i < scene->n_column; i++) {
-        shape_free(scene->columns[i].where);
-        mem_free(scene->columns[i].uses);
+    for (unsigned i = 0; i < scene->output.n_column; i++) {
+        shape_free(scene->output.columns[i].where);
+        mem_free(scene->output.columns[i].uses);
     }
-    for (unsigned i = 0; i < scene->n_probe; i++) mem_free(scene->probes[i].fields);
+    for (unsigned i = 0; i < scene->output.n_probe; i++) mem_free(scene->output.probes[i].fields);
     for (unsigned i = 0; i < scene->n_expect; i++) {
         struct scene_expect *expect = &scene->expects[i];
         char *texts[] = {expect->value,  expect->reference,  expect->norm, expect->field,
                          expect->column, expect->coordinate, expect->label};
         for (unsigned k = 0; k < sizeof texts / sizeof *texts; k++) mem_free(texts[k]);
     }
-    mem_free(scene->snapshot_fields);
-    mem_free(scene->columns);
-    mem_free(scene->probes);
+    mem_free(scene->output.snapshot_fields);
+    mem_free(scene->output.columns);
+    mem_free(scene->output.probes);
     scene_map_done(scene);
     mem_free(scene->expects);
 }
@@ -258,25 +258,25 @@ void scene_free(struct scene *scene)
     }
     mem_free(scene->layers);
     mem_free(scene->sources);
-    for (unsigned i = 0; i < scene->n_refine; i++) {
-        shape_free(scene->refines[i].where);
-        mem_free(scene->refines[i].uses);
+    for (unsigned i = 0; i < scene->mesh.n_refine; i++) {
+        shape_free(scene->mesh.refines[i].where);
+        mem_free(scene->mesh.refines[i].uses);
     }
-    mem_free(scene->refines);
+    mem_free(scene->mesh.refines);
     for (unsigned i = 0; i < scene->n_material; i++) {
         instance_done(&scene->material[i].eos);
         instance_done(&scene->material[i].constitutive);
     }
-    instance_done(&scene->riemann);
-    instance_done(&scene->reconstruction);
-    instance_done(&scene->limiter);
-    instance_done(&scene->interface_limiter);
+    instance_done(&scene->scheme.riemann);
+    instance_done(&scene->scheme.reconstruction);
+    instance_done(&scene->scheme.limiter);
+    instance_done(&scene->scheme.interface_limiter);
     for (unsigned i = 0; i < scene->n_variant; i++) mem_free(scene->variants[i]);
     mem_free(scene->variants);
     for (unsigned i = 0; i < scene->n_setting; i++) mem_free(scene->settings[i]);
     mem_free(scene->settings);
     char *texts[] = {scene->path, scene->name,     scene->title,     scene->about,
-                     scene->cite, scene->resolved, scene->directory, scene->cells_place};
+                     scene->cite, scene->resolved, scene->output.directory, scene->domain.cells_place};
     for (unsigned i = 0; i < sizeof texts / sizeof *texts; i++) mem_free(texts[i]);
     script_host_free(scene->host);
     mem_free(scene);

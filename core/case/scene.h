@@ -210,17 +210,20 @@ struct scene_refine {
     int line;               /* in the case file */
 };
 
-struct scene {
-    char *path, *name; /* of the case file; base name without extension */
-    char *title, *about, *cite;
-    char *resolved; /* the fully resolved case as YAML text */
+/* Section `domain:`. */
+struct scene_domain {
     int dim;        /* 1, 2, 3 */
     int n_velocity; /* components of the velocity: dim, or more in a Cartesian scene with motion across its axes */
     enum scene_geometry geometry;
     double lower[SCENE_AXES], upper[SCENE_AXES];
     int cells[SCENE_AXES];                         /* 1 beyond dim */
+    char *cells_place;                             /* of the key, as file:line:column, for messages */
     struct scene_boundary boundary[SCENE_AXES][2]; /* [axis][0 lower, 1 upper] */
-    int levels, tile;                              /* mesh; levels above the coarsest; tile 0: chosen by the mesh */
+};
+
+/* Section `mesh:`. */
+struct scene_mesh {
+    int levels, tile;         /* levels above the coarsest; tile 0: chosen by the mesh */
     int regrid_every, buffer; /* steps of a level between regrids of the finer ones; cells refined around a tag */
     int patience;             /* regrids in a row that must find a tile unwanted before it goes */
     bool subcycle;            /* finer levels take smaller steps */
@@ -228,12 +231,10 @@ struct scene {
     double memory_limit; /* bytes of all ranks that blocks of tiles may take (--max-memory); 0: no limit */
     unsigned n_refine;
     struct scene_refine *refines;
-    char *cells_place; /* of domain.cells, as file:line:column, for messages */
-    unsigned n_material;
-    struct scene_material material[SCENE_MATERIALS];
-    unsigned n_layer;
-    struct scene_layer *layers;
-    struct scene_sources *sources; /* NULL: none */
+};
+
+/* Section `scheme:`. */
+struct scene_scheme {
     enum scene_closure closure;
     struct instance riemann, reconstruction, limiter;
     struct instance interface_limiter; /* of the volume fractions */
@@ -242,20 +243,46 @@ struct scene {
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
     enum scene_guard guard;
+};
+
+/* Section `run:`. */
+struct scene_run {
     double until;    /* s */
     long max_steps;  /* 0: no limit */
     double dt_least; /* s; below 0: the program's choice (solve/pace.h) */
-    char *directory; /* output directory, resolved against the working directory */
+};
+
+/* Section `output:`. */
+struct scene_output {
+    char *directory; /* resolved against the working directory */
     struct scene_every snapshots, history, probes_every, maps_every, checkpoints;
     double checkpoints_wall; /* s of wall time between two checkpoints; 0: they do not count */
     int checkpoints_keep;
     char (*snapshot_fields)[SCENE_NAME];
     unsigned n_snapshot_field;
     bool snapshot_double; /* float64 instead of float32 */
-    unsigned n_column, n_probe, n_map, n_expect;
+    unsigned n_column, n_probe, n_map;
     struct scene_column *columns;
     struct scene_probe *probes;
     struct scene_map *maps;
+};
+
+/* A case, one part per section. */
+struct scene {
+    char *path, *name; /* of the case file; base name without extension */
+    char *title, *about, *cite;
+    char *resolved; /* the fully resolved case as YAML text */
+    struct scene_domain domain;
+    struct scene_mesh mesh;
+    unsigned n_material;
+    struct scene_material material[SCENE_MATERIALS];
+    unsigned n_layer;
+    struct scene_layer *layers;    /* `initial:` */
+    struct scene_sources *sources; /* NULL: none */
+    struct scene_scheme scheme;
+    struct scene_run run;
+    struct scene_output output;
+    unsigned n_expect;
     struct scene_expect *expects;
     struct script_host *host; /* the Lua state all scripts live in */
     unsigned n_variant, n_setting;

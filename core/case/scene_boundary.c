@@ -228,7 +228,7 @@ const struct keys_section scene_boundary_keys = {.name = "boundary",
 
 bool scene_boundary_is(const struct scene *scene, int face, unsigned traits)
 {
-    return (scene_boundary_types[scene->boundary[face / 2][face % 2].type].traits & traits) == traits;
+    return (scene_boundary_types[scene->domain.boundary[face / 2][face % 2].type].traits & traits) == traits;
 }
 
 const char *scene_boundary_name(enum scene_boundary_type type)
@@ -252,8 +252,8 @@ static void scene_boundary_place(struct draft *draft, int axis, int side, const 
     const struct keys_value *type = keys_at(map, "type");
     if (!type->given) return;
     int face = 2 * axis + side;
-    bool radial = scene->geometry != SCENE_CARTESIAN && axis == 0,
-         centre = radial && side == 0 && scene->lower[0] == 0.0;
+    bool radial = scene->domain.geometry != SCENE_CARTESIAN && axis == 0,
+         centre = radial && side == 0 && scene->domain.lower[0] == 0.0;
     if (scene_boundary_is(scene, face, SCENE_BOUNDARY_CENTRE) && !centre)
         keys_error(&draft->keys, type,
                    radial && side == 0 ? "the axis is at r = 0, but the domain begins elsewhere"
@@ -283,12 +283,12 @@ static void scene_boundary_pair(struct draft *draft, int axis, const struct keys
 static bool scene_boundary_default(struct draft *draft, int axis, int side, const struct keys_map *boundaries)
 {
     const struct scene *scene = draft->scene;
-    if (axis || side || scene->geometry == SCENE_CARTESIAN || scene->lower[0] != 0.0) return false;
-    enum scene_boundary_type type = scene->geometry == SCENE_SPHERICAL ? SCENE_SYMMETRY : SCENE_AXIS;
+    if (axis || side || scene->domain.geometry == SCENE_CARTESIAN || scene->domain.lower[0] != 0.0) return false;
+    enum scene_boundary_type type = scene->domain.geometry == SCENE_SPHERICAL ? SCENE_SYMMETRY : SCENE_AXIS;
     struct node *map = tree_map(draft->keys.forest, &boundaries->node->mark);
     tree_set(draft->keys.forest, map, "type",
              tree_scalar(draft->keys.forest, &map->mark, TREE_PLAIN, scene_boundary_name(type)));
-    draft->scene->boundary[0][0].type = type;
+    draft->scene->domain.boundary[0][0].type = type;
     tree_set(draft->keys.forest, boundaries->node, "x-", map);
     tree_first(boundaries->node, boundaries->node->count - 1);
     return true;
@@ -299,16 +299,16 @@ void scene_boundary(struct draft *draft)
     static const char *const names[SCENE_AXES][2] = {{"x-", "x+"}, {"y-", "y+"}, {"z-", "z+"}};
     const struct keys_map *boundaries = keys_at(keys_at(draft->root, "domain")->map, "boundaries")->map;
     struct text missing = {0};
-    if (!boundaries || draft->scene->dim == 0) return;
+    if (!boundaries || draft->scene->domain.dim == 0) return;
     for (int axis = 0; axis < SCENE_AXES; axis++) {
         const struct keys_value *pair[2] = {keys_at(boundaries, names[axis][0]), keys_at(boundaries, names[axis][1])};
         for (int side = 0; side < 2; side++) {
-            struct scene_boundary *boundary = &draft->scene->boundary[axis][side];
-            if (pair[side]->node && axis >= draft->scene->dim)
-                keys_error(&draft->keys, pair[side], "the domain has only %d ax%s", draft->scene->dim,
-                           draft->scene->dim == 1 ? "is" : "es");
+            struct scene_boundary *boundary = &draft->scene->domain.boundary[axis][side];
+            if (pair[side]->node && axis >= draft->scene->domain.dim)
+                keys_error(&draft->keys, pair[side], "the domain has only %d ax%s", draft->scene->domain.dim,
+                           draft->scene->domain.dim == 1 ? "is" : "es");
             else if (pair[side]->node) scene_boundary_read(draft, boundary, pair[side]->map);
-            else if (axis < draft->scene->dim && !scene_boundary_default(draft, axis, side, boundaries))
+            else if (axis < draft->scene->domain.dim && !scene_boundary_default(draft, axis, side, boundaries))
                 text_add(&missing, "%s%s", missing.length ? ", " : "", names[axis][side]);
             scene_boundary_place(draft, axis, side, pair[side]->map);
         }

@@ -20,7 +20,7 @@ struct scene_coarse_box {
 
 static double scene_coarse_cell(const struct scene *scene, int axis, int level)
 {
-    return ldexp((scene->upper[axis] - scene->lower[axis]) / scene->cells[axis], -level);
+    return ldexp((scene->domain.upper[axis] - scene->domain.lower[axis]) / scene->domain.cells[axis], -level);
 }
 
 /* The last layer before `end` that puts a material at a point; NULL: none, or a script decides. */
@@ -72,12 +72,12 @@ static double scene_coarse_sound(const struct scene *scene, const double x[SCENE
 static int scene_coarse_level(const struct scene *scene, const struct scene_coarse_box *box, const bool *surfaces)
 {
     int finest = 0;
-    for (unsigned i = 0; i < scene->n_refine; i++) {
-        const struct scene_refine *refine = &scene->refines[i];
+    for (unsigned i = 0; i < scene->mesh.n_refine; i++) {
+        const struct scene_refine *refine = &scene->mesh.refines[i];
         bool surface = refine->kind == SCENE_REFINE_INTERFACE;
-        if (refine->finest <= finest || refine->t_from >= scene->until) continue;
+        if (refine->finest <= finest || refine->t_from >= scene->run.until) continue;
         if (surface && !(surfaces && surfaces[refine->material])) continue;
-        if (shape_reaches(refine->where, box->lower, box->upper, scene->dim)) finest = refine->finest;
+        if (shape_reaches(refine->where, box->lower, box->upper, scene->domain.dim)) finest = refine->finest;
     }
     return finest;
 }
@@ -128,9 +128,9 @@ static void scene_coarse_units(struct draft *draft, const struct keys_value *pul
 {
     const struct scene *scene = draft->scene;
     bool series = strcmp(pulse->text, "series") == 0;
-    if (lasts > scene_coarse_times * scene->until)
+    if (lasts > scene_coarse_times * scene->run.until)
         diag_warn(draft->keys.diag, &pulse->node->mark, "%s: this pulse lasts %.3g s, but the run only %.3g s",
-                  pulse->path, lasts, scene->until);
+                  pulse->path, lasts, scene->run.until);
     else if (lasts * scene_coarse_times < step)
         diag_warn(draft->keys.diag, &pulse->node->mark, "%s: this pulse lasts %.3g s, but a time step about %.3g s",
                   pulse->path, lasts, step);
@@ -145,16 +145,16 @@ static void scene_coarse_units(struct draft *draft, const struct keys_value *pul
 static void scene_coarse_boundary(struct draft *draft, int axis, int side, const struct keys_value *pulse)
 {
     const struct scene *scene = draft->scene;
-    const struct scene_boundary *boundary = &scene->boundary[axis][side];
+    const struct scene_boundary *boundary = &scene->domain.boundary[axis][side];
     struct scene_coarse_box box;
-    double x[SCENE_AXES] = {0.0}, at = side ? scene->upper[axis] : scene->lower[axis];
-    memcpy(box.lower, scene->lower, sizeof box.lower);
-    memcpy(box.upper, scene->upper, sizeof box.upper);
-    for (int d = 0; d < scene->dim; d++) x[d] = 0.5 * (scene->lower[d] + scene->upper[d]);
+    double x[SCENE_AXES] = {0.0}, at = side ? scene->domain.upper[axis] : scene->domain.lower[axis];
+    memcpy(box.lower, scene->domain.lower, sizeof box.lower);
+    memcpy(box.upper, scene->domain.upper, sizeof box.upper);
+    for (int d = 0; d < scene->domain.dim; d++) x[d] = 0.5 * (scene->domain.lower[d] + scene->domain.upper[d]);
     x[axis] = box.lower[axis] = box.upper[axis] = at;
     int level = scene_coarse_level(scene, &box, NULL);
     double c = scene_coarse_sound(scene, x), h = scene_coarse_cell(scene, axis, level);
-    double step = scene->dt_fixed > 0.0 ? scene->dt_fixed : scene->cfl * ldexp(h, level - scene->levels) / c;
+    double step = scene->scheme.dt_fixed > 0.0 ? scene->scheme.dt_fixed : scene->scheme.cfl * ldexp(h, level - scene->mesh.levels) / c;
     struct scene_coarse_pulse times = scene_coarse_times_of(boundary);
     double length = c * times.wave;
     scene_coarse_units(draft, pulse, times.all, step);
@@ -170,7 +170,7 @@ static void scene_coarse_boundaries(struct draft *draft)
 {
     static const char *const names[SCENE_AXES][2] = {{"x-", "x+"}, {"y-", "y+"}, {"z-", "z+"}};
     const struct keys_map *boundaries = keys_at(keys_at(draft->root, "domain")->map, "boundaries")->map;
-    for (int axis = 0; axis < draft->scene->dim; axis++)
+    for (int axis = 0; axis < draft->scene->domain.dim; axis++)
         for (int side = 0; side < 2; side++) {
             const struct keys_value *pulse = keys_at(keys_at(boundaries, names[axis][side])->map, "pulse");
             if (pulse->given) scene_coarse_boundary(draft, axis, side, pulse);
@@ -201,7 +201,7 @@ static bool scene_coarse_shape(struct draft *draft, unsigned index, const struct
     if (!below || scene_coarse_main(scene, below) == scene_coarse_main(scene, layer)) return false;
     for (unsigned l = 0; l < scene->n_material; l++)
         surfaces[l] = layer->fractions[l] > 0.0 || below->fractions[l] > 0.0;
-    for (int d = 0; d < scene->dim; d++) {
+    for (int d = 0; d < scene->domain.dim; d++) {
         double reach = shape->type == SHAPE_RING ? shape->radius : scene_coarse_size(shape, d);
         double end = shape->type == SHAPE_CYLINDER ? shape->b[d] : shape->a[d];
         box.lower[d] = fmin(shape->a[d], end) - reach;
@@ -209,7 +209,7 @@ static bool scene_coarse_shape(struct draft *draft, unsigned index, const struct
     }
     int level = scene_coarse_level(scene, &box, surfaces), worst = 0;
     double least = INFINITY;
-    for (int d = 0; d < scene->dim; d++) {
+    for (int d = 0; d < scene->domain.dim; d++) {
         double cells = scene_coarse_size(shape, d) / scene_coarse_cell(scene, d, level);
         if (cells < least) worst = d;
         least = fmin(least, cells);
@@ -219,7 +219,7 @@ static bool scene_coarse_shape(struct draft *draft, unsigned index, const struct
               value->path, shape->type == SHAPE_RING ? "half of a shell" : "a radius", scene_coarse_size(shape, worst),
               least, scene_coarse_cell(scene, worst, level), level);
     diag_help(draft->keys.diag, "it needs %g to be more than a few mixed cells%s", scene_coarse_radius,
-              level < scene->levels ? "; no criterion of 'mesh.refine' puts the finest level there" : "");
+              level < scene->mesh.levels ? "; no criterion of 'mesh.refine' puts the finest level there" : "");
     return true;
 }
 

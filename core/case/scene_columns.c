@@ -29,8 +29,8 @@ static void scene_columns_add_probe(struct formula *plan, const struct scene_pro
 struct formula *scene_columns_plan(const struct scene *scene)
 {
     struct formula *plan = formula_new(scene->host, true);
-    for (unsigned i = 0; i < scene->n_column; i++) formula_plan(plan, scene->columns[i].name);
-    for (unsigned i = 0; i < scene->n_probe; i++) scene_columns_add_probe(plan, &scene->probes[i]);
+    for (unsigned i = 0; i < scene->output.n_column; i++) formula_plan(plan, scene->output.columns[i].name);
+    for (unsigned i = 0; i < scene->output.n_probe; i++) scene_columns_add_probe(plan, &scene->output.probes[i]);
     for (size_t i = 0; i < sizeof scene_columns_always / sizeof *scene_columns_always; i++)
         formula_plan(plan, scene_columns_always[i]);
     return plan;

@@ -102,7 +102,7 @@ const struct keys_section scene_domain_keys = {.name = "domain",
 
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES])
 {
-    int dim = draft->scene->dim;
+    int dim = draft->scene->domain.dim;
     for (int axis = 0; axis < SCENE_AXES; axis++) ret[axis] = 0.0;
     if (!value->given || dim == 0) return false;
     if (value->count != (unsigned)dim) {
@@ -127,14 +127,14 @@ static void scene_domain_geometry(struct draft *draft, const struct keys_map *do
 {
     struct scene *scene = draft->scene;
     const struct keys_value *geometry = keys_at(domain, "geometry"), *lower = keys_at(domain, "lower");
-    scene->geometry = (enum scene_geometry)geometry->integer;
-    if (!geometry->given) scene->dim = 0; /* what depends on it is not judged */
-    if (scene->geometry == SCENE_CARTESIAN || scene->dim == 0) return;
-    int most = scene->geometry == SCENE_SPHERICAL ? 1 : 2;
-    if (scene->dim > most)
+    scene->domain.geometry = (enum scene_geometry)geometry->integer;
+    if (!geometry->given) scene->domain.dim = 0; /* what depends on it is not judged */
+    if (scene->domain.geometry == SCENE_CARTESIAN || scene->domain.dim == 0) return;
+    int most = scene->domain.geometry == SCENE_SPHERICAL ? 1 : 2;
+    if (scene->domain.dim > most)
         keys_error(&draft->keys, geometry, "%s has %s, but 'lower' has %d numbers", geometry->text,
-                   most == 1 ? "one axis, [r]" : "the axes [r, z]", scene->dim);
-    if (scene->lower[0] < 0.0)
+                   most == 1 ? "one axis, [r]" : "the axes [r, z]", scene->domain.dim);
+    if (scene->domain.lower[0] < 0.0)
         keys_error(&draft->keys, &lower->list[0], "the first axis is the radius, which is not negative");
 }
 
@@ -142,28 +142,28 @@ static void scene_domain_corners(struct draft *draft, const struct keys_map *dom
 {
     struct scene *scene = draft->scene;
     const struct keys_value *lower = keys_at(domain, "lower"), *upper = keys_at(domain, "upper");
-    bool good = scene_domain_vector(draft, lower, scene->lower);
-    good &= scene_domain_vector(draft, upper, scene->upper);
-    for (int axis = 0; good && axis < scene->dim; axis++)
-        if (scene->upper[axis] <= scene->lower[axis])
-            keys_error(&draft->keys, &upper->list[axis], "%g m is not above the lower end, %g m", scene->upper[axis],
-                       scene->lower[axis]);
+    bool good = scene_domain_vector(draft, lower, scene->domain.lower);
+    good &= scene_domain_vector(draft, upper, scene->domain.upper);
+    for (int axis = 0; good && axis < scene->domain.dim; axis++)
+        if (scene->domain.upper[axis] <= scene->domain.lower[axis])
+            keys_error(&draft->keys, &upper->list[axis], "%g m is not above the lower end, %g m", scene->domain.upper[axis],
+                       scene->domain.lower[axis]);
 }
 
 static void scene_domain_cells(struct draft *draft, const struct keys_map *domain)
 {
     struct scene *scene = draft->scene;
     const struct keys_value *cells = keys_at(domain, "cells");
-    for (int axis = 0; axis < SCENE_AXES; axis++) scene->cells[axis] = 1;
-    if (!cells->given || scene->dim == 0) return;
-    if (cells->count != (unsigned)scene->dim) {
-        keys_error(&draft->keys, cells, "%d integer%s needed, one per axis, not %u", scene->dim,
-                   scene->dim == 1 ? " is" : "s are", cells->count);
+    for (int axis = 0; axis < SCENE_AXES; axis++) scene->domain.cells[axis] = 1;
+    if (!cells->given || scene->domain.dim == 0) return;
+    if (cells->count != (unsigned)scene->domain.dim) {
+        keys_error(&draft->keys, cells, "%d integer%s needed, one per axis, not %u", scene->domain.dim,
+                   scene->domain.dim == 1 ? " is" : "s are", cells->count);
         return;
     }
-    for (int axis = 0; axis < scene->dim; axis++) scene->cells[axis] = (int)cells->list[axis].integer;
+    for (int axis = 0; axis < scene->domain.dim; axis++) scene->domain.cells[axis] = (int)cells->list[axis].integer;
     const struct mark *mark = &cells->node->mark;
-    scene->cells_place = mem_print("%s:%d:%d", mark->source->name, mark->line, mark->column);
+    scene->domain.cells_place = mem_print("%s:%d:%d", mark->source->name, mark->line, mark->column);
 }
 
 /* As many components as axes, or more where the geometry has no curvature to turn them. */
@@ -171,20 +171,20 @@ static void scene_domain_velocity(struct draft *draft, const struct keys_map *do
 {
     struct scene *scene = draft->scene;
     const struct keys_value *velocity = keys_at(domain, "velocity-components");
-    scene->n_velocity = scene->dim;
-    if (!velocity->given || scene->dim == 0) return;
-    if (scene->geometry != SCENE_CARTESIAN)
+    scene->domain.n_velocity = scene->domain.dim;
+    if (!velocity->given || scene->domain.dim == 0) return;
+    if (scene->domain.geometry != SCENE_CARTESIAN)
         keys_error(&draft->keys, velocity, "only in cartesian domains matter moves across the axes");
-    else if (velocity->integer < scene->dim)
+    else if (velocity->integer < scene->domain.dim)
         keys_error(&draft->keys, velocity, "%ld component%s less than the domain has axes, %d", velocity->integer,
-                   velocity->integer == 1 ? " is" : "s are", scene->dim);
-    else scene->n_velocity = (int)velocity->integer;
+                   velocity->integer == 1 ? " is" : "s are", scene->domain.dim);
+    else scene->domain.n_velocity = (int)velocity->integer;
 }
 
 void scene_domain(struct draft *draft)
 {
     const struct keys_map *domain = keys_at(draft->root, "domain")->map;
-    draft->scene->dim = scene_domain_dim(draft, keys_at(domain, "lower"));
+    draft->scene->domain.dim = scene_domain_dim(draft, keys_at(domain, "lower"));
     scene_domain_corners(draft, domain);
     scene_domain_geometry(draft, domain);
     scene_domain_cells(draft, domain);

@@ -109,7 +109,7 @@ static void scene_expect_table(struct draft *draft, const struct scene_expect *e
 {
     const struct scene *scene = draft->scene;
     struct table_pair pair;
-    if (!over_time && scene->dim > 1) {
+    if (!over_time && scene->domain.dim > 1) {
         keys_error(&draft->keys, reference, "a CSV profile can be compared with fields of 1D scenes only");
         return;
     }
@@ -117,8 +117,8 @@ static void scene_expect_table(struct draft *draft, const struct scene_expect *e
         keys_error(&draft->keys, reference, "%s", status_text());
         return;
     }
-    double first = pair.x[0], last = pair.x[pair.table.n_row - 1], begin = over_time ? 0.0 : scene->lower[0],
-           end = over_time ? scene->until : scene->upper[0];
+    double first = pair.x[0], last = pair.x[pair.table.n_row - 1], begin = over_time ? 0.0 : scene->domain.lower[0],
+           end = over_time ? scene->run.until : scene->domain.upper[0];
     if (first >= end || last <= begin)
         keys_error(&draft->keys, reference, "'%s' goes from %.6g to %.6g in '%s', outside of the %s, %.6g to %.6g",
                    expect->coordinate, first, last, expect->reference, over_time ? "run" : "domain", begin, end);
@@ -138,12 +138,12 @@ static bool scene_expect_is_written(const struct scene *scene, const char *name)
 {
     size_t length = strlen(name), vector = length > 2 && name[length - 2] == '_' ? length - 2 : length;
     bool component = vector < length && name[length - 1] >= 'x' && name[length - 1] <= 'z';
-    for (unsigned i = 0; i < scene->n_snapshot_field; i++) {
-        const char *written = scene->snapshot_fields[i];
+    for (unsigned i = 0; i < scene->output.n_snapshot_field; i++) {
+        const char *written = scene->output.snapshot_fields[i];
         if (!strcmp(written, name) || (component && strlen(written) == vector && !strncmp(written, name, vector)))
             return true;
     }
-    return scene->n_snapshot_field == 0; /* then those that make sense: found out when they are written */
+    return scene->output.n_snapshot_field == 0; /* then those that make sense: found out when they are written */
 }
 
 static void scene_expect_norm(struct draft *draft, const struct formula *plan, struct scene_expect *expect,

@@ -169,15 +169,15 @@ const char *scene_field_constant(struct draft *draft, const char *name)
     bool one = scene->n_material == 1, y = strcmp(name, "velocity_y") == 0, z = strcmp(name, "velocity_z") == 0;
     if (strcmp(name, "level") == 0) return "the same in all cells of a level";
     if (strcmp(name, "rank") == 0) return "a matter of how many ranks compute, on which results do not depend";
-    if ((y && scene->n_velocity < 2) || (z && scene->n_velocity < 3))
+    if ((y && scene->domain.n_velocity < 2) || (z && scene->domain.n_velocity < 3))
         return "0 everywhere: velocities have no such component";
-    if (scene->n_velocity < scene_field_shear(name)) return "0 everywhere: nothing moves across these axes";
-    if (strcmp(name, "vorticity") == 0 && scene->n_velocity == 1) return "0 everywhere: velocities have one component";
+    if (scene->domain.n_velocity < scene_field_shear(name)) return "0 everywhere: nothing moves across these axes";
+    if (strcmp(name, "vorticity") == 0 && scene->domain.n_velocity == 1) return "0 everywhere: velocities have one component";
     if (one && (strcmp(name, "cost") == 0 || strncmp(name, "alpha_", 6) == 0))
         return "1 everywhere: there is one material";
     if (strncmp(name, "curvature_", 10) == 0) {
         if (one) return "0 everywhere: there is one material";
-        if (scene->dim == 1 && scene->geometry == SCENE_CARTESIAN) return "0 everywhere: surfaces are planes";
+        if (scene->domain.dim == 1 && scene->domain.geometry == SCENE_CARTESIAN) return "0 everywhere: surfaces are planes";
     }
     return NULL;
 }

@@ -82,13 +82,13 @@ static bool scene_history_directed(enum scene_measure measure)
 int scene_history_axis(struct draft *draft, const struct keys_value *along)
 {
     const struct scene *scene = draft->scene;
-    if (!along->given || scene->dim == 0) return -1;
+    if (!along->given || scene->domain.dim == 0) return -1;
     bool axial = along->integer > 2;
     int axis = along->integer == 3 ? 0 : along->integer == 4 ? 1 : (int)along->integer;
-    if (axial && scene->geometry == SCENE_CARTESIAN)
+    if (axial && scene->domain.geometry == SCENE_CARTESIAN)
         keys_error(&draft->keys, along, "cartesian domains have no '%s': use x, y or z", along->text);
-    else if (axis >= scene->dim)
-        keys_error(&draft->keys, along, "the domain has only %d ax%s", scene->dim, scene->dim == 1 ? "is" : "es");
+    else if (axis >= scene->domain.dim)
+        keys_error(&draft->keys, along, "the domain has only %d ax%s", scene->domain.dim, scene->domain.dim == 1 ? "is" : "es");
     return axis;
 }
 
@@ -98,8 +98,8 @@ static const char *scene_history_uses(struct draft *draft, struct scene_column *
     const struct scene *scene = draft->scene;
     const char *text = value->node->text, *list = "";
     column->uses = mem_new(SCRIPT_ARGUMENTS, sizeof *column->uses);
-    for (long i = -1; i < column - scene->columns; i++) {
-        const char *name = i < 0 ? "t" : scene->columns[i].name;
+    for (long i = -1; i < column - scene->output.columns; i++) {
+        const char *name = i < 0 ? "t" : scene->output.columns[i].name;
         if (!params_mentions(text, name)) continue;
         if (column->n_use == SCRIPT_ARGUMENTS) {
             keys_error(&draft->keys, value, "more than %d columns in one expression", SCRIPT_ARGUMENTS);
@@ -120,7 +120,7 @@ static void scene_history_value(struct draft *draft, struct scene_column *column
     const char *arguments = scene_history_uses(draft, column, value);
     if (!arguments || params_compile(draft->keys.params, value->node, value->path, arguments, &column->script)) return;
     const char *above = "";
-    for (const struct scene_column *at = draft->scene->columns; at < column; at++)
+    for (const struct scene_column *at = draft->scene->output.columns; at < column; at++)
         above = tree_print(draft->keys.forest, "%s, %s", above, at->name);
     diag_help(draft->keys.diag, "columns that stand further up can be used: t%s", above);
 }
@@ -163,9 +163,9 @@ static void scene_history_along(struct draft *draft, struct scene_column *column
     const struct scene *scene = draft->scene;
     column->along = scene_history_axis(draft, keys_at(map, "along"));
     if (column->along >= 0 || !scene_history_directed(column->measure) || keys_at(map, "along")->node) return;
-    if (scene->dim == 1) column->along = 0;
-    else if (scene->geometry == SCENE_AXISYMMETRIC) column->along = 1;
-    else if (scene->dim > 1)
+    if (scene->domain.dim == 1) column->along = 0;
+    else if (scene->domain.geometry == SCENE_AXISYMMETRIC) column->along = 1;
+    else if (scene->domain.dim > 1)
         keys_error(&draft->keys, measure, "'along' is missing: the axis x, y or z along which to measure");
 }
 
@@ -197,7 +197,7 @@ void scene_history(struct draft *draft)
     const struct keys_map *output = keys_at(draft->root, "output")->map;
     const struct keys_value *columns = keys_at(keys_at(output, "history")->map, "columns");
     struct scene *scene = draft->scene;
-    scene->columns = mem_new(columns->count + 1, sizeof *scene->columns);
+    scene->output.columns = mem_new(columns->count + 1, sizeof *scene->output.columns);
     for (unsigned i = 0; i < columns->count; i++)
-        scene_history_column(draft, &scene->columns[scene->n_column++], &columns->list[i]);
+        scene_history_column(draft, &scene->output.columns[scene->output.n_column++], &columns->list[i]);
 }

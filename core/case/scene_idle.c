@@ -62,14 +62,14 @@ static void scene_idle_every(struct draft *draft, const struct keys_map *section
     bool steps = every->given && every->integer > 0;
     until = keys_at(run, steps ? "max-steps" : "until");
     if (!every->given || !until->given || !until->node->mark.source->is_file) return; /* cut short for once */
-    if (steps ? !scene->max_steps || every->integer <= scene->max_steps : every->number <= 1.000001 * scene->until)
+    if (steps ? !scene->run.max_steps || every->integer <= scene->run.max_steps : every->number <= 1.000001 * scene->run.until)
         return;
     if (steps)
         diag_warn(draft->keys.diag, &every->node->mark, "%s: the run ends before that, after %ld steps: %s",
-                  every->path, scene->max_steps, what);
+                  every->path, scene->run.max_steps, what);
     else
         diag_warn(draft->keys.diag, &every->node->mark, "%s: the run ends before that, at %g s: %s", every->path,
-                  scene->until, what);
+                  scene->run.until, what);
 }
 
 static void scene_idle_outputs(struct draft *draft)
@@ -87,10 +87,10 @@ static void scene_idle_outputs(struct draft *draft)
 static void scene_idle_region(struct draft *draft, const struct keys_value *value, const struct shape *shape)
 {
     const struct scene *scene = draft->scene;
-    if (!value->node || !shape || shape_reaches(shape, scene->lower, scene->upper, scene->dim)) return;
+    if (!value->node || !shape || shape_reaches(shape, scene->domain.lower, scene->domain.upper, scene->domain.dim)) return;
     diag_warn(draft->keys.diag, &value->node->mark, "%s: this region lies outside of the domain", value->path);
-    diag_help(draft->keys.diag, "the domain is %g to %g m along the first axis: are the units right?", scene->lower[0],
-              scene->upper[0]);
+    diag_help(draft->keys.diag, "the domain is %g to %g m along the first axis: are the units right?", scene->domain.lower[0],
+              scene->domain.upper[0]);
 }
 
 static void scene_idle_regions(struct draft *draft)
@@ -99,15 +99,15 @@ static void scene_idle_regions(struct draft *draft)
     const struct keys_map *output = keys_at(draft->root, "output")->map, *maps = keys_at(output, "maps")->map;
     const struct keys_value *columns = keys_at(keys_at(output, "history")->map, "columns");
     const struct keys_value *refine = keys_at(keys_at(draft->root, "mesh")->map, "refine");
-    for (unsigned i = 0; i < scene->n_column; i++)
-        scene_idle_region(draft, keys_at(columns->list[i].map, "where"), scene->columns[i].where);
-    for (unsigned i = 0; i < scene->n_map; i++)
+    for (unsigned i = 0; i < scene->output.n_column; i++)
+        scene_idle_region(draft, keys_at(columns->list[i].map, "where"), scene->output.columns[i].where);
+    for (unsigned i = 0; i < scene->output.n_map; i++)
         for (unsigned k = 0; maps && k < maps->count; k++)
-            if (strcmp(maps->values[k].key->name, scene->maps[i].name) == 0)
-                scene_idle_region(draft, keys_at(maps->values[k].map, "where"), scene->maps[i].where);
-    for (unsigned i = 0; i < scene->n_refine; i++) {
-        bool region = scene->refines[i].kind == SCENE_REFINE_REGION;
-        scene_idle_region(draft, keys_at(refine->list[i].map, region ? "region" : "where"), scene->refines[i].where);
+            if (strcmp(maps->values[k].key->name, scene->output.maps[i].name) == 0)
+                scene_idle_region(draft, keys_at(maps->values[k].map, "where"), scene->output.maps[i].where);
+    for (unsigned i = 0; i < scene->mesh.n_refine; i++) {
+        bool region = scene->mesh.refines[i].kind == SCENE_REFINE_REGION;
+        scene_idle_region(draft, keys_at(refine->list[i].map, region ? "region" : "where"), scene->mesh.refines[i].where);
     }
 }
 
@@ -122,9 +122,9 @@ static void scene_idle_waves(struct draft *draft)
         const struct keys_value *delay = NULL;
         const struct keys_map *map = boundaries->values[i].map;
         if (map && tree_get(map->node, "delay")) delay = keys_at(map, "delay");
-        if (!delay || !delay->given || delay->number < scene->until) continue;
+        if (!delay || !delay->given || delay->number < scene->run.until) continue;
         diag_warn(draft->keys.diag, &delay->node->mark,
-                  "%s: the run ends before that, at %g s: the wave does not come in", delay->path, scene->until);
+                  "%s: the run ends before that, at %g s: the wave does not come in", delay->path, scene->run.until);
     }
 }
 

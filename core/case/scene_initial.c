@@ -56,15 +56,15 @@ static void scene_initial_centre(struct scene_layer *layer)
 static void scene_initial_look(struct draft *draft, const struct scene_layer *layer, const struct keys_value *value)
 {
     const struct scene *scene = draft->scene;
-    if (!layer->shape || layer->shape->type == SHAPE_EVERYWHERE || scene->dim == 0) return;
-    for (int axis = 0; axis < scene->dim; axis++)
-        if (scene->upper[axis] <= scene->lower[axis]) return;
-    double covered = shape_fraction(layer->shape, scene->lower, scene->upper, scene->dim, 0);
-    if (covered < 1.0 && shape_reaches(layer->shape, scene->lower, scene->upper, scene->dim)) return;
+    if (!layer->shape || layer->shape->type == SHAPE_EVERYWHERE || scene->domain.dim == 0) return;
+    for (int axis = 0; axis < scene->domain.dim; axis++)
+        if (scene->domain.upper[axis] <= scene->domain.lower[axis]) return;
+    double covered = shape_fraction(layer->shape, scene->domain.lower, scene->domain.upper, scene->domain.dim, 0);
+    if (covered < 1.0 && shape_reaches(layer->shape, scene->domain.lower, scene->domain.upper, scene->domain.dim)) return;
     diag_warn(draft->keys.diag, &value->node->mark, "%s: this shape %s", value->path,
               covered > 0.0 ? "covers the whole domain" : "lies outside of the domain");
-    diag_help(draft->keys.diag, "the domain is %g to %g m along the first axis: are the units right?", scene->lower[0],
-              scene->upper[0]);
+    diag_help(draft->keys.diag, "the domain is %g to %g m along the first axis: are the units right?", scene->domain.lower[0],
+              scene->domain.upper[0]);
 }
 
 static void scene_initial_need(struct draft *draft, const struct keys_map *map, const char *what, const char *help)
@@ -148,7 +148,7 @@ static void scene_initial_cover(struct draft *draft, const struct keys_value *in
     }
     double covered = 1.0;
     if (all.type == SHAPE_UNION)
-        covered = all.n ? shape_fraction(&all, scene->lower, scene->upper, scene->dim, 0) : 0.0;
+        covered = all.n ? shape_fraction(&all, scene->domain.lower, scene->domain.upper, scene->domain.dim, 0) : 0.0;
     if (covered < 0.999) {
         keys_error(&draft->keys, initial, "%.3g %% of the domain get no state", 100.0 * (1.0 - covered));
         diag_help(draft->keys.diag,
@@ -165,6 +165,6 @@ void scene_initial(struct draft *draft)
     scene->layers = mem_new(initial->count + 1, sizeof *scene->layers);
     scene->n_layer = initial->count;
     for (unsigned i = 0; i < initial->count; i++) scene_initial_layer(draft, &scene->layers[i], initial->list[i].map);
-    if (initial->given && scene->dim > 0 && diag_errors(draft->keys.diag) == before)
+    if (initial->given && scene->domain.dim > 0 && diag_errors(draft->keys.diag) == before)
         scene_initial_cover(draft, initial);
 }

@@ -86,7 +86,7 @@ const struct keys_section scene_map_list_keys = {.name = "maps",
 /* Width of the cells of the finest level. */
 static double scene_map_width(const struct scene *scene, int axis)
 {
-    return ldexp((scene->upper[axis] - scene->lower[axis]) / scene->cells[axis], -scene->levels);
+    return ldexp((scene->domain.upper[axis] - scene->domain.lower[axis]) / scene->domain.cells[axis], -scene->mesh.levels);
 }
 
 static unsigned scene_map_count(const struct keys_value *points, double fine)
@@ -98,10 +98,10 @@ static unsigned scene_map_count(const struct keys_value *points, double fine)
 static bool scene_map_inside(struct draft *draft, const struct keys_value *value, const double *x)
 {
     const struct scene *scene = draft->scene;
-    for (int axis = 0; axis < scene->dim; axis++)
-        if (x[axis] < scene->lower[axis] || x[axis] > scene->upper[axis]) {
+    for (int axis = 0; axis < scene->domain.dim; axis++)
+        if (x[axis] < scene->domain.lower[axis] || x[axis] > scene->domain.upper[axis]) {
             keys_error(&draft->keys, &value->list[axis], "%g m is outside of the domain, %g to %g m", x[axis],
-                       scene->lower[axis], scene->upper[axis]);
+                       scene->domain.lower[axis], scene->domain.upper[axis]);
             return false;
         }
     return true;
@@ -129,7 +129,7 @@ static void scene_map_read_line(struct draft *draft, struct scene_map *map, cons
     for (int end = 0; end < 2; end++)
         good = scene_domain_vector(draft, ends[end], x[end]) && scene_map_inside(draft, ends[end], x[end]) && good;
     if (!good) return;
-    for (int d = 0; d < scene->dim; d++) {
+    for (int d = 0; d < scene->domain.dim; d++) {
         length = hypot(length, x[1][d] - x[0][d]);
         cells = hypot(cells, (x[1][d] - x[0][d]) / scene_map_width(scene, d));
     }
@@ -151,7 +151,7 @@ static bool scene_map_span(struct draft *draft, struct scene_map *map, const str
 {
     const struct scene *scene = draft->scene;
     const struct keys_value *from = keys_at(rows, "from"), *to = keys_at(rows, "to");
-    double lower = scene->lower[map->axis], upper = scene->upper[map->axis];
+    double lower = scene->domain.lower[map->axis], upper = scene->domain.upper[map->axis];
     double a = from->given ? from->number : lower, b = to->given ? to->number : upper;
     const struct keys_value *outside = a < lower ? from : b > upper ? to : NULL;
     if (!(lower < upper)) return false; /* the domain has been refused already */
@@ -170,10 +170,10 @@ static void scene_map_read_boundary(struct draft *draft, struct scene_map *map, 
 {
     const struct scene *scene = draft->scene;
     const struct keys_value *boundary = keys_at(rows, "boundary");
-    if (!boundary->given || scene->dim == 0) return;
-    if (scene->dim != 2) {
+    if (!boundary->given || scene->domain.dim == 0) return;
+    if (scene->domain.dim != 2) {
         keys_error(&draft->keys, boundary, "only a domain with two axes has faces that are lines: use '%s'",
-                   scene->dim == 1 ? "output.probes" : "line");
+                   scene->domain.dim == 1 ? "output.probes" : "line");
         return;
     }
     int normal = boundary->text[0] - 'x';
@@ -181,7 +181,7 @@ static void scene_map_read_boundary(struct draft *draft, struct scene_map *map, 
     if (!scene_map_span(draft, map, rows)) return;
     map->at = mem_new(map->n_point, sizeof *map->at);
     for (unsigned i = 0; i < map->n_point; i++) {
-        map->at[i][normal] = boundary->text[1] == '-' ? scene->lower[normal] : scene->upper[normal];
+        map->at[i][normal] = boundary->text[1] == '-' ? scene->domain.lower[normal] : scene->domain.upper[normal];
         map->at[i][map->axis] = map->place[i];
     }
 }
@@ -192,11 +192,11 @@ static void scene_map_read_surface(struct draft *draft, struct scene_map *map, c
     const struct keys_value *material = keys_at(rows, "isosurface"), *along = keys_at(rows, "along");
     const struct keys_value *where = keys_at(rows, "where"), *which = NULL;
     map->material = scene_material_index(draft, material);
-    if (scene->dim == 1)
+    if (scene->domain.dim == 1)
         keys_error(&draft->keys, material, "on one axis a surface is a point: use the history's isosurface-mean");
     if (where->given) map->where = scene_shape(draft, where->map, true, &which);
     map->axis = along->given ? scene_history_axis(draft, along) : 0;
-    if (scene->dim < 2 || map->axis < 0 || map->axis >= scene->dim) return;
+    if (scene->domain.dim < 2 || map->axis < 0 || map->axis >= scene->domain.dim) return;
     scene_map_span(draft, map, rows);
 }
 
@@ -245,20 +245,20 @@ void scene_map(struct draft *draft)
     const struct keys_map *maps = keys_at(keys_at(draft->root, "output")->map, "maps")->map;
     const struct keys_value *every = keys_at(maps, "every");
     struct scene *scene = draft->scene;
-    scene->maps_every = (struct scene_every){every->integer ? 0.0 : every->number, every->integer};
-    scene->maps = mem_new(maps ? maps->count + 1 : 1, sizeof *scene->maps);
+    scene->output.maps_every = (struct scene_every){every->integer ? 0.0 : every->number, every->integer};
+    scene->output.maps = mem_new(maps ? maps->count + 1 : 1, sizeof *scene->output.maps);
     for (unsigned i = 0; maps && i < maps->count; i++)
         if (maps->values[i].key->section == &scene_map_keys)
-            scene_map_read(draft, &scene->maps[scene->n_map++], &maps->values[i]);
+            scene_map_read(draft, &scene->output.maps[scene->output.n_map++], &maps->values[i]);
 }
 
 void scene_map_done(struct scene *scene)
 {
-    for (unsigned i = 0; i < scene->n_map; i++) {
-        mem_free(scene->maps[i].fields);
-        mem_free(scene->maps[i].place);
-        mem_free(scene->maps[i].at);
-        shape_free(scene->maps[i].where);
+    for (unsigned i = 0; i < scene->output.n_map; i++) {
+        mem_free(scene->output.maps[i].fields);
+        mem_free(scene->output.maps[i].place);
+        mem_free(scene->output.maps[i].at);
+        shape_free(scene->output.maps[i].where);
     }
-    mem_free(scene->maps);
+    mem_free(scene->output.maps);
 }

@@ -72,15 +72,15 @@ const struct keys_section scene_mesh_keys = {.name = "mesh",
 /* Axis of the first count that n does not divide, or -1. */
 static int scene_mesh_misfit(const struct scene *scene, int n)
 {
-    for (int axis = 0; axis < scene->dim; axis++)
-        if (scene->cells[axis] % n != 0) return axis;
+    for (int axis = 0; axis < scene->domain.dim; axis++)
+        if (scene->domain.cells[axis] % n != 0) return axis;
     return -1;
 }
 
 /* The least side of a tile: what is refined has halves that hold the layers which neighbours need. */
 static int scene_mesh_least(const struct scene *scene)
 {
-    return scene->levels > 0 && 2 * scene->ghosts > SCENE_MESH_LEAST ? 2 * scene->ghosts : SCENE_MESH_LEAST;
+    return scene->mesh.levels > 0 && 2 * scene->scheme.ghosts > SCENE_MESH_LEAST ? 2 * scene->scheme.ghosts : SCENE_MESH_LEAST;
 }
 
 /* Counts rounded up to multiples of n: "[48, 80]". */
@@ -88,16 +88,16 @@ static const char *scene_mesh_multiples(struct draft *draft, int n)
 {
     const struct scene *scene = draft->scene;
     const char *list = "";
-    for (int axis = 0; axis < scene->dim; axis++)
-        list = tree_print(draft->keys.forest, "%s%s%d", list, axis ? ", " : "", (scene->cells[axis] + n - 1) / n * n);
+    for (int axis = 0; axis < scene->domain.dim; axis++)
+        list = tree_print(draft->keys.forest, "%s%s%d", list, axis ? ", " : "", (scene->domain.cells[axis] + n - 1) / n * n);
     return list;
 }
 
 static void scene_mesh_given(struct draft *draft, const struct keys_value *tile)
 {
     const struct scene *scene = draft->scene;
-    int n = scene->tile, axis = scene_mesh_misfit(scene, n), step = scene->levels > 0 ? 2 : 1;
-    if (scene->levels > 0 && n % 2 != 0) {
+    int n = scene->mesh.tile, axis = scene_mesh_misfit(scene, n), step = scene->mesh.levels > 0 ? 2 : 1;
+    if (scene->mesh.levels > 0 && n % 2 != 0) {
         keys_error(&draft->keys, tile, "with 'levels' above 0 a tile has an even side, which %d is not", n);
         diag_help(draft->keys.diag, "a tile of a finer level lies under one half of a coarser one along each axis");
         return;
@@ -105,12 +105,12 @@ static void scene_mesh_given(struct draft *draft, const struct keys_value *tile)
     if (n < scene_mesh_least(scene)) {
         keys_error(&draft->keys, tile, "with 'levels' above 0 and this reconstruction a tile has a side of at least %d",
                    scene_mesh_least(scene));
-        diag_help(draft->keys.diag, "its halves must hold the %d layers of cells that '%s' looks at", scene->ghosts,
-                  scene->reconstruction.module->name);
+        diag_help(draft->keys.diag, "its halves must hold the %d layers of cells that '%s' looks at", scene->scheme.ghosts,
+                  scene->scheme.reconstruction.module->name);
         return;
     }
     if (axis < 0) return;
-    keys_error(&draft->keys, tile, "%d does not divide domain.cells[%d], which is %d", n, axis, scene->cells[axis]);
+    keys_error(&draft->keys, tile, "%d does not divide domain.cells[%d], which is %d", n, axis, scene->domain.cells[axis]);
     int other = n - n % step;
     while (other >= scene_mesh_least(scene) && scene_mesh_misfit(scene, other) >= 0) other -= step;
     if (other >= scene_mesh_least(scene))
@@ -121,14 +121,14 @@ static void scene_mesh_given(struct draft *draft, const struct keys_value *tile)
 /* Does n divide the cells, and are the tiles of the finest level not too many to be numbered? */
 static bool scene_mesh_fits(const struct scene *scene, int n)
 {
-    for (int axis = 0; axis < scene->dim; axis++)
-        if (ldexp(scene->cells[axis], scene->levels) / n > SCENE_MESH_TILES) return false;
+    for (int axis = 0; axis < scene->domain.dim; axis++)
+        if (ldexp(scene->domain.cells[axis], scene->mesh.levels) / n > SCENE_MESH_TILES) return false;
     return scene_mesh_misfit(scene, n) < 0;
 }
 
 int scene_mesh_tile(const struct scene *scene)
 {
-    bool fine = scene->levels > 0, line = scene->dim == 1;
+    bool fine = scene->mesh.levels > 0, line = scene->domain.dim == 1;
     int most = line ? 64 : 16, wish = !fine ? most : line ? 16 : 8, step = fine ? 2 : 1, largest = 0;
     for (int n = wish; n >= scene_mesh_least(scene); n -= step)
         if (scene_mesh_fits(scene, n)) return n;
@@ -144,23 +144,23 @@ static void scene_mesh_divisor(struct draft *draft, const struct keys_value *cel
 {
     if (scene_mesh_tile(draft->scene)) return;
     keys_error(&draft->keys, cells, "with 'levels' above 0 the counts need a common even divisor from %d to %d",
-               scene_mesh_least(draft->scene), draft->scene->dim == 1 ? 64 : 16);
+               scene_mesh_least(draft->scene), draft->scene->domain.dim == 1 ? 64 : 16);
     diag_help(draft->keys.diag, "[%s] would do: the domain is cut into tiles of that side",
-              scene_mesh_multiples(draft, draft->scene->dim == 1 ? 16 : 8));
+              scene_mesh_multiples(draft, draft->scene->domain.dim == 1 ? 16 : 8));
 }
 
 /* Tiles of the finest level are counted in 21 bits per axis, and its cells must be told apart in doubles. */
 static void scene_mesh_finest(struct draft *draft, const struct keys_value *levels)
 {
     const struct scene *scene = draft->scene;
-    int n = scene->tile ? scene->tile : scene_mesh_tile(scene);
-    for (int axis = 0; n && axis < scene->dim; axis++) {
-        double lower = scene->lower[axis], upper = scene->upper[axis];
-        double cells = ldexp(scene->cells[axis], scene->levels), far = fmax(fabs(lower), fabs(upper));
-        int most = scene->levels - (int)ceil(log2(cells / n / SCENE_MESH_TILES));
+    int n = scene->mesh.tile ? scene->mesh.tile : scene_mesh_tile(scene);
+    for (int axis = 0; n && axis < scene->domain.dim; axis++) {
+        double lower = scene->domain.lower[axis], upper = scene->domain.upper[axis];
+        double cells = ldexp(scene->domain.cells[axis], scene->mesh.levels), far = fmax(fabs(lower), fabs(upper));
+        int most = scene->mesh.levels - (int)ceil(log2(cells / n / SCENE_MESH_TILES));
         if (cells / n > SCENE_MESH_TILES) {
             keys_error(&draft->keys, levels, "%d levels make %.0f tiles along axis %d, and %.0f is the most",
-                       scene->levels, cells / n, axis, SCENE_MESH_TILES);
+                       scene->mesh.levels, cells / n, axis, SCENE_MESH_TILES);
             diag_help(draft->keys.diag, "levels: %d would do, or fewer cells, or a larger tile", most);
             return;
         }
@@ -178,13 +178,13 @@ static void scene_mesh_finest(struct draft *draft, const struct keys_value *leve
 static void scene_mesh_buffer(struct draft *draft, const struct keys_value *buffer)
 {
     const struct scene *scene = draft->scene;
-    double wanted = scene->regrid_every * scene->cfl + 1;
-    if (scene->dt_fixed > 0 || scene->buffer >= wanted - 1e-9) return;
-    int every = (int)((scene->buffer - 1) / scene->cfl + 1e-9);
+    double wanted = scene->mesh.regrid_every * scene->scheme.cfl + 1;
+    if (scene->scheme.dt_fixed > 0 || scene->mesh.buffer >= wanted - 1e-9) return;
+    int every = (int)((scene->mesh.buffer - 1) / scene->scheme.cfl + 1e-9);
     diag_warn(draft->keys.diag, &buffer->node->mark,
               "%s: waves cross up to %g cells in the %d step%s between two regriddings, and leave %d refined cells",
-              buffer->path, scene->regrid_every * scene->cfl, scene->regrid_every, scene->regrid_every == 1 ? "" : "s",
-              scene->buffer);
+              buffer->path, scene->mesh.regrid_every * scene->scheme.cfl, scene->mesh.regrid_every, scene->mesh.regrid_every == 1 ? "" : "s",
+              scene->mesh.buffer);
     if (every >= 1) diag_help(draft->keys.diag, "buffer: %.0f would do, or regrid-every: %d", ceil(wanted), every);
     else diag_help(draft->keys.diag, "buffer: %.0f would do", ceil(wanted));
 }
@@ -196,19 +196,19 @@ void scene_mesh(struct draft *draft)
                             *buffer = keys_at(mesh, "buffer"), *every = keys_at(mesh, "regrid-every"),
                             *cells = keys_at(keys_at(draft->root, "domain")->map, "cells");
     struct scene *scene = draft->scene;
-    scene->levels = (int)levels->integer;
-    scene->tile = (int)tile->integer;
-    scene->regrid_every = (int)every->integer;
-    scene->buffer = (int)buffer->integer;
-    scene->patience = (int)keys_at(mesh, "patience")->integer;
-    scene->subcycle = keys_at(mesh, "subcycle")->integer != 0;
-    scene->reflux = (enum scene_reflux)keys_at(mesh, "reflux")->integer;
-    bool whole = scene->cells_place && levels->given && (tile->given || !tile->node);
+    scene->mesh.levels = (int)levels->integer;
+    scene->mesh.tile = (int)tile->integer;
+    scene->mesh.regrid_every = (int)every->integer;
+    scene->mesh.buffer = (int)buffer->integer;
+    scene->mesh.patience = (int)keys_at(mesh, "patience")->integer;
+    scene->mesh.subcycle = keys_at(mesh, "subcycle")->integer != 0;
+    scene->mesh.reflux = (enum scene_reflux)keys_at(mesh, "reflux")->integer;
+    bool whole = scene->domain.cells_place && levels->given && (tile->given || !tile->node);
     if (whole && tile->given) scene_mesh_given(draft, tile);
-    if (whole && scene->levels > 0 && !tile->given) scene_mesh_divisor(draft, cells);
-    if (whole && scene->levels > 0) scene_mesh_finest(draft, levels);
-    if (scene->levels > 0 && buffer->given && every->given && scene->cfl > 0) scene_mesh_buffer(draft, buffer);
-    if (scene->levels > 0 && keys_at(mesh, "refine")->count == 0) {
+    if (whole && scene->mesh.levels > 0 && !tile->given) scene_mesh_divisor(draft, cells);
+    if (whole && scene->mesh.levels > 0) scene_mesh_finest(draft, levels);
+    if (scene->mesh.levels > 0 && buffer->given && every->given && scene->scheme.cfl > 0) scene_mesh_buffer(draft, buffer);
+    if (scene->mesh.levels > 0 && keys_at(mesh, "refine")->count == 0) {
         diag_warn(draft->keys.diag, &levels->node->mark, "%s: nothing asks for a finer level, so there will be none",
                   levels->path);
         diag_help(draft->keys.diag, "say where to refine: 'refine: [{gradient: density, above: 0.05}]'");

@@ -154,12 +154,12 @@ static void scene_output_folder(struct draft *draft, const struct keys_map *outp
 {
     struct scene *scene = draft->scene;
     const struct keys_value *directory = keys_at(output, "directory");
-    if (!scene->directory)
-        scene->directory = directory->given ? mem_text(directory->text) : mem_print("out/%s", scene->name);
+    if (!scene->output.directory)
+        scene->output.directory = directory->given ? mem_text(directory->text) : mem_print("out/%s", scene->name);
     if (!output) return;
     bool first = !directory->node;
     tree_set(draft->keys.forest, output->node, "directory",
-             tree_scalar(draft->keys.forest, &output->node->mark, TREE_QUOTED, scene->directory));
+             tree_scalar(draft->keys.forest, &output->node->mark, TREE_QUOTED, scene->output.directory));
     if (first) tree_first(output->node, output->node->count - 1);
 }
 
@@ -172,20 +172,20 @@ static void scene_output_probe_read(struct draft *draft, struct scene_probe *pro
         keys_error(&draft->keys, value, "the name of a probe is an identifier (letters, digits and _)");
     scene_field_list(draft, keys_at(value->map, "fields"), &probe->fields, &probe->n_field);
     if (!scene_domain_vector(draft, at, probe->at)) return;
-    for (int axis = 0; axis < scene->dim; axis++)
-        if (probe->at[axis] < scene->lower[axis] || probe->at[axis] > scene->upper[axis])
+    for (int axis = 0; axis < scene->domain.dim; axis++)
+        if (probe->at[axis] < scene->domain.lower[axis] || probe->at[axis] > scene->domain.upper[axis])
             keys_error(&draft->keys, &at->list[axis], "%g m is outside of the domain, %g to %g m", probe->at[axis],
-                       scene->lower[axis], scene->upper[axis]);
+                       scene->domain.lower[axis], scene->domain.upper[axis]);
 }
 
 static void scene_output_probes_read(struct draft *draft, const struct keys_map *probes)
 {
     struct scene *scene = draft->scene;
-    scene->probes_every = scene_output_every(keys_at(probes, "every"));
-    scene->probes = mem_new(probes ? probes->count + 1 : 1, sizeof *scene->probes);
+    scene->output.probes_every = scene_output_every(keys_at(probes, "every"));
+    scene->output.probes = mem_new(probes ? probes->count + 1 : 1, sizeof *scene->output.probes);
     for (unsigned i = 0; probes && i < probes->count; i++)
         if (probes->values[i].key->section == &scene_output_probe)
-            scene_output_probe_read(draft, &scene->probes[scene->n_probe++], &probes->values[i]);
+            scene_output_probe_read(draft, &scene->output.probes[scene->output.n_probe++], &probes->values[i]);
 }
 
 void scene_output(struct draft *draft)
@@ -195,12 +195,12 @@ void scene_output(struct draft *draft)
     const struct keys_map *checkpoints = keys_at(output, "checkpoints")->map;
     struct scene *scene = draft->scene;
     scene_output_folder(draft, output);
-    scene->snapshots = scene_output_every(keys_at(snapshots, "every"));
-    scene_field_list(draft, keys_at(snapshots, "fields"), &scene->snapshot_fields, &scene->n_snapshot_field);
-    scene->snapshot_double = keys_at(snapshots, "precision")->integer == 1;
-    scene->history = scene_output_every(keys_at(keys_at(output, "history")->map, "every"));
+    scene->output.snapshots = scene_output_every(keys_at(snapshots, "every"));
+    scene_field_list(draft, keys_at(snapshots, "fields"), &scene->output.snapshot_fields, &scene->output.n_snapshot_field);
+    scene->output.snapshot_double = keys_at(snapshots, "precision")->integer == 1;
+    scene->output.history = scene_output_every(keys_at(keys_at(output, "history")->map, "every"));
     scene_output_probes_read(draft, keys_at(output, "probes")->map);
-    scene->checkpoints = scene_output_every(keys_at(checkpoints, "every"));
-    scene->checkpoints_wall = keys_at(checkpoints, "wall")->number;
-    scene->checkpoints_keep = (int)keys_at(checkpoints, "keep")->integer;
+    scene->output.checkpoints = scene_output_every(keys_at(checkpoints, "every"));
+    scene->output.checkpoints_wall = keys_at(checkpoints, "wall")->number;
+    scene->output.checkpoints_keep = (int)keys_at(checkpoints, "keep")->integer;
 }

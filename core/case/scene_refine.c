@@ -314,14 +314,14 @@ static void scene_refine_limits(struct draft *draft, struct scene_refine *refine
                             *from = keys_at(map, "from"), *until = keys_at(map, "until"), *which;
     const struct scene *scene = draft->scene;
     if (where->given && !refine->where) refine->where = scene_shape(draft, where->map, true, &which);
-    refine->finest = finest->given && finest->integer < scene->levels ? (int)finest->integer : scene->levels;
+    refine->finest = finest->given && finest->integer < scene->mesh.levels ? (int)finest->integer : scene->mesh.levels;
     refine->t_from = from->number;
     refine->t_until = until->given ? until->number : INFINITY;
     if (until->given && from->number > until->number)
         keys_error(&draft->keys, until, "%g s is before 'from', %g s", until->number, from->number);
-    else if (from->given && scene->until > 0 && from->number >= scene->until)
+    else if (from->given && scene->run.until > 0 && from->number >= scene->run.until)
         diag_warn(draft->keys.diag, &from->node->mark, "%s: the run ends before that, at %g s", from->path,
-                  scene->until);
+                  scene->run.until);
 }
 
 static void scene_refine_read(struct draft *draft, struct scene_refine *refine, const struct keys_map *map)
@@ -345,7 +345,7 @@ void scene_refine(struct draft *draft)
 {
     const struct keys_value *list = keys_at(keys_at(draft->root, "mesh")->map, "refine");
     struct scene *scene = draft->scene;
-    scene->refines = mem_new(list->count + 1, sizeof *scene->refines);
+    scene->mesh.refines = mem_new(list->count + 1, sizeof *scene->mesh.refines);
     for (unsigned i = 0; i < list->count; i++)
-        if (list->list[i].map) scene_refine_read(draft, &scene->refines[scene->n_refine++], list->list[i].map);
+        if (list->list[i].map) scene_refine_read(draft, &scene->mesh.refines[scene->mesh.n_refine++], list->list[i].map);
 }

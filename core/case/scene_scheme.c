@@ -106,7 +106,7 @@ static struct keys_value scene_scheme_default(struct draft *draft, const struct 
 static void scene_scheme_solid(struct draft *draft, const struct keys_value *riemann)
 {
     const struct scene *scene = draft->scene;
-    const struct bulla_module *module = scene->riemann.module;
+    const struct bulla_module *module = scene->scheme.riemann.module;
     unsigned solid = 0;
     while (solid < scene->n_material && !scene->material[solid].constitutive.module) solid++;
     if (solid == scene->n_material || !module) return;
@@ -129,7 +129,7 @@ static void scene_scheme_riemann_open(struct draft *draft, const struct keys_map
         tree_first(scheme->node, scheme->node->count - 1); /* in the order of the table */
         tree_first(scheme->node, (unsigned)tree_find(scheme->node, "closure"));
     }
-    scene_material_open(draft, &value, &draft->scene->riemann);
+    scene_material_open(draft, &value, &draft->scene->scheme.riemann);
     scene_scheme_solid(draft, &value);
 }
 
@@ -137,27 +137,27 @@ static void scene_scheme_riemann_open(struct draft *draft, const struct keys_map
 static void scene_scheme_reconstruct(struct draft *draft, const struct keys_map *scheme)
 {
     struct scene *scene = draft->scene;
-    scene_material_open(draft, keys_at(scheme, "reconstruction"), &scene->reconstruction);
-    const struct bulla_module *module = scene->reconstruction.module;
-    scene->ghosts = module ? (int)((const struct bulla_reconstruction *)module->table)->layers : SCENE_GHOSTS;
+    scene_material_open(draft, keys_at(scheme, "reconstruction"), &scene->scheme.reconstruction);
+    const struct bulla_module *module = scene->scheme.reconstruction.module;
+    scene->scheme.ghosts = module ? (int)((const struct bulla_reconstruction *)module->table)->layers : SCENE_GHOSTS;
 }
 
 void scene_scheme(struct draft *draft)
 {
     const struct keys_map *scheme = keys_at(draft->root, "scheme")->map, *run = keys_at(draft->root, "run")->map;
     struct scene *scene = draft->scene;
-    scene->closure = (enum scene_closure)keys_at(scheme, "closure")->integer;
-    scene->exchange = (enum scene_exchange)keys_at(scheme, "exchange")->integer;
-    scene->integrator = (enum scene_integrator)keys_at(scheme, "integrator")->integer;
-    scene->guard = (enum scene_guard)keys_at(scheme, "guard")->integer;
-    scene->cfl = keys_at(scheme, "cfl")->number;
-    scene->dt_fixed = keys_at(scheme, "dt")->number;
+    scene->scheme.closure = (enum scene_closure)keys_at(scheme, "closure")->integer;
+    scene->scheme.exchange = (enum scene_exchange)keys_at(scheme, "exchange")->integer;
+    scene->scheme.integrator = (enum scene_integrator)keys_at(scheme, "integrator")->integer;
+    scene->scheme.guard = (enum scene_guard)keys_at(scheme, "guard")->integer;
+    scene->scheme.cfl = keys_at(scheme, "cfl")->number;
+    scene->scheme.dt_fixed = keys_at(scheme, "dt")->number;
     scene_scheme_riemann_open(draft, scheme);
     scene_scheme_reconstruct(draft, scheme);
-    scene_material_open(draft, keys_at(scheme, "limiter"), &scene->limiter);
-    scene_material_open(draft, keys_at(scheme, "interface-limiter"), &scene->interface_limiter);
-    scene->until = keys_at(run, "until")->number;
-    scene->max_steps = keys_at(run, "max-steps")->integer;
-    scene->dt_least = keys_at(run, "smallest-step")->given ? keys_at(run, "smallest-step")->number : -1.0;
+    scene_material_open(draft, keys_at(scheme, "limiter"), &scene->scheme.limiter);
+    scene_material_open(draft, keys_at(scheme, "interface-limiter"), &scene->scheme.interface_limiter);
+    scene->run.until = keys_at(run, "until")->number;
+    scene->run.max_steps = keys_at(run, "max-steps")->integer;
+    scene->run.dt_least = keys_at(run, "smallest-step")->given ? keys_at(run, "smallest-step")->number : -1.0;
     script_limit(scene->host, keys_at(run, "script-time")->number);
 }

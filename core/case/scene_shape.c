@@ -118,7 +118,7 @@ static bool scene_shape_corners(struct draft *draft, struct shape *shape, const 
 {
     bool good = scene_domain_vector(draft, keys_at(map, "lower"), shape->a);
     good &= scene_domain_vector(draft, keys_at(map, "upper"), shape->b);
-    for (int axis = 0; good && axis < draft->scene->dim; axis++) {
+    for (int axis = 0; good && axis < draft->scene->domain.dim; axis++) {
         if (shape->b[axis] > shape->a[axis]) continue;
         keys_error(&draft->keys, &keys_at(map, "upper")->list[axis], "%g m is not above the lower end, %g m",
                    shape->b[axis], shape->a[axis]);
@@ -168,7 +168,7 @@ static bool scene_shape_rod(struct draft *draft, struct shape *shape, const stru
     shape->radius = keys_at(map, "radius")->number;
     good &= shape->radius > 0.0;
     const struct keys_value here = {.node = map->node, .path = map->path};
-    if (draft->scene->dim != 3) {
+    if (draft->scene->domain.dim != 3) {
         keys_error(&draft->keys, &here, "a cylinder needs three axes; in fewer use a box or a sphere (a disc in 2D)");
         return false;
     }
@@ -197,10 +197,10 @@ static bool scene_shape_vertex(struct draft *draft, struct node *node, const cha
 static bool scene_shape_outline(struct draft *draft, struct shape *shape, const struct keys_map *map)
 {
     const struct keys_value *vertices = keys_at(map, "vertices");
-    if (!vertices->given || draft->scene->dim == 0) return false;
-    if (draft->scene->dim < 2 || vertices->node->kind != TREE_LIST || vertices->node->count < 3) {
+    if (!vertices->given || draft->scene->domain.dim == 0) return false;
+    if (draft->scene->domain.dim < 2 || vertices->node->kind != TREE_LIST || vertices->node->count < 3) {
         keys_error(&draft->keys, vertices,
-                   draft->scene->dim < 2 ? "a polygon needs two axes" : "a list of at least three [x, y] is needed");
+                   draft->scene->domain.dim < 2 ? "a polygon needs two axes" : "a list of at least three [x, y] is needed");
         return false;
     }
     bool good = true;

@@ -104,9 +104,9 @@ static void scene_source_stretches(struct draft *draft, const struct keys_value 
     for (unsigned c = 0; c < 6; c++) {
         const struct keys_value *rate = keys_at(value->map, scene_source_stretch_rows[c].name);
         ret[c] = scene_state_value(rate);
-        if (rate->node && scene->dim > 0 && scene->n_velocity < scene_stretch_needs(c))
+        if (rate->node && scene->domain.dim > 0 && scene->domain.n_velocity < scene_stretch_needs(c))
             keys_error(&draft->keys, rate, "velocities have %d component%s here: there is no such shear",
-                       scene->n_velocity, scene->n_velocity == 1 ? "" : "s");
+                       scene->domain.n_velocity, scene->domain.n_velocity == 1 ? "" : "s");
     }
 }
 

@@ -125,13 +125,13 @@ struct scene_value *scene_state_density(struct draft *draft, const struct keys_m
 
 void scene_state_vector(struct draft *draft, const struct keys_value *value, struct scene_value ret[SCENE_AXES])
 {
-    int n = draft->scene->n_velocity, dim = draft->scene->dim;
+    int n = draft->scene->domain.n_velocity, dim = draft->scene->domain.dim;
     if (!value->given || dim == 0) return;
     if (value->count != (unsigned)n) {
         keys_error(&draft->keys, value, "%d component%s needed, %s, not %u", n, n == 1 ? " is" : "s are",
                    n == dim ? "one per axis" : "as 'domain.velocity-components' says", value->count);
         if (n == dim && value->count <= SCENE_AXES && value->count > (unsigned)n &&
-            draft->scene->geometry == SCENE_CARTESIAN)
+            draft->scene->domain.geometry == SCENE_CARTESIAN)
             diag_help(draft->keys.diag, "for motion across the axes give the domain 'velocity-components: %u'",
                       value->count);
         return;

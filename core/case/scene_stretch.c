@@ -72,10 +72,10 @@ static bool scene_stretch_components(struct draft *draft, const struct keys_map 
     bool good = true;
     for (unsigned c = 0; c < 6; c++) {
         const struct keys_value *value = keys_at(map, scene_stretch_rows[c].name);
-        if (!value->node || scene->dim == 0 || scene->n_velocity >= scene_stretch_needs(c)) continue;
+        if (!value->node || scene->domain.dim == 0 || scene->domain.n_velocity >= scene_stretch_needs(c)) continue;
         keys_error(&draft->keys, value, "velocities have %d component%s here: there is no such shear",
-                   scene->n_velocity, scene->n_velocity == 1 ? "" : "s");
-        if (scene->geometry == SCENE_CARTESIAN)
+                   scene->domain.n_velocity, scene->domain.n_velocity == 1 ? "" : "s");
+        if (scene->domain.geometry == SCENE_CARTESIAN)
             diag_help(draft->keys.diag, "'velocity-components: %d' under 'domain' gives motion across the axes",
                       scene_stretch_needs(c));
         good = false;
@@ -88,7 +88,7 @@ static void scene_stretch_judge(struct draft *draft, const struct scene_layer *l
 {
     const struct scene_value *V = layer->stretch;
     const char *fluid = scene_stretch_fluid(draft, layer);
-    bool round = draft->scene->geometry == SCENE_SPHERICAL && !V[1].script && !V[2].script;
+    bool round = draft->scene->domain.geometry == SCENE_SPHERICAL && !V[1].script && !V[2].script;
     double yy = V[1].given ? V[1].number : 1.0, zz = V[2].given ? V[2].number : 1.0;
     if (fluid && !scene_stretch_identity(V))
         keys_error(&draft->keys, value, "'%s' is a fluid, which keeps no stretch", fluid);

@@ -37,9 +37,9 @@ static int scenes_limit(struct scene *scene, const char *size, bool only_look)
 {
     char text[HUMAN_ROOM], most[HUMAN_ROOM];
     double bytes = scenes_bytes(scene, scenes_cells(scene)), machine = scenes_machine();
-    scene->memory_limit = machine / SCENES_BESIDE;
-    if (size && human_read_bytes(size, &scene->memory_limit)) return status_wrap(STATUS_CASE, "--max-memory: ");
-    if (bytes <= scene->memory_limit || (only_look && !size)) return STATUS_OK;
+    scene->mesh.memory_limit = machine / SCENES_BESIDE;
+    if (size && human_read_bytes(size, &scene->mesh.memory_limit)) return status_wrap(STATUS_CASE, "--max-memory: ");
+    if (bytes <= scene->mesh.memory_limit || (only_look && !size)) return STATUS_OK;
     if (size)
         return status_fail(STATUS_CASE,
                            "--max-memory %s: the coarsest level alone takes %s; fewer domain.cells, or more "
@@ -83,11 +83,11 @@ int scenes_read(const struct cli_given *given, const char *path, struct scene **
 
 double scenes_cells(const struct scene *scene)
 {
-    return (double)scene->cells[0] * (double)scene->cells[1] * (double)scene->cells[2];
+    return (double)scene->domain.cells[0] * (double)scene->domain.cells[1] * (double)scene->domain.cells[2];
 }
 
 double scenes_bytes(const struct scene *scene, double cells)
 {
     unsigned n_alpha = scene->n_material > 1 ? scene->n_material : 0;
-    return cells * 3 * sizeof(double) * (n_alpha + scene->n_material + (unsigned)scene->dim + 1);
+    return cells * 3 * sizeof(double) * (n_alpha + scene->n_material + (unsigned)scene->domain.dim + 1);
 }

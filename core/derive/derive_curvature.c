@@ -27,7 +27,7 @@ enum { CURVATURE_LAYERS = 2 };
 static void derive_curvature_given(void *data, unsigned local, int face, const struct box_block *ret)
 {
     const struct model *model = data;
-    const struct scene_boundary *boundary = &model->scene->boundary[face / 2][face % 2];
+    const struct scene_boundary *boundary = &model->scene->domain.boundary[face / 2][face % 2];
     (void)local;
     for (unsigned l = 0; l < model->n_alpha; l++)
         for (size_t c = 0; c < ret->pitch; c++) ret->data[l * ret->pitch + c] = boundary->fractions[l];
@@ -41,7 +41,7 @@ static struct patch_source derive_curvature_source(const struct model *model, co
         .mesh = mesh, .level = level, .arrays = level->w, .given = derive_curvature_given, .data = (void *)model};
     patch_state_rules(model->scene, false, source.rules);
     for (int face = 0; face < 2 * mesh->dim; face++)
-        if (model->scene->boundary[face / 2][face % 2].type == SCENE_INFLOW) source.rules[face] = PATCH_GIVEN;
+        if (model->scene->domain.boundary[face / 2][face % 2].type == SCENE_INFLOW) source.rules[face] = PATCH_GIVEN;
     const struct rim_form form = {model->n_alpha, CURVATURE_LAYERS, 1, patch_given(source.rules)};
     source.rim = rim_of(mesh, (int)(level - mesh->levels), &form);
     return source;

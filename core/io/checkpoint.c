@@ -41,8 +41,8 @@ struct checkpoints *checkpoint_new(const struct scene *scene)
 {
     struct checkpoints *checkpoints = mem_new(1, sizeof *checkpoints);
     checkpoints->scene = scene;
-    checkpoints->folder = mem_print("%s/checkpoints", scene->directory);
-    checkpoints->keep = scene->checkpoints_keep > 0 ? scene->checkpoints_keep : CHECKPOINT_KEEP;
+    checkpoints->folder = mem_print("%s/checkpoints", scene->output.directory);
+    checkpoints->keep = scene->output.checkpoints_keep > 0 ? scene->output.checkpoints_keep : CHECKPOINT_KEEP;
     checkpoints->step = -1;
     return checkpoints;
 }
@@ -104,7 +104,7 @@ void checkpoint_list(const char *folder, unsigned *ret_n, char ***ret_paths)
 /* What each criterion of refinement has tagged, on all ranks. */
 static void checkpoint_note_tagged(const struct state *state, struct notes *notes)
 {
-    unsigned n = state->scene->n_refine;
+    unsigned n = state->scene->mesh.n_refine;
     long long *counts = mem_new(n + 1, sizeof *counts);
     double *tagged = mem_new(n + 1, sizeof *tagged);
     memcpy(counts, state->tagged, n * sizeof *counts);
@@ -292,7 +292,7 @@ static int checkpoint_accept(const struct checkpoints *checkpoints, struct seal 
     int code = seal_close(draft, seal);
     if (!code && rename(draft, path)) code = room_fail(path, "rename to it");
     if (!code) code = seal_sync_folder(checkpoints->folder);
-    if (!code) code = seal_sync_folder(checkpoints->scene->directory); /* in which the folder may be new */
+    if (!code) code = seal_sync_folder(checkpoints->scene->output.directory); /* in which the folder may be new */
     for (unsigned i = 0, kept = 1; i < n; i++) {
         bool counts = entries[i].number && strcmp(entries[i].path, path) != 0;
         if (!code && counts && kept++ >= (unsigned)checkpoints->keep) unlink(entries[i].path);

@@ -136,7 +136,7 @@ int dump_write(const struct state *state, const char *provenance, char **ret_pat
     const struct blame *own;
     *ret_path = NULL;
     if (!blame_find(state, &facts, &own)) return STATUS_OK;
-    char *path = mem_print("%s/dump_%06ld.h5", state->scene->directory, facts.step);
+    char *path = mem_print("%s/dump_%06ld.h5", state->scene->output.directory, facts.step);
     int code = dump_draft(path, state, &facts, own, provenance);
     if (code) place_reject(path);
     else code = place_accept(path);

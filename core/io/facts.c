@@ -50,12 +50,12 @@ void facts_put(const struct scene *scene, const struct model *model, int tile, s
 {
     static const char *const geometries[] = {"cartesian", "axisymmetric", "spherical"};
     double cells[SCENE_AXES];
-    unsigned dim = (unsigned)scene->dim;
-    for (unsigned d = 0; d < dim; d++) cells[d] = scene->cells[d];
-    notes_put_text(notes, "domain.geometry", geometries[scene->geometry]);
+    unsigned dim = (unsigned)scene->domain.dim;
+    for (unsigned d = 0; d < dim; d++) cells[d] = scene->domain.cells[d];
+    notes_put_text(notes, "domain.geometry", geometries[scene->domain.geometry]);
     notes_put(notes, "domain.cells", dim, cells);
-    notes_put(notes, "domain.lower", dim, scene->lower);
-    notes_put(notes, "domain.upper", dim, scene->upper);
+    notes_put(notes, "domain.lower", dim, scene->domain.lower);
+    notes_put(notes, "domain.upper", dim, scene->domain.upper);
     notes_put_one(notes, "mesh.tile", tile);
     facts_put_names(notes, "materials", scene->n_material, facts_material, scene);
     for (unsigned l = 0; l < scene->n_material; l++) {

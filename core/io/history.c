@@ -26,9 +26,9 @@ static int history_open(struct history *history, const struct state *state)
 {
     const struct scene *scene = state->scene;
     struct text header = {0};
-    char *path = mem_print("%s/history.csv", scene->directory);
+    char *path = mem_print("%s/history.csv", scene->output.directory);
     text_add(&header, "step,t,dt");
-    for (unsigned i = 0; i < scene->n_column; i++) text_add(&header, ",%s", scene->columns[i].name);
+    for (unsigned i = 0; i < scene->output.n_column; i++) text_add(&header, ",%s", scene->output.columns[i].name);
     text_add(&header, ",guard_fallback,guard_relaxed,guard_clipped,guard_retries");
     int code = csv_open(path, header.at, state->step > 0, (double)state->step, &history->csv);
     text_done(&header);
@@ -40,9 +40,9 @@ int history_new(const struct state *state, struct history **ret_history)
 {
     struct history *history = mem_new(1, sizeof *history);
     history->last = -1;
-    history->row = mem_new(HISTORY_FIRST + state->scene->n_column + HISTORY_GUARD, sizeof *history->row);
+    history->row = mem_new(HISTORY_FIRST + state->scene->output.n_column + HISTORY_GUARD, sizeof *history->row);
     int code = measure_new(state, &history->measures);
-    if (!code) code = place_folder(state->scene->directory);
+    if (!code) code = place_folder(state->scene->output.directory);
     if (!code) code = history_open(history, state);
     if (code) history_free(history);
     else *ret_history = history;
@@ -79,8 +79,8 @@ int history_recall(struct history *history, const struct notes *notes, const cha
 /* Value of the argument `name` of an expression: t or a column. */
 static double history_argument(const struct scene *scene, const char *name, double t, const double *columns)
 {
-    for (unsigned i = 0; i < scene->n_column; i++)
-        if (!strcmp(scene->columns[i].name, name)) return columns[i];
+    for (unsigned i = 0; i < scene->output.n_column; i++)
+        if (!strcmp(scene->output.columns[i].name, name)) return columns[i];
     return t;
 }
 
@@ -88,8 +88,8 @@ static double history_argument(const struct scene *scene, const char *name, doub
 static int history_compute(const struct scene *scene, double t, double *columns)
 {
     int code = STATUS_OK;
-    for (unsigned i = 0; i < scene->n_column; i++) {
-        const struct scene_column *column = &scene->columns[i];
+    for (unsigned i = 0; i < scene->output.n_column; i++) {
+        const struct scene_column *column = &scene->output.columns[i];
         double in[SCRIPT_ARGUMENTS];
         if (column->measure != SCENE_VALUE) continue;
         for (unsigned k = 0; k < column->n_use; k++) in[k] = history_argument(scene, column->uses[k], t, columns);
@@ -103,7 +103,7 @@ static int history_compute(const struct scene *scene, double t, double *columns)
 int history_write(struct history *history, const struct state *state, struct derive_moment *moment)
 {
     if (history->last == state->step) return STATUS_OK;
-    unsigned n = state->scene->n_column;
+    unsigned n = state->scene->output.n_column;
     double *row = history->row, *columns = row + HISTORY_FIRST, *guard = columns + n;
     struct state_counts counts = state_counts_total(state);
     row[0] = (double)state->step;

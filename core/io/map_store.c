@@ -23,7 +23,7 @@ static void map_store_origin(struct h5 *file, const struct scene *scene, const s
     static const char *const geometries[] = {"cartesian", "axisymmetric", "spherical"};
     h5_attribute_text(file, "/", "case", scene->name);
     h5_attribute_text(file, "/", "title", scene->title ? scene->title : "");
-    h5_attribute_text(file, "/", "geometry", geometries[scene->geometry]);
+    h5_attribute_text(file, "/", "geometry", geometries[scene->domain.geometry]);
     h5_attribute_text(file, "/", "map", map->name);
     h5_attribute_text(file, "/", "version", BULLA_VERSION);
 }

@@ -32,7 +32,7 @@ static int maps_open(struct maps_one *one, const struct state *state, const stru
     text_add(&header, "t,%s", map_store_place(map));
     int code = map_values_init(&one->values, state, map, &header);
     one->name = mem_print("maps/%s.csv", map->name);
-    one->path = mem_print("%s/%s", state->scene->directory, one->name);
+    one->path = mem_print("%s/%s", state->scene->output.directory, one->name);
     one->header = mem_text(header.at);
     one->rows = mem_new((size_t)map->n_point * (2 + one->values.n_value), sizeof(double));
     text_done(&header);
@@ -49,16 +49,16 @@ int maps_new(const struct state *state, struct maps **ret_maps)
 {
     const struct scene *scene = state->scene;
     *ret_maps = NULL;
-    if (!scene->n_map) return STATUS_OK;
+    if (!scene->output.n_map) return STATUS_OK;
     struct maps *maps = mem_new(1, sizeof *maps);
-    maps->ones = mem_new(scene->n_map, sizeof *maps->ones);
-    maps->every = scene->maps_every;
+    maps->ones = mem_new(scene->output.n_map, sizeof *maps->ones);
+    maps->every = scene->output.maps_every;
     maps->t_row = -INFINITY;
     if (state->step > 0) maps_schedule(maps, state->t);
-    char *folder = mem_print("%s/maps", scene->directory);
+    char *folder = mem_print("%s/maps", scene->output.directory);
     int code = place_folder(folder);
-    for (; !code && maps->n < scene->n_map; maps->n++)
-        code = maps_open(&maps->ones[maps->n], state, &scene->maps[maps->n]);
+    for (; !code && maps->n < scene->output.n_map; maps->n++)
+        code = maps_open(&maps->ones[maps->n], state, &scene->output.maps[maps->n]);
     mem_free(folder);
     if (code) maps_free(maps);
     else *ret_maps = maps;

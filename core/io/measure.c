@@ -65,7 +65,7 @@ static int measure_find_field(struct measures *measures, const struct model *mod
 static int measure_prepare_column(struct measures *measures, const struct state *state, unsigned i)
 {
     struct measure_column *column = &measures->columns[i];
-    const struct scene_column *from = &state->scene->columns[i];
+    const struct scene_column *from = &state->scene->output.columns[i];
     column->from = from;
     column->field = -1;
     column->axis = from->along >= 0 && from->along < state->mesh->dim ? from->along : state->mesh->dim - 1;
@@ -84,7 +84,7 @@ int measure_new(const struct state *state, struct measures **ret_measures)
 {
     struct measures *measures = mem_new(1, sizeof *measures);
     size_t n_cell = state->mesh->n_cell;
-    unsigned n = state->scene->n_column;
+    unsigned n = state->scene->output.n_column;
     measures->n = n;
     measures->state = state;
     measures->columns = mem_new(n, sizeof *measures->columns);

@@ -44,7 +44,7 @@ static int probes_check(const struct mesh *mesh, const struct scene_probe *probe
 
 static int probes_find_fields(struct probes *probes, const struct state *state, unsigned index, struct text *header)
 {
-    const struct scene_probe *probe = &state->scene->probes[index];
+    const struct scene_probe *probe = &state->scene->output.probes[index];
     for (unsigned i = 0; i < probe->n_field; i++) {
         struct probes_trace *trace = &probes->traces[probes->n_trace++];
         *trace = (struct probes_trace){.point = index, .first = probes->n_value, .part = probes->n_part};
@@ -62,13 +62,13 @@ static int probes_find_fields(struct probes *probes, const struct state *state, 
 static int probes_place(struct probes *probes, const struct state *state)
 {
     const struct scene *scene = state->scene;
-    double(*at)[3] = mem_new(scene->n_probe, sizeof *at);
+    double(*at)[3] = mem_new(scene->output.n_probe, sizeof *at);
     int code = STATUS_OK;
-    for (unsigned i = 0; !code && i < scene->n_probe; i++) {
-        code = probes_check(state->mesh, &scene->probes[i]);
-        memcpy(at[i], scene->probes[i].at, sizeof at[i]);
+    for (unsigned i = 0; !code && i < scene->output.n_probe; i++) {
+        code = probes_check(state->mesh, &scene->output.probes[i]);
+        memcpy(at[i], scene->output.probes[i].at, sizeof at[i]);
     }
-    if (!code) probes->sample = sample_new(state->mesh, scene->n_probe, (const double(*)[3])at);
+    if (!code) probes->sample = sample_new(state->mesh, scene->output.n_probe, (const double(*)[3])at);
     mem_free(at);
     return code;
 }
@@ -77,33 +77,33 @@ static int probes_prepare(struct probes *probes, const struct state *state, stru
 {
     const struct scene *scene = state->scene;
     unsigned n_trace = 0;
-    for (unsigned i = 0; i < scene->n_probe; i++) n_trace += scene->probes[i].n_field;
+    for (unsigned i = 0; i < scene->output.n_probe; i++) n_trace += scene->output.probes[i].n_field;
     probes->traces = mem_new(n_trace, sizeof *probes->traces);
     TRY(probes_place(probes, state));
     text_add(header, "t");
-    for (unsigned i = 0; i < scene->n_probe; i++) TRY(probes_find_fields(probes, state, i, header));
+    for (unsigned i = 0; i < scene->output.n_probe; i++) TRY(probes_find_fields(probes, state, i, header));
     probes->parts = mem_new(probes->n_part, sizeof(double));
     probes->before = mem_new(probes->n_value, sizeof(double));
     probes->now = mem_new(probes->n_value, sizeof(double));
     probes->row = mem_new(probes->n_value + 1u, sizeof(double));
-    return place_folder(scene->directory);
+    return place_folder(scene->output.directory);
 }
 
 int probes_new(const struct state *state, struct probes **ret_probes)
 {
     const struct scene *scene = state->scene;
     *ret_probes = NULL;
-    if (!scene->n_probe) return STATUS_OK;
+    if (!scene->output.n_probe) return STATUS_OK;
     struct probes *probes = mem_new(1, sizeof *probes);
     struct text header = {0};
     bool resume = state->step > 0;
-    probes->every = scene->probes_every;
+    probes->every = scene->output.probes_every;
     probes->step = -1;
     probes->t_before = -INFINITY;
     probes->t_row = resume ? state->t : -INFINITY;
     if (probes->every.time > 0.0 && resume) probes->next = 1 + (long)floor(state->t / probes->every.time + 1e-9);
     int code = probes_prepare(probes, state, &header);
-    char *path = mem_print("%s/probes.csv", scene->directory);
+    char *path = mem_print("%s/probes.csv", scene->output.directory);
     if (!code) code = csv_open(path, header.at, resume, state->t, &probes->csv);
     mem_free(path);
     probes->header = mem_text(header.at);

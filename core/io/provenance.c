@@ -149,10 +149,10 @@ static json_t *provenance_modules(const struct scene *scene)
         if (scene->material[l].constitutive.module)
             provenance_add_module(modules, scene->material[l].constitutive.module);
     }
-    provenance_add_module(modules, scene->reconstruction.module);
-    provenance_add_module(modules, scene->limiter.module);
-    provenance_add_module(modules, scene->interface_limiter.module);
-    provenance_add_module(modules, scene->riemann.module);
+    provenance_add_module(modules, scene->scheme.reconstruction.module);
+    provenance_add_module(modules, scene->scheme.limiter.module);
+    provenance_add_module(modules, scene->scheme.interface_limiter.module);
+    provenance_add_module(modules, scene->scheme.riemann.module);
     const struct registry_entry *robust = registry_find("riemann", "rusanov"); /* for troubled cells */
     if (robust) provenance_add_module(modules, robust->module);
     return modules;
@@ -388,10 +388,10 @@ int provenance_write(struct provenance *provenance, const struct state *state, c
 
 int provenance_new(const struct state *state, int argc, char *const *argv, struct provenance **ret_provenance)
 {
-    TRY(place_folder(state->scene->directory));
+    TRY(place_folder(state->scene->output.directory));
     struct provenance *provenance = mem_new(1, sizeof *provenance);
     *provenance = (struct provenance){.argc = argc, .argv = argv, .step_0 = state->step, .runs = 1};
-    provenance->path = mem_print("%s/provenance.json", state->scene->directory);
+    provenance->path = mem_print("%s/provenance.json", state->scene->output.directory);
     provenance->wall_0 = provenance_wall();
     provenance->cpu_0 = provenance_cpu();
     provenance_now(provenance->started, sizeof provenance->started);

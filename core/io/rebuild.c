@@ -111,7 +111,7 @@ static int rebuild_counts(const struct resume *resume, struct state_counts *ret_
 /* What criteria have tagged goes on with rank 0, if they are as many as before. */
 static void rebuild_tagged(const struct resume *resume, struct state *state)
 {
-    unsigned n = state->scene->n_refine;
+    unsigned n = state->scene->mesh.n_refine;
     double *tagged = mem_new(n + 1, sizeof *tagged);
     if (comm_rank() == 0 && notes_get(&resume->notes, "refine.tagged", n, tagged))
         for (unsigned i = 0; i < n; i++) state->tagged[i] = (long long)tagged[i];
@@ -141,7 +141,7 @@ static int rebuild_match(struct rebuild *rebuild)
     rebuild->n_field = model->n_field;
     rebuild->iterated = !model->linear;
     rebuild->n_cell = 1;
-    for (int d = 0; d < scene->dim; d++) rebuild->n_cell *= (size_t)rebuild->tile;
+    for (int d = 0; d < scene->domain.dim; d++) rebuild->n_cell *= (size_t)rebuild->tile;
     facts_put(scene, model, rebuild->tile, &now);
     int code = facts_compare(&rebuild->from->notes, &now);
     if (code) status_wrap(code, "%s: cannot restart: ", rebuild->from->path);
@@ -152,7 +152,7 @@ static int rebuild_match(struct rebuild *rebuild)
 
 static int rebuild_affords(const struct rebuild *rebuild, double tiles)
 {
-    double limit = rebuild->scene->memory_limit;
+    double limit = rebuild->scene->mesh.memory_limit;
     double bytes = 3.0 * tiles * (double)(rebuild->n_field * rebuild->n_cell * sizeof(double));
     if (limit <= 0.0 || bytes <= limit) return STATUS_OK;
     return status_fail(
@@ -169,18 +169,18 @@ static int rebuild_nests(const struct rebuild *rebuild, int n_level)
     const struct resume *resume = rebuild->from;
     struct mesh *mesh = mem_new(1, sizeof *mesh);
     struct tile *tiles = resume->tiles;
-    mesh->dim = scene->dim;
+    mesh->dim = scene->domain.dim;
     mesh->n_level = n_level;
     for (int d = 0; d < 3; d++) {
-        mesh->n[d] = d < scene->dim ? rebuild->tile : 1;
-        mesh->periodic[d] = d < scene->dim && scene_boundary_is(scene, 2 * d, SCENE_BOUNDARY_WRAPS);
+        mesh->n[d] = d < scene->domain.dim ? rebuild->tile : 1;
+        mesh->periodic[d] = d < scene->domain.dim && scene_boundary_is(scene, 2 * d, SCENE_BOUNDARY_WRAPS);
     }
     for (int l = 0; l < n_level; l++) {
         struct level *level = &mesh->levels[l];
         level->n_tile = resume->n_tile[l];
         level->tiles = tiles;
         tiles += level->n_tile;
-        for (int d = 0; d < 3; d++) level->extent[d] = d < scene->dim ? scene->cells[d] / rebuild->tile << l : 1;
+        for (int d = 0; d < 3; d++) level->extent[d] = d < scene->domain.dim ? scene->domain.cells[d] / rebuild->tile << l : 1;
     }
     int code = nest_check(mesh);
     if (code) status_wrap(code, "%s: impossible checkpoint: ", resume->path);
@@ -197,7 +197,7 @@ static int rebuild_source(struct rebuild *rebuild, struct state **ret_state)
     if (!rebuild->tile) return STATUS_CASE;
     TRY(rebuild_match(rebuild));
     /* finer levels than the case allows now are left out: the coarser ones hold their averages */
-    source.n_level = resume->n_level <= rebuild->scene->levels ? resume->n_level : rebuild->scene->levels + 1;
+    source.n_level = resume->n_level <= rebuild->scene->mesh.levels ? resume->n_level : rebuild->scene->mesh.levels + 1;
     TRY(rebuild_nests(rebuild, source.n_level));
     TRY(rebuild_steps(resume, &source));
     TRY(rebuild_counts(resume, &counts));

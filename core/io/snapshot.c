@@ -31,12 +31,12 @@ struct snapshots {
 static int snapshot_find_fields(struct snapshots *snapshots, const struct state *state)
 {
     const struct scene *scene = state->scene;
-    snapshots->fields = mem_new(scene->n_snapshot_field + 1u, sizeof *snapshots->fields);
-    for (unsigned i = 0; i < scene->n_snapshot_field; i++) {
-        int code = derive_find(state->model, scene->snapshot_fields[i], &snapshots->fields[i]);
+    snapshots->fields = mem_new(scene->output.n_snapshot_field + 1u, sizeof *snapshots->fields);
+    for (unsigned i = 0; i < scene->output.n_snapshot_field; i++) {
+        int code = derive_find(state->model, scene->output.snapshot_fields[i], &snapshots->fields[i]);
         if (code) return status_wrap(code, "output.snapshots.fields: ");
     }
-    snapshots->n_field = scene->n_snapshot_field;
+    snapshots->n_field = scene->output.n_snapshot_field;
     return STATUS_OK;
 }
 
@@ -92,9 +92,9 @@ int snapshot_new(const struct state *state, struct snapshots **ret_snapshots)
     struct snapshots *snapshots = mem_new(1, sizeof *snapshots);
     snapshots->scene = state->scene;
     snapshots->last = -1;
-    snapshots->folder = mem_print("%s/fields", state->scene->directory);
+    snapshots->folder = mem_print("%s/fields", state->scene->output.directory);
     snapshots->list_path = mem_print("%s/%s.hdf.series", snapshots->folder, state->scene->name);
-    int code = state->scene->n_snapshot_field ? snapshot_find_fields(snapshots, state)
+    int code = state->scene->output.n_snapshot_field ? snapshot_find_fields(snapshots, state)
                                               : snapshot_choose_fields(snapshots, state);
     if (!code) code = place_folder(snapshots->folder);
     if (!code) snapshot_go_on(snapshots, state);
@@ -179,7 +179,7 @@ static int snapshot_draft(struct snapshots *snapshots, const struct state *state
                           const char *path, const char *provenance)
 {
     struct vtkhdf_fields fields = {snapshots->n_field, snapshots->fields,
-                                   snapshots->scene->snapshot_double ? H5_F64 : H5_F32};
+                                   snapshots->scene->output.snapshot_double ? H5_F64 : H5_F32};
     for (unsigned i = 0; i < snapshots->n_field; i++) derive_prepare(moment, &snapshots->fields[i]);
     char *draft = place_draft(path);
     struct h5 *file;

@@ -31,7 +31,7 @@ static const char *units_total(const char *quantity, int extent)
 
 const char *units_of(const struct scene *scene, const struct scene_column *column, const char *of_field)
 {
-    int plane = scene->dim - 1, extent = scene->geometry == SCENE_CARTESIAN ? plane : 2;
+    int plane = scene->domain.dim - 1, extent = scene->domain.geometry == SCENE_CARTESIAN ? plane : 2;
     switch (column->measure) {
     case SCENE_VOLUME: return units_integral("1", extent);
     case SCENE_MASS: return units_integral("kg/m3", extent);
@@ -59,8 +59,8 @@ static int units_history(const struct state *state, struct text *text)
     static const char *const guard[] = {"fallback", "relaxed", "clipped", "retries"};
     const struct scene *scene = state->scene;
     text_add(text, "history.csv,step,1\nhistory.csv,t,s\nhistory.csv,dt,s\n");
-    for (unsigned i = 0; i < scene->n_column; i++) {
-        const struct scene_column *column = &scene->columns[i];
+    for (unsigned i = 0; i < scene->output.n_column; i++) {
+        const struct scene_column *column = &scene->output.columns[i];
         struct derive field = {.unit = ""};
         bool total = column->measure == SCENE_TOTAL; /* of a conserved quantity, which is no field */
         if (column->field[0] && !total) TRY(derive_find(state->model, column->field, &field));
@@ -89,7 +89,7 @@ int units_text(const struct state *state, struct text *text)
     const struct scene *scene = state->scene;
     text_add(text, "file,column,unit\n");
     TRY(units_history(state, text));
-    if (scene->n_probe) text_add(text, "probes.csv,t,s\n");
-    for (unsigned i = 0; i < scene->n_probe; i++) TRY(units_probe(state, &scene->probes[i], text));
+    if (scene->output.n_probe) text_add(text, "probes.csv,t,s\n");
+    for (unsigned i = 0; i < scene->output.n_probe; i++) TRY(units_probe(state, &scene->output.probes[i], text));
     return STATUS_OK;
 }

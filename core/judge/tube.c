@@ -54,15 +54,15 @@ static int tube_side(const struct scene *scene, const struct scene_layer *layer,
 
 int tube_of_scene(const struct scene *scene, struct tube *ret_tube)
 {
-    double low = scene->lower[0], high = scene->upper[0];
+    double low = scene->domain.lower[0], high = scene->domain.upper[0];
     int layer[2] = {tube_layer(scene, low), tube_layer(scene, high)}, material[2];
     for (unsigned l = 0; l < scene->n_material; l++)
         if (scene->material[l].constitutive.module)
             return status_fail(STATUS_CASE, "'exact-riemann' is the solution of fluids, and '%s' is a solid",
                                scene->material[l].name);
-    if (scene->n_velocity > scene->dim)
-        return status_fail(STATUS_CASE, "'exact-riemann' needs velocities of one component, not %d", scene->n_velocity);
-    if (scene->dim != 1 || scene->geometry != SCENE_CARTESIAN || layer[0] == layer[1] || layer[0] < 0 || layer[1] < 0)
+    if (scene->domain.n_velocity > scene->domain.dim)
+        return status_fail(STATUS_CASE, "'exact-riemann' needs velocities of one component, not %d", scene->domain.n_velocity);
+    if (scene->domain.dim != 1 || scene->domain.geometry != SCENE_CARTESIAN || layer[0] == layer[1] || layer[0] < 0 || layer[1] < 0)
         return status_fail(STATUS_CASE,
                            "'exact-riemann' needs a 1D cartesian scene of two layers that meet at one point");
     for (;;) {

@@ -326,7 +326,7 @@ void reflux_source(const struct reflux *reflux, unsigned s, size_t index, const 
     double sign = source->face % 2 == 0 ? -1.0 : 1.0; /* the cell lies on the lower or upper side of the face */
     double scale = sign * reflux_area(reflux, metric, source, reflux_cell(reflux->mesh, source, index));
     for (unsigned q = 0; q < model->n_field; q++) ret_change[q] = scale * reflux_difference(&value, q);
-    if (model->scene->reflux != SCENE_REFLUX_CORRECTED || !reflux->mesh->n_face_u) {
+    if (model->scene->mesh.reflux != SCENE_REFLUX_CORRECTED || !reflux->mesh->n_face_u) {
         if (model->n_stretch) reflux_by_mass(reflux, &value, ret_change, NULL);
         return;
     }

@@ -32,11 +32,11 @@ static int mesh_gcd(int a, int b)
 static int mesh_refuse(const struct scene *scene, int common)
 {
     struct text counts = {0};
-    for (int d = 0; d < scene->dim; d++) text_add(&counts, "%s%d", d ? ", " : "", (scene->cells[d] + 15) / 16 * 16);
+    for (int d = 0; d < scene->domain.dim; d++) text_add(&counts, "%s%d", d ? ", " : "", (scene->domain.cells[d] + 15) / 16 * 16);
     status_fail(STATUS_CASE,
                 "%s: domain.cells: the counts have no common %stile side from %d to %d (greatest common divisor %d); "
                 "try [%s]",
-                scene->cells_place, scene->levels > 0 ? "even " : "", MESH_TILE_LEAST, scene->dim == 1 ? 64 : 16,
+                scene->domain.cells_place, scene->mesh.levels > 0 ? "even " : "", MESH_TILE_LEAST, scene->domain.dim == 1 ? 64 : 16,
                 common, counts.at);
     text_done(&counts);
     return 0;
@@ -45,36 +45,36 @@ static int mesh_refuse(const struct scene *scene, int common)
 /* Refined tiles lie under octants of n / 2 cells, which must hold the layers that a neighbour needs. */
 static bool mesh_tile_halves(const struct scene *scene, int n)
 {
-    return !scene->levels || (n % 2 == 0 && n >= 2 * scene->ghosts);
+    return !scene->mesh.levels || (n % 2 == 0 && n >= 2 * scene->scheme.ghosts);
 }
 
 static int mesh_tile_given(const struct scene *scene, int common)
 {
-    if (common % scene->tile) {
+    if (common % scene->mesh.tile) {
         status_fail(STATUS_CASE, "%s: mesh.tile: %d does not divide all of domain.cells (greatest common divisor %d)",
-                    scene->cells_place, scene->tile, common);
+                    scene->domain.cells_place, scene->mesh.tile, common);
         return 0;
     }
-    if (mesh_tile_halves(scene, scene->tile)) return scene->tile;
+    if (mesh_tile_halves(scene, scene->mesh.tile)) return scene->mesh.tile;
     status_fail(STATUS_CASE,
                 "%s: mesh.tile: %d cannot be refined: with mesh.levels above 0 it must be even and at least %d",
-                scene->cells_place, scene->tile, 2 * scene->ghosts);
+                scene->domain.cells_place, scene->mesh.tile, 2 * scene->scheme.ghosts);
     return 0;
 }
 
 int mesh_tile_size(const struct scene *scene)
 {
-    int common = scene->cells[0];
-    for (int d = 1; d < scene->dim; d++) common = mesh_gcd(common, scene->cells[d]);
-    int n = scene->tile ? mesh_tile_given(scene, common) : scene_mesh_tile(scene);
-    if (!n && !scene->tile) return mesh_refuse(scene, common);
-    for (int d = 0; n && d < scene->dim; d++)
-        if (scene->cells[d] / n > MORTON_MOST >> scene->levels) {
+    int common = scene->domain.cells[0];
+    for (int d = 1; d < scene->domain.dim; d++) common = mesh_gcd(common, scene->domain.cells[d]);
+    int n = scene->mesh.tile ? mesh_tile_given(scene, common) : scene_mesh_tile(scene);
+    if (!n && !scene->mesh.tile) return mesh_refuse(scene, common);
+    for (int d = 0; n && d < scene->domain.dim; d++)
+        if (scene->domain.cells[d] / n > MORTON_MOST >> scene->mesh.levels) {
             status_fail(
                 STATUS_CASE,
                 "%s: domain.cells: %d cells in tiles of %d with %d finer levels are more than the %d tiles along an "
                 "axis that can be numbered; try fewer mesh.levels or larger tiles",
-                scene->cells_place, scene->cells[d], n, scene->levels, MORTON_MOST);
+                scene->domain.cells_place, scene->domain.cells[d], n, scene->mesh.levels, MORTON_MOST);
             n = 0;
         }
     return n;
@@ -110,14 +110,14 @@ static void mesh_measure(struct mesh *mesh, const struct scene *scene, int n)
 {
     mesh->n_cell = 1;
     for (int d = 0; d < 3; d++) {
-        bool used = d < scene->dim;
-        mesh->lower[d] = scene->lower[d];
-        mesh->upper[d] = scene->upper[d];
+        bool used = d < scene->domain.dim;
+        mesh->lower[d] = scene->domain.lower[d];
+        mesh->upper[d] = scene->domain.upper[d];
         mesh->n[d] = used ? n : 1;
         mesh->n_cell *= (size_t)mesh->n[d];
         mesh->periodic[d] = used && scene_boundary_is(scene, 2 * d, SCENE_BOUNDARY_WRAPS);
-        mesh->levels[0].extent[d] = used ? scene->cells[d] / n : 1;
-        mesh->levels[0].h[d] = used ? (scene->upper[d] - scene->lower[d]) / scene->cells[d] : 1.0;
+        mesh->levels[0].extent[d] = used ? scene->domain.cells[d] / n : 1;
+        mesh->levels[0].h[d] = used ? (scene->domain.upper[d] - scene->domain.lower[d]) / scene->domain.cells[d] : 1.0;
         for (int l = 1; l <= mesh->most_level; l++) {
             mesh->levels[l].extent[d] = mesh->levels[l - 1].extent[d] * (used ? 2 : 1);
             mesh->levels[l].h[d] = mesh->levels[l - 1].h[d] / (used ? 2.0 : 1.0);
@@ -130,15 +130,15 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
     int n = mesh_tile_size(scene);
     if (!n) return STATUS_CASE;
     struct mesh *mesh = mem_new(1, sizeof *mesh);
-    mesh->dim = scene->dim;
-    mesh->beta = (int)scene->geometry;
+    mesh->dim = scene->domain.dim;
+    mesh->beta = (int)scene->domain.geometry;
     mesh->n_field = n_field;
     mesh->n_alpha = n_alpha;
-    mesh->ghosts = scene->ghosts;
+    mesh->ghosts = scene->scheme.ghosts;
     mesh->n_face_u = n_alpha > 0;
     for (unsigned l = 0; l < scene->n_material; l++)
-        if (scene->material[l].constitutive.module) mesh->n_face_u = (unsigned)scene->n_velocity;
-    mesh->most_level = scene->levels;
+        if (scene->material[l].constitutive.module) mesh->n_face_u = (unsigned)scene->domain.n_velocity;
+    mesh->most_level = scene->mesh.levels;
     mesh_measure(mesh, scene, n);
     mesh->pool = pool_new(n_field * mesh->n_cell);
     mesh->rims = rim_shelf_new();

@@ -61,7 +61,7 @@ void paint_values_of(const struct model *model, unsigned index, struct paint_val
     const struct scene_layer *layer = &scene->layers[index];
     bool varying = layer->script || layer->temperature.script || layer->pressure.script;
     for (unsigned l = 0; l < scene->n_material && layer->density; l++) varying = varying || layer->density[l].script;
-    for (int d = 0; d < scene->n_velocity; d++) varying = varying || layer->velocity[d].script;
+    for (int d = 0; d < scene->domain.n_velocity; d++) varying = varying || layer->velocity[d].script;
     for (unsigned c = 0; c < 6; c++) varying = varying || layer->stretch[c].script;
     *ret_values = (struct paint_values){.model = model, .layer = layer, .number = index + 1, .varying = varying};
     ret_values->whole = layer->has_material && !layer->script;

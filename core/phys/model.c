@@ -127,21 +127,21 @@ struct model *model_new(const struct scene *scene)
 {
     struct model *model = mem_new(1, sizeof *model);
     model->scene = scene;
-    model->dim = scene->dim;
-    model->beta = (int)scene->geometry;
+    model->dim = scene->domain.dim;
+    model->beta = (int)scene->domain.geometry;
     model->n_material = scene->n_material;
     model->n_alpha = scene->n_material > 1 ? scene->n_material : 0;
     model->i_alpha = 0;
     model->i_m = model->n_alpha;
     model->i_u = model->i_m + model->n_material;
-    model->n_velocity = (unsigned)scene->n_velocity;
+    model->n_velocity = (unsigned)scene->domain.n_velocity;
     model->i_E = model->i_u + model->n_velocity;
     model->i_V = model->i_E + 1;
     model_solids(model);
     model->n_stretch = model->elastic ? elastic_count(model->n_velocity) : 0;
     model->n_field = model->i_V + model->n_stretch;
     model->split = model->dim == 1 && model->elastic && model->n_alpha > 0;
-    model->kapila = scene->closure == SCENE_KAPILA && model->n_alpha > 0;
+    model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
     model->linear = true;
     for (unsigned l = 0; l < model->n_material; l++) {
         const struct instance *instance = &scene->material[l].eos;
@@ -154,14 +154,14 @@ struct model *model_new(const struct scene *scene)
         eos->rho_most = range.rho_max > eos->rho_fill ? range.rho_max : eos->rho_fill;
         if (!eos->law->linear) model->linear = false;
     }
-    model->thermal = scene->exchange == SCENE_EXCHANGE_AUTO ? !model->linear : scene->exchange == SCENE_EXCHANGE_FULL;
-    model->limiter = (struct model_limiter){scene->limiter.module->table, scene->limiter.self};
+    model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO ? !model->linear : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
+    model->limiter = (struct model_limiter){scene->scheme.limiter.module->table, scene->scheme.limiter.self};
     model->limiter_alpha =
-        (struct model_limiter){scene->interface_limiter.module->table, scene->interface_limiter.self};
-    model->reconstruction = scene->reconstruction.module->table;
-    model->reconstruction_self = scene->reconstruction.self;
-    model->riemann = scene->riemann.module->table;
-    model->riemann_self = scene->riemann.self;
+        (struct model_limiter){scene->scheme.interface_limiter.module->table, scene->scheme.interface_limiter.self};
+    model->reconstruction = scene->scheme.reconstruction.module->table;
+    model->reconstruction_self = scene->scheme.reconstruction.self;
+    model->riemann = scene->scheme.riemann.module->table;
+    model->riemann_self = scene->scheme.riemann.self;
     const struct registry_entry *robust = registry_find("riemann", "rusanov");
     model->robust = robust ? robust->module->table : model->riemann;
     model->mixed = model->n_alpha > 0;

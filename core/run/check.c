@@ -93,10 +93,10 @@ static void check_levels(const struct scene *scene, const struct state *state, s
     if (state) ret->n_level = state->mesh->n_level;
     for (int l = 0; state && l < ret->n_level; l++)
         ret->cells[l] = (double)state->mesh->levels[l].n_tile * (double)state->mesh->n_cell;
-    ret->parts = scene->subcycle ? 1 : ldexp(1, ret->n_level - 1);
+    ret->parts = scene->mesh.subcycle ? 1 : ldexp(1, ret->n_level - 1);
     for (int l = 0; l < ret->n_level; l++) {
         ret->all += ret->cells[l];
-        ret->updates += scene->subcycle ? ldexp(ret->cells[l], l) : ret->cells[l];
+        ret->updates += scene->mesh.subcycle ? ldexp(ret->cells[l], l) : ret->cells[l];
     }
 }
 
@@ -104,7 +104,7 @@ static void check_levels(const struct scene *scene, const struct state *state, s
 static int check_count(const struct scene *scene, struct check_mesh *ret)
 {
     struct state *state = NULL;
-    if (scene->levels > 0 && scenes_bytes(scene, scenes_cells(scene)) <= check_build) TRY(state_new(scene, &state));
+    if (scene->mesh.levels > 0 && scenes_bytes(scene, scenes_cells(scene)) <= check_build) TRY(state_new(scene, &state));
     check_levels(scene, state, ret);
     state_free(state);
     return STATUS_OK;
@@ -115,22 +115,22 @@ static int check_count(const struct scene *scene, struct check_mesh *ret)
 static struct scene check_coarsen(const struct scene *scene, double *ret_ratio)
 {
     struct scene coarse = *scene;
-    coarse.levels = 0;
-    int most = 1, limit = scene->dim == 1 ? 8 * CHECK_COARSE : CHECK_COARSE;
-    for (int axis = 0; axis < scene->dim; axis++) most = scene->cells[axis] > most ? scene->cells[axis] : most;
+    coarse.mesh.levels = 0;
+    int most = 1, limit = scene->domain.dim == 1 ? 8 * CHECK_COARSE : CHECK_COARSE;
+    for (int axis = 0; axis < scene->domain.dim; axis++) most = scene->domain.cells[axis] > most ? scene->domain.cells[axis] : most;
     int factor = (most + limit - 1) / limit;
     *ret_ratio = 1;
-    for (int axis = 0; axis < scene->dim && factor > 1; axis++) {
-        int cells = scene->cells[axis] / factor / 8 * 8;
-        if (scene->cells[axis] > 8) coarse.cells[axis] = cells > 8 ? cells : 8;
-        double ratio = (double)scene->cells[axis] / coarse.cells[axis];
+    for (int axis = 0; axis < scene->domain.dim && factor > 1; axis++) {
+        int cells = scene->domain.cells[axis] / factor / 8 * 8;
+        if (scene->domain.cells[axis] > 8) coarse.domain.cells[axis] = cells > 8 ? cells : 8;
+        double ratio = (double)scene->domain.cells[axis] / coarse.domain.cells[axis];
         if (ratio > *ret_ratio) *ret_ratio = ratio;
     }
-    if (factor > 1) coarse.tile = 0;
+    if (factor > 1) coarse.mesh.tile = 0;
     if (mesh_tile_size(&coarse)) return coarse;
     *ret_ratio = 1;
     coarse = *scene;
-    coarse.levels = 0;
+    coarse.mesh.levels = 0;
     return coarse;
 }
 
@@ -138,16 +138,16 @@ static int check_measure(struct state *coarse, double ratio, const struct scene 
                          struct check_cost *ret)
 {
     double begin = progress_clock(), spent = 0, dt = advance_dt(coarse);
-    while (coarse->step < CHECK_STEPS && coarse->t < scene->until && spent < check_moment) {
+    while (coarse->step < CHECK_STEPS && coarse->t < scene->run.until && spent < check_moment) {
         dt = advance_dt(coarse);
-        TRY(advance_step(coarse, scene->until - coarse->t));
+        TRY(advance_step(coarse, scene->run.until - coarse->t));
         spent = progress_clock() - begin;
         comm_max(&spent, 1);
     }
-    if (scene->dt_fixed <= 0) dt /= ratio * mesh->parts;
+    if (scene->scheme.dt_fixed <= 0) dt /= ratio * mesh->parts;
     ret->coarse_steps = coarse->step;
-    ret->steps = ceil(scene->until / dt);
-    if (scene->max_steps > 0 && ret->steps > (double)scene->max_steps) ret->steps = (double)scene->max_steps;
+    ret->steps = ceil(scene->run.until / dt);
+    if (scene->run.max_steps > 0 && ret->steps > (double)scene->run.max_steps) ret->steps = (double)scene->run.max_steps;
     ret->seconds = ret->steps * spent / (double)coarse->step * mesh->updates / scenes_cells(coarse->scene);
     return 0;
 }
@@ -156,17 +156,17 @@ static int check_measure(struct state *coarse, double ratio, const struct scene 
 static void check_print_levels(const struct scene *scene, const struct check_mesh *mesh)
 {
     char text[HUMAN_ROOM];
-    if (scene->levels == 0) {
-        if (scene->n_refine) printf("  %-12s 0: 'refine' is not used\n", "levels");
+    if (scene->mesh.levels == 0) {
+        if (scene->mesh.n_refine) printf("  %-12s 0: 'refine' is not used\n", "levels");
         return;
     }
     double finest = HUGE_VAL;
-    for (int axis = 0; axis < scene->dim; axis++)
-        finest = fmin(finest, (scene->upper[axis] - scene->lower[axis]) / ldexp(scene->cells[axis], scene->levels));
+    for (int axis = 0; axis < scene->domain.dim; axis++)
+        finest = fmin(finest, (scene->domain.upper[axis] - scene->domain.lower[axis]) / ldexp(scene->domain.cells[axis], scene->mesh.levels));
     printf("  %-12s %d above the coarsest, finest cells %s; regrid every %d steps, buffer %d%s\n", "levels",
-           scene->levels, human_si(finest, "m", text), scene->regrid_every, scene->buffer,
-           scene->subcycle ? ", subcycled" : "");
-    for (unsigned i = 0; i < scene->n_refine; i++) {
+           scene->mesh.levels, human_si(finest, "m", text), scene->mesh.regrid_every, scene->mesh.buffer,
+           scene->mesh.subcycle ? ", subcycled" : "");
+    for (unsigned i = 0; i < scene->mesh.n_refine; i++) {
         char *criterion = tag_describe(scene, i);
         printf("  %-12s %s\n", i ? "" : "refine", criterion);
         mem_free(criterion);
@@ -180,24 +180,24 @@ static void check_print(const struct scene *scene, const struct model *model, co
 {
     char text[HUMAN_ROOM];
     if (scene->title) printf("  %-12s %s\n", "title", scene->title);
-    printf("  %-12s %dD %s, %d", "domain", scene->dim, check_geometry[scene->geometry], scene->cells[0]);
-    for (int axis = 1; axis < scene->dim; axis++) printf(" x %d", scene->cells[axis]);
-    if (scene->dim > 1) printf(" = %.0f", scenes_cells(scene));
+    printf("  %-12s %dD %s, %d", "domain", scene->domain.dim, check_geometry[scene->domain.geometry], scene->domain.cells[0]);
+    for (int axis = 1; axis < scene->domain.dim; axis++) printf(" x %d", scene->domain.cells[axis]);
+    if (scene->domain.dim > 1) printf(" = %.0f", scenes_cells(scene));
     int tile = mesh_tile_size(scene);
     double tiles = 1;
-    for (int axis = 0; axis < scene->dim; axis++) tiles *= scene->cells[axis] / (double)tile;
+    for (int axis = 0; axis < scene->domain.dim; axis++) tiles *= scene->domain.cells[axis] / (double)tile;
     printf(" cells in %.0f tiles of %d", tiles, tile);
-    if (scene->n_velocity > scene->dim) printf("; velocities with %d components", scene->n_velocity);
+    if (scene->domain.n_velocity > scene->domain.dim) printf("; velocities with %d components", scene->domain.n_velocity);
     putchar('\n');
     check_print_levels(scene, mesh);
     check_print_fields(model);
     for (unsigned i = 0; i < scene->n_material; i++) check_print_material(scene, model, i);
-    printf("  %-12s %s\n", "closure", scene->closure == SCENE_KAPILA ? "kapila" : "allaire");
-    check_print_module("riemann", &scene->riemann);
-    check_print_module("scheme", &scene->reconstruction);
-    check_print_module("limiter", &scene->limiter);
+    printf("  %-12s %s\n", "closure", scene->scheme.closure == SCENE_KAPILA ? "kapila" : "allaire");
+    check_print_module("riemann", &scene->scheme.riemann);
+    check_print_module("scheme", &scene->scheme.reconstruction);
+    check_print_module("limiter", &scene->scheme.limiter);
     check_print_sources(scene);
-    if (scene->n_material > 1) check_print_module("interface", &scene->interface_limiter);
+    if (scene->n_material > 1) check_print_module("interface", &scene->scheme.interface_limiter);
     double bytes = SCENES_BESIDE * scenes_bytes(scene, mesh->all);
     printf("  %-12s about %s", "memory", human_bytes(bytes, text));
     if (bytes > mem_machine()) printf(": more than this machine has, %s", human_bytes(mem_machine(), text));
@@ -207,18 +207,18 @@ static void check_print(const struct scene *scene, const struct model *model, co
 static void check_print_cost(const struct scene *scene, const struct check_cost *cost)
 {
     char text[HUMAN_ROOM];
-    printf("  %-12s until %s, about %.0f steps\n", "run", human_si(scene->until, "s", text), cost->steps);
+    printf("  %-12s until %s, about %.0f steps\n", "run", human_si(scene->run.until, "s", text), cost->steps);
     printf("  %-12s about %s on one core (from %ld steps on a coarse copy)\n", "time",
            cost->seconds < 60 ? human_si(cost->seconds, "s", text) : human_duration(cost->seconds, text),
            cost->coarse_steps);
-    printf("  %-12s %s\n", "output", scene->directory);
+    printf("  %-12s %s\n", "output", scene->output.directory);
 }
 
 /* The steps that remain if all are like the first. */
 static double check_steps(const struct scene *scene, const struct state *state, double dt)
 {
-    double steps = ceil((scene->until - state->t) / dt), most = (double)(scene->max_steps - state->step);
-    if (scene->max_steps > 0 && steps > most) steps = most;
+    double steps = ceil((scene->run.until - state->t) / dt), most = (double)(scene->run.max_steps - state->step);
+    if (scene->run.max_steps > 0 && steps > most) steps = most;
     return steps > 0 ? steps : 0;
 }
 
@@ -233,9 +233,9 @@ void check_ready(const struct scene *scene, const struct state *state)
     check_print(scene, state->model, &mesh);
     printf("  %-12s %d\n", "ranks", comm_size());
     printf("  %-12s from %s, step %ld, until %s; the first step is %s: %.0f steps of that size\n", "run",
-           human_si(state->t, "s", begin), state->step, human_si(scene->until, "s", end), human_si(dt, "s", step),
+           human_si(state->t, "s", begin), state->step, human_si(scene->run.until, "s", end), human_si(dt, "s", step),
            check_steps(scene, state, dt));
-    printf("  %-12s %s\n", "output", scene->directory);
+    printf("  %-12s %s\n", "output", scene->output.directory);
 }
 
 static int check_one(const struct cli_given *given, const char *path)

@@ -39,7 +39,7 @@ static int record_open_files(struct record *record, const struct state *state, i
     TRY(probes_new(state, &record->probes));
     TRY(maps_new(state, &record->maps));
     record->checkpoints = checkpoint_new(state->scene);
-    record->late.every = state->scene->checkpoints_wall;
+    record->late.every = state->scene->output.checkpoints_wall;
     return provenance_new(state, argc, argv, &record->provenance);
 }
 
@@ -71,9 +71,9 @@ int record_open(const struct state *state, int argc, char *const *argv, const st
                 struct record **ret_record)
 {
     struct record *record = mem_new(1, sizeof *record);
-    due_init(&record->snapshot_due, state->scene->snapshots);
-    due_init(&record->history_due, state->scene->history);
-    due_init(&record->checkpoint_due, state->scene->checkpoints);
+    due_init(&record->snapshot_due, state->scene->output.snapshots);
+    due_init(&record->history_due, state->scene->output.history);
+    due_init(&record->checkpoint_due, state->scene->output.checkpoints);
     due_written(&record->checkpoint_due, state->t, state->step); /* the start can be had again */
     int code = record_open_files(record, state, argc, argv);
     if (!code && from) code = record_recall(record, state, from);

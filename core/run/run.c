@@ -118,8 +118,8 @@ static int run_interruption(struct run *run)
 static bool run_is_over(struct run *run)
 {
     const struct state *state = run->state;
-    bool at_end = state->t >= run->scene->until;
-    bool at_limit = run->scene->max_steps > 0 && state->step >= run->scene->max_steps;
+    bool at_end = state->t >= run->scene->run.until;
+    bool at_limit = run->scene->run.max_steps > 0 && state->step >= run->scene->run.max_steps;
     if (at_end || at_limit) run_because(run, "finished%s", at_end ? "" : " at the step limit");
     run->shortened = run->shortened || (at_limit && !at_end && run->limited);
     return at_end || at_limit;
@@ -129,7 +129,7 @@ static bool run_is_over(struct run *run)
 static int run_step(struct run *run)
 {
     struct state *state = run->state;
-    double target = record_target(run->record, state->t, run->scene->until), left = target - state->t;
+    double target = record_target(run->record, state->t, run->scene->run.until), left = target - state->t;
     double take = due_step(advance_dt(state), left);
     TRY(advance_step(state, take));
     if (take == left && state->dt == take) state->t = target;
@@ -177,7 +177,7 @@ static void run_say_end(const struct run *run, int code)
     char time[HUMAN_ROOM], wall[HUMAN_ROOM], rate[HUMAN_ROOM];
     const struct state *state = run->state;
     double passed = progress_clock() - run->progress.start, work = run->progress.work;
-    const char *directory = run->scene->directory;
+    const char *directory = run->scene->output.directory;
     human_si(state->t, "s", time);
     if (code == 0)
         log_note("%s: t = %s, %ld steps, %s wall, %s cell updates/s; output in %s", run->reason, time, state->step,
@@ -191,7 +191,7 @@ static void run_say_end(const struct run *run, int code)
 /* A run leaves a checkpoint if it could go on: it did not come to the end of its case, or the case asks for them. */
 static bool run_may_go_on(const struct run *run, int code)
 {
-    const struct scene_every *every = &run->scene->checkpoints;
+    const struct scene_every *every = &run->scene->output.checkpoints;
     if (!run->state->whole) return false;
     return code || run->shortened || every->time > 0.0 || every->steps > 0;
 }
@@ -214,10 +214,10 @@ static int run_save(struct run *run, int code)
 static void run_say_unused(const struct run *run)
 {
     const struct scene *scene = run->scene;
-    long long *hits = mem_new(scene->n_refine + 1, sizeof *hits);
-    memcpy(hits, run->state->tagged, scene->n_refine * sizeof *hits);
-    comm_sum_counts(hits, (int)scene->n_refine);
-    for (unsigned i = 0; scene->levels > 0 && i < scene->n_refine; i++) {
+    long long *hits = mem_new(scene->mesh.n_refine + 1, sizeof *hits);
+    memcpy(hits, run->state->tagged, scene->mesh.n_refine * sizeof *hits);
+    comm_sum_counts(hits, (int)scene->mesh.n_refine);
+    for (unsigned i = 0; scene->mesh.levels > 0 && i < scene->mesh.n_refine; i++) {
         if (hits[i] > 0) continue;
         char *criterion = tag_describe(scene, i);
         log_warn("mesh.refine[%u], %s, has not tagged a single cell: lower its threshold, or leave it out", i,
@@ -243,8 +243,8 @@ static void run_dump(const struct run *run)
 /* The loop, and what ends it. */
 static int run_until_end(struct run *run)
 {
-    progress_begin(&run->progress, run->scene->name, run->scene->directory);
-    run->progress.share = run->state->t / run->scene->until;
+    progress_begin(&run->progress, run->scene->name, run->scene->output.directory);
+    run->progress.share = run->state->t / run->scene->run.until;
     int code = run_loop(run);
     progress_clear(&run->progress);
     if (code == STATUS_RUN) {
@@ -265,7 +265,7 @@ static int run_judge(struct run *run)
         log_note("expectations are not judged: the command line shortened the run");
         return 0;
     }
-    int code = expect_judge(run->scene, run->scene->directory, run->quiet || run->json);
+    int code = expect_judge(run->scene, run->scene->output.directory, run->quiet || run->json);
     return code > STATUS_EXPECT ? cli_failed(code) : code;
 }
 
@@ -281,7 +281,7 @@ static int run_units(const struct run *run, const char *directory)
 
 static int run_files(struct run *run, const struct cli_given *given)
 {
-    const char *directory = run->scene->directory;
+    const char *directory = run->scene->output.directory;
     TRY((run->in_place ? outdir_go_on : outdir_prepare)(directory));
     TRY(outdir_write(directory, "case.yaml", run->scene->resolved));
     TRY(run_units(run, directory));
@@ -299,8 +299,8 @@ static int run_files(struct run *run, const struct cli_given *given)
 /* With a state in memory: the directory, the files, the loop, the expectations. */
 static int run_in_directory(struct run *run, const struct cli_given *given)
 {
-    run->progress.until = run->scene->until;
-    run->progress.most_steps = run->scene->max_steps;
+    run->progress.until = run->scene->run.until;
+    run->progress.most_steps = run->scene->run.max_steps;
     progress_mesh(&run->progress, run->state->mesh, run->state->level_steps);
     int code = run_files(run, given);
     if (code) {
@@ -337,7 +337,7 @@ static int run_ranks(const struct cli_given *given, bool *ret_started, int *ret_
 /* The checkpoint to go on from, if the command line wants one. */
 static int run_find(struct run *run, const struct cli_given *given)
 {
-    const char *file = cli_value(given, "--restart"), *directory = run->scene->directory;
+    const char *file = cli_value(given, "--restart"), *directory = run->scene->output.directory;
     if (!file) return 0;
     TRY(*file ? resume_open(file, &run->from) : resume_newest(directory, &run->from));
     double in_place = outdir_holds(directory, "checkpoints", run->from->path) ? 1.0 : 0.0;
@@ -353,7 +353,7 @@ static int run_find(struct run *run, const struct cli_given *given)
 static int run_begin(struct run *run, const struct cli_given *given)
 {
     TRY(run_find(run, given));
-    if (!run->in_place) TRY(outdir_check(run->scene->directory, cli_value(given, "--overwrite") != NULL));
+    if (!run->in_place) TRY(outdir_check(run->scene->output.directory, cli_value(given, "--overwrite") != NULL));
     TRY(run->from ? rebuild_state(run->from, run->scene, &run->state) : state_new(run->scene, &run->state));
     run->step_0 = run->state->step;
     return 0;
@@ -380,7 +380,7 @@ int run_command(const struct cli_given *given)
     code = comm_agree(scenes_read(given, given->words[0], &run.scene));
     if (code) return code;
     run.limited = cli_value(given, "--max-steps") != NULL;
-    char *now = run.now = mem_print("%s/output_now", run.scene->directory);
+    char *now = run.now = mem_print("%s/output_now", run.scene->output.directory);
     code = run_begin(&run, given);
     if (cli_value(given, "--dry-run")) code = run_rehearse(&run, code);
     else if (code) cli_failed(code);

@@ -112,7 +112,7 @@ static void bound_fill_composed(const struct bound_fill *fill,
 
 static const struct scene_boundary *bound_fill_boundary(const struct bound_fill *fill)
 {
-    return &fill->bound->model->scene->boundary[fill->frame->axis][fill->side];
+    return &fill->bound->model->scene->domain.boundary[fill->frame->axis][fill->side];
 }
 
 /* Index of point c of a row among the cells of the tile's face. */

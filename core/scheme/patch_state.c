@@ -17,8 +17,8 @@ void patch_state_rules(const struct scene *scene, bool given, enum patch_rule re
 {
     static const enum patch_rule rules[] = {SCENE_BOUNDARY_TABLE(PATCH_STATE_RULE)};
     for (int face = 0; face < MESH_FACES; face++) {
-        enum patch_rule rule = rules[scene->boundary[face / 2][face % 2].type];
-        bool known = given && face < 2 * scene->dim;
+        enum patch_rule rule = rules[scene->domain.boundary[face / 2][face % 2].type];
+        bool known = given && face < 2 * scene->domain.dim;
         ret_rules[face] = rule == PATCH_GIVEN && !known ? PATCH_COPY : rule;
     }
 }

@@ -31,8 +31,8 @@
 double advance_dt(const struct state *state)
 {
     const struct scene *scene = state->scene;
-    if (scene->dt_fixed > 0.0) return scene->dt_fixed * state->dt_shrink;
-    return state->dt_shrink * scene->cfl / state->signal;
+    if (scene->scheme.dt_fixed > 0.0) return scene->scheme.dt_fixed * state->dt_shrink;
+    return state->dt_shrink * scene->scheme.cfl / state->signal;
 }
 
 /* Runs the plan once. */
@@ -68,7 +68,7 @@ static double advance_attempt(struct stage *stage, double *ret_signal, bool *ret
  * give is in vain tried again. */
 static double advance_rounds(struct state *state, struct stage *stage, double *ret_signal, bool *ret_blind)
 {
-    bool strict = state->scene->guard == SCENE_GUARD_STRICT;
+    bool strict = state->scene->scheme.guard == SCENE_GUARD_STRICT;
     stage->cells = stage->carried = stage->clipped = 0;
     stage->effort = (struct mix_effort){0};
     guard_clear(stage->guard);
@@ -133,7 +133,7 @@ static int advance_give_up(const struct state *state, struct stage *stage)
 {
     char cause[sizeof stage->guard->cause];
     memcpy(cause, stage->guard->cause, sizeof cause);
-    const char *tried = state->scene->guard == SCENE_GUARD_STRICT ? "guard: strict allows no repair"
+    const char *tried = state->scene->scheme.guard == SCENE_GUARD_STRICT ? "guard: strict allows no repair"
                                                                   : "first-order fluxes and smaller steps did not help";
     char face[BLAME_NAME + 64] = "";
     int code = STATUS_OK;
@@ -171,7 +171,7 @@ static int advance_too_slow(const struct state *state, int l, double t, double d
     double least = pace_least(state, l);
     char limit[96], repeated[96] = "";
     int code = STATUS_OK;
-    if (state->scene->dt_least >= 0.0 && dt < least) snprintf(limit, sizeof limit, "below run.smallest-step");
+    if (state->scene->run.dt_least >= 0.0 && dt < least) snprintf(limit, sizeof limit, "below run.smallest-step");
     else if (dt < least)
         snprintf(limit, sizeof limit, "below %.3g of the longest so far", pace_least(state, 0) / state->dt_longest);
     else snprintf(limit, sizeof limit, "which t does not notice");
@@ -290,12 +290,12 @@ static int advance_regrid(struct state *state, int l, bool last)
 static int advance_through(struct state *state, int l, double t, double dt)
 {
     struct stage *stage = state->stages[l];
-    double done = 0.0, part = state->scene->subcycle ? 0.5 : 1.0, most = ADVANCE_EXCESS * state->scene->cfl;
+    double done = 0.0, part = state->scene->mesh.subcycle ? 0.5 : 1.0, most = ADVANCE_EXCESS * state->scene->scheme.cfl;
     int retries = 0;
     while (done < 1.0) {
         bool good;
         stage->t = t + done * dt;
-        while (state->scene->dt_fixed <= 0.0 && part * dt * state->signals[l] > most && part > ADVANCE_PART &&
+        while (state->scene->scheme.dt_fixed <= 0.0 && part * dt * state->signals[l] > most && part > ADVANCE_PART &&
                pace_allows(state, l, stage->t, part * dt))
             part *= 0.5;
         stage->dt = part * dt;
@@ -304,7 +304,7 @@ static int advance_through(struct state *state, int l, double t, double dt)
         if (!pace_allows(state, l, stage->t, stage->dt)) return advance_too_slow(state, l, stage->t, stage->dt);
         TRY(advance_once(state, stage, &good));
         if (!good) {
-            if (state->scene->guard == SCENE_GUARD_STRICT || ++retries > GUARD_RETRIES)
+            if (state->scene->scheme.guard == SCENE_GUARD_STRICT || ++retries > GUARD_RETRIES)
                 return advance_give_up(state, stage);
             state->counts.retries++;
             part *= 0.5;
@@ -349,7 +349,7 @@ int advance_step(struct state *state, double dt_most)
         stage->part = 1.0;
         TRY(advance_once(state, stage, &good));
         if (good) return advance_follow(state);
-        if (state->scene->guard == SCENE_GUARD_STRICT) break;
+        if (state->scene->scheme.guard == SCENE_GUARD_STRICT) break;
         state->counts.retries++;
         state->dt_shrink *= 0.5;
         dt *= 0.5;

@@ -35,7 +35,7 @@ static const struct tableau_stage *blame_row(const struct blame_facts *facts)
 static size_t blame_frame_cells(const struct model *model, const struct blame_facts *facts, int axis)
 {
     size_t n = (size_t)facts->n[axis];
-    return facts->n_cell / n * (n + 2 * (size_t)model->scene->ghosts);
+    return facts->n_cell / n * (n + 2 * (size_t)model->scene->scheme.ghosts);
 }
 
 /* Blocks that hold frames, marks, faces; they exist where a stage was gone through. */
@@ -185,7 +185,7 @@ struct blame *blame_new(const struct model *model, const struct guard *guard)
     blame->local = found->local;
     facts->rank = comm_rank();
     facts->level = guard->l;
-    facts->integrator = (int)model->scene->integrator;
+    facts->integrator = (int)model->scene->scheme.integrator;
     facts->stage = found->stage;
     facts->covered = tile->covered;
     facts->n_cell = (unsigned)mesh->n_cell;

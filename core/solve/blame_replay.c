@@ -30,20 +30,20 @@ static void blame_replay_mesh(struct replay *replay)
     const struct blame_facts *facts = &replay->blame->facts;
     const struct scene *scene = replay->model->scene;
     struct mesh *mesh = &replay->mesh;
-    *mesh = (struct mesh){.dim = scene->dim,
-                          .beta = (int)scene->geometry,
+    *mesh = (struct mesh){.dim = scene->domain.dim,
+                          .beta = (int)scene->domain.geometry,
                           .n_cell = facts->n_cell,
                           .n_field = replay->model->n_field,
                           .n_alpha = replay->model->n_alpha,
-                          .ghosts = scene->ghosts,
+                          .ghosts = scene->scheme.ghosts,
                           .n_level = facts->level + 1};
     replay->tile = (struct tile){.covered = (unsigned char)facts->covered};
     replay->level = &mesh->levels[facts->level];
     *replay->level = (struct level){.n_tile = 1, .n_local = 1, .tiles = &replay->tile};
     for (int d = 0; d < 3; d++) {
         mesh->n[d] = facts->n[d];
-        mesh->lower[d] = d < scene->dim ? scene->lower[d] : 0.0;
-        mesh->upper[d] = d < scene->dim ? scene->upper[d] : 1.0;
+        mesh->lower[d] = d < scene->domain.dim ? scene->domain.lower[d] : 0.0;
+        mesh->upper[d] = d < scene->domain.dim ? scene->domain.upper[d] : 1.0;
         replay->tile.at[d] = facts->tile[d];
         replay->level->h[d] = facts->h[d];
         replay->level->extent[d] = facts->extent[d];

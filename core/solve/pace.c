@@ -16,9 +16,9 @@
 double pace_least(const struct state *state, int l)
 {
     const struct scene *scene = state->scene;
-    double least = scene->dt_least;
-    if (least < 0.0) least = PACE_LEAST * (scene->subcycle ? 1.0 : ldexp(1.0, -scene->levels)) * state->dt_longest;
-    return scene->subcycle ? ldexp(least, -l) : least;
+    double least = scene->run.dt_least;
+    if (least < 0.0) least = PACE_LEAST * (scene->mesh.subcycle ? 1.0 : ldexp(1.0, -scene->mesh.levels)) * state->dt_longest;
+    return scene->mesh.subcycle ? ldexp(least, -l) : least;
 }
 
 bool pace_allows(const struct state *state, int l, double t, double dt)
@@ -93,7 +93,7 @@ static int pace_level(const struct state *state, int l)
 {
     int found = l;
     double most = 0.0, per_step = 1.0;
-    for (int k = l; k < state->mesh->n_level; k++, per_step *= state->scene->subcycle ? 2.0 : 1.0) {
+    for (int k = l; k < state->mesh->n_level; k++, per_step *= state->scene->mesh.subcycle ? 2.0 : 1.0) {
         if (!(state->signals[k] / per_step > most)) continue;
         most = state->signals[k] / per_step;
         found = k;

@@ -62,11 +62,11 @@ static void plan_line(const struct tableau *tableau, const struct plan_step *ste
 static void plan_faces(const struct scene *scene, struct text *text)
 {
     text_add(text, "L(w), tile by tile and axis by axis: gather %d layers of neighbours, reconstruction (%s with %s",
-             scene->ghosts, scene->reconstruction.module->name, scene->limiter.module->name);
-    if (scene->n_material > 1) text_add(text, "; alpha: %s", scene->interface_limiter.module->name);
+             scene->scheme.ghosts, scene->scheme.reconstruction.module->name, scene->scheme.limiter.module->name);
+    if (scene->n_material > 1) text_add(text, "; alpha: %s", scene->scheme.interface_limiter.module->name);
     text_add(text, "), states (");
     plan_laws(scene, text);
-    text_add(text, "), fluxes (%s); then\n", scene->riemann.module->name);
+    text_add(text, "), fluxes (%s); then\n", scene->scheme.riemann.module->name);
 }
 
 /* How the steps of levels follow each other (advance.c, sync.c, regrid.c). */
@@ -80,8 +80,8 @@ static void plan_levels(const struct scene *scene, struct text *text)
              "  after each step of a level the next finer one takes %s to the same time, its ghosts interpolated\n"
              "  in space (primitives, minmod) and time; then averages of the finer level, and %s;\n"
              "  every %d steps of a level the finer ones get new tiles from %u criteria\n",
-             scene->levels, scene->subcycle ? "two steps of half the size" : "one step", reflux[scene->reflux],
-             scene->regrid_every, scene->n_refine);
+             scene->mesh.levels, scene->mesh.subcycle ? "two steps of half the size" : "one step", reflux[scene->mesh.reflux],
+             scene->mesh.regrid_every, scene->mesh.n_refine);
 }
 
 void plan_text(const struct model *model, struct text *ret_text)
@@ -89,7 +89,7 @@ void plan_text(const struct model *model, struct text *ret_text)
     const struct scene *scene = model->scene;
     const struct tableau *tableau = tableau_of(scene);
     const struct plan *plan = plan_of(tableau);
-    text_add(ret_text, "one step of %s (%s):\n", scene->levels ? "each level" : "level 0", tableau->doc);
+    text_add(ret_text, "one step of %s (%s):\n", scene->mesh.levels ? "each level" : "level 0", tableau->doc);
     for (int i = 0; i < plan->n; i++) {
         text_add(ret_text, "  %d  %-8s  ", i + 1, plan->step[i].name);
         plan_line(tableau, &plan->step[i], ret_text);
@@ -97,7 +97,7 @@ void plan_text(const struct model *model, struct text *ret_text)
     }
     plan_faces(scene, ret_text);
     terms_say(model, ret_text);
-    if (scene->levels) plan_levels(scene, ret_text);
+    if (scene->mesh.levels) plan_levels(scene, ret_text);
     text_add(ret_text,
              "then: an inadmissible cell makes the step run again with first-order states and rusanov fluxes at its\n"
              "faces (3 rounds), then with half the time step (6 times), then the run stops with the place and cause\n");

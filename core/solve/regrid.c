@@ -34,7 +34,7 @@ struct regrid {
 
 bool regrid_due(const struct state *state, int base)
 {
-    return base < state->mesh->most_level && state->level_steps[base] % state->scene->regrid_every == 0;
+    return base < state->mesh->most_level && state->level_steps[base] % state->scene->mesh.regrid_every == 0;
 }
 
 void regrid_signals(struct state *state)
@@ -46,7 +46,7 @@ void regrid_signals(struct state *state)
     double per_step = 1.0; /* steps of a level in one of level 0 */
     for (int l = 0; l < mesh->n_level; l++) {
         if (state->signals[l] / per_step > state->signal) state->signal = state->signals[l] / per_step;
-        if (state->scene->subcycle) per_step *= 2.0;
+        if (state->scene->mesh.subcycle) per_step *= 2.0;
     }
 }
 
@@ -61,7 +61,7 @@ static int regrid_tag(struct regrid *regrid, struct derive_moment *moment, int l
     for (unsigned t = 0; t < level->n_local; t++) marks[t] = all + t * mesh->n_cell;
     int status = tag_level(moment, l, state->stages[l]->guard->halo, marks, state->tagged);
     for (unsigned t = 0; t < level->n_local && !status; t++)
-        nest_wish(mesh, level, &level->tiles[level->first + t], marks[t], state->scene->buffer, &regrid->wishes[l + 1]);
+        nest_wish(mesh, level, &level->tiles[level->first + t], marks[t], state->scene->mesh.buffer, &regrid->wishes[l + 1]);
     mem_free(all);
     mem_free(marks);
     return comm_agree(status);
@@ -182,7 +182,7 @@ static void regrid_partition(struct regrid *regrid)
         return;
     }
     for (int l = 0; l < mesh->n_level; l++) before[l] = regrid_costs(state->stages[l]);
-    for (int l = 0; l <= mesh->most_level; l++, weight *= state->scene->subcycle ? 2.0 : 1.0) {
+    for (int l = 0; l <= mesh->most_level; l++, weight *= state->scene->mesh.subcycle ? 2.0 : 1.0) {
         if (l <= regrid->base) regrid_load(regrid, l, before[l], weight, load);
         if (l <= regrid->base) continue;
         if (!regrid->sets[l].n) break;
@@ -199,7 +199,7 @@ static bool regrid_affords(const struct regrid *regrid)
 {
     struct state *state = regrid->state;
     const struct mesh *mesh = state->mesh;
-    double tiles = 0.0, limit = state->scene->memory_limit;
+    double tiles = 0.0, limit = state->scene->mesh.memory_limit;
     for (int l = 0; l <= regrid->base; l++) tiles += mesh->levels[l].n_tile;
     for (int l = regrid->base + 1; l <= mesh->most_level; l++) tiles += regrid->sets[l].n;
     if (limit <= 0.0 || mesh_bytes(mesh, tiles) <= limit) return true;
@@ -215,7 +215,7 @@ int regrid_verdict(const struct state *state)
         "at t = %.9g s refinement asks for %.0f tiles, %.4g GiB, but may take %.4g GiB (--max-memory, else what the "
         "machine has): allow more, or fewer levels, or a higher threshold",
         state->t, state->starved, mesh_bytes(state->mesh, state->starved) / 1073741824.0,
-        state->scene->memory_limit / 1073741824.0);
+        state->scene->mesh.memory_limit / 1073741824.0);
 }
 
 static int regrid_paint(struct state *state, int l, const bool *born)
@@ -301,7 +301,7 @@ int regrid_levels(struct state *state, int base)
 {
     struct regrid regrid = {.state = state, .base = base};
     clock_t begin = clock();
-    int status = regrid_sets(&regrid, state->scene->patience);
+    int status = regrid_sets(&regrid, state->scene->mesh.patience);
     if (!status && !regrid_is_idle(&regrid) && regrid_affords(&regrid))
         status = regrid_apply(&regrid, REGRID_INTERPOLATED);
     regrid_free(&regrid);

@@ -47,7 +47,7 @@ static struct state *state_blank(const struct scene *scene)
     state->dt_shrink = 1.0;
     state->whole = true;
     state->model = model_new(scene);
-    state->tagged = mem_new(scene->n_refine + 1, sizeof *state->tagged);
+    state->tagged = mem_new(scene->mesh.n_refine + 1, sizeof *state->tagged);
     return state;
 }
 

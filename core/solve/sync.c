@@ -193,7 +193,7 @@ static int sync_tile_faces(struct stage *stage, unsigned local, struct sync_work
 {
     memcpy(work->before, stage->level->u_old[local],
            stage->model->n_field * stage->mesh->n_cell * sizeof *work->before);
-    if (stage->model->scene->reflux == SCENE_REFLUX_OFF) {
+    if (stage->model->scene->mesh.reflux == SCENE_REFLUX_OFF) {
         sync_touch(stage, local);
         return STATUS_OK;
     }

@@ -24,7 +24,7 @@ const struct tableau *tableau_numbered(int integrator)
 
 const struct tableau *tableau_of(const struct scene *scene)
 {
-    return tableau_numbered((int)scene->integrator);
+    return tableau_numbered((int)scene->scheme.integrator);
 }
 
 int tableau_named(const char *name)

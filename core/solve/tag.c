@@ -368,8 +368,8 @@ int tag_level(struct derive_moment *moment, int l, struct halo *halo, double **m
     tag.radius = 1.001 * sqrt(tag.radius);
     for (unsigned i = 0; i < tag.level->n_local; i++) memset(marks[i], 0, mesh->n_cell * sizeof **marks);
     tag.pair = (struct tag_pair){mesh, tag.level, halo, mem_new(mesh->n_cell, sizeof(double))};
-    for (unsigned c = 0; c < scene->n_refine && !status; c++) {
-        tag.refine = &scene->refines[c];
+    for (unsigned c = 0; c < scene->mesh.n_refine && !status; c++) {
+        tag.refine = &scene->mesh.refines[c];
         tag.hits = 0;
         if (tag.refine->finest <= l || t < tag.refine->t_from || t > tag.refine->t_until) continue;
         status = tag_criterion(&tag);
@@ -392,7 +392,7 @@ static void tag_describe_bounds(const struct scene_refine *refine, struct text *
 
 char *tag_describe(const struct scene *scene, unsigned criterion)
 {
-    const struct scene_refine *refine = &scene->refines[criterion];
+    const struct scene_refine *refine = &scene->mesh.refines[criterion];
     struct text text = {0};
     text_add(&text, "mesh.refine[%u] (line %d): ", criterion, refine->line);
     switch (refine->kind) {
@@ -410,7 +410,7 @@ char *tag_describe(const struct scene *scene, unsigned criterion)
     case SCENE_REFINE_REGION: text_add(&text, "region"); break;
     }
     if (refine->where && refine->kind != SCENE_REFINE_REGION) text_add(&text, ", in a region");
-    if (refine->finest < scene->levels) text_add(&text, ", to level %d", refine->finest);
+    if (refine->finest < scene->mesh.levels) text_add(&text, ", to level %d", refine->finest);
     if (refine->t_from > 0) text_add(&text, ", from %g s", refine->t_from);
     if (isfinite(refine->t_until)) text_add(&text, ", until %g s", refine->t_until);
     return text.at;

@@ -79,7 +79,7 @@ int map_table_column(const struct map_table *map, const char *field, const doubl
 
 char *map_table_place(const struct map_table *map)
 {
-    bool round = map->scene && map->scene->geometry != SCENE_CARTESIAN;
+    bool round = map->scene && map->scene->domain.geometry != SCENE_CARTESIAN;
     const char *column = map->table.names[1], *symbol = column;
     if (round && *column == 'x') symbol = "r";
     if (round && *column == 'y') symbol = "z";

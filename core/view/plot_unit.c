@@ -41,8 +41,8 @@ const char *plot_unit_of(const struct scene *scene, const char *column)
     const char *dot = strchr(column, '.');
     if (dot) return unit_of_field(dot + 1);
     if (strcmp(column, "dt") == 0) return "s";
-    for (unsigned c = 0; scene && c < scene->n_column; c++)
-        if (strcmp(scene->columns[c].name, column) == 0)
-            return units_of(scene, &scene->columns[c], unit_of_field(scene->columns[c].field));
+    for (unsigned c = 0; scene && c < scene->output.n_column; c++)
+        if (strcmp(scene->output.columns[c].name, column) == 0)
+            return units_of(scene, &scene->output.columns[c], unit_of_field(scene->output.columns[c].field));
     return "";
 }

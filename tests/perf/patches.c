@@ -24,12 +24,12 @@ static double seconds(void)
 
 static struct mesh *domain(int dim, int tiles, int n, unsigned n_field)
 {
-    struct scene scene = {.dim = dim, .tile = n, .levels = 1, .cells_place = "bench"};
+    struct scene scene = {.domain = {.dim = dim, .cells_place = "bench"}, .mesh = {.tile = n, .levels = 1}};
     struct mesh *mesh;
     for (int d = 0; d < 3; d++) {
-        scene.cells[d] = d < dim ? tiles * n : 1;
-        scene.upper[d] = d < dim ? 1.0 : 0.0;
-        scene.boundary[d][0].type = scene.boundary[d][1].type = SCENE_PERIODIC;
+        scene.domain.cells[d] = d < dim ? tiles * n : 1;
+        scene.domain.upper[d] = d < dim ? 1.0 : 0.0;
+        scene.domain.boundary[d][0].type = scene.domain.boundary[d][1].type = SCENE_PERIODIC;
     }
     if (mesh_new(&scene, n_field, 2, &mesh)) comm_abort(1);
     return mesh;

@@ -65,7 +65,7 @@ static bool is_covered(const struct flow *flow, int l, const int at[3])
 static bool is_deep(const struct flow *flow, int l, const int at[3])
 {
     int from[3] = {0}, to[3] = {0}, i[3];
-    for (int d = 0; d < flow->scene->dim; d++) from[d] = -REACH, to[d] = REACH;
+    for (int d = 0; d < flow->scene->domain.dim; d++) from[d] = -REACH, to[d] = REACH;
     for (i[2] = from[2]; i[2] <= to[2]; i[2]++)
         for (i[1] = from[1]; i[1] <= to[1]; i[1]++)
             for (i[0] = from[0]; i[0] <= to[0]; i[0]++)
@@ -128,7 +128,7 @@ static void check(const struct setup *setup, long (*poison)(const struct flow *f
     start(&clean, setup);
     start(&dirty, setup);
     long poisoned = 0;
-    for (int step = 0; step < STEPS / clean.scene->dim; step++) {
+    for (int step = 0; step < STEPS / clean.scene->domain.dim; step++) {
         poisoned += poison(&dirty);
         flow_steps(&clean, 1);
         flow_steps(&dirty, 1);

@@ -111,7 +111,7 @@ static void check_stream(const struct setup *setup, bool alone, const char *more
     flow_start(&flow, stream_case(setup, alone, more));
     memcpy(stretch, setup->V, sizeof stretch);
     amr_set(&flow, set_stretch, NULL);
-    assert_true(flow.state->mesh->n_level == flow.scene->levels + 1);
+    assert_true(flow.state->mesh->n_level == flow.scene->mesh.levels + 1);
     for (unsigned q = 0; q < flow.state->model->n_field; q++)
         first[q] = flow.state->mesh->levels[0].w[0][q * flow.state->mesh->n_cell];
     flow_steps(&flow, STREAM_STEPS);

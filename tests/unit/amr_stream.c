@@ -75,7 +75,7 @@ static void test_uniform(void **state)
         struct flow flow;
         double first[FLOW_FIELDS];
         flow_start(&flow, stream_case(&SETUPS[i], "1e5", SETUPS[i].velocity, ""));
-        assert_true(flow.state->mesh->n_level == flow.scene->levels + 1);
+        assert_true(flow.state->mesh->n_level == flow.scene->mesh.levels + 1);
         for (unsigned q = 0; q < flow.state->model->n_field; q++)
             first[q] = flow.state->mesh->levels[0].w[0][q * flow.state->mesh->n_cell];
         flow_steps(&flow, STEPS);

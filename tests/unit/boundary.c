@@ -178,7 +178,7 @@ static void check_traits(enum scene_boundary_type type)
                                 "initial:\n  - {everywhere: true, material: air, density: 1, pressure: 1e5}\n"
                                 "run: {until: 1}\n",
                                 type == SCENE_AXIS ? "symmetry" : written(type)));
-    flow.scene->boundary[1][1].type = type; /* no case has the axis there, but it can be filled */
+    flow.scene->domain.boundary[1][1].type = type; /* no case has the axis there, but it can be filled */
     look_behind(&flow, &equal, &pure);
     print_message("%s: %s beside rest", scene_boundary_name(type), equal ? "rest" : "motion");
     if (scene_boundary_is(flow.scene, 3, SCENE_BOUNDARY_RESTS)) assert_true(equal);

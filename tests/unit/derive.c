@@ -145,9 +145,9 @@ static void check_curl(const char *domain, const double wanted[3])
         double x[3];
         bool edge = false;
         flow_centre(&flow, c, x);
-        for (int d = 0; d < flow.scene->dim; d++) {
+        for (int d = 0; d < flow.scene->domain.dim; d++) {
             double h = flow_level(&flow)->h[d];
-            edge = edge || x[d] - flow.scene->lower[d] < h || flow.scene->upper[d] - x[d] < h;
+            edge = edge || x[d] - flow.scene->domain.lower[d] < h || flow.scene->domain.upper[d] - x[d] < h;
         }
         if (edge) continue;
         for (unsigned d = 0; d < 3; d++) assert_true(fabs(curl[d][c] - wanted[d]) <= 1e-12 * 20.0);

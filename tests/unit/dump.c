@@ -273,8 +273,8 @@ static void filed_start(struct filed *filed)
     assert_non_null(mkdtemp(filed->folder));
     flow_start(&filed->flow,
                hopeless(disc, "[0, '= y > -0.6 and 500 or -500']", FLOW_WATER FLOW_AIR, "{limiter: mc, dt: 10 ms}"));
-    mem_free(filed->flow.scene->directory);
-    filed->flow.scene->directory = mem_text(filed->folder);
+    mem_free(filed->flow.scene->output.directory);
+    filed->flow.scene->output.directory = mem_text(filed->folder);
     fail_at_last(&filed->flow, 5);
     if (dump_write(filed->flow.state, "{\"modules\": []}", &filed->path)) fail_msg("%s", status_text());
     assert_non_null(filed->path);

@@ -53,7 +53,7 @@ static inline int flow_open(struct flow *flow, char *text)
     if (scene_read(path, NULL, &flow->scene)) fail_msg("%s\n%s", status_text(), text);
     unlink(path);
     mem_free(text);
-    for (int d = 0; d < flow->scene->dim; d++) flow->n_cell *= (size_t)flow->scene->cells[d];
+    for (int d = 0; d < flow->scene->domain.dim; d++) flow->n_cell *= (size_t)flow->scene->domain.cells[d];
     return state_new(flow->scene, &flow->state);
 }
 
@@ -94,10 +94,10 @@ static inline void flow_centre(const struct flow *flow, size_t index, double ret
 {
     const struct scene *scene = flow->scene;
     for (int d = 0; d < 3; d++) {
-        size_t n = (size_t)scene->cells[d], i = d < scene->dim ? index % n : 0;
-        double width = d < scene->dim ? (scene->upper[d] - scene->lower[d]) / scene->cells[d] : 0.0;
-        ret_x[d] = d < scene->dim ? scene->lower[d] + ((double)i + 0.5) * width : 0.0;
-        if (d < scene->dim) index /= n;
+        size_t n = (size_t)scene->domain.cells[d], i = d < scene->domain.dim ? index % n : 0;
+        double width = d < scene->domain.dim ? (scene->domain.upper[d] - scene->domain.lower[d]) / scene->domain.cells[d] : 0.0;
+        ret_x[d] = d < scene->domain.dim ? scene->domain.lower[d] + ((double)i + 0.5) * width : 0.0;
+        if (d < scene->domain.dim) index /= n;
     }
 }
 

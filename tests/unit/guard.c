@@ -148,12 +148,12 @@ static void test_creeping(void **state)
     check_says((const char *const[]){"below 1e-06 of the longest so far", "repeated have left 5e-07", "water (",
                                      "temperature", "in the cell at (", NULL});
     assert_true(flow.state->t == t && flow.state->step == 4);
-    flow.scene->dt_least = 0.0;
+    flow.scene->run.dt_least = 0.0;
     assert_int_equal(advance_step(flow.state, HUGE_VAL), STATUS_OK);
     flow.state->dt_shrink = 1e-18;
     assert_int_equal(advance_step(flow.state, HUGE_VAL), STATUS_RUN);
     check_says((const char *const[]){"which t does not notice", "sound speed", NULL});
-    flow.scene->dt_least = 1.0;
+    flow.scene->run.dt_least = 1.0;
     flow.state->dt_shrink = 1.0;
     assert_int_equal(advance_step(flow.state, HUGE_VAL), STATUS_RUN);
     check_says((const char *const[]){"below run.smallest-step", NULL});

@@ -54,7 +54,7 @@ static void start_case(struct small *small)
     char *text = mem_print("%s%s", SMALL_AXISYMMETRIC, columns);
     small_start(small, text);
     mem_free(text);
-    assert_int_equal(small->scene->n_column, COUNT);
+    assert_int_equal(small->scene->output.n_column, COUNT);
 }
 
 static void close_to(double value, double expected, double relative)

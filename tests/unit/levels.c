@@ -341,24 +341,25 @@ static void test_removal(void **state)
 static void test_sides(void **state)
 {
     (void)state;
-    struct scene scene = {.dim = 2, .cells = {60, 90, 1}, .ghosts = SCENE_GHOSTS, .cells_place = "case.yaml:5:10"};
+    struct scene scene = {.domain = {.dim = 2, .cells = {60, 90, 1}, .cells_place = "case.yaml:5:10"},
+                          .scheme = {.ghosts = SCENE_GHOSTS}};
     assert_int_equal(mesh_tile_size(&scene), 15);
-    scene.levels = 2;
+    scene.mesh.levels = 2;
     assert_int_equal(mesh_tile_size(&scene), 6);
-    scene.tile = 5;
+    scene.mesh.tile = 5;
     assert_int_equal(mesh_tile_size(&scene), 0);
     assert_non_null(strstr(status_text(), "case.yaml:5:10: mesh.tile: 5 cannot be refined"));
-    scene.tile = 6;
+    scene.mesh.tile = 6;
     assert_int_equal(mesh_tile_size(&scene), 6);
-    scene.tile = 0;
-    scene.cells[0] = 45;
+    scene.mesh.tile = 0;
+    scene.domain.cells[0] = 45;
     assert_int_equal(mesh_tile_size(&scene), 0);
     assert_non_null(strstr(status_text(), "no common even tile side"));
-    scene.cells[0] = scene.cells[1] = 1 << 14;
-    scene.levels = 12;
+    scene.domain.cells[0] = scene.domain.cells[1] = 1 << 14;
+    scene.mesh.levels = 12;
     assert_int_equal(mesh_tile_size(&scene), 0);
     assert_non_null(strstr(status_text(), "fewer mesh.levels"));
-    scene.levels = 10;
+    scene.mesh.levels = 10;
     assert_int_equal(mesh_tile_size(&scene), 8);
 }
 

@@ -191,17 +191,15 @@ static inline void levels_fill(struct levels *levels, int l)
 
 static inline void levels_open(struct levels *levels, const struct levels_shape *shape, uint64_t seed)
 {
-    struct scene scene = {.dim = shape->dim,
-                          .levels = shape->levels,
-                          .tile = shape->n,
-                          .ghosts = seed % 2 && shape->n >= 6 ? SCENE_GHOSTS_MOST : SCENE_GHOSTS,
-                          .cells_place = "case.yaml:1:1"};
+    struct scene scene = {.domain = {.dim = shape->dim, .cells_place = "case.yaml:1:1"},
+                          .mesh = {.levels = shape->levels, .tile = shape->n},
+                          .scheme = {.ghosts = seed % 2 && shape->n >= 6 ? SCENE_GHOSTS_MOST : SCENE_GHOSTS}};
     for (int d = 0; d < 3; d++) {
-        scene.cells[d] = d < shape->dim ? shape->tiles[d] * shape->n : 1;
-        scene.lower[d] = d < shape->dim ? -1.5 : 0.0;
-        scene.upper[d] = d < shape->dim ? 0.25 * scene.cells[d] - 1.5 : 0.0;
+        scene.domain.cells[d] = d < shape->dim ? shape->tiles[d] * shape->n : 1;
+        scene.domain.lower[d] = d < shape->dim ? -1.5 : 0.0;
+        scene.domain.upper[d] = d < shape->dim ? 0.25 * scene.domain.cells[d] - 1.5 : 0.0;
         for (int side = 0; side < 2; side++)
-            scene.boundary[d][side].type = shape->periodic[d] ? SCENE_PERIODIC : SCENE_OUTFLOW;
+            scene.domain.boundary[d][side].type = shape->periodic[d] ? SCENE_PERIODIC : SCENE_OUTFLOW;
     }
     *levels = (struct levels){.shape = *shape, .seed = seed};
     assert_int_equal(mesh_new(&scene, LEVELS_FIELDS, 1, &levels->mesh), STATUS_OK);

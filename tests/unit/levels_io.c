@@ -40,7 +40,7 @@ static void start_case(struct small *small)
     char *text = mem_print("%s%s", SMALL_AXISYMMETRIC, columns);
     small_start_levels(small, text, 2);
     mem_free(text);
-    assert_int_equal(small->scene->n_column, COUNT);
+    assert_int_equal(small->scene->output.n_column, COUNT);
 }
 
 static void refine(struct small *small)

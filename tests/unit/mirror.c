@@ -51,7 +51,7 @@ static void start(struct flow *flow, int dim, const char *scheme, const double s
 /* Cell of the plain run that cell c of the mapped one shows. */
 static size_t source_of(const struct flow *flow, size_t c, const double sign[3], const int axis[3])
 {
-    size_t n = (size_t)flow->scene->cells[0], at[3] = {0}, from[3] = {0}, dim = (size_t)flow->scene->dim;
+    size_t n = (size_t)flow->scene->domain.cells[0], at[3] = {0}, from[3] = {0}, dim = (size_t)flow->scene->domain.dim;
     for (size_t d = 0; d < dim; d++, c /= n) at[d] = c % n;
     for (size_t d = 0; d < dim; d++) from[axis[d]] = sign[d] < 0.0 ? n - 1 - at[d] : at[d];
     return from[0] + n * (dim > 1 ? from[1] : 0) + n * n * from[2];

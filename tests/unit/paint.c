@@ -98,7 +98,7 @@ static int paint_scene(const char *domain, const char *initial, bool alone, stru
     if (mesh_new(canvas->scene, canvas->model->n_field, canvas->model->n_alpha, &canvas->mesh))
         fail_msg("%s", status_text());
     canvas->n_cell = 1;
-    for (int d = 0; d < canvas->scene->dim; d++) canvas->n_cell *= (size_t)canvas->scene->cells[d];
+    for (int d = 0; d < canvas->scene->domain.dim; d++) canvas->n_cell *= (size_t)canvas->scene->domain.cells[d];
     canvas->u = mem_new(canvas->n_cell * canvas->model->n_field, sizeof *canvas->u);
     canvas->volume = mem_new(canvas->n_cell, sizeof *canvas->volume);
     return paint_all(canvas);

@@ -221,7 +221,7 @@ static void tiles_change_no_bit(void **state)
                 flow_set(&flow, set_state);
                 double *all = whole(&flow, 2, &same);
                 size_t cells = flow.state->model->n_field;
-                for (int d = 0; d < flow.scene->dim; d++) cells *= (size_t)flow.scene->cells[d] + 4;
+                for (int d = 0; d < flow.scene->domain.dim; d++) cells *= (size_t)flow.scene->domain.cells[d] + 4;
                 assert_true(same);
                 if (first) assert_memory_equal(all, first, cells * sizeof *all);
                 if (!first) first = all;

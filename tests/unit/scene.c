@@ -185,29 +185,29 @@ static void the_least_case_has_all_defaults(void **state)
     (void)state;
     struct scene *scene = good("minimal");
     assert_string_equal(scene->name, "minimal");
-    assert_int_equal(scene->dim, 1);
-    assert_int_equal(scene->geometry, SCENE_CARTESIAN);
-    assert_int_equal(scene->cells[0], 10);
-    assert_int_equal(scene->cells[1], 1);
-    assert_int_equal(scene->levels, 0);
-    assert_int_equal(scene->regrid_every, 4);
-    assert_int_equal(scene->buffer, 4);
-    assert_int_equal(scene->patience, 2);
-    assert_true(scene->subcycle);
-    assert_int_equal(scene->reflux, SCENE_REFLUX_CORRECTED);
-    assert_int_equal(scene->n_refine, 0);
-    assert_int_equal(scene->closure, SCENE_KAPILA);
-    assert_string_equal(scene->riemann.module->name, "hllc");
-    assert_string_equal(scene->limiter.module->name, "mc");
-    assert_true(scene->cfl == 0.4);
-    assert_true(scene->dt_fixed == 0.0);
-    assert_int_equal(scene->guard, SCENE_GUARD_NORMAL);
-    assert_int_equal(scene->max_steps, 0);
-    assert_string_equal(scene->directory, "out/minimal");
-    assert_int_equal(scene->history.steps, 1);
-    assert_int_equal(scene->snapshots.steps, 0);
-    assert_true(scene->snapshots.time == 0.0);
-    assert_int_equal(scene->n_column, 0);
+    assert_int_equal(scene->domain.dim, 1);
+    assert_int_equal(scene->domain.geometry, SCENE_CARTESIAN);
+    assert_int_equal(scene->domain.cells[0], 10);
+    assert_int_equal(scene->domain.cells[1], 1);
+    assert_int_equal(scene->mesh.levels, 0);
+    assert_int_equal(scene->mesh.regrid_every, 4);
+    assert_int_equal(scene->mesh.buffer, 4);
+    assert_int_equal(scene->mesh.patience, 2);
+    assert_true(scene->mesh.subcycle);
+    assert_int_equal(scene->mesh.reflux, SCENE_REFLUX_CORRECTED);
+    assert_int_equal(scene->mesh.n_refine, 0);
+    assert_int_equal(scene->scheme.closure, SCENE_KAPILA);
+    assert_string_equal(scene->scheme.riemann.module->name, "hllc");
+    assert_string_equal(scene->scheme.limiter.module->name, "mc");
+    assert_true(scene->scheme.cfl == 0.4);
+    assert_true(scene->scheme.dt_fixed == 0.0);
+    assert_int_equal(scene->scheme.guard, SCENE_GUARD_NORMAL);
+    assert_int_equal(scene->run.max_steps, 0);
+    assert_string_equal(scene->output.directory, "out/minimal");
+    assert_int_equal(scene->output.history.steps, 1);
+    assert_int_equal(scene->output.snapshots.steps, 0);
+    assert_true(scene->output.snapshots.time == 0.0);
+    assert_int_equal(scene->output.n_column, 0);
     scene_free(scene);
 }
 
@@ -215,14 +215,14 @@ static void the_design_case_is_understood(void **state)
 {
     (void)state;
     struct scene *scene = good("design");
-    assert_int_equal(scene->geometry, SCENE_AXISYMMETRIC);
-    assert_true(scene->lower[1] == -0.25e-3 && scene->upper[0] == 0.25e-3);
-    const struct scene_boundary *top = &scene->boundary[1][1];
+    assert_int_equal(scene->domain.geometry, SCENE_AXISYMMETRIC);
+    assert_true(scene->domain.lower[1] == -0.25e-3 && scene->domain.upper[0] == 0.25e-3);
+    const struct scene_boundary *top = &scene->domain.boundary[1][1];
     assert_int_equal(top->type, SCENE_INCOMING_WAVE);
     assert_int_equal(top->pulse, SCENE_PULSE_LITHOTRIPTER);
     assert_true(top->amplitude == 30e6 && top->frequency == 83.3e3 && top->decay == 9.1e5);
     assert_false(top->pressure.given);
-    assert_int_equal(scene->tile, 16);
+    assert_int_equal(scene->mesh.tile, 16);
     assert_int_equal(scene->n_material, 3);
     assert_true(scene->material[2].eos.values[instance_param_find(scene->material[2].eos.module, "p-inf")].number ==
                 616576970.0);
@@ -234,16 +234,16 @@ static void the_design_case_is_understood(void **state)
     assert_true(bubble->fractions[1] == 1.0 && bubble->fractions[0] == 0.0);
     assert_true(bubble->density[1].number == 1.225);
     assert_false(bubble->density[0].given);
-    assert_true(scene->snapshots.time == 20e-9);
-    assert_int_equal(scene->n_snapshot_field, 5);
-    assert_string_equal(scene->riemann.module->name, "hlld");
+    assert_true(scene->output.snapshots.time == 20e-9);
+    assert_int_equal(scene->output.n_snapshot_field, 5);
+    assert_string_equal(scene->scheme.riemann.module->name, "hlld");
     const struct instance *law = &scene->material[2].constitutive;
     assert_string_equal(law->module->name, "neo-hookean");
     assert_true(law->values[instance_param_find(law->module, "shear-modulus")].number == 85e3);
     assert_null(scene->material[0].constitutive.module);
-    assert_int_equal(scene->columns[1].in, 2);
-    assert_int_equal(scene->columns[2].along, 1);
-    assert_string_equal(scene->probes[0].fields[0], "pressure");
+    assert_int_equal(scene->output.columns[1].in, 2);
+    assert_int_equal(scene->output.columns[2].along, 1);
+    assert_string_equal(scene->output.probes[0].fields[0], "pressure");
     assert_string_equal(scene->expects[0].value, "min(V)/first(V)");
     scene_free(scene);
 }
@@ -254,16 +254,16 @@ static void expressions_become_numbers_or_scripts(void **state)
     struct scene *scene = good("expressions");
     const double x[SCENE_AXES] = {2e-3, 0.0, 0.0};
     double value;
-    assert_int_equal(scene->cells[0], 128);
-    assert_true(scene->until == 1.5 * (0.915 * 1e-3 * sqrt(998.2 / (20 * 101325.0))));
-    assert_int_equal(scene->boundary[0][0].type, SCENE_SYMMETRY);
+    assert_int_equal(scene->domain.cells[0], 128);
+    assert_true(scene->run.until == 1.5 * (0.915 * 1e-3 * sqrt(998.2 / (20 * 101325.0))));
+    assert_int_equal(scene->domain.boundary[0][0].type, SCENE_SYMMETRY);
     assert_non_null(scene->layers[0].pressure.script);
     assert_int_equal(scene_value_at(&scene->layers[0].pressure, x, 2e-3, 0.0, &value), STATUS_OK);
     assert_true(fabs(value - (20 * 101325.0 + 0.5 * (101325.0 - 20 * 101325.0))) < 1e-6);
     assert_null(scene->layers[1].pressure.script);
     assert_int_equal(scene_value_at(&scene->layers[1].pressure, x, 0.0, 0.0, &value), STATUS_OK);
     assert_true(value == 101325.0);
-    const struct scene_column *twice = &scene->columns[2];
+    const struct scene_column *twice = &scene->output.columns[2];
     assert_int_equal(twice->n_use, 2);
     assert_string_equal(twice->uses[0], "t");
     assert_string_equal(twice->uses[1], "R_over_R0");
@@ -275,13 +275,13 @@ static void overlays_are_laid_in_order(void **state)
 {
     (void)state;
     struct scene *scene = good("extends");
-    assert_int_equal(scene->cells[0], 32);
+    assert_int_equal(scene->domain.cells[0], 32);
     assert_int_equal(scene->n_material, 2);
     assert_string_equal(scene->material[1].eos.module->name, "nasg");
     assert_true(scene->layers[1].shape->radius == 40e-6);
-    assert_int_equal(scene->n_column, 2);
-    assert_string_equal(scene->columns[1].name, "p");
-    assert_string_equal(scene->limiter.module->name, "minmod");
+    assert_int_equal(scene->output.n_column, 2);
+    assert_string_equal(scene->output.columns[1].name, "p");
+    assert_string_equal(scene->scheme.limiter.module->name, "minmod");
     assert_int_equal(scene->n_variant, 2);
     assert_string_equal(scene->variants[1], "quick");
     scene_free(scene);
@@ -291,7 +291,7 @@ static void one_number_in_many_units(void **state)
 {
     (void)state;
     struct scene *scene = good("units");
-    assert_true(scene->upper[0] == 1.0);
+    assert_true(scene->domain.upper[0] == 1.0);
     assert_true(scene->material[0].eos.values[instance_param_find(scene->material[0].eos.module, "gamma")].number ==
                 1.4);
     assert_true(scene->material[1].eos.values[instance_param_find(scene->material[1].eos.module, "p-inf")].number ==
@@ -299,7 +299,7 @@ static void one_number_in_many_units(void **state)
     assert_true(scene->layers[0].density[0].number == 998.2);
     assert_true(fabs(scene->layers[0].velocity[0].number - 1.0) < 1e-15);
     assert_true(scene->layers[1].temperature.number == 310.15);
-    assert_true(scene->until == 120.0);
+    assert_true(scene->run.until == 120.0);
     scene_free(scene);
 }
 
@@ -307,14 +307,14 @@ static void waves_and_inflows_keep_their_numbers(void **state)
 {
     (void)state;
     struct scene *scene = good("boundaries");
-    const struct scene_boundary *in = &scene->boundary[0][0], *series = &scene->boundary[0][1];
+    const struct scene_boundary *in = &scene->domain.boundary[0][0], *series = &scene->domain.boundary[0][1];
     assert_int_equal(in->type, SCENE_INFLOW);
     assert_true(in->fractions[0] == 1.0 && in->density[0].number == 1000.0 && in->velocity[0].number == 1.0);
     assert_int_equal(series->n_series, 3);
     assert_true(series->series_t[1] == 1e-6 && series->series_p[1] == 1e6);
     assert_true(series->compressive_only && series->delay == 1e-6 && series->pressure.number == 1e5);
-    assert_int_equal(scene->boundary[1][0].pulse, SCENE_PULSE_GAUSSIAN);
-    assert_non_null(scene->boundary[1][1].script);
+    assert_int_equal(scene->domain.boundary[1][0].pulse, SCENE_PULSE_GAUSSIAN);
+    assert_non_null(scene->domain.boundary[1][1].script);
     assert_true(scene->layers[0].temperature.number == 300.0);
     scene_free(scene);
 }
@@ -324,15 +324,15 @@ static void refinement_is_understood(void **state)
 {
     (void)state;
     struct scene *scene = good("refine");
-    const struct scene_refine *refine = scene->refines;
-    assert_int_equal(scene->levels, 4);
-    assert_int_equal(scene->tile, 8);
-    assert_int_equal(scene->regrid_every, 5);
-    assert_int_equal(scene->buffer, 3);
-    assert_int_equal(scene->patience, 3);
-    assert_false(scene->subcycle);
-    assert_int_equal(scene->reflux, SCENE_REFLUX_PLAIN);
-    assert_int_equal(scene->n_refine, 17);
+    const struct scene_refine *refine = scene->mesh.refines;
+    assert_int_equal(scene->mesh.levels, 4);
+    assert_int_equal(scene->mesh.tile, 8);
+    assert_int_equal(scene->mesh.regrid_every, 5);
+    assert_int_equal(scene->mesh.buffer, 3);
+    assert_int_equal(scene->mesh.patience, 3);
+    assert_false(scene->mesh.subcycle);
+    assert_int_equal(scene->mesh.reflux, SCENE_REFLUX_PLAIN);
+    assert_int_equal(scene->mesh.n_refine, 17);
     assert_true(refine[0].kind == SCENE_REFINE_GRADIENT && refine[0].relative && refine[0].above == 0.05);
     assert_true(refine[0].finest == 4 && refine[0].t_from == 0.0 && isinf(refine[0].t_until) && !refine[0].where);
     assert_true(!refine[1].relative && refine[1].above == 1e9 && refine[1].finest == 2);
@@ -357,7 +357,7 @@ static void scripts_ask_for_refinement(void **state)
 {
     (void)state;
     struct scene *scene = good("refine");
-    const struct scene_refine *high = &scene->refines[12], *fast = high + 1, *file = high + 2, *dense = high + 3;
+    const struct scene_refine *high = &scene->mesh.refines[12], *fast = high + 1, *file = high + 2, *dense = high + 3;
     bool yes = false;
     assert_int_equal(high->n_use, 2);
     assert_string_equal(high->uses[0], "pressure");
@@ -439,8 +439,8 @@ static void checkpoints_are_read(void **state)
     options.messages = open_memstream(&said, &length);
     assert_int_equal(scene_read("tests/data/case/good/minimal.yaml", &options, &scene), STATUS_OK);
     fclose(options.messages);
-    assert_true(scene->checkpoints.time == 1e-7);
-    assert_int_equal(scene->checkpoints_keep, 2);
+    assert_true(scene->output.checkpoints.time == 1e-7);
+    assert_int_equal(scene->output.checkpoints_keep, 2);
     assert_null(strstr(said, "warning"));
     free(said);
     scene_free(scene);

@@ -39,7 +39,7 @@ static inline void small_start_levels(struct small *small, const char *text, int
     fclose(stream);
     struct scene_options options = {.directory = out};
     assert_int_equal(scene_read(path, &options, &small->scene), 0);
-    small->scene->levels = levels;
+    small->scene->mesh.levels = levels;
     int code = state_new(small->scene, &small->state);
     if (code) print_error("%s\n", status_text());
     assert_int_equal(code, 0);

@@ -45,7 +45,7 @@ static double over_faces(const struct world *world, const int cell[3], world_fie
 {
     double most = 0.0;
     for (int face = 0; face < 2 * world->mesh->dim; face++) {
-        int other[3] = {cell[0], cell[1], cell[2]}, axis = face / 2, n = world->scene->cells[axis];
+        int other[3] = {cell[0], cell[1], cell[2]}, axis = face / 2, n = world->scene->domain.cells[axis];
         other[axis] += face % 2 ? 1 : -1;
         if (world->mesh->periodic[axis]) other[axis] = (other[axis] + n) % n;
         if (other[axis] < 0 || other[axis] >= n) continue;
@@ -258,7 +258,7 @@ static void criteria_have_windows_and_levels(void **state)
     assert_int_equal(tagged(&world, 2.1, 0), 0);
     assert_int_equal(tagged(&world, 0.0, 2), 24 * 24);
     assert_true(tagged(&world, 0.0, 1) > 0 && tagged(&world, 0.0, 1) < 24 * 24);
-    world.scene->refines[1].finest = 0;
+    world.scene->mesh.refines[1].finest = 0;
     assert_int_equal(tagged(&world, 0.0, 1), 0);
     world_close(&world);
 }

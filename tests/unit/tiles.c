@@ -48,7 +48,7 @@ static void run(struct flow *flow, const char *domain, int tile, const char *ext
                                "scheme: %s\nrun: {until: 1}\n",
                                domain, tile, materials, extra));
     flow_set(flow, set_state);
-    flow_steps(flow, flow->scene->dim == 3 ? STEPS / 3 : STEPS);
+    flow_steps(flow, flow->scene->domain.dim == 3 ? STEPS / 3 : STEPS);
 }
 
 static void compare(const char *domain, const int *tiles, int count, const char *extra)
