@@ -18,6 +18,10 @@ void launch_free_arguments(char **arguments);
  * this machine. Far more would bring the machine down before one of them could say so. */
 long launch_most(void);
 
+/* In a rank: refuses a launcher that MPI does not know, and a number of ranks that is another one than it has started
+ * (`wanted`; 0: any). STATUS_OK where no launcher has started this process. */
+int launch_check(long wanted);
+
 /* Runs the same command line on `ranks` ranks and returns its exit code. What the ranks could
  * not say themselves is recorded (status.h). */
 int launch_run(long ranks, char **argv);
