@@ -104,6 +104,7 @@ static int launch_wait(const char *path, pid_t child, const sigset_t *wanted, in
         int number = passed_on ? sigwaitinfo(wanted, NULL) : sigtimedwait(wanted, NULL, &soon);
         if (number == SIGCHLD && waitpid(child, ret_raw, WNOHANG) == child) return count;
         if (number > 0 && number != SIGCHLD) {
+            if (count && number == SIGUSR1) continue; /* never a second one: stop.h */
             count++;
             last = number;
         }

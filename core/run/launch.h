@@ -2,8 +2,9 @@
  *
  * The parent stays: mpirun changes exit codes and ends a job that gets SIGINT or SIGTERM within
  * a second, so the parent hands the first of those to rank 0 alone as SIGUSR1, which lets the
- * ranks finish their step and save; a second signal ends the job at once. Rank 0's process id
- * and exit code reach the parent through a small file named by BULLA_STATUS_FILE. */
+ * ranks finish their step and save; a second signal, unless it is SIGUSR1 (stop.h), ends the
+ * job at once. Rank 0's process id and exit code reach the parent through a small file named by
+ * BULLA_STATUS_FILE. */
 #ifndef LAUNCH_H
 #define LAUNCH_H
 

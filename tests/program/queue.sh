@@ -122,19 +122,40 @@ sed 's/bubble.yaml/broken.yaml/' job.sh >other.sh && mv other.sh job.sh
 job $script
 [ $code = 2 ] && [ ! -e submitted ] || fail "exit code $code of a case with a mistake" said
 
-# A signal to the script: the run saves, the next job is submitted and finds a checkpoint.
+# A signal to the script, or to all processes of the job: the run saves, the next job is submitted and finds a checkpoint.
 block 4
-rm -rf out submitted
 sed 's/, max-steps: 20//' bubble.yaml >endless.yaml
 sed 's/bubble.yaml/endless.yaml/' job.sh >other.sh && mv other.sh job.sh
 begun() { [ "$(cat out/bubble/history.csv 2>/dev/null | wc -l)" -gt 3 ] || ! alive "$run"; }
-# shellcheck disable=SC2086
-start env $script bash job.sh >said 2>&1
-await "the first rows" begun
-kill -s USR1 "$run"
+for whom in script all; do
+    rm -rf out submitted
+    # shellcheck disable=SC2086
+    start env $script bash job.sh >said 2>&1
+    await "the first rows" begun
+    processes=$run
+    [ $whom = script ] || processes=$(members "$run")
+    # shellcheck disable=SC2086
+    kill -s USR1 $processes 2>/dev/null || true
+    ended "$run"
+    [ $code = 0 ] && [ "$(cat submitted)" = 2 ] || fail "exit code $code after a signal to the $whom" said
+    ls out/bubble/checkpoints/*.chk >/dev/null || fail "no checkpoint" said
+done
+
+# The same to all processes of a sweep.
+echo 'matrix: {parameters.R0: [10 um, 20 um]}' >>endless.yaml
+sweeping() {
+    for folder in 10 20; do
+        [ "$(cat out/endless-sweep/R0=${folder}um/history.csv 2>/dev/null | wc -l)" -gt 3 ] || return 1
+    done
+}
+either() { sweeping || ! alive "$run"; }
+start "$BULLA" sweep endless.yaml -j 2 -n 2 >said 2>&1
+await "the first rows of a sweep" either
+# shellcheck disable=SC2046
+kill -s USR1 $(members "$run") 2>/dev/null || true
 ended "$run"
-[ $code = 0 ] && [ "$(cat submitted)" = 2 ] || fail "exit code $code after the signal" said
-ls out/bubble/checkpoints/*.chk >/dev/null || fail "no checkpoint" said
+[ $code = 4 ] || fail "exit code $code of a sweep" said
+[ "$(ls out/endless-sweep/*/checkpoints/*.chk | wc -l)" = 2 ] || fail "runs of a sweep without checkpoints" said
 
 # An array computes what a sweep would; the sweep adds nothing but the table.
 block 5
