@@ -101,3 +101,21 @@ refused "no rows" "$BULLA" plot all history V --over empty.csv
 printf 't,V\n1,2\n3,x\n' >bad.csv
 refused "bad.csv:3: not a row" "$BULLA" plot all history V --over bad.csv
 refused "references go over histories" "$BULLA" plot all pressure --over ref.csv
+
+# The report: units, what counts mean, a page for phones, snapshots to step through without a script.
+"$BULLA" report all -o report.html
+has() { grep -q -- "$1" report.html || fail "the report lacks: $1"; }
+has 'content="width=device-width, initial-scale=1"'
+has 'guard: relaxed<small>mixed cells'
+has 'peak memory<small>of all ranks together</small></span><b>[0-9.]* MB</b>'
+has '<tr><td>V</td><td>m²</td>'
+has '<tr><td>pmax</td><td>Pa</td><td>3.5e+07</td>'
+has 'Against time \[s\]: V \[m²\], pmax \[Pa\]</figcaption>'
+has '<figcaption>density \[kg/m³\] at t = 20.0 ns</figcaption>'
+has '<b>2 of 3, t = 10.0 ns</b><label for="step-2">next'
+[ "$(grep -c '<figure>' report.html)" = "$(grep -c '<figcaption>' report.html)" ]
+[ "$(grep -c 'type="radio" name="step"' report.html)" = 3 ]
+[ "$(grep -c ' checked ' report.html)" = 1 ]
+for frame in 0 1 2; do has "id=\"step-$frame\""; done
+! grep -qE '<script|src="[^d]|href=' report.html || fail "something from outside"
+"$BULLA" report one/ >/dev/null
