@@ -7,6 +7,7 @@
 #include "io/read.h"
 #include "view/picture_scale.h"
 #include "view/plot_case.h"
+#include "view/plot_interface.h"
 #include "view/plot_picture.h"
 #include "view/report_columns.h"
 #include "view/report_course.h"
@@ -62,11 +63,26 @@ static int report_fields(struct text *page, const struct snapshot *snapshot, dou
     return plane || !all.n_field ? STATUS_OK : report_picture(page, snapshot, &all);
 }
 
+/* What the pictures do not show. */
+static void report_lacking(struct text *page, const struct snapshot *snapshot)
+{
+    char *lacking = plot_interface_lacking(snapshot);
+    if (lacking) {
+        text_add(page,
+                 "<p class=\"note\">Interfaces of materials whose fraction is not in the snapshots are not drawn: ");
+        report_html_text(page, lacking);
+        text_add(page, ".</p>\n");
+    }
+    mem_free(lacking);
+}
+
 static int report_last(struct text *page, const struct snapshot_series *series)
 {
     struct snapshot *snapshot;
     TRY(read_snapshot(series->paths[series->n - 1], NULL, &snapshot));
-    text_add(page, "<h2>Last snapshot</h2>\n<div class=\"figures\">\n");
+    text_add(page, "<h2>Last snapshot</h2>\n");
+    report_lacking(page, snapshot);
+    text_add(page, "<div class=\"figures\">\n");
     int code = report_fields(page, snapshot, snapshot->time);
     text_add(page, "</div>\n");
     read_free(snapshot);

@@ -212,6 +212,26 @@ void report_facts_run(struct text *page, const char *directory)
     json_decref(root);
 }
 
+/* A row of the table: the value, or why there is none. */
+static void facts_expectation(struct text *page, const json_t *item)
+{
+    const char *what = json_string_value(json_object_get(item, "what"));
+    const char *bound = json_string_value(json_object_get(item, "bound"));
+    const char *fault = json_string_value(json_object_get(item, "fault"));
+    const json_t *value = json_object_get(item, "value");
+    bool passed = json_is_true(json_object_get(item, "passed"));
+    text_add(page, "<tr><td>");
+    report_html_text(page, what ? what : "");
+    if (json_is_number(value)) text_add(page, "</td><td>%.6g</td><td>", json_number_value(value));
+    else {
+        text_add(page, "</td><td>");
+        report_html_text(page, fault ? fault : "not finite");
+        text_add(page, "</td><td>");
+    }
+    report_html_text(page, bound ? bound : "");
+    text_add(page, "</td><td class=\"%s\">%s</td></tr>\n", passed ? "pass" : "fail", passed ? "pass" : "FAIL");
+}
+
 void report_facts_expect(struct text *page, const char *directory)
 {
     json_t *root = facts_json(directory, "expect.json"), *item;
@@ -223,19 +243,7 @@ void report_facts_expect(struct text *page, const char *directory)
                        "scale.</p>\n<div class=\"wide\"><table>\n<tr><th>what</th><th>value [SI]</th><th>allowed "
                        "[SI]</th><th></th>"
                        "</tr>\n");
-        json_array_foreach(list, i, item)
-        {
-            const char *what = json_string_value(json_object_get(item, "what"));
-            const char *bound = json_string_value(json_object_get(item, "bound"));
-            const json_t *value = json_object_get(item, "value");
-            bool passed = json_is_true(json_object_get(item, "passed"));
-            text_add(page, "<tr><td>");
-            report_html_text(page, what ? what : "");
-            if (json_is_number(value)) text_add(page, "</td><td>%.6g</td><td>", json_number_value(value));
-            else text_add(page, "</td><td>not finite</td><td>");
-            report_html_text(page, bound ? bound : "");
-            text_add(page, "</td><td class=\"%s\">%s</td></tr>\n", passed ? "pass" : "fail", passed ? "pass" : "FAIL");
-        }
+        json_array_foreach(list, i, item) facts_expectation(page, item);
         text_add(page, "</table></div>\n");
     }
     json_decref(root);

@@ -118,4 +118,5 @@ has '<b>2 of 3, t = 10.0 ns</b><label for="step-2">next'
 [ "$(grep -c ' checked ' report.html)" = 1 ]
 for frame in 0 1 2; do has "id=\"step-$frame\""; done
 ! grep -qE '<script|src="[^d]|href=' report.html || fail "something from outside"
-"$BULLA" report one/ >/dev/null
+[ "$("$BULLA" report one/)" = one/report.html ]
+grep -q 'are not drawn: alpha_water, alpha_oil\.' one/report.html || fail "no word of what is not drawn"
