@@ -38,11 +38,12 @@ static int report_picture(struct text *page, const struct snapshot *snapshot, co
     cairo_surface_t *image;
     char time[PICTURE_SCALE_LABEL], unit[PICTURE_SCALE_TEXT], caption[256];
     const struct snapshot_field *field = read_field(snapshot, picture->fields[0]);
-    bool alone = picture->n_field == 1;
     picture_scale_quantity(snapshot->time, snapshot->time, "s", time);
     TRY(plot_picture_draw(snapshot, picture, &image));
-    snprintf(caption, sizeof caption, "%s%s%s%s at t = %.48s", alone ? field->name : "All fields", alone ? " [" : "",
-             alone ? report_html_unit(field->unit, unit) : "", alone ? "]" : "", time);
+    if (picture->n_field == 1)
+        snprintf(caption, sizeof caption, "%s [%s] at t = %.48s", field->name, report_html_unit(field->unit, unit),
+                 time);
+    else snprintf(caption, sizeof caption, "%u of %u fields at t = %.48s", picture->n_field, snapshot->n_field, time);
     int code = report_html_figure(page, image, caption, caption);
     cairo_surface_destroy(image);
     return code;

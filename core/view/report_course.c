@@ -76,7 +76,9 @@ static int course_frame(struct text *page, const struct course *course, size_t f
     text_add(page, "<b>%zu of %zu, t = %s</b>", frame + 1, course->n, time);
     course_turn(page, course, frame + 1, "next ›");
     text_add(page, "</p>\n");
-    if (course->picture.n_field > 1) snprintf(caption, sizeof caption, "All fields, step %ld", snapshot->step);
+    if (course->picture.n_field > 1)
+        snprintf(caption, sizeof caption, "%u of %u fields, step %ld", course->picture.n_field, snapshot->n_field,
+                 snapshot->step);
     else
         snprintf(caption, sizeof caption, "%.64s [%.32s], step %ld", course->picture.fields[0],
                  report_html_unit(field ? field->unit : "", unit), snapshot->step);
