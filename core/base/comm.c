@@ -2,6 +2,7 @@
  * writer of data sets (io/h5out.c) only. */
 #include "base/comm.h"
 
+#include "base/launcher.h"
 #include "base/mem.h"
 #include "base/status.h"
 
@@ -12,17 +13,9 @@
 static bool comm_is_active;
 static MPI_Comm comm_near = MPI_COMM_NULL; /* the ranks of this machine, once asked for */
 
-static bool comm_launched(void)
-{
-    static const char *const marks[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"};
-    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
-        if (getenv(marks[i])) return true;
-    return false;
-}
-
 void comm_init(int *argc, char ***argv)
 {
-    if (!comm_launched()) return;
+    if (!launcher_here().is_rank) return;
     MPI_Init(argc, argv);
     comm_is_active = true;
 }

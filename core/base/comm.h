@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Initialises MPI if a launcher's environment is seen. Ends with comm_done. */
+/* Initialises MPI if a launcher has started this process as a rank (launcher.h). Ends with comm_done. */
 void comm_init(int *argc, char ***argv);
 void comm_done(void);
 

@@ -43,10 +43,12 @@ static void sweep_pool_collect(struct sweep_pool_work *work)
     }
 }
 
-static void sweep_pool_stop(struct sweep_pool_work *work)
+/* The first time by a signal that is harmless to a run which has got one already (run/stop.h). */
+static void sweep_pool_stop(struct sweep_pool_work *work, int number)
 {
+    bool again = work->code == STATUS_STOPPED;
     for (unsigned i = 0; i < work->pool->n_job; i++)
-        if (work->pids[i]) kill(work->pids[i], SIGTERM);
+        if (work->pids[i]) kill(work->pids[i], again && number != SIGUSR1 ? SIGTERM : SIGUSR1);
     work->code = STATUS_STOPPED;
 }
 
@@ -64,7 +66,7 @@ int sweep_pool_run(const struct sweep_pool *pool)
     while (work.busy) {
         int number = sigwaitinfo(&wanted, NULL);
         if (number == SIGCHLD) sweep_pool_collect(&work);
-        else if (number > 0) sweep_pool_stop(&work);
+        else if (number > 0) sweep_pool_stop(&work, number);
         sweep_pool_start(&work);
     }
     mem_free(work.pids);

@@ -1,7 +1,7 @@
 /* sweep_pool.h - some processes at a time, out of a list, until all have run or a signal comes.
  *
- * The first SIGINT, SIGTERM, SIGUSR1 or SIGHUP stops the starting and asks all processes to stop (SIGTERM);
- * a second one asks again, which ends a run at once. Then it waits for all of them. */
+ * The first SIGINT, SIGTERM, SIGUSR1 or SIGHUP stops the starting and asks all processes to stop (SIGUSR1);
+ * a second one, unless it is SIGUSR1, asks again (SIGTERM), which ends a run at once. Then it waits for all of them. */
 #ifndef SWEEP_POOL_H
 #define SWEEP_POOL_H
 

@@ -2,6 +2,7 @@
 #include "run/launch.h"
 
 #include "base/comm.h"
+#include "base/launcher.h"
 #include "base/mem.h"
 #include "base/status.h"
 
@@ -24,8 +25,11 @@ enum { LAUNCH_CROWD = 32 }; /* most ranks for each processor */
 char **launch_arguments(long ranks, bool root, const char *program, char **argv)
 {
     /* Oversubscription is allowed, so ranks must not be bound nor spin; the copy through
-     * another process's memory is off because containers forbid it. */
-    static const char *const fixed[] = {"--oversubscribe",
+     * another process's memory is off because containers forbid it. Ranks on other machines, too, must know that a
+     * parent reports for them. */
+    static const char *const fixed[] = {"-x",
+                                        LAUNCH_STATUS,
+                                        "--oversubscribe",
                                         "--bind-to",
                                         "none",
                                         "--mca",
@@ -100,6 +104,7 @@ static int launch_wait(const char *path, pid_t child, const sigset_t *wanted, in
         int number = passed_on ? sigwaitinfo(wanted, NULL) : sigtimedwait(wanted, NULL, &soon);
         if (number == SIGCHLD && waitpid(child, ret_raw, WNOHANG) == child) return count;
         if (number > 0 && number != SIGCHLD) {
+            if (count && number == SIGUSR1) continue; /* never a second one: stop.h */
             count++;
             last = number;
         }
@@ -140,12 +145,24 @@ static int launch_supervise(char **arguments, const char *path)
 
 long launch_most(void)
 {
-    static const char *const batch[] = {"SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "JOB_ID",
-                                        "OMPI_MCA_orte_default_hostfile"};
-    for (size_t i = 0; i < sizeof batch / sizeof *batch; i++)
-        if (getenv(batch[i])) return LONG_MAX;
+    if (launcher_here().name || getenv("OMPI_MCA_orte_default_hostfile")) return LONG_MAX;
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     return LAUNCH_CROWD * (processors > 0 ? processors : 1);
+}
+
+int launch_check(long wanted)
+{
+    struct launcher here = launcher_here();
+    if (!comm_active()) return STATUS_OK;
+    if (here.size > 1 && comm_size() == 1)
+        return status_fail(STATUS_CASE,
+                           "%s has started %ld processes, but MPI makes each of them a run of its own: it cannot talk "
+                           "to that launcher; with Slurm try srun --mpi=pmix, else the mpirun of Open MPI",
+                           here.name, here.size);
+    if (wanted && wanted != comm_size())
+        return status_fail(STATUS_CASE, "-n %ld, but %s has started %d rank%s: leave out -n, or let both be the same",
+                           wanted, here.name, comm_size(), comm_size() == 1 ? "" : "s");
+    return STATUS_OK;
 }
 
 int launch_run(long ranks, char **argv)

@@ -321,10 +321,9 @@ static int run_ranks(const struct cli_given *given, bool *ret_started, int *ret_
     long ranks = 1;
     *ret_started = false;
     TRY(cli_count(given, "--ranks", 1, &ranks));
-    if (comm_active()) {
-        if (cli_value(given, "--ranks") && ranks != comm_size())
-            return status_fail(STATUS_CASE, "-n %ld, but an MPI launcher has started %d ranks", ranks, comm_size());
-    } else if (ranks > launch_most()) {
+    TRY(launch_check(cli_value(given, "--ranks") ? ranks : 0));
+    if (comm_active()) return STATUS_OK;
+    if (ranks > launch_most()) {
         return status_fail(STATUS_CASE, "-n %ld: this machine has processors for %ld ranks at most", ranks,
                            launch_most());
     } else if (ranks > 1) {

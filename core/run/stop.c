@@ -11,6 +11,7 @@ static volatile sig_atomic_t stop_number;
 static void stop_handle(int number)
 {
     static const char message[] = "\nstopped at once: nothing more was saved\n";
+    if (stop_number && number == SIGUSR1) return;
     if (stop_number) {
         ssize_t written = write(STDERR_FILENO, message, sizeof message - 1);
         _exit(written < 0 ? STATUS_RUN : STATUS_STOPPED);

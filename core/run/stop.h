@@ -1,5 +1,6 @@
-/* stop.h - SIGINT, SIGTERM, SIGUSR1: the first asks the run to save and stop, the second ends
- * the process at once (exit code 4, nothing saved). */
+/* stop.h - SIGINT, SIGTERM, SIGUSR1, SIGHUP: the first asks the run to save and stop, the second ends
+ * the process at once (exit code 4, nothing saved). SIGUSR1 is never a second one: queues warn with it, and send it to
+ * all processes of a job, of which some hand it on. */
 #ifndef STOP_H
 #define STOP_H
 

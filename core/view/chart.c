@@ -88,9 +88,12 @@ static void chart_plan(cairo_t *cr, struct chart_plan *plan)
     plan->height = y - CHART_BETWEEN + picture_axes_room(cr, &plan->chart.x, false) + CHART_MARGIN;
 }
 
-static void chart_ink(cairo_t *cr, unsigned index)
+static void chart_ink(cairo_t *cr, const struct chart_panel *panel, unsigned index)
 {
-    uint32_t rgb = colormap_line(index);
+    static const double dashes[2][4] = {{4.0, 2.4, 4.0, 2.4}, {4.0, 2.2, 0.6, 2.2}};
+    bool reference = panel->series[index].reference;
+    uint32_t rgb = reference ? 0 : colormap_line(index);
+    cairo_set_dash(cr, dashes[index % 2], reference ? 4 : 0, 0.0);
     cairo_set_source_rgb(cr, (rgb >> 16 & 0xff) / 255.0, (rgb >> 8 & 0xff) / 255.0, (rgb & 0xff) / 255.0);
     cairo_set_line_width(cr, 1.1);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
@@ -179,12 +182,13 @@ static void chart_legend_line(cairo_t *cr, const struct chart_panel *panel, unsi
         cairo_set_source_rgb(cr, 0.0, 0.0, 0.0);
         picture_text_draw(cr, chart_names, (const double[2]){x, baseline}, 0.0, panel->series[i].name);
         x -= CHART_SAMPLE + CHART_GAP;
-        chart_ink(cr, i);
+        chart_ink(cr, panel, i);
         cairo_move_to(cr, x, baseline - 0.5 * PICTURE_TEXT_HEIGHT * chart_names.size);
         cairo_rel_line_to(cr, CHART_SAMPLE, 0.0);
         cairo_stroke(cr);
         x -= CHART_APART;
     }
+    cairo_set_dash(cr, NULL, 0, 0.0);
 }
 
 static void chart_legend(cairo_t *cr, const struct chart_panel *panel, struct picture_rect box)
@@ -234,7 +238,7 @@ static void chart_paint(cairo_t *cr, void *data, double scale)
         chart_zero(cr, &frame);
         chart_marks(cr, &frame, &plan->chart);
         for (unsigned i = 0; i < panel->n_series; i++) {
-            chart_ink(cr, i);
+            chart_ink(cr, panel, i);
             chart_line(cr, &frame, &panel->series[i]);
         }
         cairo_restore(cr);

@@ -12,6 +12,7 @@ enum { CHART_SERIES = 8, CHART_PANELS = 12 };
 
 struct chart_series {
     const char *name; /* in the legend of a panel with several */
+    bool reference;   /* from elsewhere: dashed, in black; its x may reach beyond the others */
     size_t n;
     const double *x, *y; /* SI; NaN interrupts the line */
 };

@@ -21,12 +21,18 @@ static void canvas_measure(const struct picture_canvas *canvas, double ret_size[
     cairo_surface_destroy(nothing);
 }
 
+/* Video encoders halve the resolution of colours: both numbers of pixels must be even for a film. */
+static int canvas_even(double pixels)
+{
+    return 2 * (int)ceil(0.5 * pixels);
+}
+
 int picture_canvas_draw(const struct picture_canvas *canvas, int width, cairo_surface_t **ret_image)
 {
     double size[2];
     canvas_measure(canvas, size);
-    double scale = width > 0 ? width / size[0] : canvas_resolution;
-    int pixels[2] = {width > 0 ? width : (int)ceil(size[0] * scale), (int)ceil(size[1] * scale)};
+    double scale = width > 0 ? canvas_even(width) / size[0] : canvas_resolution;
+    int pixels[2] = {canvas_even(width > 0 ? width : size[0] * scale), canvas_even(size[1] * scale)};
     cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, pixels[0], pixels[1]);
     cairo_t *cr = cairo_create(image);
     if (cairo_status(cr) == CAIRO_STATUS_SUCCESS) {

@@ -10,8 +10,10 @@
 #include "view/plot_along.h"
 #include "view/plot_case.h"
 #include "view/plot_history.h"
+#include "view/plot_interface.h"
 #include "view/plot_map.h"
 #include "view/plot_picture.h"
+#include "view/plot_time.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -54,18 +56,20 @@ static int plot_choose(const struct snapshot_series *series, const struct plot_o
 {
     size_t index = series->n - 1;
     if (option->when == PLOT_STEP) TRY(plot_find_step(series, option->step, &index));
-    for (size_t i = 0; option->when == PLOT_TIME && i < series->n; i++)
-        if (fabs(series->times[i] - option->times[0]) < fabs(series->times[index] - option->times[0])) index = i;
+    if (option->when == PLOT_TIME)
+        TRY(plot_time_nearest(series->times, series->n, 1, option->times[0], "the snapshots", &index));
     *ret_first = option->when == PLOT_ALL ? 0 : index;
     *ret_end = index + 1;
     return STATUS_OK;
 }
 
-/* DIR/plots/<case>_<step>_<fields>.png, or what -o says. */
-static char *plot_path(const char *directory, const struct snapshot *snapshot, const struct plot_picture *picture)
+/* DIR/plots/<case>_<step>_<fields>.png, or what -o says; `many`: the other fields have files of their own. */
+static char *plot_path(const char *directory, const struct snapshot *snapshot, const struct plot_picture *picture,
+                       bool many)
 {
     const char *output = picture->option->output;
-    if (output && !plot_is_directory(output)) return mem_text(output);
+    if (output && !plot_is_directory(output))
+        return many ? plot_option_file(output, picture->fields[0]) : mem_text(output);
     char *path = output ? mem_print("%s/%s_%06ld", output, snapshot->name, snapshot->step)
                         : mem_print("%s/plots/%s_%06ld", directory, snapshot->name, snapshot->step);
     for (unsigned i = 0; i < picture->n_field; i++) {
@@ -78,11 +82,12 @@ static char *plot_path(const char *directory, const struct snapshot *snapshot, c
     return complete;
 }
 
-static int plot_write(const char *directory, const struct snapshot *snapshot, const struct plot_picture *picture)
+static int plot_write(const char *directory, const struct snapshot *snapshot, const struct plot_picture *picture,
+                      bool many)
 {
     cairo_surface_t *image;
     TRY(plot_picture_draw(snapshot, picture, &image));
-    char *path = plot_path(directory, snapshot, picture);
+    char *path = plot_path(directory, snapshot, picture, many);
     int code = picture_canvas_write(image, path);
     if (!code) printf("%s\n", path);
     cairo_surface_destroy(image);
@@ -95,7 +100,7 @@ static int plot_write(const char *directory, const struct snapshot *snapshot, co
 static int plot_fields(const char *directory, const struct snapshot *snapshot, const struct plot_picture *picture)
 {
     if (picture->option->left || plot_picture_shape(snapshot, picture->option) != 2)
-        return plot_write(directory, snapshot, picture);
+        return plot_write(directory, snapshot, picture, false);
     unsigned inside = picture->option->inside_field ? 1 : 0, last = picture->n_field - 1;
     for (unsigned i = 0; i + inside < picture->n_field; i++) {
         struct plot_picture one = *picture;
@@ -104,7 +109,7 @@ static int plot_fields(const char *directory, const struct snapshot *snapshot, c
         one.fields[inside] = picture->fields[inside ? last : i];
         memcpy(one.extremes[0], picture->extremes[i], sizeof one.extremes[0]);
         memcpy(one.extremes[inside], picture->extremes[inside ? last : i], sizeof one.extremes[0]);
-        TRY(plot_write(directory, snapshot, &one));
+        TRY(plot_write(directory, snapshot, &one, picture->n_field > 1 + inside));
     }
     return STATUS_OK;
 }
@@ -126,6 +131,18 @@ static int plot_gather(const struct snapshot_series *series, struct plot_picture
     return STATUS_OK;
 }
 
+/* Says once what pictures do not show. */
+static void plot_warn(const struct snapshot *snapshot, const struct plot_option *option)
+{
+    char *lacking = option->contours ? NULL : plot_interface_lacking(snapshot);
+    if (lacking)
+        fprintf(stderr,
+                "note: interfaces of materials whose fraction is not in the snapshots are not drawn: %s; list them in "
+                "output: snapshots: fields: (one may be left out)\n",
+                lacking);
+    mem_free(lacking);
+}
+
 static int plot_series(const char *directory, const struct snapshot_series *series, struct plot_picture *picture)
 {
     size_t first, end;
@@ -138,6 +155,7 @@ static int plot_series(const char *directory, const struct snapshot_series *seri
     for (size_t i = first; i < end; i++) {
         struct snapshot *snapshot;
         TRY(read_snapshot(series->paths[i], NULL, &snapshot));
+        if (i == first) plot_warn(snapshot, picture->option);
         int code = plot_fields(directory, snapshot, picture);
         read_free(snapshot);
         if (code) return code;
@@ -230,6 +248,10 @@ static int plot_run(const struct cli_given *given, const char *directory)
                            given->words[2], what, given->words[2]);
     if (option.left && what)
         return status_fail(STATUS_CASE, "--left and --right name the fields; '%s' is one too many", what);
+    if (option.n_over && !(shared && strcmp(shared->word, "history") == 0))
+        return status_fail(STATUS_CASE,
+                           "--over %s: references go over histories: bulla plot %s history COLUMN --over %s",
+                           option.over[0], directory, option.over[0]);
     if (shared) return plot_together(given, shared, n_run, &option);
     if (!plot_is_directory(directory)) return plot_no_directory(directory);
     if (!map && option.n_time > 1)

@@ -8,6 +8,7 @@
 #include "view/picture_canvas.h"
 #include "view/plot_case.h"
 #include "view/plot_profile.h"
+#include "view/plot_time.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,17 +27,9 @@ struct along {
     struct map_table maps[CHART_SERIES];
     char *fields[CHART_PANELS];
     char *labels[CHART_PANELS];
+    char *runs[CHART_SERIES]; /* names, one for each map */
     struct along_line lines[CHART_SERIES];
 };
-
-static size_t along_nearest(const struct map_table *map, double t)
-{
-    const double *times = map->table.columns[0];
-    size_t near = 0;
-    for (size_t i = 1; i < map->n_time; i++)
-        if (fabs(times[i * map->n_place] - t) < fabs(times[near * map->n_place] - t)) near = i;
-    return near;
-}
 
 /* The time that has the highest value within the shown places. */
 static size_t along_highest(const struct map_table *map, const double *values, const struct plot_option_span *limit)
@@ -66,7 +59,7 @@ static void along_add(struct along *along, const struct map_table *map, size_t t
     snprintf(line->label, sizeof line->label, "%.80s%s%s", run ? run : "", run ? ", " : "", moment);
 }
 
-static int along_lines(struct along *along, const char *const *directories, const struct plot_option *option)
+static int along_lines(struct along *along, const struct plot_option *option)
 {
     unsigned each = option->n_time ? option->n_time : 1;
     if (along->n_map * each > CHART_SERIES)
@@ -74,10 +67,15 @@ static int along_lines(struct along *along, const char *const *directories, cons
                            along->n_map, each, CHART_SERIES);
     for (unsigned m = 0; m < along->n_map; m++) {
         const struct map_table *map = &along->maps[m];
-        const char *run = along->n_map > 1 ? plot_case_run(directories, along->n_map, m) : NULL;
+        const char *run = along->n_map > 1 ? along->runs[m] : NULL;
         const double *values;
         TRY(map_table_column(map, along->fields[0], &values));
-        for (unsigned i = 0; i < option->n_time; i++) along_add(along, map, along_nearest(map, option->times[i]), run);
+        for (unsigned i = 0; i < option->n_time; i++) {
+            size_t time;
+            TRY(plot_time_nearest(map->table.columns[0], map->n_time, map->n_place, option->times[i], "the map's rows",
+                                  &time));
+            along_add(along, map, time, run);
+        }
         if (!option->n_time) along_add(along, map, along_highest(map, values, &option->limit[0]), run);
     }
     return STATUS_OK;
@@ -114,10 +112,10 @@ static int along_fill(struct along *along, struct chart *chart, const char **uni
     return STATUS_OK;
 }
 
-static int along_draw(struct along *along, const char *directory, const struct plot_option *option,
+static int along_draw(struct along *along, const char *const *directories, const struct plot_option *option,
                       cairo_surface_t **ret_image)
 {
-    char *title = plot_case_title(directory), *place = map_table_place(&along->maps[0]);
+    char *title = plot_case_common_title(directories, along->n_map), *place = map_table_place(&along->maps[0]);
     char *note = along->n_line > 1 ? mem_text(along->maps[0].name)
                                    : mem_print("%s, %s", along->maps[0].name, along->lines[0].label);
     struct chart chart = {.title = title, .note = note};
@@ -153,8 +151,8 @@ static char *along_path(const struct along *along, const char *directory, const 
 static int along_picture(struct along *along, const char *const *directories, const struct plot_option *option)
 {
     cairo_surface_t *image;
-    TRY(along_lines(along, directories, option));
-    TRY(along_draw(along, directories[0], option, &image));
+    TRY(along_lines(along, option));
+    TRY(along_draw(along, directories, option, &image));
     char *path = along_path(along, directories[0], option);
     int code = picture_canvas_write(image, path);
     if (!code) printf("%s\n", path);
@@ -174,6 +172,7 @@ int plot_along_write(const char *const *directories, unsigned n_directory, const
         return status_fail(STATUS_CASE, "%u runs in one picture: at most %d", n_directory, CHART_SERIES);
     struct along *along = mem_new(1, sizeof *along);
     char *list = mem_text(words[1]);
+    plot_case_names(directories, n_directory, along->runs);
     int code = along_fields(along, list);
     while (!code && along->n_map < n_directory) {
         code = map_table_open(directories[along->n_map], words[0], &along->maps[along->n_map]);
@@ -181,6 +180,7 @@ int plot_along_write(const char *const *directories, unsigned n_directory, const
     }
     if (!code) code = along_picture(along, directories, option);
     for (unsigned m = 0; m < along->n_map; m++) map_table_done(&along->maps[m]);
+    for (unsigned m = 0; m < n_directory; m++) mem_free(along->runs[m]);
     for (unsigned f = 0; f < along->n_field; f++) mem_free(along->labels[f]);
     mem_free(list);
     mem_free(along);

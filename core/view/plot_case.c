@@ -5,9 +5,12 @@
 #include "base/file.h"
 #include "base/mem.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <yaml.h>
+
+enum { CASE_BRIEF = 48 }; /* longest title that a legend has room for */
 
 /* The value of a key of the top mapping, in new memory, or NULL. */
 static char *case_of_document(yaml_document_t *document, const char *key)
@@ -64,12 +67,77 @@ char *plot_case_title(const char *directory)
     return title;
 }
 
-const char *plot_case_run(const char *const *directories, unsigned n, unsigned run)
+char *plot_case_common_title(const char *const *directories, unsigned n)
 {
-    const char *slash = strrchr(directories[run], '/'), *name = slash && slash[1] ? slash + 1 : directories[run];
-    for (unsigned i = 0; i < n; i++) {
-        const char *other = strrchr(directories[i], '/');
-        if (i != run && strcmp(other && other[1] ? other + 1 : directories[i], name) == 0) return directories[run];
+    char *title = plot_case_title(directories[0]);
+    for (unsigned i = 1; i < n; i++) {
+        char *other = plot_case_title(directories[i]);
+        if (strcmp(other, title) != 0) *title = '\0';
+        mem_free(other);
     }
-    return name;
+    return title;
+}
+
+static void case_forget(char **names, unsigned n)
+{
+    for (unsigned i = 0; i < n; i++) mem_free(names[i]);
+}
+
+static bool case_are_distinct(char *const *names, unsigned n)
+{
+    for (unsigned i = 0; i < n; i++)
+        for (unsigned k = 0; k < i; k++)
+            if (strcmp(names[i], names[k]) == 0) return false;
+    return true;
+}
+
+/* Bytes at the start of all the paths that are the same, up to a slash. */
+static size_t case_lead(const char *const *paths, unsigned n)
+{
+    size_t lead = 0;
+    for (size_t at = 0; paths[0][at]; at++) {
+        for (unsigned i = 1; i < n; i++)
+            if (paths[i][at] != paths[0][at]) return lead;
+        if (paths[0][at] == '/') lead = at + 1;
+    }
+    return lead;
+}
+
+/* Bytes at the end of all the paths that are the same, from a slash on, behind the first `lead` bytes. */
+static size_t case_tail(const char *const *paths, unsigned n, size_t lead)
+{
+    size_t tail = 0, length = strlen(paths[0]);
+    for (size_t back = 1; back + lead < length; back++) {
+        for (unsigned i = 1; i < n; i++) {
+            size_t other = strlen(paths[i]);
+            if (back + lead >= other || paths[i][other - back] != paths[0][length - back]) return tail;
+        }
+        if (paths[0][length - back] == '/') tail = back;
+    }
+    return tail;
+}
+
+/* By their paths. */
+static void case_places(const char *const *paths, unsigned n, char **ret_names)
+{
+    for (unsigned i = 0; i < n; i++) {
+        const char *slash = strrchr(paths[i], '/');
+        ret_names[i] = mem_text(slash && slash[1] ? slash + 1 : paths[i]);
+    }
+    if (case_are_distinct(ret_names, n)) return;
+    case_forget(ret_names, n);
+    size_t lead = case_lead(paths, n), tail = case_tail(paths, n, lead);
+    for (unsigned i = 0; i < n; i++) ret_names[i] = mem_text_n(paths[i] + lead, strlen(paths[i]) - lead - tail);
+}
+
+void plot_case_names(const char *const *directories, unsigned n, char **ret_names)
+{
+    bool brief = true;
+    for (unsigned i = 0; i < n; i++) {
+        ret_names[i] = plot_case_title(directories[i]);
+        brief = brief && strlen(ret_names[i]) <= CASE_BRIEF && !strchr(ret_names[i], '\n');
+    }
+    if (brief && case_are_distinct(ret_names, n)) return;
+    case_forget(ret_names, n);
+    case_places(directories, n, ret_names);
 }

@@ -11,7 +11,11 @@ char *plot_case_title(const char *directory);
 /* The directory without slashes at its end, in new memory: "out/" is "out". */
 char *plot_case_directory(const char *directory);
 
-/* A run's name in a legend: the last part of its path, the path itself if another of the runs is called so too. */
-const char *plot_case_run(const char *const *directories, unsigned n, unsigned run);
+/* The title that all the runs have, in new memory; "" if they differ. */
+char *plot_case_common_title(const char *const *directories, unsigned n);
+
+/* The runs' names in legends, each in new memory: their titles if these are short and no two the same; or else the last
+ * parts of their paths; or, where two runs have the same, the parts of the paths that are not the same in all. */
+void plot_case_names(const char *const *directories, unsigned n, char **ret_names);
 
 #endif

@@ -33,7 +33,8 @@ static const struct snapshot_field *plot_field_lookup(const struct snapshot *sna
                                                       int *ret_component)
 {
     const struct snapshot_field *exact = read_field(snapshot, name);
-    *ret_component = exact && exact->components > 1 ? PLOT_FIELD_MAGNITUDE : 0;
+    bool plain = snapshot->dim == 1; /* a vector along a line is a number with a sign */
+    *ret_component = exact && exact->components > 1 && !plain ? PLOT_FIELD_MAGNITUDE : 0;
     if (exact) return exact;
     size_t stem = plot_field_stem(name, ret_component);
     for (unsigned i = 0; stem && i < snapshot->n_field; i++) {

@@ -10,6 +10,7 @@
 #include "view/picture_canvas.h"
 #include "view/picture_text.h"
 #include "view/plot_case.h"
+#include "view/plot_over.h"
 #include "view/plot_profile.h"
 #include "view/plot_unit.h"
 
@@ -23,9 +24,20 @@ enum { HISTORY_TABLES = 2, HISTORY_LABEL = 128 };
 struct history {
     struct table tables[HISTORY_TABLES]; /* history.csv, probes.csv */
     char *title;
+    char *name; /* in a legend, or NULL */
     char labels[CHART_PANELS * CHART_SERIES][HISTORY_LABEL];
     unsigned n_label;
     struct scene *scene; /* or NULL */
+};
+
+/* What is drawn: the panels with their units, and which panel each column is in. */
+struct history_sheet {
+    struct chart chart;
+    const char *units[CHART_PANELS];
+    unsigned n_column;
+    const char *columns[CHART_PANELS * CHART_SERIES];
+    unsigned panel[CHART_PANELS * CHART_SERIES];
+    struct plot_over over[PLOT_OVERS];
 };
 
 static int history_read(const char *directory, const char *name, struct table *table)
@@ -53,6 +65,7 @@ static void history_done(struct history *history)
 {
     for (int i = 0; i < HISTORY_TABLES; i++) table_done(&history->tables[i]);
     mem_free(history->title);
+    mem_free(history->name);
     scene_free(history->scene);
 }
 
@@ -100,7 +113,14 @@ static const struct table *history_table(const struct history *history, const ch
     return NULL;
 }
 
-static int history_add(struct history *history, const char *column, struct chart *chart, const char **units)
+/* The column is in the last panel. */
+static void history_note(struct history_sheet *sheet, const char *column)
+{
+    sheet->columns[sheet->n_column] = column;
+    sheet->panel[sheet->n_column++] = sheet->chart.n_panel - 1;
+}
+
+static int history_add(struct history *history, const char *column, struct history_sheet *sheet)
 {
     const struct table *table = history_table(history, column);
     if (!table) return history_unknown(history, NULL, column);
@@ -108,7 +128,9 @@ static int history_add(struct history *history, const char *column, struct chart
                                   .n = table->n_row,
                                   .x = table_column(table, "t"),
                                   .y = table_column(table, column)};
-    return plot_profile_add(chart, units, series, plot_unit_of(history->scene, column));
+    TRY(plot_profile_add(&sheet->chart, sheet->units, series, plot_unit_of(history->scene, column)));
+    history_note(sheet, column);
+    return STATUS_OK;
 }
 
 /* Worth a panel without being asked for: what the case measures, and what the guard did if it did anything. */
@@ -120,19 +142,37 @@ static bool history_is_telling(const struct table *table, unsigned c)
     return table->n_row && table->columns[c][table->n_row - 1] > 0.0;
 }
 
-static int history_fill(struct history *history, const char *const *columns, unsigned n, struct chart *chart,
-                        const char **units)
+static int history_fill(struct history *history, const char *const *columns, unsigned n, struct history_sheet *sheet)
 {
-    for (unsigned i = 0; i < n; i++) TRY(history_add(history, columns[i], chart, units));
+    for (unsigned i = 0; i < n; i++) TRY(history_add(history, columns[i], sheet));
     const struct table *table = &history->tables[0];
-    for (unsigned c = 0; n == 0 && c < table->n_column && chart->n_panel < CHART_PANELS; c++)
-        if (history_is_telling(table, c)) TRY(history_add(history, table->names[c], chart, units));
-    if (!chart->n_panel)
+    for (unsigned c = 0; n == 0 && c < table->n_column && sheet->chart.n_panel < CHART_PANELS; c++)
+        if (history_is_telling(table, c)) TRY(history_add(history, table->names[c], sheet));
+    if (!sheet->chart.n_panel)
         return status_fail(STATUS_CASE,
                            "history.csv has no columns of its own; name one: dt, or a column of probes.csv");
     return STATUS_OK;
 }
 
+/* A reference in the panels that show what it has. */
+static int history_refer(struct history_sheet *sheet, struct plot_over *over)
+{
+    for (unsigned c = 0; c < sheet->n_column; c++)
+        TRY(plot_over_add(over, sheet->columns[c], false, &sheet->chart.panel[sheet->panel[c]]));
+    if (!over->used && over->column) return plot_over_add(over, sheet->columns[0], true, &sheet->chart.panel[0]);
+    return over->used ? STATUS_OK : plot_over_unused(over);
+}
+
+static int history_refer_all(struct history_sheet *sheet, const struct plot_option *option)
+{
+    for (unsigned i = 0; i < option->n_over; i++) {
+        TRY(plot_over_read(option->over[i], &sheet->over[i]));
+        TRY(history_refer(sheet, &sheet->over[i]));
+    }
+    return STATUS_OK;
+}
+
+/* The times of the runs, however far a reference goes. */
 static void history_window(const struct chart *chart, const struct plot_option *option, double ret_window[2])
 {
     ret_window[0] = INFINITY;
@@ -150,27 +190,32 @@ static void history_window(const struct chart *chart, const struct plot_option *
 }
 
 /* Scales and draws what was filled in. */
-static int history_finish(struct chart *chart, const char *const *units, const struct plot_option *option,
-                          cairo_surface_t **ret_image)
+static int history_finish(struct history_sheet *sheet, const struct plot_option *option, cairo_surface_t **ret_image)
 {
     double window[2];
+    struct chart *chart = &sheet->chart;
     history_window(chart, option, window);
     if (window[0] > window[1]) return status_fail(STATUS_CASE, "the history has no rows yet");
     picture_scale_init(&chart->x, &(struct picture_scale_inp){.name = PICTURE_ITALIC "t" PICTURE_UPRIGHT,
                                                               .unit = "s",
                                                               .lo = window[0],
                                                               .hi = window[1]});
-    TRY(plot_profile_scale(chart, units, window, option, NULL));
-    return chart_draw(chart, option->width, ret_image);
+    int code = history_refer_all(sheet, option);
+    if (!code) code = plot_profile_scale(chart, sheet->units, window, option, NULL);
+    if (!code) code = chart_draw(chart, option->width, ret_image);
+    for (unsigned i = 0; i < option->n_over; i++) plot_over_done(&sheet->over[i]);
+    return code;
 }
 
 static int history_draw(struct history *history, const char *const *columns, unsigned n,
                         const struct plot_option *option, cairo_surface_t **ret_image)
 {
-    struct chart chart = {.title = history->title, .note = ""};
-    const char *units[CHART_PANELS];
-    TRY(history_fill(history, columns, n, &chart, units));
-    return history_finish(&chart, units, option, ret_image);
+    struct history_sheet *sheet = mem_new(1, sizeof *sheet);
+    sheet->chart = (struct chart){.title = history->title, .note = ""};
+    int code = history_fill(history, columns, n, sheet);
+    if (!code) code = history_finish(sheet, option, ret_image);
+    mem_free(sheet);
+    return code;
 }
 
 int plot_history_draw(const char *directory, const char *const *columns, unsigned n, const struct plot_option *option,
@@ -185,16 +230,17 @@ int plot_history_draw(const char *directory, const char *const *columns, unsigne
 
 /* A panel for each column with a line for each run. */
 static int history_overlay(struct history *runs, const char *const *directories, unsigned n_run,
-                           const char *const *columns, unsigned n, struct chart *chart, const char **units)
+                           const char *const *columns, unsigned n, struct history_sheet *sheet)
 {
     for (unsigned c = 0; c < n; c++) {
-        struct chart_panel *panel = &chart->panel[chart->n_panel++];
-        units[c] = plot_unit_of(runs[0].scene, columns[c]);
+        struct chart_panel *panel = &sheet->chart.panel[sheet->chart.n_panel++];
+        sheet->units[c] = plot_unit_of(runs[0].scene, columns[c]);
         panel->name = history_label(&runs[0], columns[c]);
+        history_note(sheet, columns[c]);
         for (unsigned i = 0; i < n_run; i++) {
             const struct table *table = history_table(&runs[i], columns[c]);
             if (!table) return history_unknown(&runs[i], directories[i], columns[c]);
-            panel->series[panel->n_series++] = (struct chart_series){.name = plot_case_run(directories, n_run, i),
+            panel->series[panel->n_series++] = (struct chart_series){.name = runs[i].name,
                                                                      .n = table->n_row,
                                                                      .x = table_column(table, "t"),
                                                                      .y = table_column(table, columns[c])};
@@ -213,18 +259,23 @@ static int history_compare(const char *const *directories, unsigned n_run, const
         return status_fail(STATUS_CASE, "which columns of the %u runs? bulla plot DIR1 DIR2 ... history COLUMN...",
                            n_run);
     struct history runs[CHART_SERIES] = {0};
-    struct chart chart = {.note = ""};
-    const char *units[CHART_PANELS];
+    struct history_sheet *sheet = mem_new(1, sizeof *sheet);
+    char *names[CHART_SERIES], *title = plot_case_common_title(directories, n_run);
+    plot_case_names(directories, n_run, names);
+    sheet->chart = (struct chart){.title = title, .note = ""};
     unsigned open = 0;
     int code = STATUS_OK;
     while (!code && open < n_run) {
         code = history_open(directories[open], &runs[open]);
+        runs[open].name = names[open];
         open++;
     }
-    chart.title = runs[0].title;
-    if (!code) code = history_overlay(runs, directories, n_run, columns, n, &chart, units);
-    if (!code) code = history_finish(&chart, units, option, ret_image);
+    if (!code) code = history_overlay(runs, directories, n_run, columns, n, sheet);
+    if (!code) code = history_finish(sheet, option, ret_image);
     for (unsigned i = 0; i < open; i++) history_done(&runs[i]);
+    for (unsigned i = open; i < n_run; i++) mem_free(names[i]);
+    mem_free(sheet);
+    mem_free(title);
     return code;
 }
 

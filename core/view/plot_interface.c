@@ -1,4 +1,4 @@
-/* plot_interface.c - see plot_interface.h. */
+/* plot_interface.c - see plot_interface.h. Fractions fill the volume: of all but one, the missing one is the rest. */
 #include "view/plot_interface.h"
 
 #include "base/mem.h"
@@ -16,6 +16,30 @@ static const struct snapshot_field *interface_alpha(const struct snapshot *snaps
     return read_field(snapshot, name);
 }
 
+/* How many volume fractions the snapshot lacks. */
+static unsigned interface_absent(const struct snapshot *snapshot)
+{
+    unsigned absent = 0;
+    for (unsigned m = 0; m < snapshot->n_material; m++) absent += !interface_alpha(snapshot, m);
+    return absent;
+}
+
+/* The volume fraction of a material in the cells of the view, read or the rest of the others, in new memory; NULL if it
+ * is not known. */
+static double *interface_values(const struct plot_view *view, unsigned material)
+{
+    const struct snapshot *snapshot = view->snapshot;
+    const struct snapshot_field *own = interface_alpha(snapshot, material);
+    if (!own && interface_absent(snapshot) > 1) return NULL;
+    double *values = mem_new(view->n, sizeof *values);
+    for (size_t c = 0; c < view->n; c++) values[c] = own ? own->data[view->source[c]] : 1.0;
+    for (unsigned m = 0; !own && m < snapshot->n_material; m++) {
+        const struct snapshot_field *alpha = interface_alpha(snapshot, m);
+        for (size_t c = 0; alpha && c < view->n; c++) values[c] -= alpha->data[view->source[c]];
+    }
+    return values;
+}
+
 /* The material that fills most of the view, if two or more are known; else n_material. */
 static unsigned interface_background(const struct plot_view *view)
 {
@@ -23,15 +47,15 @@ static unsigned interface_background(const struct plot_view *view)
     unsigned background = snapshot->n_material, known = 0;
     double most = 0.0;
     for (unsigned m = 0; m < snapshot->n_material; m++) {
-        const struct snapshot_field *alpha = interface_alpha(snapshot, m);
-        double area = 0.0;
+        double area = 0.0, *alpha = interface_values(view, m);
         if (!alpha) continue;
         known++;
         for (size_t c = 0; c < view->n; c++) {
             const struct raster_cell *cell = &view->cells[c];
             double height = view->n_axis > 1 ? cell->at[1][1] - cell->at[1][0] : 1.0;
-            area += alpha->data[view->source[c]] * (cell->at[0][1] - cell->at[0][0]) * height;
+            area += alpha[c] * (cell->at[0][1] - cell->at[0][0]) * height;
         }
+        mem_free(alpha);
         if (area > most) {
             most = area;
             background = m;
@@ -67,11 +91,12 @@ static int interface_chosen(const struct snapshot *snapshot, const char *contour
         snprintf(name, sizeof name, "%.*s", (int)length, contours);
         while (m < snapshot->n_material && strcmp(snapshot->materials[m], name) != 0) m++;
         if (m == snapshot->n_material) return interface_unknown(snapshot, name);
-        if (!interface_alpha(snapshot, m))
-            return status_fail(STATUS_CASE,
-                               "--contour %s: the snapshots have no alpha_%s; add it to the fields of "
-                               "output: snapshots:",
-                               name, name);
+        if (!interface_alpha(snapshot, m) && interface_absent(snapshot) > 1)
+            return status_fail(
+                STATUS_CASE,
+                "--contour %s: the snapshots have no alpha_%s, and it is not the only one they lack; add "
+                "it to the fields of output: snapshots:",
+                name, name);
         wanted[m] = true;
         contours += length + (contours[length] == ',');
     }
@@ -80,10 +105,8 @@ static int interface_chosen(const struct snapshot *snapshot, const char *contour
 
 static void interface_add(const struct plot_view *view, unsigned material, struct plot_interfaces *interfaces)
 {
-    const struct snapshot_field *alpha = interface_alpha(view->snapshot, material);
-    if (!alpha || interfaces->n == PICTURE_LINES) return;
-    double *values = mem_new(view->n, sizeof *values);
-    for (size_t c = 0; c < view->n; c++) values[c] = alpha->data[view->source[c]];
+    double *values = interfaces->n < PICTURE_LINES ? interface_values(view, material) : NULL;
+    if (!values) return;
     struct contour *contour = &interfaces->contours[interfaces->n];
     contour_find(view->n, view->cells, values, 0.5, contour);
     interfaces->names[interfaces->n] = view->snapshot->materials[material];
@@ -122,13 +145,14 @@ int plot_interface_places(const struct plot_view *view, const char *contours, do
     size_t n = 0;
     int code = interface_wanted(view, contours, wanted);
     for (unsigned m = 0; !code && m < count; m++) {
-        const struct snapshot_field *alpha = interface_alpha(view->snapshot, m);
-        for (size_t c = 1; wanted[m] && alpha && c < view->n; c++) {
-            double a = alpha->data[view->source[c - 1]] - 0.5, b = alpha->data[view->source[c]] - 0.5;
+        double *alpha = wanted[m] ? interface_values(view, m) : NULL;
+        for (size_t c = 1; alpha && c < view->n; c++) {
+            double a = alpha[c - 1] - 0.5, b = alpha[c] - 0.5;
             const double *left = view->cells[c - 1].at[0], *right = view->cells[c].at[0];
             if ((a >= 0.0) == (b >= 0.0)) continue;
             places[n++] = (0.5 * (left[0] + left[1]) * b - 0.5 * (right[0] + right[1]) * a) / (b - a);
         }
+        mem_free(alpha);
     }
     mem_free(wanted);
     *ret_places = places;
@@ -140,4 +164,15 @@ void plot_interface_done(struct plot_interfaces *interfaces)
 {
     for (unsigned i = 0; i < interfaces->n; i++) contour_done(&interfaces->contours[i]);
     *interfaces = (struct plot_interfaces){0};
+}
+
+char *plot_interface_lacking(const struct snapshot *snapshot)
+{
+    struct text list = {0};
+    if (interface_absent(snapshot) < 2) return NULL;
+    for (unsigned m = 0; m < snapshot->n_material; m++)
+        if (!interface_alpha(snapshot, m)) text_add(&list, "%salpha_%s", list.at ? ", " : "", snapshot->materials[m]);
+    char *names = mem_text(list.at);
+    text_done(&list);
+    return names;
 }

@@ -127,7 +127,15 @@ static int map_layer(const struct map *map, const char *field, const struct plot
     return STATUS_OK;
 }
 
-static int map_draw(const struct map *map, const char *directory, const char *field, const struct plot_option *option)
+/* DIR/plots/map_NAME_FIELD.png, or what -o says; `many`: the other fields have files of their own. */
+static char *map_path(const struct map *map, const char *directory, const char *field, const char *output, bool many)
+{
+    if (!output) return mem_print("%s/plots/map_%s_%s.png", directory, map->of.name, field);
+    return many ? plot_option_file(output, field) : mem_text(output);
+}
+
+static int map_draw(const struct map *map, const char *directory, const char *field, const struct plot_option *option,
+                    bool many)
 {
     char *title = plot_case_title(directory), *path = NULL;
     struct picture drawn = {.title = title, .note = map->of.name, .n_layer = 1, .aspect = 0.8};
@@ -138,8 +146,7 @@ static int map_draw(const struct map *map, const char *directory, const char *fi
     if (!code) map_axes(map, window, &drawn);
     if (!code) code = picture_draw(&drawn, option->width, &image);
     if (!code) {
-        path = option->output ? mem_text(option->output)
-                              : mem_print("%s/plots/map_%s_%s.png", directory, map->of.name, field);
+        path = map_path(map, directory, field, option->output, many);
         code = picture_canvas_write(image, path);
     }
     if (!code) printf("%s\n", path);
@@ -157,11 +164,10 @@ int plot_map_write(const char *directory, const char *const *words, unsigned n, 
         return status_fail(STATUS_CASE, "a map and a field are needed: bulla plot %s map %s FIELD", directory,
                            words[0]);
     int code = map_open(directory, words[0], &map);
-    if (!code && strchr(words[1], ',') && option->output)
-        code = status_fail(STATUS_CASE, "-o %s: one file for several fields", option->output);
+    bool many = strchr(words[1], ',') != NULL;
     char *list = mem_text(words[1]);
     for (char *field = strtok(list, ","); !code && field; field = strtok(NULL, ","))
-        code = map_draw(&map, directory, field, option);
+        code = map_draw(&map, directory, field, option, many);
     mem_free(list);
     map_close(&map);
     return code;

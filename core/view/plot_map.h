@@ -4,7 +4,7 @@
 
 #include "view/plot_option.h"
 
-/* Draws fields of DIR/maps/NAME.csv; words: NAME and a field, or several by comma. DIR/plots/map_NAME_FIELD.png,
+/* Draws fields of DIR/maps/NAME.csv; words: NAME and a field, or several by comma, a file each. DIR/plots/map_NAME_FIELD.png,
  * or what the options say. STATUS_CASE: no such map or field, and the like. */
 int plot_map_write(const char *directory, const char *const *words, unsigned n, const struct plot_option *option);
 

@@ -1,6 +1,7 @@
 /* plot_option.c - see plot_option.h. Numbers are SI, or carry a unit as in case files: 0.3us, 30MPa. */
 #include "view/plot_option.h"
 
+#include "base/mem.h"
 #include "base/status.h"
 #include "case/unit.h"
 
@@ -8,20 +9,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct cli_option option_output = {"--output", "-o", "FILE.png",
-                                                "Where to write (a directory with --all)."};
+static const struct cli_option option_output = {
+    "--output", "-o", "FILE.png", "Where to write; of several fields FILE_FIELD.png each (a directory with --all)."};
 static const struct cli_option option_step = {"--step", NULL, "N", "The snapshot of this step."};
 static const struct cli_option option_time = {"--time", NULL, "T",
                                               "The snapshot nearest to this time; of profiles several."};
 static const struct cli_option option_last = {"--last", NULL, NULL, "The last snapshot (default)."};
 static const struct cli_option option_all = {"--all", NULL, NULL, "Every snapshot, all on one colour scale."};
+static const struct cli_option option_over = {"--over", NULL, "FILE.csv[:X,Y]",
+                                              "History: this reference, too; columns t and those drawn, or X and Y."};
 static const struct cli_option option_slice = {"--slice", NULL, "x=X",
                                                "Cut at x, y or z; 3D: the middle of z by default."};
 static const struct cli_option option_range = {
     "--range", NULL, "LO,HI", "Values at the ends of the scale; again for the right field, the inside one."};
 static const struct cli_option option_log = {"--log", NULL, NULL, "Logarithmic scale of values."};
 static const struct cli_option option_map = {"--map", NULL, "NAME", "Colour map: lagoon, ember, frost, balance, grey."};
-static const struct cli_option option_width = {"--width", NULL, "PX", "Width of the picture in pixels."};
+static const struct cli_option option_width = {"--width", NULL, "PX",
+                                               "Width of the picture in pixels (an odd one grows by 1)."};
 static const struct cli_option option_mirror = {"--mirror", NULL, NULL, "Axisymmetric: show both halves."};
 static const struct cli_option option_contour = {"--contour", NULL, "MATERIAL",
                                                  "Interfaces to draw: names by comma, or none (default: all)."};
@@ -36,7 +40,7 @@ static const struct cli_option option_inside = {"--inside", NULL, "MATERIAL=FIEL
 const struct cli_option *const plot_option_table[] = {
     &option_output, &option_last,    &option_step,  &option_time,  &option_all,    &option_slice, &option_range,
     &option_log,    &option_map,     &option_xlim,  &option_ylim,  &option_mirror, &option_left,  &option_right,
-    &option_inside, &option_contour, &option_tiles, &option_width, NULL,
+    &option_inside, &option_contour, &option_tiles, &option_width, &option_over,   NULL,
 };
 
 /* What a number must be a quantity of: nothing in particular, a length, a time. */
@@ -136,6 +140,17 @@ static int option_when(const struct cli_given *given, struct plot_option *option
     return STATUS_OK;
 }
 
+static int option_overs(const struct cli_given *given, struct plot_option *option)
+{
+    for (int i = 0; i < given->n_option; i++) {
+        if (given->options[i] != &option_over) continue;
+        if (option->n_over == PLOT_OVERS)
+            return status_fail(STATUS_CASE, "--over is given more than %d times", PLOT_OVERS);
+        option->over[option->n_over++] = given->values[i];
+    }
+    return STATUS_OK;
+}
+
 int plot_option_read(const struct cli_given *given, struct plot_option *ret_option)
 {
     struct plot_option option = {.output = cli_value(given, "--output"),
@@ -151,6 +166,7 @@ int plot_option_read(const struct cli_given *given, struct plot_option *ret_opti
     if (width > 20000) return status_fail(STATUS_CASE, "--width %ld: at most 20000 pixels", width);
     option.width = (int)width;
     TRY(option_when(given, &option));
+    TRY(option_overs(given, &option));
     TRY(option_slices(given, &option));
     TRY(option_ranges(given, &option));
     TRY(option_inside_read(given, &option));
@@ -160,4 +176,11 @@ int plot_option_read(const struct cli_given *given, struct plot_option *ret_opti
         return status_fail(STATUS_CASE, "--left and --right go together: one field for each side of the axis");
     *ret_option = option;
     return STATUS_OK;
+}
+
+char *plot_option_file(const char *output, const char *field)
+{
+    const char *slash = strrchr(output, '/'), *name = slash ? slash + 1 : output, *dot = strrchr(name, '.');
+    size_t stem = dot && dot != name ? (size_t)(dot - output) : strlen(output);
+    return mem_print("%.*s_%s%s", (int)stem, output, field, output + stem);
 }

@@ -8,7 +8,7 @@
 
 extern const struct cli_option *const plot_option_table[];
 
-enum { PLOT_RANGES = 3, PLOT_TIMES = 8 };
+enum { PLOT_RANGES = 3, PLOT_TIMES = 8, PLOT_OVERS = 4 };
 
 enum plot_option_when { PLOT_LAST, PLOT_STEP, PLOT_TIME, PLOT_ALL };
 
@@ -23,7 +23,9 @@ struct plot_option {
     long step;
     unsigned n_time;
     double times[PLOT_TIMES]; /* --time, in the order given */
-    bool sliced[3];           /* by axis */
+    unsigned n_over;
+    const char *over[PLOT_OVERS]; /* --over: references of histories */
+    bool sliced[3];               /* by axis */
     double slice[3];
     struct plot_option_span
         range[PLOT_RANGES];           /* values: of the fields of a picture in the order left, right, inside */
@@ -39,5 +41,8 @@ struct plot_option {
 
 /* Reads the options of a command line; what contradicts itself or is no number is STATUS_CASE. */
 int plot_option_read(const struct cli_given *given, struct plot_option *ret_option);
+
+/* One of several files of a command with one -o, in new memory: "x.png" of the pressure is "x_pressure.png". */
+char *plot_option_file(const char *output, const char *field);
 
 #endif

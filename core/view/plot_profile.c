@@ -28,7 +28,7 @@ int plot_profile_add(struct chart *chart, const char *units[CHART_PANELS], struc
 static void profile_name(const struct chart_panel *panel, char *ret_name, size_t size)
 {
     snprintf(ret_name, size, "%s", panel->name ? panel->name : panel->series[0].name);
-    for (unsigned i = 1; !panel->name && i < panel->n_series; i++) {
+    for (unsigned i = 1; !panel->name && i < panel->n_series && !panel->series[i].reference; i++) {
         size_t same = 0, word = 0;
         const char *other = panel->series[i].name;
         for (; ret_name[same] && ret_name[same] == other[same]; same++)
@@ -38,7 +38,8 @@ static void profile_name(const struct chart_panel *panel, char *ret_name, size_t
     }
     size_t length = strlen(ret_name);
     const char *tail = length > 3 ? ret_name + length - 3 : "";
-    if (!panel->name && panel->n_series > 1 && (strcmp(tail, " of") == 0 || strcmp(tail, " at") == 0))
+    if (!panel->name && panel->n_series > 1 && !panel->series[1].reference &&
+        (strcmp(tail, " of") == 0 || strcmp(tail, " at") == 0))
         ret_name[length - 3] = '\0';
 }
 

@@ -4,21 +4,22 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
-#include "case/table.h"
 #include "io/read.h"
+#include "view/picture_scale.h"
 #include "view/plot_case.h"
-#include "view/plot_history.h"
+#include "view/plot_interface.h"
 #include "view/plot_picture.h"
+#include "view/report_columns.h"
+#include "view/report_course.h"
 #include "view/report_facts.h"
 #include "view/report_html.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { REPORT_WIDTH = 900, REPORT_FRAMES = 4, REPORT_COLUMNS = 12 };
+enum { REPORT_WIDTH = 900 };
 
 static const struct cli_option report_output = {"--output", "-o", "FILE.html", "Where to write (DIR/report.html)."};
 const struct cli_option *const report_option_table[] = {&report_output, NULL};
@@ -35,8 +36,15 @@ static const struct plot_option *report_option(const struct snapshot *snapshot)
 static int report_picture(struct text *page, const struct snapshot *snapshot, const struct plot_picture *picture)
 {
     cairo_surface_t *image;
+    char time[PICTURE_SCALE_LABEL], unit[PICTURE_SCALE_TEXT], caption[256];
+    const struct snapshot_field *field = read_field(snapshot, picture->fields[0]);
+    picture_scale_quantity(snapshot->time, snapshot->time, "s", time);
     TRY(plot_picture_draw(snapshot, picture, &image));
-    int code = report_html_figure(page, image, picture->fields[0]);
+    if (picture->n_field == 1)
+        snprintf(caption, sizeof caption, "%s [%s] at t = %.48s", field->name, report_html_unit(field->unit, unit),
+                 time);
+    else snprintf(caption, sizeof caption, "%u of %u fields at t = %.48s", picture->n_field, snapshot->n_field, time);
+    int code = report_html_figure(page, image, caption, caption);
     cairo_surface_destroy(image);
     return code;
 }
@@ -56,41 +64,29 @@ static int report_fields(struct text *page, const struct snapshot *snapshot, dou
     return plane || !all.n_field ? STATUS_OK : report_picture(page, snapshot, &all);
 }
 
+/* What the pictures do not show. */
+static void report_lacking(struct text *page, const struct snapshot *snapshot)
+{
+    char *lacking = plot_interface_lacking(snapshot);
+    if (lacking) {
+        text_add(page,
+                 "<p class=\"note\">Interfaces of materials whose fraction is not in the snapshots are not drawn: ");
+        report_html_text(page, lacking);
+        text_add(page, ".</p>\n");
+    }
+    mem_free(lacking);
+}
+
 static int report_last(struct text *page, const struct snapshot_series *series)
 {
     struct snapshot *snapshot;
     TRY(read_snapshot(series->paths[series->n - 1], NULL, &snapshot));
-    text_add(page, "<h2>Last snapshot</h2>\n<div class=\"figures\">\n");
+    text_add(page, "<h2>Last snapshot</h2>\n");
+    report_lacking(page, snapshot);
+    text_add(page, "<div class=\"figures\">\n");
     int code = report_fields(page, snapshot, snapshot->time);
     text_add(page, "</div>\n");
     read_free(snapshot);
-    return code;
-}
-
-/* The pressure, or else the first field, at a few times on one scale. */
-static int report_frames(struct text *page, const struct snapshot_series *series)
-{
-    size_t frames = series->n < REPORT_FRAMES ? series->n : REPORT_FRAMES;
-    struct snapshot *shown[REPORT_FRAMES] = {NULL};
-    struct plot_picture picture = {.option = &report_plain,
-                                   .n_field = 1,
-                                   .common = true,
-                                   .extremes = {{INFINITY, -INFINITY}}};
-    picture.time_like = series->times[series->n - 1];
-    int code = STATUS_OK;
-    for (size_t i = 0; !code && i < frames; i++) {
-        size_t index = frames > 1 ? i * (series->n - 1) / (frames - 1) : 0;
-        code = read_snapshot(series->paths[index], NULL, &shown[i]);
-        if (code || !shown[i]->n_field) break;
-        picture.option = report_option(shown[i]);
-        picture.fields[0] = read_field(shown[i], "pressure") ? "pressure" : shown[0]->fields[0].name;
-        code = plot_picture_extremes(shown[i], &picture);
-    }
-    bool plane = !code && picture.fields[0] && plot_picture_shape(shown[0], &report_plain) == 2;
-    if (plane) text_add(page, "<h2>Course of the %s</h2>\n<div class=\"figures\">\n", picture.fields[0]);
-    for (size_t i = 0; !code && plane && i < frames; i++) code = report_picture(page, shown[i], &picture);
-    if (plane) text_add(page, "</div>\n");
-    for (size_t i = 0; i < frames; i++) read_free(shown[i]);
     return code;
 }
 
@@ -100,39 +96,8 @@ static int report_snapshots(struct text *page, const char *directory)
     if (read_series(directory, &series)) return STATUS_OK; /* a run need not have snapshots */
     int code = STATUS_OK;
     if (series.n) code = report_last(page, &series);
-    if (!code && series.n > 2) code = report_frames(page, &series);
+    if (!code) code = report_course_add(page, &series, &report_plain, &report_mirrored);
     read_series_done(&series);
-    return code;
-}
-
-static int report_columns(struct text *page, const char *directory, const char *title, const char *const *columns,
-                          unsigned n)
-{
-    cairo_surface_t *image;
-    TRY(plot_history_draw(directory, columns, n, &report_plain, &image));
-    text_add(page, "<h2>%s</h2>\n<div class=\"figures\">\n", title);
-    int code = report_html_figure(page, image, title);
-    text_add(page, "</div>\n");
-    cairo_surface_destroy(image);
-    return code;
-}
-
-/* A chart of the columns of history.csv or probes.csv but t, step, dt and the counts of the guard. */
-static int report_table(struct text *page, const char *directory, const char *name, const char *title)
-{
-    struct table table = {0};
-    const char *columns[REPORT_COLUMNS];
-    unsigned n = 0;
-    char *path = mem_print("%s/%s", directory, name);
-    int code = access(path, F_OK) == 0 ? table_read(path, TABLE_OF_RUN, &table) : STATUS_OK;
-    for (unsigned c = 0; c < table.n_column && n < REPORT_COLUMNS; c++) {
-        const char *column = table.names[c];
-        if (strcmp(column, "t") && strcmp(column, "step") && strcmp(column, "dt") && strncmp(column, "guard_", 6))
-            columns[n++] = column;
-    }
-    if (!code && n && table.n_row) code = report_columns(page, directory, title, columns, n);
-    table_done(&table);
-    mem_free(path);
     return code;
 }
 
@@ -154,8 +119,8 @@ static int report_compose(struct text *page, const char *directory)
     report_facts_head(page, directory);
     report_facts_run(page, directory);
     report_facts_expect(page, directory);
-    TRY(report_table(page, directory, "history.csv", "History"));
-    TRY(report_table(page, directory, "probes.csv", "Probes"));
+    TRY(report_columns_add(page, directory, "history.csv", "History", &report_plain));
+    TRY(report_columns_add(page, directory, "probes.csv", "Probes", &report_plain));
     TRY(report_snapshots(page, directory));
     report_facts_case(page, directory);
     report_html_end(page);

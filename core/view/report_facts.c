@@ -51,6 +51,20 @@ void report_facts_head(struct text *page, const char *directory)
 
 struct facts_row {
     const char *key, *label, *unit; /* unit NULL: as it is; "" a count */
+    const char *why;                /* what it counts, in one line; "" where the label says it */
+};
+
+/* What the guard does, in the order of its means (docs/numerics.md 8). */
+static const char *const facts_guards[][2] = {
+    {"fallback", "cells whose step was repeated with first-order fluxes, as its result was not admissible; every "
+                 "repetition counts"},
+    {"relaxed",
+     "mixed cells whose materials were brought to a common pressure, as their state was not admissible; each "
+     "time counts"},
+    {"clipped",
+     "cells whose compression term was bounded, as it would have taken more of a material than there is; each "
+     "time counts"},
+    {"retries", "steps that were repeated with half of their length"},
 };
 
 static void facts_value(const json_t *value, const char *unit, char *ret_words, size_t size)
@@ -58,26 +72,31 @@ static void facts_value(const json_t *value, const char *unit, char *ret_words, 
     double number = json_number_value(value);
     char shown[PICTURE_SCALE_LABEL];
     if (json_is_string(value)) snprintf(ret_words, size, "%s", json_string_value(value));
-    else if (json_is_integer(value)) snprintf(ret_words, size, "%lld", (long long)json_integer_value(value));
     else if (unit && strcmp(unit, "B") == 0) snprintf(ret_words, size, "%.1f MB", 1e-6 * number);
+    else if (json_is_integer(value)) snprintf(ret_words, size, "%lld", (long long)json_integer_value(value));
     else if (unit && strcmp(unit, "wall") == 0) snprintf(ret_words, size, "%.1f s", number);
+    else if (unit && strcmp(unit, "ns") == 0) snprintf(ret_words, size, "%.4g ns", number);
     else if (unit && *unit) {
         picture_scale_quantity(number, number, unit, shown);
         snprintf(ret_words, size, "%s", shown);
     } else snprintf(ret_words, size, "%.6g", number);
 }
 
-static void facts_add(struct text *page, const char *label, const char *words)
+static void facts_add(struct text *page, const char *label, const char *words, const char *why)
 {
-    text_add(page, "<div><span>%s</span>", label);
+    text_add(page, "<div><span>");
+    report_html_text(page, label);
+    if (*why) text_add(page, "<small>%s</small>", why);
+    text_add(page, "</span><b>");
     report_html_text(page, words);
-    text_add(page, "</div>\n");
+    text_add(page, "</b></div>\n");
 }
 
 /* The largest relative change of a conserved total, as the run noted it. */
 static void facts_drift(struct text *page, json_t *conservation)
 {
     const char *name;
+    const char *why = "of the total, relative to the start; what went through boundaries is part of it";
     json_t *entry;
     json_object_foreach(conservation, name, entry)
     {
@@ -86,7 +105,8 @@ static void facts_drift(struct text *page, json_t *conservation)
         if (!json_is_number(change)) continue;
         snprintf(label, sizeof label, "change of %.100s", name);
         snprintf(words, sizeof words, "%.2e", json_number_value(change));
-        facts_add(page, label, words);
+        facts_add(page, label, words, why);
+        why = "";
     }
 }
 
@@ -97,9 +117,12 @@ static void facts_guard(struct text *page, json_t *guard)
     json_object_foreach(guard, name, count)
     {
         char label[160], words[64];
+        const char *why = "";
+        for (size_t i = 0; i < sizeof facts_guards / sizeof *facts_guards; i++)
+            if (strcmp(facts_guards[i][0], name) == 0) why = facts_guards[i][1];
         snprintf(label, sizeof label, "guard: %.100s", name);
         snprintf(words, sizeof words, "%lld", (long long)json_integer_value(count));
-        facts_add(page, label, words);
+        facts_add(page, label, words, why);
     }
 }
 
@@ -114,7 +137,7 @@ static void facts_laws(struct text *page, const json_t *closures, json_t *outsid
                  (long long)json_integer_value(json_object_get(closures, "solved")),
                  json_number_value(json_object_get(closures, "mean_steps")),
                  (long long)json_integer_value(json_object_get(closures, "most_steps")));
-        facts_add(page, "pressures iterated", words);
+        facts_add(page, "pressures iterated", words, "mixture pressures found by Newton's method, cells times stages");
     }
     json_object_foreach(outside, name, counts)
     {
@@ -122,7 +145,7 @@ static void facts_laws(struct text *page, const json_t *closures, json_t *outsid
         snprintf(words, sizeof words, "%lld cell-steps, %lld cells at most",
                  (long long)json_integer_value(json_object_get(counts, "cell_steps")),
                  (long long)json_integer_value(json_object_get(counts, "most_cells")));
-        facts_add(page, label, words);
+        facts_add(page, label, words, "beyond its range a continuation stands in for it: cells times steps");
     }
 }
 
@@ -143,30 +166,30 @@ static void facts_levels(struct text *page, const json_t *root)
                  (long long)json_integer_value(json_object_get(level, "cells")),
                  (long long)json_integer_value(json_object_get(level, "leaves")),
                  (long long)json_integer_value(json_object_get(level, "peak_cells")));
-        facts_add(page, label, words);
+        facts_add(page, label, words, "cells at the end; leaves have no finer ones above them; most during the run");
     }
     char words[128];
     snprintf(words, sizeof words, "%lld, %.2g %% of the CPU time",
              (long long)json_integer_value(json_object_get(refinement, "regrids")),
              100.0 * json_number_value(json_object_get(refinement, "regrid_share")));
-    facts_add(page, "regrids", words);
+    facts_add(page, "regrids", words, "how often levels of the mesh were laid out anew, and what that cost");
 }
 
 void report_facts_run(struct text *page, const char *directory)
 {
     static const struct facts_row rows[] = {
-        {"exit_reason", "ended", NULL},
-        {"time", "simulated time", "s"},
-        {"steps", "steps", ""},
-        {"leaves", "cells", ""},
-        {"ranks", "ranks", ""},
-        {"wall_s", "wall time", "wall"},
-        {"cpu_s", "CPU time", "wall"},
-        {"cpu_ns_per_cell_stage", "CPU per cell and stage [ns]", ""},
-        {"peak_memory_bytes", "peak memory", "B"},
-        {"started", "started", NULL},
-        {"version", "version", NULL},
-        {"commit", "commit", NULL},
+        {"exit_reason", "ended", NULL, "why the run ended"},
+        {"time", "simulated time", "s", ""},
+        {"steps", "steps", "", "time steps of the coarsest level"},
+        {"leaves", "cells", "", "at the end, those under finer ones left out"},
+        {"ranks", "ranks", "", "processes side by side"},
+        {"wall_s", "wall time", "wall", "by the clock"},
+        {"cpu_s", "CPU time", "wall", "of all ranks together"},
+        {"cpu_ns_per_cell_stage", "CPU time per cell and stage", "ns", "one stage of the time integrator in one cell"},
+        {"peak_memory_bytes", "peak memory", "B", "of all ranks together"},
+        {"started", "started", NULL, ""},
+        {"version", "version", NULL, ""},
+        {"commit", "commit", NULL, ""},
     };
     json_t *root = facts_json(directory, "provenance.json");
     if (!root) return;
@@ -176,16 +199,37 @@ void report_facts_run(struct text *page, const char *directory)
         char words[256];
         if (!json_is_string(value) && !json_is_number(value)) continue;
         facts_value(value, rows[i].unit, words, sizeof words);
-        facts_add(page, rows[i].label, words);
+        facts_add(page, rows[i].label, words, rows[i].why);
     }
     facts_levels(page, root);
     facts_drift(page, json_object_get(root, "conservation"));
     if (json_object_get(root, "sources"))
-        facts_add(page, "sources, part of these changes", json_string_value(json_object_get(root, "sources")));
+        facts_add(page, "sources, part of these changes", json_string_value(json_object_get(root, "sources")),
+                  "what the case feeds in or takes out");
     facts_guard(page, json_object_get(root, "guard"));
     facts_laws(page, json_object_get(root, "closures"), json_object_get(root, "outside"));
     text_add(page, "</div>\n");
     json_decref(root);
+}
+
+/* A row of the table: the value, or why there is none. */
+static void facts_expectation(struct text *page, const json_t *item)
+{
+    const char *what = json_string_value(json_object_get(item, "what"));
+    const char *bound = json_string_value(json_object_get(item, "bound"));
+    const char *fault = json_string_value(json_object_get(item, "fault"));
+    const json_t *value = json_object_get(item, "value");
+    bool passed = json_is_true(json_object_get(item, "passed"));
+    text_add(page, "<tr><td>");
+    report_html_text(page, what ? what : "");
+    if (json_is_number(value)) text_add(page, "</td><td>%.6g</td><td>", json_number_value(value));
+    else {
+        text_add(page, "</td><td>");
+        report_html_text(page, fault ? fault : "not finite");
+        text_add(page, "</td><td>");
+    }
+    report_html_text(page, bound ? bound : "");
+    text_add(page, "</td><td class=\"%s\">%s</td></tr>\n", passed ? "pass" : "fail", passed ? "pass" : "FAIL");
 }
 
 void report_facts_expect(struct text *page, const char *directory)
@@ -194,22 +238,13 @@ void report_facts_expect(struct text *page, const char *directory)
     const json_t *list = json_object_get(root, "expectations");
     size_t i;
     if (json_array_size(list)) {
-        text_add(page,
-                 "<h2>Expectations</h2>\n<table>\n<tr><th>what</th><th>value</th><th>allowed</th><th></th></tr>\n");
-        json_array_foreach(list, i, item)
-        {
-            const char *what = json_string_value(json_object_get(item, "what"));
-            const char *bound = json_string_value(json_object_get(item, "bound"));
-            const json_t *value = json_object_get(item, "value");
-            bool passed = json_is_true(json_object_get(item, "passed"));
-            text_add(page, "<tr><td>");
-            report_html_text(page, what ? what : "");
-            if (json_is_number(value)) text_add(page, "</td><td>%.6g</td><td>", json_number_value(value));
-            else text_add(page, "</td><td>not finite</td><td>");
-            report_html_text(page, bound ? bound : "");
-            text_add(page, "</td><td class=\"%s\">%s</td></tr>\n", passed ? "pass" : "fail", passed ? "pass" : "FAIL");
-        }
-        text_add(page, "</table>\n");
+        text_add(page, "<h2>Expectations</h2>\n<p class=\"note\">Values are in SI units; norms are relative where the "
+                       "case gives a "
+                       "scale.</p>\n<div class=\"wide\"><table>\n<tr><th>what</th><th>value [SI]</th><th>allowed "
+                       "[SI]</th><th></th>"
+                       "</tr>\n");
+        json_array_foreach(list, i, item) facts_expectation(page, item);
+        text_add(page, "</table></div>\n");
     }
     json_decref(root);
 }

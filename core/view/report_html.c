@@ -1,15 +1,17 @@
-/* report_html.c - see report_html.h. The page needs no network, no script and no other file. */
+/* report_html.c - see report_html.h. The page needs no network, no script and no other file; it
+ * fits the screen of a phone: only tables and the case file scroll sidewards, within their own boxes. */
 #include "view/report_html.h"
 
 #include "base/status.h"
 
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 static const char html_style[] =
     ":root{color-scheme:light}"
     "body{font:16px/1.5 'DejaVu Sans',system-ui,sans-serif;color:#1a1a1a;background:#fff;max-width:1080px;"
-    "margin:2.5rem auto;padding:0 1.5rem}"
+    "margin:2.5rem auto;padding:0 1.5rem;overflow-wrap:anywhere}"
     "h1{font-size:1.7rem;line-height:1.25;margin:0 0 .3rem}"
     "h2{font-size:1.15rem;margin:2.6rem 0 .8rem;padding-bottom:.3rem;border-bottom:1px solid #ccc}"
     ".about{max-width:46rem;white-space:pre-line}.cite{color:#666;font-size:.85rem}"
@@ -17,9 +19,20 @@ static const char html_style[] =
     "border-bottom:1px solid #e6e6e6;font-variant-numeric:tabular-nums;vertical-align:top}th{font-weight:600}"
     ".facts{columns:2;column-gap:3rem}.facts div{display:flex;justify-content:space-between;gap:1rem;"
     "border-bottom:1px solid #e6e6e6;padding:.2rem 0;font-size:.9rem;break-inside:avoid}"
-    ".facts span{color:#666}.pass{color:#17692f}.fail{color:#a3151b;font-weight:600}"
-    ".figures{display:grid;grid-template-columns:1fr 1fr;gap:1.2rem;align-items:start}"
-    "@media(max-width:820px){.figures{grid-template-columns:1fr}.facts{columns:1}}"
+    ".facts span{color:#555;min-width:0}.facts b{font-weight:400;text-align:right;flex:none;max-width:60%}"
+    "small{display:block;color:#666;font-size:.8em;line-height:1.35}.note,figcaption{color:#555;font-size:.85rem}"
+    ".wide{overflow-x:auto;min-width:0}"
+    ".numbers td,.numbers th{padding-right:1rem;white-space:nowrap}"
+    ".pass{color:#17692f}.fail{color:#a3151b;font-weight:600}"
+    ".figures{display:grid;grid-template-columns:minmax(0,1fr) minmax(0,1fr);gap:1.2rem;align-items:start}"
+    ".steps{position:relative;max-width:800px}.steps input{position:absolute;opacity:0}.step{display:none}"
+    "input:checked+.step{display:block}input:focus-visible+.step .turn{outline:2px solid #1a5fb4}"
+    ".turn{display:flex;justify-content:space-between;align-items:center;gap:.5rem;margin:.4rem 0}"
+    ".turn b{font-weight:400}"
+    ".turn label,.turn span{border:1px solid #999;border-radius:4px;padding:.45rem .8rem}.turn label{cursor:pointer}"
+    ".turn span{color:#aaa;border-color:#ddd}"
+    "@media(max-width:820px){body{margin:1rem auto;padding:0 .9rem}.figures{grid-template-columns:minmax(0,1fr)}"
+    ".facts{columns:1}}@media print{.step{display:block}.turn label,.turn span{display:none}}"
     "figure{margin:0}img{width:100%;height:auto;display:block}"
     "pre{font:.8rem/1.45 'DejaVu Sans Mono',monospace;background:#f6f6f6;padding:1rem;overflow-x:auto}"
     "summary{cursor:pointer}";
@@ -27,7 +40,7 @@ static const char html_style[] =
 void report_html_begin(struct text *page, const char *title)
 {
     text_add(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                   "<meta name=\"viewport\" content=\"width=device-width\">\n<title>");
+                   "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
     report_html_text(page, title);
     text_add(page, "</title>\n<style>%s</style>\n</head>\n<body>\n", html_style);
 }
@@ -70,7 +83,7 @@ static void html_base64(struct text *page, const unsigned char *bytes, size_t le
     }
 }
 
-int report_html_figure(struct text *page, cairo_surface_t *image, const char *what)
+int report_html_figure(struct text *page, cairo_surface_t *image, const char *what, const char *caption)
 {
     struct text png = {0};
     cairo_status_t status = cairo_surface_write_to_png_stream(image, html_collect, &png);
@@ -79,9 +92,20 @@ int report_html_figure(struct text *page, cairo_surface_t *image, const char *wh
         report_html_text(page, what);
         text_add(page, "\" src=\"data:image/png;base64,");
         html_base64(page, (const unsigned char *)png.at, png.length);
-        text_add(page, "\"></figure>\n");
+        text_add(page, "\"><figcaption>");
+        report_html_text(page, caption);
+        text_add(page, "</figcaption></figure>\n");
     }
     text_done(&png);
     if (status == CAIRO_STATUS_SUCCESS) return STATUS_OK;
     return status_fail(STATUS_RUN, "cannot encode a picture: %s", cairo_status_to_string(status));
+}
+
+const char *report_html_unit(const char *unit, char ret_words[PICTURE_SCALE_TEXT])
+{
+    double factor;
+    picture_scale_unit(unit, 1.0, &factor, ret_words);
+    if (!*unit) snprintf(ret_words, PICTURE_SCALE_TEXT, "unit not known");
+    else if (strcmp(unit, "1") == 0) snprintf(ret_words, PICTURE_SCALE_TEXT, "pure number");
+    return ret_words;
 }

@@ -22,7 +22,8 @@ awk 'BEGIN {
 printf 't,wall.pressure,wall.velocity_y\n0,1e5,0\n1e-9,2e5,1\n2e-9,3e5,4\n' >dir/probes.csv
 printf 'title: A <case> & more\nabout: "What it is"\n' >dir/case.yaml
 printf '{"version": "1", "steps": 500, "cells": 42.0, "exit_reason": "finished"}' >dir/provenance.json
-printf '{"passed": false, "expectations": [{"what": "min(V)", "value": 1.5, "bound": "<= 1", "passed": false}]}' \
+printf '{"passed": false, "expectations": [{"what": "min(V)", "value": 1.5, "bound": "<= 1", "passed": false},
+    {"what": "at(V, 9)", "value": null, "fault": "the run ended <before>", "bound": "<= 1", "passed": false}]}' \
     >dir/expect.json
 
 [ "$("$BULLA" plot dir history --width 640)" = dir/plots/history.png ]
@@ -43,6 +44,7 @@ refused "no provenance.json" "$BULLA" report empty
 [ "$("$BULLA" report dir/)" = dir/report.html ]
 grep -q '<title>A &lt;case&gt; &amp; more</title>' dir/report.html
 grep -q 'class="fail">FAIL' dir/report.html
+grep -q '<td>the run ended &lt;before&gt;</td>' dir/report.html
 [ "$(grep -c 'src="data:image/png;base64,iVBORw0KGgo' dir/report.html)" = 2 ] # history and probes
 ! grep -qE 'src="[^d]|href=' dir/report.html # nothing from outside
 

@@ -76,7 +76,7 @@ finished
 # Two signals that arrive together: the second ends the run.
 twice() {
     begin
-    for signal in STOP TERM USR1 CONT; do kill -s $signal "$run" 2>/dev/null || true; done
+    for signal in STOP TERM INT CONT; do kill -s $signal "$run" 2>/dev/null || true; done
     ended "$run"
     [ "$code" != 0 ]
 }

@@ -33,6 +33,17 @@ static void own_command_line_follows_the_program(void **state)
     launch_free_arguments(out);
 }
 
+static void every_machine_knows_that_a_parent_reports(void **state)
+{
+    (void)state;
+    char *argv[] = {"bulla", "run", NULL};
+    char **out = launch_arguments(2, false, "/x/bulla", argv);
+    int at = position(out, "-x");
+    assert_true(at > 0 && at < position(out, "/x/bulla"));
+    assert_string_equal(out[at + 1], "BULLA_STATUS_FILE");
+    launch_free_arguments(out);
+}
+
 static void root_is_allowed_only_for_root(void **state)
 {
     (void)state;
@@ -50,6 +61,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(own_command_line_follows_the_program),
+        cmocka_unit_test(every_machine_knows_that_a_parent_reports),
         cmocka_unit_test(root_is_allowed_only_for_root),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -261,9 +261,72 @@ static void interfaces_are_where_alpha_is_a_half(void **state)
     assert_int_equal(interfaces.n, 0);
     assert_int_equal(plot_interface_find(&view, "watr", &interfaces), STATUS_CASE);
     assert_non_null(strstr(status_text(), "did you mean 'water'"));
+    assert_int_equal(plot_interface_find(&view, "water", &interfaces), 0); /* what air leaves */
+    assert_int_equal(interfaces.n, 1);
+    assert_string_equal(interfaces.names[0], "water");
+    assert_close(contour_length(&interfaces.contours[0]), 2.0, 1e-12);
+    plot_interface_done(&interfaces);
+    assert_null(plot_interface_lacking(snapshot));
+    plot_view_done(&view);
+    read_free(snapshot);
+}
+
+/* Of three fractions one is in the file: its interface is drawn, those of the others cannot be told. */
+static void of_two_missing_fractions_nothing_is_known(void **state)
+{
+    (void)state;
+    struct snapshot *snapshot = snapshot_new(2, 0);
+    struct plot_option option = {0};
+    struct plot_view view;
+    struct plot_interfaces interfaces;
+    snapshot->materials = mem_grow(snapshot->materials, 2, 3, sizeof *snapshot->materials);
+    snprintf(snapshot->materials[2], READ_NAME, "gel");
+    snapshot->n_material = 3;
+    assert_int_equal(plot_view_make(snapshot, &option, &view), 0);
+    assert_int_equal(plot_interface_find(&view, NULL, &interfaces), 0);
+    assert_int_equal(interfaces.n, 1);
+    assert_string_equal(interfaces.names[0], "air");
+    plot_interface_done(&interfaces);
     assert_int_equal(plot_interface_find(&view, "water", &interfaces), STATUS_CASE);
     assert_non_null(strstr(status_text(), "no alpha_water"));
+    char *lacking = plot_interface_lacking(snapshot);
+    assert_string_equal(lacking, "alpha_water, alpha_gel");
+    mem_free(lacking);
     plot_view_done(&view);
+    read_free(snapshot);
+}
+
+/* Along a line a vector has a direction: the sign is part of the picture. */
+static void velocity_of_a_line_keeps_its_sign(void **state)
+{
+    (void)state;
+    struct snapshot *snapshot = snapshot_new(1, 0), *round = snapshot_new(1, 2);
+    struct plot_field field;
+    snapshot->fields[1].data[3] = -2.0;
+    assert_int_equal(plot_field_find(snapshot, "velocity", &field), 0);
+    assert_close(plot_field_value(&field, 1), -2.0, 0.0);
+    assert_non_null(strstr(field.label, "velocity"));
+    assert_null(strstr(field.label, "magnitude"));
+    assert_int_equal(plot_field_find(round, "velocity", &field), 0);
+    assert_string_equal(field.label, "radial velocity");
+    read_free(snapshot);
+    read_free(round);
+}
+
+/* Every width and height is even, so that films can be made of pictures. */
+static void pictures_have_even_sizes(void **state)
+{
+    (void)state;
+    struct snapshot *snapshot = snapshot_new(2, 0);
+    for (int width = 300; width < 320; width++) {
+        struct plot_option option = {.width = width};
+        struct plot_picture picture = {.option = &option, .n_field = 1, .fields = {"pressure"}};
+        cairo_surface_t *image;
+        assert_int_equal(plot_picture_draw(snapshot, &picture, &image), 0);
+        assert_int_equal(cairo_image_surface_get_width(image), width + width % 2);
+        assert_int_equal(cairo_image_surface_get_height(image) % 2, 0);
+        cairo_surface_destroy(image);
+    }
     read_free(snapshot);
 }
 
@@ -407,6 +470,9 @@ int main(void)
         cmocka_unit_test(an_absent_material_stays_blank),
         cmocka_unit_test(interfaces_are_where_alpha_is_a_half),
         cmocka_unit_test(interfaces_of_a_line_are_places),
+        cmocka_unit_test(of_two_missing_fractions_nothing_is_known),
+        cmocka_unit_test(velocity_of_a_line_keeps_its_sign),
+        cmocka_unit_test(pictures_have_even_sizes),
         cmocka_unit_test(every_dimension_and_geometry_is_drawn),
         cmocka_unit_test(what_cannot_be_drawn_is_said),
         cmocka_unit_test(a_pair_fills_the_two_halves),
