@@ -275,8 +275,14 @@ void scene_free(struct scene *scene)
     mem_free(scene->variants);
     for (unsigned i = 0; i < scene->n_setting; i++) mem_free(scene->settings[i]);
     mem_free(scene->settings);
-    char *texts[] = {scene->path, scene->name,     scene->title,     scene->about,
-                     scene->cite, scene->resolved, scene->output.directory, scene->domain.cells_place};
+    char *texts[] = {scene->path,
+                     scene->name,
+                     scene->title,
+                     scene->about,
+                     scene->cite,
+                     scene->resolved,
+                     scene->output.directory,
+                     scene->domain.cells_place};
     for (unsigned i = 0; i < sizeof texts / sizeof *texts; i++) mem_free(texts[i]);
     script_host_free(scene->host);
     mem_free(scene);

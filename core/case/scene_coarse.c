@@ -154,7 +154,8 @@ static void scene_coarse_boundary(struct draft *draft, int axis, int side, const
     x[axis] = box.lower[axis] = box.upper[axis] = at;
     int level = scene_coarse_level(scene, &box, NULL);
     double c = scene_coarse_sound(scene, x), h = scene_coarse_cell(scene, axis, level);
-    double step = scene->scheme.dt_fixed > 0.0 ? scene->scheme.dt_fixed : scene->scheme.cfl * ldexp(h, level - scene->mesh.levels) / c;
+    double step = scene->scheme.dt_fixed > 0.0 ? scene->scheme.dt_fixed
+                                               : scene->scheme.cfl * ldexp(h, level - scene->mesh.levels) / c;
     struct scene_coarse_pulse times = scene_coarse_times_of(boundary);
     double length = c * times.wave;
     scene_coarse_units(draft, pulse, times.all, step);

@@ -146,8 +146,8 @@ static void scene_domain_corners(struct draft *draft, const struct keys_map *dom
     good &= scene_domain_vector(draft, upper, scene->domain.upper);
     for (int axis = 0; good && axis < scene->domain.dim; axis++)
         if (scene->domain.upper[axis] <= scene->domain.lower[axis])
-            keys_error(&draft->keys, &upper->list[axis], "%g m is not above the lower end, %g m", scene->domain.upper[axis],
-                       scene->domain.lower[axis]);
+            keys_error(&draft->keys, &upper->list[axis], "%g m is not above the lower end, %g m",
+                       scene->domain.upper[axis], scene->domain.lower[axis]);
 }
 
 static void scene_domain_cells(struct draft *draft, const struct keys_map *domain)

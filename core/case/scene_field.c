@@ -172,12 +172,14 @@ const char *scene_field_constant(struct draft *draft, const char *name)
     if ((y && scene->domain.n_velocity < 2) || (z && scene->domain.n_velocity < 3))
         return "0 everywhere: velocities have no such component";
     if (scene->domain.n_velocity < scene_field_shear(name)) return "0 everywhere: nothing moves across these axes";
-    if (strcmp(name, "vorticity") == 0 && scene->domain.n_velocity == 1) return "0 everywhere: velocities have one component";
+    if (strcmp(name, "vorticity") == 0 && scene->domain.n_velocity == 1)
+        return "0 everywhere: velocities have one component";
     if (one && (strcmp(name, "cost") == 0 || strncmp(name, "alpha_", 6) == 0))
         return "1 everywhere: there is one material";
     if (strncmp(name, "curvature_", 10) == 0) {
         if (one) return "0 everywhere: there is one material";
-        if (scene->domain.dim == 1 && scene->domain.geometry == SCENE_CARTESIAN) return "0 everywhere: surfaces are planes";
+        if (scene->domain.dim == 1 && scene->domain.geometry == SCENE_CARTESIAN)
+            return "0 everywhere: surfaces are planes";
     }
     return NULL;
 }

@@ -88,7 +88,8 @@ int scene_history_axis(struct draft *draft, const struct keys_value *along)
     if (axial && scene->domain.geometry == SCENE_CARTESIAN)
         keys_error(&draft->keys, along, "cartesian domains have no '%s': use x, y or z", along->text);
     else if (axis >= scene->domain.dim)
-        keys_error(&draft->keys, along, "the domain has only %d ax%s", scene->domain.dim, scene->domain.dim == 1 ? "is" : "es");
+        keys_error(&draft->keys, along, "the domain has only %d ax%s", scene->domain.dim,
+                   scene->domain.dim == 1 ? "is" : "es");
     return axis;
 }
 

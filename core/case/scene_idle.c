@@ -62,7 +62,8 @@ static void scene_idle_every(struct draft *draft, const struct keys_map *section
     bool steps = every->given && every->integer > 0;
     until = keys_at(run, steps ? "max-steps" : "until");
     if (!every->given || !until->given || !until->node->mark.source->is_file) return; /* cut short for once */
-    if (steps ? !scene->run.max_steps || every->integer <= scene->run.max_steps : every->number <= 1.000001 * scene->run.until)
+    if (steps ? !scene->run.max_steps || every->integer <= scene->run.max_steps
+              : every->number <= 1.000001 * scene->run.until)
         return;
     if (steps)
         diag_warn(draft->keys.diag, &every->node->mark, "%s: the run ends before that, after %ld steps: %s",
@@ -87,10 +88,11 @@ static void scene_idle_outputs(struct draft *draft)
 static void scene_idle_region(struct draft *draft, const struct keys_value *value, const struct shape *shape)
 {
     const struct scene *scene = draft->scene;
-    if (!value->node || !shape || shape_reaches(shape, scene->domain.lower, scene->domain.upper, scene->domain.dim)) return;
+    if (!value->node || !shape || shape_reaches(shape, scene->domain.lower, scene->domain.upper, scene->domain.dim))
+        return;
     diag_warn(draft->keys.diag, &value->node->mark, "%s: this region lies outside of the domain", value->path);
-    diag_help(draft->keys.diag, "the domain is %g to %g m along the first axis: are the units right?", scene->domain.lower[0],
-              scene->domain.upper[0]);
+    diag_help(draft->keys.diag, "the domain is %g to %g m along the first axis: are the units right?",
+              scene->domain.lower[0], scene->domain.upper[0]);
 }
 
 static void scene_idle_regions(struct draft *draft)
@@ -107,7 +109,8 @@ static void scene_idle_regions(struct draft *draft)
                 scene_idle_region(draft, keys_at(maps->values[k].map, "where"), scene->output.maps[i].where);
     for (unsigned i = 0; i < scene->mesh.n_refine; i++) {
         bool region = scene->mesh.refines[i].kind == SCENE_REFINE_REGION;
-        scene_idle_region(draft, keys_at(refine->list[i].map, region ? "region" : "where"), scene->mesh.refines[i].where);
+        scene_idle_region(draft, keys_at(refine->list[i].map, region ? "region" : "where"),
+                          scene->mesh.refines[i].where);
     }
 }
 

@@ -60,11 +60,12 @@ static void scene_initial_look(struct draft *draft, const struct scene_layer *la
     for (int axis = 0; axis < scene->domain.dim; axis++)
         if (scene->domain.upper[axis] <= scene->domain.lower[axis]) return;
     double covered = shape_fraction(layer->shape, scene->domain.lower, scene->domain.upper, scene->domain.dim, 0);
-    if (covered < 1.0 && shape_reaches(layer->shape, scene->domain.lower, scene->domain.upper, scene->domain.dim)) return;
+    if (covered < 1.0 && shape_reaches(layer->shape, scene->domain.lower, scene->domain.upper, scene->domain.dim))
+        return;
     diag_warn(draft->keys.diag, &value->node->mark, "%s: this shape %s", value->path,
               covered > 0.0 ? "covers the whole domain" : "lies outside of the domain");
-    diag_help(draft->keys.diag, "the domain is %g to %g m along the first axis: are the units right?", scene->domain.lower[0],
-              scene->domain.upper[0]);
+    diag_help(draft->keys.diag, "the domain is %g to %g m along the first axis: are the units right?",
+              scene->domain.lower[0], scene->domain.upper[0]);
 }
 
 static void scene_initial_need(struct draft *draft, const struct keys_map *map, const char *what, const char *help)

@@ -86,7 +86,8 @@ const struct keys_section scene_map_list_keys = {.name = "maps",
 /* Width of the cells of the finest level. */
 static double scene_map_width(const struct scene *scene, int axis)
 {
-    return ldexp((scene->domain.upper[axis] - scene->domain.lower[axis]) / scene->domain.cells[axis], -scene->mesh.levels);
+    return ldexp((scene->domain.upper[axis] - scene->domain.lower[axis]) / scene->domain.cells[axis],
+                 -scene->mesh.levels);
 }
 
 static unsigned scene_map_count(const struct keys_value *points, double fine)

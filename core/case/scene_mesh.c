@@ -80,7 +80,8 @@ static int scene_mesh_misfit(const struct scene *scene, int n)
 /* The least side of a tile: what is refined has halves that hold the layers which neighbours need. */
 static int scene_mesh_least(const struct scene *scene)
 {
-    return scene->mesh.levels > 0 && 2 * scene->scheme.ghosts > SCENE_MESH_LEAST ? 2 * scene->scheme.ghosts : SCENE_MESH_LEAST;
+    return scene->mesh.levels > 0 && 2 * scene->scheme.ghosts > SCENE_MESH_LEAST ? 2 * scene->scheme.ghosts
+                                                                                 : SCENE_MESH_LEAST;
 }
 
 /* Counts rounded up to multiples of n: "[48, 80]". */
@@ -89,7 +90,8 @@ static const char *scene_mesh_multiples(struct draft *draft, int n)
     const struct scene *scene = draft->scene;
     const char *list = "";
     for (int axis = 0; axis < scene->domain.dim; axis++)
-        list = tree_print(draft->keys.forest, "%s%s%d", list, axis ? ", " : "", (scene->domain.cells[axis] + n - 1) / n * n);
+        list = tree_print(draft->keys.forest, "%s%s%d", list, axis ? ", " : "",
+                          (scene->domain.cells[axis] + n - 1) / n * n);
     return list;
 }
 
@@ -105,12 +107,13 @@ static void scene_mesh_given(struct draft *draft, const struct keys_value *tile)
     if (n < scene_mesh_least(scene)) {
         keys_error(&draft->keys, tile, "with 'levels' above 0 and this reconstruction a tile has a side of at least %d",
                    scene_mesh_least(scene));
-        diag_help(draft->keys.diag, "its halves must hold the %d layers of cells that '%s' looks at", scene->scheme.ghosts,
-                  scene->scheme.reconstruction.module->name);
+        diag_help(draft->keys.diag, "its halves must hold the %d layers of cells that '%s' looks at",
+                  scene->scheme.ghosts, scene->scheme.reconstruction.module->name);
         return;
     }
     if (axis < 0) return;
-    keys_error(&draft->keys, tile, "%d does not divide domain.cells[%d], which is %d", n, axis, scene->domain.cells[axis]);
+    keys_error(&draft->keys, tile, "%d does not divide domain.cells[%d], which is %d", n, axis,
+               scene->domain.cells[axis]);
     int other = n - n % step;
     while (other >= scene_mesh_least(scene) && scene_mesh_misfit(scene, other) >= 0) other -= step;
     if (other >= scene_mesh_least(scene))
@@ -183,8 +186,8 @@ static void scene_mesh_buffer(struct draft *draft, const struct keys_value *buff
     int every = (int)((scene->mesh.buffer - 1) / scene->scheme.cfl + 1e-9);
     diag_warn(draft->keys.diag, &buffer->node->mark,
               "%s: waves cross up to %g cells in the %d step%s between two regriddings, and leave %d refined cells",
-              buffer->path, scene->mesh.regrid_every * scene->scheme.cfl, scene->mesh.regrid_every, scene->mesh.regrid_every == 1 ? "" : "s",
-              scene->mesh.buffer);
+              buffer->path, scene->mesh.regrid_every * scene->scheme.cfl, scene->mesh.regrid_every,
+              scene->mesh.regrid_every == 1 ? "" : "s", scene->mesh.buffer);
     if (every >= 1) diag_help(draft->keys.diag, "buffer: %.0f would do, or regrid-every: %d", ceil(wanted), every);
     else diag_help(draft->keys.diag, "buffer: %.0f would do", ceil(wanted));
 }
@@ -207,7 +210,8 @@ void scene_mesh(struct draft *draft)
     if (whole && tile->given) scene_mesh_given(draft, tile);
     if (whole && scene->mesh.levels > 0 && !tile->given) scene_mesh_divisor(draft, cells);
     if (whole && scene->mesh.levels > 0) scene_mesh_finest(draft, levels);
-    if (scene->mesh.levels > 0 && buffer->given && every->given && scene->scheme.cfl > 0) scene_mesh_buffer(draft, buffer);
+    if (scene->mesh.levels > 0 && buffer->given && every->given && scene->scheme.cfl > 0)
+        scene_mesh_buffer(draft, buffer);
     if (scene->mesh.levels > 0 && keys_at(mesh, "refine")->count == 0) {
         diag_warn(draft->keys.diag, &levels->node->mark, "%s: nothing asks for a finer level, so there will be none",
                   levels->path);

@@ -196,7 +196,8 @@ void scene_output(struct draft *draft)
     struct scene *scene = draft->scene;
     scene_output_folder(draft, output);
     scene->output.snapshots = scene_output_every(keys_at(snapshots, "every"));
-    scene_field_list(draft, keys_at(snapshots, "fields"), &scene->output.snapshot_fields, &scene->output.n_snapshot_field);
+    scene_field_list(draft, keys_at(snapshots, "fields"), &scene->output.snapshot_fields,
+                     &scene->output.n_snapshot_field);
     scene->output.snapshot_double = keys_at(snapshots, "precision")->integer == 1;
     scene->output.history = scene_output_every(keys_at(keys_at(output, "history")->map, "every"));
     scene_output_probes_read(draft, keys_at(output, "probes")->map);

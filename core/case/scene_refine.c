@@ -347,5 +347,6 @@ void scene_refine(struct draft *draft)
     struct scene *scene = draft->scene;
     scene->mesh.refines = mem_new(list->count + 1, sizeof *scene->mesh.refines);
     for (unsigned i = 0; i < list->count; i++)
-        if (list->list[i].map) scene_refine_read(draft, &scene->mesh.refines[scene->mesh.n_refine++], list->list[i].map);
+        if (list->list[i].map)
+            scene_refine_read(draft, &scene->mesh.refines[scene->mesh.n_refine++], list->list[i].map);
 }

@@ -200,7 +200,8 @@ static bool scene_shape_outline(struct draft *draft, struct shape *shape, const 
     if (!vertices->given || draft->scene->domain.dim == 0) return false;
     if (draft->scene->domain.dim < 2 || vertices->node->kind != TREE_LIST || vertices->node->count < 3) {
         keys_error(&draft->keys, vertices,
-                   draft->scene->domain.dim < 2 ? "a polygon needs two axes" : "a list of at least three [x, y] is needed");
+                   draft->scene->domain.dim < 2 ? "a polygon needs two axes"
+                                                : "a list of at least three [x, y] is needed");
         return false;
     }
     bool good = true;

@@ -180,7 +180,8 @@ static int rebuild_nests(const struct rebuild *rebuild, int n_level)
         level->n_tile = resume->n_tile[l];
         level->tiles = tiles;
         tiles += level->n_tile;
-        for (int d = 0; d < 3; d++) level->extent[d] = d < scene->domain.dim ? scene->domain.cells[d] / rebuild->tile << l : 1;
+        for (int d = 0; d < 3; d++)
+            level->extent[d] = d < scene->domain.dim ? scene->domain.cells[d] / rebuild->tile << l : 1;
     }
     int code = nest_check(mesh);
     if (code) status_wrap(code, "%s: impossible checkpoint: ", resume->path);

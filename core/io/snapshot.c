@@ -95,7 +95,7 @@ int snapshot_new(const struct state *state, struct snapshots **ret_snapshots)
     snapshots->folder = mem_print("%s/fields", state->scene->output.directory);
     snapshots->list_path = mem_print("%s/%s.hdf.series", snapshots->folder, state->scene->name);
     int code = state->scene->output.n_snapshot_field ? snapshot_find_fields(snapshots, state)
-                                              : snapshot_choose_fields(snapshots, state);
+                                                     : snapshot_choose_fields(snapshots, state);
     if (!code) code = place_folder(snapshots->folder);
     if (!code) snapshot_go_on(snapshots, state);
     if (code) snapshot_free(snapshots);

@@ -61,8 +61,10 @@ int tube_of_scene(const struct scene *scene, struct tube *ret_tube)
             return status_fail(STATUS_CASE, "'exact-riemann' is the solution of fluids, and '%s' is a solid",
                                scene->material[l].name);
     if (scene->domain.n_velocity > scene->domain.dim)
-        return status_fail(STATUS_CASE, "'exact-riemann' needs velocities of one component, not %d", scene->domain.n_velocity);
-    if (scene->domain.dim != 1 || scene->domain.geometry != SCENE_CARTESIAN || layer[0] == layer[1] || layer[0] < 0 || layer[1] < 0)
+        return status_fail(STATUS_CASE, "'exact-riemann' needs velocities of one component, not %d",
+                           scene->domain.n_velocity);
+    if (scene->domain.dim != 1 || scene->domain.geometry != SCENE_CARTESIAN || layer[0] == layer[1] || layer[0] < 0 ||
+        layer[1] < 0)
         return status_fail(STATUS_CASE,
                            "'exact-riemann' needs a 1D cartesian scene of two layers that meet at one point");
     for (;;) {

@@ -32,12 +32,13 @@ static int mesh_gcd(int a, int b)
 static int mesh_refuse(const struct scene *scene, int common)
 {
     struct text counts = {0};
-    for (int d = 0; d < scene->domain.dim; d++) text_add(&counts, "%s%d", d ? ", " : "", (scene->domain.cells[d] + 15) / 16 * 16);
+    for (int d = 0; d < scene->domain.dim; d++)
+        text_add(&counts, "%s%d", d ? ", " : "", (scene->domain.cells[d] + 15) / 16 * 16);
     status_fail(STATUS_CASE,
                 "%s: domain.cells: the counts have no common %stile side from %d to %d (greatest common divisor %d); "
                 "try [%s]",
-                scene->domain.cells_place, scene->mesh.levels > 0 ? "even " : "", MESH_TILE_LEAST, scene->domain.dim == 1 ? 64 : 16,
-                common, counts.at);
+                scene->domain.cells_place, scene->mesh.levels > 0 ? "even " : "", MESH_TILE_LEAST,
+                scene->domain.dim == 1 ? 64 : 16, common, counts.at);
     text_done(&counts);
     return 0;
 }

@@ -104,7 +104,8 @@ static void check_levels(const struct scene *scene, const struct state *state, s
 static int check_count(const struct scene *scene, struct check_mesh *ret)
 {
     struct state *state = NULL;
-    if (scene->mesh.levels > 0 && scenes_bytes(scene, scenes_cells(scene)) <= check_build) TRY(state_new(scene, &state));
+    if (scene->mesh.levels > 0 && scenes_bytes(scene, scenes_cells(scene)) <= check_build)
+        TRY(state_new(scene, &state));
     check_levels(scene, state, ret);
     state_free(state);
     return STATUS_OK;
@@ -117,7 +118,8 @@ static struct scene check_coarsen(const struct scene *scene, double *ret_ratio)
     struct scene coarse = *scene;
     coarse.mesh.levels = 0;
     int most = 1, limit = scene->domain.dim == 1 ? 8 * CHECK_COARSE : CHECK_COARSE;
-    for (int axis = 0; axis < scene->domain.dim; axis++) most = scene->domain.cells[axis] > most ? scene->domain.cells[axis] : most;
+    for (int axis = 0; axis < scene->domain.dim; axis++)
+        most = scene->domain.cells[axis] > most ? scene->domain.cells[axis] : most;
     int factor = (most + limit - 1) / limit;
     *ret_ratio = 1;
     for (int axis = 0; axis < scene->domain.dim && factor > 1; axis++) {
@@ -147,7 +149,8 @@ static int check_measure(struct state *coarse, double ratio, const struct scene 
     if (scene->scheme.dt_fixed <= 0) dt /= ratio * mesh->parts;
     ret->coarse_steps = coarse->step;
     ret->steps = ceil(scene->run.until / dt);
-    if (scene->run.max_steps > 0 && ret->steps > (double)scene->run.max_steps) ret->steps = (double)scene->run.max_steps;
+    if (scene->run.max_steps > 0 && ret->steps > (double)scene->run.max_steps)
+        ret->steps = (double)scene->run.max_steps;
     ret->seconds = ret->steps * spent / (double)coarse->step * mesh->updates / scenes_cells(coarse->scene);
     return 0;
 }
@@ -162,7 +165,8 @@ static void check_print_levels(const struct scene *scene, const struct check_mes
     }
     double finest = HUGE_VAL;
     for (int axis = 0; axis < scene->domain.dim; axis++)
-        finest = fmin(finest, (scene->domain.upper[axis] - scene->domain.lower[axis]) / ldexp(scene->domain.cells[axis], scene->mesh.levels));
+        finest = fmin(finest, (scene->domain.upper[axis] - scene->domain.lower[axis]) /
+                                  ldexp(scene->domain.cells[axis], scene->mesh.levels));
     printf("  %-12s %d above the coarsest, finest cells %s; regrid every %d steps, buffer %d%s\n", "levels",
            scene->mesh.levels, human_si(finest, "m", text), scene->mesh.regrid_every, scene->mesh.buffer,
            scene->mesh.subcycle ? ", subcycled" : "");
@@ -180,14 +184,16 @@ static void check_print(const struct scene *scene, const struct model *model, co
 {
     char text[HUMAN_ROOM];
     if (scene->title) printf("  %-12s %s\n", "title", scene->title);
-    printf("  %-12s %dD %s, %d", "domain", scene->domain.dim, check_geometry[scene->domain.geometry], scene->domain.cells[0]);
+    printf("  %-12s %dD %s, %d", "domain", scene->domain.dim, check_geometry[scene->domain.geometry],
+           scene->domain.cells[0]);
     for (int axis = 1; axis < scene->domain.dim; axis++) printf(" x %d", scene->domain.cells[axis]);
     if (scene->domain.dim > 1) printf(" = %.0f", scenes_cells(scene));
     int tile = mesh_tile_size(scene);
     double tiles = 1;
     for (int axis = 0; axis < scene->domain.dim; axis++) tiles *= scene->domain.cells[axis] / (double)tile;
     printf(" cells in %.0f tiles of %d", tiles, tile);
-    if (scene->domain.n_velocity > scene->domain.dim) printf("; velocities with %d components", scene->domain.n_velocity);
+    if (scene->domain.n_velocity > scene->domain.dim)
+        printf("; velocities with %d components", scene->domain.n_velocity);
     putchar('\n');
     check_print_levels(scene, mesh);
     check_print_fields(model);

@@ -133,8 +133,9 @@ static int advance_give_up(const struct state *state, struct stage *stage)
 {
     char cause[sizeof stage->guard->cause];
     memcpy(cause, stage->guard->cause, sizeof cause);
-    const char *tried = state->scene->scheme.guard == SCENE_GUARD_STRICT ? "guard: strict allows no repair"
-                                                                  : "first-order fluxes and smaller steps did not help";
+    const char *tried = state->scene->scheme.guard == SCENE_GUARD_STRICT
+                            ? "guard: strict allows no repair"
+                            : "first-order fluxes and smaller steps did not help";
     char face[BLAME_NAME + 64] = "";
     int code = STATUS_OK;
     advance_watch(state, stage);

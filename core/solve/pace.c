@@ -17,7 +17,8 @@ double pace_least(const struct state *state, int l)
 {
     const struct scene *scene = state->scene;
     double least = scene->run.dt_least;
-    if (least < 0.0) least = PACE_LEAST * (scene->mesh.subcycle ? 1.0 : ldexp(1.0, -scene->mesh.levels)) * state->dt_longest;
+    if (least < 0.0)
+        least = PACE_LEAST * (scene->mesh.subcycle ? 1.0 : ldexp(1.0, -scene->mesh.levels)) * state->dt_longest;
     return scene->mesh.subcycle ? ldexp(least, -l) : least;
 }
 

@@ -80,8 +80,8 @@ static void plan_levels(const struct scene *scene, struct text *text)
              "  after each step of a level the next finer one takes %s to the same time, its ghosts interpolated\n"
              "  in space (primitives, minmod) and time; then averages of the finer level, and %s;\n"
              "  every %d steps of a level the finer ones get new tiles from %u criteria\n",
-             scene->mesh.levels, scene->mesh.subcycle ? "two steps of half the size" : "one step", reflux[scene->mesh.reflux],
-             scene->mesh.regrid_every, scene->mesh.n_refine);
+             scene->mesh.levels, scene->mesh.subcycle ? "two steps of half the size" : "one step",
+             reflux[scene->mesh.reflux], scene->mesh.regrid_every, scene->mesh.n_refine);
 }
 
 void plan_text(const struct model *model, struct text *ret_text)

@@ -61,7 +61,8 @@ static int regrid_tag(struct regrid *regrid, struct derive_moment *moment, int l
     for (unsigned t = 0; t < level->n_local; t++) marks[t] = all + t * mesh->n_cell;
     int status = tag_level(moment, l, state->stages[l]->guard->halo, marks, state->tagged);
     for (unsigned t = 0; t < level->n_local && !status; t++)
-        nest_wish(mesh, level, &level->tiles[level->first + t], marks[t], state->scene->mesh.buffer, &regrid->wishes[l + 1]);
+        nest_wish(mesh, level, &level->tiles[level->first + t], marks[t], state->scene->mesh.buffer,
+                  &regrid->wishes[l + 1]);
     mem_free(all);
     mem_free(marks);
     return comm_agree(status);

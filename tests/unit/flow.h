@@ -95,7 +95,8 @@ static inline void flow_centre(const struct flow *flow, size_t index, double ret
     const struct scene *scene = flow->scene;
     for (int d = 0; d < 3; d++) {
         size_t n = (size_t)scene->domain.cells[d], i = d < scene->domain.dim ? index % n : 0;
-        double width = d < scene->domain.dim ? (scene->domain.upper[d] - scene->domain.lower[d]) / scene->domain.cells[d] : 0.0;
+        double width =
+            d < scene->domain.dim ? (scene->domain.upper[d] - scene->domain.lower[d]) / scene->domain.cells[d] : 0.0;
         ret_x[d] = d < scene->domain.dim ? scene->domain.lower[d] + ((double)i + 0.5) * width : 0.0;
         if (d < scene->domain.dim) index /= n;
     }
