@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-static const struct picture_text axes_numbers = {8.5, false}, axes_labels = {9.5, false};
+static const struct picture_text picture_axes_numbers = {8.5, false}, picture_axes_labels = {9.5, false};
 
 #define AXES_LINE 0.7 /* stroke of frame and ticks */
 #define AXES_TICK 3.5
@@ -16,11 +16,11 @@ static const struct picture_text axes_numbers = {8.5, false}, axes_labels = {9.5
 #define AXES_ROW 26.0    /* least distance of ticks of an upright scale */
 #define AXES_POINT 0.8   /* length of a bar's pointed end, in bar widths */
 
-static double axes_widest(cairo_t *cr, const struct picture_scale *scale)
+static double picture_axes_widest(cairo_t *cr, const struct picture_scale *scale)
 {
     double widest = 0.0;
     for (unsigned i = 0; i < scale->n_tick; i++) {
-        double width = picture_text_width(cr, axes_numbers, scale->text[i]);
+        double width = picture_text_width(cr, picture_axes_numbers, scale->text[i]);
         if (width > widest) widest = width;
     }
     return widest;
@@ -35,10 +35,10 @@ void picture_axes_fit(cairo_t *cr, struct picture_scale *scale, double length, b
         for (unsigned i = 1; i < scale->n_tick; i++) {
             double step =
                 length * (picture_scale_at(scale, scale->tick[i]) - picture_scale_at(scale, scale->tick[i - 1]));
-            double needs = 0.5 * (picture_text_width(cr, axes_numbers, scale->text[i - 1]) +
-                                  picture_text_width(cr, axes_numbers, scale->text[i])) +
+            double needs = 0.5 * (picture_text_width(cr, picture_axes_numbers, scale->text[i - 1]) +
+                                  picture_text_width(cr, picture_axes_numbers, scale->text[i])) +
                            AXES_BETWEEN;
-            fits = fits && step >= (upright ? 1.6 * axes_numbers.size : needs);
+            fits = fits && step >= (upright ? 1.6 * picture_axes_numbers.size : needs);
         }
         if (fits) return;
     }
@@ -46,57 +46,60 @@ void picture_axes_fit(cairo_t *cr, struct picture_scale *scale, double length, b
 
 double picture_axes_room(cairo_t *cr, const struct picture_scale *scale, bool upright)
 {
-    double room = AXES_TICK + AXES_PAD + AXES_GAP + axes_labels.size;
-    return room + (upright ? axes_widest(cr, scale) : PICTURE_TEXT_HEIGHT * axes_numbers.size);
+    double room = AXES_TICK + AXES_PAD + AXES_GAP + picture_axes_labels.size;
+    return room + (upright ? picture_axes_widest(cr, scale) : PICTURE_TEXT_HEIGHT * picture_axes_numbers.size);
 }
 
-static void axes_segment(cairo_t *cr, double x, double y, double dx, double dy)
+static void picture_axes_segment(cairo_t *cr, double x, double y, double dx, double dy)
 {
     cairo_move_to(cr, x, y);
     cairo_rel_line_to(cr, dx, dy);
 }
 
 /* Ticks and numbers of a scale that runs up at `x`, on its left (side -1) or right (+1). */
-static void axes_upright(cairo_t *cr, const struct picture_scale *scale, double x, struct picture_rect run, double side)
+static void picture_axes_upright(cairo_t *cr, const struct picture_scale *scale, double x, struct picture_rect run,
+                                 double side)
 {
     for (unsigned i = 0; i < scale->n_tick; i++) {
         double y = run.y + run.h * (1.0 - picture_scale_at(scale, scale->tick[i]));
-        double number[2] = {x + side * (AXES_TICK + AXES_PAD), y + 0.5 * PICTURE_TEXT_HEIGHT * axes_numbers.size};
-        axes_segment(cr, x, y, side * AXES_TICK, 0.0);
+        double number[2] = {x + side * (AXES_TICK + AXES_PAD),
+                            y + 0.5 * PICTURE_TEXT_HEIGHT * picture_axes_numbers.size};
+        picture_axes_segment(cr, x, y, side * AXES_TICK, 0.0);
         cairo_stroke(cr);
-        picture_text_draw(cr, axes_numbers, number, side < 0.0 ? 1.0 : 0.0, scale->text[i]);
+        picture_text_draw(cr, picture_axes_numbers, number, side < 0.0 ? 1.0 : 0.0, scale->text[i]);
     }
 }
 
 /* Ticks and numbers of a scale that runs along the lower edge of `run`. */
-static void axes_level(cairo_t *cr, const struct picture_scale *scale, struct picture_rect run, bool numbers)
+static void picture_axes_level(cairo_t *cr, const struct picture_scale *scale, struct picture_rect run, bool numbers)
 {
     for (unsigned i = 0; i < scale->n_tick; i++) {
         double x = run.x + run.w * picture_scale_at(scale, scale->tick[i]), y = run.y + run.h;
-        double number[2] = {x, y + AXES_TICK + AXES_PAD + PICTURE_TEXT_HEIGHT * axes_numbers.size};
-        axes_segment(cr, x, y, 0.0, AXES_TICK);
+        double number[2] = {x, y + AXES_TICK + AXES_PAD + PICTURE_TEXT_HEIGHT * picture_axes_numbers.size};
+        picture_axes_segment(cr, x, y, 0.0, AXES_TICK);
         cairo_stroke(cr);
-        if (numbers) picture_text_draw(cr, axes_numbers, number, 0.5, scale->text[i]);
+        if (numbers) picture_text_draw(cr, picture_axes_numbers, number, 0.5, scale->text[i]);
     }
 }
 
 /* Labels longer than what they stand beside are set smaller. */
-static struct picture_text axes_label_font(cairo_t *cr, const char *label, double length)
+static struct picture_text picture_axes_label_font(cairo_t *cr, const char *label, double length)
 {
-    struct picture_text font = axes_labels;
+    struct picture_text font = picture_axes_labels;
     double natural = picture_text_width(cr, font, label);
     if (natural > length) font.size *= length / natural > 0.7 ? length / natural : 0.7;
     return font;
 }
 
-static void axes_label_below(cairo_t *cr, const struct picture_scale *scale, struct picture_rect run)
+static void picture_axes_label_below(cairo_t *cr, const struct picture_scale *scale, struct picture_rect run)
 {
-    double down = AXES_TICK + AXES_PAD + AXES_GAP + PICTURE_TEXT_HEIGHT * (axes_numbers.size + axes_labels.size);
+    double down =
+        AXES_TICK + AXES_PAD + AXES_GAP + PICTURE_TEXT_HEIGHT * (picture_axes_numbers.size + picture_axes_labels.size);
     double at[2] = {run.x + 0.5 * run.w, run.y + run.h + down};
-    picture_text_draw(cr, axes_label_font(cr, scale->label, run.w), at, 0.5, scale->label);
+    picture_text_draw(cr, picture_axes_label_font(cr, scale->label, run.w), at, 0.5, scale->label);
 }
 
-static void axes_pen(cairo_t *cr)
+static void picture_axes_pen(cairo_t *cr)
 {
     cairo_set_source_rgb(cr, 0.0, 0.0, 0.0);
     cairo_set_line_width(cr, AXES_LINE);
@@ -107,19 +110,19 @@ static void axes_pen(cairo_t *cr)
 void picture_axes_draw(cairo_t *cr, struct picture_rect box, const struct picture_scale *x,
                        const struct picture_scale *y, struct picture_axes axes)
 {
-    axes_pen(cr);
+    picture_axes_pen(cr);
     cairo_rectangle(cr, box.x - 0.5 * AXES_LINE, box.y - 0.5 * AXES_LINE, box.w + AXES_LINE, box.h + AXES_LINE);
     cairo_stroke(cr);
-    axes_upright(cr, y, box.x, box, -1.0);
-    axes_level(cr, x, box, axes.below);
-    if (axes.below) axes_label_below(cr, x, box);
-    double out = (axes.room > 0.0 ? axes.room : picture_axes_room(cr, y, true)) - axes_labels.size;
-    picture_text_draw_up(cr, axes_label_font(cr, y->label, box.h + 12.0),
+    picture_axes_upright(cr, y, box.x, box, -1.0);
+    picture_axes_level(cr, x, box, axes.below);
+    if (axes.below) picture_axes_label_below(cr, x, box);
+    double out = (axes.room > 0.0 ? axes.room : picture_axes_room(cr, y, true)) - picture_axes_labels.size;
+    picture_text_draw_up(cr, picture_axes_label_font(cr, y->label, box.h + 12.0),
                          (const double[2]){box.x - out, box.y + 0.5 * box.h}, y->label);
 }
 
 /* The body of a bar without its pointed ends. */
-static struct picture_rect axes_bar_body(struct picture_rect box, const struct picture_bar *bar)
+static struct picture_rect picture_axes_bar_body(struct picture_rect box, const struct picture_bar *bar)
 {
     double point = AXES_POINT * (bar->upright ? box.w : box.h);
     double low = bar->goes_below ? point : 0.0, high = bar->goes_above ? point : 0.0;
@@ -127,7 +130,7 @@ static struct picture_rect axes_bar_body(struct picture_rect box, const struct p
     return (struct picture_rect){box.x + low, box.y, box.w - low - high, box.h};
 }
 
-static void axes_bar_outline(cairo_t *cr, struct picture_rect box, struct picture_rect body, bool upright)
+static void picture_axes_bar_outline(cairo_t *cr, struct picture_rect box, struct picture_rect body, bool upright)
 {
     double right = box.x + box.w, bottom = box.y + box.h, middle_x = box.x + 0.5 * box.w,
            middle_y = box.y + 0.5 * box.h;
@@ -143,7 +146,7 @@ static void axes_bar_outline(cairo_t *cr, struct picture_rect box, struct pictur
     cairo_close_path(cr);
 }
 
-static cairo_pattern_t *axes_bar_colours(struct picture_rect body, const struct picture_bar *bar)
+static cairo_pattern_t *picture_axes_bar_colours(struct picture_rect body, const struct picture_bar *bar)
 {
     double bottom = body.y + body.h;
     cairo_pattern_t *colours = bar->upright ? cairo_pattern_create_linear(0.0, bottom, 0.0, body.y)
@@ -165,22 +168,23 @@ double picture_axes_bar_room(cairo_t *cr, const struct picture_bar *bar)
 
 void picture_axes_bar(cairo_t *cr, struct picture_rect box, const struct picture_bar *bar)
 {
-    struct picture_rect body = axes_bar_body(box, bar);
-    cairo_pattern_t *colours = axes_bar_colours(body, bar);
-    axes_bar_outline(cr, box, body, bar->upright);
+    struct picture_rect body = picture_axes_bar_body(box, bar);
+    cairo_pattern_t *colours = picture_axes_bar_colours(body, bar);
+    picture_axes_bar_outline(cr, box, body, bar->upright);
     cairo_set_source(cr, colours);
     cairo_fill_preserve(cr);
     cairo_pattern_destroy(colours);
-    axes_pen(cr);
+    picture_axes_pen(cr);
     cairo_stroke(cr);
     if (!bar->upright) {
-        axes_level(cr, bar->scale, body, true);
-        axes_label_below(cr, bar->scale, box);
+        picture_axes_level(cr, bar->scale, body, true);
+        picture_axes_label_below(cr, bar->scale, box);
         return;
     }
     double x = box.x + box.w;
-    axes_upright(cr, bar->scale, x, body, 1.0);
-    double out = AXES_TICK + AXES_PAD + axes_widest(cr, bar->scale) + AXES_GAP + PICTURE_TEXT_HEIGHT * axes_labels.size;
-    picture_text_draw_up(cr, axes_label_font(cr, bar->scale->label, box.h + 12.0),
+    picture_axes_upright(cr, bar->scale, x, body, 1.0);
+    double out = AXES_TICK + AXES_PAD + picture_axes_widest(cr, bar->scale) + AXES_GAP +
+                 PICTURE_TEXT_HEIGHT * picture_axes_labels.size;
+    picture_text_draw_up(cr, picture_axes_label_font(cr, bar->scale->label, box.h + 12.0),
                          (const double[2]){x + out, box.y + 0.5 * box.h}, bar->scale->label);
 }

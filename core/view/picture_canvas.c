@@ -10,9 +10,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static const double canvas_resolution = 3.0; /* pixels per point: 216 dpi */
+static const double picture_canvas_resolution = 3.0; /* pixels per point: 216 dpi */
 
-static void canvas_measure(const struct picture_canvas *canvas, double ret_size[2])
+static void picture_canvas_measure(const struct picture_canvas *canvas, double ret_size[2])
 {
     cairo_surface_t *nothing = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, 1, 1);
     cairo_t *cr = cairo_create(nothing);
@@ -22,7 +22,7 @@ static void canvas_measure(const struct picture_canvas *canvas, double ret_size[
 }
 
 /* Video encoders halve the resolution of colours: both numbers of pixels must be even for a film. */
-static int canvas_even(double pixels)
+static int picture_canvas_even(double pixels)
 {
     return 2 * (int)ceil(0.5 * pixels);
 }
@@ -30,9 +30,9 @@ static int canvas_even(double pixels)
 int picture_canvas_draw(const struct picture_canvas *canvas, int width, cairo_surface_t **ret_image)
 {
     double size[2];
-    canvas_measure(canvas, size);
-    double scale = width > 0 ? canvas_even(width) / size[0] : canvas_resolution;
-    int pixels[2] = {canvas_even(width > 0 ? width : size[0] * scale), canvas_even(size[1] * scale)};
+    picture_canvas_measure(canvas, size);
+    double scale = width > 0 ? picture_canvas_even(width) / size[0] : picture_canvas_resolution;
+    int pixels[2] = {picture_canvas_even(width > 0 ? width : size[0] * scale), picture_canvas_even(size[1] * scale)};
     cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, pixels[0], pixels[1]);
     cairo_t *cr = cairo_create(image);
     if (cairo_status(cr) == CAIRO_STATUS_SUCCESS) {
@@ -53,7 +53,7 @@ int picture_canvas_draw(const struct picture_canvas *canvas, int width, cairo_su
 }
 
 /* Makes the folder of a file if its own parent is there; if that fails, so will writing, with a better reason. */
-static void canvas_make_folder(const char *path)
+static void picture_canvas_make_folder(const char *path)
 {
     const char *slash = strrchr(path, '/');
     if (!slash || slash == path) return;
@@ -64,7 +64,7 @@ static void canvas_make_folder(const char *path)
 
 int picture_canvas_write(cairo_surface_t *image, const char *path)
 {
-    canvas_make_folder(path);
+    picture_canvas_make_folder(path);
     char *temporary = mem_print("%s.tmp", path);
     cairo_status_t status = cairo_surface_write_to_png(image, temporary);
     int code = STATUS_OK;

@@ -2,7 +2,7 @@
  * on every colour map and in print; their dashes tell them apart. */
 #include "view/picture_header.h"
 
-static const struct picture_text header_note = {9.5, false};
+static const struct picture_text picture_header_note = {9.5, false};
 
 #define HEADER_TITLE 10.5 /* size, and the least size before a title is broken */
 #define HEADER_TITLE_LEAST 9.0
@@ -25,19 +25,20 @@ void picture_header_pen(cairo_t *cr, unsigned index, bool dark_ground, bool halo
     cairo_set_source_rgba(cr, ink, ink, ink, halo ? 0.5 : 1.0);
 }
 
-static double header_legend_width(cairo_t *cr, const struct picture_header *header)
+static double picture_header_legend_width(cairo_t *cr, const struct picture_header *header)
 {
     if (!header->n_lines) return 0.0;
-    double width = picture_text_width(cr, header_note, header->lines_label) + HEADER_NEXT;
+    double width = picture_text_width(cr, picture_header_note, header->lines_label) + HEADER_NEXT;
     for (unsigned i = 0; i < header->n_lines; i++)
-        width += HEADER_SAMPLE + HEADER_AFTER + picture_text_width(cr, header_note, header->lines[i]) +
+        width += HEADER_SAMPLE + HEADER_AFTER + picture_text_width(cr, picture_header_note, header->lines[i]) +
                  (i ? HEADER_NEXT : 0.0);
     return width;
 }
 
 double picture_header_plan(cairo_t *cr, struct picture_header *header, double width)
 {
-    double note = picture_text_width(cr, header_note, header->note), legend = header_legend_width(cr, header);
+    double note = picture_text_width(cr, picture_header_note, header->note),
+           legend = picture_header_legend_width(cr, header);
     header->legend_beside = legend > 0.0 && note + 2 * HEADER_NEXT + legend <= header->box_width;
     double needs = legend > note ? legend : note;
     if (needs < HEADER_LEAST) needs = HEADER_LEAST;
@@ -52,12 +53,12 @@ double picture_header_plan(cairo_t *cr, struct picture_header *header, double wi
     return spare;
 }
 
-static void header_draw_legend(cairo_t *cr, const struct picture_header *header, double x, double baseline)
+static void picture_header_draw_legend(cairo_t *cr, const struct picture_header *header, double x, double baseline)
 {
-    picture_text_draw(cr, header_note, (const double[2]){x, baseline}, 0.0, header->lines_label);
-    x += picture_text_width(cr, header_note, header->lines_label) + HEADER_NEXT;
+    picture_text_draw(cr, picture_header_note, (const double[2]){x, baseline}, 0.0, header->lines_label);
+    x += picture_text_width(cr, picture_header_note, header->lines_label) + HEADER_NEXT;
     for (unsigned i = 0; i < header->n_lines; i++) {
-        double y = baseline - 0.5 * PICTURE_TEXT_HEIGHT * header_note.size;
+        double y = baseline - 0.5 * PICTURE_TEXT_HEIGHT * picture_header_note.size;
         cairo_save(cr);
         picture_header_pen(cr, i, false, false);
         cairo_move_to(cr, x, y);
@@ -65,8 +66,8 @@ static void header_draw_legend(cairo_t *cr, const struct picture_header *header,
         cairo_stroke(cr);
         cairo_restore(cr);
         x += HEADER_SAMPLE + HEADER_AFTER;
-        picture_text_draw(cr, header_note, (const double[2]){x, baseline}, 0.0, header->lines[i]);
-        x += picture_text_width(cr, header_note, header->lines[i]) + HEADER_NEXT;
+        picture_text_draw(cr, picture_header_note, (const double[2]){x, baseline}, 0.0, header->lines[i]);
+        x += picture_text_width(cr, picture_header_note, header->lines[i]) + HEADER_NEXT;
     }
 }
 
@@ -78,10 +79,10 @@ void picture_header_draw(cairo_t *cr, const struct picture_header *header, doubl
     for (int i = 0; i < header->n_title; i++, baseline += HEADER_LINE)
         picture_text_draw(cr, title, (const double[2]){x, baseline}, 0.0, header->title_lines[i]);
     if (header->note[0]) {
-        picture_text_draw(cr, header_note, (const double[2]){x, baseline}, 0.0, header->note);
+        picture_text_draw(cr, picture_header_note, (const double[2]){x, baseline}, 0.0, header->note);
         if (!header->legend_beside) baseline += HEADER_LINE;
     }
     if (!header->n_lines) return;
-    double legend = header_legend_width(cr, header);
-    header_draw_legend(cr, header, header->legend_beside ? x + header->box_width - legend : x, baseline);
+    double legend = picture_header_legend_width(cr, header);
+    picture_header_draw_legend(cr, header, header->legend_beside ? x + header->box_width - legend : x, baseline);
 }

@@ -32,7 +32,8 @@ struct along {
 };
 
 /* The time that has the highest value within the shown places. */
-static size_t along_highest(const struct map_table *map, const double *values, const struct plot_option_span *limit)
+static size_t plot_along_highest(const struct map_table *map, const double *values,
+                                 const struct plot_option_span *limit)
 {
     const double *places = map->table.columns[1];
     double highest = -INFINITY;
@@ -48,7 +49,7 @@ static size_t along_highest(const struct map_table *map, const double *values, c
     return at;
 }
 
-static void along_add(struct along *along, const struct map_table *map, size_t time, const char *run)
+static void plot_along_add(struct along *along, const struct map_table *map, size_t time, const char *run)
 {
     struct along_line *line = &along->lines[along->n_line++];
     const double *times = map->table.columns[0];
@@ -59,7 +60,7 @@ static void along_add(struct along *along, const struct map_table *map, size_t t
     snprintf(line->label, sizeof line->label, "%.80s%s%s", run ? run : "", run ? ", " : "", moment);
 }
 
-static int along_lines(struct along *along, const struct plot_option *option)
+static int plot_along_lines(struct along *along, const struct plot_option *option)
 {
     unsigned each = option->n_time ? option->n_time : 1;
     if (along->n_map * each > CHART_SERIES)
@@ -74,14 +75,14 @@ static int along_lines(struct along *along, const struct plot_option *option)
             size_t time;
             TRY(plot_time_nearest(map->table.columns[0], map->n_time, map->n_place, option->times[i], "the map's rows",
                                   &time));
-            along_add(along, map, time, run);
+            plot_along_add(along, map, time, run);
         }
-        if (!option->n_time) along_add(along, map, along_highest(map, values, &option->limit[0]), run);
+        if (!option->n_time) plot_along_add(along, map, plot_along_highest(map, values, &option->limit[0]), run);
     }
     return STATUS_OK;
 }
 
-static int along_fields(struct along *along, char *list)
+static int plot_along_fields(struct along *along, char *list)
 {
     for (char *field = strtok(list, ","); field; field = strtok(NULL, ",")) {
         if (along->n_field == CHART_PANELS)
@@ -91,7 +92,7 @@ static int along_fields(struct along *along, char *list)
     return along->n_field ? STATUS_OK : status_fail(STATUS_CASE, "a field is needed");
 }
 
-static int along_fill(struct along *along, struct chart *chart, const char **units, double window[2])
+static int plot_along_fill(struct along *along, struct chart *chart, const char **units, double window[2])
 {
     for (unsigned f = 0; f < along->n_field; f++) {
         struct chart_panel *panel = &chart->panel[chart->n_panel++];
@@ -112,8 +113,8 @@ static int along_fill(struct along *along, struct chart *chart, const char **uni
     return STATUS_OK;
 }
 
-static int along_draw(struct along *along, const char *const *directories, const struct plot_option *option,
-                      cairo_surface_t **ret_image)
+static int plot_along_draw(struct along *along, const char *const *directories, const struct plot_option *option,
+                           cairo_surface_t **ret_image)
 {
     char *title = plot_case_common_title(directories, along->n_map), *place = map_table_place(&along->maps[0]);
     char *note = along->n_line > 1 ? mem_text(along->maps[0].name)
@@ -121,7 +122,7 @@ static int along_draw(struct along *along, const char *const *directories, const
     struct chart chart = {.title = title, .note = note};
     const char *units[CHART_PANELS];
     double window[2] = {INFINITY, -INFINITY};
-    int code = along_fill(along, &chart, units, window);
+    int code = plot_along_fill(along, &chart, units, window);
     if (option->limit[0].given) {
         window[0] = option->limit[0].lo;
         window[1] = option->limit[0].hi;
@@ -136,7 +137,7 @@ static int along_draw(struct along *along, const char *const *directories, const
     return code;
 }
 
-static char *along_path(const struct along *along, const char *directory, const struct plot_option *option)
+static char *plot_along_path(const struct along *along, const char *directory, const struct plot_option *option)
 {
     if (option->output) return mem_text(option->output);
     struct text path = {0};
@@ -148,12 +149,12 @@ static char *along_path(const struct along *along, const char *directory, const 
     return result;
 }
 
-static int along_picture(struct along *along, const char *const *directories, const struct plot_option *option)
+static int plot_along_picture(struct along *along, const char *const *directories, const struct plot_option *option)
 {
     cairo_surface_t *image;
-    TRY(along_lines(along, option));
-    TRY(along_draw(along, directories, option, &image));
-    char *path = along_path(along, directories[0], option);
+    TRY(plot_along_lines(along, option));
+    TRY(plot_along_draw(along, directories, option, &image));
+    char *path = plot_along_path(along, directories[0], option);
     int code = picture_canvas_write(image, path);
     if (!code) printf("%s\n", path);
     cairo_surface_destroy(image);
@@ -173,12 +174,12 @@ int plot_along_write(const char *const *directories, unsigned n_directory, const
     struct along *along = mem_new(1, sizeof *along);
     char *list = mem_text(words[1]);
     plot_case_names(directories, n_directory, along->runs);
-    int code = along_fields(along, list);
+    int code = plot_along_fields(along, list);
     while (!code && along->n_map < n_directory) {
         code = map_table_open(directories[along->n_map], words[0], &along->maps[along->n_map]);
         along->n_map++;
     }
-    if (!code) code = along_picture(along, directories, option);
+    if (!code) code = plot_along_picture(along, directories, option);
     for (unsigned m = 0; m < along->n_map; m++) map_table_done(&along->maps[m]);
     for (unsigned m = 0; m < n_directory; m++) mem_free(along->runs[m]);
     for (unsigned f = 0; f < along->n_field; f++) mem_free(along->labels[f]);

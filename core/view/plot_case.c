@@ -13,7 +13,7 @@
 enum { CASE_BRIEF = 48 }; /* longest title that a legend has room for */
 
 /* The value of a key of the top mapping, in new memory, or NULL. */
-static char *case_of_document(yaml_document_t *document, const char *key)
+static char *plot_case_of_document(yaml_document_t *document, const char *key)
 {
     yaml_node_t *root = yaml_document_get_root_node(document);
     if (!root || root->type != YAML_MAPPING_NODE) return NULL;
@@ -40,7 +40,7 @@ char *plot_case_scalar(const char *directory, const char *key)
     if (yaml_parser_initialize(&parser)) {
         yaml_parser_set_input_file(&parser, file);
         if (yaml_parser_load(&parser, &document)) {
-            value = case_of_document(&document, key);
+            value = plot_case_of_document(&document, key);
             yaml_document_delete(&document);
         }
         yaml_parser_delete(&parser);
@@ -78,12 +78,12 @@ char *plot_case_common_title(const char *const *directories, unsigned n)
     return title;
 }
 
-static void case_forget(char **names, unsigned n)
+static void plot_case_forget(char **names, unsigned n)
 {
     for (unsigned i = 0; i < n; i++) mem_free(names[i]);
 }
 
-static bool case_are_distinct(char *const *names, unsigned n)
+static bool plot_case_are_distinct(char *const *names, unsigned n)
 {
     for (unsigned i = 0; i < n; i++)
         for (unsigned k = 0; k < i; k++)
@@ -92,7 +92,7 @@ static bool case_are_distinct(char *const *names, unsigned n)
 }
 
 /* Bytes at the start of all the paths that are the same, up to a slash. */
-static size_t case_lead(const char *const *paths, unsigned n)
+static size_t plot_case_lead(const char *const *paths, unsigned n)
 {
     size_t lead = 0;
     for (size_t at = 0; paths[0][at]; at++) {
@@ -104,7 +104,7 @@ static size_t case_lead(const char *const *paths, unsigned n)
 }
 
 /* Bytes at the end of all the paths that are the same, from a slash on, behind the first `lead` bytes. */
-static size_t case_tail(const char *const *paths, unsigned n, size_t lead)
+static size_t plot_case_tail(const char *const *paths, unsigned n, size_t lead)
 {
     size_t tail = 0, length = strlen(paths[0]);
     for (size_t back = 1; back + lead < length; back++) {
@@ -118,15 +118,15 @@ static size_t case_tail(const char *const *paths, unsigned n, size_t lead)
 }
 
 /* By their paths. */
-static void case_places(const char *const *paths, unsigned n, char **ret_names)
+static void plot_case_places(const char *const *paths, unsigned n, char **ret_names)
 {
     for (unsigned i = 0; i < n; i++) {
         const char *slash = strrchr(paths[i], '/');
         ret_names[i] = mem_text(slash && slash[1] ? slash + 1 : paths[i]);
     }
-    if (case_are_distinct(ret_names, n)) return;
-    case_forget(ret_names, n);
-    size_t lead = case_lead(paths, n), tail = case_tail(paths, n, lead);
+    if (plot_case_are_distinct(ret_names, n)) return;
+    plot_case_forget(ret_names, n);
+    size_t lead = plot_case_lead(paths, n), tail = plot_case_tail(paths, n, lead);
     for (unsigned i = 0; i < n; i++) ret_names[i] = mem_text_n(paths[i] + lead, strlen(paths[i]) - lead - tail);
 }
 
@@ -137,7 +137,7 @@ void plot_case_names(const char *const *directories, unsigned n, char **ret_name
         ret_names[i] = plot_case_title(directories[i]);
         brief = brief && strlen(ret_names[i]) <= CASE_BRIEF && !strchr(ret_names[i], '\n');
     }
-    if (brief && case_are_distinct(ret_names, n)) return;
-    case_forget(ret_names, n);
-    case_places(directories, n, ret_names);
+    if (brief && plot_case_are_distinct(ret_names, n)) return;
+    plot_case_forget(ret_names, n);
+    plot_case_places(directories, n, ret_names);
 }

@@ -40,7 +40,7 @@ struct history_sheet {
     struct plot_over over[PLOT_OVERS];
 };
 
-static int history_read(const char *directory, const char *name, struct table *table)
+static int plot_history_read(const char *directory, const char *name, struct table *table)
 {
     char *path = mem_print("%s/%s", directory, name);
     int code = STATUS_OK;
@@ -49,11 +49,11 @@ static int history_read(const char *directory, const char *name, struct table *t
     return code;
 }
 
-static int history_open(const char *directory, struct history *history)
+static int plot_history_open(const char *directory, struct history *history)
 {
     *history = (struct history){0};
-    TRY(history_read(directory, "history.csv", &history->tables[0]));
-    TRY(history_read(directory, "probes.csv", &history->tables[1]));
+    TRY(plot_history_read(directory, "history.csv", &history->tables[0]));
+    TRY(plot_history_read(directory, "probes.csv", &history->tables[1]));
     if (!history->tables[0].n_column && !history->tables[1].n_column)
         return status_fail(STATUS_CASE, "no history.csv and no probes.csv in %s", directory);
     history->title = plot_case_title(directory);
@@ -61,7 +61,7 @@ static int history_open(const char *directory, struct history *history)
     return STATUS_OK;
 }
 
-static void history_done(struct history *history)
+static void plot_history_done(struct history *history)
 {
     for (int i = 0; i < HISTORY_TABLES; i++) table_done(&history->tables[i]);
     mem_free(history->title);
@@ -70,7 +70,7 @@ static void history_done(struct history *history)
 }
 
 /* `directory`: which of several runs, or NULL. */
-static int history_unknown(const struct history *history, const char *directory, const char *column)
+static int plot_history_unknown(const struct history *history, const char *directory, const char *column)
 {
     struct text list = {0};
     unsigned count = history->tables[0].n_column + history->tables[1].n_column, n = 0;
@@ -92,7 +92,7 @@ static int history_unknown(const struct history *history, const char *directory,
 }
 
 /* "wall.pressure" is the pressure at wall; columns of the case keep their names. */
-static const char *history_label(struct history *history, const char *column)
+static const char *plot_history_label(struct history *history, const char *column)
 {
     char *label = history->labels[history->n_label++ % (CHART_PANELS * CHART_SERIES)];
     const char *dot = strchr(column, '.');
@@ -104,7 +104,7 @@ static const char *history_label(struct history *history, const char *column)
 }
 
 /* The table that has the column and the times of its rows, or NULL. */
-static const struct table *history_table(const struct history *history, const char *column)
+static const struct table *plot_history_table(const struct history *history, const char *column)
 {
     for (int i = 0; i < HISTORY_TABLES; i++) {
         const struct table *table = &history->tables[i];
@@ -114,27 +114,27 @@ static const struct table *history_table(const struct history *history, const ch
 }
 
 /* The column is in the last panel. */
-static void history_note(struct history_sheet *sheet, const char *column)
+static void plot_history_note(struct history_sheet *sheet, const char *column)
 {
     sheet->columns[sheet->n_column] = column;
     sheet->panel[sheet->n_column++] = sheet->chart.n_panel - 1;
 }
 
-static int history_add(struct history *history, const char *column, struct history_sheet *sheet)
+static int plot_history_add(struct history *history, const char *column, struct history_sheet *sheet)
 {
-    const struct table *table = history_table(history, column);
-    if (!table) return history_unknown(history, NULL, column);
-    struct chart_series series = {.name = history_label(history, column),
+    const struct table *table = plot_history_table(history, column);
+    if (!table) return plot_history_unknown(history, NULL, column);
+    struct chart_series series = {.name = plot_history_label(history, column),
                                   .n = table->n_row,
                                   .x = table_column(table, "t"),
                                   .y = table_column(table, column)};
     TRY(plot_profile_add(&sheet->chart, sheet->units, series, plot_unit_of(history->scene, column)));
-    history_note(sheet, column);
+    plot_history_note(sheet, column);
     return STATUS_OK;
 }
 
 /* Worth a panel without being asked for: what the case measures, and what the guard did if it did anything. */
-static bool history_is_telling(const struct table *table, unsigned c)
+static bool plot_history_is_telling(const struct table *table, unsigned c)
 {
     const char *name = table->names[c];
     if (strcmp(name, "t") == 0 || strcmp(name, "step") == 0 || strcmp(name, "dt") == 0) return false;
@@ -142,12 +142,13 @@ static bool history_is_telling(const struct table *table, unsigned c)
     return table->n_row && table->columns[c][table->n_row - 1] > 0.0;
 }
 
-static int history_fill(struct history *history, const char *const *columns, unsigned n, struct history_sheet *sheet)
+static int plot_history_fill(struct history *history, const char *const *columns, unsigned n,
+                             struct history_sheet *sheet)
 {
-    for (unsigned i = 0; i < n; i++) TRY(history_add(history, columns[i], sheet));
+    for (unsigned i = 0; i < n; i++) TRY(plot_history_add(history, columns[i], sheet));
     const struct table *table = &history->tables[0];
     for (unsigned c = 0; n == 0 && c < table->n_column && sheet->chart.n_panel < CHART_PANELS; c++)
-        if (history_is_telling(table, c)) TRY(history_add(history, table->names[c], sheet));
+        if (plot_history_is_telling(table, c)) TRY(plot_history_add(history, table->names[c], sheet));
     if (!sheet->chart.n_panel)
         return status_fail(STATUS_CASE,
                            "history.csv has no columns of its own; name one: dt, or a column of probes.csv");
@@ -155,7 +156,7 @@ static int history_fill(struct history *history, const char *const *columns, uns
 }
 
 /* A reference in the panels that show what it has. */
-static int history_refer(struct history_sheet *sheet, struct plot_over *over)
+static int plot_history_refer(struct history_sheet *sheet, struct plot_over *over)
 {
     for (unsigned c = 0; c < sheet->n_column; c++)
         TRY(plot_over_add(over, sheet->columns[c], false, &sheet->chart.panel[sheet->panel[c]]));
@@ -163,17 +164,17 @@ static int history_refer(struct history_sheet *sheet, struct plot_over *over)
     return over->used ? STATUS_OK : plot_over_unused(over);
 }
 
-static int history_refer_all(struct history_sheet *sheet, const struct plot_option *option)
+static int plot_history_refer_all(struct history_sheet *sheet, const struct plot_option *option)
 {
     for (unsigned i = 0; i < option->n_over; i++) {
         TRY(plot_over_read(option->over[i], &sheet->over[i]));
-        TRY(history_refer(sheet, &sheet->over[i]));
+        TRY(plot_history_refer(sheet, &sheet->over[i]));
     }
     return STATUS_OK;
 }
 
 /* The times of the runs, however far a reference goes. */
-static void history_window(const struct chart *chart, const struct plot_option *option, double ret_window[2])
+static void plot_history_window(const struct chart *chart, const struct plot_option *option, double ret_window[2])
 {
     ret_window[0] = INFINITY;
     ret_window[1] = -INFINITY;
@@ -190,30 +191,31 @@ static void history_window(const struct chart *chart, const struct plot_option *
 }
 
 /* Scales and draws what was filled in. */
-static int history_finish(struct history_sheet *sheet, const struct plot_option *option, cairo_surface_t **ret_image)
+static int plot_history_finish(struct history_sheet *sheet, const struct plot_option *option,
+                               cairo_surface_t **ret_image)
 {
     double window[2];
     struct chart *chart = &sheet->chart;
-    history_window(chart, option, window);
+    plot_history_window(chart, option, window);
     if (window[0] > window[1]) return status_fail(STATUS_CASE, "the history has no rows yet");
     picture_scale_init(&chart->x, &(struct picture_scale_inp){.name = PICTURE_ITALIC "t" PICTURE_UPRIGHT,
                                                               .unit = "s",
                                                               .lo = window[0],
                                                               .hi = window[1]});
-    int code = history_refer_all(sheet, option);
+    int code = plot_history_refer_all(sheet, option);
     if (!code) code = plot_profile_scale(chart, sheet->units, window, option, NULL);
     if (!code) code = chart_draw(chart, option->width, ret_image);
     for (unsigned i = 0; i < option->n_over; i++) plot_over_done(&sheet->over[i]);
     return code;
 }
 
-static int history_draw(struct history *history, const char *const *columns, unsigned n,
-                        const struct plot_option *option, cairo_surface_t **ret_image)
+static int plot_history_draw_one(struct history *history, const char *const *columns, unsigned n,
+                                 const struct plot_option *option, cairo_surface_t **ret_image)
 {
     struct history_sheet *sheet = mem_new(1, sizeof *sheet);
     sheet->chart = (struct chart){.title = history->title, .note = ""};
-    int code = history_fill(history, columns, n, sheet);
-    if (!code) code = history_finish(sheet, option, ret_image);
+    int code = plot_history_fill(history, columns, n, sheet);
+    if (!code) code = plot_history_finish(sheet, option, ret_image);
     mem_free(sheet);
     return code;
 }
@@ -222,24 +224,24 @@ int plot_history_draw(const char *directory, const char *const *columns, unsigne
                       cairo_surface_t **ret_image)
 {
     struct history history;
-    int code = history_open(directory, &history);
-    if (!code) code = history_draw(&history, columns, n, option, ret_image);
-    history_done(&history);
+    int code = plot_history_open(directory, &history);
+    if (!code) code = plot_history_draw_one(&history, columns, n, option, ret_image);
+    plot_history_done(&history);
     return code;
 }
 
 /* A panel for each column with a line for each run. */
-static int history_overlay(struct history *runs, const char *const *directories, unsigned n_run,
-                           const char *const *columns, unsigned n, struct history_sheet *sheet)
+static int plot_history_overlay(struct history *runs, const char *const *directories, unsigned n_run,
+                                const char *const *columns, unsigned n, struct history_sheet *sheet)
 {
     for (unsigned c = 0; c < n; c++) {
         struct chart_panel *panel = &sheet->chart.panel[sheet->chart.n_panel++];
         sheet->units[c] = plot_unit_of(runs[0].scene, columns[c]);
-        panel->name = history_label(&runs[0], columns[c]);
-        history_note(sheet, columns[c]);
+        panel->name = plot_history_label(&runs[0], columns[c]);
+        plot_history_note(sheet, columns[c]);
         for (unsigned i = 0; i < n_run; i++) {
-            const struct table *table = history_table(&runs[i], columns[c]);
-            if (!table) return history_unknown(&runs[i], directories[i], columns[c]);
+            const struct table *table = plot_history_table(&runs[i], columns[c]);
+            if (!table) return plot_history_unknown(&runs[i], directories[i], columns[c]);
             panel->series[panel->n_series++] = (struct chart_series){.name = runs[i].name,
                                                                      .n = table->n_row,
                                                                      .x = table_column(table, "t"),
@@ -249,8 +251,8 @@ static int history_overlay(struct history *runs, const char *const *directories,
     return STATUS_OK;
 }
 
-static int history_compare(const char *const *directories, unsigned n_run, const char *const *columns, unsigned n,
-                           const struct plot_option *option, cairo_surface_t **ret_image)
+static int plot_history_compare(const char *const *directories, unsigned n_run, const char *const *columns, unsigned n,
+                                const struct plot_option *option, cairo_surface_t **ret_image)
 {
     if (n_run > CHART_SERIES)
         return status_fail(STATUS_CASE, "%u runs in one picture: at most %d", n_run, CHART_SERIES);
@@ -266,13 +268,13 @@ static int history_compare(const char *const *directories, unsigned n_run, const
     unsigned open = 0;
     int code = STATUS_OK;
     while (!code && open < n_run) {
-        code = history_open(directories[open], &runs[open]);
+        code = plot_history_open(directories[open], &runs[open]);
         runs[open].name = names[open];
         open++;
     }
-    if (!code) code = history_overlay(runs, directories, n_run, columns, n, sheet);
-    if (!code) code = history_finish(sheet, option, ret_image);
-    for (unsigned i = 0; i < open; i++) history_done(&runs[i]);
+    if (!code) code = plot_history_overlay(runs, directories, n_run, columns, n, sheet);
+    if (!code) code = plot_history_finish(sheet, option, ret_image);
+    for (unsigned i = 0; i < open; i++) plot_history_done(&runs[i]);
     for (unsigned i = open; i < n_run; i++) mem_free(names[i]);
     mem_free(sheet);
     mem_free(title);
@@ -283,7 +285,7 @@ int plot_history_write(const char *const *directories, unsigned n_directory, con
                        const struct plot_option *option)
 {
     cairo_surface_t *image;
-    if (n_directory > 1) TRY(history_compare(directories, n_directory, columns, n, option, &image));
+    if (n_directory > 1) TRY(plot_history_compare(directories, n_directory, columns, n, option, &image));
     else TRY(plot_history_draw(directories[0], columns, n, option, &image));
     char *path = option->output ? mem_text(option->output)
                                 : mem_print("%s/plots/%s.png", directories[0], n_directory > 1 ? "compare" : "history");

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct snapshot_field *interface_alpha(const struct snapshot *snapshot, unsigned material)
+static const struct snapshot_field *plot_interface_alpha(const struct snapshot *snapshot, unsigned material)
 {
     char name[READ_NAME + 8];
     snprintf(name, sizeof name, "alpha_%s", snapshot->materials[material]);
@@ -17,37 +17,37 @@ static const struct snapshot_field *interface_alpha(const struct snapshot *snaps
 }
 
 /* How many volume fractions the snapshot lacks. */
-static unsigned interface_absent(const struct snapshot *snapshot)
+static unsigned plot_interface_absent(const struct snapshot *snapshot)
 {
     unsigned absent = 0;
-    for (unsigned m = 0; m < snapshot->n_material; m++) absent += !interface_alpha(snapshot, m);
+    for (unsigned m = 0; m < snapshot->n_material; m++) absent += !plot_interface_alpha(snapshot, m);
     return absent;
 }
 
 /* The volume fraction of a material in the cells of the view, read or the rest of the others, in new memory; NULL if it
  * is not known. */
-static double *interface_values(const struct plot_view *view, unsigned material)
+static double *plot_interface_values(const struct plot_view *view, unsigned material)
 {
     const struct snapshot *snapshot = view->snapshot;
-    const struct snapshot_field *own = interface_alpha(snapshot, material);
-    if (!own && interface_absent(snapshot) > 1) return NULL;
+    const struct snapshot_field *own = plot_interface_alpha(snapshot, material);
+    if (!own && plot_interface_absent(snapshot) > 1) return NULL;
     double *values = mem_new(view->n, sizeof *values);
     for (size_t c = 0; c < view->n; c++) values[c] = own ? own->data[view->source[c]] : 1.0;
     for (unsigned m = 0; !own && m < snapshot->n_material; m++) {
-        const struct snapshot_field *alpha = interface_alpha(snapshot, m);
+        const struct snapshot_field *alpha = plot_interface_alpha(snapshot, m);
         for (size_t c = 0; alpha && c < view->n; c++) values[c] -= alpha->data[view->source[c]];
     }
     return values;
 }
 
 /* The material that fills most of the view, if two or more are known; else n_material. */
-static unsigned interface_background(const struct plot_view *view)
+static unsigned plot_interface_background(const struct plot_view *view)
 {
     const struct snapshot *snapshot = view->snapshot;
     unsigned background = snapshot->n_material, known = 0;
     double most = 0.0;
     for (unsigned m = 0; m < snapshot->n_material; m++) {
-        double area = 0.0, *alpha = interface_values(view, m);
+        double area = 0.0, *alpha = plot_interface_values(view, m);
         if (!alpha) continue;
         known++;
         for (size_t c = 0; c < view->n; c++) {
@@ -64,7 +64,7 @@ static unsigned interface_background(const struct plot_view *view)
     return known > 1 ? background : snapshot->n_material;
 }
 
-static int interface_unknown(const struct snapshot *snapshot, const char *name)
+static int plot_interface_unknown(const struct snapshot *snapshot, const char *name)
 {
     struct text list = {0};
     const char **names = mem_new(snapshot->n_material + 1, sizeof *names);
@@ -82,7 +82,7 @@ static int interface_unknown(const struct snapshot *snapshot, const char *name)
 }
 
 /* Marks the materials of a list "air,tissue". */
-static int interface_chosen(const struct snapshot *snapshot, const char *contours, bool *wanted)
+static int plot_interface_chosen(const struct snapshot *snapshot, const char *contours, bool *wanted)
 {
     while (*contours) {
         char name[READ_NAME];
@@ -90,8 +90,8 @@ static int interface_chosen(const struct snapshot *snapshot, const char *contour
         unsigned m = 0;
         snprintf(name, sizeof name, "%.*s", (int)length, contours);
         while (m < snapshot->n_material && strcmp(snapshot->materials[m], name) != 0) m++;
-        if (m == snapshot->n_material) return interface_unknown(snapshot, name);
-        if (!interface_alpha(snapshot, m) && interface_absent(snapshot) > 1)
+        if (m == snapshot->n_material) return plot_interface_unknown(snapshot, name);
+        if (!plot_interface_alpha(snapshot, m) && plot_interface_absent(snapshot) > 1)
             return status_fail(
                 STATUS_CASE,
                 "--contour %s: the snapshots have no alpha_%s, and it is not the only one they lack; add "
@@ -103,9 +103,9 @@ static int interface_chosen(const struct snapshot *snapshot, const char *contour
     return STATUS_OK;
 }
 
-static void interface_add(const struct plot_view *view, unsigned material, struct plot_interfaces *interfaces)
+static void plot_interface_add(const struct plot_view *view, unsigned material, struct plot_interfaces *interfaces)
 {
-    double *values = interfaces->n < PICTURE_LINES ? interface_values(view, material) : NULL;
+    double *values = interfaces->n < PICTURE_LINES ? plot_interface_values(view, material) : NULL;
     if (!values) return;
     struct contour *contour = &interfaces->contours[interfaces->n];
     contour_find(view->n, view->cells, values, 0.5, contour);
@@ -116,11 +116,11 @@ static void interface_add(const struct plot_view *view, unsigned material, struc
 }
 
 /* Which materials' interfaces are asked for: wanted[n_material]. */
-static int interface_wanted(const struct plot_view *view, const char *contours, bool *wanted)
+static int plot_interface_wanted(const struct plot_view *view, const char *contours, bool *wanted)
 {
     const struct snapshot *snapshot = view->snapshot;
-    if (contours) return strcmp(contours, "none") == 0 ? STATUS_OK : interface_chosen(snapshot, contours, wanted);
-    unsigned background = interface_background(view);
+    if (contours) return strcmp(contours, "none") == 0 ? STATUS_OK : plot_interface_chosen(snapshot, contours, wanted);
+    unsigned background = plot_interface_background(view);
     for (unsigned m = 0; m < snapshot->n_material; m++) wanted[m] = m != background;
     return STATUS_OK;
 }
@@ -130,9 +130,9 @@ int plot_interface_find(const struct plot_view *view, const char *contours, stru
     unsigned count = view->snapshot->n_material;
     bool *wanted = mem_new(count, sizeof *wanted);
     *ret_interfaces = (struct plot_interfaces){0};
-    int code = interface_wanted(view, contours, wanted);
+    int code = plot_interface_wanted(view, contours, wanted);
     for (unsigned m = 0; !code && m < count; m++)
-        if (wanted[m]) interface_add(view, m, ret_interfaces);
+        if (wanted[m]) plot_interface_add(view, m, ret_interfaces);
     mem_free(wanted);
     return code;
 }
@@ -143,9 +143,9 @@ int plot_interface_places(const struct plot_view *view, const char *contours, do
     bool *wanted = mem_new(count, sizeof *wanted);
     double *places = mem_new(count * view->n, sizeof *places);
     size_t n = 0;
-    int code = interface_wanted(view, contours, wanted);
+    int code = plot_interface_wanted(view, contours, wanted);
     for (unsigned m = 0; !code && m < count; m++) {
-        double *alpha = wanted[m] ? interface_values(view, m) : NULL;
+        double *alpha = wanted[m] ? plot_interface_values(view, m) : NULL;
         for (size_t c = 1; alpha && c < view->n; c++) {
             double a = alpha[c - 1] - 0.5, b = alpha[c] - 0.5;
             const double *left = view->cells[c - 1].at[0], *right = view->cells[c].at[0];
@@ -169,9 +169,10 @@ void plot_interface_done(struct plot_interfaces *interfaces)
 char *plot_interface_lacking(const struct snapshot *snapshot)
 {
     struct text list = {0};
-    if (interface_absent(snapshot) < 2) return NULL;
+    if (plot_interface_absent(snapshot) < 2) return NULL;
     for (unsigned m = 0; m < snapshot->n_material; m++)
-        if (!interface_alpha(snapshot, m)) text_add(&list, "%salpha_%s", list.at ? ", " : "", snapshot->materials[m]);
+        if (!plot_interface_alpha(snapshot, m))
+            text_add(&list, "%salpha_%s", list.at ? ", " : "", snapshot->materials[m]);
     char *names = mem_text(list.at);
     text_done(&list);
     return names;

@@ -22,7 +22,7 @@ struct map {
 };
 
 /* Edges of the cells around n ascending or descending values, `step` apart in the table: [n + 1]. */
-static double *map_edges(const double *values, size_t n, size_t step)
+static double *plot_map_edges(const double *values, size_t n, size_t step)
 {
     double *edges = mem_new(n + 1, sizeof *edges);
     for (size_t i = 1; i < n; i++) edges[i] = 0.5 * (values[(i - 1) * step] + values[i * step]);
@@ -31,10 +31,10 @@ static double *map_edges(const double *values, size_t n, size_t step)
     return edges;
 }
 
-static void map_cells(struct map *map)
+static void plot_map_cells(struct map *map)
 {
-    double *time = map_edges(map->of.table.columns[0], map->of.n_time, map->of.n_place);
-    double *place = map_edges(map->of.table.columns[1], map->of.n_place, 1);
+    double *time = plot_map_edges(map->of.table.columns[0], map->of.n_time, map->of.n_place);
+    double *place = plot_map_edges(map->of.table.columns[1], map->of.n_place, 1);
     map->cells = mem_new(map->of.n_time * map->of.n_place, sizeof *map->cells);
     for (size_t i = 0; i < map->of.n_time; i++)
         for (size_t k = 0; k < map->of.n_place; k++) {
@@ -51,22 +51,22 @@ static void map_cells(struct map *map)
     mem_free(place);
 }
 
-static int map_open(const char *directory, const char *name, struct map *map)
+static int plot_map_open(const char *directory, const char *name, struct map *map)
 {
     TRY(map_table_open(directory, name, &map->of));
-    map_cells(map);
+    plot_map_cells(map);
     return STATUS_OK;
 }
 
-static void map_close(struct map *map)
+static void plot_map_close(struct map *map)
 {
     map_table_done(&map->of);
     mem_free(map->cells);
 }
 
 /* Least and largest finite value in the window; of positive ones for a logarithmic scale. */
-static void map_extremes(const struct map *map, const double *values, const double window[2][2], bool log,
-                         double extremes[2])
+static void plot_map_extremes(const struct map *map, const double *values, const double window[2][2], bool log,
+                              double extremes[2])
 {
     for (size_t i = 0; i < map->of.n_time * map->of.n_place; i++) {
         const struct raster_cell *cell = &map->cells[i];
@@ -79,7 +79,7 @@ static void map_extremes(const struct map *map, const double *values, const doub
     }
 }
 
-static int map_window(const struct map *map, const struct plot_option *option, double ret_window[2][2])
+static int plot_map_window(const struct map *map, const struct plot_option *option, double ret_window[2][2])
 {
     memcpy(ret_window, map->edge, sizeof map->edge);
     for (int axis = 0; axis < 2; axis++) {
@@ -95,7 +95,7 @@ static int map_window(const struct map *map, const struct plot_option *option, d
 }
 
 /* Axes: the coordinate by its symbol, and t. */
-static void map_axes(const struct map *map, const double window[2][2], struct picture *drawn)
+static void plot_map_axes(const struct map *map, const double window[2][2], struct picture *drawn)
 {
     char *place = map_table_place(&map->of);
     const struct picture_scale_inp axes[] = {
@@ -106,14 +106,14 @@ static void map_axes(const struct map *map, const double window[2][2], struct pi
     mem_free(place);
 }
 
-static int map_layer(const struct map *map, const char *field, const struct plot_option *option,
-                     const double window[2][2], struct picture_layer *layer)
+static int plot_map_layer(const struct map *map, const char *field, const struct plot_option *option,
+                          const double window[2][2], struct picture_layer *layer)
 {
     double extremes[2] = {INFINITY, -INFINITY};
     layer->cells = map->cells;
     layer->n = map->of.n_time * map->of.n_place;
     TRY(map_table_column(&map->of, field, &layer->values));
-    map_extremes(map, layer->values, window, option->log, extremes);
+    plot_map_extremes(map, layer->values, window, option->log, extremes);
     const char *colours = option->map ? option->map : colormap_for_field(field, extremes[0], extremes[1]);
     TRY(colormap_find(colours, &layer->map));
     TRY(plot_picture_range(&option->range[0], option->log, field, colours, extremes));
@@ -128,25 +128,26 @@ static int map_layer(const struct map *map, const char *field, const struct plot
 }
 
 /* DIR/plots/map_NAME_FIELD.png, or what -o says; `many`: the other fields have files of their own. */
-static char *map_path(const struct map *map, const char *directory, const char *field, const char *output, bool many)
+static char *plot_map_path(const struct map *map, const char *directory, const char *field, const char *output,
+                           bool many)
 {
     if (!output) return mem_print("%s/plots/map_%s_%s.png", directory, map->of.name, field);
     return many ? plot_option_file(output, field) : mem_text(output);
 }
 
-static int map_draw(const struct map *map, const char *directory, const char *field, const struct plot_option *option,
-                    bool many)
+static int plot_map_draw(const struct map *map, const char *directory, const char *field,
+                         const struct plot_option *option, bool many)
 {
     char *title = plot_case_title(directory), *path = NULL;
     struct picture drawn = {.title = title, .note = map->of.name, .n_layer = 1, .aspect = 0.8};
     double window[2][2];
     cairo_surface_t *image = NULL;
-    int code = map_window(map, option, window);
-    if (!code) code = map_layer(map, field, option, window, &drawn.layer[0]);
-    if (!code) map_axes(map, window, &drawn);
+    int code = plot_map_window(map, option, window);
+    if (!code) code = plot_map_layer(map, field, option, window, &drawn.layer[0]);
+    if (!code) plot_map_axes(map, window, &drawn);
     if (!code) code = picture_draw(&drawn, option->width, &image);
     if (!code) {
-        path = map_path(map, directory, field, option->output, many);
+        path = plot_map_path(map, directory, field, option->output, many);
         code = picture_canvas_write(image, path);
     }
     if (!code) printf("%s\n", path);
@@ -163,12 +164,12 @@ int plot_map_write(const char *directory, const char *const *words, unsigned n, 
     if (n != 2)
         return status_fail(STATUS_CASE, "a map and a field are needed: bulla plot %s map %s FIELD", directory,
                            words[0]);
-    int code = map_open(directory, words[0], &map);
+    int code = plot_map_open(directory, words[0], &map);
     bool many = strchr(words[1], ',') != NULL;
     char *list = mem_text(words[1]);
     for (char *field = strtok(list, ","); !code && field; field = strtok(NULL, ","))
-        code = map_draw(&map, directory, field, option, many);
+        code = plot_map_draw(&map, directory, field, option, many);
     mem_free(list);
-    map_close(&map);
+    plot_map_close(&map);
     return code;
 }

@@ -9,45 +9,48 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct cli_option option_output = {
+static const struct cli_option plot_option_output = {
     "--output", "-o", "FILE.png", "Where to write; of several fields FILE_FIELD.png each (a directory with --all)."};
-static const struct cli_option option_step = {"--step", NULL, "N", "The snapshot of this step."};
-static const struct cli_option option_time = {"--time", NULL, "T",
-                                              "The snapshot nearest to this time; of profiles several."};
-static const struct cli_option option_last = {"--last", NULL, NULL, "The last snapshot (default)."};
-static const struct cli_option option_all = {"--all", NULL, NULL, "Every snapshot, all on one colour scale."};
-static const struct cli_option option_over = {"--over", NULL, "FILE.csv[:X,Y]",
-                                              "History: this reference, too; columns t and those drawn, or X and Y."};
-static const struct cli_option option_slice = {"--slice", NULL, "x=X",
-                                               "Cut at x, y or z; 3D: the middle of z by default."};
-static const struct cli_option option_range = {
+static const struct cli_option plot_option_step = {"--step", NULL, "N", "The snapshot of this step."};
+static const struct cli_option plot_option_time = {"--time", NULL, "T",
+                                                   "The snapshot nearest to this time; of profiles several."};
+static const struct cli_option plot_option_last = {"--last", NULL, NULL, "The last snapshot (default)."};
+static const struct cli_option plot_option_all = {"--all", NULL, NULL, "Every snapshot, all on one colour scale."};
+static const struct cli_option plot_option_over = {
+    "--over", NULL, "FILE.csv[:X,Y]", "History: this reference, too; columns t and those drawn, or X and Y."};
+static const struct cli_option plot_option_slice = {"--slice", NULL, "x=X",
+                                                    "Cut at x, y or z; 3D: the middle of z by default."};
+static const struct cli_option plot_option_range = {
     "--range", NULL, "LO,HI", "Values at the ends of the scale; again for the right field, the inside one."};
-static const struct cli_option option_log = {"--log", NULL, NULL, "Logarithmic scale of values."};
-static const struct cli_option option_map = {"--map", NULL, "NAME", "Colour map: lagoon, ember, frost, balance, grey."};
-static const struct cli_option option_width = {"--width", NULL, "PX",
-                                               "Width of the picture in pixels (an odd one grows by 1)."};
-static const struct cli_option option_mirror = {"--mirror", NULL, NULL, "Axisymmetric: show both halves."};
-static const struct cli_option option_contour = {"--contour", NULL, "MATERIAL",
-                                                 "Interfaces to draw: names by comma, or none (default: all)."};
-static const struct cli_option option_xlim = {"--xlim", NULL, "A,B", "Part of the horizontal axis."};
-static const struct cli_option option_ylim = {"--ylim", NULL, "A,B", "Part of the vertical axis."};
-static const struct cli_option option_tiles = {"--tiles", NULL, NULL, "Outlines of the mesh tiles."};
-static const struct cli_option option_left = {"--left", NULL, "FIELD", "Axisymmetric: this field left of the axis,"};
-static const struct cli_option option_right = {"--right", NULL, "FIELD", "and this one right of it."};
-static const struct cli_option option_inside = {"--inside", NULL, "MATERIAL=FIELD",
-                                                "In this material, show this field instead."};
+static const struct cli_option plot_option_log = {"--log", NULL, NULL, "Logarithmic scale of values."};
+static const struct cli_option plot_option_map = {"--map", NULL, "NAME",
+                                                  "Colour map: lagoon, ember, frost, balance, grey."};
+static const struct cli_option plot_option_width = {"--width", NULL, "PX",
+                                                    "Width of the picture in pixels (an odd one grows by 1)."};
+static const struct cli_option plot_option_mirror = {"--mirror", NULL, NULL, "Axisymmetric: show both halves."};
+static const struct cli_option plot_option_contour = {"--contour", NULL, "MATERIAL",
+                                                      "Interfaces to draw: names by comma, or none (default: all)."};
+static const struct cli_option plot_option_xlim = {"--xlim", NULL, "A,B", "Part of the horizontal axis."};
+static const struct cli_option plot_option_ylim = {"--ylim", NULL, "A,B", "Part of the vertical axis."};
+static const struct cli_option plot_option_tiles = {"--tiles", NULL, NULL, "Outlines of the mesh tiles."};
+static const struct cli_option plot_option_left = {"--left", NULL, "FIELD",
+                                                   "Axisymmetric: this field left of the axis,"};
+static const struct cli_option plot_option_right = {"--right", NULL, "FIELD", "and this one right of it."};
+static const struct cli_option plot_option_inside = {"--inside", NULL, "MATERIAL=FIELD",
+                                                     "In this material, show this field instead."};
 
 const struct cli_option *const plot_option_table[] = {
-    &option_output, &option_last,    &option_step,  &option_time,  &option_all,    &option_slice, &option_range,
-    &option_log,    &option_map,     &option_xlim,  &option_ylim,  &option_mirror, &option_left,  &option_right,
-    &option_inside, &option_contour, &option_tiles, &option_width, &option_over,   NULL,
+    &plot_option_output,  &plot_option_last,   &plot_option_step,  &plot_option_time,  &plot_option_all,
+    &plot_option_slice,   &plot_option_range,  &plot_option_log,   &plot_option_map,   &plot_option_xlim,
+    &plot_option_ylim,    &plot_option_mirror, &plot_option_left,  &plot_option_right, &plot_option_inside,
+    &plot_option_contour, &plot_option_tiles,  &plot_option_width, &plot_option_over,  NULL,
 };
 
 /* What a number must be a quantity of: nothing in particular, a length, a time. */
 enum option_kind { OPTION_ANY, OPTION_LENGTH, OPTION_TIME };
 
 /* The first `length` bytes of `text`: a number in SI or with a unit of the kind. */
-static int option_number(const char *name, const char *text, size_t length, enum option_kind kind, double *ret)
+static int plot_option_number(const char *name, const char *text, size_t length, enum option_kind kind, double *ret)
 {
     static const struct unit wanted[] = {[OPTION_LENGTH] = {.power = {1}}, [OPTION_TIME] = {.power = {0, 0, 1}}};
     char word[64], bad[32], words[64];
@@ -62,13 +65,13 @@ static int option_number(const char *name, const char *text, size_t length, enum
                        kind == OPTION_TIME ? "a time" : "a length");
 }
 
-static int option_span(const char *name, const char *text, struct plot_option_span *ret)
+static int plot_option_span(const char *name, const char *text, struct plot_option_span *ret)
 {
     if (!text) return STATUS_OK;
     const char *comma = strchr(text, ',');
     if (!comma) return status_fail(STATUS_CASE, "%s %s: two numbers with a comma are needed: %s 0,1", name, text, name);
-    TRY(option_number(name, text, (size_t)(comma - text), OPTION_ANY, &ret->lo));
-    TRY(option_number(name, comma + 1, strlen(comma + 1), OPTION_ANY, &ret->hi));
+    TRY(plot_option_number(name, text, (size_t)(comma - text), OPTION_ANY, &ret->lo));
+    TRY(plot_option_number(name, comma + 1, strlen(comma + 1), OPTION_ANY, &ret->hi));
     if (!(ret->lo < ret->hi))
         return status_fail(STATUS_CASE, "%s %s: the first number must be less than the second", name, text);
     ret->given = true;
@@ -76,13 +79,13 @@ static int option_span(const char *name, const char *text, struct plot_option_sp
 }
 
 /* Each --range in turn; a single one is that of all fields. */
-static int option_ranges(const struct cli_given *given, struct plot_option *option)
+static int plot_option_ranges(const struct cli_given *given, struct plot_option *option)
 {
     int n = 0;
     for (int i = 0; i < given->n_option; i++) {
-        if (given->options[i] != &option_range) continue;
+        if (given->options[i] != &plot_option_range) continue;
         if (n == PLOT_RANGES) return status_fail(STATUS_CASE, "--range is given more than %d times", PLOT_RANGES);
-        TRY(option_span("--range", given->values[i], &option->range[n]));
+        TRY(plot_option_span("--range", given->values[i], &option->range[n]));
         if (option->log && option->range[n].lo <= 0.0)
             return status_fail(STATUS_CASE, "--log with --range from %g: a logarithmic scale begins above 0",
                                option->range[n].lo);
@@ -93,7 +96,7 @@ static int option_ranges(const struct cli_given *given, struct plot_option *opti
 }
 
 /* --inside tissue=sigma_max */
-static int option_inside_read(const struct cli_given *given, struct plot_option *option)
+static int plot_option_inside_read(const struct cli_given *given, struct plot_option *option)
 {
     const char *text = cli_value(given, "--inside"), *equals = text ? strchr(text, '=') : NULL;
     if (!text) return STATUS_OK;
@@ -105,21 +108,21 @@ static int option_inside_read(const struct cli_given *given, struct plot_option 
     return STATUS_OK;
 }
 
-static int option_slices(const struct cli_given *given, struct plot_option *option)
+static int plot_option_slices(const struct cli_given *given, struct plot_option *option)
 {
     for (int i = 0; i < given->n_option; i++) {
-        if (given->options[i] != &option_slice) continue;
+        if (given->options[i] != &plot_option_slice) continue;
         const char *text = given->values[i];
         int axis = text[0] == 'r' ? 0 : text[0] - 'x';
         if (axis < 0 || axis > 2 || text[1] != '=')
             return status_fail(STATUS_CASE, "--slice %s: say which axis and where: --slice z=0", text);
-        TRY(option_number("--slice", text + 2, strlen(text + 2), OPTION_LENGTH, &option->slice[axis]));
+        TRY(plot_option_number("--slice", text + 2, strlen(text + 2), OPTION_LENGTH, &option->slice[axis]));
         option->sliced[axis] = true;
     }
     return STATUS_OK;
 }
 
-static int option_when(const struct cli_given *given, struct plot_option *option)
+static int plot_option_when(const struct cli_given *given, struct plot_option *option)
 {
     static const char *const names[] = {"--last", "--step", "--time", "--all"}; /* as enum plot_option_when */
     const char *chosen = NULL;
@@ -132,18 +135,18 @@ static int option_when(const struct cli_given *given, struct plot_option *option
     TRY(cli_count(given, "--step", 0, &option->step));
     for (int i = 0; i < given->n_option; i++) {
         const char *time = given->values[i];
-        if (given->options[i] != &option_time) continue;
+        if (given->options[i] != &plot_option_time) continue;
         if (option->n_time == PLOT_TIMES)
             return status_fail(STATUS_CASE, "--time is given more than %d times", PLOT_TIMES);
-        TRY(option_number("--time", time, strlen(time), OPTION_TIME, &option->times[option->n_time++]));
+        TRY(plot_option_number("--time", time, strlen(time), OPTION_TIME, &option->times[option->n_time++]));
     }
     return STATUS_OK;
 }
 
-static int option_overs(const struct cli_given *given, struct plot_option *option)
+static int plot_option_overs(const struct cli_given *given, struct plot_option *option)
 {
     for (int i = 0; i < given->n_option; i++) {
-        if (given->options[i] != &option_over) continue;
+        if (given->options[i] != &plot_option_over) continue;
         if (option->n_over == PLOT_OVERS)
             return status_fail(STATUS_CASE, "--over is given more than %d times", PLOT_OVERS);
         option->over[option->n_over++] = given->values[i];
@@ -165,13 +168,13 @@ int plot_option_read(const struct cli_given *given, struct plot_option *ret_opti
     TRY(cli_count(given, "--width", 100, &width));
     if (width > 20000) return status_fail(STATUS_CASE, "--width %ld: at most 20000 pixels", width);
     option.width = (int)width;
-    TRY(option_when(given, &option));
-    TRY(option_overs(given, &option));
-    TRY(option_slices(given, &option));
-    TRY(option_ranges(given, &option));
-    TRY(option_inside_read(given, &option));
-    TRY(option_span("--xlim", cli_value(given, "--xlim"), &option.limit[0]));
-    TRY(option_span("--ylim", cli_value(given, "--ylim"), &option.limit[1]));
+    TRY(plot_option_when(given, &option));
+    TRY(plot_option_overs(given, &option));
+    TRY(plot_option_slices(given, &option));
+    TRY(plot_option_ranges(given, &option));
+    TRY(plot_option_inside_read(given, &option));
+    TRY(plot_option_span("--xlim", cli_value(given, "--xlim"), &option.limit[0]));
+    TRY(plot_option_span("--ylim", cli_value(given, "--ylim"), &option.limit[1]));
     if (!option.left != !option.right)
         return status_fail(STATUS_CASE, "--left and --right go together: one field for each side of the axis");
     *ret_option = option;

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 /* The columns of the file by comma, in new memory. */
-static char *over_columns(const struct table *table)
+static char *plot_over_columns(const struct table *table)
 {
     struct text list = {0};
     for (unsigned c = 0; c < table->n_column; c++) text_add(&list, "%s%s", c ? ", " : "", table->names[c]);
@@ -20,10 +20,10 @@ static char *over_columns(const struct table *table)
     return names;
 }
 
-static int over_unknown(const struct plot_over *over, const char *column)
+static int plot_over_unknown(const struct plot_over *over, const char *column)
 {
     const char *near = text_nearest(column, (const char **)over->table.names);
-    char *there = over_columns(&over->table);
+    char *there = plot_over_columns(&over->table);
     int code = status_fail(STATUS_CASE, "--over %s: no column '%s'%s%s%s; there are: %s; choose two: --over %s:X,Y",
                            over->given, column, near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "",
                            there, over->path);
@@ -32,7 +32,7 @@ static int over_unknown(const struct plot_over *over, const char *column)
 }
 
 /* "FILE:X,Y" in three, X in new memory (NULL: not given); a file whose name has a colon needs no columns. */
-static char *over_split(struct plot_over *over)
+static char *plot_over_split(struct plot_over *over)
 {
     const char *colon = strrchr(over->given, ':'), *comma = colon ? strchr(colon, ',') : NULL;
     if (!comma || access(over->given, F_OK) == 0) {
@@ -44,7 +44,7 @@ static char *over_split(struct plot_over *over)
     return mem_text_n(colon + 1, (size_t)(comma - colon - 1));
 }
 
-static int over_open(struct plot_over *over, const char *x)
+static int plot_over_open(struct plot_over *over, const char *x)
 {
     if (access(over->path, R_OK) != 0)
         return status_fail(STATUS_CASE, "--over %s: %s: %s; FILE.csv or FILE.csv:X,Y is needed", over->given,
@@ -57,16 +57,16 @@ static int over_open(struct plot_over *over, const char *x)
     }
     if (!over->table.n_row) return status_fail(STATUS_CASE, "--over %s: no rows of numbers", over->given);
     over->x = table_column(&over->table, x);
-    if (!over->x) return over_unknown(over, x);
-    if (over->column && !table_column(&over->table, over->column)) return over_unknown(over, over->column);
+    if (!over->x) return plot_over_unknown(over, x);
+    if (over->column && !table_column(&over->table, over->column)) return plot_over_unknown(over, over->column);
     return STATUS_OK;
 }
 
 int plot_over_read(const char *given, struct plot_over *ret_over)
 {
     *ret_over = (struct plot_over){.given = given};
-    char *x = over_split(ret_over);
-    int code = over_open(ret_over, x ? x : "t");
+    char *x = plot_over_split(ret_over);
+    int code = plot_over_open(ret_over, x ? x : "t");
     const char *slash = strrchr(ret_over->path, '/');
     snprintf(ret_over->label, sizeof ret_over->label, "%.80s%s%.60s", slash ? slash + 1 : ret_over->path,
              ret_over->column ? ": " : "", ret_over->column ? ret_over->column : "");
@@ -97,7 +97,7 @@ int plot_over_add(struct plot_over *over, const char *column, bool other, struct
 
 int plot_over_unused(const struct plot_over *over)
 {
-    char *there = over_columns(&over->table);
+    char *there = plot_over_columns(&over->table);
     int code = status_fail(STATUS_CASE,
                            "--over %s: none of the columns drawn is in it; there are: %s; choose two: "
                            "--over %s:X,Y",

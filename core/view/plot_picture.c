@@ -21,7 +21,7 @@ int plot_picture_shape(const struct snapshot *snapshot, const struct plot_option
 }
 
 /* The part of the axes that is shown: all of the domain unless --xlim or --ylim say otherwise. */
-static int picture_window(const struct plot_view *view, const struct plot_option *option, double ret_window[2][2])
+static int plot_picture_window(const struct plot_view *view, const struct plot_option *option, double ret_window[2][2])
 {
     for (int k = 0; k < view->n_axis; k++) {
         memcpy(ret_window[k], view->domain[k], sizeof ret_window[k]);
@@ -36,7 +36,8 @@ static int picture_window(const struct plot_view *view, const struct plot_option
     return STATUS_OK;
 }
 
-static void picture_note(const struct plot_view *view, const struct plot_picture *picture, char *ret_note, size_t size)
+static void plot_picture_note(const struct plot_view *view, const struct plot_picture *picture, char *ret_note,
+                              size_t size)
 {
     char time[PICTURE_SCALE_LABEL];
     double like = picture->time_like > 0.0 ? picture->time_like : view->snapshot->time;
@@ -65,17 +66,17 @@ int plot_picture_range(const struct plot_option_span *range, bool log, const cha
     return STATUS_OK;
 }
 
-static bool picture_is_inside(const struct plot_picture *picture, unsigned index)
+static bool plot_picture_is_inside(const struct plot_picture *picture, unsigned index)
 {
     return *picture->option->inside && index + 1 == picture->n_field;
 }
 
 /* Leaves NaN where another field of the picture is shown: the other half, in a material or out of it. */
-static int picture_mask(const struct plot_view *view, const struct plot_picture *picture, unsigned index,
-                        double *values)
+static int plot_picture_mask(const struct plot_view *view, const struct plot_picture *picture, unsigned index,
+                             double *values)
 {
     const struct plot_option *option = picture->option;
-    bool inside = picture_is_inside(picture, index);
+    bool inside = plot_picture_is_inside(picture, index);
     for (size_t c = 0; option->left && !inside && c < view->n; c++) /* the images are the left half */
         if ((c >= view->n_plain) != (index == 0)) values[c] = NAN;
     if (!*option->inside) return STATUS_OK;
@@ -92,8 +93,8 @@ static int picture_mask(const struct plot_view *view, const struct plot_picture 
 }
 
 /* One field of a plane; its values are new memory also when this fails. */
-static int picture_layer(const struct plot_view *view, const struct plot_picture *picture, unsigned index,
-                         const double window[2][2], struct picture_layer *layer, double **ret_values)
+static int plot_picture_layer(const struct plot_view *view, const struct plot_picture *picture, unsigned index,
+                              const double window[2][2], struct picture_layer *layer, double **ret_values)
 {
     const struct plot_option *option = picture->option;
     struct plot_field field;
@@ -102,11 +103,11 @@ static int picture_layer(const struct plot_view *view, const struct plot_picture
     layer->values = *ret_values = values;
     layer->cells = view->cells;
     layer->n = view->n;
-    TRY(picture_mask(view, picture, index, values));
+    TRY(plot_picture_mask(view, picture, index, values));
     if (picture->common) memcpy(extremes, picture->extremes[index], sizeof extremes);
     else plot_view_range(view, values, window, option->log, extremes);
     const char *map = option->map ? option->map : colormap_for_field(picture->fields[index], extremes[0], extremes[1]);
-    if (!option->map && picture_is_inside(picture, index) && strcmp(map, "balance") != 0)
+    if (!option->map && plot_picture_is_inside(picture, index) && strcmp(map, "balance") != 0)
         map = "ember"; /* told apart */
     TRY(colormap_find(map, &layer->map));
     TRY(plot_picture_range(&option->range[index], option->log, picture->fields[index], map, extremes));
@@ -118,7 +119,7 @@ static int picture_layer(const struct plot_view *view, const struct plot_picture
     return STATUS_OK;
 }
 
-static void picture_axes(const struct plot_view *view, const double window[2][2], struct picture *drawn)
+static void plot_picture_axes(const struct plot_view *view, const double window[2][2], struct picture *drawn)
 {
     double size = 0.0;
     for (int k = 0; k < 2; k++) size = fmax(size, fmax(fabs(window[k][0]), fabs(window[k][1])));
@@ -132,8 +133,8 @@ static void picture_axes(const struct plot_view *view, const double window[2][2]
                                             });
 }
 
-static int picture_plane(const struct plot_view *view, const struct plot_picture *picture, const double window[2][2],
-                         const char *note, cairo_surface_t **ret_image)
+static int plot_picture_plane(const struct plot_view *view, const struct plot_picture *picture,
+                              const double window[2][2], const char *note, cairo_surface_t **ret_image)
 {
     struct picture drawn = {.title = view->snapshot->title,
                             .note = note,
@@ -144,10 +145,10 @@ static int picture_plane(const struct plot_view *view, const struct plot_picture
     double *values[PICTURE_LAYERS] = {NULL};
     struct raster_cell *tiles = picture->option->tiles ? plot_view_tiles(view, &drawn.n_tile) : NULL;
     drawn.tiles = tiles;
-    picture_axes(view, window, &drawn);
+    plot_picture_axes(view, window, &drawn);
     int code = STATUS_OK;
     for (unsigned i = 0; !code && i < drawn.n_layer; i++)
-        code = picture_layer(view, picture, i, window, &drawn.layer[i], &values[i]);
+        code = plot_picture_layer(view, picture, i, window, &drawn.layer[i], &values[i]);
     if (!code) code = plot_interface_find(view, picture->option->contours, &interfaces);
     drawn.lines_label = PICTURE_ITALIC "α" PICTURE_UPRIGHT " = 0.5";
     drawn.n_lines = interfaces.n;
@@ -165,13 +166,13 @@ int plot_picture_extremes(const struct snapshot *snapshot, struct plot_picture *
     struct plot_view view;
     double window[2][2];
     TRY(plot_view_make(snapshot, picture->option, &view));
-    int code = picture_window(&view, picture->option, window);
+    int code = plot_picture_window(&view, picture->option, window);
     for (unsigned i = 0; !code && i < picture->n_field; i++) {
         struct plot_field field;
         code = plot_field_find(snapshot, picture->fields[i], &field);
         if (code) break;
         double *values = plot_view_values(&view, &field);
-        if (view.n_axis == 2) code = picture_mask(&view, picture, i, values);
+        if (view.n_axis == 2) code = plot_picture_mask(&view, picture, i, values);
         plot_view_range(&view, values, window, picture->option->log, picture->extremes[i]);
         mem_free(values);
     }
@@ -185,10 +186,10 @@ int plot_picture_draw(const struct snapshot *snapshot, const struct plot_picture
     double window[2][2];
     char note[384];
     TRY(plot_view_make(snapshot, picture->option, &view));
-    int code = picture_window(&view, picture->option, window);
-    picture_note(&view, picture, note, sizeof note);
+    int code = plot_picture_window(&view, picture->option, window);
+    plot_picture_note(&view, picture, note, sizeof note);
     if (!code && view.n_axis == 1) code = plot_profile_draw(&view, picture, window[0], note, ret_image);
-    else if (!code) code = picture_plane(&view, picture, window, note, ret_image);
+    else if (!code) code = plot_picture_plane(&view, picture, window, note, ret_image);
     plot_view_done(&view);
     return code;
 }

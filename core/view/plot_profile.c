@@ -25,7 +25,7 @@ int plot_profile_add(struct chart *chart, const char *units[CHART_PANELS], struc
 
 /* The name of a panel, or what those of its series have in common: "volume fraction" of "volume fraction of air" and
  * "... of water". */
-static void profile_name(const struct chart_panel *panel, char *ret_name, size_t size)
+static void plot_profile_name(const struct chart_panel *panel, char *ret_name, size_t size)
 {
     snprintf(ret_name, size, "%s", panel->name ? panel->name : panel->series[0].name);
     for (unsigned i = 1; !panel->name && i < panel->n_series && !panel->series[i].reference; i++) {
@@ -44,7 +44,7 @@ static void profile_name(const struct chart_panel *panel, char *ret_name, size_t
 }
 
 /* The range that a panel shows of data that reach from range[0] to range[1]. */
-static int profile_range(const char *name, const struct plot_option *option, double range[2])
+static int plot_profile_range(const char *name, const struct plot_option *option, double range[2])
 {
     if (option->range[0].given) {
         range[0] = option->range[0].lo;
@@ -75,8 +75,8 @@ int plot_profile_scale(struct chart *chart, const char *const units[CHART_PANELS
         if (extremes) memcpy(range, extremes[p], sizeof range);
         for (unsigned i = 0; !extremes && i < panel->n_series; i++)
             chart_range(&panel->series[i], window, &range[0], &range[1]);
-        profile_name(panel, name, sizeof name);
-        TRY(profile_range(panel->name ? name : panel->series[0].name, option, range));
+        plot_profile_name(panel, name, sizeof name);
+        TRY(plot_profile_range(panel->name ? name : panel->series[0].name, option, range));
         picture_scale_init(&panel->y,
                            &(struct picture_scale_inp){
                                .name = name, .unit = units[p], .lo = range[0], .hi = range[1], .log = option->log});
@@ -92,14 +92,14 @@ struct profile_data {
 };
 
 /* Widens the extremes of the panel that a field went to. */
-static void profile_widen(double panel[2], const double field[2])
+static void plot_profile_widen(double panel[2], const double field[2])
 {
     if (field[0] < panel[0]) panel[0] = field[0];
     if (field[1] > panel[1]) panel[1] = field[1];
 }
 
-static int profile_fill(const struct plot_view *view, const struct plot_picture *picture, const double *x,
-                        struct profile_data *data, struct chart *chart)
+static int plot_profile_fill(const struct plot_view *view, const struct plot_picture *picture, const double *x,
+                             struct profile_data *data, struct chart *chart)
 {
     for (unsigned i = 0; i < picture->n_field; i++) {
         struct plot_field *field = &data->fields[i];
@@ -110,7 +110,7 @@ static int profile_fill(const struct plot_view *view, const struct plot_picture 
         TRY(plot_profile_add(chart, data->units, series, field->field->unit));
         double *extremes = data->extremes[chart->n_panel - 1];
         if (chart->n_panel > before) memcpy(extremes, picture->extremes[i], sizeof data->extremes[0]);
-        else profile_widen(extremes, picture->extremes[i]);
+        else plot_profile_widen(extremes, picture->extremes[i]);
     }
     return STATUS_OK;
 }
@@ -128,7 +128,7 @@ int plot_profile_draw(const struct plot_view *view, const struct plot_picture *p
                                                              .hi = window[1]});
     int code = plot_interface_places(view, picture->option->contours, &marks, &chart.n_mark);
     chart.marks = marks;
-    if (!code) code = profile_fill(view, picture, x, data, &chart);
+    if (!code) code = plot_profile_fill(view, picture, x, data, &chart);
     const double(*extremes)[2] = picture->common ? (const double(*)[2])data->extremes : NULL;
     if (!code) code = plot_profile_scale(&chart, data->units, window, picture->option, extremes);
     if (!code) code = chart_draw(&chart, picture->option->width, ret_image);

@@ -6,7 +6,7 @@
 #include <math.h>
 
 /* How far beyond the ends a time may lie. */
-static double time_slack(const double *times, size_t n, size_t step)
+static double plot_time_slack(const double *times, size_t n, size_t step)
 {
     double longest = 2e-3 * fabs(times[(n - 1) * step]);
     for (size_t i = 1; i < n; i++) longest = fmax(longest, times[i * step] - times[(i - 1) * step]);
@@ -15,7 +15,7 @@ static double time_slack(const double *times, size_t n, size_t step)
 
 int plot_time_nearest(const double *times, size_t n, size_t step, double t, const char *what, size_t *ret_index)
 {
-    double first = times[0], last = times[(n - 1) * step], slack = time_slack(times, n, step);
+    double first = times[0], last = times[(n - 1) * step], slack = plot_time_slack(times, n, step);
     if (!(t >= first - slack && t <= last + slack))
         return status_fail(STATUS_CASE, "--time %g: %s reach from %.6g s to %.6g s; did you mean --time %.6g?", t, what,
                            first, last, t < first ? first : last);

@@ -20,7 +20,7 @@ struct scene *plot_unit_scene(const char *directory)
     return scene;
 }
 
-static const char *unit_of_field(const char *field)
+static const char *plot_unit_of_field(const char *field)
 {
     static const char *const units[][2] = {
         {"pressure", "Pa"},       {"density", "kg/m3"},  {"partial_density", "kg/m3"},
@@ -39,10 +39,10 @@ static const char *unit_of_field(const char *field)
 const char *plot_unit_of(const struct scene *scene, const char *column)
 {
     const char *dot = strchr(column, '.');
-    if (dot) return unit_of_field(dot + 1);
+    if (dot) return plot_unit_of_field(dot + 1);
     if (strcmp(column, "dt") == 0) return "s";
     for (unsigned c = 0; scene && c < scene->output.n_column; c++)
         if (strcmp(scene->output.columns[c].name, column) == 0)
-            return units_of(scene, &scene->output.columns[c], unit_of_field(scene->output.columns[c].field));
+            return units_of(scene, &scene->output.columns[c], plot_unit_of_field(scene->output.columns[c].field));
     return "";
 }

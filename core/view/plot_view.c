@@ -15,7 +15,8 @@ struct view_cut {
     double at[3];
 };
 
-static int view_slice(const struct snapshot *snapshot, const struct plot_option *option, int axis, struct view_cut *cut)
+static int plot_view_slice(const struct snapshot *snapshot, const struct plot_option *option, int axis,
+                           struct view_cut *cut)
 {
     double lower = snapshot->domain[0][axis], upper = snapshot->domain[1][axis], at = option->slice[axis];
     if (axis >= snapshot->dim)
@@ -29,12 +30,12 @@ static int view_slice(const struct snapshot *snapshot, const struct plot_option 
     return STATUS_OK;
 }
 
-static int view_cuts(const struct snapshot *snapshot, const struct plot_option *option, struct view_cut *cut)
+static int plot_view_cuts(const struct snapshot *snapshot, const struct plot_option *option, struct view_cut *cut)
 {
     int left = snapshot->dim;
     for (int axis = 0; axis < 3; axis++) {
         if (!option->sliced[axis]) continue;
-        TRY(view_slice(snapshot, option, axis, cut));
+        TRY(plot_view_slice(snapshot, option, axis, cut));
         left--;
     }
     if (left < 1) return status_fail(STATUS_CASE, "--slice: nothing is left to draw when every axis is cut");
@@ -45,7 +46,7 @@ static int view_cuts(const struct snapshot *snapshot, const struct plot_option *
     return STATUS_OK;
 }
 
-static bool view_has(const struct snapshot *snapshot, const struct view_cut *cut, size_t cell)
+static bool plot_view_has(const struct snapshot *snapshot, const struct view_cut *cut, size_t cell)
 {
     for (int axis = 0; axis < 3; axis++)
         if (cut->sliced[axis] &&
@@ -54,7 +55,7 @@ static bool view_has(const struct snapshot *snapshot, const struct view_cut *cut
     return true;
 }
 
-static void view_note(const struct snapshot *snapshot, const struct view_cut *cut, struct plot_view *view)
+static void plot_view_note(const struct snapshot *snapshot, const struct view_cut *cut, struct plot_view *view)
 {
     for (int axis = 0; axis < snapshot->dim; axis++) {
         char place[PICTURE_SCALE_LABEL];
@@ -67,13 +68,14 @@ static void view_note(const struct snapshot *snapshot, const struct view_cut *cu
     }
 }
 
-static void view_fill(const struct snapshot *snapshot, const struct view_cut *cut, bool mirror, struct plot_view *view)
+static void plot_view_fill(const struct snapshot *snapshot, const struct view_cut *cut, bool mirror,
+                           struct plot_view *view)
 {
     size_t room = mirror ? 2 * snapshot->n_cell : snapshot->n_cell;
     view->source = mem_new(room, sizeof *view->source);
     view->cells = mem_new(room, sizeof *view->cells);
     for (size_t c = 0; c < snapshot->n_cell; c++) {
-        if (!view_has(snapshot, cut, c)) continue;
+        if (!plot_view_has(snapshot, cut, c)) continue;
         struct raster_cell *cell = &view->cells[view->n];
         for (int k = 0; k < view->n_axis; k++) {
             cell->at[k][0] = snapshot->lower[c][view->axis[k]];
@@ -95,18 +97,18 @@ struct view_item {
     size_t source;
 };
 
-static int view_compare(const void *left, const void *right)
+static int plot_view_compare(const void *left, const void *right)
 {
     double a = ((const struct view_item *)left)->cell.at[0][0], b = ((const struct view_item *)right)->cell.at[0][0];
     return a < b ? -1 : a > b;
 }
 
 /* Cells of a line from left to right. */
-static void view_sort(struct plot_view *view)
+static void plot_view_sort(struct plot_view *view)
 {
     struct view_item *items = mem_new(view->n, sizeof *items);
     for (size_t c = 0; c < view->n; c++) items[c] = (struct view_item){view->cells[c], view->source[c]};
-    qsort(items, view->n, sizeof *items, view_compare);
+    qsort(items, view->n, sizeof *items, plot_view_compare);
     for (size_t c = 0; c < view->n; c++) {
         view->cells[c] = items[c].cell;
         view->source[c] = items[c].source;
@@ -118,7 +120,7 @@ int plot_view_make(const struct snapshot *snapshot, const struct plot_option *op
 {
     struct plot_view view = {.snapshot = snapshot};
     struct view_cut cut = {0};
-    TRY(view_cuts(snapshot, option, &cut));
+    TRY(plot_view_cuts(snapshot, option, &cut));
     for (int axis = 0; axis < snapshot->dim; axis++)
         if (!cut.sliced[axis]) view.axis[view.n_axis++] = axis;
     bool mirror = option->mirror || option->left;
@@ -127,9 +129,9 @@ int plot_view_make(const struct snapshot *snapshot, const struct plot_option *op
     for (int k = 0; k < view.n_axis; k++)
         for (int side = 0; side < 2; side++) view.domain[k][side] = snapshot->domain[side][view.axis[k]];
     if (mirror) view.domain[0][0] = -view.domain[0][1];
-    view_fill(snapshot, &cut, mirror, &view);
-    view_note(snapshot, &cut, &view);
-    if (view.n_axis == 1) view_sort(&view);
+    plot_view_fill(snapshot, &cut, mirror, &view);
+    plot_view_note(snapshot, &cut, &view);
+    if (view.n_axis == 1) plot_view_sort(&view);
     *ret_view = view;
     return STATUS_OK;
 }
@@ -149,7 +151,7 @@ double *plot_view_values(const struct plot_view *view, const struct plot_field *
 }
 
 /* The tile of each cell. */
-static size_t *view_tile_of(const struct snapshot *snapshot)
+static size_t *plot_view_tile_of(const struct snapshot *snapshot)
 {
     size_t *tile_of = mem_new(snapshot->n_cell, sizeof *tile_of);
     for (size_t i = 0; i < snapshot->n_tile; i++)
@@ -159,7 +161,7 @@ static size_t *view_tile_of(const struct snapshot *snapshot)
 
 struct raster_cell *plot_view_tiles(const struct plot_view *view, size_t *ret_n)
 {
-    size_t tiles = view->snapshot->n_tile, n = 0, *tile_of = view_tile_of(view->snapshot);
+    size_t tiles = view->snapshot->n_tile, n = 0, *tile_of = plot_view_tile_of(view->snapshot);
     struct raster_cell *boxes = mem_new(2 * tiles, sizeof *boxes); /* mirror images apart */
     for (size_t c = 0; c < view->n; c++) {
         const struct raster_cell *cell = &view->cells[c];

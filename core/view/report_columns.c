@@ -21,18 +21,18 @@ struct columns {
     unsigned *shown; /* [n] of the table */
 };
 
-static bool columns_is_shown(const char *name)
+static bool report_columns_is_shown(const char *name)
 {
     return strcmp(name, "t") != 0 && strcmp(name, "step") != 0 && strncmp(name, "guard_", 6) != 0;
 }
 
-static void columns_number(struct text *page, double value)
+static void report_columns_number(struct text *page, double value)
 {
     if (isfinite(value)) text_add(page, "<td>%.5g</td>", value);
     else text_add(page, "<td>not finite</td>");
 }
 
-static void columns_row(struct text *page, const struct columns *columns, unsigned c)
+static void report_columns_row(struct text *page, const struct columns *columns, unsigned c)
 {
     const double *values = columns->table.columns[c];
     double least = INFINITY, most = -INFINITY;
@@ -45,23 +45,23 @@ static void columns_row(struct text *page, const struct columns *columns, unsign
     text_add(page, "<tr><td>");
     report_html_text(page, columns->table.names[c]);
     text_add(page, "</td><td>%s</td>", report_html_unit(plot_unit_of(columns->scene, columns->table.names[c]), unit));
-    columns_number(page, values[0]);
-    columns_number(page, least);
-    columns_number(page, most);
-    columns_number(page, values[columns->table.n_row - 1]);
+    report_columns_number(page, values[0]);
+    report_columns_number(page, least);
+    report_columns_number(page, most);
+    report_columns_number(page, values[columns->table.n_row - 1]);
     text_add(page, "</tr>\n");
 }
 
-static void columns_list(struct text *page, const struct columns *columns)
+static void report_columns_list(struct text *page, const struct columns *columns)
 {
     text_add(page, "<div class=\"wide\"><table class=\"numbers\">\n<tr><th>column</th><th>unit</th><th>first</th>"
                    "<th>least</th><th>greatest</th><th>last</th></tr>\n");
-    for (unsigned i = 0; i < columns->n; i++) columns_row(page, columns, columns->shown[i]);
+    for (unsigned i = 0; i < columns->n; i++) report_columns_row(page, columns, columns->shown[i]);
     text_add(page, "</table></div>\n");
 }
 
-static int columns_draw(struct text *page, const char *directory, const struct columns *columns, const char *title,
-                        const struct plot_option *option)
+static int report_columns_draw(struct text *page, const char *directory, const struct columns *columns,
+                               const char *title, const struct plot_option *option)
 {
     const char *names[COLUMNS_DRAWN];
     unsigned n = 0;
@@ -86,17 +86,17 @@ static int columns_draw(struct text *page, const char *directory, const struct c
     return code;
 }
 
-static int columns_section(struct text *page, const char *directory, struct columns *columns, const char *title,
-                           const struct plot_option *option)
+static int report_columns_section(struct text *page, const char *directory, struct columns *columns, const char *title,
+                                  const struct plot_option *option)
 {
     columns->shown = mem_new(columns->table.n_column + 1, sizeof *columns->shown);
     for (unsigned c = 0; c < columns->table.n_column; c++)
-        if (columns_is_shown(columns->table.names[c])) columns->shown[columns->n++] = c;
+        if (report_columns_is_shown(columns->table.names[c])) columns->shown[columns->n++] = c;
     if (!columns->n || !columns->table.n_row || !table_column(&columns->table, "t")) return STATUS_OK;
     columns->scene = plot_unit_scene(directory);
     text_add(page, "<h2>%s</h2>\n<div class=\"figures\">\n", title);
-    int code = columns_draw(page, directory, columns, title, option);
-    columns_list(page, columns);
+    int code = report_columns_draw(page, directory, columns, title, option);
+    report_columns_list(page, columns);
     text_add(page, "</div>\n");
     return code;
 }
@@ -107,7 +107,7 @@ int report_columns_add(struct text *page, const char *directory, const char *nam
     struct columns columns = {0};
     char *path = mem_print("%s/%s", directory, name);
     int code = access(path, F_OK) == 0 ? table_read(path, TABLE_OF_RUN, &columns.table) : STATUS_OK;
-    if (!code) code = columns_section(page, directory, &columns, title, option);
+    if (!code) code = report_columns_section(page, directory, &columns, title, option);
     table_done(&columns.table);
     scene_free(columns.scene);
     mem_free(columns.shown);

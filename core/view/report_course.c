@@ -21,14 +21,14 @@ struct course {
     char *names[COURSE_LINES]; /* of the fields */
 };
 
-static size_t course_index(const struct course *course, size_t frame)
+static size_t report_course_index(const struct course *course, size_t frame)
 {
     return frame * (course->series->n - 1) / (course->n - 1);
 }
 
 /* Fields and options, as the first snapshot has them. */
-static void course_choose(struct course *course, const struct snapshot *snapshot, const struct plot_option *plain,
-                          const struct plot_option *mirrored)
+static void report_course_choose(struct course *course, const struct snapshot *snapshot,
+                                 const struct plot_option *plain, const struct plot_option *mirrored)
 {
     struct plot_picture *picture = &course->picture;
     bool plane = plot_picture_shape(snapshot, plain) == 2;
@@ -42,12 +42,13 @@ static void course_choose(struct course *course, const struct snapshot *snapshot
     }
 }
 
-static int course_gather(struct course *course, const struct plot_option *plain, const struct plot_option *mirrored)
+static int report_course_gather(struct course *course, const struct plot_option *plain,
+                                const struct plot_option *mirrored)
 {
     for (size_t frame = 0; frame < course->n; frame++) {
         struct snapshot *snapshot;
-        TRY(read_snapshot(course->series->paths[course_index(course, frame)], NULL, &snapshot));
-        if (frame == 0) course_choose(course, snapshot, plain, mirrored);
+        TRY(read_snapshot(course->series->paths[report_course_index(course, frame)], NULL, &snapshot));
+        if (frame == 0) report_course_choose(course, snapshot, plain, mirrored);
         int code = plot_picture_extremes(snapshot, &course->picture);
         read_free(snapshot);
         if (code) return code;
@@ -56,13 +57,14 @@ static int course_gather(struct course *course, const struct plot_option *plain,
 }
 
 /* A way to another frame, or what stands in its place at the ends. */
-static void course_turn(struct text *page, const struct course *course, size_t frame, const char *word)
+static void report_course_turn(struct text *page, const struct course *course, size_t frame, const char *word)
 {
     if (frame < course->n) text_add(page, "<label for=\"step-%zu\">%s</label>", frame, word);
     else text_add(page, "<span>%s</span>", word);
 }
 
-static int course_frame(struct text *page, const struct course *course, size_t frame, const struct snapshot *snapshot)
+static int report_course_frame(struct text *page, const struct course *course, size_t frame,
+                               const struct snapshot *snapshot)
 {
     cairo_surface_t *image;
     char time[PICTURE_SCALE_LABEL], unit[PICTURE_SCALE_TEXT], caption[256];
@@ -72,9 +74,9 @@ static int course_frame(struct text *page, const struct course *course, size_t f
     text_add(page, "<input type=\"radio\" name=\"step\" id=\"step-%zu\"%s aria-label=\"picture %zu of %zu\">\n", frame,
              frame ? "" : " checked", frame + 1, course->n);
     text_add(page, "<div class=\"step\"><p class=\"turn\">");
-    course_turn(page, course, frame - 1, "‹ previous"); /* before the first: none, as beyond the last */
+    report_course_turn(page, course, frame - 1, "‹ previous"); /* before the first: none, as beyond the last */
     text_add(page, "<b>%zu of %zu, t = %s</b>", frame + 1, course->n, time);
-    course_turn(page, course, frame + 1, "next ›");
+    report_course_turn(page, course, frame + 1, "next ›");
     text_add(page, "</p>\n");
     if (course->picture.n_field > 1)
         snprintf(caption, sizeof caption, "%u of %u fields, step %ld", course->picture.n_field, snapshot->n_field,
@@ -88,7 +90,7 @@ static int course_frame(struct text *page, const struct course *course, size_t f
     return code;
 }
 
-static int course_draw(struct text *page, const struct course *course)
+static int report_course_draw(struct text *page, const struct course *course)
 {
     int code = STATUS_OK;
     text_add(page,
@@ -97,8 +99,8 @@ static int course_draw(struct text *page, const struct course *course)
              course->n, course->series->n);
     for (size_t frame = 0; !code && frame < course->n; frame++) {
         struct snapshot *snapshot;
-        TRY(read_snapshot(course->series->paths[course_index(course, frame)], NULL, &snapshot));
-        code = course_frame(page, course, frame, snapshot);
+        TRY(read_snapshot(course->series->paths[report_course_index(course, frame)], NULL, &snapshot));
+        code = report_course_frame(page, course, frame, snapshot);
         read_free(snapshot);
     }
     text_add(page, "</div>\n");
@@ -114,8 +116,8 @@ int report_course_add(struct text *page, const struct snapshot_series *series, c
     course->n = series->n < COURSE_FRAMES ? series->n : COURSE_FRAMES;
     course->picture.common = true;
     course->picture.time_like = series->times[series->n - 1];
-    int code = course_gather(course, plain, mirrored);
-    if (!code && course->picture.n_field) code = course_draw(page, course);
+    int code = report_course_gather(course, plain, mirrored);
+    if (!code && course->picture.n_field) code = report_course_draw(page, course);
     for (int i = 0; i < COURSE_LINES; i++) mem_free(course->names[i]);
     mem_free(course);
     return code;

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static json_t *facts_json(const char *directory, const char *name)
+static json_t *report_facts_json(const char *directory, const char *name)
 {
     char *path = mem_print("%s/%s", directory, name);
     json_t *root = json_load_file(path, 0, NULL);
@@ -19,7 +19,7 @@ static json_t *facts_json(const char *directory, const char *name)
     return root;
 }
 
-static FILE *facts_open(const char *directory, const char *name)
+static FILE *report_facts_open(const char *directory, const char *name)
 {
     char *path = mem_print("%s/%s", directory, name);
     FILE *file = fopen(path, "r");
@@ -55,7 +55,7 @@ struct facts_row {
 };
 
 /* What the guard does, in the order of its means (docs/numerics.md 8). */
-static const char *const facts_guards[][2] = {
+static const char *const report_facts_guards[][2] = {
     {"fallback", "cells whose step was repeated with first-order fluxes, as its result was not admissible; every "
                  "repetition counts"},
     {"relaxed",
@@ -67,7 +67,7 @@ static const char *const facts_guards[][2] = {
     {"retries", "steps that were repeated with half of their length"},
 };
 
-static void facts_value(const json_t *value, const char *unit, char *ret_words, size_t size)
+static void report_facts_value(const json_t *value, const char *unit, char *ret_words, size_t size)
 {
     double number = json_number_value(value);
     char shown[PICTURE_SCALE_LABEL];
@@ -82,7 +82,7 @@ static void facts_value(const json_t *value, const char *unit, char *ret_words, 
     } else snprintf(ret_words, size, "%.6g", number);
 }
 
-static void facts_add(struct text *page, const char *label, const char *words, const char *why)
+static void report_facts_add(struct text *page, const char *label, const char *words, const char *why)
 {
     text_add(page, "<div><span>");
     report_html_text(page, label);
@@ -93,7 +93,7 @@ static void facts_add(struct text *page, const char *label, const char *words, c
 }
 
 /* The largest relative change of a conserved total, as the run noted it. */
-static void facts_drift(struct text *page, json_t *conservation)
+static void report_facts_drift(struct text *page, json_t *conservation)
 {
     const char *name;
     const char *why = "of the total, relative to the start; what went through boundaries is part of it";
@@ -105,12 +105,12 @@ static void facts_drift(struct text *page, json_t *conservation)
         if (!json_is_number(change)) continue;
         snprintf(label, sizeof label, "change of %.100s", name);
         snprintf(words, sizeof words, "%.2e", json_number_value(change));
-        facts_add(page, label, words, why);
+        report_facts_add(page, label, words, why);
         why = "";
     }
 }
 
-static void facts_guard(struct text *page, json_t *guard)
+static void report_facts_guard(struct text *page, json_t *guard)
 {
     const char *name;
     json_t *count;
@@ -118,16 +118,16 @@ static void facts_guard(struct text *page, json_t *guard)
     {
         char label[160], words[64];
         const char *why = "";
-        for (size_t i = 0; i < sizeof facts_guards / sizeof *facts_guards; i++)
-            if (strcmp(facts_guards[i][0], name) == 0) why = facts_guards[i][1];
+        for (size_t i = 0; i < sizeof report_facts_guards / sizeof *report_facts_guards; i++)
+            if (strcmp(report_facts_guards[i][0], name) == 0) why = report_facts_guards[i][1];
         snprintf(label, sizeof label, "guard: %.100s", name);
         snprintf(words, sizeof words, "%lld", (long long)json_integer_value(count));
-        facts_add(page, label, words, why);
+        report_facts_add(page, label, words, why);
     }
 }
 
 /* What iterated pressures took, and where laws were left. */
-static void facts_laws(struct text *page, const json_t *closures, json_t *outside)
+static void report_facts_laws(struct text *page, const json_t *closures, json_t *outside)
 {
     char label[160], words[128];
     const char *name;
@@ -137,7 +137,8 @@ static void facts_laws(struct text *page, const json_t *closures, json_t *outsid
                  (long long)json_integer_value(json_object_get(closures, "solved")),
                  json_number_value(json_object_get(closures, "mean_steps")),
                  (long long)json_integer_value(json_object_get(closures, "most_steps")));
-        facts_add(page, "pressures iterated", words, "mixture pressures found by Newton's method, cells times stages");
+        report_facts_add(page, "pressures iterated", words,
+                         "mixture pressures found by Newton's method, cells times stages");
     }
     json_object_foreach(outside, name, counts)
     {
@@ -145,12 +146,12 @@ static void facts_laws(struct text *page, const json_t *closures, json_t *outsid
         snprintf(words, sizeof words, "%lld cell-steps, %lld cells at most",
                  (long long)json_integer_value(json_object_get(counts, "cell_steps")),
                  (long long)json_integer_value(json_object_get(counts, "most_cells")));
-        facts_add(page, label, words, "beyond its range a continuation stands in for it: cells times steps");
+        report_facts_add(page, label, words, "beyond its range a continuation stands in for it: cells times steps");
     }
 }
 
 /* Cells of each level at the end and at most, and what it cost to move them; nothing for a mesh of one level. */
-static void facts_levels(struct text *page, const json_t *root)
+static void report_facts_levels(struct text *page, const json_t *root)
 {
     const json_t *levels = json_object_get(root, "levels"), *refinement = json_object_get(root, "refinement");
     json_t *level;
@@ -166,13 +167,14 @@ static void facts_levels(struct text *page, const json_t *root)
                  (long long)json_integer_value(json_object_get(level, "cells")),
                  (long long)json_integer_value(json_object_get(level, "leaves")),
                  (long long)json_integer_value(json_object_get(level, "peak_cells")));
-        facts_add(page, label, words, "cells at the end; leaves have no finer ones above them; most during the run");
+        report_facts_add(page, label, words,
+                         "cells at the end; leaves have no finer ones above them; most during the run");
     }
     char words[128];
     snprintf(words, sizeof words, "%lld, %.2g %% of the CPU time",
              (long long)json_integer_value(json_object_get(refinement, "regrids")),
              100.0 * json_number_value(json_object_get(refinement, "regrid_share")));
-    facts_add(page, "regrids", words, "how often levels of the mesh were laid out anew, and what that cost");
+    report_facts_add(page, "regrids", words, "how often levels of the mesh were laid out anew, and what that cost");
 }
 
 void report_facts_run(struct text *page, const char *directory)
@@ -191,29 +193,29 @@ void report_facts_run(struct text *page, const char *directory)
         {"version", "version", NULL, ""},
         {"commit", "commit", NULL, ""},
     };
-    json_t *root = facts_json(directory, "provenance.json");
+    json_t *root = report_facts_json(directory, "provenance.json");
     if (!root) return;
     text_add(page, "<h2>Run</h2>\n<div class=\"facts\">\n");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const json_t *value = json_object_get(root, rows[i].key);
         char words[256];
         if (!json_is_string(value) && !json_is_number(value)) continue;
-        facts_value(value, rows[i].unit, words, sizeof words);
-        facts_add(page, rows[i].label, words, rows[i].why);
+        report_facts_value(value, rows[i].unit, words, sizeof words);
+        report_facts_add(page, rows[i].label, words, rows[i].why);
     }
-    facts_levels(page, root);
-    facts_drift(page, json_object_get(root, "conservation"));
+    report_facts_levels(page, root);
+    report_facts_drift(page, json_object_get(root, "conservation"));
     if (json_object_get(root, "sources"))
-        facts_add(page, "sources, part of these changes", json_string_value(json_object_get(root, "sources")),
-                  "what the case feeds in or takes out");
-    facts_guard(page, json_object_get(root, "guard"));
-    facts_laws(page, json_object_get(root, "closures"), json_object_get(root, "outside"));
+        report_facts_add(page, "sources, part of these changes", json_string_value(json_object_get(root, "sources")),
+                         "what the case feeds in or takes out");
+    report_facts_guard(page, json_object_get(root, "guard"));
+    report_facts_laws(page, json_object_get(root, "closures"), json_object_get(root, "outside"));
     text_add(page, "</div>\n");
     json_decref(root);
 }
 
 /* A row of the table: the value, or why there is none. */
-static void facts_expectation(struct text *page, const json_t *item)
+static void report_facts_expectation(struct text *page, const json_t *item)
 {
     const char *what = json_string_value(json_object_get(item, "what"));
     const char *bound = json_string_value(json_object_get(item, "bound"));
@@ -234,7 +236,7 @@ static void facts_expectation(struct text *page, const json_t *item)
 
 void report_facts_expect(struct text *page, const char *directory)
 {
-    json_t *root = facts_json(directory, "expect.json"), *item;
+    json_t *root = report_facts_json(directory, "expect.json"), *item;
     const json_t *list = json_object_get(root, "expectations");
     size_t i;
     if (json_array_size(list)) {
@@ -243,7 +245,7 @@ void report_facts_expect(struct text *page, const char *directory)
                        "scale.</p>\n<div class=\"wide\"><table>\n<tr><th>what</th><th>value [SI]</th><th>allowed "
                        "[SI]</th><th></th>"
                        "</tr>\n");
-        json_array_foreach(list, i, item) facts_expectation(page, item);
+        json_array_foreach(list, i, item) report_facts_expectation(page, item);
         text_add(page, "</table></div>\n");
     }
     json_decref(root);
@@ -251,7 +253,7 @@ void report_facts_expect(struct text *page, const char *directory)
 
 void report_facts_case(struct text *page, const char *directory)
 {
-    FILE *file = facts_open(directory, "case.yaml");
+    FILE *file = report_facts_open(directory, "case.yaml");
     if (!file) return;
     text_add(page, "<h2>Case</h2>\n<details><summary>The resolved case file</summary>\n<pre>");
     char line[1024];

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char html_style[] =
+static const char report_html_style[] =
     ":root{color-scheme:light}"
     "body{font:16px/1.5 'DejaVu Sans',system-ui,sans-serif;color:#1a1a1a;background:#fff;max-width:1080px;"
     "margin:2.5rem auto;padding:0 1.5rem;overflow-wrap:anywhere}"
@@ -42,7 +42,7 @@ void report_html_begin(struct text *page, const char *title)
     text_add(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
     report_html_text(page, title);
-    text_add(page, "</title>\n<style>%s</style>\n</head>\n<body>\n", html_style);
+    text_add(page, "</title>\n<style>%s</style>\n</head>\n<body>\n", report_html_style);
 }
 
 void report_html_end(struct text *page)
@@ -64,13 +64,13 @@ void report_html_text(struct text *page, const char *words)
     }
 }
 
-static cairo_status_t html_collect(void *closure, const unsigned char *bytes, unsigned length)
+static cairo_status_t report_html_collect(void *closure, const unsigned char *bytes, unsigned length)
 {
     text_add_n(closure, (const char *)bytes, length);
     return CAIRO_STATUS_SUCCESS;
 }
 
-static void html_base64(struct text *page, const unsigned char *bytes, size_t length)
+static void report_html_base64(struct text *page, const unsigned char *bytes, size_t length)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < length; i += 3) {
@@ -86,12 +86,12 @@ static void html_base64(struct text *page, const unsigned char *bytes, size_t le
 int report_html_figure(struct text *page, cairo_surface_t *image, const char *what, const char *caption)
 {
     struct text png = {0};
-    cairo_status_t status = cairo_surface_write_to_png_stream(image, html_collect, &png);
+    cairo_status_t status = cairo_surface_write_to_png_stream(image, report_html_collect, &png);
     if (status == CAIRO_STATUS_SUCCESS) {
         text_add(page, "<figure><img alt=\"");
         report_html_text(page, what);
         text_add(page, "\" src=\"data:image/png;base64,");
-        html_base64(page, (const unsigned char *)png.at, png.length);
+        report_html_base64(page, (const unsigned char *)png.at, png.length);
         text_add(page, "\"><figcaption>");
         report_html_text(page, caption);
         text_add(page, "</figcaption></figure>\n");
