@@ -1,0 +1,20 @@
+# What `cmake --install` brings and where. Everything lies relative to the program, which finds its modules, the SDK and
+# the verification cases from its own path: an installed folder may be moved as a whole. lib is lib on every system for
+# that reason, never lib64.
+install(TARGETS bulla bulla-view RUNTIME DESTINATION bin)
+
+# The SDK: headers and skeletons, for CMake and for pkg-config.
+install(DIRECTORY core/include/bulla/skeleton DESTINATION include/bulla)
+install(DIRECTORY core/include/bulla DESTINATION include FILES_MATCHING PATTERN "*.h" PATTERN skeleton EXCLUDE)
+install(DIRECTORY core/include/bulla/ DESTINATION lib/cmake/bulla FILES_MATCHING PATTERN "*.cmake" PATTERN skeleton EXCLUDE)
+configure_file(packaging/bulla.pc.in packaging/bulla.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/packaging/bulla.pc DESTINATION share/pkgconfig)
+
+# Cases and schema; the pages link to the cases beside them.
+install(DIRECTORY cases schemas DESTINATION share/bulla)
+install(DIRECTORY docs DESTINATION share/doc/bulla)
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION share/doc/bulla)
+foreach(folder cases schemas)
+  file(CREATE_LINK ../../bulla/${folder} ${CMAKE_BINARY_DIR}/packaging/${folder} SYMBOLIC)
+  install(FILES ${CMAKE_BINARY_DIR}/packaging/${folder} DESTINATION share/doc/bulla)
+endforeach()
