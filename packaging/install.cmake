@@ -1,6 +1,9 @@
 # What `cmake --install` brings and where. Everything lies relative to the program, which finds its modules, the SDK and
 # the verification cases from its own path: an installed folder may be moved as a whole. lib is lib on every system for
 # that reason, never lib64.
+if(NOT "${MPI_C_LIBRARIES};${HDF5_C_LIBRARIES}" MATCHES "^/usr/lib[^;]*(;/usr/lib[^;]*)*$") # a cluster's own, in its own place
+  set_target_properties(bulla bulla-view module-eos-table PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+endif()
 install(TARGETS bulla bulla-view RUNTIME DESTINATION bin)
 
 # The SDK: headers and skeletons, for CMake and for pkg-config.
