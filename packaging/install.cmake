@@ -21,3 +21,15 @@ foreach(folder cases schemas)
   file(CREATE_LINK ../../bulla/${folder} ${CMAKE_BINARY_DIR}/packaging/${folder} SYMBOLIC)
   install(FILES ${CMAKE_BINARY_DIR}/packaging/${folder} DESTINATION share/doc/bulla)
 endforeach()
+
+# Completions of the shells and the manual page, from the option tables by way of the program's help.
+set(words ${CMAKE_BINARY_DIR}/packaging/words)
+add_custom_command(OUTPUT ${words}/bulla.1 DEPENDS bulla bulla-view packaging/words.sh
+                   COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0
+                           sh ${CMAKE_SOURCE_DIR}/packaging/words.sh $<TARGET_FILE:bulla> ${words})
+add_custom_target(words ALL DEPENDS ${words}/bulla.1)
+add_dependencies(program words)
+install(FILES ${words}/bulla.1 DESTINATION share/man/man1)
+install(FILES ${words}/bulla.bash DESTINATION share/bash-completion/completions RENAME bulla)
+install(FILES ${words}/_bulla DESTINATION share/zsh/vendor-completions)
+install(FILES ${words}/bulla.fish DESTINATION share/fish/vendor_completions.d)

@@ -10,7 +10,8 @@ PATH=$place/bin:$PATH
 
 for file in bin/bulla bin/bulla-view include/bulla/module.h include/bulla/skeleton/any/Makefile lib/cmake/bulla/bullaConfig.cmake \
     share/bulla/schemas/case.schema.json share/bulla/cases/tour/tube.yaml share/doc/bulla/docs/modules.md \
-    share/doc/bulla/LICENSE share/doc/bulla/cases/tour/tube.yaml; do
+    share/man/man1/bulla.1 share/bash-completion/completions/bulla share/zsh/vendor-completions/_bulla \
+    share/fish/vendor_completions.d/bulla.fish share/doc/bulla/LICENSE share/doc/bulla/cases/tour/tube.yaml; do
     [ -f "$place/$file" ] || fail "not installed: $file"
 done
 find "$BULLA_BUILD/lib/bulla/modules" -name '*.so' -printf '%f\n' | sort >built
