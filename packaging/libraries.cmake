@@ -15,6 +15,9 @@ target_link_libraries(bulla_mpi INTERFACE MPI::MPI_C)
 add_library(bulla_hdf5 INTERFACE)
 target_include_directories(bulla_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
 target_link_libraries(bulla_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
+if(NOT HDF5_FOUND OR HDF5_IS_PARALLEL) # its header has mpi.h
+  target_link_libraries(bulla_hdf5 INTERFACE MPI::MPI_C)
+endif()
 
 set(CMAKE_REQUIRED_LIBRARIES MPI::MPI_C)
 set(CMAKE_REQUIRED_QUIET ON)
