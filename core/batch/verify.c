@@ -36,10 +36,10 @@ static const struct cli_option verify_ranks_option = {"--ranks", "-n", "RANKS", 
 const struct cli_option *const verify_option_table[] = {&verify_list_option, &verify_save_option, &verify_output_option,
                                                         &verify_ranks_option, NULL};
 
-/* The folder above cases/verify: the working directory, or the one the program was built in. */
+/* The folder above cases/verify: the working directory, or the one the program was built or installed in. */
 static char *verify_source(void)
 {
-    static const char *const above[] = {"", "/..", "/../..", "/../../.."};
+    static const char *const above[] = {"", "/..", "/../..", "/../../..", "/../share/bulla"};
     char exe[4096];
     if (access("cases/verify", R_OK) == 0) return mem_text(".");
     ssize_t length = readlink("/proc/self/exe", exe, sizeof exe - 1);

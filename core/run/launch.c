@@ -26,7 +26,7 @@ char **launch_arguments(long ranks, bool root, const char *program, char **argv)
 {
     /* Oversubscription is allowed, so ranks must not be bound nor spin; the copy through
      * another process's memory is off because containers forbid it. Ranks on other machines, too, must know that a
-     * parent reports for them. */
+     * parent reports for them. MPICH needs no such words. */
     static const char *const fixed[] = {"-x",
                                         LAUNCH_STATUS,
                                         "--oversubscribe",
@@ -38,15 +38,14 @@ char **launch_arguments(long ranks, bool root, const char *program, char **argv)
                                         "--mca",
                                         "btl_vader_single_copy_mechanism",
                                         "none"};
-    enum { FIXED = sizeof fixed / sizeof *fixed };
-    size_t n_own = 0, n = 0;
+    size_t n_fixed = BULLA_OPEN_MPI ? sizeof fixed / sizeof *fixed : 0, n_own = 0, n = 0;
     while (argv[n_own]) n_own++;
-    char **out = mem_new(FIXED + n_own + 6, sizeof *out);
-    out[n++] = mem_text("mpirun");
+    char **out = mem_new(n_fixed + n_own + 6, sizeof *out);
+    out[n++] = mem_text(BULLA_MPIRUN);
     out[n++] = mem_text("-n");
     out[n++] = mem_print("%ld", ranks);
-    for (size_t i = 0; i < FIXED; i++) out[n++] = mem_text(fixed[i]);
-    if (root) out[n++] = mem_text("--allow-run-as-root");
+    for (size_t i = 0; i < n_fixed; i++) out[n++] = mem_text(fixed[i]);
+    if (root && BULLA_OPEN_MPI) out[n++] = mem_text("--allow-run-as-root");
     out[n++] = mem_text(program);
     for (size_t i = 1; i < n_own; i++) out[n++] = mem_text(argv[i]);
     return out;
@@ -69,7 +68,8 @@ static void launch_become(char **arguments, const sigset_t *mask)
     int null = open("/dev/null", O_RDONLY);
     if (null >= 0) dup2(null, STDIN_FILENO);
     execvp(arguments[0], arguments);
-    fprintf(stderr, "error: cannot start mpirun: %s; install Open MPI (Debian: openmpi-bin)\n", strerror(errno));
+    fprintf(stderr, "error: cannot start " BULLA_MPIRUN ": %s; install what bulla was built with (Debian: %s)\n",
+            strerror(errno), BULLA_OPEN_MPI ? "openmpi-bin" : "mpich");
     _exit(127);
 }
 

@@ -12,14 +12,15 @@ tool() { # NAME BODY
 tool dpkg-query 'echo "install ok installed"'
 tool cmake 'case "$*" in
 *--build*) mkdir -p "$2/bin"; printf "#!/bin/sh\necho program \$PWD \"\$@\"\n" >"$2/bin/bulla"; chmod +x "$2/bin/bulla" ;;
-*) touch build/build.ninja; echo "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" >build/CMakeCache.txt ;;
+*) touch build/build.ninja; echo "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" >build/CMakeCache.txt
+    case "$*" in *WERROR=ON*) echo "BULLA_WERROR:BOOL=ON" ;; *) echo "BULLA_WERROR:BOOL=OFF" ;; esac >>build/CMakeCache.txt ;;
 esac'
 tool ctest 'echo summary'
 tool apt-get ':'
 tool sudo '"$@"'
 here=$PWD
 PATH=$here/tools:$PATH
-unset BULLA_NO_INSTALL BULLA_BUILD_DIR
+unset BULLA_NO_INSTALL BULLA_BUILD_DIR BULLA_WERROR CI
 calls() { grep -c "$1" calls || true; }
 fail() { echo "$*"; cat calls; exit 1; }
 
@@ -42,6 +43,7 @@ touch tree/core/new.c
 tree/bulla x >log 2>&1
 [ "$(calls 'cmake --build')" = 1 ] || fail "a new source is not built"
 [ "$(calls 'cmake --preset')" = 0 ] || fail "configures again"
+grep -q 'BULLA_WERROR:BOOL=OFF' tree/build/CMakeCache.txt || fail "a run does not forgive warnings"
 
 : >calls
 [ "$(tree/bulla test -R abc 2>log | tail -n 1)" = summary ] || fail "the test summary is not last"
@@ -50,6 +52,21 @@ tool ctest 'exit 8'
 code=0
 tree/bulla test >log 2>&1 || code=$?
 [ "$code" = 1 ] || fail "failed tests give exit code $code"
+
+# Warnings are errors for tests and in CI, not for who wants to run; only a change configures anew.
+grep -q -- '--preset release -DBULLA_WERROR=ON -B' calls || fail "tests forgive warnings"
+: >calls
+tree/bulla test >log 2>&1 || true
+touch tree/core/again.c
+tree/bulla x >log 2>&1
+[ "$(calls 'cmake --build')" = 2 ] && [ "$(calls 'cmake --preset')" = 0 ] || fail "configures without need"
+touch tree/core/again.c
+BULLA_WERROR=OFF tree/bulla x >log 2>&1
+grep -q -- '-DBULLA_WERROR=OFF' calls || fail "BULLA_WERROR=OFF is not heard"
+: >calls
+touch tree/core/again.c
+CI=true tree/bulla x >log 2>&1
+grep -q -- '-DBULLA_WERROR=ON' calls || fail "CI forgives warnings"
 
 # Missing packages: named when installing is forbidden, installed when it is not.
 tool dpkg-query 'case "$*" in *lua5.4*) exit 1 ;; esac; echo "install ok installed"'

@@ -21,7 +21,7 @@ static void own_command_line_follows_the_program(void **state)
     (void)state;
     char *argv[] = {"bulla", "run", "a case.yaml", "-n", "3", NULL};
     char **out = launch_arguments(3, 0, "/x/bulla", argv);
-    assert_string_equal(out[0], "mpirun");
+    assert_string_equal(out[0], BULLA_MPIRUN);
     assert_string_equal(out[1], "-n");
     assert_string_equal(out[2], "3");
     int at = position(out, "/x/bulla");
@@ -51,7 +51,7 @@ static void root_is_allowed_only_for_root(void **state)
     for (int root = 0; root < 2; root++) {
         char **out = launch_arguments(2, root, "/x/bulla", argv);
         int flag = position(out, "--allow-run-as-root");
-        assert_int_equal(flag >= 0, root);
+        assert_int_equal(flag >= 0, root && BULLA_OPEN_MPI);
         assert_true(flag < position(out, "/x/bulla"));
         launch_free_arguments(out);
     }
