@@ -93,7 +93,7 @@ static void test_marks(void **state)
         start(&judged);
         judged.guard->last = false;
         assert_int_equal(bad_with(&judged, &judged.c2[5], (double)NAN), 1);
-        guard_settle(judged.guard, first);
+        guard_settle(judged.guard, first ? 0 : 1);
         assert_true(judged.guard->mask[0][5] == (first ? 0.0 : 1.0) && judged.guard->mask[0][6] == 0.0);
         assert_int_equal(judged.guard->bad[1], first ? 0 : 1);
         stop(&judged);
