@@ -296,7 +296,7 @@ struct derive_moment derive_moment(const struct model *model, const struct mesh 
 static void derive_bring_layers(struct derive_moment *moment)
 {
     if (moment->exchanges) return;
-    derive_slope_exchange(moment->model, moment->mesh, moment->t);
+    derive_slope_exchange(moment->model, moment->mesh, moment->base, moment->t);
     moment->exchanges++;
 }
 

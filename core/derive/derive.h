@@ -31,6 +31,7 @@ struct derive_moment {
     const struct model *model;
     const struct mesh *mesh;
     double t;
+    int base; /* the coarsest level that stands at t: a coarser one may be in the middle of its step (solve/regrid.c) */
     unsigned exchanges; /* times that the layers of neighbours were brought: 0 or 1 */
     bool has_around;    /* edges and corners of tiles are there too */
     bool has_steepest, has_presence[SCENE_MATERIALS];

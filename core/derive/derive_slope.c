@@ -106,10 +106,10 @@ void derive_slope_schlieren(const struct derive_view *tile, double *out)
         out[i] = tile->field->scale > 0.0 ? exp(-200.0 * out[i] / tile->field->scale) : 1.0;
 }
 
-void derive_slope_exchange(const struct model *model, const struct mesh *mesh, double t)
+void derive_slope_exchange(const struct model *model, const struct mesh *mesh, int base, double t)
 {
     struct prolong *prolong = prolong_new(model, mesh);
-    for (int l = 0; l < mesh->n_level; l++) {
+    for (int l = base; l < mesh->n_level; l++) {
         halo_start(mesh->levels[l].halo, mesh->levels[l].w);
         halo_finish(mesh->levels[l].halo);
         if (l + 1 == mesh->n_level) break;

@@ -14,7 +14,8 @@ void derive_slope_schlieren(const struct derive_view *tile, double *out);
 /* Raises *scale to the largest density gradient in the leaves of a tile; `gradient` is work space [n]. */
 void derive_slope_steepest(const struct derive_view *tile, double *gradient, double *scale);
 
-/* Brings the neighbours' layers up to date, coarser ones too: after a step they still hold the midpoint. Collective. */
-void derive_slope_exchange(const struct model *model, const struct mesh *mesh, double t);
+/* Brings the neighbours' layers of level `base` and finer ones up to date: after a step they still hold the midpoint. What lies behind
+ * the edges of level `base` itself is left as it is: in the middle of a coarser step it belongs to the solver. Collective. */
+void derive_slope_exchange(const struct model *model, const struct mesh *mesh, int base, double t);
 
 #endif

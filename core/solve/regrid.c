@@ -72,6 +72,7 @@ static int regrid_sets(struct regrid *regrid, int patience)
 {
     const struct mesh *mesh = regrid->state->mesh;
     struct derive_moment moment = derive_moment(regrid->state->model, mesh, regrid->state->t);
+    moment.base = regrid->base; /* ghosts of this level are those of a step that is under way */
     for (int l = regrid->base; l < mesh->most_level && l < mesh->n_level; l++) {
         TRY(regrid_tag(regrid, &moment, l));
         nest_join(&regrid->wishes[l + 1]);
