@@ -32,7 +32,7 @@ struct derive_moment {
     const struct mesh *mesh;
     double t;
     unsigned exchanges; /* times that the layers of neighbours were brought: 0 or 1 */
-    bool has_around; /* edges and corners of tiles are there too */
+    bool has_around;    /* edges and corners of tiles are there too */
     bool has_steepest, has_presence[SCENE_MATERIALS];
     double steepest, presence[SCENE_MATERIALS]; /* global values, once somebody has asked */
 };

@@ -17,7 +17,7 @@ output: {history: {columns: {m: {total: mass}, p: {max: pressure}}}}
 END
 wrong() { echo "$*"; ls -R; exit 1; }
 list() { ls "$1/checkpoints" 2>/dev/null | tr '\n' ' '; }
-slow() { # SECONDS ARGS...: a run in which so many pass with each step
+slow() { # TIME ARGS...: a run whose steps each count as so many
     seconds=$1
     shift
     BULLA_STEP_SECONDS=$seconds "$BULLA" run "$@" --quiet
