@@ -3,13 +3,16 @@
 
 #include "bulla/module.h"
 
-BULLA_KERNEL void row_add(size_t n, const double *restrict a, double *restrict sum)
+/* Kernels are static: a clone of clang 14 has a name that other files do not know. */
+
+static BULLA_KERNEL void row_kernel_add(size_t n, const double *restrict a, double *restrict sum)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) sum[i] += a[i];
 }
 
-BULLA_KERNEL void row_add_product(size_t n, const double *restrict a, const double *restrict b, double *restrict sum)
+static BULLA_KERNEL void row_kernel_add_product(size_t n, const double *restrict a, const double *restrict b,
+                                                double *restrict sum)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
@@ -18,23 +21,48 @@ BULLA_KERNEL void row_add_product(size_t n, const double *restrict a, const doub
     }
 }
 
-BULLA_KERNEL void row_take(size_t n, const double *restrict a, double *restrict from)
+static BULLA_KERNEL void row_kernel_take(size_t n, const double *restrict a, double *restrict from)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) from[i] -= a[i];
 }
 
-BULLA_KERNEL void row_divide(size_t n, const double *restrict by, double *restrict a)
+static BULLA_KERNEL void row_kernel_divide(size_t n, const double *restrict by, double *restrict a)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) a[i] /= by[i];
 }
 
-BULLA_KERNEL void row_step(size_t n, double dt, const double *restrict u, const double *restrict rate,
-                           double *restrict now)
+static BULLA_KERNEL void row_kernel_step(size_t n, double dt, const double *restrict u, const double *restrict rate,
+                                         double *restrict now)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) now[i] = u[i] + dt * rate[i];
+}
+
+void row_add(size_t n, const double *restrict a, double *restrict sum)
+{
+    row_kernel_add(n, a, sum);
+}
+
+void row_add_product(size_t n, const double *restrict a, const double *restrict b, double *restrict sum)
+{
+    row_kernel_add_product(n, a, b, sum);
+}
+
+void row_take(size_t n, const double *restrict a, double *restrict from)
+{
+    row_kernel_take(n, a, from);
+}
+
+void row_divide(size_t n, const double *restrict by, double *restrict a)
+{
+    row_kernel_divide(n, by, a);
+}
+
+void row_step(size_t n, double dt, const double *restrict u, const double *restrict rate, double *restrict now)
+{
+    row_kernel_step(n, dt, u, rate, now);
 }
 
 double row_most(size_t n, const double *row)

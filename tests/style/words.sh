@@ -18,6 +18,9 @@ forbid "$fast" "the optimiser may not change values" CMakeLists.txt CMakePresets
 forbid 'pragma.*(fp_contract|fast|optimize)|__attribute__.*optimize' "the optimiser may not change values" \
     $(find core modules -name '*.[ch]')
 
+forbid '^BULLA_KERNEL (void|double)' "kernels are static: clang 14 names clones so that other files do not find them" \
+    $(find core modules -name '*.[ch]')
+
 notes='TO''DO|FIX''ME|XX''X|HA''CK'
 forbid "(^|[^A-Za-z_])($notes)([^A-Za-z_]|$)" "finish it or open an issue" \
     $(find core modules tests cases docs schemas -type f \( -name '*.[ch]' -o -name '*.sh' -o -name '*.yaml' \
