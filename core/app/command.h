@@ -1,4 +1,6 @@
-/* command.h - the commands of the program, and the choice of one. */
+/* command.h - the commands of the program, and the choice of one.
+ *
+ * This folder, app: main() and the table of commands; nothing else belongs here. */
 #ifndef COMMAND_H
 #define COMMAND_H
 

@@ -3,7 +3,10 @@
  * Sizes are decided by the case, which is checked against --max-memory before anything is
  * allocated; running out later is no state a caller could repair. mem_new therefore never
  * returns NULL: it reports the size asked for and ends all ranks with STATUS_RUN.
- * All blocks are 64-byte aligned (a cache line, an AVX-512 register) and zeroed. */
+ * All blocks are 64-byte aligned (a cache line, an AVX-512 register) and zeroed.
+ *
+ * This folder, base: what any C program needs and knows nothing of simulations: memory, texts, messages, ranks,
+ * hash tables. */
 #ifndef MEM_H
 #define MEM_H
 

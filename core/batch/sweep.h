@@ -1,4 +1,6 @@
-/* sweep.h - `bulla sweep`: all combinations of a case's matrix, each in its own directory, and one table. */
+/* sweep.h - `bulla sweep`: all combinations of a case's matrix, each in its own directory, and one table.
+ *
+ * This folder, batch: many runs: sweeps, studies, `verify`. */
 #ifndef SWEEP_H
 #define SWEEP_H
 

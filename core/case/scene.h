@@ -1,7 +1,10 @@
 /* scene.h - the typed scene: what a case says, as plain structs, all defaults filled in.
  *
  * Everything in SI units. The layers below `case` (mesh, phys, solve, io) see only this; no
- * YAML, no marks, no units. Pointers belong to the scene; scene_free releases all of it. */
+ * YAML, no marks, no units. Pointers belong to the scene; scene_free releases all of it.
+ *
+ * This folder, case: from YAML, Lua and the command line's settings to plain structs in SI. Nothing here knows of
+ * meshes or steps. */
 #ifndef SCENE_H
 #define SCENE_H
 

@@ -1,7 +1,9 @@
 /* cli.h - what a command line may say: commands and options as tables, parsing and help from them.
  *
  * A command that takes the common options lists them; parsing, `-h`, usage errors and
- * suggestions follow from the table. Tables live in command.c. */
+ * suggestions follow from the table. Tables live in command.c.
+ *
+ * This folder, cli: what a command line says, and how the program speaks to people. */
 #ifndef CLI_H
 #define CLI_H
 

@@ -1,4 +1,6 @@
-/* derive.h - named fields of a state, for snapshots, probes, histories and pictures. */
+/* derive.h - named fields of a state, for snapshots, probes, histories and pictures.
+ *
+ * This folder, derive: named fields made of the primitives, for everything that people or criteria look at. */
 #ifndef DERIVE_H
 #define DERIVE_H
 

@@ -9,7 +9,9 @@
  *                      read.h needs: title, case, dim, beta, domain, materials
  * The order of cells is that of leaves.h. <case>.hdf.series lists all
  * files with their times. Files get their names when complete. The numbers do not depend on the
- * ranks (but for the rank column of blocks and provenance.json). */
+ * ranks (but for the rank column of blocks and provenance.json).
+ *
+ * This folder, io: every file that a run writes or reads, and what is measured for it. */
 #ifndef SNAPSHOT_H
 #define SNAPSHOT_H
 

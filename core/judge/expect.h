@@ -1,5 +1,7 @@
 /* expect.h - does a run show what its case says it must? Evaluates `expect:` of a scene from the
- * files of an output directory, so that it can be repeated at any time without a new run. */
+ * files of an output directory, so that it can be repeated at any time without a new run.
+ *
+ * This folder, judge: is a run right? Norms, exact solutions, expectations. */
 #ifndef EXPECT_H
 #define EXPECT_H
 

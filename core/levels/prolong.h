@@ -8,7 +8,10 @@
  * within the range of the coarse cell and its face neighbours, and every child is admissible (levels/prolong_cell.h). phi
  * is common to all fields because only then linear relations (sum alpha = 1, rho E at uniform p and u) survive.
  * Both interpolate the components of the stretch and make them a stretch again (elastic_settle); masses, momentum and
- * energy of children stay what they are, so that their pressure takes up what elastic energy is not linear. */
+ * energy of children stay what they are, so that their pressure takes up what elastic energy is not linear.
+ *
+ * This folder, levels: what passes between two levels: ghosts, first states, averages, refluxing, and what of it
+ * cells cannot bear. */
 #ifndef PROLONG_H
 #define PROLONG_H
 

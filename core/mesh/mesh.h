@@ -11,7 +11,9 @@
  * cells of the tile b >> 1 of level l; the coarse cells under it stay allocated. Levels nest: the
  * 3^d octants around every fine tile lie in tiles of the coarser level or outside the domain, so
  * that what a tile's ghost layers need exists on the next coarser level at the latest
- * (Berger & Colella 1989, J. Comput. Phys. 82, 64, on fixed tiles). */
+ * (Berger & Colella 1989, J. Comput. Phys. 82, 64, on fixed tiles).
+ *
+ * This folder, mesh: tiles and levels, who owns which, geometry, and messages between ranks. No physics. */
 #ifndef MESH_H
 #define MESH_H
 

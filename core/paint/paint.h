@@ -1,4 +1,6 @@
-/* paint.h - the initial state: layers of paint on the cells of a tile. */
+/* paint.h - the initial state: layers of paint on the cells of a tile.
+ *
+ * This folder, paint: the initial state of a case, cell by cell, also where boundaries and new tiles ask for it. */
 #ifndef PAINT_H
 #define PAINT_H
 

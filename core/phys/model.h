@@ -2,7 +2,10 @@
  *
  * Conserved fields u, in this order: alpha_l (N of them, none if N = 1), m_l = alpha_l rho_l,
  * rho u_i (n_velocity), rho E and, in a scene with a solid, the stretch V (n_stretch: xx, yy, zz, then xy, then xz,
- * yz, as far as n_velocity reaches). Primitives w, same count: alpha_l, rho_l, u_i, p, V. For N = 1 m is rho. */
+ * yz, as far as n_velocity reaches). Primitives w, same count: alpha_l, rho_l, u_i, p, V. For N = 1 m is rho.
+ *
+ * This folder, phys: materials at points: which fields there are, mixtures, elasticity, presence, relaxation.
+ * Batches of points, no neighbours. */
 #ifndef MODEL_H
 #define MODEL_H
 

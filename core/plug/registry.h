@@ -2,7 +2,10 @@
  *
  * Built-in laws are found exactly like foreign ones: shared objects in a folder. Search
  * order: files named by the case (`modules:`), BULLA_MODULE_PATH (colon separated folders),
- * the program's own folder ../lib/bulla/modules (build and install tree alike). */
+ * the program's own folder ../lib/bulla/modules (build and install tree alike).
+ *
+ * This folder, plug: modules, which are loaded, vetted, described and opened here; what they compute is not looked
+ * at. */
 #ifndef REGISTRY_H
 #define REGISTRY_H
 

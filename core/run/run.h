@@ -1,4 +1,6 @@
-/* run.h - `bulla run`: from a case file to its output directory and an exit code. */
+/* run.h - `bulla run`: from a case file to its output directory and an exit code.
+ *
+ * This folder, run: one run from its case to its end, and the commands that look at one case. */
 #ifndef RUN_H
 #define RUN_H
 

@@ -1,7 +1,10 @@
 /* terms.h - which terms a scene has: the equations as a list, compiled once for each path (model.h).
  *
  * Stages, replays of dumps, the census, the time step, refluxing and `bulla plan` walk the same list. A new term is its
- * two files and one line in terms.c. */
+ * two files and one line in terms.c.
+ *
+ * This folder, scheme: from cells to faces to rates: frames, boundaries, edges, fluxes, the terms of the equations,
+ * a file each. */
 #ifndef TERMS_H
 #define TERMS_H
 

@@ -1,4 +1,6 @@
-/* state.h - a run in memory: scene, mesh, model, time, and what has been counted. */
+/* state.h - a run in memory: scene, mesh, model, time, and what has been counted.
+ *
+ * This folder, solve: steps of a level and of all levels, new meshes, the guard, and what is kept of a failure. */
 #ifndef STATE_H
 #define STATE_H
 

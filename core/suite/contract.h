@@ -2,7 +2,9 @@
  * value and where it was met. The same suites judge built-in laws in the tests and foreign ones
  * in `bulla module check`.
  *
- * A suite runs once per set of parameters; rows of the same name are one row. */
+ * A suite runs once per set of parameters; rows of the same name are one row.
+ *
+ * This folder, suite: contract suites of modules, and the commands for their authors. */
 #ifndef CONTRACT_H
 #define CONTRACT_H
 
