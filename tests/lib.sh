@@ -53,6 +53,14 @@ ended() { # SESSION: waits for all its processes; $code is the exit code of the 
     await "the end of all processes of session $1" gone "$1"
     lib_sessions="${lib_sessions%% "$1",*}${lib_sessions#* "$1",}"
 }
+lingers() { # SESSION: is its first process there after a minute, too? For what may hang by no fault of the program
+    lingers_tries=0
+    while alive "$1" && [ "$lingers_tries" -lt 6000 ]; do
+        lingers_tries=$((lingers_tries + 1))
+        sleep 0.01
+    done
+    alive "$1"
+}
 complete() { # COMMAND...: until its last process is gone, also where a rank ends before the others; $code
     start "$@"
     ended "$run"

@@ -51,6 +51,10 @@ reached() { # the moment, or the end
     *) [ "$(rows)" -ge "$moment" ] ;;
     esac
 }
+moved() { # all ranks are there: mpirun does not hear of one that dies while MPI starts; or the end
+    alive "$run" || return 0
+    [ "$(rows)" -gt "$before" ]
+}
 ranks_of() { # SESSION
     [ "$ranks" -gt 1 ] || { echo "$1"; return; }
     ps -o pid=,comm=,stat= -s "$1" | awk -v first="$1" '$2 == "bulla" && $3 !~ /^Z/ && $1 != first { print $1 }'
@@ -61,7 +65,12 @@ strike() { # everything, or one rank, of which the others hear
     [ $how = all ] || victim=$(ranks_of "$run" | tail -n +$((drawn + 1)) | head -n 1)
     if [ -n "$victim" ]; then
         kill -9 "$victim" 2>/dev/null || true
-        ended "$run"
+        if lingers "$run"; then # mpirun may hang on its way out
+            how=all
+            killed "$run"
+        else
+            ended "$run"
+        fi
     else
         killed "$run"
     fi
@@ -99,8 +108,10 @@ while [ "$kills" -lt "${BULLA_KILLS:-24}" ]; do
     restart=--restart
     ls out/checkpoints/*.chk >/dev/null 2>&1 || restart=--overwrite
     draw_moment
+    before=$(rows)
     start "$BULLA" run bubble.yaml -n $ranks --quiet $restart >said 2>&1
     await "$moment" reached
+    [ $how = all ] || await "a row of this run" moved
     strike
     case $how-$code in
     *-0) # it was faster
