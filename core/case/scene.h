@@ -247,6 +247,7 @@ struct scene_scheme {
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
     enum scene_guard guard;
+    double low_mach; /* least part of a jump of velocity that faces see (scheme/low_mach.h); 1: all of it */
 };
 
 /* Section `run:`. */
