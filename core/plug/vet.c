@@ -8,6 +8,7 @@
 #include "bulla/limiter.h"
 #include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
+#include "bulla/viscosity.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -45,6 +46,7 @@ static const struct vet_kind vet_kinds[] = {
     {"limiter", sizeof(struct bulla_limiter), {VET_SLOT(bulla_limiter, slope)}},
     {"reconstruction", sizeof(struct bulla_reconstruction), {{0}}},
     {"riemann", offsetof(struct bulla_riemann, solids), {VET_SLOT(bulla_riemann, solve)}},
+    {"viscosity", sizeof(struct bulla_viscosity), {VET_SLOT(bulla_viscosity, mu.value)}},
 };
 
 enum { VET_KINDS = sizeof vet_kinds / sizeof *vet_kinds };
@@ -97,7 +99,7 @@ static int vet_table(const struct bulla_module *module)
     if (!kind)
         return status_fail(STATUS_CASE,
                            "is of the unknown kind '%s'; kinds are constitutive, eos, limiter, "
-                           "reconstruction, riemann",
+                           "reconstruction, riemann, viscosity",
                            module->kind ? module->kind : "");
     if (!module->table) return status_fail(STATUS_CASE, "has no table of functions");
     uint32_t size;
@@ -126,6 +128,15 @@ static int vet_reconstruction(const struct bulla_module *module)
         return status_fail(STATUS_CASE, "has neither of the functions 'edges' and 'all', of which kind reconstruction "
                                         "needs one");
     return STATUS_OK;
+}
+
+/* Laws of transport: the time step must know how much they may give. */
+static int vet_coefficient(const struct bulla_module *module)
+{
+    const struct bulla_coefficient *table = module->table;
+    if (strcmp(module->kind, "viscosity") != 0) return STATUS_OK;
+    if (!(table->needs & BULLA_NEEDS_RATE) || table->most) return STATUS_OK;
+    return status_fail(STATUS_CASE, "looks at the rate of shear but has no function 'most', which the time step needs");
 }
 
 /* "a|b|c" without empty or repeated words. */
@@ -222,6 +233,7 @@ int vet_module(const struct bulla_module *module, size_t space)
     TRY(vet_head(module, space));
     TRY(vet_table(module));
     TRY(vet_reconstruction(module));
+    TRY(vet_coefficient(module));
     TRY(vet_params(module));
     return vet_presets(module);
 }
@@ -309,6 +321,17 @@ static bool vet_try_constitutive(const struct bulla_constitutive *law, const voi
     return good && isfinite(sum);
 }
 
+/* A liquid that is sheared at 300 K: what comes out may stand in a flux, and what bounds it in a time step. */
+static bool vet_try_coefficient(const struct bulla_coefficient *law, const void *self)
+{
+    const double rate = 100.0, T = 300.0, p = 1e5, rho = 1000.0;
+    double value = (double)NAN;
+    law->value(self, 1, law->needs & BULLA_NEEDS_RATE ? &rate : NULL, law->needs & BULLA_NEEDS_TEMPERATURE ? &T : NULL,
+               law->needs & BULLA_NEEDS_PRESSURE ? &p : NULL, law->needs & BULLA_NEEDS_DENSITY ? &rho : NULL, &value);
+    bool bounded = !(law->needs & BULLA_NEEDS_RATE) || (isfinite(law->most(self)) && law->most(self) >= value);
+    return isfinite(value) && value >= 0.0 && bounded;
+}
+
 int vet_instance(const struct bulla_module *module, const void *self)
 {
     if (strcmp(module->kind, "limiter") == 0 && !vet_try_limiter(module->table, self))
@@ -323,5 +346,11 @@ int vet_instance(const struct bulla_module *module, const void *self)
     if (strcmp(module->kind, "riemann") == 0 && !vet_try_riemann(module->table, self))
         return status_fail(STATUS_CASE, "riemann '%s' gives no finite fluxes for air that moves at 10 m/s",
                            module->name);
+    if (strcmp(module->kind, "viscosity") == 0 && !vet_try_coefficient(module->table, self))
+        return status_fail(
+            STATUS_CASE,
+            "viscosity '%s' gives no number from 0 to what it says to be the most, for a liquid at 300 K "
+            "and 1 bar that is sheared at 100 1/s",
+            module->name);
     return STATUS_OK;
 }

@@ -39,7 +39,10 @@ double advance_dt(const struct state *state)
 static void advance_run(struct stage *stage)
 {
     const struct plan *plan = plan_of(stage->tableau);
-    for (int i = 0; i < plan->n; i++) plan->step[i].run(stage, plan->step[i].turn);
+    for (int i = 0; i < plan->n; i++) {
+        stage->turn = plan->step[i].turn;
+        plan->step[i].run(stage);
+    }
 }
 
 /* Runs it as an attempt; returns the number of inadmissible cells of all ranks (in the first stage

@@ -67,6 +67,7 @@ static const char *const builtin[][2] = {
     {"riemann", "hllc"},
     {"riemann", "hlld"},
     {"riemann", "rusanov"},
+    {"viscosity", "newtonian"},
 };
 /* clang-format on */
 enum { BUILTIN = sizeof builtin / sizeof *builtin };
@@ -134,7 +135,8 @@ static const struct refusal refusals[] = {
     {"no_table", "no table of functions"},
     {"short_table", "table of functions of size 4; kind limiter needs"},
     {"null_slot", "has no function 'slope', which kind limiter needs"},
-    {"unknown_kind", "unknown kind 'weather'; kinds are constitutive, eos, limiter, reconstruction, riemann"},
+    {"unknown_kind",
+     "unknown kind 'weather'; kinds are constitutive, eos, limiter, reconstruction, riemann, viscosity"},
     {"bad_name", "'Bad_Name'; names are lower case with hyphens"},
     {"no_doc", "lacks its doc"},
     {"param_twice", "parameter 'strength' twice"},
