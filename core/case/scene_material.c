@@ -64,6 +64,13 @@ static const struct key scene_material_rows[] = {
      .fallback = "0",
      .doc = "Resistance k of the material against its motion, as in a porous medium (viscosity over permeability): a "
             "force -alpha k u, whose work is heat."},
+    {.name = "conductivity",
+     .type = KEYS_NUMBER,
+     .unit = "W/m/K",
+     .max = KEYS_MOST,
+     .fallback = "0",
+     .doc =
+         "Conductivity of heat k: a flux -k grad T in the material, and through the interface to others that conduct."},
     {0},
 };
 
@@ -147,5 +154,6 @@ void scene_material(struct draft *draft)
         scene_material_open(draft, keys_at(entry->map, "constitutive"), &material->constitutive);
         scene_material_open(draft, keys_at(entry->map, "viscosity"), &material->viscosity);
         material->drag = entry->map ? keys_at(entry->map, "drag")->number : 0.0;
+        material->conductivity = entry->map ? keys_at(entry->map, "conductivity")->number : 0.0;
     }
 }

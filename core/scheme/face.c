@@ -95,6 +95,8 @@ struct face_work *face_new(const struct model *model)
     work->u = work->energy + FACE_ROOM;
     work->stretch = model->n_stretch ? face_row(model->n_stretch) : NULL;
     work->solid = model->n_stretch && model->n_alpha ? face_row(1) : NULL;
+    work->heat_below = model->conducts && model->n_alpha ? face_row(2 * model->n_alpha) : NULL;
+    work->heat_above = work->heat_below ? work->heat_below + model->n_alpha * FACE_ROOM : NULL;
     work->carried = face_row(2 * model->n_alpha);
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
     face_split(model, work->alpha, own->flux_alpha, own->flux_m, own->flux_u);
@@ -125,6 +127,7 @@ void face_free(struct face_work *work)
                       work->faces.work[2],
                       work->faces.work[3],
                       work->carried,
+                      work->heat_below,
                       own->origin,
                       own->strain,
                       work->stretch,
