@@ -128,6 +128,8 @@ enum scene_measure {
     SCENE_ISOSURFACE_MIN,
     SCENE_ISOSURFACE_MAX,
     SCENE_OUTSIDE,
+    SCENE_MIN_BETWEEN,
+    SCENE_MAX_BETWEEN,
     SCENE_VALUE,
 };
 
@@ -139,6 +141,7 @@ struct scene_column {
     int in;                 /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
     struct shape *where;    /* restrict to a region, or NULL */
     int along;              /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
+    unsigned of;            /* min-between, max-between: a column further up */
     const struct script *script; /* value: an expression of other columns */
     char (*uses)[SCENE_NAME];    /* value: its arguments, in order: "t" or columns further up */
     unsigned n_use;
@@ -262,6 +265,7 @@ struct scene_run {
 struct scene_output {
     char *directory; /* resolved against the working directory */
     struct scene_every snapshots, history, probes_every, maps_every, checkpoints;
+    bool history_finest;     /* steps of the history are those of the finest level */
     double checkpoints_wall; /* s of wall time between two checkpoints; 0: they do not count */
     int checkpoints_keep;
     char (*snapshot_fields)[SCENE_NAME];

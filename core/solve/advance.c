@@ -91,6 +91,7 @@ static void advance_accept(struct state *state, struct stage *stage, double sign
     reflux_commit(stage->reflux, stage->dt);
     state->signals[stage->l] = signal;
     state->level_steps[stage->l]++;
+    state->dt_last = stage->dt;
     state->counts.cells += stage->cells;
     state->counts.carried += stage->carried;
     state->counts.clipped += stage->clipped;
@@ -290,6 +291,17 @@ static int advance_regrid(struct state *state, int l, bool last)
     return status;
 }
 
+/* The levels from l on have reached t, those below have not. */
+static int advance_look(struct state *state, int l, double t)
+{
+    double whole = state->t;
+    if (!state->look) return STATUS_OK;
+    state->t = t;
+    int status = state->look(state->look_data, state, l);
+    state->t = whole;
+    return status;
+}
+
 /* Level l through the time [t, t + dt] of a step of the coarser one. */
 static int advance_through(struct state *state, int l, double t, double dt)
 {
@@ -317,6 +329,7 @@ static int advance_through(struct state *state, int l, double t, double dt)
         done += part;
         TRY(advance_finer(state, l));
         TRY(advance_regrid(state, l, done >= 1.0));
+        if (done < 1.0) TRY(advance_look(state, l, t + done * dt));
     }
     return STATUS_OK;
 }
