@@ -149,6 +149,13 @@ struct scene_probe {
     unsigned n_field;
 };
 
+/* What is kept of a field over the run, cell by cell: rows of what a cell keeps, or -1 where nobody asks. A row of a time
+ * goes with that of its value. */
+struct scene_peak {
+    char field[SCENE_NAME];
+    int most, least, when_most, when_least;
+};
+
 /* Fields over time at places in a row. */
 struct scene_map {
     char name[SCENE_NAME];
@@ -268,6 +275,9 @@ struct scene_output {
     struct scene_column *columns;
     struct scene_probe *probes;
     struct scene_map *maps;
+    unsigned n_peak, n_kept; /* n_kept: rows that all of them keep */
+    struct scene_peak *peaks;
+    double peaks_from, peaks_until; /* s; both included; infinity: no end */
 };
 
 /* A case, one part per section. */

@@ -21,7 +21,8 @@ extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_str
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
 extern const struct keys_section scene_pulse_units;
 extern const struct keys_section *const scene_boundary_pulse_cases[]; /* ends with NULL */
-extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_map_list_keys, scene_expect_keys;
+extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_map_list_keys, scene_expect_keys,
+    scene_peak_keys;
 
 /* In the order in which they are called; each reads its section of draft->root. */
 void scene_domain(struct draft *draft);
@@ -33,6 +34,7 @@ void scene_boundary(struct draft *draft);
 void scene_initial(struct draft *draft);
 void scene_source(struct draft *draft);
 void scene_output(struct draft *draft);
+void scene_peak(struct draft *draft);
 void scene_history(struct draft *draft);
 void scene_map(struct draft *draft);
 void scene_expect(struct draft *draft);
@@ -140,6 +142,13 @@ const char *const *scene_field_each(struct forest *forest);
 
 /* Why a field has one value in all cells of a level: "0 everywhere: ..."; NULL: it varies. */
 const char *scene_field_constant(struct draft *draft, const char *name);
+
+/* Of `max_pressure`: notes that it is to be kept, and what kind of field it is; false if the name is none of a peak, or of
+ * none of the fields that the scene has by itself (`names`). */
+bool scene_peak_find(struct draft *draft, const char *name, const char *const *names);
+
+/* Appends the peaks that are kept to a list of fields with room for four times as many; returns how many. */
+unsigned scene_peak_list(struct draft *draft, const struct scene_field *fields, struct scene_field *list);
 
 /* Checks a field name and copies it; false after a recorded error. */
 bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME]);

@@ -110,13 +110,15 @@ static json_t *schema_part(struct schema *schema, const struct keys_section *sec
     return ref;
 }
 
-/* A field of every case, or one of a material. */
+/* A field of every case, or one of a material; or a peak of either. */
 static json_t *schema_field(struct schema *schema)
 {
     struct text text = {0};
-    const char *const *each = scene_field_each(schema->forest);
-    for (unsigned i = 0; each[i]; i++) text_add(&text, "%s%s", i ? "|" : "^(?:", each[i]);
-    text_add(&text, ")_[A-Za-z_][A-Za-z0-9_]*$");
+    const char *const *each = scene_field_each(schema->forest), *const *always = scene_field_always(schema->forest);
+    for (unsigned i = 0; each[i]; i++) text_add(&text, "%s%s", i ? "|" : "^(?:(?:when_)?(?:max|min)_)?(?:(?:", each[i]);
+    text_add(&text, ")_[A-Za-z_][A-Za-z0-9_]*");
+    for (unsigned i = 0; always[i]; i++) text_add(&text, "|%s", always[i]);
+    text_add(&text, ")$");
     json_t *own = json_pack("{s:s,s:s,s:s}", "type", "string", "pattern", text.at, "patternErrorMessage",
                             "There is no such field.");
     text_done(&text);
