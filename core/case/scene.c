@@ -244,6 +244,11 @@ static void scene_free_output(struct scene *scene)
     mem_free(scene->output.columns);
     mem_free(scene->output.probes);
     mem_free(scene->output.peaks);
+    for (unsigned i = 0; i < scene->output.n_formula; i++) {
+        mem_free(scene->output.formulas[i].text);
+        mem_free(scene->output.formulas[i].uses);
+    }
+    mem_free(scene->output.formulas);
     scene_map_done(scene);
     mem_free(scene->expects);
 }

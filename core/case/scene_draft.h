@@ -147,8 +147,26 @@ const char *scene_field_constant(struct draft *draft, const char *name);
  * none of the fields that the scene has by itself (`names`). */
 bool scene_peak_find(struct draft *draft, const char *name, const char *const *names);
 
+/* May a name be one of a peak? */
+bool scene_peak_is(const char *name);
+
 /* Appends the peaks that are kept to a list of fields with room for four times as many; returns how many. */
 unsigned scene_peak_list(struct draft *draft, const struct scene_field *fields, struct scene_field *list);
+
+/* Compiles an expression of x, y, z, t and fields of one component; `uses` has room for SCRIPT_ARGUMENTS. False after a
+ * recorded error. */
+bool scene_formula_compile(struct draft *draft, const struct keys_value *value, const struct node *node,
+                           char (*uses)[SCENE_NAME], unsigned *ret_n_use, const struct script **ret_script);
+
+/* Notes an argument of a script; false after a recorded error. May it be one? The list of those that may, as help. */
+bool scene_formula_use(struct draft *draft, const struct keys_value *value, const char *name, char (*uses)[SCENE_NAME],
+                       unsigned *n_use);
+bool scene_formula_argument(struct draft *draft, const char *name);
+void scene_formula_help(struct draft *draft);
+
+/* Is the value an expression? Then a field of the case is made of it. `name`: of one that has none; NULL: it needs one. */
+bool scene_formula_is(const struct keys_value *value);
+bool scene_formula(struct draft *draft, const struct keys_value *value, const char *name, char ret_name[SCENE_NAME]);
 
 /* Checks a field name and copies it; false after a recorded error. */
 bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME]);

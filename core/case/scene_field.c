@@ -189,6 +189,7 @@ const char *scene_field_constant(struct draft *draft, const char *name)
 bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME])
 {
     if (!value->given) return false;
+    if (scene_formula_is(value)) return scene_formula(draft, value, NULL, ret_name);
     const char *const *names = scene_field_names(draft);
     bool known = scene_field_in(value->text, names) || scene_peak_find(draft, value->text, names);
     if (known && strlen(value->text) < SCENE_NAME) {

@@ -131,6 +131,7 @@ static void scene_history_measure(struct draft *draft, struct scene_column *colu
     if (scene_history_of_material(column->measure)) column->material = scene_material_index(draft, value);
     else if (column->measure == SCENE_TOTAL) snprintf(column->field, SCENE_NAME, "%s", value->given ? value->text : "");
     else if (column->measure == SCENE_VALUE) scene_history_value(draft, column, value);
+    else if (value->given && scene_formula_is(value)) scene_formula(draft, value, column->name, column->field);
     else scene_field(draft, value, column->field);
 }
 

@@ -48,11 +48,17 @@ static void scene_peak_keep(struct scene_output *output, const char *field, int 
     if (*row < 0) *row = (int)output->n_kept++;
 }
 
+bool scene_peak_is(const char *name)
+{
+    for (int kind = 0; kind < SCENE_PEAK_KINDS; kind++)
+        if (strncmp(name, scene_peak_prefixes[kind], strlen(scene_peak_prefixes[kind])) == 0) return true;
+    return false;
+}
+
 /* Not of what is a peak itself. */
 static bool scene_peak_is_field(const char *name, const char *const *names)
 {
-    for (int kind = 0; kind < SCENE_PEAK_KINDS; kind++)
-        if (strncmp(name, scene_peak_prefixes[kind], strlen(scene_peak_prefixes[kind])) == 0) return false;
+    if (scene_peak_is(name)) return false;
     for (; *names; names++)
         if (strcmp(*names, name) == 0) return strcmp(name, "rank") != 0;
     return false;

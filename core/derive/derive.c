@@ -9,6 +9,7 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "derive/derive_curvature.h"
+#include "derive/derive_formula.h"
 #include "derive/derive_slope.h"
 #include "derive/derive_stress.h"
 #include "phys/mix.h"
@@ -29,10 +30,11 @@ struct derive_quantity {
 /* What a quantity needs beyond the primitives of a tile; derive_prepare brings it. */
 enum {
     DERIVE_ALONE = 0,
-    DERIVE_LAYERS = 1,   /* the layers of neighbours */
-    DERIVE_STEEPEST = 2, /* the largest density gradient of all, in field->scale */
-    DERIVE_AROUND = 8,   /* what lies around tiles, edges and corners too */
-    DERIVE_PRESENCE = 4, /* the density from which on its material is felt (presence.h), in field->scale */
+    DERIVE_LAYERS = 1,     /* the layers of neighbours */
+    DERIVE_STEEPEST = 2,   /* the largest density gradient of all, in field->scale */
+    DERIVE_AROUND = 8,     /* what lies around tiles, edges and corners too */
+    DERIVE_ARGUMENTS = 16, /* what the arguments of an expression need */
+    DERIVE_PRESENCE = 4,   /* the density from which on its material is felt (presence.h), in field->scale */
 };
 
 static void derive_density(const struct derive_view *tile, double *out)
@@ -230,9 +232,14 @@ static const struct derive_quantity derive_table[] = {
     {"invariant_1", "1", DERIVE_SOLID, derive_stress_invariant, 0, DERIVE_ALONE},
     {"invariant_2", "1", DERIVE_SOLID, derive_stress_invariant, 1, DERIVE_ALONE},
     {"", "", DERIVE_OF_SCENE, derive_kept, 0, DERIVE_ALONE},
+    {"", "", DERIVE_OF_SCENE, derive_formula, 0, DERIVE_ARGUMENTS},
 };
 
-enum { DERIVE_ROWS = sizeof derive_table / sizeof *derive_table, DERIVE_KEPT = DERIVE_ROWS - 1 };
+enum {
+    DERIVE_ROWS = sizeof derive_table / sizeof *derive_table,
+    DERIVE_KEPT = DERIVE_ROWS - 2,
+    DERIVE_FORMULA = DERIVE_ROWS - 1
+};
 
 /* Axis, component or material that the part after a row's prefix names, or -1. */
 static int derive_suffix(const struct model *model, const struct derive_quantity *row, const char *suffix)
@@ -273,9 +280,21 @@ static bool derive_find_kept(const struct model *model, const char *name, struct
     return false;
 }
 
+static bool derive_find_formula(const struct model *model, const char *name, struct derive *ret_field)
+{
+    const struct scene_output *output = &model->scene->output;
+    for (unsigned i = 0; i < output->n_formula; i++) {
+        if (strcmp(output->formulas[i].name, name) != 0) continue;
+        *ret_field = (struct derive){.unit = "", .components = 1, .what = DERIVE_FORMULA, .index = (int)i};
+        strncpy(ret_field->name, name, sizeof ret_field->name - 1);
+        return true;
+    }
+    return false;
+}
+
 int derive_find(const struct model *model, const char *name, struct derive *ret_field)
 {
-    if (derive_find_kept(model, name, ret_field)) return STATUS_OK;
+    if (derive_find_kept(model, name, ret_field) || derive_find_formula(model, name, ret_field)) return STATUS_OK;
     for (int i = 0; i < DERIVE_ROWS; i++) {
         const struct derive_quantity *row = &derive_table[i];
         if (row->form == DERIVE_OF_SCENE) continue;
@@ -373,6 +392,7 @@ void derive_prepare(struct derive_moment *moment, struct derive *field)
     if (needs & DERIVE_LAYERS) derive_bring_layers(moment);
     if (needs & DERIVE_AROUND) derive_bring_around(moment);
     if (needs & DERIVE_STEEPEST) field->scale = derive_steepest(moment);
+    if (needs & DERIVE_ARGUMENTS) derive_formula_prepare(moment, field);
     if (needs & DERIVE_PRESENCE) field->scale = derive_presence(moment, (unsigned)field->index);
 }
 
