@@ -154,6 +154,22 @@ struct scene_probe {
     unsigned n_field;
 };
 
+/* A field that the case makes itself: an expression of other fields, of x, y, z and t. */
+struct scene_formula {
+    char name[SCENE_NAME];
+    char *text;
+    const struct script *script;
+    char (*uses)[SCENE_NAME]; /* its arguments, in order: x, y, z, t or fields of one component */
+    unsigned n_use;
+};
+
+/* What is kept of a field over the run, cell by cell: rows of what a cell keeps, or -1 where nobody asks. A row of a time
+ * goes with that of its value. */
+struct scene_peak {
+    char field[SCENE_NAME];
+    int most, least, when_most, when_least;
+};
+
 /* Fields over time at places in a row. */
 struct scene_map {
     char name[SCENE_NAME];
@@ -275,6 +291,11 @@ struct scene_output {
     struct scene_column *columns;
     struct scene_probe *probes;
     struct scene_map *maps;
+    unsigned n_formula;
+    struct scene_formula *formulas;
+    unsigned n_peak, n_kept; /* n_kept: rows that all of them keep */
+    struct scene_peak *peaks;
+    double peaks_from, peaks_until; /* s; both included; infinity: no end */
 };
 
 /* A case, one part per section. */
