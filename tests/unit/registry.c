@@ -41,6 +41,9 @@ static int stop(void **state)
 /* All that is built in, sorted as the registry sorts; one to a line, as others will come. */
 /* clang-format off */
 static const char *const builtin[][2] = {
+    {"conductivity", "constant"},
+    {"conductivity", "powers"},
+    {"conductivity", "sutherland"},
     {"constitutive", "fung"},
     {"constitutive", "gent"},
     {"constitutive", "mooney-rivlin"},
@@ -136,7 +139,7 @@ static const struct refusal refusals[] = {
     {"short_table", "table of functions of size 4; kind limiter needs"},
     {"null_slot", "has no function 'slope', which kind limiter needs"},
     {"unknown_kind",
-     "unknown kind 'weather'; kinds are constitutive, eos, limiter, reconstruction, riemann, viscosity"},
+     "unknown kind 'weather'; kinds are conductivity, constitutive, eos, limiter, reconstruction, riemann, viscosity"},
     {"bad_name", "'Bad_Name'; names are lower case with hyphens"},
     {"no_doc", "lacks its doc"},
     {"param_twice", "parameter 'strength' twice"},
