@@ -274,6 +274,7 @@ void scene_free(struct scene *scene)
         instance_done(&scene->material[i].eos);
         instance_done(&scene->material[i].constitutive);
         instance_done(&scene->material[i].viscosity);
+        instance_done(&scene->material[i].conductivity);
     }
     instance_done(&scene->scheme.riemann);
     instance_done(&scene->scheme.reconstruction);
