@@ -209,7 +209,7 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
                                    .least = model->scene->scheme.low_mach,
                                    .rho = rho,
                                    .rho_c2 = own->c,
-                                   .p = own->state + 2 * model->i_E * FACE_ROOM,
+                                   .p = work->frame + model->i_E * FACE_ROOM + frame_reach(frame),
                                    .mask = masked ? work->mask + frame_reach(frame) : NULL,
                                    .step = frame->inner,
                                    .part = own->term};
