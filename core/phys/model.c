@@ -112,6 +112,17 @@ static void model_solids(struct model *model)
     model->elastic = model->n_solid > 0;
 }
 
+/* Does the scene have forces along an axis of the mesh? */
+static bool model_is_forced(const struct scene *scene)
+{
+    const struct scene_sources *sources = scene->sources;
+    bool any = sources && sources->script;
+    for (int d = 0; sources && d < scene->domain.dim; d++)
+        any =
+            any || sources->value[SCENE_SOURCE_ACCELERATION + d].given || sources->value[SCENE_SOURCE_FORCE + d].given;
+    return any;
+}
+
 /* The fluids alone, if they stand together: they need neither the stretch nor the solids' components. */
 static struct model *model_liquefy(const struct model *model)
 {
@@ -142,6 +153,7 @@ struct model *model_new(const struct scene *scene)
     model->n_field = model->i_V + model->n_stretch;
     model->split = model->dim == 1 && model->elastic && model->n_alpha > 0;
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
+    model->forced = model_is_forced(scene);
     model->linear = true;
     for (unsigned l = 0; l < model->n_material; l++) {
         const struct instance *instance = &scene->material[l].eos;

@@ -44,10 +44,12 @@ struct term_tile {
 
 /* One piece of a tile along one axis. */
 struct term_piece {
+    const struct term_tile *tile;
     const struct terms *terms;
     const struct model *model;
     const struct frame *frame;
     struct face_work *faces;
+    void *own; /* of the term that is called */
 };
 
 /* How a row of fluxes becomes rates. */
