@@ -54,11 +54,10 @@ static void prolong_held_cell(struct prolong_held *held, const struct prolong_he
     for (int d = 0; d < held->mesh->dim; d++) at += (size_t)cell[d] * block->stride[d]; /* wraps back from -1 */
     double rho = prolong_held_density(held->model, block, at);
     for (int axis = 0; axis < held->mesh->dim; axis++) {
-        double a, f;
+        const struct source_value_place place = {block->level, block->tile, block->t, axis};
         if (!held->row[axis]) continue;
-        source_value_cell(held->values, &(struct source_value_place){block->level, block->tile, block->t, axis}, cell,
-                          &a, &f);
-        held->rows[(size_t)axis * block->cells + at] = (rho * a + f) * block->level->h[axis];
+        double a = source_value_cell(held->values, &place, cell);
+        held->rows[(size_t)axis * block->cells + at] = rho * a * block->level->h[axis];
     }
 }
 

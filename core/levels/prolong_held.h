@@ -1,7 +1,7 @@
 /* prolong_held.h - ghosts of pressure where forces act: what a coarse cell's own weight makes of pressure within it.
  *
  * Of the differences to its neighbours along an axis, F = (G_i + G_k)/2 is held by forces (scheme/source_weight.h), with
- * G = (rho a + f) H in each of the cells; the children get a quarter of the limited slope of what is left, and of the
+ * G = rho a H in each of the cells; the children get a quarter of the limited slope of what is left, and of the
  * cell's own G. So layers that lie on each other at rest, each of one density, have the pressures that they have on the
  * finer level, next to their interface, too: where minmod would take the slope of the lighter or the mean one. */
 #ifndef PROLONG_HELD_H

@@ -112,14 +112,12 @@ static void model_solids(struct model *model)
     model->elastic = model->n_solid > 0;
 }
 
-/* Does the scene have forces along an axis of the mesh? */
+/* Does the scene have an acceleration along an axis of the mesh? */
 static bool model_is_forced(const struct scene *scene)
 {
-    const struct scene_sources *sources = scene->sources;
-    bool any = sources && sources->script;
-    for (int d = 0; sources && d < scene->domain.dim; d++)
-        any =
-            any || sources->value[SCENE_SOURCE_ACCELERATION + d].given || sources->value[SCENE_SOURCE_FORCE + d].given;
+    bool any = false;
+    for (int d = 0; scene->sources && d < scene->domain.dim; d++)
+        any = any || scene->sources->value[SCENE_SOURCE_ACCELERATION + d].given;
     return any;
 }
 

@@ -118,14 +118,8 @@ static void source_value_fail(struct source_value *values, const struct tile *ti
              tile->at[2], x[0], x[1], x[2], cell[0], cell[1], cell[2]);
 }
 
-/* The axis that a value is a force along; -1: it is none. */
-static int source_value_axis(unsigned slot)
-{
-    return slot < SCENE_SOURCE_HEATING ? (int)((slot - SCENE_SOURCE_ACCELERATION) % SCENE_AXES) : -1;
-}
-
-/* The values that vary, at one point, into element i of their rows; with an axis >= 0 the forces along it will do. */
-static int source_value_ask(struct source_value *values, int axis, const double x[3], double t, size_t i)
+/* The values that vary, at one point, into element i of their rows. */
+static int source_value_ask(struct source_value *values, const double x[3], double t, size_t i)
 {
     const struct scene_sources *sources = values->model->scene->sources;
     double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]), out[SOURCE_VALUE_NAMES], in[] = {x[0], x[1], x[2], t};
@@ -135,8 +129,7 @@ static int source_value_ask(struct source_value *values, int axis, const double 
     }
     for (unsigned k = 0; k < values->n_varying; k++) {
         unsigned s = values->varying[k];
-        if (axis < 0 || source_value_axis(s) == axis)
-            TRY(scene_value_at(&sources->value[s], x, r, t, &values->row[s][i]));
+        TRY(scene_value_at(&sources->value[s], x, r, t, &values->row[s][i]));
     }
     if (!sources->script) return STATUS_OK;
     TRY(script_table_call(sources->script, in, 4, values->names, out));
@@ -149,7 +142,7 @@ static int source_value_ask(struct source_value *values, int axis, const double 
 static void source_value_point(struct source_value *values, const struct tile *tile, const double x[3],
                                const size_t cell[3], double t, size_t i)
 {
-    int status = source_value_ask(values, -1, x, t, i);
+    int status = source_value_ask(values, x, t, i);
     if (!status) return;
     source_value_fail(values, tile, status, x, cell);
     for (unsigned k = 0; k < values->n_varying; k++) values->row[values->varying[k]][i] = (double)NAN;
@@ -172,19 +165,6 @@ void source_value_cells(struct source_value *values, const struct tile *tile, do
     }
 }
 
-/* Does a force along an axis differ from point to point? */
-static bool source_value_differs(const struct source_value *values, int axis)
-{
-    bool differs = values->n_name > 0;
-    for (unsigned k = 0; k < values->n_varying; k++) differs = differs || source_value_axis(values->varying[k]) == axis;
-    return differs;
-}
-
-static double source_value_of(const struct source_value *values, unsigned slot, size_t i)
-{
-    return values->row[slot] ? values->row[slot][i] : 0.0;
-}
-
 /* Middle of a cell of the domain: once round in a periodic one, else never outside. */
 static double source_value_middle(const struct source_value *values, const struct source_value_place *place, int axis,
                                   int cell)
@@ -197,17 +177,14 @@ static double source_value_middle(const struct source_value *values, const struc
                                  source_value_plane(mesh, place->level, axis, index + 1));
 }
 
-void source_value_cell(struct source_value *values, const struct source_value_place *place, const int cell[3],
-                       double *ret_acceleration, double *ret_force)
+double source_value_cell(struct source_value *values, const struct source_value_place *place, const int cell[3])
 {
-    double x[3] = {0.0};
-    int status = STATUS_OK;
-    if (source_value_differs(values, place->axis)) {
-        for (int d = 0; d < values->mesh->dim; d++) x[d] = source_value_middle(values, place, d, cell[d]);
-        status = source_value_ask(values, place->axis, x, place->t, 0);
-    }
-    *ret_acceleration = status ? 0.0 : source_value_of(values, SCENE_SOURCE_ACCELERATION + (unsigned)place->axis, 0);
-    *ret_force = status ? 0.0 : source_value_of(values, SCENE_SOURCE_FORCE + (unsigned)place->axis, 0);
+    const struct scene_value *value = &values->model->scene->sources->value[SCENE_SOURCE_ACCELERATION + place->axis];
+    double x[3] = {0.0}, a = value->number;
+    if (!value->script) return a;
+    for (int d = 0; d < values->mesh->dim; d++) x[d] = source_value_middle(values, place, d, cell[d]);
+    double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    return scene_value_at(value, x, r, place->t, &a) ? 0.0 : a;
 }
 
 /* The cell of a tile at (outer, i, inner) of a piece. */
@@ -222,31 +199,17 @@ static void source_value_index(const struct mesh *mesh, const struct frame *fram
     }
 }
 
-/* One value for all cells. */
-static void source_value_fill(const struct source_value *values, const struct frame *frame, int axis,
-                              double *acceleration, double *force)
-{
-    double a = source_value_of(values, SCENE_SOURCE_ACCELERATION + (unsigned)axis, 0);
-    double f = source_value_of(values, SCENE_SOURCE_FORCE + (unsigned)axis, 0);
-    for (size_t i = 0; i < frame->count; i++) {
-        acceleration[i] = a;
-        force[i] = f;
-    }
-}
-
 void source_value_frame(struct source_value *values, const struct source_value_place *place, const struct frame *frame,
-                        int from, int to, double *acceleration, double *force)
+                        int from, int to, double *acceleration)
 {
-    if (!source_value_differs(values, place->axis)) {
-        source_value_fill(values, frame, place->axis, acceleration, force);
-        return;
-    }
+    const struct scene_value *value = &values->model->scene->sources->value[SCENE_SOURCE_ACCELERATION + place->axis];
+    for (size_t i = 0; i < frame->count; i++) acceleration[i] = value->number;
+    if (!value->script) return;
     for (size_t o = 0; o < frame->outer; o++)
         for (int i = from; i < to; i++)
             for (size_t c = 0; c < frame->inner; c++) {
-                size_t at = frame_at(frame, o, i) + c;
                 int cell[3];
                 source_value_index(values->mesh, frame, o, i, c, cell);
-                source_value_cell(values, place, cell, &acceleration[at], &force[at]);
+                acceleration[frame_at(frame, o, i) + c] = source_value_cell(values, place, cell);
             }
 }

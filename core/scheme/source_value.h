@@ -44,13 +44,12 @@ struct source_value_place {
     int axis;
 };
 
-/* Acceleration and force along the axis in the middle of a cell, counted from the first of the tile, which may lie beside
+/* Acceleration along the axis in the middle of a cell, counted from the first of the tile, which may lie beside
  * it, behind a boundary as in the cell inside; 0 where a script fails: who asks for the cells finds out. */
-void source_value_cell(struct source_value *values, const struct source_value_place *place, const int cell[3],
-                       double *ret_acceleration, double *ret_force);
+double source_value_cell(struct source_value *values, const struct source_value_place *place, const int cell[3]);
 
 /* The same in the cells from <= i < to along the axis of a piece, of all its slices, at their places in the frame. */
 void source_value_frame(struct source_value *values, const struct source_value_place *place, const struct frame *frame,
-                        int from, int to, double *acceleration, double *force);
+                        int from, int to, double *acceleration);
 
 #endif

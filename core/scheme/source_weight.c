@@ -9,20 +9,17 @@
 
 bool source_weight_any(const struct scene *scene, int axis)
 {
-    const struct scene_sources *sources = scene->sources;
-    unsigned a = SCENE_SOURCE_ACCELERATION + (unsigned)axis, f = SCENE_SOURCE_FORCE + (unsigned)axis;
-    return sources && (sources->script || sources->value[a].given || sources->value[f].given);
+    return scene->sources && scene->sources->value[SCENE_SOURCE_ACCELERATION + axis].given;
 }
 
-/* G/2 = (rho a + f) h/2 of a row of cells. */
+/* G/2 = rho a h/2 of a row of cells. */
 static BULLA_KERNEL void source_weight_half(size_t n, double h, const double *restrict acceleration,
-                                            const double *restrict force, const double *restrict rho,
-                                            double *restrict half)
+                                            const double *restrict rho, double *restrict half)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double r = rho[i], a = acceleration[i], f = force[i];
-        half[i] = 0.5 * ((r * a + f) * h);
+        double r = rho[i], a = acceleration[i];
+        half[i] = 0.5 * (r * a * h);
     }
 }
 
@@ -41,10 +38,10 @@ static void source_weight_cells(struct source_value *values, const struct source
                                 const struct frame *frame, int from, int to, size_t pitch, const double *w,
                                 double *half)
 {
-    double rho[FACE_ROOM], acceleration[FACE_ROOM], force[FACE_ROOM];
+    double rho[FACE_ROOM], acceleration[FACE_ROOM];
     source_weight_density(values->path, frame->count, pitch, w, rho);
-    source_value_frame(values, place, frame, from, to, acceleration, force);
-    source_weight_half(frame->count, place->level->h[frame->axis], acceleration, force, rho, half);
+    source_value_frame(values, place, frame, from, to, acceleration);
+    source_weight_half(frame->count, place->level->h[frame->axis], acceleration, rho, half);
 }
 
 /* What p has gained from the cell inside, or (not `whole`) from the face, up to a layer behind a boundary. */
