@@ -5,6 +5,7 @@
 #include "base/status.h"
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
+#include "bulla/inelastic.h"
 #include "bulla/limiter.h"
 #include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
@@ -42,6 +43,9 @@ static const struct vet_kind vet_kinds[] = {
      {VET_SLOT(bulla_eos, state), VET_SLOT(bulla_eos, derivatives), VET_SLOT(bulla_eos, temperature),
       VET_SLOT(bulla_eos, entropy), VET_SLOT(bulla_eos, density), VET_SLOT(bulla_eos, p_min),
       VET_SLOT(bulla_eos, range)}},
+    {"inelastic",
+     sizeof(struct bulla_inelastic),
+     {VET_SLOT(bulla_inelastic, strength), VET_SLOT(bulla_inelastic, needs)}},
     {"limiter", sizeof(struct bulla_limiter), {VET_SLOT(bulla_limiter, slope)}},
     {"reconstruction", sizeof(struct bulla_reconstruction), {{0}}},
     {"riemann", offsetof(struct bulla_riemann, solids), {VET_SLOT(bulla_riemann, solve)}},
@@ -96,7 +100,7 @@ static int vet_table(const struct bulla_module *module)
         if (module->kind && strcmp(module->kind, vet_kinds[i].name) == 0) kind = &vet_kinds[i];
     if (!kind)
         return status_fail(STATUS_CASE,
-                           "is of the unknown kind '%s'; kinds are constitutive, eos, limiter, "
+                           "is of the unknown kind '%s'; kinds are constitutive, eos, inelastic, limiter, "
                            "reconstruction, riemann",
                            module->kind ? module->kind : "");
     if (!module->table) return status_fail(STATUS_CASE, "has no table of functions");
@@ -309,6 +313,19 @@ static bool vet_try_constitutive(const struct bulla_constitutive *law, const voi
     return good && isfinite(sum);
 }
 
+/* Strength of a body at rest, of one that has flowed far and fast, and of a hot one. */
+static bool vet_try_inelastic(const struct bulla_inelastic *law, const void *self)
+{
+    enum { N = 3 };
+    const double eps[N] = {0.0, 1.0, 0.1}, rate[N] = {0.0, 1e6, 1.0}, p[N] = {1e5, 1e9, 0.0},
+                 T[N] = {300.0, 600.0, 1e4};
+    const double rho[N] = {1e3, 1e4, 1e3};
+    double Y[N] = {(double)NAN, (double)NAN, (double)NAN};
+    if (law->needs(self) & ~(uint32_t)BULLA_NEEDS_ALL) return false;
+    law->strength(self, N, eps, rate, p, T, rho, Y);
+    return isfinite(Y[0] + Y[1] + Y[2]) && Y[0] >= 0.0 && Y[1] >= 0.0 && Y[2] >= 0.0;
+}
+
 int vet_instance(const struct bulla_module *module, const void *self)
 {
     if (strcmp(module->kind, "limiter") == 0 && !vet_try_limiter(module->table, self))
@@ -316,6 +333,11 @@ int vet_instance(const struct bulla_module *module, const void *self)
     if (strcmp(module->kind, "constitutive") == 0 && !vet_try_constitutive(module->table, self))
         return status_fail(STATUS_CASE,
                            "constitutive '%s' gives no finite energy that rises at stretches of 1, 2 and 4",
+                           module->name);
+    if (strcmp(module->kind, "inelastic") == 0 && !vet_try_inelastic(module->table, self))
+        return status_fail(STATUS_CASE,
+                           "inelastic '%s' gives no finite strengths at plastic strains of 0 and 1, or needs what core "
+                           "does not know",
                            module->name);
     if (strcmp(module->kind, "reconstruction") == 0 && !vet_try_reconstruction(module->table, self))
         return status_fail(STATUS_CASE, "reconstruction '%s' gives no finite edges for a gas of rising density",

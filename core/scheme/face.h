@@ -21,6 +21,7 @@ struct face_work {
     double *carried;                           /* [n_alpha] alpha* u* times the pressure of the side it comes from */
     double *strained;                          /* [n_alpha] alpha* u* times the compression on the way to the face */
     double *stretch; /* [n_stretch] V* F, F the mass flux of all solids, V* of the side it comes from */
+    double *strains; /* [n_strain of the scene] eps* F_l, F_l the mass flux of the solid */
     double *solid;   /* fraction of all solids, mean of the sides (mixtures with a solid) */
     double *slide_left,
         *slide_right; /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */

@@ -9,6 +9,7 @@
 #include "scheme/exchange.h"
 #include "scheme/face_stress.h"
 #include "scheme/fraction.h"
+#include "scheme/hardening.h"
 #include "scheme/hoop.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
@@ -19,6 +20,7 @@
 
 const struct term *const terms_all[] = {
     &convection_term,  /* conserved fields through the faces */
+    &hardening_term,   /* plastic strains travel with their solids */
     &hoop_term,        /* what stands against p / r and the hoop stress in curved geometry */
     &face_stress_term, /* one traction for the materials of a cell, in one dimension */
     &source_term,      /* forces, heat, mass, Lua */
