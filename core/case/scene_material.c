@@ -42,6 +42,26 @@ static const struct keys_section scene_material_plastic = {.name = "plastic",
                                                            .keys = scene_material_inelastic,
                                                            .selector = "type",
                                                            .kind = "inelastic"};
+static const struct key scene_material_transport[] = {
+    {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "The law."},
+    {0},
+};
+
+static const struct keys_section scene_material_viscosity = {.name = "viscosity",
+                                                             .doc = "A law of viscosity and its numbers.",
+                                                             .keys = scene_material_transport,
+                                                             .selector = "type",
+                                                             .kind = "viscosity",
+                                                             .amount = "newtonian",
+                                                             .amount_key = "mu"};
+
+static const struct keys_section scene_material_conductivity = {.name = "conductivity",
+                                                                .doc = "A law of heat conduction and its numbers.",
+                                                                .keys = scene_material_transport,
+                                                                .selector = "type",
+                                                                .kind = "conductivity",
+                                                                .amount = "constant",
+                                                                .amount_key = "k"};
 
 static const struct key scene_material_rows[] = {
     {.name = "eos",
@@ -58,6 +78,11 @@ static const struct key scene_material_rows[] = {
      .section = &scene_material_plastic,
      .doc = "The strength of a solid: stresses beyond it flow off, and their work is heat. Without it the solid is "
             "elastic."},
+    {.name = "viscosity",
+     .type = KEYS_SECTION,
+     .section = &scene_material_viscosity,
+     .doc = "Viscosity: a number with a unit (`0.89 mPa s`) for a constant one, or a law; without it the material has "
+            "none."},
     {.name = "drag",
      .type = KEYS_NUMBER,
      .unit = "kg/m3/s",
@@ -65,6 +90,11 @@ static const struct key scene_material_rows[] = {
      .fallback = "0",
      .doc = "Resistance k of the material against its motion, as in a porous medium (viscosity over permeability): a "
             "force -alpha k u, whose work is heat."},
+    {.name = "conductivity",
+     .type = KEYS_SECTION,
+     .section = &scene_material_conductivity,
+     .doc = "Conductivity of heat: a number with a unit (`0.607 W/m/K`) for a constant one, or a law; without it the "
+            "material has none. Heat goes from cell to cell, and through interfaces to other materials that conduct."},
     {0},
 };
 
@@ -116,7 +146,7 @@ unsigned scene_material_strength(const struct draft *draft)
         const struct instance *plastic = &draft->scene->material[i].plastic;
         if (!plastic->module) continue;
         const struct bulla_inelastic *law = plastic->module->table;
-        unsigned here = law->needs(plastic->self) & BULLA_NEEDS_STRAIN ? 2 : 1;
+        unsigned here = law->needs(plastic->self) & BULLA_INELASTIC_STRAIN ? 2 : 1;
         known = here > known ? here : known;
     }
     return known;
@@ -192,7 +222,8 @@ static void scene_material_warm(struct draft *draft, const struct keys_map *entr
 {
     const struct bulla_inelastic *law = material->plastic.module->table;
     const struct keys_value *eos = keys_at(entry, "eos"), *plastic = keys_at(entry, "plastic");
-    if (!(law->needs(material->plastic.self) & BULLA_NEEDS_TEMPERATURE) || !material->eos.module || !eos->map) return;
+    if (!(law->needs(material->plastic.self) & BULLA_INELASTIC_TEMPERATURE) || !material->eos.module || !eos->map)
+        return;
     int row = instance_param_find(material->eos.module, "cv");
     if (row < 0 || isnan(material->eos.module->params[row].fallback) || scene_material_says(eos, "cv")) return;
     keys_error(&draft->keys, plastic, "'%s' looks at temperatures, and nothing is said of the specific heat of '%s'",
@@ -238,6 +269,8 @@ void scene_material(struct draft *draft)
         scene_material_open(draft, keys_at(entry->map, "eos"), &material->eos);
         scene_material_open(draft, keys_at(entry->map, "constitutive"), &material->constitutive);
         if (entry->map) scene_material_strong(draft, entry->map, material);
+        scene_material_open(draft, keys_at(entry->map, "viscosity"), &material->viscosity);
+        scene_material_open(draft, keys_at(entry->map, "conductivity"), &material->conductivity);
         material->drag = entry->map ? keys_at(entry->map, "drag")->number : 0.0;
     }
 }

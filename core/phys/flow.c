@@ -59,7 +59,7 @@ bool flow_reads(const struct model *path)
 {
     bool reads = false;
     for (unsigned s = 0; s < path->n_solid; s++)
-        reads = reads || path->solids[s].needs & (BULLA_NEEDS_PRESSURE | BULLA_NEEDS_TEMPERATURE);
+        reads = reads || path->solids[s].needs & (BULLA_INELASTIC_PRESSURE | BULLA_INELASTIC_TEMPERATURE);
     return reads;
 }
 
@@ -277,10 +277,11 @@ static void flow_ask(const struct model_solid *solid, const struct model_eos *eo
                      double *T, double *Y)
 {
     unsigned needs = solid->needs;
-    bool thermal = needs & BULLA_NEEDS_TEMPERATURE, pressed = needs & (BULLA_NEEDS_PRESSURE | BULLA_NEEDS_TEMPERATURE);
+    bool thermal = needs & BULLA_INELASTIC_TEMPERATURE,
+         pressed = needs & (BULLA_INELASTIC_PRESSURE | BULLA_INELASTIC_TEMPERATURE);
     if (thermal) eos->law->temperature(eos->self, n, at[3], at[2], T);
-    solid->strength->strength(solid->strength_self, n, needs & BULLA_NEEDS_STRAIN ? at[0] : flow_zero,
-                              needs & BULLA_NEEDS_RATE ? at[1] : flow_zero, pressed ? at[2] : flow_zero,
+    solid->strength->strength(solid->strength_self, n, needs & BULLA_INELASTIC_STRAIN ? at[0] : flow_zero,
+                              needs & BULLA_INELASTIC_RATE ? at[1] : flow_zero, pressed ? at[2] : flow_zero,
                               thermal ? T : flow_zero, pressed ? at[3] : flow_zero, Y);
 }
 
@@ -290,9 +291,10 @@ static void flow_bearing(struct flow *flow, struct flow_solid *own)
     const struct model_solid *solid = own->solid;
     const double *const at[4] = {flow->strain, flow->rate, flow->p, own->rho};
     size_t n = flow->n;
-    for (size_t i = 0; solid->needs & BULLA_NEEDS_STRAIN && i < n; i++) flow->strain[i] = own->eps[i] + flow->grown[i];
-    for (size_t i = 0; solid->needs & BULLA_NEEDS_RATE && i < n; i++) flow->rate[i] = flow->grown[i] / flow->dt;
-    for (size_t i = 0; solid->needs & (BULLA_NEEDS_PRESSURE | BULLA_NEEDS_TEMPERATURE) && i < n; i++)
+    for (size_t i = 0; solid->needs & BULLA_INELASTIC_STRAIN && i < n; i++)
+        flow->strain[i] = own->eps[i] + flow->grown[i];
+    for (size_t i = 0; solid->needs & BULLA_INELASTIC_RATE && i < n; i++) flow->rate[i] = flow->grown[i] / flow->dt;
+    for (size_t i = 0; solid->needs & (BULLA_INELASTIC_PRESSURE | BULLA_INELASTIC_TEMPERATURE) && i < n; i++)
         flow->p[i] = own->p[i] + 0.5 * (flow->q0[i] + flow->q[i]) * flow->grown[i] / own->per_p[i];
     flow_ask(solid, own->eos, n, at, flow->T, flow->Y);
 }
@@ -364,7 +366,7 @@ static void flow_gather_state(struct flow *flow, size_t n, size_t stride, const 
     struct traction_pressures parts;
     double none[FLOW_BATCH];
     unsigned l = own->solid->material;
-    if (!(own->solid->needs & (BULLA_NEEDS_PRESSURE | BULLA_NEEDS_TEMPERATURE))) return;
+    if (!(own->solid->needs & (BULLA_INELASTIC_PRESSURE | BULLA_INELASTIC_TEMPERATURE))) return;
     traction_part(model, n, stride, w, &parts);
     flow_gather(flow, traction_pressure(model, n, l, w + model->i_E * stride, &parts), own->p);
     flow_gather(flow, w + (model->i_m + l) * stride, own->rho);

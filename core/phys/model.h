@@ -10,6 +10,7 @@
 #ifndef MODEL_H
 #define MODEL_H
 
+#include "bulla/conductivity.h"
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/inelastic.h"
@@ -38,6 +39,13 @@ struct model_solid {
     unsigned needs;  /* enum bulla_inelastic_needs, of the strength */
 };
 
+/* How a material conducts heat. */
+struct model_conductivity {
+    const struct bulla_coefficient *law; /* NULL: not at all */
+    const void *self;
+    double k; /* of a law that looks at nothing [W/(m K)] */
+};
+
 /* Most evolved fields a scene can have: fractions, densities, velocities, energy, plastic strains, stretch. */
 enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 };
 
@@ -61,8 +69,10 @@ struct model {
                                             than two fluids, or if they do not stand together in the list of materials */
     bool kapila, linear;  /* linear: every law is linear in p, closed-form mixture pressure */
     bool thermal;         /* materials of a cell exchange volume in full: temperatures are meant (scheme/exchange.h) */
+    bool conducts;        /* some material of the scene conducts heat (scheme/conduction.h) */
     bool split;           /* the materials of a cell share their normal traction, not their pressure (traction.h) */
     struct model_eos eos[SCENE_MATERIALS];
+    struct model_conductivity conductivity[SCENE_MATERIALS];
     struct model_limiter {
         const struct bulla_limiter *law;
         const void *self;

@@ -37,10 +37,10 @@ static void contract_inelastic_draw(const struct contract *contract, const struc
 /* Which of the inputs an instance looks at. */
 static bool contract_inelastic_looks(uint32_t needs, int input)
 {
-    static const uint32_t bits[INELASTIC_INPUTS] = {BULLA_NEEDS_STRAIN, BULLA_NEEDS_RATE,
-                                                    BULLA_NEEDS_PRESSURE | BULLA_NEEDS_TEMPERATURE,
-                                                    BULLA_NEEDS_TEMPERATURE,
-                                                    BULLA_NEEDS_PRESSURE | BULLA_NEEDS_TEMPERATURE};
+    static const uint32_t bits[INELASTIC_INPUTS] = {BULLA_INELASTIC_STRAIN, BULLA_INELASTIC_RATE,
+                                                    BULLA_INELASTIC_PRESSURE | BULLA_INELASTIC_TEMPERATURE,
+                                                    BULLA_INELASTIC_TEMPERATURE,
+                                                    BULLA_INELASTIC_PRESSURE | BULLA_INELASTIC_TEMPERATURE};
     return needs & bits[input];
 }
 
@@ -128,7 +128,7 @@ void contract_inelastic_run(struct contract *contract)
     uint64_t seed = 1;
     contract_doing(contract, "what it needs");
     contract_begin(contract, "`needs` asks for nothing that core does not know", 0.0);
-    contract_error(contract, (needs & ~(uint32_t)BULLA_NEEDS_ALL) != 0, "needs = %u", needs);
+    contract_error(contract, (needs & ~(uint32_t)BULLA_INELASTIC_ALL) != 0, "needs = %u", needs);
     contract_doing(contract, "rest");
     contract_inelastic_facts(contract, rho);
     contract_doing(contract, "states");

@@ -66,9 +66,9 @@ static uint32_t johnson_cook_needs(const void *self)
 {
     const struct johnson_cook *par = self;
     uint32_t needs = 0;
-    if (par->B > 0.0) needs |= BULLA_NEEDS_STRAIN;
-    if (par->C > 0.0) needs |= BULLA_NEEDS_RATE;
-    if (par->per_T > 0.0) needs |= BULLA_NEEDS_TEMPERATURE;
+    if (par->B > 0.0) needs |= BULLA_INELASTIC_STRAIN;
+    if (par->C > 0.0) needs |= BULLA_INELASTIC_RATE;
+    if (par->per_T > 0.0) needs |= BULLA_INELASTIC_TEMPERATURE;
     return needs;
 }
 

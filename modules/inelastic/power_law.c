@@ -37,7 +37,7 @@ static void power_law_strength(const void *self, size_t n, const double *BULLA_R
 
 static uint32_t power_law_needs(const void *self)
 {
-    return BULLA_NEEDS_RATE | (((const struct power_law *)self)->hardening > 0.0 ? BULLA_NEEDS_STRAIN : 0u);
+    return BULLA_INELASTIC_RATE | (((const struct power_law *)self)->hardening > 0.0 ? BULLA_INELASTIC_STRAIN : 0u);
 }
 
 static const struct bulla_inelastic power_law_table = {.size = sizeof(struct bulla_inelastic),

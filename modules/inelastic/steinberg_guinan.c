@@ -85,9 +85,9 @@ static uint32_t steinberg_guinan_needs(const void *self)
 {
     const struct steinberg_guinan *par = self;
     uint32_t needs = 0;
-    if (par->beta > 0.0 && par->n > 0.0) needs |= BULLA_NEEDS_STRAIN;
-    if (par->A > 0.0) needs |= BULLA_NEEDS_PRESSURE;
-    if (par->B > 0.0 || par->melting > 0.0) needs |= BULLA_NEEDS_PRESSURE | BULLA_NEEDS_TEMPERATURE;
+    if (par->beta > 0.0 && par->n > 0.0) needs |= BULLA_INELASTIC_STRAIN;
+    if (par->A > 0.0) needs |= BULLA_INELASTIC_PRESSURE;
+    if (par->B > 0.0 || par->melting > 0.0) needs |= BULLA_INELASTIC_PRESSURE | BULLA_INELASTIC_TEMPERATURE;
     return needs;
 }
 

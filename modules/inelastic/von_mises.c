@@ -52,7 +52,7 @@ static void von_mises_strength(const void *self, size_t n, const double *BULLA_R
 static uint32_t von_mises_needs(const void *self)
 {
     const struct von_mises *par = self;
-    return par->hardening > 0.0 || par->told ? BULLA_NEEDS_STRAIN : 0;
+    return par->hardening > 0.0 || par->told ? BULLA_INELASTIC_STRAIN : 0;
 }
 
 static const struct bulla_inelastic von_mises_table = {.size = sizeof(struct bulla_inelastic),

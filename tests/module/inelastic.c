@@ -36,16 +36,17 @@ static void test_von_mises(void **state)
 {
     (void)state;
     check("von-mises", (const double[]){3e8, 0.0, 1.0, 0.0}, aged, 3e8, 0);
-    check("von-mises", (const double[]){3e8, 5e8, 1.0, 0.0}, aged, 3.8e8, BULLA_NEEDS_STRAIN);
-    check("von-mises", (const double[]){3e8, 5e8, 0.5, 0.0}, aged, 5e8, BULLA_NEEDS_STRAIN);
-    check("von-mises", (const double[]){3e8, 5e8, 0.5, 0.0}, young, 3e8, BULLA_NEEDS_STRAIN);
+    check("von-mises", (const double[]){3e8, 5e8, 1.0, 0.0}, aged, 3.8e8, BULLA_INELASTIC_STRAIN);
+    check("von-mises", (const double[]){3e8, 5e8, 0.5, 0.0}, aged, 5e8, BULLA_INELASTIC_STRAIN);
+    check("von-mises", (const double[]){3e8, 5e8, 0.5, 0.0}, young, 3e8, BULLA_INELASTIC_STRAIN);
 }
 
 static void test_power_law(void **state)
 {
     (void)state;
-    check("power-law", (const double[]){3e8, 5e8, 1e6, 0.5}, aged, 3.8e8 * 1.1, BULLA_NEEDS_RATE | BULLA_NEEDS_STRAIN);
-    check("power-law", (const double[]){3e8, 0.0, 1e6, 0.5}, young, 3e8, BULLA_NEEDS_RATE);
+    check("power-law", (const double[]){3e8, 5e8, 1e6, 0.5}, aged, 3.8e8 * 1.1,
+          BULLA_INELASTIC_RATE | BULLA_INELASTIC_STRAIN);
+    check("power-law", (const double[]){3e8, 0.0, 1e6, 0.5}, young, 3e8, BULLA_INELASTIC_RATE);
 }
 
 static void test_johnson_cook(void **state)
@@ -55,9 +56,9 @@ static void test_johnson_cook(void **state)
     const double cold[] = {90e6, 292e6, 0.31, 0.025, 1.0, 1.09, 0.0, 298.0};
     double hard = 90e6 + 292e6 * pow(0.16, 0.31), fast = 1.0 + 0.025 * log1p(1e4);
     double soft = 1.0 - pow((700.0 - 298.0) / (1356.0 - 298.0), 1.09);
-    uint32_t needs = BULLA_NEEDS_STRAIN | BULLA_NEEDS_RATE;
-    check("johnson-cook", copper, aged, hard * fast * soft, needs | BULLA_NEEDS_TEMPERATURE);
-    check("johnson-cook", copper, molten, 0.0, needs | BULLA_NEEDS_TEMPERATURE);
+    uint32_t needs = BULLA_INELASTIC_STRAIN | BULLA_INELASTIC_RATE;
+    check("johnson-cook", copper, aged, hard * fast * soft, needs | BULLA_INELASTIC_TEMPERATURE);
+    check("johnson-cook", copper, molten, 0.0, needs | BULLA_INELASTIC_TEMPERATURE);
     check("johnson-cook", cold, aged, hard * fast, needs);
 }
 
@@ -67,7 +68,7 @@ static void test_steinberg_guinan(void **state)
     const double copper[] = {0.12e9, 0.64e9, 36.0, 0.45, 0.0, 8930.0, 0.0283e-9, 3.77e-4, 1790.0, 1.5, 2.02};
     double hard = 0.12e9 * pow(1.0 + 36.0 * 0.16, 0.45), eta = 9500.0 / 8930.0;
     double factor = 1.0 + 0.0283e-9 * 2e9 / cbrt(eta) - 3.77e-4 * 400.0;
-    uint32_t needs = BULLA_NEEDS_STRAIN | BULLA_NEEDS_PRESSURE | BULLA_NEEDS_TEMPERATURE;
+    uint32_t needs = BULLA_INELASTIC_STRAIN | BULLA_INELASTIC_PRESSURE | BULLA_INELASTIC_TEMPERATURE;
     check("steinberg-guinan", copper, aged, hard * factor, needs);
     check("steinberg-guinan", copper, molten, 0.0, needs);
     /* Compressed to twice its density copper melts later: 1790 exp(1.5) 2^0.3733. */

@@ -27,11 +27,11 @@ extern "C" {
 
 /* What a law looks at. */
 enum bulla_inelastic_needs {
-    BULLA_NEEDS_STRAIN = 1,      /* eps: core then evolves it as a field */
-    BULLA_NEEDS_RATE = 2,        /* rate */
-    BULLA_NEEDS_PRESSURE = 4,    /* p and rho */
-    BULLA_NEEDS_TEMPERATURE = 8, /* T, which the equation of state must be able to give */
-    BULLA_NEEDS_ALL = 15
+    BULLA_INELASTIC_STRAIN = 1,      /* eps: core then evolves it as a field */
+    BULLA_INELASTIC_RATE = 2,        /* rate */
+    BULLA_INELASTIC_PRESSURE = 4,    /* p and rho */
+    BULLA_INELASTIC_TEMPERATURE = 8, /* T, which the equation of state must be able to give */
+    BULLA_INELASTIC_ALL = 15
 };
 
 struct bulla_inelastic {

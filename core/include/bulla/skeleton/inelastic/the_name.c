@@ -28,7 +28,7 @@ static void the_name_strength(const void *self, size_t n, const double *BULLA_RE
 static uint32_t the_name_needs(const void *self)
 {
     (void)self;
-    return BULLA_NEEDS_STRAIN;
+    return BULLA_INELASTIC_STRAIN;
 }
 
 static const struct bulla_inelastic the_name_table = {.size = sizeof(struct bulla_inelastic),
