@@ -69,6 +69,9 @@ int scene_material_index(struct draft *draft, const struct keys_value *value);
 bool scene_material_is_solid(const struct draft *draft, unsigned material);
 const char *scene_material_solid(const struct draft *draft);
 
+/* 0: no material has a strength; 1: some has; 2: and it knows its plastic strain. */
+unsigned scene_material_strength(const struct draft *draft);
+
 /* Opens the module that a section names; nothing happens if the section is wrong. */
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);
 
