@@ -121,6 +121,14 @@ bool scene_material_is_solid(const struct draft *draft, unsigned material)
     return keys_at(keys_at(draft->root, "materials")->list[material].map, "constitutive")->node != NULL;
 }
 
+bool scene_material_conducts(const struct draft *draft)
+{
+    const struct keys_value *materials = keys_at(draft->root, "materials");
+    for (unsigned i = 0; i < materials->count; i++)
+        if (materials->list[i].map && keys_at(materials->list[i].map, "conductivity")->node) return true;
+    return false;
+}
+
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance)
 {
     const struct keys_map *map = value->map;

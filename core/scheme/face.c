@@ -9,6 +9,7 @@
 #include "phys/row.h"
 #include "scheme/edges.h"
 #include "scheme/face_stress.h"
+#include "scheme/low_mach.h"
 
 #include <math.h>
 #include <string.h>
@@ -197,8 +198,26 @@ static void face_load(struct face_work *work, const struct frame *frame, size_t 
     face_stress_complete(own->stress, model, &edges);
 }
 
+/* Velocities at the faces of a row of cells, before they have an energy; rho c^2 is still that in own->c. */
+static void face_calm(struct face_work *work, const struct frame *frame, const double *rho, bool masked)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    size_t cells = frame_edged(frame);
+    const struct low_mach faces = {.n = cells - frame->inner,
+                                   .right = cells + frame->inner,
+                                   .least = model->scene->scheme.low_mach,
+                                   .rho = rho,
+                                   .rho_c2 = own->c,
+                                   .p = own->state + 2 * model->i_E * FACE_ROOM,
+                                   .mask = masked ? work->mask + frame_reach(frame) : NULL,
+                                   .step = frame->inner,
+                                   .part = own->term};
+    if (faces.least < 1.0) low_mach_draw(&faces, own->state + 2 * (model->i_u + (unsigned)frame->axis) * FACE_ROOM);
+}
+
 /* Partial densities, total energy and fastest speed of n edges. */
-static void face_complete(struct face_work *work, const struct frame *frame, size_t n)
+static void face_complete(struct face_work *work, const struct frame *frame, size_t n, bool masked)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
@@ -221,6 +240,7 @@ static void face_complete(struct face_work *work, const struct frame *frame, siz
         else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
     }
     face_load(work, frame, n, rho);
+    face_calm(work, frame, rho, masked);
     face_finish(n, rho, u[0], u[1], u[2], own->energy, own->c);
 }
 
@@ -364,7 +384,7 @@ void face_solve(struct face_work *work, const struct frame *frame, bool masked)
     struct face_own *own = work->own;
     size_t cells = frame_edged(frame);
     edges_fill(own->edges, model, frame, work->frame, masked ? work->mask : NULL, own->state);
-    face_complete(work, frame, 2 * cells);
+    face_complete(work, frame, 2 * cells, masked);
     face_point(work, frame, cells);
     model->riemann->solve(model->riemann_self, &work->faces);
     if (masked) face_solve_robust(work, frame, work->faces.n);

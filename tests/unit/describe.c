@@ -23,7 +23,7 @@ static void test_all(void **state)
     describe_all(&text);
     assert_int_equal(strncmp(text.at, "conductivity\n  constant", 23), 0);
     assert_says(&text, "\neos\n  helmholtz-air");
-    assert_says(&text, "\nlimiter\n  mc             1.0    Monotonized central: ");
+    assert_says(&text, "\nlimiter\n  koren          1.0    Koren: the parabola");
     assert_says(&text, "\nreconstruction\n  muscl ");
     assert_says(&text, "\nriemann\n  hll ");
     assert_says(&text, "\nviscosity\n  ");
