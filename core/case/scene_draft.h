@@ -28,6 +28,7 @@ extern const struct keys_section scene_output_keys, scene_history_column_keys, s
 void scene_domain(struct draft *draft);
 void scene_material(struct draft *draft);
 void scene_scheme(struct draft *draft);
+void scene_heat(struct draft *draft);
 void scene_mesh(struct draft *draft);
 void scene_refine(struct draft *draft);
 void scene_boundary(struct draft *draft);

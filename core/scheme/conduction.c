@@ -358,6 +358,29 @@ static void conduction_pace(const struct term_pace *pace, double *rate)
     }
 }
 
+double conduction_step(double diffusivity, double sum)
+{
+    return 1.0 / (CONDUCTION_PACE * diffusivity * sum);
+}
+
+/* cp by the difference of the enthalpy over 1e-4 of the density. */
+struct conduction_facts conduction_facts(const struct model *model, unsigned l)
+{
+    const struct model_eos *eos = &model->eos[l];
+    struct conduction_facts facts = {0};
+    double p[2] = {101325.0, 101325.0}, T[2] = {298.15, 298.15}, rho[2], e[2], rho_c2[2], c[2];
+    if (!conduction_law_is(model, l)) return facts;
+    eos->law->density(eos->self, 1, p, T, rho);
+    rho[1] = 0.9999 * rho[0];
+    conduction_law_ask(model, l, 1, T, p, rho, &facts.k);
+    conduction_law_capacity(eos, 2, rho, p, T, c);
+    eos->law->state(eos->self, 2, rho, p, e, rho_c2);
+    facts.cp = ((e[1] + p[1]) / rho[1] - (e[0] + p[0]) / rho[0]) / (T[1] - T[0]);
+    facts.rho_cp = rho[0] * facts.cp;
+    facts.rho_cv = c[0];
+    return facts;
+}
+
 static void conduction_say(const struct scene *scene, struct text *text)
 {
     const char *comma = ": ";
