@@ -79,6 +79,7 @@ static void scene_fill(struct draft *draft)
     scene_material(draft);
     scene_domain(draft);
     scene_scheme(draft);
+    scene_heat(draft);
     scene_mesh(draft);
     scene_refine(draft);
     scene_boundary(draft);

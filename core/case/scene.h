@@ -54,6 +54,8 @@ struct scene_boundary {
     double *fractions;           /* [n_material] */
     struct scene_value *density; /* [n_material] per material */
     struct scene_value velocity[SCENE_AXES];
+    /* walls: their temperature [K], or the heat that they give to what is inside [W/m2]; neither: none passes */
+    struct scene_value temperature, heat_flux;
 };
 
 struct scene_material {
