@@ -1,0 +1,37 @@
+#!/bin/sh
+# mpich.sh [PROGRAM] - builds bulla with MPICH and serial HDF5, warnings as errors, runs its tests, and compares the
+# histories of 1, 2 and 3 ranks with each other and with those of PROGRAM (bulla built with Open MPI), bit by bit: a plane
+# wave, and levels that move. Build and results are in build-mpich, or in $BULLA_MPICH_BUILD. Needs libmpich-dev, mpich
+# and libhdf5-dev beside what bulla needs. Ranks of MPICH wait without a pause: minutes, more where cores are few. Not
+# part of ctest; .ci/mpich calls it.
+set -eu
+root=$(cd -- "$(dirname -- "$0")/.." && pwd)
+other=${1:+$(command -v "$1")}
+build=${BULLA_MPICH_BUILD:-$root/build-mpich}
+launcher=
+command -v ccache >/dev/null && launcher=-DCMAKE_C_COMPILER_LAUNCHER=ccache
+cmake -S "$root" --preset ci -B "$build" -DMPI_C_COMPILER=mpicc.mpich $launcher
+cmake --build "$build" -j "$(nproc)"
+grep -q 'define BULLA_OPEN_MPI 1\|BULLA_OPEN_MPI=1' "$build/build.ninja" && { echo "this is Open MPI"; exit 1; }
+ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" -E '^style-'
+
+place=$build/histories
+rm -rf "$place"
+mkdir -p "$place"
+bulla=$build/bin/bulla
+cd "$place"
+same() { # NAME CASE OPTIONS...
+    name=$1
+    shift
+    for ranks in 1 2 3; do
+        "$bulla" run "$@" -o "$name-$ranks" -n $ranks --quiet --set expect=null --set output.snapshots=null
+        cmp "$name-1/history.csv" "$name-$ranks/history.csv"
+        [ -z "$other" ] || {
+            "$other" run "$@" -o "other-$name-$ranks" -n $ranks --quiet --set expect=null --set output.snapshots=null
+            cmp "$name-1/history.csv" "other-$name-$ranks/history.csv"
+        }
+    done
+}
+same tube "$root/cases/tour/tube.yaml" --set 'domain.cells=[100]'
+same levels "$root/cases/verify/e4-levels.yaml" --variant quick --max-steps 60
+echo "MPICH: tests pass, histories are the same on 1, 2 and 3 ranks${other:+, and those of $other}"
