@@ -118,7 +118,8 @@ def cases():
 def case_page(name, scene, source, picture):
     """Markdown of a case: what it is, its picture, how it is run, its text."""
     path = f"cases/{name}.yaml"
-    out = [f"# {scene.get('title', name)}\n"]
+    out = ["---\norphan: true\n---\n", f"# {scene.get('title', name)}\n",
+           f"[Gallery](../index.md) / {FOLDERS.get(name.split('/')[0], name.split('/')[0])}\n"]
     if picture:
         title = html.escape(scene.get("title", name))
         out.append(f'```{{raw}} html\n<img src="../../_static/pictures/{picture}" alt="{title}">\n```\n')
@@ -161,7 +162,6 @@ def gallery(program, folder, store, draw):
     for part in order:
         inside = "\n".join(text for _, text in cards[part])
         out.append(f"## {FOLDERS.get(part, part)}\n\n```{{raw}} html\n<div class=\"gallery\">\n{inside}\n</div>\n```\n")
-    out.append(toctree([name for part in order for name, _ in cards[part]]))
     write(folder, "gallery/index.md", "\n".join(out))
 
 

@@ -1,7 +1,7 @@
 """pictures.py - a picture of each case for the gallery, from its quick variant.
 
-What the picture shows is the end of the run: in one dimension curves, else a field. A picture is made again when the
-resolved case has changed, and only then: the hash of that is in its name.
+What the picture shows is the end of the run (of spheres: how they got there). A picture is made again when the resolved
+case has changed, and only then: the hash of that is in its name.
 """
 import concurrent.futures
 import hashlib
@@ -11,9 +11,6 @@ import tempfile
 
 import yaml
 
-FIELDS = ["schlieren", "von_mises", "pressure"]
-
-
 def show(program, case, variant):
     """The resolved case as text, or None if it cannot be read so."""
     done = subprocess.run([program, "show", case, *(["--variant", variant] if variant else [])], capture_output=True,
@@ -21,28 +18,31 @@ def show(program, case, variant):
     return done.stdout if done.returncode == 0 else None
 
 
-def field(scene):
-    """What the picture shows."""
-    if len(scene["domain"]["cells"]) == 1:
-        return "density" if len(scene["materials"]) > 1 else "pressure"
-    solid = any("constitutive" in material for material in scene["materials"].values())
-    return "von_mises" if solid else "schlieren" if len(scene["domain"]["cells"]) == 2 else "pressure"
+def subject(scene):
+    """What the picture shows, as words for `bulla plot`: of a sphere its first column over time, else a field."""
+    dim, solid = len(scene["domain"]["cells"]), any("constitutive" in m for m in scene["materials"].values())
+    columns = list(scene["output"].get("history", {}).get("columns", {}))
+    if scene["domain"]["geometry"] == "spherical" and columns:
+        return ["history", columns[0]]
+    if dim == 1:
+        return ["density"]
+    what = "von_mises" if solid else "velocity" if len(scene["materials"]) == 1 else "schlieren"
+    return [what, "--mirror"] if scene["domain"]["geometry"] == "axisymmetric" else [what]
 
 
-def draw(program, case, text, path):
+def draw(program, case, scene, path):
     """Runs the case and draws it; the reason if there is no picture."""
-    scene = yaml.safe_load(text)
-    what = field(scene)
+    words = subject(scene)
+    field = "density" if words[0] == "history" else words[0]
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out")
-        run = subprocess.run(
-            ["nice", program, "run", case, "--variant", "quick", "-o", out, "--quiet", "--set", "expect=null", "--set",
-             f"output.snapshots={{every: {scene['run']['until']} s, fields: [{what}]}}"],
-            capture_output=True, text=True, check=False)
+        snapshots = f"{{every: {scene['run']['until']} s, fields: [{field}], precision: double}}"
+        run = subprocess.run(["nice", program, "run", case, "--variant", "quick", "-o", out, "--quiet", "--set",
+                              "expect=null", "--set", f"output.snapshots={snapshots}"], capture_output=True, text=True,
+                             check=False)
         if run.returncode != 0:
             return run.stderr.strip()
-        options = ["--mirror"] if scene["domain"]["geometry"] == "axisymmetric" else []
-        plot = subprocess.run([program, "plot", out, what, "-o", path, "--width", "560", *options], capture_output=True,
+        plot = subprocess.run([program, "plot", out, *words, "-o", path, "--width", "560"], capture_output=True,
                               text=True, check=False)
         return plot.stderr.strip() if plot.returncode != 0 else None
 
@@ -56,10 +56,12 @@ def make(program, cases, folder):
             text = show(program, case, "quick")
             if text is None:
                 continue
-            wanted[name] = f"{name.replace('/', '-')}-{hashlib.sha256(text.encode()).hexdigest()[:12]}.png"
+            scene = yaml.safe_load(text)
+            mark = hashlib.sha256((text + " ".join(subject(scene))).encode()).hexdigest()[:12]
+            wanted[name] = f"{name.replace('/', '-')}-{mark}.png"
             path = os.path.join(folder, wanted[name])
             if not os.path.exists(path):
-                jobs[name] = pool.submit(draw, program, case, text, path)
+                jobs[name] = pool.submit(draw, program, case, scene, path)
         for name, job in jobs.items():
             if job.result():
                 print(f"no picture of {name}: {job.result()}")
