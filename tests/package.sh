@@ -2,8 +2,9 @@
 # package.sh [FILE.deb] - installs the Debian package (of build-deb, which is made if none is named) into a fresh Debian and
 # uses it there as an ordinary user: a run, two ranks with the same bits, pictures, a report, the list of verification
 # scenes, the skeleton of a module. Nothing of this tree is seen there. For root, with mmdebstrap and a mirror of Debian
-# ($BULLA_MIRROR); some minutes, most of them downloads. Not part of ctest.
+# ($BULLA_MIRROR), else it ends with 77; some minutes, most of them downloads. Nightly.
 set -eu
+[ "$(id -u)" = 0 ] && command -v mmdebstrap >/dev/null || { echo "needs root and mmdebstrap"; exit 77; }
 root=$(cd -- "$(dirname -- "$0")/.." && pwd)
 package=${1-}
 [ -n "$package" ] || {
