@@ -65,6 +65,7 @@ struct keys_section {
     const char *rules;                       /* what else the reader sees to, for the schema: a list of JSON Schemas
                                                 without its brackets, ' instead of "; or NULL */
     const char *kind;                        /* the cases are the modules of this kind */
+    const char *amount, *amount_key;         /* a quantity stands for the map of this case with this key; or NULL */
     const struct bulla_module *module;       /* of a case that is a module */
 };
 

@@ -273,6 +273,7 @@ void scene_free(struct scene *scene)
     for (unsigned i = 0; i < scene->n_material; i++) {
         instance_done(&scene->material[i].eos);
         instance_done(&scene->material[i].constitutive);
+        instance_done(&scene->material[i].viscosity);
     }
     instance_done(&scene->scheme.riemann);
     instance_done(&scene->scheme.reconstruction);

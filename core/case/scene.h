@@ -60,7 +60,9 @@ struct scene_material {
     char name[SCENE_NAME];
     struct instance eos;
     struct instance constitutive; /* of a solid; module NULL: a fluid */
+    struct instance viscosity;    /* module NULL: none */
     double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
+    double conductivity;          /* of heat [W/(m K)]; 0: none (scheme/conduction.h) */
 };
 
 /* One layer of paint. Layers are applied in order; a later one covers an earlier one by its
@@ -126,6 +128,8 @@ enum scene_measure {
     SCENE_ISOSURFACE_MIN,
     SCENE_ISOSURFACE_MAX,
     SCENE_OUTSIDE,
+    SCENE_MIN_BETWEEN,
+    SCENE_MAX_BETWEEN,
     SCENE_VALUE,
 };
 
@@ -137,6 +141,7 @@ struct scene_column {
     int in;                 /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
     struct shape *where;    /* restrict to a region, or NULL */
     int along;              /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
+    unsigned of;            /* min-between, max-between: a column further up */
     const struct script *script; /* value: an expression of other columns */
     char (*uses)[SCENE_NAME];    /* value: its arguments, in order: "t" or columns further up */
     unsigned n_use;
@@ -262,6 +267,7 @@ struct scene_scheme {
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
     enum scene_guard guard;
+    double low_mach; /* least part of a jump of velocity that faces see (scheme/low_mach.h); 1: all of it */
 };
 
 /* Section `run:`. */
@@ -275,6 +281,7 @@ struct scene_run {
 struct scene_output {
     char *directory; /* resolved against the working directory */
     struct scene_every snapshots, history, probes_every, maps_every, checkpoints;
+    bool history_finest;     /* steps of the history are those of the finest level */
     double checkpoints_wall; /* s of wall time between two checkpoints; 0: they do not count */
     int checkpoints_keep;
     char (*snapshot_fields)[SCENE_NAME];

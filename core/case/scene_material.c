@@ -29,6 +29,19 @@ static const struct keys_section scene_material_constitutive = {.name = "constit
                                                                 .selector = "type",
                                                                 .kind = "constitutive"};
 
+static const struct key scene_material_transport[] = {
+    {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "The law."},
+    {0},
+};
+
+static const struct keys_section scene_material_viscosity = {.name = "viscosity",
+                                                             .doc = "A law of viscosity and its numbers.",
+                                                             .keys = scene_material_transport,
+                                                             .selector = "type",
+                                                             .kind = "viscosity",
+                                                             .amount = "newtonian",
+                                                             .amount_key = "mu"};
+
 static const struct key scene_material_rows[] = {
     {.name = "eos",
      .type = KEYS_SECTION,
@@ -39,6 +52,11 @@ static const struct key scene_material_rows[] = {
      .type = KEYS_SECTION,
      .section = &scene_material_constitutive,
      .doc = "The elastic law, which makes the material a solid; its pressure is that of the equation of state."},
+    {.name = "viscosity",
+     .type = KEYS_SECTION,
+     .section = &scene_material_viscosity,
+     .doc = "Viscosity: a number with a unit (`0.89 mPa s`) for a constant one, or a law; without it the material has "
+            "none."},
     {.name = "drag",
      .type = KEYS_NUMBER,
      .unit = "kg/m3/s",
@@ -46,6 +64,13 @@ static const struct key scene_material_rows[] = {
      .fallback = "0",
      .doc = "Resistance k of the material against its motion, as in a porous medium (viscosity over permeability): a "
             "force -alpha k u, whose work is heat."},
+    {.name = "conductivity",
+     .type = KEYS_NUMBER,
+     .unit = "W/m/K",
+     .max = KEYS_MOST,
+     .fallback = "0",
+     .doc =
+         "Conductivity of heat k: a flux -k grad T in the material, and through the interface to others that conduct."},
     {0},
 };
 
@@ -127,6 +152,8 @@ void scene_material(struct draft *draft)
                        SCENE_NAME / 2);
         scene_material_open(draft, keys_at(entry->map, "eos"), &material->eos);
         scene_material_open(draft, keys_at(entry->map, "constitutive"), &material->constitutive);
+        scene_material_open(draft, keys_at(entry->map, "viscosity"), &material->viscosity);
         material->drag = entry->map ? keys_at(entry->map, "drag")->number : 0.0;
+        material->conductivity = entry->map ? keys_at(entry->map, "conductivity")->number : 0.0;
     }
 }

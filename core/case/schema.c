@@ -329,6 +329,15 @@ static json_t *schema_alone(struct schema *schema, const struct keys_section *se
     return json_pack("{s:s,s:o}", "type", "object", "errorMessage", error);
 }
 
+/* The number that stands for a map; NULL: none does. */
+static json_t *schema_amount(struct schema *schema, const struct keys_section *section)
+{
+    const struct keys_section *one = section->amount ? family_find(schema->forest, section, section->amount) : NULL;
+    for (const struct key *key = one ? one->keys : NULL; key && key->name; key++)
+        if (strcmp(key->name, section->amount_key) == 0) return schema_number(schema, key);
+    return NULL;
+}
+
 static json_t *schema_section(struct schema *schema, const struct keys_section *section)
 {
     struct schema_rows rows = {{section}, 1};
@@ -345,8 +354,13 @@ static json_t *schema_section(struct schema *schema, const struct keys_section *
         json_object_set_new(object, "type", json_string("object"));
         return object;
     }
-    json_object_set_new(object, "type", json_pack("[s,s]", "object", "string"));
-    json_t *word = json_pack("{s:{s:s},s:o}", "if", "type", "string", "then", schema_alone(schema, section));
+    json_t *amount = schema_amount(schema, section), *alone = schema_alone(schema, section);
+    json_object_set_new(object, "type",
+                        amount ? json_pack("[s,s,s]", "object", "string", "number")
+                               : json_pack("[s,s]", "object", "string"));
+    json_t *scalar = amount ? json_pack("[s,s]", "string", "number") : json_string("string");
+    json_t *either = amount ? json_pack("{s:[o,o]}", "anyOf", amount, alone) : alone;
+    json_t *word = json_pack("{s:{s:o},s:o}", "if", "type", scalar, "then", either);
     json_array_append_new(json_object_get(object, "allOf"), word);
     return object;
 }

@@ -62,6 +62,7 @@ void facts_put(const struct scene *scene, const struct model *model, int tile, s
         const struct scene_material *material = &scene->material[l];
         facts_put_law(material->name, "eos", &material->eos, notes);
         facts_put_law(material->name, "constitutive", &material->constitutive, notes);
+        facts_put_law(material->name, "viscosity", &material->viscosity, notes);
     }
     facts_put_names(notes, "fields", model->n_field, facts_field, model);
 }

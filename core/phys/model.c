@@ -154,8 +154,10 @@ struct model *model_new(const struct scene *scene)
         eos->rho_most = range.rho_max > eos->rho_fill ? range.rho_max : eos->rho_fill;
         if (!eos->law->linear) model->linear = false;
     }
-    model->thermal =
-        scene->scheme.exchange == SCENE_EXCHANGE_AUTO ? !model->linear : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
+    for (unsigned l = 0; l < model->n_material; l++)
+        model->conducts = model->conducts || scene->material[l].conductivity > 0.0;
+    model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO ? !model->linear || model->conducts
+                                                                   : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
     model->limiter = (struct model_limiter){scene->scheme.limiter.module->table, scene->scheme.limiter.self};
     model->limiter_alpha =
         (struct model_limiter){scene->scheme.interface_limiter.module->table, scene->scheme.interface_limiter.self};

@@ -53,6 +53,7 @@ struct model {
                                             than two fluids, or if they do not stand together in the list of materials */
     bool kapila, linear;  /* linear: every law is linear in p, closed-form mixture pressure */
     bool thermal;         /* materials of a cell exchange volume in full: temperatures are meant (scheme/exchange.h) */
+    bool conducts;        /* some material of the scene conducts heat (scheme/conduction.h) */
     bool split;           /* the materials of a cell share their normal traction, not their pressure (traction.h) */
     struct model_eos eos[SCENE_MATERIALS];
     struct model_limiter {

@@ -6,6 +6,7 @@
 #include "suite/contract_limiter.h"
 #include "suite/contract_reconstruction.h"
 #include "suite/contract_riemann.h"
+#include "suite/contract_viscosity.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -18,7 +19,8 @@ static const struct {
                             {"eos", contract_eos_run, contract_eos_probe},
                             {"limiter", contract_limiter_run, contract_limiter_probe},
                             {"reconstruction", contract_reconstruction_run, contract_reconstruction_probe},
-                            {"riemann", contract_riemann_run, contract_riemann_probe}};
+                            {"riemann", contract_riemann_run, contract_riemann_probe},
+                            {"viscosity", contract_viscosity_run, contract_viscosity_probe}};
 
 enum { SUITE_KINDS = sizeof contract_suite_table / sizeof *contract_suite_table };
 
