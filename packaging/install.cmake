@@ -14,7 +14,7 @@ configure_file(packaging/bulla.pc.in packaging/bulla.pc @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/packaging/bulla.pc DESTINATION share/pkgconfig)
 
 # Cases and schema; the pages link to the cases beside them.
-install(DIRECTORY cases schemas DESTINATION share/bulla)
+install(DIRECTORY cases schemas python DESTINATION share/bulla)
 install(DIRECTORY docs DESTINATION share/doc/bulla)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION share/doc/bulla)
 foreach(folder cases schemas)
