@@ -42,7 +42,10 @@ static void scene_idle_materials(struct draft *draft, const struct node *root)
     const struct keys_value *materials = keys_at(draft->root, "materials");
     unsigned missing = 0;
     bool script = false;
-    for (unsigned i = 0; i < draft->scene->n_layer; i++) script = script || draft->scene->layers[i].script;
+    for (unsigned i = 0; i < draft->scene->n_layer; i++) {
+        script = script || draft->scene->layers[i].script;
+        if (draft->scene->layers[i].checkpoint) return; /* which may have any */
+    }
     for (unsigned i = 0; i < materials->count; i++) missing += !scene_idle_found(root, materials->list[i].name);
     for (unsigned i = 0; missing > (script ? 1 : 0) && i < materials->count; i++) {
         const char *name = materials->list[i].name;
@@ -78,7 +81,7 @@ static void scene_idle_outputs(struct draft *draft)
     const struct keys_map *output = keys_at(draft->root, "output")->map;
     const char *ends = "only its start and its end are written";
     scene_idle_every(draft, keys_at(output, "snapshots")->map, ends);
-    scene_idle_every(draft, keys_at(output, "history")->map, ends);
+    if (!draft->scene->output.history_finest) scene_idle_every(draft, keys_at(output, "history")->map, ends);
     scene_idle_every(draft, keys_at(output, "probes")->map, ends);
     scene_idle_every(draft, keys_at(output, "maps")->map, ends);
     scene_idle_every(draft, keys_at(output, "checkpoints")->map, "it asks for none but that of the end");

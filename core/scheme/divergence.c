@@ -27,16 +27,18 @@ static BULLA_KERNEL void divergence_rows(const struct divergence_lines *lines, d
 /* Rows along axis 0 in curved coordinates: rate -= (A+ (F+ - q) - A- (F- - q)) / V; q is the cell's pressure for the
  * radial momentum, else a row of zeros for all lines. */
 static BULLA_KERNEL void divergence_curved(const struct divergence_lines *lines, const struct metric *metric,
-                                           const double *flux, const double *q, size_t q_step, double *rate)
+                                           const double *lower, const double *upper, const double *q, size_t q_step,
+                                           double *rate)
 {
     const double *restrict area = metric->area, *restrict volume = metric->volume;
     size_t n = lines->n;
     for (size_t k = 0; k < lines->count; k++) {
-        const double *restrict through = flux + k * lines->face, *restrict taken = q + k * q_step;
+        const double *restrict below = lower + k * lines->face, *restrict above = upper + k * lines->face;
+        const double *restrict taken = q + k * q_step;
         double *restrict row = rate + k * lines->cell;
 #pragma omp simd
         for (size_t i = 0; i < n; i++) {
-            double low = through[i], up = through[i + 1], inside = taken[i], old = row[i];
+            double low = below[i], up = above[i], inside = taken[i], old = row[i];
             row[i] = old - (area[i + 1] * (up - inside) - area[i] * (low - inside)) / volume[i];
         }
     }
@@ -50,14 +52,13 @@ static void divergence_flux(const struct term_tile *tile, const struct frame *fr
                             const struct divergence_lines *lines, size_t face, size_t cell)
 {
     double *rate = tile->rates + flux->rate * tile->n_cell + cell;
+    const double *below = flux->below + face, *above = flux->above + face + frame->inner;
     bool curved = tile->model->beta > 0 && frame->axis == 0 && flux->kind != TERM_DIFFERENCE;
     bool balanced = flux->kind == TERM_BALANCED;
     if (curved)
-        divergence_curved(lines, tile->metric, flux->below + face, balanced ? tile->hoop + cell : divergence_zero,
+        divergence_curved(lines, tile->metric, below, above, balanced ? tile->hoop + cell : divergence_zero,
                           balanced ? lines->cell : 0, rate);
-    else
-        divergence_rows(lines, 1.0 / tile->level->h[frame->axis], flux->below + face, flux->above + face + frame->inner,
-                        rate);
+    else divergence_rows(lines, 1.0 / tile->level->h[frame->axis], below, above, rate);
 }
 
 void divergence_add(const struct term_tile *tile, const struct frame *frame)

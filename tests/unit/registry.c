@@ -41,13 +41,18 @@ static int stop(void **state)
 /* All that is built in, sorted as the registry sorts; one to a line, as others will come. */
 /* clang-format off */
 static const char *const builtin[][2] = {
+    {"conductivity", "constant"},
+    {"conductivity", "powers"},
+    {"conductivity", "sutherland"},
     {"constitutive", "fung"},
     {"constitutive", "gent"},
     {"constitutive", "mooney-rivlin"},
     {"constitutive", "neo-hookean"},
+    {"eos", "cochran-chan"},
     {"eos", "helmholtz-air"},
     {"eos", "iapws95"},
     {"eos", "ideal-gas"},
+    {"eos", "jwl"},
     {"eos", "mnasg"},
     {"eos", "modified-tait"},
     {"eos", "nasg"},
@@ -56,6 +61,10 @@ static const char *const builtin[][2] = {
     {"eos", "stiffened-gas"},
     {"eos", "table"},
     {"eos", "tait"},
+    {"inelastic", "johnson-cook"},
+    {"inelastic", "power-law"},
+    {"inelastic", "steinberg-guinan"},
+    {"inelastic", "von-mises"},
     {"limiter", "koren"},
     {"limiter", "mc"},
     {"limiter", "minmod"},
@@ -69,6 +78,7 @@ static const char *const builtin[][2] = {
     {"riemann", "hllc"},
     {"riemann", "hlld"},
     {"riemann", "rusanov"},
+    {"viscosity", "newtonian"},
 };
 /* clang-format on */
 enum { BUILTIN = sizeof builtin / sizeof *builtin };
@@ -138,7 +148,8 @@ static const struct refusal refusals[] = {
     {"null_slot", "has no function 'slope', which kind limiter needs"},
     {"new_flags", "has the flags 0x4; this program knows 0x3"},
     {"null_edges", "has no function 'edges', which BULLA_TWO_SIDED needs"},
-    {"unknown_kind", "unknown kind 'weather'; kinds are constitutive, eos, limiter, reconstruction, riemann"},
+    {"unknown_kind", "unknown kind 'weather'; kinds are conductivity, constitutive, eos, inelastic, limiter, "
+                     "reconstruction, riemann, viscosity"},
     {"bad_name", "'Bad_Name'; names are lower case with hyphens"},
     {"no_doc", "lacks its doc"},
     {"param_twice", "parameter 'strength' twice"},
