@@ -274,6 +274,7 @@ void scene_free(struct scene *scene)
     for (unsigned i = 0; i < scene->n_material; i++) {
         instance_done(&scene->material[i].eos);
         instance_done(&scene->material[i].constitutive);
+        instance_done(&scene->material[i].plastic);
         instance_done(&scene->material[i].viscosity);
         instance_done(&scene->material[i].conductivity);
     }

@@ -62,6 +62,7 @@ struct scene_material {
     char name[SCENE_NAME];
     struct instance eos;
     struct instance constitutive; /* of a solid; module NULL: a fluid */
+    struct instance plastic;      /* strength of a solid; module NULL: none */
     struct instance viscosity;    /* module NULL: none */
     struct instance conductivity; /* of heat; module NULL: none (scheme/conduction.h) */
     double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */

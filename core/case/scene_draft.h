@@ -70,6 +70,9 @@ int scene_material_index(struct draft *draft, const struct keys_value *value);
 bool scene_material_is_solid(const struct draft *draft, unsigned material);
 const char *scene_material_solid(const struct draft *draft);
 
+/* 0: no material has a strength; 1: some has; 2: and it knows its plastic strain. */
+unsigned scene_material_strength(const struct draft *draft);
+
 /* Has any material a conductivity of heat? */
 bool scene_material_conducts(const struct draft *draft);
 

@@ -264,6 +264,7 @@ static void bound_fill_compose_state(const struct bound_fill *fill, struct bound
             if (boundary->velocity[d].given && good)
                 good = bound_fill_ask(fill, &boundary->velocity[d], velocity[d], x, u);
         }
+        for (unsigned s = 0; s < model->n_strain; s++) at[(model->i_strain + s) * row->stride] = 0.0;
         for (unsigned v = 0; v < model->n_stretch; v++) at[(model->i_V + v) * row->stride] = v < 3 ? 1.0 : 0.0;
     }
 }
