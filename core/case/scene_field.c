@@ -19,6 +19,7 @@ static const struct scene_field scene_field_plain[] = {
     {"internal_energy", "J/kg", 0},
     {"total_energy", "J/m3", 0},
     {"vorticity", "1/s", SCENE_FIELD_VECTOR | SCENE_FIELD_VANISHING},
+    {"heat_flux", "W/m2", SCENE_FIELD_VECTOR | SCENE_FIELD_VANISHING},
     {"schlieren", "1", SCENE_FIELD_FRACTION},
     {"level", "1", 0},
     {"rank", "1", 0},
@@ -190,6 +191,7 @@ const char *scene_field_constant(struct draft *draft, const char *name)
     if (scene->domain.n_velocity < scene_field_shear(name)) return "0 everywhere: nothing moves across these axes";
     if (strcmp(name, "vorticity") == 0 && scene->domain.n_velocity == 1)
         return "0 everywhere: velocities have one component";
+    if (strcmp(name, "heat_flux") == 0 && !scene_material_conducts(draft)) return "0 everywhere: no material conducts";
     if (one && (strcmp(name, "cost") == 0 || strncmp(name, "alpha_", 6) == 0))
         return "1 everywhere: there is one material";
     if (strncmp(name, "curvature_", 10) == 0) {

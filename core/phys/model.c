@@ -46,10 +46,10 @@ static void model_name_fields(struct model *model)
 /* Names that derive.c understands for this scene. */
 static void model_name_derived(struct model *model)
 {
-    static const char *const plain[] = {"density",    "pressure",        "velocity",     "velocity_x",
-                                        "velocity_y", "velocity_z",      "temperature",  "sound_speed",
-                                        "mach",       "internal_energy", "total_energy", "vorticity",
-                                        "schlieren",  "level",           "rank",         "cost"};
+    static const char *const plain[] = {"density",      "pressure",    "velocity",    "velocity_x", "velocity_y",
+                                        "velocity_z",   "temperature", "sound_speed", "mach",       "internal_energy",
+                                        "total_energy", "vorticity",   "heat_flux",   "schlieren",  "level",
+                                        "rank",         "cost"};
     static const char *const solid[] = {"stress_xx",       "stress_yy",         "stress_zz",         "stress_xy",
                                         "stress_xz",       "stress_yz",         "stretch_xx",        "stretch_yy",
                                         "stretch_zz",      "stretch_xy",        "stretch_xz",        "stretch_yz",
