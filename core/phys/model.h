@@ -14,6 +14,7 @@
 #include "bulla/limiter.h"
 #include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
+#include "bulla/viscosity.h"
 #include "case/scene.h"
 
 #include <stdbool.h>
@@ -30,6 +31,20 @@ struct model_solid {
     const struct bulla_constitutive *law;
     const void *self;
     unsigned material; /* index into the materials of the same model */
+};
+
+/* A number of a material, as bulla/coefficient.h says; law NULL: 0. */
+struct model_coefficient {
+    const struct bulla_coefficient *law;
+    const void *self;
+    double number; /* of a law that looks at nothing: what it says; of one that looks at the rate: the most */
+};
+
+/* How viscous one material is. */
+struct model_viscosity {
+    struct model_coefficient mu;
+    const struct bulla_viscosity *law; /* NULL: not at all */
+    double zeta;                       /* of a law that looks at nothing but the rate */
 };
 
 /* Most evolved fields a scene can have: fractions, densities, velocities, energy, stretch. */
@@ -55,6 +70,12 @@ struct model {
     bool thermal;         /* materials of a cell exchange volume in full: temperatures are meant (scheme/exchange.h) */
     bool split;           /* the materials of a cell share their normal traction, not their pressure (traction.h) */
     struct model_eos eos[SCENE_MATERIALS];
+    struct model_viscosity viscosity[SCENE_MATERIALS];
+    bool viscous; /* some material of the path is */
+    /* What terms that look across edges see there: components of the primitives, the same in all paths of a scene. 0: no
+     * term does. Fractions but the first, then velocities. */
+    unsigned n_around, n_around_alpha;
+    unsigned char around[MODEL_FIELDS];
     struct model_limiter {
         const struct bulla_limiter *law;
         const void *self;

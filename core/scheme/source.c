@@ -164,14 +164,6 @@ static void source_say(const struct scene *scene, struct text *text)
     source_text(scene, text);
 }
 
-/* Middle of the volume between two radii, by the mean of r with the weight r^beta. */
-static double source_centroid(int beta, double a, double b)
-{
-    if (beta == 0) return 0.5 * (a + b);
-    if (beta == 1) return (2.0 / 3.0) * (a * a + a * b + b * b) / (a + b);
-    return 0.75 * (a + b) * (a * a + b * b) / (a * a + a * b + b * b);
-}
-
 static void source_places(struct source *source, const struct level *level, const struct tile *tile)
 {
     const struct mesh *mesh = source->mesh;
@@ -182,7 +174,7 @@ static void source_places(struct source *source, const struct level *level, cons
             int next = first + i + 1;
             double upper = (mesh->lower[d] * (cells - next) + mesh->upper[d] * next) / cells;
             if (i == 0) lower = (mesh->lower[d] * (cells - first) + mesh->upper[d] * first) / cells;
-            source->x[d][i] = source_centroid(d ? 0 : mesh->beta, lower, upper);
+            source->x[d][i] = metric_centroid(d ? 0 : mesh->beta, lower, upper);
             lower = upper;
         }
     }

@@ -4,6 +4,7 @@
 
 #include "levels/prolong.h"
 #include "scheme/rate.h"
+#include "solve/around.h"
 #include "solve/cost.h"
 
 struct work {
@@ -14,6 +15,7 @@ struct work {
     struct terms *terms[SCENE_MATERIALS + 2]; /* by model_number + 1; NULL: the scene has no such path */
     void *own[TERMS_MOST];                    /* memory of the terms */
     struct prolong *prolong;
+    struct around *around;                    /* or NULL */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
     struct cost cost;                         /* where the time goes, of all levels */
 };
