@@ -22,7 +22,7 @@ enum keys_type {
     KEYS_INTEGER,
     KEYS_FLAG,
     KEYS_TEXT,
-    KEYS_FIELD,     /* a text: the name of a field */
+    KEYS_FIELD,     /* a text: the name of a field, or an expression of fields, "= ...", which {NAME: "= ..."} names */
     KEYS_NAME,      /* an identifier */
     KEYS_CHOICE,    /* one of `choices`; of a selector: one of the cases */
     KEYS_VALUE,     /* a quantity, or an expression of x, y, z, r, t */

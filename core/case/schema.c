@@ -110,17 +110,30 @@ static json_t *schema_part(struct schema *schema, const struct keys_section *sec
     return ref;
 }
 
-/* A field of every case, or one of a material. */
-static json_t *schema_field(struct schema *schema)
+/* A field of every case, or one of a material; a peak of either; an expression, with or without a name. */
+static json_t *schema_any_field(const struct schema *schema)
 {
     struct text text = {0};
-    const char *const *each = scene_field_each(schema->forest);
-    for (unsigned i = 0; each[i]; i++) text_add(&text, "%s%s", i ? "|" : "^(?:", each[i]);
-    text_add(&text, ")_[A-Za-z_][A-Za-z0-9_]*$");
+    const char *const *each = scene_field_each(schema->forest), *const *always = scene_field_always(schema->forest);
+    for (unsigned i = 0; each[i]; i++) text_add(&text, "%s%s", i ? "|" : "^(?:(?:when_)?(?:max|min)_)?(?:(?:", each[i]);
+    text_add(&text, ")_[A-Za-z_][A-Za-z0-9_]*");
+    for (unsigned i = 0; always[i]; i++) text_add(&text, "|%s", always[i]);
+    text_add(&text, ")$");
     json_t *own = json_pack("{s:s,s:s,s:s}", "type", "string", "pattern", text.at, "patternErrorMessage",
                             "There is no such field.");
     text_done(&text);
-    return json_pack("{s:[{s:o},o]}", "anyOf", "enum", schema_words(scene_field_always(schema->forest)), own);
+    const char *formula = "^[ \\n]*=(?!=)";
+    return json_pack("{s:[{s:o},o,{s:s,s:s},{s:s,s:i,s:i,s:{s:s,s:s}}]}", "anyOf", "enum",
+                     schema_words(scene_field_always(schema->forest)), own, "type", "string", "pattern", formula,
+                     "type", "object", "minProperties", 1, "maxProperties", 1, "additionalProperties", "type", "string",
+                     "pattern", formula);
+}
+
+static json_t *schema_field(struct schema *schema)
+{
+    if (!json_object_get(schema->definitions, "field"))
+        json_object_set_new(schema->definitions, "field", schema_any_field(schema));
+    return json_pack("{s:[{s:s}]}", "allOf", "$ref", "#/definitions/field");
 }
 
 /* One value of a key, without its documentation. */

@@ -9,6 +9,7 @@
 #ifndef MODEL_H
 #define MODEL_H
 
+#include "bulla/conductivity.h"
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/limiter.h"
@@ -47,6 +48,13 @@ struct model_viscosity {
     double zeta;                       /* of a law that looks at nothing but the rate */
 };
 
+/* How a material conducts heat. */
+struct model_conductivity {
+    const struct bulla_coefficient *law; /* NULL: not at all */
+    const void *self;
+    double k; /* of a law that looks at nothing [W/(m K)] */
+};
+
 /* Most evolved fields a scene can have: fractions, densities, velocities, energy, stretch. */
 enum { MODEL_FIELDS = 2 * SCENE_MATERIALS + 3 + 1 + 6 };
 
@@ -68,6 +76,8 @@ struct model {
                                             than two fluids, or if they do not stand together in the list of materials */
     bool kapila, linear;  /* linear: every law is linear in p, closed-form mixture pressure */
     bool thermal;         /* materials of a cell exchange volume in full: temperatures are meant (scheme/exchange.h) */
+    bool conducts;        /* some material of the scene conducts heat (scheme/conduction.h) */
+    bool forced;          /* forces act at faces, and pressure is reconstructed relative to them (scheme/face.h) */
     bool split;           /* the materials of a cell share their normal traction, not their pressure (traction.h) */
     struct model_eos eos[SCENE_MATERIALS];
     struct model_viscosity viscosity[SCENE_MATERIALS];
@@ -76,6 +86,7 @@ struct model {
      * term does. Fractions but the first, then velocities. */
     unsigned n_around, n_around_alpha;
     unsigned char around[MODEL_FIELDS];
+    struct model_conductivity conductivity[SCENE_MATERIALS];
     struct model_limiter {
         const struct bulla_limiter *law;
         const void *self;

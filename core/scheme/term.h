@@ -47,10 +47,12 @@ struct term_tile {
 /* One piece of a tile along one axis. */
 struct term_piece {
     const struct terms *terms;
-    const struct term_tile *tile; /* its `own` is that of the term that is called */
     const struct model *model;
+    const struct term_tile
+        *tile; /* the tile it is a piece of; a replay of a dump knows no neighbours but tile->around */
     const struct frame *frame;
     struct face_work *faces;
+    void *own; /* of the term that is called */
 };
 
 /* How a row of fluxes becomes rates. */

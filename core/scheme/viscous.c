@@ -177,7 +177,7 @@ static void viscous_batch(const struct viscous_piece *piece, struct face_work *f
 
 static void viscous_faces(const struct term_piece *piece)
 {
-    struct viscous *viscous = piece->tile->own;
+    struct viscous *viscous = piece->own;
     const struct frame *frame = piece->frame;
     const struct viscous_piece work = {piece->tile, frame, &viscous->slopes, frame_reach(frame)};
     size_t n = frame_edged(frame) - frame->inner;

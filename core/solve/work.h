@@ -3,6 +3,7 @@
 #define WORK_H
 
 #include "levels/prolong.h"
+#include "scheme/operators.h"
 #include "scheme/rate.h"
 #include "solve/around.h"
 #include "solve/cost.h"
@@ -10,10 +11,11 @@
 struct work {
     const struct model *model;
     struct face_work *faces;
-    struct face_work *faces_pure;             /* of paths of one material; NULL if the scene has no more */
-    struct face_work *faces_fluids;           /* of the path of all fluids, or NULL */
-    struct terms *terms[SCENE_MATERIALS + 2]; /* by model_number + 1; NULL: the scene has no such path */
-    void *own[TERMS_MOST];                    /* memory of the terms */
+    struct face_work *faces_pure;                    /* of paths of one material; NULL if the scene has no more */
+    struct face_work *faces_fluids;                  /* of the path of all fluids, or NULL */
+    struct terms *terms[SCENE_MATERIALS + 2];        /* by model_number + 1; NULL: the scene has no such path */
+    struct operators operators[SCENE_MATERIALS + 2]; /* likewise */
+    void *own[TERMS_MOST];                           /* memory of the terms */
     struct prolong *prolong;
     struct around *around;                    /* or NULL */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
@@ -25,5 +27,8 @@ void work_free(struct work *work); /* NULL is fine */
 
 /* The terms of a path of the scene. */
 const struct terms *work_terms(const struct work *work, const struct model *path);
+
+/* Its operators. */
+const struct operators *work_operators(const struct work *work, const struct model *path);
 
 #endif
