@@ -148,6 +148,37 @@ static const struct key scene_boundary_far[] = {
     {0},
 };
 
+static const struct key scene_boundary_wall[] = {
+    {.name = "temperature",
+     .type = KEYS_VALUE,
+     .unit = "K",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .doc = "Temperature of the wall, in scenes that conduct heat; without it (and `heat-flux`) no heat passes."},
+    {.name = "heat-flux",
+     .type = KEYS_VALUE,
+     .unit = "W/m2",
+     .min = -KEYS_MOST,
+     .max = KEYS_MOST,
+     .doc = "Heat that the wall gives to what is inside, instead of a temperature."},
+    {0},
+};
+
+/* What becomes of heat at a wall. */
+static void scene_boundary_read_wall(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+{
+    const struct keys_value *temperature = keys_at(map, "temperature"), *flux = keys_at(map, "heat-flux");
+    boundary->temperature = scene_state_value(temperature);
+    boundary->heat_flux = scene_state_value(flux);
+    if (!temperature->node && !flux->node) return;
+    const struct keys_value *last = flux->node ? flux : temperature;
+    if (temperature->node && flux->node)
+        keys_error(&draft->keys, flux, "a wall has a temperature or gives a flux of heat, not both");
+    if (scene_material_conducts(draft)) return;
+    keys_error(&draft->keys, last, "no material conducts heat, so the wall gives none");
+    diag_help(draft->keys.diag, "give a material its 'conductivity: 0.607 W/m/K', or leave this out");
+}
+
 static void scene_boundary_read_far(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     (void)draft;
@@ -191,8 +222,8 @@ static const char scene_boundary_state_rules[] =
     "{'required': ['density', 'pressure', 'velocity'], 'properties': {'temperature': false}, "
     "'anyOf': [{'required': ['material']}, {'required': ['fractions']}]}";
 
-/* A wall may slide along itself. */
-static const struct key scene_boundary_wall[] = {
+/* One that fluids stick to may slide along itself. */
+static const struct key scene_boundary_sticky[] = {
     {.name = "velocity",
      .type = KEYS_VALUE,
      .many = KEYS_LIST,
@@ -201,9 +232,12 @@ static const struct key scene_boundary_wall[] = {
     {0},
 };
 
-static void scene_boundary_read_wall(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+static const struct keys_section scene_boundary_any_wall = {.name = "wall", .keys = scene_boundary_wall};
+
+static void scene_boundary_read_sticky(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     const struct keys_value *velocity = keys_at(map, "velocity");
+    scene_boundary_read_wall(draft, boundary, map);
     if (!velocity->given) return;
     scene_state_vector(draft, velocity, boundary->velocity);
     boundary->moves = true;
@@ -217,8 +251,10 @@ struct scene_boundary_row {
 
 /* What may be written beside the type, and who reads it. */
 #define SCENE_BOUNDARY_NOTHING .read = NULL
-#define SCENE_BOUNDARY_FAR .section.keys = scene_boundary_far, .read = scene_boundary_read_far
 #define SCENE_BOUNDARY_WALL .section.keys = scene_boundary_wall, .read = scene_boundary_read_wall
+#define SCENE_BOUNDARY_FAR .section.keys = scene_boundary_far, .read = scene_boundary_read_far
+#define SCENE_BOUNDARY_STICKY \
+    .section.keys = scene_boundary_sticky, .section.base = &scene_boundary_any_wall, .read = scene_boundary_read_sticky
 #define SCENE_BOUNDARY_STATE \
     .section.keys = scene_state_rows, .section.rules = scene_boundary_state_rules, .read = scene_boundary_read_state
 #define SCENE_BOUNDARY_WAVE                                                                                        \
@@ -251,6 +287,12 @@ bool scene_boundary_is(const struct scene *scene, int face, unsigned traits)
     unsigned has = scene_boundary_types[boundary->type].traits;
     if (boundary->moves) has &= ~(unsigned)SCENE_BOUNDARY_RESTS;
     return (has & traits) == traits;
+}
+
+bool scene_boundary_is_heated(const struct scene *scene, int face)
+{
+    const struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
+    return boundary->temperature.given || boundary->heat_flux.given;
 }
 
 const char *scene_boundary_name(enum scene_boundary_type type)
