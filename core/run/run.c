@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/system.h"
 #include "base/text.h"
 #include "cli/human.h"
 #include "cli/scenes.h"
@@ -111,7 +112,7 @@ static int run_interruption(struct run *run)
     if (wish[2] > 0.0 && wish[0] == RUN_GO) record_rescue(run->record, run->state); /* an end saves the state itself */
     if (wish[0] == RUN_GO) return 0;
     if (wish[0] == RUN_CLOCK) run_because(run, "interrupted by %s", "walltime");
-    else run_because(run, "interrupted by SIG%s", sigabbrev_np((int)wish[0] - RUN_SIGNAL));
+    else run_because(run, "interrupted by SIG%s", system_signal_name((int)wish[0] - RUN_SIGNAL));
     return STATUS_STOPPED;
 }
 
@@ -243,8 +244,8 @@ static void run_dump(const struct run *run)
 /* The loop, and what ends it. */
 static int run_until_end(struct run *run)
 {
-    progress_begin(&run->progress, run->scene->name, run->scene->output.directory);
     run->progress.share = run->state->t / run->scene->run.until;
+    progress_begin(&run->progress, run->scene->name, run->scene->output.directory);
     int code = run_loop(run);
     progress_clear(&run->progress);
     if (code == STATUS_RUN) {

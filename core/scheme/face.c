@@ -94,11 +94,13 @@ struct face_work *face_new(const struct model *model)
     work->energy = work->momentum + model->n_velocity * FACE_ROOM;
     work->u = work->energy + FACE_ROOM;
     work->stretch = model->n_stretch ? face_row(model->n_stretch) : NULL;
+    work->strains = model->n_strain ? face_row(model->n_strain) : NULL;
     work->solid = model->n_stretch && model->n_alpha ? face_row(1) : NULL;
     work->heat_below = model->conducts && model->n_alpha ? face_row(2 * model->n_alpha) : NULL;
     work->heat_above = work->heat_below ? work->heat_below + model->n_alpha * FACE_ROOM : NULL;
     work->carried = face_row(2 * model->n_alpha);
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
+    for (int side = 0; side < 2 && model->forced; side++) work->rise[side] = face_row(1);
     face_split(model, work->alpha, own->flux_alpha, own->flux_m, own->flux_u);
     face_split(model, own->robust, own->robust_alpha, own->robust_m, own->robust_u);
     face_slide(work, model);
@@ -131,7 +133,10 @@ void face_free(struct face_work *work)
                       own->origin,
                       own->strain,
                       work->stretch,
-                      work->solid};
+                      work->strains,
+                      work->solid,
+                      work->rise[0],
+                      work->rise[1]};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) mem_free(rows[i]);
     edges_free(own->edges);
     face_stress_free(own->stress);
@@ -338,6 +343,7 @@ static void face_drag(struct face_work *work, size_t right)
     for (unsigned s = 0; s < model->n_solid; s++)
         row_add(n, work->m + model->solids[s].material * FACE_ROOM, own->term);
     face_stress_carry(model, n, right, own->state, own->term, work->stretch);
+    if (work->strains) face_stress_age(model, n, right, own->state, work->m, work->strains);
 }
 
 /* Mean of the two sides, added up. */
@@ -378,12 +384,19 @@ static void face_transport(struct face_work *work, size_t right)
                    work->carried + l * FACE_ROOM, work->strained + l * FACE_ROOM);
 }
 
+void face_begin(struct face_work *work, const struct frame *frame)
+{
+    for (int side = 0; side < 2; side++)
+        if (work->rise[side]) memset(work->rise[side], 0, frame->count * sizeof(double));
+}
+
 void face_solve(struct face_work *work, const struct frame *frame, bool masked)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
     size_t cells = frame_edged(frame);
-    edges_fill(own->edges, model, frame, work->frame, masked ? work->mask : NULL, own->state);
+    const struct edges_cells in = {work->frame, masked ? work->mask : NULL, {work->rise[0], work->rise[1]}};
+    edges_fill(own->edges, model, frame, &in, own->state);
     face_complete(work, frame, 2 * cells, masked);
     face_point(work, frame, cells);
     model->riemann->solve(model->riemann_self, &work->faces);

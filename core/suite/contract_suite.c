@@ -3,6 +3,8 @@
 
 #include "suite/contract_constitutive.h"
 #include "suite/contract_eos.h"
+#include "suite/contract_conductivity.h"
+#include "suite/contract_inelastic.h"
 #include "suite/contract_limiter.h"
 #include "suite/contract_reconstruction.h"
 #include "suite/contract_riemann.h"
@@ -15,8 +17,10 @@ static const struct {
     const char *kind;
     void (*run)(struct contract *contract);
     void (*probe)(const struct contract *contract, double out[static CONTRACT_PROBE]);
-} contract_suite_table[] = {{"constitutive", contract_constitutive_run, contract_constitutive_probe},
+} contract_suite_table[] = {{"conductivity", contract_conductivity_run, contract_conductivity_probe},
+                            {"constitutive", contract_constitutive_run, contract_constitutive_probe},
                             {"eos", contract_eos_run, contract_eos_probe},
+                            {"inelastic", contract_inelastic_run, contract_inelastic_probe},
                             {"limiter", contract_limiter_run, contract_limiter_probe},
                             {"reconstruction", contract_reconstruction_run, contract_reconstruction_probe},
                             {"riemann", contract_riemann_run, contract_riemann_probe},
