@@ -134,6 +134,15 @@ static void model_solids(struct model *model)
     model->elastic = model->n_solid > 0;
 }
 
+/* Does the scene have an acceleration along an axis of the mesh? */
+static bool model_is_forced(const struct scene *scene)
+{
+    bool any = false;
+    for (int d = 0; scene->sources && d < scene->domain.dim; d++)
+        any = any || scene->sources->value[SCENE_SOURCE_ACCELERATION + d].given;
+    return any;
+}
+
 /* The fluids alone, if they stand together: they need neither the stretch nor the solids' components. */
 static struct model *model_liquefy(const struct model *model)
 {
@@ -180,6 +189,7 @@ struct model *model_new(const struct scene *scene)
     model->n_field = model->i_V + model->n_stretch;
     model->split = model->dim == 1 && model->elastic && model->n_alpha > 0;
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
+    model->forced = model_is_forced(scene);
     model->linear = true;
     for (unsigned l = 0; l < model->n_material; l++) {
         const struct instance *instance = &scene->material[l].eos;

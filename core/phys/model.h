@@ -70,6 +70,7 @@ struct model {
     bool kapila, linear;  /* linear: every law is linear in p, closed-form mixture pressure */
     bool thermal;         /* materials of a cell exchange volume in full: temperatures are meant (scheme/exchange.h) */
     bool conducts;        /* some material of the scene conducts heat (scheme/conduction.h) */
+    bool forced;          /* forces act at faces, and pressure is reconstructed relative to them (scheme/face.h) */
     bool split;           /* the materials of a cell share their normal traction, not their pressure (traction.h) */
     struct model_eos eos[SCENE_MATERIALS];
     struct model_conductivity conductivity[SCENE_MATERIALS];

@@ -15,6 +15,7 @@
 #include "phys/elastic.h"
 #include "phys/mix.h"
 #include "scheme/bound_layer.h"
+#include "scheme/source_weight.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -124,23 +125,8 @@ static size_t bound_fill_face_cell(const struct frame *frame, size_t c)
 /* Centre of the boundary face of point c of a row. */
 static void bound_fill_position(const struct bound_fill *fill, size_t c, double ret_x[3])
 {
-    const struct mesh *mesh = fill->bound->mesh;
     const struct level *level = fill->bound->level;
-    const struct frame *frame = fill->frame;
-    size_t o = frame->outer_from + c / frame->inner, i = frame->inner_from + c % frame->inner;
-    size_t below = 1, at[3];
-    mesh_corner(mesh, level, &level->tiles[level->first + fill->local], ret_x);
-    for (int d = 0; d < 3; d++) {
-        if (d == frame->axis) {
-            below = 1;
-            continue;
-        }
-        size_t index = d < frame->axis ? i : o;
-        at[d] = index / below % (size_t)mesh->n[d];
-        below *= (size_t)mesh->n[d];
-        ret_x[d] += d < mesh->dim ? ((double)at[d] + 0.5) * level->h[d] : 0.0;
-    }
-    ret_x[frame->axis] = fill->side ? mesh->upper[frame->axis] : mesh->lower[frame->axis];
+    frame_place(fill->frame, fill->bound->mesh, level, &level->tiles[level->first + fill->local], fill->side, c, ret_x);
 }
 
 /* Keeps the first failure: of which value, at which point, beside which cell of the tile. */
@@ -292,8 +278,20 @@ static void bound_fill_state(const struct bound_fill *fill)
 static void (*const bound_fill_ways[])(const struct bound_fill *fill) = {SCENE_BOUNDARY_TABLE(BOUND_FILL_WAY)};
 _Static_assert(sizeof bound_fill_ways / sizeof *bound_fill_ways == SCENE_BOUNDARY_TYPES, "a way for each type");
 
+/* Pressure holds the forces behind a boundary, too. */
+static void bound_fill_hold(const struct bound_fill *fill)
+{
+    struct bound *bound = fill->bound;
+    const struct level *level = bound->level;
+    const struct source_value_place place = {level, &level->tiles[level->first + fill->local], bound->t,
+                                             fill->frame->axis};
+    bound->sources->path = bound->model;
+    source_weight_continue(bound->sources, &place, fill->frame, fill->side, fill->pitch, fill->w);
+}
+
 void bound_fill(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w)
 {
     const struct bound_fill fill = {data, local, frame, side, pitch, w};
     bound_fill_ways[bound_fill_boundary(&fill)->type](&fill);
+    if (fill.bound->sources) bound_fill_hold(&fill);
 }
