@@ -91,9 +91,29 @@ static bool scene_field_is_solid(const char *name)
 {
     for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++)
         if (strcmp(scene_field_solid[i].name, name) == 0) return true;
+    return false;
+}
+
+static bool scene_field_is_plastic(const char *name)
+{
     for (unsigned i = 0; i < SCENE_FIELD_PLASTIC; i++)
         if (strcmp(scene_field_plastic[i].name, name) == 0) return true;
     return false;
+}
+
+/* A field of strengths in a scene that has none, or none that knows strains. */
+static bool scene_field_miss_strength(struct draft *draft, const struct keys_value *value)
+{
+    if (!scene_field_is_plastic(value->text)) return false;
+    if (scene_material_strength(draft) == 0) {
+        keys_error(&draft->keys, value,
+                   "'%s' is a field of solids with a strength, and no material has a 'plastic' law", value->text);
+    } else {
+        keys_error(&draft->keys, value, "no strength here looks at plastic strain, so there is no field '%s'",
+                   value->text);
+        diag_help(draft->keys.diag, "'strain: always' in a von-mises law keeps it all the same");
+    }
+    return true;
 }
 
 bool scene_field_is_vector(const char *name)
@@ -212,6 +232,7 @@ bool scene_field(struct draft *draft, const struct keys_value *value, char ret_n
         snprintf(ret_name, SCENE_NAME, "%s", value->text);
         return true;
     }
+    if (scene_field_miss_strength(draft, value)) return false;
     if (scene_field_is_solid(value->text)) {
         keys_error(&draft->keys, value, "'%s' is a field of solids, and no material has a 'constitutive' law",
                    value->text);
