@@ -60,6 +60,8 @@ struct scene_material {
     char name[SCENE_NAME];
     struct instance eos;
     struct instance constitutive; /* of a solid; module NULL: a fluid */
+    struct instance viscosity;    /* module NULL: none */
+    struct instance conductivity; /* of heat; module NULL: none (scheme/conduction.h) */
     double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
 };
 
@@ -132,6 +134,8 @@ enum scene_measure {
     SCENE_ISOSURFACE_MIN,
     SCENE_ISOSURFACE_MAX,
     SCENE_OUTSIDE,
+    SCENE_MIN_BETWEEN,
+    SCENE_MAX_BETWEEN,
     SCENE_VALUE,
 };
 
@@ -143,6 +147,7 @@ struct scene_column {
     int in;                 /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
     struct shape *where;    /* restrict to a region, or NULL */
     int along;              /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
+    unsigned of;            /* min-between, max-between: a column further up */
     const struct script *script; /* value: an expression of other columns */
     char (*uses)[SCENE_NAME];    /* value: its arguments, in order: "t" or columns further up */
     unsigned n_use;
@@ -153,6 +158,22 @@ struct scene_probe {
     double at[SCENE_AXES];
     char (*fields)[SCENE_NAME];
     unsigned n_field;
+};
+
+/* A field that the case makes itself: an expression of other fields, of x, y, z and t. */
+struct scene_formula {
+    char name[SCENE_NAME];
+    char *text;
+    const struct script *script;
+    char (*uses)[SCENE_NAME]; /* its arguments, in order: x, y, z, t or fields of one component */
+    unsigned n_use;
+};
+
+/* What is kept of a field over the run, cell by cell: rows of what a cell keeps, or -1 where nobody asks. A row of a time
+ * goes with that of its value. */
+struct scene_peak {
+    char field[SCENE_NAME];
+    int most, least, when_most, when_least;
 };
 
 /* Fields over time at places in a row. */
@@ -252,6 +273,7 @@ struct scene_scheme {
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
     enum scene_guard guard;
+    double low_mach; /* least part of a jump of velocity that faces see (scheme/low_mach.h); 1: all of it */
 };
 
 /* Section `run:`. */
@@ -265,6 +287,7 @@ struct scene_run {
 struct scene_output {
     char *directory; /* resolved against the working directory */
     struct scene_every snapshots, history, probes_every, maps_every, checkpoints;
+    bool history_finest;     /* steps of the history are those of the finest level */
     double checkpoints_wall; /* s of wall time between two checkpoints; 0: they do not count */
     int checkpoints_keep;
     char (*snapshot_fields)[SCENE_NAME];
@@ -274,6 +297,11 @@ struct scene_output {
     struct scene_column *columns;
     struct scene_probe *probes;
     struct scene_map *maps;
+    unsigned n_formula;
+    struct scene_formula *formulas;
+    unsigned n_peak, n_kept; /* n_kept: rows that all of them keep */
+    struct scene_peak *peaks;
+    double peaks_from, peaks_until; /* s; both included; infinity: no end */
 };
 
 /* A case, one part per section. */

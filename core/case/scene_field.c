@@ -109,6 +109,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
     unsigned count = SCENE_FIELD_PLAIN, most = count + SCENE_FIELD_SOLID + SCENE_FIELD_EACH * scene->n_material;
+    most += 4 * scene->output.n_peak;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
     memcpy(list, scene_field_plain, sizeof scene_field_plain);
     if (scene_material_solid(draft)) {
@@ -120,6 +121,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
             list[count] = scene_field_by_material[k];
             list[count++].name = tree_print(forest, "%s_%s", scene_field_by_material[k].name, scene->material[i].name);
         }
+    scene_peak_list(draft, list, list + count);
     return list;
 }
 
@@ -190,8 +192,10 @@ const char *scene_field_constant(struct draft *draft, const char *name)
 bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME])
 {
     if (!value->given) return false;
+    if (scene_formula_is(value)) return scene_formula(draft, value, NULL, ret_name);
     const char *const *names = scene_field_names(draft);
-    if (scene_field_in(value->text, names) && strlen(value->text) < SCENE_NAME) {
+    bool known = scene_field_in(value->text, names) || scene_peak_find(draft, value->text, names);
+    if (known && strlen(value->text) < SCENE_NAME) {
         snprintf(ret_name, SCENE_NAME, "%s", value->text);
         return true;
     }

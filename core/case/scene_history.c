@@ -45,6 +45,12 @@ static const struct key scene_history_rows[] = {
      .type = KEYS_TEXT,
      .doc = "Number of cells in which a continuation stands in for the equation of state of a material, traces "
             "excepted."},
+    {.name = "min-between",
+     .type = KEYS_TEXT,
+     .doc = "Least value of a column further up, over all steps since the row before."},
+    {.name = "max-between",
+     .type = KEYS_TEXT,
+     .doc = "Largest value of a column further up, over all steps since the row before."},
     {.name = "value", .type = KEYS_TREE, .doc = "An expression of t, columns further up, and parameters."},
     {.name = "in", .type = KEYS_TEXT, .doc = "Only in this material."},
     {.name = "where", .type = KEYS_SECTION, .section = &scene_shape_keys, .doc = "Only in this region."},
@@ -112,6 +118,14 @@ static const char *scene_history_uses(struct draft *draft, struct scene_column *
     return list;
 }
 
+static const char *scene_history_above(struct draft *draft, const struct scene_column *column)
+{
+    const char *above = "";
+    for (const struct scene_column *at = draft->scene->output.columns; at < column; at++)
+        above = tree_print(draft->keys.forest, "%s%s%s", above, *above ? ", " : "", at->name);
+    return above;
+}
+
 static void scene_history_value(struct draft *draft, struct scene_column *column, const struct keys_value *value)
 {
     if (value->node->kind != TREE_SCALAR || tree_is_null(value->node)) {
@@ -120,10 +134,50 @@ static void scene_history_value(struct draft *draft, struct scene_column *column
     }
     const char *arguments = scene_history_uses(draft, column, value);
     if (!arguments || params_compile(draft->keys.params, value->node, value->path, arguments, &column->script)) return;
-    const char *above = "";
-    for (const struct scene_column *at = draft->scene->output.columns; at < column; at++)
-        above = tree_print(draft->keys.forest, "%s, %s", above, at->name);
-    diag_help(draft->keys.diag, "columns that stand further up can be used: t%s", above);
+    const char *above = scene_history_above(draft, column);
+    diag_help(draft->keys.diag, "columns that stand further up can be used: t%s%s", *above ? ", " : "", above);
+}
+
+static bool scene_history_between(enum scene_measure measure)
+{
+    return measure == SCENE_MIN_BETWEEN || measure == SCENE_MAX_BETWEEN;
+}
+
+/* What stands further up. */
+static void scene_history_suggest(struct draft *draft, const struct scene_column *column, const char *word)
+{
+    const struct scene_column *columns = draft->scene->output.columns;
+    const char **names = mem_new((size_t)(column - columns) + 1, sizeof *names);
+    for (const struct scene_column *at = columns; at < column; at++) names[at - columns] = at->name;
+    if (column > columns) diag_suggest(draft->keys.diag, word, names);
+    mem_free(names);
+}
+
+/* The column whose extremes are wanted. */
+static void scene_history_of(struct draft *draft, struct scene_column *column, const struct keys_value *value)
+{
+    const struct scene_output *output = &draft->scene->output;
+    if (!value->given) return;
+    while (column->of < output->n_column && strcmp(output->columns[column->of].name, value->text) != 0) column->of++;
+    const struct scene_column *of = &output->columns[column->of];
+    if (of >= column) {
+        keys_error(&draft->keys, value, "'%s' is no column further up", value->text);
+        scene_history_suggest(draft, column, value->text);
+    } else if (scene_history_between(of->measure)) {
+        keys_error(&draft->keys, value, "'%s' is itself an extreme between rows", value->text);
+    }
+}
+
+/* An extreme takes its column as it is. */
+static void scene_history_alone(struct draft *draft, const struct keys_map *map, const struct keys_value *measure)
+{
+    static const char *const others[] = {"in", "where", "along"};
+    for (unsigned i = 0; i < sizeof others / sizeof *others; i++) {
+        const struct keys_value *value = keys_at(map, others[i]);
+        if (!value->node) continue;
+        keys_error(&draft->keys, value, "'%s' goes with what is measured, not with extremes of it", others[i]);
+        diag_help(draft->keys.diag, "give it to the column that '%s' names", measure->key->name);
+    }
 }
 
 static void scene_history_measure(struct draft *draft, struct scene_column *column, const struct keys_value *value)
@@ -131,6 +185,8 @@ static void scene_history_measure(struct draft *draft, struct scene_column *colu
     if (scene_history_of_material(column->measure)) column->material = scene_material_index(draft, value);
     else if (column->measure == SCENE_TOTAL) snprintf(column->field, SCENE_NAME, "%s", value->given ? value->text : "");
     else if (column->measure == SCENE_VALUE) scene_history_value(draft, column, value);
+    else if (scene_history_between(column->measure)) scene_history_of(draft, column, value);
+    else if (value->given && scene_formula_is(value)) scene_formula(draft, value, column->name, column->field);
     else scene_field(draft, value, column->field);
 }
 
@@ -154,7 +210,7 @@ static const struct keys_value *scene_history_chosen(struct draft *draft, const 
     diag_help(draft->keys.diag,
               "one of volume, mass, centroid, min, max, mean, integral, plane-integral, total, "
               "penetration, equivalent-radius, jet-speed, isosurface-mean, isosurface-min, isosurface-max, "
-              "value");
+              "outside, min-between, max-between, value");
     return NULL;
 }
 
@@ -191,6 +247,7 @@ static void scene_history_column(struct draft *draft, struct scene_column *colum
     scene_history_along(draft, column, measure, map);
     if (scene_history_of_surface(column->measure) && !in->node)
         keys_error(&draft->keys, measure, "'in' is missing: the material whose surface it is");
+    if (scene_history_between(column->measure)) scene_history_alone(draft, map, measure);
 }
 
 void scene_history(struct draft *draft)

@@ -78,7 +78,7 @@ static void scene_idle_outputs(struct draft *draft)
     const struct keys_map *output = keys_at(draft->root, "output")->map;
     const char *ends = "only its start and its end are written";
     scene_idle_every(draft, keys_at(output, "snapshots")->map, ends);
-    scene_idle_every(draft, keys_at(output, "history")->map, ends);
+    if (!draft->scene->output.history_finest) scene_idle_every(draft, keys_at(output, "history")->map, ends);
     scene_idle_every(draft, keys_at(output, "probes")->map, ends);
     scene_idle_every(draft, keys_at(output, "maps")->map, ends);
     scene_idle_every(draft, keys_at(output, "checkpoints")->map, "it asks for none but that of the end");

@@ -29,6 +29,27 @@ static const struct keys_section scene_material_constitutive = {.name = "constit
                                                                 .selector = "type",
                                                                 .kind = "constitutive"};
 
+static const struct key scene_material_transport[] = {
+    {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "The law."},
+    {0},
+};
+
+static const struct keys_section scene_material_viscosity = {.name = "viscosity",
+                                                             .doc = "A law of viscosity and its numbers.",
+                                                             .keys = scene_material_transport,
+                                                             .selector = "type",
+                                                             .kind = "viscosity",
+                                                             .amount = "newtonian",
+                                                             .amount_key = "mu"};
+
+static const struct keys_section scene_material_conductivity = {.name = "conductivity",
+                                                                .doc = "A law of heat conduction and its numbers.",
+                                                                .keys = scene_material_transport,
+                                                                .selector = "type",
+                                                                .kind = "conductivity",
+                                                                .amount = "constant",
+                                                                .amount_key = "k"};
+
 static const struct key scene_material_rows[] = {
     {.name = "eos",
      .type = KEYS_SECTION,
@@ -39,6 +60,11 @@ static const struct key scene_material_rows[] = {
      .type = KEYS_SECTION,
      .section = &scene_material_constitutive,
      .doc = "The elastic law, which makes the material a solid; its pressure is that of the equation of state."},
+    {.name = "viscosity",
+     .type = KEYS_SECTION,
+     .section = &scene_material_viscosity,
+     .doc = "Viscosity: a number with a unit (`0.89 mPa s`) for a constant one, or a law; without it the material has "
+            "none."},
     {.name = "drag",
      .type = KEYS_NUMBER,
      .unit = "kg/m3/s",
@@ -46,6 +72,11 @@ static const struct key scene_material_rows[] = {
      .fallback = "0",
      .doc = "Resistance k of the material against its motion, as in a porous medium (viscosity over permeability): a "
             "force -alpha k u, whose work is heat."},
+    {.name = "conductivity",
+     .type = KEYS_SECTION,
+     .section = &scene_material_conductivity,
+     .doc = "Conductivity of heat: a number with a unit (`0.607 W/m/K`) for a constant one, or a law; without it the "
+            "material has none. Heat goes from cell to cell, and through interfaces to other materials that conduct."},
     {0},
 };
 
@@ -127,6 +158,8 @@ void scene_material(struct draft *draft)
                        SCENE_NAME / 2);
         scene_material_open(draft, keys_at(entry->map, "eos"), &material->eos);
         scene_material_open(draft, keys_at(entry->map, "constitutive"), &material->constitutive);
+        scene_material_open(draft, keys_at(entry->map, "viscosity"), &material->viscosity);
+        scene_material_open(draft, keys_at(entry->map, "conductivity"), &material->conductivity);
         material->drag = entry->map ? keys_at(entry->map, "drag")->number : 0.0;
     }
 }

@@ -35,6 +35,12 @@ static const struct key scene_output_history_rows[] = {
      .max = KEYS_MOST,
      .fallback = "1 step",
      .doc = "Time, or `N steps`, between two rows of history.csv."},
+    {.name = "steps-of",
+     .type = KEYS_CHOICE,
+     .choices = "coarsest|finest",
+     .fallback = "coarsest",
+     .doc = "Whose steps count, for `N steps` and for extremes between rows: those of the coarsest level, or those of "
+            "the finest one."},
     {.name = "columns",
      .type = KEYS_SECTION,
      .many = KEYS_NAMED,
@@ -133,6 +139,10 @@ static const struct key scene_output_rows[] = {
      .type = KEYS_SECTION,
      .section = &scene_map_list_keys,
      .doc = "Fields along lines and surfaces over time."},
+    {.name = "peaks",
+     .type = KEYS_SECTION,
+     .section = &scene_peak_keys,
+     .doc = "The time that counts for `max_...`, `min_...` and `when_...` fields."},
     {.name = "checkpoints",
      .type = KEYS_SECTION,
      .section = &scene_output_checkpoints,
@@ -200,6 +210,7 @@ void scene_output(struct draft *draft)
                      &scene->output.n_snapshot_field);
     scene->output.snapshot_double = keys_at(snapshots, "precision")->integer == 1;
     scene->output.history = scene_output_every(keys_at(keys_at(output, "history")->map, "every"));
+    scene->output.history_finest = keys_at(keys_at(output, "history")->map, "steps-of")->integer == 1;
     scene_output_probes_read(draft, keys_at(output, "probes")->map);
     scene->output.checkpoints = scene_output_every(keys_at(checkpoints, "every"));
     scene->output.checkpoints_wall = keys_at(checkpoints, "wall")->number;

@@ -1,8 +1,13 @@
-/* history.h - history.csv: `step,t,dt,<columns>` and what the guard did so far, one row per call.
+/* history.h - history.csv: `step,t,dt,<columns>` and what the guard did so far.
  *
  * The columns are those of the case (measure.h); after them stand guard_fallback, guard_relaxed,
  * guard_clipped, guard_retries: totals since the start (state.h). `value` columns are scripts of
- * t and columns before them. Rows are the same on any number of ranks. */
+ * t and columns before them; `min-between` and `max-between` are extremes over all looks since the row before. Rows are
+ * the same on any number of ranks.
+ *
+ * Moments inside a step of level 0 (state.h, `look`) have rows too, if the caller wants them: with the number of the
+ * step under way. They are kept in memory until the step is whole, so that the table has no rows that a run taken up
+ * again would not know of, and a failure to write is that of a whole step. */
 #ifndef HISTORY_H
 #define HISTORY_H
 
@@ -22,8 +27,17 @@ void history_free(struct history *history); /* NULL is fine */
 int history_keep(struct history *history, struct notes *notes);
 int history_recall(struct history *history, const struct notes *notes, const char *origin);
 
+/* Takes note of extremes at the present moment, without a row of its own. */
+int history_look(struct history *history, const struct state *state, struct derive_moment *moment);
+
+/* Do any columns want looks between rows? */
+bool history_looks(const struct history *history);
+
 /* Appends the row of the present state, unless this step was the last written. A `value` that
  * cannot be computed (0/0, a column that is NaN) is NaN; one that does not end is STATUS_RUN. */
 int history_write(struct history *history, const struct state *state, struct derive_moment *moment);
+
+/* Writes rows that are still in memory: of a step that will not become whole. */
+int history_flush(struct history *history);
 
 #endif

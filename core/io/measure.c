@@ -1,6 +1,7 @@
 /* measure.c - see measure.h. One pass over the tiles serves all columns: volumes once per tile,
  * each derived field once per tile, then every column adds its sums or extremes. Cells under finer tiles
- * weigh nothing; tiles without a leaf are passed over. */
+ * weigh nothing; tiles without a leaf are passed over. Inside a step of level 0 only the levels that have gone on
+ * since the last look are passed over again: a look at the finest level costs what that level costs. */
 #include "io/measure.h"
 
 #include "base/comm.h"
@@ -24,6 +25,7 @@ struct measure_column {
     struct region *where; /* or NULL */
     int field;            /* in `fields`, or -1 */
     int axis;
+    bool wanted;
     double start[2]; /* penetration: where the material ended at the start, and which way it lay from there, 1 or -1 */
 };
 
@@ -32,6 +34,7 @@ struct measures {
     struct measure_column *columns;
     unsigned n_field;
     struct derive *fields;
+    int base; /* the least that moments had since and at the last look: levels below have not gone on */
     /* the tile at hand */
     const struct state *state;
     const struct level *level;
@@ -43,8 +46,8 @@ struct measures {
     double **derived;                      /* [n_field][3 n_cell], the magnitude first */
     bool *is_derived;
     size_t n_tile;    /* local tiles that `sums` has room for */
-    double *sums;     /* [n_tile][n][MEASURE_SLOTS] */
-    double *extremes; /* [n][MEASURE_SLOTS]: largest of the values, of their negatives */
+    double *sums;     /* [n_tile][n][MEASURE_SLOTS], level by level */
+    double *extremes; /* [MESH_LEVELS][n][MEASURE_SLOTS]: largest of the values, of their negatives */
 };
 
 static bool measure_wants_field(enum scene_measure measure)
@@ -95,7 +98,7 @@ int measure_new(const struct state *state, struct measures **ret_measures)
     measures->work = mem_new(n_cell, sizeof(double));
     measures->leaves = mem_new(n_cell, sizeof(double));
     for (size_t i = 0; i < n_cell; i++) measures->ones[i] = 1.0;
-    measures->extremes = mem_new((size_t)n * MEASURE_SLOTS, sizeof(double));
+    measures->extremes = mem_new((size_t)MESH_LEVELS * n * MEASURE_SLOTS, sizeof(double));
     int code = STATUS_OK;
     for (unsigned i = 0; !code && i < n; i++) code = measure_prepare_column(measures, state, i);
     measures->derived = mem_new(measures->n_field, sizeof *measures->derived);
@@ -320,6 +323,11 @@ static void measure_extreme(struct measures *measures, const struct measure_colu
     tally_extremes(measures->state->mesh->n_cell, values, cover, alpha, extremes);
 }
 
+static double *measure_level_extremes(const struct measures *measures, int l)
+{
+    return measures->extremes + (size_t)l * measures->n * MEASURE_SLOTS;
+}
+
 static void measure_tile(struct measures *measures, double *sums)
 {
     const struct mesh *mesh = measures->state->mesh;
@@ -330,9 +338,11 @@ static void measure_tile(struct measures *measures, double *sums)
     metric_volumes(mesh, measures->level, tile, measures->volume);
     measures->partial = tile->covered != 0;
     if (measures->partial) mesh_leaves(mesh, tile, measures->leaves);
+    double *extremes = measure_level_extremes(measures, measures->l);
     for (unsigned i = 0; i < measures->n; i++) {
+        if (!measures->columns[i].wanted) continue;
         measure_sum(measures, &measures->columns[i], sums + i * MEASURE_SLOTS);
-        measure_extreme(measures, &measures->columns[i], measures->extremes + i * MEASURE_SLOTS);
+        measure_extreme(measures, &measures->columns[i], extremes + i * MEASURE_SLOTS);
     }
 }
 
@@ -372,42 +382,96 @@ static double measure_result(struct measures *measures, const struct measure_col
     case SCENE_ISOSURFACE_MAX:
         surface_extremes(state, (unsigned)from->in, field, column->where, ends);
         return ends[from->measure == SCENE_ISOSURFACE_MAX];
+    case SCENE_MIN_BETWEEN:
+    case SCENE_MAX_BETWEEN:
     case SCENE_VALUE: return NAN;
     default: return sums[0];
     }
 }
 
-/* Makes room for the tiles of this moment, and brings everything up to date that hangs on them. */
-static void measure_begin(struct measures *measures, const struct state *state, struct derive_moment *moment)
+/* Which columns count; were they others before? */
+static bool measure_choose(struct measures *measures, const bool *wanted)
 {
-    size_t tiles = tally_tiles(state->mesh) + 1, row = measures->n * MEASURE_SLOTS;
+    bool changed = false;
+    for (unsigned i = 0; i < measures->n; i++) {
+        bool want = !wanted || wanted[i];
+        changed = changed || want != measures->columns[i].wanted;
+        measures->columns[i].wanted = want;
+    }
+    return changed;
+}
+
+/* Brings what the fields of the columns hang on; has a value that all cells see changed? */
+static bool measure_prepare_fields(struct measures *measures, struct derive_moment *moment)
+{
+    bool changed = false;
+    for (unsigned f = 0; f < measures->n_field; f++) {
+        bool want = false;
+        for (unsigned i = 0; i < measures->n; i++)
+            want = want || (measures->columns[i].wanted && measures->columns[i].field == (int)f);
+        double before = measures->fields[f].scale;
+        if (want) derive_prepare(moment, &measures->fields[f]);
+        changed = changed || measures->fields[f].scale != before;
+    }
+    return changed;
+}
+
+/* Makes room for the tiles of this moment, and brings everything up to date that hangs on them; returns the coarsest
+ * level whose sums are not those of the last look. */
+static int measure_begin(struct measures *measures, const struct state *state, struct derive_moment *moment,
+                         const bool *wanted)
+{
+    size_t tiles = tally_tiles(state->mesh) + 1, row = (size_t)measures->n * MEASURE_SLOTS;
     measures->state = state;
     if (tiles > measures->n_tile) {
-        mem_free(measures->sums);
-        measures->sums = mem_new(tiles * row, sizeof *measures->sums);
+        measures->sums = mem_grow(measures->sums, measures->n_tile * row, tiles * row, sizeof *measures->sums);
         measures->n_tile = tiles;
     }
-    for (size_t i = 0; i < row; i++) measures->extremes[i] = -INFINITY;
+    bool changed = measure_choose(measures, wanted);
     for (unsigned i = 0; i < measures->n; i++) region_follow(measures->columns[i].where, state->mesh);
-    for (unsigned i = 0; i < measures->n_field; i++) derive_prepare(moment, &measures->fields[i]);
+    if (measure_prepare_fields(measures, moment)) changed = true;
+    int from = changed ? 0 : moment->base < measures->base ? moment->base : measures->base;
+    double *extremes = measure_level_extremes(measures, 0);
+    for (size_t i = (size_t)from * row; i < MESH_LEVELS * row; i++) extremes[i] = -INFINITY;
+    measures->base = moment->base;
+    return from;
+}
+
+void measure_pass(struct measures *measures, int base)
+{
+    if (base < measures->base) measures->base = base;
+}
+
+/* The extremes of all levels and ranks, in the place of level 0's in `ret`. */
+static void measure_join_extremes(const struct measures *measures, unsigned slots, double *ret)
+{
+    memcpy(ret, measures->extremes, slots * sizeof *ret);
+    for (int l = 1; l < measures->state->mesh->n_level; l++)
+        for (unsigned i = 0; i < slots; i++) {
+            double other = measure_level_extremes(measures, l)[i];
+            ret[i] = other > ret[i] ? other : ret[i];
+        }
+    comm_max(ret, (int)slots);
 }
 
 void measure_take(struct measures *measures, const struct state *state, struct derive_moment *moment,
-                  double *ret_values)
+                  const bool *wanted, double *ret_values)
 {
     const struct mesh *mesh = state->mesh;
     unsigned slots = measures->n * MEASURE_SLOTS;
-    measure_begin(measures, state, moment);
-    double *totals = mem_new(slots, sizeof *totals), *sums = measures->sums;
+    int from = measure_begin(measures, state, moment, wanted);
+    double *totals = mem_new(2 * slots, sizeof *totals), *extremes = totals + slots, *sums = measures->sums;
     for (measures->l = 0; measures->l < mesh->n_level; measures->l++) {
         measures->level = &mesh->levels[measures->l];
         for (measures->local = 0; measures->local < measures->level->n_local; measures->local++, sums += slots)
-            measure_tile(measures, sums);
+            if (measures->l >= from) measure_tile(measures, sums);
     }
     tally_add(mesh, slots, measures->sums, totals);
-    comm_max(measures->extremes, (int)slots);
-    for (unsigned i = 0; i < measures->n; i++)
-        ret_values[i] = measure_result(measures, &measures->columns[i], totals + i * MEASURE_SLOTS,
-                                       measures->extremes + i * MEASURE_SLOTS);
+    measure_join_extremes(measures, slots, extremes);
+    for (unsigned i = 0; i < measures->n; i++) {
+        const struct measure_column *column = &measures->columns[i];
+        unsigned at = i * MEASURE_SLOTS;
+        ret_values[i] = column->wanted ? measure_result(measures, column, totals + at, extremes + at) : NAN;
+    }
     mem_free(totals);
 }

@@ -17,6 +17,7 @@
  *   jet-speed           velocity along `along` of largest magnitude, with its sign, over the cells
  *                       with a >= 0.5 (b, f likewise)
  *   outside             number of cells with b f > 0 where outside_count finds the material's law left
+ *   min-between, max-between, value   not measured: history.c
  *   isosurface-mean     surface_mean of q on b = 0.5
  *   isosurface-min, isosurface-max   surface_extremes of it
  * Cells in which q says nothing (derive_material) take no part in means and extremes.
@@ -40,8 +41,14 @@ void measure_free(struct measures *measures); /* NULL is fine */
 void measure_keep(const struct measures *measures, struct notes *notes);
 void measure_recall(struct measures *measures, const struct notes *notes);
 
-/* One number per column of the scene, NaN for `value` columns; equal on all ranks. Collective. */
+/* One number per column of the scene, NaN for columns that are not measured; equal on all ranks. Only columns with
+ * `wanted` (NULL: all) are looked at, the others are NaN too. At a moment inside a step of level 0 (moment->base above
+ * 0) levels below the base count as they stand at the end of their own steps; what they add up to is kept from look to
+ * look. Collective. */
 void measure_take(struct measures *measures, const struct state *state, struct derive_moment *moment,
-                  double *ret_values);
+                  const bool *wanted, double *ret_values);
+
+/* Instead of a look: the levels from `base` on have gone on. */
+void measure_pass(struct measures *measures, int base);
 
 #endif

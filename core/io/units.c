@@ -29,6 +29,12 @@ static const char *units_total(const char *quantity, int extent)
     return strcmp(quantity, "energy") == 0 ? units_integral("J/m3", extent) : momenta[extent];
 }
 
+const struct scene_column *units_source(const struct scene *scene, const struct scene_column *column)
+{
+    bool between = column->measure == SCENE_MIN_BETWEEN || column->measure == SCENE_MAX_BETWEEN;
+    return between ? &scene->output.columns[column->of] : column;
+}
+
 const char *units_of(const struct scene *scene, const struct scene_column *column, const char *of_field)
 {
     int plane = scene->domain.dim - 1, extent = scene->domain.geometry == SCENE_CARTESIAN ? plane : 2;
@@ -49,6 +55,8 @@ const char *units_of(const struct scene *scene, const struct scene_column *colum
     case SCENE_PLANE_INTEGRAL: return units_integral(of_field, plane);
     case SCENE_TOTAL: return units_total(column->field, extent);
     case SCENE_OUTSIDE: return "1";
+    case SCENE_MIN_BETWEEN:
+    case SCENE_MAX_BETWEEN:
     case SCENE_VALUE: return "";
     }
     return "";
@@ -60,11 +68,12 @@ static int units_history(const struct state *state, struct text *text)
     const struct scene *scene = state->scene;
     text_add(text, "history.csv,step,1\nhistory.csv,t,s\nhistory.csv,dt,s\n");
     for (unsigned i = 0; i < scene->output.n_column; i++) {
-        const struct scene_column *column = &scene->output.columns[i];
+        const char *name = scene->output.columns[i].name;
+        const struct scene_column *column = units_source(scene, &scene->output.columns[i]);
         struct derive field = {.unit = ""};
         bool total = column->measure == SCENE_TOTAL; /* of a conserved quantity, which is no field */
         if (column->field[0] && !total) TRY(derive_find(state->model, column->field, &field));
-        text_add(text, "history.csv,%s,%s\n", column->name, units_of(scene, column, field.unit));
+        text_add(text, "history.csv,%s,%s\n", name, units_of(scene, column, field.unit));
     }
     for (unsigned i = 0; i < sizeof guard / sizeof *guard; i++) text_add(text, "history.csv,guard_%s,1\n", guard[i]);
     return STATUS_OK;

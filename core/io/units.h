@@ -12,6 +12,9 @@
 #include "base/text.h"
 #include "solve/state.h"
 
+/* The column that says what the numbers of a column are: itself, or the one whose extremes it has. */
+const struct scene_column *units_source(const struct scene *scene, const struct scene_column *column);
+
 /* Unit of a measure of the history whose field has the unit `of_field` ("" or NULL: not known); "" if it is not known.
  * A static text. */
 const char *units_of(const struct scene *scene, const struct scene_column *column, const char *of_field);

@@ -101,6 +101,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     narrow->n_solid = narrow->n_active = 0;
     for (unsigned l = 0; l < n; l++) {
         narrow->eos[l] = model->eos[first + l];
+        narrow->conductivity[l] = model->conductivity[first + l];
         narrow->linear = narrow->linear && narrow->eos[l].law->linear;
     }
     for (unsigned s = 0; s < model->n_solid; s++) {
@@ -163,6 +164,21 @@ static struct model *model_liquefy(const struct model *model)
     return model_narrow(model, from, n);
 }
 
+/* Laws of conduction; a constant of 0 is none. */
+static void model_conduct(struct model *model)
+{
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const struct instance *instance = &model->scene->material[l].conductivity;
+        if (!instance->module) continue;
+        const struct bulla_conductivity *table = instance->module->table;
+        struct model_conductivity law = {.law = &table->k, .self = instance->self};
+        if (!table->k.needs) table->k.value(law.self, 1, NULL, NULL, NULL, NULL, &law.k);
+        if (!table->k.needs && law.k == 0.0) continue;
+        model->conductivity[l] = law;
+        model->conducts = true;
+    }
+}
+
 struct model *model_new(const struct scene *scene)
 {
     struct model *model = mem_new(1, sizeof *model);
@@ -197,8 +213,9 @@ struct model *model_new(const struct scene *scene)
         eos->rho_most = range.rho_max > eos->rho_fill ? range.rho_max : eos->rho_fill;
         if (!eos->law->linear) model->linear = false;
     }
-    model->thermal =
-        scene->scheme.exchange == SCENE_EXCHANGE_AUTO ? !model->linear : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
+    model_conduct(model);
+    model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO ? !model->linear || model->conducts
+                                                                   : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
     model->limiter = (struct model_limiter){scene->scheme.limiter.module->table, scene->scheme.limiter.self};
     model->limiter_alpha =
         (struct model_limiter){scene->scheme.interface_limiter.module->table, scene->scheme.interface_limiter.self};

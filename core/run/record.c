@@ -29,6 +29,8 @@ struct record {
     struct checkpoints *checkpoints;
     struct provenance *provenance;
     struct due snapshot_due, history_due, checkpoint_due;
+    long fine_steps;      /* moments of the finest level so far, where the history counts those */
+    long whole;           /* the step of level 0 counted last */
     struct due_wall late; /* checkpoints by the wall clock; of the rank that looks at it */
 };
 
@@ -50,14 +52,22 @@ static char *record_origin(const char *path)
     return file ? mem_print("%.*s/..", (int)(file - path), path) : mem_text("..");
 }
 
+/* The steps that the history counts. */
+static long record_steps(const struct record *record, const struct state *state)
+{
+    return state->scene->output.history_finest ? record->fine_steps : state->step;
+}
+
 /* Takes up everything as it was when the checkpoint was written. */
 static int record_recall(struct record *record, const struct state *state, const struct resume *from)
 {
     const struct notes *notes = &from->notes;
     char *origin = record_origin(from->path);
     due_recall(&record->snapshot_due, "due.snapshots", notes, state->t, state->step);
-    due_recall(&record->history_due, "due.history", notes, state->t, state->step);
+    due_recall(&record->history_due, "due.history", notes, state->t, record_steps(record, state));
     due_written(&record->checkpoint_due, state->t, state->step);
+    double fine_steps = 0.0;
+    if (notes_get(notes, "history.fine_steps", 1, &fine_steps)) record->fine_steps = (long)fine_steps;
     snapshot_recall(record->snapshots, notes);
     int code = history_recall(record->history, notes, origin);
     if (!code) code = probes_recall(record->probes, notes, origin);
@@ -74,6 +84,7 @@ int record_open(const struct state *state, int argc, char *const *argv, const st
     due_init(&record->snapshot_due, state->scene->output.snapshots);
     due_init(&record->history_due, state->scene->output.history);
     due_init(&record->checkpoint_due, state->scene->output.checkpoints);
+    record->whole = state->step;
     due_written(&record->checkpoint_due, state->t, state->step); /* the start can be had again */
     int code = record_open_files(record, state, argc, argv);
     if (!code && from) code = record_recall(record, state, from);
@@ -106,11 +117,39 @@ static int record_due_snapshot(struct record *record, const struct state *state,
     return 0;
 }
 
-static int record_due_row(struct record *record, const struct state *state, struct derive_moment *moment)
+static bool record_row_is_due(const struct record *record, const struct state *state)
 {
+    return due_now(&record->history_due, state->t, record_steps(record, state));
+}
+
+/* A row of the history, or a look between two. */
+static int record_history(struct record *record, const struct state *state, struct derive_moment *moment)
+{
+    if (!record_row_is_due(record, state)) return history_look(record->history, state, moment);
     TRY(history_write(record->history, state, moment));
-    due_written(&record->history_due, state->t, state->step);
+    due_written(&record->history_due, state->t, record_steps(record, state));
     return 0;
+}
+
+/* At a moment inside a step of level 0. Rows by time come at the ends of steps, which are cut to hit them. */
+static int record_look(void *data, const struct state *state, int base)
+{
+    struct record *record = data;
+    double begin = cost_cpu();
+    struct derive_moment moment = derive_moment(state->model, state->mesh, state->t);
+    moment.base = base;
+    record->fine_steps++;
+    int code = state->scene->output.history.steps > 0 ? record_history(record, state, &moment)
+                                                      : history_look(record->history, state, &moment);
+    provenance_output(record->provenance, cost_cpu() - begin);
+    return code;
+}
+
+void record_follow(struct record *record, struct state *state)
+{
+    if (!state->scene->output.history_finest) return;
+    state->look = record_look;
+    state->look_data = record;
 }
 
 /* What outputs need to go on as if nothing had happened. */
@@ -118,6 +157,7 @@ static int record_note(const struct record *record, const struct state *state, s
 {
     due_keep(&record->snapshot_due, "due.snapshots", notes);
     due_keep(&record->history_due, "due.history", notes);
+    notes_put_one(notes, "history.fine_steps", (double)record->fine_steps);
     snapshot_keep(record->snapshots, notes);
     provenance_keep(record->provenance, state, notes);
     TRY(history_keep(record->history, notes));
@@ -179,7 +219,7 @@ static int record_write_due(struct record *record, const struct state *state)
     struct derive_moment moment = derive_moment(state->model, state->mesh, state->t);
     TRY(probes_record(record->probes, state, &moment));
     TRY(maps_record(record->maps, state, &moment));
-    if (due_now(&record->history_due, state->t, state->step)) TRY(record_due_row(record, state, &moment));
+    TRY(record_history(record, state, &moment));
     if (due_now(&record->snapshot_due, state->t, state->step)) TRY(record_due_snapshot(record, state, &moment));
     if (due_now(&record->checkpoint_due, state->t, state->step)) TRY(record_due_save(record, state));
     return 0;
@@ -188,10 +228,13 @@ static int record_write_due(struct record *record, const struct state *state)
 /* Most steps write nothing and do not even look at the clock. */
 int record_due(struct record *record, const struct state *state)
 {
-    const struct due *const dues[] = {&record->history_due, &record->snapshot_due, &record->checkpoint_due};
-    bool any = record->probes || record->maps;
+    const struct due *const dues[] = {&record->snapshot_due, &record->checkpoint_due};
+    record->fine_steps += state->step != record->whole;
+    record->whole = state->step;
+    bool any = record->probes || record->maps || state->look || history_looks(record->history) ||
+               record_row_is_due(record, state);
     provenance_watch(record->provenance, state);
-    for (int i = 0; i < 3; i++) any = any || due_now(dues[i], state->t, state->step);
+    for (int i = 0; i < 2; i++) any = any || due_now(dues[i], state->t, state->step);
     return any ? record_timed(record, state, record_write_due) : 0;
 }
 
@@ -207,6 +250,8 @@ static int record_write_last(struct record *record, const struct state *state)
     if (state->whole) { /* else levels are at different times: to look at, not to measure */
         TRY(probes_finish(record->probes, state, &moment));
         TRY(history_write(record->history, state, &moment));
+    } else {
+        TRY(history_flush(record->history));
     }
     return record_snapshot(record, state, &moment);
 }

@@ -14,6 +14,10 @@ struct resume;
 int record_open(const struct state *state, int argc, char *const *argv, const struct resume *from,
                 struct record **ret_record);
 
+/* Has the state call back at moments inside a step of level 0, if the case wants the steps of the finest level in its
+ * history. The record must outlive the steps of the state. */
+void record_follow(struct record *record, struct state *state);
+
 /* The next time at which something must be written, or `until`. */
 double record_target(const struct record *record, double t, double until);
 

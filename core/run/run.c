@@ -243,8 +243,8 @@ static void run_dump(const struct run *run)
 /* The loop, and what ends it. */
 static int run_until_end(struct run *run)
 {
-    progress_begin(&run->progress, run->scene->name, run->scene->output.directory);
     run->progress.share = run->state->t / run->scene->run.until;
+    progress_begin(&run->progress, run->scene->name, run->scene->output.directory);
     int code = run_loop(run);
     progress_clear(&run->progress);
     if (code == STATUS_RUN) {
@@ -293,7 +293,9 @@ static int run_files(struct run *run, const struct cli_given *given)
              run->progress.cells);
     if (run->from) log_note("going on from %s: t = %.9g s, step %ld", run->from->path, run->state->t, run->state->step);
     const struct resume *past = run->step_0 > 0 ? run->from : NULL; /* the start has none: its outputs begin anew */
-    return record_open(run->state, given->argc, given->argv, past, &run->record);
+    TRY(record_open(run->state, given->argc, given->argv, past, &run->record));
+    record_follow(run->record, run->state);
+    return STATUS_OK;
 }
 
 /* With a state in memory: the directory, the files, the loop, the expectations. */

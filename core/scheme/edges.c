@@ -5,13 +5,14 @@
  * that does not promise that (bulla/reconstruction.h) is looked at: limited slopes stand in where a fraction would leave
  * 0 to 1, or take more than the cell has, and where anything else overshoots the range of the neighbours by much. Each
  * component for itself: else round-off in a uniform one would limit the others.
- * With three or more materials, or a scheme that is not odd, fractions are scaled to sum 1. Because alpha_l and rho_l
+ * With three or more materials, limiters of two sides, or a scheme that promises nothing, fractions are scaled to sum 1. Because alpha_l and rho_l
  * are reconstructed (not m_l), a contact at uniform p, u and rho_l has face energies linear in alpha: p and u stay
  * uniform to round-off for every law. */
 #include "scheme/edges.h"
 
 #include "base/mem.h"
 #include "phys/row.h"
+#include "plug/vet.h"
 
 #include <string.h>
 
@@ -31,6 +32,7 @@ struct edges_limited {
 struct edges {
     size_t pitch;
     struct edges_limited plain, fraction;
+    bool steep;                    /* do fractions have edges of two sides? */
     double *rows;                  /* all work space */
     double *mark, *spare;          /* where a row needs limited edges; these */
     double *sum;                   /* of fractions at edges */
@@ -95,6 +97,7 @@ struct edges *edges_new(const struct model *model, size_t pitch)
                                   .slope = rows + pitch};
     edges->plain = edges->fraction = plain;
     edges->fraction.limiter = model->limiter_alpha;
+    edges->steep = vet_two_sided(model->limiter_alpha.law);
     return edges;
 }
 
@@ -340,11 +343,12 @@ static void edges_scale(size_t n, unsigned n_alpha, size_t pitch, double *alpha,
     for (unsigned l = 0; l < n_alpha; l++) row_divide(n, sum, alpha + l * pitch);
 }
 
-/* Limited fractions of three or more materials need not sum to 1 (of two they do: limiters are odd). */
+/* Limited fractions of three or more materials need not sum to 1. Of two they do, since slopes are odd and hardly
+ * enlarge round-off; steep functions of both differences enlarge it. */
 static void edges_normalise(const struct edges *edges, const struct model *model, const struct edges_row *row)
 {
-    bool odd = model->scene->n_material < 3 && model->reconstruction->bounded;
-    if (!model->n_alpha || odd) return; /* two of three are scaled as all three would be */
+    bool sum_is_1 = model->scene->n_material < 3 && model->reconstruction->bounded && !edges->steep;
+    if (!model->n_alpha || sum_is_1) return; /* two of three are scaled as all three would be */
     edges_scale(2 * row->cells, model->n_alpha, 2 * edges->pitch, edges_upper(edges, row, model->i_alpha), edges->sum);
 }
 

@@ -9,6 +9,7 @@
 #include "phys/row.h"
 #include "scheme/edges.h"
 #include "scheme/face_stress.h"
+#include "scheme/low_mach.h"
 
 #include <math.h>
 #include <string.h>
@@ -95,6 +96,8 @@ struct face_work *face_new(const struct model *model)
     work->u = work->energy + FACE_ROOM;
     work->stretch = model->n_stretch ? face_row(model->n_stretch) : NULL;
     work->solid = model->n_stretch && model->n_alpha ? face_row(1) : NULL;
+    work->heat_below = model->conducts && model->n_alpha ? face_row(2 * model->n_alpha) : NULL;
+    work->heat_above = work->heat_below ? work->heat_below + model->n_alpha * FACE_ROOM : NULL;
     work->carried = face_row(2 * model->n_alpha);
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
     for (int side = 0; side < 2 && model->forced; side++) work->rise[side] = face_row(1);
@@ -131,6 +134,7 @@ void face_free(struct face_work *work)
                       work->faces.work[2],
                       work->faces.work[3],
                       work->carried,
+                      work->heat_below,
                       own->origin,
                       own->strain,
                       work->stretch,
@@ -226,8 +230,26 @@ static const double *face_pressure(const struct face_work *work, const struct fr
     return own->lagged;
 }
 
+/* Velocities at the faces of a row of cells, before they have an energy; rho c^2 is still that in own->c. */
+static void face_calm(struct face_work *work, const struct frame *frame, const double *rho, bool masked)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    size_t cells = frame_edged(frame);
+    const struct low_mach faces = {.n = cells - frame->inner,
+                                   .right = cells + frame->inner,
+                                   .least = model->scene->scheme.low_mach,
+                                   .rho = rho,
+                                   .rho_c2 = own->c,
+                                   .p = work->frame + model->i_E * FACE_ROOM + frame_reach(frame),
+                                   .mask = masked ? work->mask + frame_reach(frame) : NULL,
+                                   .step = frame->inner,
+                                   .part = own->term};
+    if (faces.least < 1.0) low_mach_draw(&faces, own->state + 2 * (model->i_u + (unsigned)frame->axis) * FACE_ROOM);
+}
+
 /* Partial densities, total energy and fastest speed of n edges. */
-static void face_complete(struct face_work *work, const struct frame *frame, size_t n)
+static void face_complete(struct face_work *work, const struct frame *frame, size_t n, bool masked)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
@@ -250,6 +272,7 @@ static void face_complete(struct face_work *work, const struct frame *frame, siz
         else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
     }
     face_load(work, frame, n, rho);
+    face_calm(work, frame, rho, masked);
     face_finish(n, rho, u[0], u[1], u[2], own->energy, own->c);
 }
 
@@ -400,7 +423,7 @@ void face_solve(struct face_work *work, const struct frame *frame, bool masked)
     size_t cells = frame_edged(frame);
     const struct edges_cells in = {work->frame, masked ? work->mask : NULL, {work->rise[0], work->rise[1]}};
     edges_fill(own->edges, model, frame, &in, own->state);
-    face_complete(work, frame, 2 * cells);
+    face_complete(work, frame, 2 * cells, masked);
     face_point(work, frame, cells);
     model->riemann->solve(model->riemann_self, &work->faces);
     if (masked) face_solve_robust(work, frame, work->faces.n);

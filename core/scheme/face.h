@@ -21,6 +21,9 @@ struct face_work {
     double *carried;                           /* [n_alpha] alpha* u* times the pressure of the side it comes from */
     double *strained;                          /* [n_alpha] alpha* u* times the compression on the way to the face */
     double *stretch; /* [n_stretch] V* F, F the mass flux of all solids, V* of the side it comes from */
+    double *heat_below,
+        *heat_above; /* [n_alpha] heat of each material as the cells above and below the face get and give
+                                        it (conduction.h); NULL unless the scene conducts */
     double *solid;   /* fraction of all solids, mean of the sides (mixtures with a solid) */
     double *slide_left,
         *slide_right; /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */

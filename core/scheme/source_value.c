@@ -80,14 +80,6 @@ void source_value_free(struct source_value *values)
     mem_free(values);
 }
 
-/* Middle of the volume between two radii, by the mean of r with the weight r^beta. */
-static double source_value_centroid(int beta, double a, double b)
-{
-    if (beta == 0) return 0.5 * (a + b);
-    if (beta == 1) return (2.0 / 3.0) * (a * a + a * b + b * b) / (a + b);
-    return 0.75 * (a + b) * (a * a + b * b) / (a * a + a * b + b * b);
-}
-
 /* Position of the lower face of cell `index` of a level. */
 static double source_value_plane(const struct mesh *mesh, const struct level *level, int axis, int index)
 {
@@ -101,8 +93,8 @@ void source_value_places(struct source_value *values, const struct level *level,
     for (int d = 0; d < mesh->dim; d++)
         for (int i = 0; i < mesh->n[d]; i++) {
             int cell = tile->at[d] * mesh->n[d] + i;
-            values->x[d][i] = source_value_centroid(d ? 0 : mesh->beta, source_value_plane(mesh, level, d, cell),
-                                                    source_value_plane(mesh, level, d, cell + 1));
+            values->x[d][i] = metric_centroid(d ? 0 : mesh->beta, source_value_plane(mesh, level, d, cell),
+                                              source_value_plane(mesh, level, d, cell + 1));
         }
 }
 
@@ -173,8 +165,8 @@ static double source_value_middle(const struct source_value *values, const struc
     int cells = place->level->extent[axis] * mesh->n[axis], index = place->tile->at[axis] * mesh->n[axis] + cell;
     if (scene_boundary_is(values->model->scene, 2 * axis, SCENE_BOUNDARY_WRAPS)) index = (index + cells) % cells;
     index = index < 0 ? 0 : index >= cells ? cells - 1 : index;
-    return source_value_centroid(axis ? 0 : mesh->beta, source_value_plane(mesh, place->level, axis, index),
-                                 source_value_plane(mesh, place->level, axis, index + 1));
+    return metric_centroid(axis ? 0 : mesh->beta, source_value_plane(mesh, place->level, axis, index),
+                           source_value_plane(mesh, place->level, axis, index + 1));
 }
 
 double source_value_cell(struct source_value *values, const struct source_value_place *place, const int cell[3])

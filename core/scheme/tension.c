@@ -138,7 +138,7 @@ static size_t tension_apply(const struct term_tile *tile, double *u_new)
     for (unsigned k = 0; k < path->n_pair; k++) {
         const struct model_pair *pair = &path->pairs[k];
         size_t a = (path->i_alpha + pair->inside) * n, b = (path->i_alpha + pair->outside) * n;
-        tension_store(n, pair->sigma, tile->w + pair->i_kappa * n, tile->u + a, tile->u + b, u_new + a, u_new + b,
+        tension_store(n, pair->sigma, kappa + k * n, tile->u + a, tile->u + b, u_new + a, u_new + b,
                       u_new + path->i_E * n);
         memcpy(u_new + pair->i_kappa * n, kappa + k * n, n * sizeof *u_new);
     }

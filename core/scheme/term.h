@@ -44,9 +44,9 @@ struct term_tile {
 
 /* One piece of a tile along one axis. */
 struct term_piece {
-    const struct term_tile *tile;
     const struct terms *terms;
     const struct model *model;
+    const struct term_tile *tile; /* the tile it is a piece of; a replay of a dump knows no neighbours */
     const struct frame *frame;
     struct face_work *faces;
     void *own; /* of the term that is called */

@@ -36,6 +36,7 @@ struct state {
     struct mesh *mesh;
     struct model *model;
     double t, dt;                  /* time reached and the last step's size [s] */
+    double dt_last;                /* size of the step accepted last, of whatever level [s]; 0: none was */
     long step;                     /* steps of level 0 done */
     long level_steps[MESH_LEVELS]; /* steps of each level done: they say when it is time to regrid */
     struct state_counts counts;
@@ -49,6 +50,12 @@ struct state {
     struct work *work;                 /* scratch of this rank */
     double starved;                    /* tiles that a regrid asked for and memory_limit forbids; 0: none */
     long long *tagged;                 /* [n_refine] cells that each criterion has tagged on this rank so far */
+
+    /* Who looks at the moments inside a step of level 0 (NULL: nobody): called whenever the levels from `base` on have
+     * reached t, with that t. Those below `base` stand at the end of the steps that they have under way. Changes
+     * nothing but outputs. Collective. */
+    int (*look)(void *data, const struct state *state, int base);
+    void *look_data;
 };
 
 /* Builds model and mesh of a scene and paints the initial state, with as many levels as it asks for. Collective. */
@@ -61,9 +68,10 @@ struct state_source {
     int n_level;
     unsigned n_tile[MESH_LEVELS];
     struct tile *tiles[MESH_LEVELS]; /* [n_tile] at and unwanted, in Morton order, replicated; copied */
-    /* Fills the conserved fields u[n_field][n_cell] of a tile of a level (its place in the list), and its pressure
-     * p[n_cell], from which iterated closures start. Called for local tiles only. */
-    int (*fill)(void *data, int level, unsigned tile, double *u, double *p);
+    /* Fills the conserved fields u[n_field][n_cell] of a tile of a level (its place in the list), its pressure
+     * p[n_cell], from which iterated closures start, and what outputs keep, kept[n_kept][n_cell] (NULL: nothing). Called
+     * for local tiles only. */
+    int (*fill)(void *data, int level, unsigned tile, double *u, double *p, double *kept);
     void *data;
 };
 

@@ -41,8 +41,10 @@ const char *plot_unit_of(const struct scene *scene, const char *column)
     const char *dot = strchr(column, '.');
     if (dot) return plot_unit_of_field(dot + 1);
     if (strcmp(column, "dt") == 0) return "s";
-    for (unsigned c = 0; scene && c < scene->output.n_column; c++)
+    for (unsigned c = 0; scene && c < scene->output.n_column; c++) {
+        const struct scene_column *source = units_source(scene, &scene->output.columns[c]);
         if (strcmp(scene->output.columns[c].name, column) == 0)
-            return units_of(scene, &scene->output.columns[c], plot_unit_of_field(scene->output.columns[c].field));
+            return units_of(scene, source, plot_unit_of_field(source->field));
+    }
     return "";
 }

@@ -72,7 +72,7 @@ static void test_painted(void **state)
     double values[COUNT], radius = 0.5e-3, volume = 4.0 / 3.0 * M_PI * pow(radius, 3);
     start_case(&small);
     assert_int_equal(measure_new(small.state, &measures), 0);
-    measure_take(measures, small.state, SMALL_NOW(small.state), values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), NULL, values);
     close_to(values[V], volume, 1e-6);
     close_to(values[MASS_AIR], 1.2 * volume, 1e-6);
     close_to(values[RADIUS], radius, 1e-6);
@@ -128,13 +128,13 @@ static void test_massless(void **state)
                            " V: {volume: air}}}}\n");
     small_start(&small, text);
     assert_int_equal(measure_new(small.state, &measures), 0);
-    measure_take(measures, small.state, SMALL_NOW(small.state), before);
+    measure_take(measures, small.state, SMALL_NOW(small.state), NULL, before);
     assert_true(before[0] > 280.0 && before[0] < 300.0 && before[1] < 310.0);
     close_to(before[3], before[0], 0.02); /* not of the zeros in water */
     for (int i = 0; i < 20; i++) put_air(&small, (0.6 + 0.015 * i) * 1e-3, 0.5e-3, 1e-11, 1e-20);
     for (int i = 0; i < 4; i++) put_air(&small, (0.6 + 0.05 * i) * 1e-3, 0.9e-3, 0.97, 1e-11);
     put_air(&small, 0.7e-3, 0.1e-3, 1e-4, 1e-2);
-    measure_take(measures, small.state, SMALL_NOW(small.state), after);
+    measure_take(measures, small.state, SMALL_NOW(small.state), NULL, after);
     assert_true(after[5] > 1.001 * before[5]);                        /* voids are volume */
     for (int i = 0; i < 5; i++) close_to(after[i], before[i], 1e-12); /* but no gas */
     struct mesh *mesh = small.state->mesh;
@@ -142,7 +142,7 @@ static void test_massless(void **state)
     int l;
     unsigned tile = mesh_locate(mesh, (const double[3]){0.1e-3, 0.1e-3, 0}, &l, &cell);
     mesh->levels[0].w[tile][small.state->model->i_E * n + cell] = -1e6;
-    measure_take(measures, small.state, SMALL_NOW(small.state), after);
+    measure_take(measures, small.state, SMALL_NOW(small.state), NULL, after);
     close_to(after[0], before[0], 1e-3);
     close_to(after[2], before[2], 1e-12);
     measure_free(measures);
@@ -183,13 +183,13 @@ static void test_surface(void **state)
     start_case(&small);
     make_ball(small.state, radius, 0.0);
     assert_int_equal(measure_new(small.state, &measures), 0);
-    measure_take(measures, small.state, SMALL_NOW(small.state), values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), NULL, values);
     close_to(values[SURFACE], 1e5 + 1e12 * radius * radius / 3.0, 0.01);
     close_to(values[LEAST], 1e5, 0.01); /* at the equator, and at the poles */
     close_to(values[MOST], 1e5 + 1e12 * radius * radius, 0.01);
     assert_true(values[DEPTH] == 0.0);
     make_ball(small.state, radius, 0.1e-3);
-    measure_take(measures, small.state, SMALL_NOW(small.state), values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), NULL, values);
     assert_true(fabs(values[DEPTH] - 0.1e-3) < 0.05 * h);
     measure_free(measures);
     small_stop(&small);
@@ -211,7 +211,7 @@ static void test_crossing(void **state)
                 "output: {history: {columns: {L: {volume: air}, a: {equivalent-radius: air},"
                 " w: {penetration: water}, x: {centroid: air}}}}\n");
     assert_int_equal(measure_new(small.state, &measures), 0);
-    measure_take(measures, small.state, SMALL_NOW(small.state), values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), NULL, values);
     close_to(values[0], 0.25, 1e-12);
     close_to(values[1], 0.125, 1e-12);
     assert_true(values[2] == 0.0);
@@ -236,7 +236,7 @@ static void test_depth(void **state)
                 "output: {history: {columns: {w: {penetration: water}, a: {penetration: air, along: x},"
                 " p: {plane-integral: pressure, in: air}}}}\n");
     assert_int_equal(measure_new(small.state, &measures), 0);
-    measure_take(measures, small.state, SMALL_NOW(small.state), values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), NULL, values);
     assert_true(values[0] == 0.0 && values[1] == 0.0);
     close_to(values[2], 0.5e5, 1e-12);
     const struct level *level = &small.state->mesh->levels[0];
@@ -246,7 +246,7 @@ static void test_depth(void **state)
             level->u_old[i][8 + cell] = x < 0.57 ? 0.0 : x < 0.6 ? 0.75 : 1.0; /* air */
             level->u_old[i][cell] = 1.0 - level->u_old[i][8 + cell];
         }
-    measure_take(measures, small.state, SMALL_NOW(small.state), values);
+    measure_take(measures, small.state, SMALL_NOW(small.state), NULL, values);
     double moved = 0.5875 - 0.025 / 3.0 - 0.5; /* between the centres 0.5625 (0) and 0.5875 (0.75) */
     close_to(values[1], moved, 1e-12);
     close_to(values[0], -moved, 1e-12);

@@ -30,7 +30,7 @@ static void test_shell(void **state)
         start(&flow, beta);
         assert_int_equal(measure_new(flow.state, &measures), 0);
         struct derive_moment moment = derive_moment(flow.state->model, flow.state->mesh, 0.0);
-        measure_take(measures, flow.state, &moment, values);
+        measure_take(measures, flow.state, &moment, NULL, values);
         double volume = pow(b, n) - pow(a, n), centroid = n / (n + 1.0) * (pow(b, n + 1.0) - pow(a, n + 1.0)) / volume;
         assert_true(fabs(values[0] - centroid) <= 1e-14);
         assert_true(fabs(values[1] - (1e5 + 2e5 * volume)) <= 1e-9 * 1e5);

@@ -45,7 +45,7 @@ static void test_moment(void **state)
     assert_int_equal(measure_new(small.state, &measures), 0);
     assert_int_equal(probes_new(small.state, &probes), 0);
     assert_int_equal(snapshot_new(small.state, &snapshots), 0);
-    measure_take(measures, small.state, SMALL_NOW(small.state), alone);
+    measure_take(measures, small.state, SMALL_NOW(small.state), NULL, alone);
     struct derive_moment moment = derive_moment(small.state->model, small.state->mesh, small.state->t);
     struct derive density, vorticity;
     assert_int_equal(derive_find(small.state->model, "density", &density), 0);
@@ -55,7 +55,7 @@ static void test_moment(void **state)
     derive_prepare(&moment, &vorticity);
     assert_int_equal(moment.exchanges, 1);
     assert_int_equal(probes_record(probes, small.state, &moment), 0);
-    measure_take(measures, small.state, &moment, together);
+    measure_take(measures, small.state, &moment, NULL, together);
     assert_int_equal(snapshot_write(snapshots, small.state, &moment, "{}"), 0);
     assert_int_equal(moment.exchanges, 1);
     assert_memory_equal(alone, together, sizeof alone);
