@@ -8,8 +8,8 @@ void paint_curvature_size(const struct metric *metric, size_t n, double *size)
     for (size_t i = 0; i < n; i++) size[i] = (metric->area[i + 1] - metric->area[i]) / metric->volume[i];
 }
 
-BULLA_KERNEL void paint_curvature_cells(size_t n, const double *restrict size, const double *restrict a,
-                                        const double *restrict b, double *restrict kappa)
+static BULLA_KERNEL void paint_curvature_sign(size_t n, const double *restrict size, const double *restrict a,
+                                              const double *restrict b, double *restrict kappa)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
@@ -17,6 +17,11 @@ BULLA_KERNEL void paint_curvature_cells(size_t n, const double *restrict size, c
         double outward = g > 0.0 ? -s : 0.0;
         kappa[i] = g < 0.0 ? s : outward;
     }
+}
+
+void paint_curvature_cells(size_t n, const double *size, const double *a, const double *b, double *kappa)
+{
+    paint_curvature_sign(n, size, a, b, kappa);
 }
 
 /* A row of fractions with its ends repeated. */
