@@ -54,12 +54,15 @@ struct scene_boundary {
     double *fractions;           /* [n_material] */
     struct scene_value *density; /* [n_material] per material */
     struct scene_value velocity[SCENE_AXES];
+    /* walls: their temperature [K], or the heat that they give to what is inside [W/m2]; neither: none passes */
+    struct scene_value temperature, heat_flux;
 };
 
 struct scene_material {
     char name[SCENE_NAME];
     struct instance eos;
     struct instance constitutive; /* of a solid; module NULL: a fluid */
+    struct instance plastic;      /* strength of a solid; module NULL: none */
     struct instance viscosity;    /* module NULL: none */
     struct instance conductivity; /* of heat; module NULL: none (scheme/conduction.h) */
     double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
@@ -83,6 +86,9 @@ struct scene_layer {
     struct scene_value velocity[SCENE_AXES];
     struct scene_value stretch[6]; /* xx, yy, zz, xy, xz, yz; what is not given is that of the identity */
     const struct script *script;   /* `lua:` layer: returns a table of named fields of (x, y, z) */
+    char *checkpoint;              /* of another run, whose state it paints; or NULL */
+    double at[SCENE_AXES];         /* where the origin of that run lies here */
+    struct donor *donor;           /* its cells (case/donor.h), once io/start.h has read them */
     double centre[SCENE_AXES];     /* r in expressions is measured from here */
     int line;                      /* in the case file, for messages */
 };
