@@ -86,6 +86,48 @@ trap 'exit 130' INT
 trap 'exit 143' TERM
 trap 'exit 129' HUP
 
+# --- the same bits: histories, probes, all snapshots and what the guard did ---
+# Each run has a folder of its own, in which names are the same: a snapshot holds the case, and this the name of its output.
+ran() { # FOLDER CASE OPTIONS...: runs a copy of CASE.yaml there; its output is FOLDER/out
+    ran_folder=$1 ran_case=$2
+    shift 2
+    mkdir -p "$ran_folder"
+    cp "$ran_case.yaml" "$ran_folder"
+    (cd "$ran_folder" && "$BULLA" run "$ran_case.yaml" -o out --quiet "$@" </dev/null)
+}
+told() { # FOLDER PART: what provenance says of it, but for times
+    sed -n "/\"$2\"/,/}/p" "$1/out/provenance.json" | sed '/cpu/d; /share/d'
+}
+alike() { # FOLDER FOLDER: two runs
+    for alike_file in history.csv probes.csv; do
+        [ ! -e "$1/out/$alike_file" ] || cmp "$1/out/$alike_file" "$2/out/$alike_file"
+    done
+    for alike_file in "$1"/out/fields/*.hdf; do
+        [ ! -e "$alike_file" ] || "$BULLA_BUILD/tests/test-unit-snapshot" "$alike_file" "$2/out/fields/${alike_file##*/}"
+    done
+    for alike_part in guard refinement; do
+        told "$1" $alike_part >"$1/$alike_part"
+        told "$2" $alike_part >"$2/$alike_part"
+        cmp "$1/$alike_part" "$2/$alike_part"
+    done
+}
+ranked() { # CASE RANKS...: runs CASE.yaml on each of these numbers of ranks, in CASE-RANKS; all are like the first
+    ranked_case=$1 ranked_first=$2
+    shift
+    for ranked_now in "$@"; do
+        rm -rf "$ranked_case-$ranked_now"
+        ran "$ranked_case-$ranked_now" "$ranked_case" -n "$ranked_now"
+        alike "$ranked_case-$ranked_first" "$ranked_case-$ranked_now"
+    done
+}
+resumed() { # CASE STEPS FOLDER: ends CASE.yaml after STEPS on two ranks, goes on with it on one; the history is that of the
+    # run in FOLDER (older snapshots and counts are of the first part)
+    rm -rf "$1-resumed"
+    ran "$1-resumed" "$1" -n 2 --max-steps "$2"
+    ran "$1-resumed" "$1" --restart
+    cmp "$3/out/history.csv" "$1-resumed/out/history.csv"
+}
+
 # --- numbers ---
 lib_random=${BULLA_SEED:-1}
 echo "seed $lib_random (BULLA_SEED)"

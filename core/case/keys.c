@@ -255,13 +255,22 @@ static void keys_read_value(struct keys *keys, struct keys_value *value, const c
     } else scalar_read(keys, value, choices);
 }
 
-/* A scalar may stand for a map with only its selector. */
+/* A number or an expression, right or wrong, and no word. */
+static bool keys_is_amount(const struct node *node)
+{
+    return *node->text && strchr("0123456789.+-=", *node->text);
+}
+
+/* A scalar may stand for a map with only its selector, or for the one number of a case. */
 static bool keys_shorthand(struct keys *keys, struct node *node, const struct keys_section *section)
 {
     if (node->kind != TREE_SCALAR || !section->selector || tree_is_null(node)) return false;
+    bool amount = section->amount && keys_is_amount(node);
     struct node *scalar = tree_scalar(keys->forest, &node->mark, node->style, node->text);
+    struct node *name = amount ? tree_scalar(keys->forest, &node->mark, TREE_PLAIN, section->amount) : scalar;
     *node = (struct node){.kind = TREE_MAP, .mark = node->mark};
-    tree_set(keys->forest, node, section->selector, scalar);
+    tree_set(keys->forest, node, section->selector, name);
+    if (amount) tree_set(keys->forest, node, section->amount_key, scalar);
     return true;
 }
 

@@ -22,7 +22,7 @@ enum keys_type {
     KEYS_INTEGER,
     KEYS_FLAG,
     KEYS_TEXT,
-    KEYS_FIELD,     /* a text: the name of a field */
+    KEYS_FIELD,     /* a text: the name of a field, or an expression of fields, "= ...", which {NAME: "= ..."} names */
     KEYS_NAME,      /* an identifier */
     KEYS_CHOICE,    /* one of `choices`; of a selector: one of the cases */
     KEYS_VALUE,     /* a quantity, or an expression of x, y, z, r, t */
@@ -65,6 +65,7 @@ struct keys_section {
     const char *rules;                       /* what else the reader sees to, for the schema: a list of JSON Schemas
                                                 without its brackets, ' instead of "; or NULL */
     const char *kind;                        /* the cases are the modules of this kind */
+    const char *amount, *amount_key;         /* a quantity stands for the map of this case with this key; or NULL */
     const struct bulla_module *module;       /* of a case that is a module */
 };
 

@@ -55,7 +55,7 @@ const char *scalar_wanted(struct forest *forest, const struct key *key)
     case KEYS_NAME: return "an identifier (letters, digits and _)";
     case KEYS_CHOICE: return "a word";
     case KEYS_EVERY: return "a time or a number of steps ('20 ns', '10 steps')";
-    case KEYS_FIELD: return "the name of a field";
+    case KEYS_FIELD: return "the name of a field or an expression of fields";
     case KEYS_SECTION: return "a map of keys";
     case KEYS_SCRIPT: return "an expression or a function in Lua";
     default: return "a text";
@@ -247,11 +247,29 @@ static void scalar_read_text(struct keys *keys, struct keys_value *value)
     if (!value->given) scalar_refuse(keys, value);
 }
 
+/* An expression in the place of a field, '= ...', or one with a name, {NAME: '= ...'}. */
+static bool scalar_is_formula(const struct node *node)
+{
+    if (node->kind == TREE_MAP && node->count == 1) node = node->items[0];
+    return params_is_expression(node);
+}
+
+static void scalar_read_formula(struct keys_value *value)
+{
+    const struct node *node = value->node;
+    value->text = node->kind == TREE_MAP ? node->items[0]->text : node->text;
+    value->given = true;
+}
+
 void scalar_read(struct keys *keys, struct keys_value *value, const char *const *choices)
 {
     enum keys_type type = value->key->type;
     bool words = type == KEYS_TEXT || type == KEYS_FIELD || type == KEYS_NAME || type == KEYS_CHOICE;
     bool empty = value->node->kind == TREE_SCALAR && tree_is_null(value->node);
+    if (type == KEYS_FIELD && scalar_is_formula(value->node)) {
+        scalar_read_formula(value);
+        return;
+    }
     if (value->node->kind != TREE_SCALAR || empty) {
         scalar_refuse(keys, value);
         return;

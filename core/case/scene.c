@@ -88,6 +88,7 @@ static void scene_fill(struct draft *draft)
     scene_history(draft);
     scene_map(draft);
     scene_expect(draft);
+    scene_peak(draft);
 }
 
 /* The resolved case: what has been used up is left out. */
@@ -242,6 +243,12 @@ static void scene_free_output(struct scene *scene)
     mem_free(scene->output.snapshot_fields);
     mem_free(scene->output.columns);
     mem_free(scene->output.probes);
+    mem_free(scene->output.peaks);
+    for (unsigned i = 0; i < scene->output.n_formula; i++) {
+        mem_free(scene->output.formulas[i].text);
+        mem_free(scene->output.formulas[i].uses);
+    }
+    mem_free(scene->output.formulas);
     scene_map_done(scene);
     mem_free(scene->expects);
 }
@@ -266,6 +273,9 @@ void scene_free(struct scene *scene)
     for (unsigned i = 0; i < scene->n_material; i++) {
         instance_done(&scene->material[i].eos);
         instance_done(&scene->material[i].constitutive);
+        instance_done(&scene->material[i].plastic);
+        instance_done(&scene->material[i].viscosity);
+        instance_done(&scene->material[i].conductivity);
     }
     instance_done(&scene->scheme.riemann);
     instance_done(&scene->scheme.reconstruction);

@@ -60,6 +60,9 @@ struct scene_material {
     char name[SCENE_NAME];
     struct instance eos;
     struct instance constitutive; /* of a solid; module NULL: a fluid */
+    struct instance plastic;      /* strength of a solid; module NULL: none */
+    struct instance viscosity;    /* module NULL: none */
+    struct instance conductivity; /* of heat; module NULL: none (scheme/conduction.h) */
     double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
 };
 
@@ -150,6 +153,22 @@ struct scene_probe {
     double at[SCENE_AXES];
     char (*fields)[SCENE_NAME];
     unsigned n_field;
+};
+
+/* A field that the case makes itself: an expression of other fields, of x, y, z and t. */
+struct scene_formula {
+    char name[SCENE_NAME];
+    char *text;
+    const struct script *script;
+    char (*uses)[SCENE_NAME]; /* its arguments, in order: x, y, z, t or fields of one component */
+    unsigned n_use;
+};
+
+/* What is kept of a field over the run, cell by cell: rows of what a cell keeps, or -1 where nobody asks. A row of a time
+ * goes with that of its value. */
+struct scene_peak {
+    char field[SCENE_NAME];
+    int most, least, when_most, when_least;
 };
 
 /* Fields over time at places in a row. */
@@ -249,6 +268,7 @@ struct scene_scheme {
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
     enum scene_guard guard;
+    double low_mach; /* least part of a jump of velocity that faces see (scheme/low_mach.h); 1: all of it */
 };
 
 /* Section `run:`. */
@@ -272,6 +292,11 @@ struct scene_output {
     struct scene_column *columns;
     struct scene_probe *probes;
     struct scene_map *maps;
+    unsigned n_formula;
+    struct scene_formula *formulas;
+    unsigned n_peak, n_kept; /* n_kept: rows that all of them keep */
+    struct scene_peak *peaks;
+    double peaks_from, peaks_until; /* s; both included; infinity: no end */
 };
 
 /* A case, one part per section. */

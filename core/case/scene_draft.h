@@ -21,7 +21,8 @@ extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_str
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
 extern const struct keys_section scene_pulse_units;
 extern const struct keys_section *const scene_boundary_pulse_cases[]; /* ends with NULL */
-extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_map_list_keys, scene_expect_keys;
+extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_map_list_keys, scene_expect_keys,
+    scene_peak_keys;
 
 /* In the order in which they are called; each reads its section of draft->root. */
 void scene_domain(struct draft *draft);
@@ -33,6 +34,7 @@ void scene_boundary(struct draft *draft);
 void scene_initial(struct draft *draft);
 void scene_source(struct draft *draft);
 void scene_output(struct draft *draft);
+void scene_peak(struct draft *draft);
 void scene_history(struct draft *draft);
 void scene_map(struct draft *draft);
 void scene_expect(struct draft *draft);
@@ -66,6 +68,9 @@ int scene_material_index(struct draft *draft, const struct keys_value *value);
 /* Has a material a constitutive law, be it right or wrong? The name of the first one that has, or NULL. */
 bool scene_material_is_solid(const struct draft *draft, unsigned material);
 const char *scene_material_solid(const struct draft *draft);
+
+/* 0: no material has a strength; 1: some has; 2: and it knows its plastic strain. */
+unsigned scene_material_strength(const struct draft *draft);
 
 /* Opens the module that a section names; nothing happens if the section is wrong. */
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);
@@ -140,6 +145,31 @@ const char *const *scene_field_each(struct forest *forest);
 
 /* Why a field has one value in all cells of a level: "0 everywhere: ..."; NULL: it varies. */
 const char *scene_field_constant(struct draft *draft, const char *name);
+
+/* Of `max_pressure`: notes that it is to be kept, and what kind of field it is; false if the name is none of a peak, or of
+ * none of the fields that the scene has by itself (`names`). */
+bool scene_peak_find(struct draft *draft, const char *name, const char *const *names);
+
+/* May a name be one of a peak? */
+bool scene_peak_is(const char *name);
+
+/* Appends the peaks that are kept to a list of fields with room for four times as many; returns how many. */
+unsigned scene_peak_list(struct draft *draft, const struct scene_field *fields, struct scene_field *list);
+
+/* Compiles an expression of x, y, z, t and fields of one component; `uses` has room for SCRIPT_ARGUMENTS. False after a
+ * recorded error. */
+bool scene_formula_compile(struct draft *draft, const struct keys_value *value, const struct node *node,
+                           char (*uses)[SCENE_NAME], unsigned *ret_n_use, const struct script **ret_script);
+
+/* Notes an argument of a script; false after a recorded error. May it be one? The list of those that may, as help. */
+bool scene_formula_use(struct draft *draft, const struct keys_value *value, const char *name, char (*uses)[SCENE_NAME],
+                       unsigned *n_use);
+bool scene_formula_argument(struct draft *draft, const char *name);
+void scene_formula_help(struct draft *draft);
+
+/* Is the value an expression? Then a field of the case is made of it. `name`: of one that has none; NULL: it needs one. */
+bool scene_formula_is(const struct keys_value *value);
+bool scene_formula(struct draft *draft, const struct keys_value *value, const char *name, char ret_name[SCENE_NAME]);
 
 /* Checks a field name and copies it; false after a recorded error. */
 bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME]);

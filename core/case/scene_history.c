@@ -186,6 +186,7 @@ static void scene_history_measure(struct draft *draft, struct scene_column *colu
     else if (column->measure == SCENE_TOTAL) snprintf(column->field, SCENE_NAME, "%s", value->given ? value->text : "");
     else if (column->measure == SCENE_VALUE) scene_history_value(draft, column, value);
     else if (scene_history_between(column->measure)) scene_history_of(draft, column, value);
+    else if (value->given && scene_formula_is(value)) scene_formula(draft, value, column->name, column->field);
     else scene_field(draft, value, column->field);
 }
 

@@ -109,6 +109,11 @@ static void scene_refine_strangers(struct draft *draft, const struct keys_map *m
 static const struct scene_field *scene_refine_field(struct draft *draft, const struct keys_value *value,
                                                     char ret_name[SCENE_NAME])
 {
+    if (value->given && scene_formula_is(value)) {
+        keys_error(&draft->keys, value, "the name of a field is needed, not an expression");
+        diag_help(draft->keys.diag, "'lua: = pressure > 1e6' refines by an expression");
+        return NULL;
+    }
     if (!scene_field(draft, value, ret_name)) return NULL;
     const char *constant = scene_field_constant(draft, ret_name);
     if (!constant) return scene_field_find(draft, ret_name);
@@ -238,61 +243,18 @@ static void scene_refine_surface(struct draft *draft, struct scene_refine *refin
     keys_error(&draft->keys, chosen, "'%s' is the only material, so it has no surface", chosen->text);
 }
 
-/* May a script take this? x, y, z, t and fields of one component that vary. */
-static bool scene_refine_argument(struct draft *draft, const char *name)
-{
-    if (strlen(name) == 1 && strchr("xyzt", *name)) return true;
-    const struct scene_field *field = scene_field_find(draft, name);
-    return field && !(field->is & SCENE_FIELD_VECTOR) && strcmp(name, "rank") != 0;
-}
-
-static void scene_refine_arguments_help(struct draft *draft)
-{
-    const char *list = "x, y, z, t";
-    for (const struct scene_field *field = scene_field_all(draft); field->name; field++)
-        if (scene_refine_argument(draft, field->name))
-            list = tree_print(draft->keys.forest, "%s, %s", list, field->name);
-    diag_help(draft->keys.diag, "it may use: %s", list);
-}
-
-/* Notes an argument; false after a recorded error. */
-static bool scene_refine_use(struct draft *draft, struct scene_refine *refine, const struct keys_value *value,
-                             const char *name)
-{
-    for (unsigned i = 0; i < refine->n_use; i++)
-        if (strcmp(refine->uses[i], name) == 0) return true;
-    if (refine->n_use == SCRIPT_ARGUMENTS) {
-        keys_error(&draft->keys, value, "more than %d arguments", SCRIPT_ARGUMENTS);
-        return false;
-    }
-    snprintf(refine->uses[refine->n_use++], SCENE_NAME, "%s", name);
-    return true;
-}
-
-static void scene_refine_expression(struct draft *draft, struct scene_refine *refine, const struct keys_value *value)
-{
-    const char *list = "", *text = value->text;
-    char name[PARAMS_WORD];
-    while (params_next(&text, name))
-        if (scene_refine_argument(draft, name) && !scene_refine_use(draft, refine, value, name)) return;
-    for (unsigned i = 0; i < refine->n_use; i++)
-        list = tree_print(draft->keys.forest, "%s%s%s", list, i ? "," : "", refine->uses[i]);
-    if (!params_compile(draft->keys.params, value->node, value->path, list, &refine->script))
-        scene_refine_arguments_help(draft);
-}
-
 /* A function says by the names of its parameters what it wants. */
 static void scene_refine_function(struct draft *draft, struct scene_refine *refine, const struct keys_value *value)
 {
     const char *name;
     refine->script = scene_file_lua(draft, value);
     for (unsigned i = 0; refine->script && (name = script_parameter(refine->script, i)) != NULL; i++) {
-        if (!scene_refine_argument(draft, name)) {
+        if (!scene_formula_argument(draft, name)) {
             keys_error(&draft->keys, value, "'%s', which the function wants, is no field of one component", name);
-            scene_refine_arguments_help(draft);
+            scene_formula_help(draft);
             return;
         }
-        if (!scene_refine_use(draft, refine, value, name)) return;
+        if (!scene_formula_use(draft, value, name, refine->uses, &refine->n_use)) return;
     }
 }
 
@@ -304,7 +266,7 @@ static void scene_refine_script(struct draft *draft, struct scene_refine *refine
     bool file = length > 4 && strcmp(text + length - 4, ".lua") == 0;
     refine->uses = mem_new(SCRIPT_ARGUMENTS, sizeof *refine->uses);
     if (params_is_expression(value->node) || (!file && !params_mentions(text, "function,return")))
-        scene_refine_expression(draft, refine, value);
+        scene_formula_compile(draft, value, value->node, refine->uses, &refine->n_use, &refine->script);
     else scene_refine_function(draft, refine, value);
 }
 

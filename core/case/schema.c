@@ -110,17 +110,30 @@ static json_t *schema_part(struct schema *schema, const struct keys_section *sec
     return ref;
 }
 
-/* A field of every case, or one of a material. */
-static json_t *schema_field(struct schema *schema)
+/* A field of every case, or one of a material; a peak of either; an expression, with or without a name. */
+static json_t *schema_any_field(const struct schema *schema)
 {
     struct text text = {0};
-    const char *const *each = scene_field_each(schema->forest);
-    for (unsigned i = 0; each[i]; i++) text_add(&text, "%s%s", i ? "|" : "^(?:", each[i]);
-    text_add(&text, ")_[A-Za-z_][A-Za-z0-9_]*$");
+    const char *const *each = scene_field_each(schema->forest), *const *always = scene_field_always(schema->forest);
+    for (unsigned i = 0; each[i]; i++) text_add(&text, "%s%s", i ? "|" : "^(?:(?:when_)?(?:max|min)_)?(?:(?:", each[i]);
+    text_add(&text, ")_[A-Za-z_][A-Za-z0-9_]*");
+    for (unsigned i = 0; always[i]; i++) text_add(&text, "|%s", always[i]);
+    text_add(&text, ")$");
     json_t *own = json_pack("{s:s,s:s,s:s}", "type", "string", "pattern", text.at, "patternErrorMessage",
                             "There is no such field.");
     text_done(&text);
-    return json_pack("{s:[{s:o},o]}", "anyOf", "enum", schema_words(scene_field_always(schema->forest)), own);
+    const char *formula = "^[ \\n]*=(?!=)";
+    return json_pack("{s:[{s:o},o,{s:s,s:s},{s:s,s:i,s:i,s:{s:s,s:s}}]}", "anyOf", "enum",
+                     schema_words(scene_field_always(schema->forest)), own, "type", "string", "pattern", formula,
+                     "type", "object", "minProperties", 1, "maxProperties", 1, "additionalProperties", "type", "string",
+                     "pattern", formula);
+}
+
+static json_t *schema_field(struct schema *schema)
+{
+    if (!json_object_get(schema->definitions, "field"))
+        json_object_set_new(schema->definitions, "field", schema_any_field(schema));
+    return json_pack("{s:[{s:s}]}", "allOf", "$ref", "#/definitions/field");
 }
 
 /* One value of a key, without its documentation. */
@@ -316,6 +329,15 @@ static json_t *schema_alone(struct schema *schema, const struct keys_section *se
     return json_pack("{s:s,s:o}", "type", "object", "errorMessage", error);
 }
 
+/* The number that stands for a map; NULL: none does. */
+static json_t *schema_amount(struct schema *schema, const struct keys_section *section)
+{
+    const struct keys_section *one = section->amount ? family_find(schema->forest, section, section->amount) : NULL;
+    for (const struct key *key = one ? one->keys : NULL; key && key->name; key++)
+        if (strcmp(key->name, section->amount_key) == 0) return schema_number(schema, key);
+    return NULL;
+}
+
 static json_t *schema_section(struct schema *schema, const struct keys_section *section)
 {
     struct schema_rows rows = {{section}, 1};
@@ -332,8 +354,13 @@ static json_t *schema_section(struct schema *schema, const struct keys_section *
         json_object_set_new(object, "type", json_string("object"));
         return object;
     }
-    json_object_set_new(object, "type", json_pack("[s,s]", "object", "string"));
-    json_t *word = json_pack("{s:{s:s},s:o}", "if", "type", "string", "then", schema_alone(schema, section));
+    json_t *amount = schema_amount(schema, section), *alone = schema_alone(schema, section);
+    json_object_set_new(object, "type",
+                        amount ? json_pack("[s,s,s]", "object", "string", "number")
+                               : json_pack("[s,s]", "object", "string"));
+    json_t *scalar = amount ? json_pack("[s,s]", "string", "number") : json_string("string");
+    json_t *either = amount ? json_pack("{s:[o,o]}", "anyOf", amount, alone) : alone;
+    json_t *word = json_pack("{s:{s:o},s:o}", "if", "type", scalar, "then", either);
     json_array_append_new(json_object_get(object, "allOf"), word);
     return object;
 }

@@ -431,6 +431,49 @@ int script_call(const struct script *script, const double *in, unsigned n_in, do
     return STATUS_OK;
 }
 
+/* A row of points for one protected call, which costs as much as that of a point. */
+struct script_points {
+    const struct script *script;
+    size_t n;
+    const double *const *in;
+    unsigned n_in;
+    double *out;
+};
+
+static int script_points(lua_State *lua)
+{
+    const struct script_points *points = lua_touserdata(lua, 1);
+    lua_rawgeti(lua, LUA_REGISTRYINDEX, points->script->function);
+    for (size_t i = 0; i < points->n; i++) {
+        lua_pushvalue(lua, -1);
+        for (unsigned k = 0; k < points->n_in; k++) lua_pushnumber(lua, points->in[k][i]);
+        lua_call(lua, (int)points->n_in, 1);
+        if (lua_type(lua, -1) != LUA_TNUMBER)
+            return luaL_error(lua, "a number is needed here, but the script gives a %s", luaL_typename(lua, -1));
+        points->out[i] = lua_tonumber(lua, -1);
+        lua_pop(lua, 1);
+    }
+    return 0;
+}
+
+int script_row(const struct script *script, size_t n, const double *const *in, unsigned n_in, double *out)
+{
+    struct script_host *host = script->host;
+    struct script_points points = {script, n, in, n_in, out};
+    for (size_t i = 0; i < n; i++) out[i] = NAN;
+    if (host->ended == script)
+        return status_fail(STATUS_CASE, "%s:%d: the script ran for too long before", script->file, script->line);
+    lua_checkstack(host->lua, 2 * SCRIPT_ARGUMENTS);
+    lua_pushcfunction(host->lua, script_points);
+    lua_pushlightuserdata(host->lua, &points);
+    script_guard_enter(host->lua, script_tick(host, 0.0));
+    int failed = lua_pcall(host->lua, 1, 0, 0);
+    struct script_guard_end end = script_guard_leave(host->lua);
+    if (!failed) return STATUS_OK;
+    if (end.line) host->ended = script;
+    return script_fail_lua(host, script->file, script->line, end);
+}
+
 int script_test(const struct script *script, const double *in, unsigned n_in, bool *ret)
 {
     TRY(script_begin(script, in, n_in, 1));

@@ -52,6 +52,10 @@ bool script_is_constant(const struct script *script);
 /* Calls with n_in numbers; wants n_out numbers back, all finite. */
 int script_call(const struct script *script, const double *in, unsigned n_in, double *out, unsigned n_out);
 
+/* Calls at n points, one after the other: in[n_in] rows of n, out a row of n; what comes out may be infinite or not a
+ * number. A result that is none at all, or an error at any point: STATUS_CASE, and `out` is NaN from there on. */
+int script_row(const struct script *script, size_t n, const double *const *in, unsigned n_in, double *out);
+
 /* Calls for a decision: true, or a number above 0. Anything that is no number, true, false or nil: STATUS_CASE. */
 int script_test(const struct script *script, const double *in, unsigned n_in, bool *ret);
 

@@ -9,6 +9,7 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "derive/derive_curvature.h"
+#include "derive/derive_formula.h"
 #include "derive/derive_slope.h"
 #include "derive/derive_stress.h"
 #include "phys/mix.h"
@@ -17,10 +18,24 @@
 #include <math.h>
 #include <string.h>
 
+/* What a name stands for: DERIVE_STRONG needs a solid with a strength, DERIVE_STRAINED one whose strength knows strains;
+ * DERIVE_OF_SCENE is a name of the case's own. */
+enum derive_form {
+    DERIVE_ONE,
+    DERIVE_VECTOR,
+    DERIVE_AXIS,
+    DERIVE_MATERIAL,
+    DERIVE_SOLID,
+    DERIVE_TENSOR,
+    DERIVE_STRONG,
+    DERIVE_STRAINED,
+    DERIVE_OF_SCENE
+};
+
 struct derive_quantity {
     const char *name; /* with a trailing "_" for per-material, per-axis and tensor quantities */
     const char *unit;
-    enum { DERIVE_ONE, DERIVE_VECTOR, DERIVE_AXIS, DERIVE_MATERIAL, DERIVE_SOLID, DERIVE_TENSOR } form;
+    enum derive_form form;
     void (*compute)(const struct derive_view *tile, double *out);
     int index; /* DERIVE_SOLID: tells rows with the same function apart */
     unsigned needs;
@@ -29,10 +44,11 @@ struct derive_quantity {
 /* What a quantity needs beyond the primitives of a tile; derive_prepare brings it. */
 enum {
     DERIVE_ALONE = 0,
-    DERIVE_LAYERS = 1,   /* the layers of neighbours */
-    DERIVE_STEEPEST = 2, /* the largest density gradient of all, in field->scale */
-    DERIVE_AROUND = 8,   /* what lies around tiles, edges and corners too */
-    DERIVE_PRESENCE = 4, /* the density from which on its material is felt (presence.h), in field->scale */
+    DERIVE_LAYERS = 1,     /* the layers of neighbours */
+    DERIVE_STEEPEST = 2,   /* the largest density gradient of all, in field->scale */
+    DERIVE_AROUND = 8,     /* what lies around tiles, edges and corners too */
+    DERIVE_ARGUMENTS = 16, /* what the arguments of an expression need */
+    DERIVE_PRESENCE = 4,   /* the density from which on its material is felt (presence.h), in field->scale */
 };
 
 static void derive_density(const struct derive_view *tile, double *out)
@@ -186,6 +202,12 @@ static void derive_cost(const struct derive_view *tile, double *out)
     }
 }
 
+/* What the tile keeps of a field (solve/peak.h): row field->index. */
+static void derive_kept(const struct derive_view *tile, double *out)
+{
+    memcpy(out, tile->level->kept[tile->local] + (size_t)tile->field->index * tile->n, tile->n * sizeof *out);
+}
+
 static const struct derive_quantity derive_table[] = {
     {"density", "kg/m3", DERIVE_ONE, derive_density, 0, DERIVE_ALONE},
     {"pressure", "Pa", DERIVE_ONE, derive_pressure, 0, DERIVE_ALONE},
@@ -221,11 +243,19 @@ static const struct derive_quantity derive_table[] = {
     {"principal_min_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MIN_DEV, DERIVE_ALONE},
     {"von_mises", "Pa", DERIVE_SOLID, derive_stress_von_mises, 0, DERIVE_ALONE},
     {"strain_energy", "J/m3", DERIVE_SOLID, derive_stress_energy, 0, DERIVE_ALONE},
+    {"flow_stress", "Pa", DERIVE_STRONG, derive_stress_strength, 0, DERIVE_ALONE},
+    {"plastic_strain", "1", DERIVE_STRAINED, derive_stress_plastic, 0, DERIVE_ALONE},
     {"invariant_1", "1", DERIVE_SOLID, derive_stress_invariant, 0, DERIVE_ALONE},
     {"invariant_2", "1", DERIVE_SOLID, derive_stress_invariant, 1, DERIVE_ALONE},
+    {"", "", DERIVE_OF_SCENE, derive_kept, 0, DERIVE_ALONE},
+    {"", "", DERIVE_OF_SCENE, derive_formula, 0, DERIVE_ARGUMENTS},
 };
 
-enum { DERIVE_ROWS = sizeof derive_table / sizeof *derive_table };
+enum {
+    DERIVE_ROWS = sizeof derive_table / sizeof *derive_table,
+    DERIVE_KEPT = DERIVE_ROWS - 2,
+    DERIVE_FORMULA = DERIVE_ROWS - 1
+};
 
 /* Axis, component or material that the part after a row's prefix names, or -1. */
 static int derive_suffix(const struct model *model, const struct derive_quantity *row, const char *suffix)
@@ -239,17 +269,65 @@ static int derive_suffix(const struct model *model, const struct derive_quantity
     return -1;
 }
 
+/* Are there fields of this form in a scene? */
+static bool derive_has(const struct model *model, enum derive_form form)
+{
+    if (form == DERIVE_SOLID || form == DERIVE_TENSOR) return model->elastic;
+    if (form == DERIVE_STRONG) return model->plastic;
+    return form != DERIVE_STRAINED || model->n_strain > 0;
+}
+
+/* One of the peaks that the scene keeps of a field of the table: `prefix` and its name. */
+static bool derive_find_peak(const struct model *model, const char *name, const char *prefix, int row, bool when,
+                             const char *of, struct derive *ret_field)
+{
+    size_t length = strlen(prefix);
+    if (row < 0 || strncmp(name, prefix, length) != 0 || strcmp(name + length, of) != 0) return false;
+    struct derive field;
+    if (derive_find(model, of, &field)) return false;
+    *ret_field = (struct derive){.unit = when ? "s" : field.unit, .components = 1, .what = DERIVE_KEPT, .index = row};
+    strncpy(ret_field->name, name, sizeof ret_field->name - 1);
+    return true;
+}
+
+static bool derive_find_kept(const struct model *model, const char *name, struct derive *ret_field)
+{
+    const struct scene_output *output = &model->scene->output;
+    for (unsigned i = 0; i < output->n_peak; i++) {
+        const struct scene_peak *peak = &output->peaks[i];
+        if (derive_find_peak(model, name, "max_", peak->most, false, peak->field, ret_field) ||
+            derive_find_peak(model, name, "min_", peak->least, false, peak->field, ret_field) ||
+            derive_find_peak(model, name, "when_max_", peak->when_most, true, peak->field, ret_field) ||
+            derive_find_peak(model, name, "when_min_", peak->when_least, true, peak->field, ret_field))
+            return true;
+    }
+    return false;
+}
+
+static bool derive_find_formula(const struct model *model, const char *name, struct derive *ret_field)
+{
+    const struct scene_output *output = &model->scene->output;
+    for (unsigned i = 0; i < output->n_formula; i++) {
+        if (strcmp(output->formulas[i].name, name) != 0) continue;
+        *ret_field = (struct derive){.unit = "", .components = 1, .what = DERIVE_FORMULA, .index = (int)i};
+        strncpy(ret_field->name, name, sizeof ret_field->name - 1);
+        return true;
+    }
+    return false;
+}
+
 int derive_find(const struct model *model, const char *name, struct derive *ret_field)
 {
+    if (derive_find_kept(model, name, ret_field) || derive_find_formula(model, name, ret_field)) return STATUS_OK;
     for (int i = 0; i < DERIVE_ROWS; i++) {
         const struct derive_quantity *row = &derive_table[i];
+        if (row->form == DERIVE_OF_SCENE) continue;
         size_t length = strlen(row->name);
-        bool solid = row->form == DERIVE_SOLID || row->form == DERIVE_TENSOR;
-        bool whole = row->form == DERIVE_ONE || row->form == DERIVE_VECTOR || row->form == DERIVE_SOLID;
+        bool suffixed = row->form == DERIVE_AXIS || row->form == DERIVE_TENSOR || row->form == DERIVE_MATERIAL;
         int index = row->index;
-        if (solid && !model->elastic) continue;
-        if (whole ? strcmp(name, row->name) != 0 : strncmp(name, row->name, length) != 0) continue;
-        if (!whole && (index = derive_suffix(model, row, name + length)) < 0) continue;
+        if (!derive_has(model, row->form)) continue;
+        if (!suffixed ? strcmp(name, row->name) != 0 : strncmp(name, row->name, length) != 0) continue;
+        if (suffixed && (index = derive_suffix(model, row, name + length)) < 0) continue;
         *ret_field = (struct derive){.unit = row->unit,
                                      .components = row->form == DERIVE_VECTOR ? 3 : 1,
                                      .what = i,
@@ -337,6 +415,7 @@ void derive_prepare(struct derive_moment *moment, struct derive *field)
     if (needs & DERIVE_LAYERS) derive_bring_layers(moment);
     if (needs & DERIVE_AROUND) derive_bring_around(moment);
     if (needs & DERIVE_STEEPEST) field->scale = derive_steepest(moment);
+    if (needs & DERIVE_ARGUMENTS) derive_formula_prepare(moment, field);
     if (needs & DERIVE_PRESENCE) field->scale = derive_presence(moment, (unsigned)field->index);
 }
 

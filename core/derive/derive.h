@@ -13,6 +13,7 @@ struct derive {
     unsigned components; /* 1, or 3 for velocity and vorticity (always three: unused ones are 0) */
     int what, index;     /* how derive.c finds it again: quantity and material or axis */
     double scale;        /* set by derive_prepare where the field needs a global value (schlieren, temperature_M) */
+    double scales[SCRIPT_ARGUMENTS]; /* of an expression: those of its arguments */
 };
 
 /* Looks a name up. Unknown: STATUS_CASE, the message lists the nearest. Component names

@@ -12,6 +12,7 @@
 #include "io/place.h"
 #include "io/room.h"
 #include "io/seal.h"
+#include "solve/peak.h"
 
 #include <dirent.h>
 #include <stdlib.h>
@@ -198,6 +199,17 @@ static void checkpoint_fill_p(void *context, size_t first, size_t count, void *o
     }
 }
 
+static void checkpoint_fill_kept(void *context, size_t first, size_t count, void *out)
+{
+    const struct mesh *mesh = ((struct checkpoint *)context)->state->mesh;
+    size_t block = mesh->n_kept * mesh->n_cell;
+    for (size_t i = 0; i < count; i++) {
+        int l;
+        unsigned local = checkpoint_tile(mesh, first + i, &l);
+        memcpy((double *)out + i * block, mesh->levels[l].kept[local], block * sizeof(double));
+    }
+}
+
 /* Adds a data set that has been written to the list of the seal. */
 static void checkpoint_list_part(struct checkpoint *point, const char *path, uint64_t hash)
 {
@@ -224,6 +236,15 @@ static int checkpoint_put_rows(struct checkpoint *point, const char *path, size_
     TRY(h5out_write(point->file, path, &all));
     checkpoint_list_part(point, path, hash);
     return STATUS_OK;
+}
+
+/* What outputs keep in cells; those under finer tiles get what these have, for runs that go on with fewer levels. */
+static int checkpoint_put_kept(struct checkpoint *point)
+{
+    const struct mesh *mesh = point->state->mesh;
+    if (!mesh->n_kept) return STATUS_OK;
+    peak_up(mesh, &point->state->scene->output, 0);
+    return checkpoint_put_rows(point, "/kept", mesh->n_kept * mesh->n_cell, checkpoint_fill_kept);
 }
 
 static void checkpoint_put_tiles(struct checkpoint *point)
@@ -255,13 +276,15 @@ static int checkpoint_fill(struct checkpoint *point, const struct notes *outputs
     checkpoint_note_origin(state, &notes);
     checkpoint_note(state, &notes);
     facts_put(state->scene, state->model, mesh->n[0], &notes);
+    facts_put_kept(state->scene, &notes);
     text_add(&notes.text, "%s", outputs->text.at ? outputs->text.at : "");
     checkpoint_put_text(point, "/case.yaml", state->scene->resolved);
     checkpoint_put_text(point, "/notes", notes.text.at);
     text_done(&notes.text);
     checkpoint_put_tiles(point);
     TRY(checkpoint_put_rows(point, "/u", mesh->n_field * mesh->n_cell, checkpoint_fill_u));
-    return state->model->linear ? STATUS_OK : checkpoint_put_rows(point, "/p", mesh->n_cell, checkpoint_fill_p);
+    if (!state->model->linear) TRY(checkpoint_put_rows(point, "/p", mesh->n_cell, checkpoint_fill_p));
+    return checkpoint_put_kept(point);
 }
 
 /* Writes the data; the header stays empty. */

@@ -8,6 +8,7 @@
  *   /tiles      i32 [n_tile, 5]        level, i, j, k, unwanted; level by level, in Morton order
  *   /u          f64 [n_tile, n_field * n_cell]  conserved fields, as in memory
  *   /p          f64 [n_tile, n_cell]   pressures; only where a closure is iterated
+ *   /kept       f64 [n_tile, n_kept * n_cell]   peaks over time (solve/peak.h); only where a scene has them
  * A file gets its name when it is whole, lasting and verified; only then do older ones go. */
 #ifndef CHECKPOINT_H
 #define CHECKPOINT_H

@@ -62,8 +62,38 @@ void facts_put(const struct scene *scene, const struct model *model, int tile, s
         const struct scene_material *material = &scene->material[l];
         facts_put_law(material->name, "eos", &material->eos, notes);
         facts_put_law(material->name, "constitutive", &material->constitutive, notes);
+        if (material->plastic.module) facts_put_law(material->name, "plastic", &material->plastic, notes);
+        facts_put_law(material->name, "viscosity", &material->viscosity, notes);
+        facts_put_law(material->name, "conductivity", &material->conductivity, notes);
     }
     facts_put_names(notes, "fields", model->n_field, facts_field, model);
+}
+
+/* Which peaks stand in which rows: "pressure 0 -1 1 -1;". */
+static char *facts_kept(const struct scene *scene)
+{
+    struct text text = {0};
+    for (unsigned i = 0; i < scene->output.n_peak; i++) {
+        const struct scene_peak *peak = &scene->output.peaks[i];
+        text_add(&text, "%s %d %d %d %d;", peak->field, peak->most, peak->least, peak->when_most, peak->when_least);
+    }
+    return text.at;
+}
+
+void facts_put_kept(const struct scene *scene, struct notes *notes)
+{
+    char *kept = facts_kept(scene);
+    if (kept) notes_put_text(notes, "output.kept", kept);
+    mem_free(kept);
+}
+
+bool facts_same_kept(const struct scene *scene, const struct notes *saved)
+{
+    char *kept = facts_kept(scene), *was = notes_get_text(saved, "output.kept");
+    bool same = kept && was && strcmp(kept, was) == 0;
+    mem_free(kept);
+    mem_free(was);
+    return same;
 }
 
 static int facts_compare_one(const struct notes *saved, const char *name, const char *now)

@@ -13,4 +13,8 @@ void facts_put(const struct scene *scene, const struct model *model, int tile, s
 /* Do the facts of a case agree with those among saved notes? STATUS_CASE that says what differs, and how. */
 int facts_compare(const struct notes *saved, const struct notes *now);
 
+/* Notes which peaks are kept in which rows, if any are; is that what the saved notes say? */
+void facts_put_kept(const struct scene *scene, struct notes *notes);
+bool facts_same_kept(const struct scene *scene, const struct notes *saved);
+
 #endif

@@ -2,6 +2,7 @@
 #include "io/rebuild.h"
 
 #include "base/comm.h"
+#include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/facts.h"
@@ -15,10 +16,11 @@ struct rebuild {
     int tile; /* side of a tile */
     size_t n_cell, n_field;
     bool iterated; /* the closure of the scene needs pressures */
+    size_t n_kept; /* rows of what outputs keep, if the file has them */
 };
 
 /* The source's `fill`: a tile's block, at its place in the file. */
-static int rebuild_fill(void *data, int level, unsigned tile, double *u, double *p)
+static int rebuild_fill(void *data, int level, unsigned tile, double *u, double *p, double *kept)
 {
     const struct rebuild *rebuild = data;
     const struct resume *resume = rebuild->from;
@@ -30,9 +32,31 @@ static int rebuild_fill(void *data, int level, unsigned tile, double *u, double 
     TRY(seal_bytes(resume->file, resume->path, part->offset + index * block, block, u));
     for (size_t i = 0; i < n; i++)
         if (!isfinite(u[i])) return resume_damaged(resume, "a value that is not finite");
+    if (kept && rebuild->n_kept) {
+        TRY(resume_part(resume, "/kept", &part));
+        TRY(seal_bytes(resume->file, resume->path, part->offset + index * rebuild->n_kept * row, rebuild->n_kept * row,
+                       kept));
+    }
     if (!rebuild->iterated) return STATUS_OK;
     TRY(resume_part(resume, "/p", &part));
     return seal_bytes(resume->file, resume->path, part->offset + index * row, row, p);
+}
+
+/* Peaks go on if the file has the same ones; else they begin anew. */
+static int rebuild_kept(struct rebuild *rebuild)
+{
+    const struct resume *resume = rebuild->from;
+    const struct seal_part *part;
+    size_t row = rebuild->n_cell * sizeof(double), n_kept = rebuild->scene->output.n_kept;
+    if (!n_kept) return STATUS_OK;
+    if (!facts_same_kept(rebuild->scene, &resume->notes)) {
+        log_warn("%s has not the same peaks (max_..., min_..., when_...): they begin anew", resume->path);
+        return STATUS_OK;
+    }
+    TRY(resume_part(resume, "/kept", &part));
+    if (part->length != resume->n_all * n_kept * row) return resume_damaged(resume, "/kept has not one block per tile");
+    rebuild->n_kept = n_kept;
+    return STATUS_OK;
 }
 
 static int rebuild_numbers(const struct resume *resume, const char *name, unsigned n, double *ret)
@@ -197,6 +221,7 @@ static int rebuild_source(struct rebuild *rebuild, struct state **ret_state)
     struct tile *tiles = resume->tiles;
     if (!rebuild->tile) return STATUS_CASE;
     TRY(rebuild_match(rebuild));
+    TRY(rebuild_kept(rebuild));
     /* finer levels than the case allows now are left out: the coarser ones hold their averages */
     source.n_level = resume->n_level <= rebuild->scene->mesh.levels ? resume->n_level : rebuild->scene->mesh.levels + 1;
     TRY(rebuild_nests(rebuild, source.n_level));

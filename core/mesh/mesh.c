@@ -142,6 +142,8 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
     mesh->most_level = scene->mesh.levels;
     mesh_measure(mesh, scene, n);
     mesh->pool = pool_new(n_field * mesh->n_cell);
+    mesh->n_kept = scene->output.n_kept;
+    if (mesh->n_kept) mesh->kept_pool = pool_new(mesh->n_kept * mesh->n_cell);
     mesh->rims = rim_shelf_new();
     unsigned n_tile;
     struct tile *tiles = mesh_fill(mesh->levels[0].extent, &n_tile);
@@ -160,9 +162,10 @@ static void mesh_drop(struct level *level)
     mem_free(level->u_old);
     mem_free(level->u_new);
     mem_free(level->w);
+    mem_free(level->kept);
     level->halo = NULL;
     level->link = NULL;
-    level->u_old = level->u_new = level->w = NULL;
+    level->u_old = level->u_new = level->w = level->kept = NULL;
     level_drop(level);
 }
 
@@ -172,6 +175,7 @@ void mesh_free(struct mesh *mesh)
     for (int l = 0; l < mesh->n_level; l++) mesh_drop(&mesh->levels[l]);
     rim_shelf_free(mesh->rims);
     pool_free(mesh->pool);
+    pool_free(mesh->kept_pool);
     mem_free(mesh);
 }
 
@@ -286,5 +290,6 @@ void mesh_swap(struct level *level)
 
 double mesh_bytes(const struct mesh *mesh, double n_tile)
 {
-    return 3.0 * n_tile * (double)pool_bytes(mesh->pool);
+    double kept = mesh->kept_pool ? (double)pool_bytes(mesh->kept_pool) : 0.0;
+    return n_tile * (3.0 * (double)pool_bytes(mesh->pool) + kept);
 }

@@ -55,6 +55,8 @@ struct level {
     struct neighbour (*neighbours)[MESH_FACES]; /* [n_local] */
     double **u_old, **u_new; /* [n_local] conserved at t^n and the one being made: [n_field][n^d], 64-byte aligned */
     double **w;              /* [n_local] primitives of the last completed stage: [n_prim][n^d] */
+    double **kept; /* [n_local] what outputs keep from step to step (solve/peak.h): [n_kept][n^d], NaN in tiles
+                                that are new here; NULL where they keep nothing */
     struct halo *halo;
     struct link *link; /* to the next coarser level; NULL on level 0 */
 };
@@ -70,13 +72,15 @@ struct mesh {
     unsigned n_alpha;  /* volume fractions among them (the first), for the sizes of registers */
     unsigned n_face_u; /* components of the face velocity that registers keep: all with a solid, the normal one with
                           fractions, else none */
+    unsigned n_kept;   /* rows that outputs keep per cell */
     int n_level;       /* levels in use: none of them is empty */
     int most_level;    /* finest level the case allows */
     unsigned revision; /* counts changes of any level's tiles or owners (mesh_replace): who keeps something per
                           tile makes it anew when this has moved */
     struct level levels[MESH_LEVELS];
-    struct pool *pool; /* where blocks of tiles come from */
-    struct rim **rims; /* by level: what terms that need edges and corners have asked for (mesh/rim.h) */
+    struct pool *pool;      /* where blocks of tiles come from */
+    struct pool *kept_pool; /* where those of `kept` come from; NULL without */
+    struct rim **rims;      /* by level: what terms that need edges and corners have asked for (mesh/rim.h) */
     bool periodic[3];
 };
 
@@ -99,7 +103,7 @@ struct mesh_change {
 
 /* Gives level l (1 .. n_level: the next new one is allowed) the sorted tile set `tiles` (taken over; rank and
  * unwanted are set, covered and hidden are not). Tiles that stay on a rank keep their blocks, tiles that move bring
- * u_old and w along, born ones get blocks for the caller to fill. n_tile 0 removes the level (it must be the
+ * u_old, w and kept along, born ones get blocks for the caller to fill. n_tile 0 removes the level (it must be the
  * finest). Neighbours, halo and links of l and l + 1, and the covered and hidden flags of l - 1 and l are made anew;
  * the link of l + 1 is NULL as long as that level does not nest in the new tiles (then it must be replaced next).
  * Level 0 may be given its own tiles with other ranks. Collective; *ret_change is freed by mesh_change_free. */
@@ -125,7 +129,7 @@ int mesh_octant(const struct mesh *mesh, size_t cell);
 /* Swaps u_old and u_new of a level. */
 void mesh_swap(struct level *level);
 
-/* Bytes that the blocks of `n_tile` tiles take (three each). */
+/* Bytes that the blocks of `n_tile` tiles take (three each, and what outputs keep). */
 double mesh_bytes(const struct mesh *mesh, double n_tile);
 
 #endif

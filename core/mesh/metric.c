@@ -43,6 +43,13 @@ void metric_volumes(const struct mesh *mesh, const struct level *level, const st
         for (size_t i = 0; i < n0; i++) ret_volume[row + i] = metric.volume[i] * depth;
 }
 
+double metric_centroid(int beta, double a, double b)
+{
+    if (beta == 0) return 0.5 * (a + b);
+    if (beta == 1) return (2.0 / 3.0) * (a * a + a * b + b * b) / (a + b);
+    return 0.75 * (a + b) * (a * a + b * b) / (a * a + a * b + b * b);
+}
+
 double metric_full(int beta)
 {
     static const double full[] = {1.0, 2.0 * M_PI, 4.0 * M_PI};

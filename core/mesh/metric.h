@@ -25,6 +25,9 @@ void metric_of_tile(const struct mesh *mesh, const struct level *level, const st
 /* Whole volume of each cell of a tile [m3; m2 per metre of depth in 2D cartesian, m in 1D]. */
 void metric_volumes(const struct mesh *mesh, const struct level *level, const struct tile *tile, double *ret_volume);
 
+/* Middle of the volume between two radii: the mean of r with the weight r^beta. */
+double metric_centroid(int beta, double a, double b);
+
 double metric_full(int beta);
 
 #endif

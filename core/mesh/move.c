@@ -8,13 +8,14 @@
 #include "mesh/pool.h"
 #include "mesh/post.h"
 
+#include <math.h>
 #include <string.h>
 
 struct move {
-    struct pool *pool;
+    struct pool *pool, *kept_pool;
     struct level *level; /* as it was */
     unsigned first, n_local;
-    size_t doubles; /* of a block */
+    size_t doubles, kept; /* of a block, and of what outputs keep */
     unsigned n_out, n_in;
     unsigned *out, *in; /* local tiles: of the old list that leave, of the new one that arrive */
     struct post_item *out_items, *in_items;
@@ -22,7 +23,7 @@ struct move {
 
 static struct post_item move_item(const struct move *move, int rank)
 {
-    return (struct post_item){.rank = rank, .doubles = 2 * move->doubles};
+    return (struct post_item){.rank = rank, .doubles = 2 * move->doubles + move->kept};
 }
 
 /* Tile `i` of the new list was tile `old` on rank `from` (both -1: it was not there) and belongs to rank `to`. */
@@ -54,7 +55,7 @@ static void move_plan(struct move *move, const struct tile *tiles, unsigned n_ti
 }
 
 /* A new array with the blocks of tiles that stay; the others go back to the pool. */
-static double **move_keep(const struct move *move, double **old, const int *from)
+static double **move_keep(const struct move *move, struct pool *pool, double **old, const int *from)
 {
     double **blocks = mem_new(move->n_local, sizeof *blocks);
     for (unsigned i = 0; i < move->n_local; i++)
@@ -63,7 +64,7 @@ static double **move_keep(const struct move *move, double **old, const int *from
             old[from[i]] = NULL;
         }
     for (unsigned t = move->level->n_local; t > 0; t--)
-        if (old[t - 1]) pool_give(move->pool, old[t - 1]);
+        if (old[t - 1]) pool_give(pool, old[t - 1]);
     mem_free(old);
     return blocks;
 }
@@ -75,29 +76,44 @@ static void move_arrays(const struct move *move, const int *from)
     double ***const arrays[] = {&level->u_old, &level->u_new, &level->w};
     size_t missing = 0;
     for (unsigned i = 0; i < move->n_local; i++) missing += from[i] < 0;
-    for (int a = 0; a < 3; a++) *arrays[a] = move_keep(move, *arrays[a], from);
+    for (int a = 0; a < 3; a++) *arrays[a] = move_keep(move, move->pool, *arrays[a], from);
     pool_reserve(move->pool, 3 * missing);
     for (int a = 0; a < 3; a++)
         for (unsigned i = 0; i < move->n_local; i++)
             if (from[i] < 0) (*arrays[a])[i] = pool_take(move->pool);
 }
 
+static void move_kept(const struct move *move, const int *from)
+{
+    struct level *level = move->level;
+    if (!move->kept) return;
+    level->kept = move_keep(move, move->kept_pool, level->kept, from);
+    for (unsigned i = 0; i < move->n_local; i++) {
+        if (from[i] >= 0) continue;
+        level->kept[i] = pool_take(move->kept_pool);
+        for (size_t k = 0; k < move->kept; k++) level->kept[i][k] = NAN;
+    }
+}
+
 /* What leaves is packed before its blocks are given back; what arrives is unpacked into new ones. */
 static void move_data(struct move *move, int tag, const int *from)
 {
     struct level *level = move->level;
-    size_t bytes = move->doubles * sizeof(double);
+    size_t bytes = move->doubles * sizeof(double), kept = move->kept * sizeof(double);
     struct post *post = post_new(tag, move->n_out, move->out_items, move->n_in, move->in_items);
     for (unsigned i = 0; i < move->n_out; i++) {
         memcpy(post_out(post, i), level->u_old[move->out[i]], bytes);
         memcpy(post_out(post, i) + move->doubles, level->w[move->out[i]], bytes);
+        if (kept) memcpy(post_out(post, i) + 2 * move->doubles, level->kept[move->out[i]], kept);
     }
     post_start(post);
     move_arrays(move, from);
+    move_kept(move, from);
     post_finish(post);
     for (unsigned i = 0; i < move->n_in; i++) {
         memcpy(level->u_old[move->in[i]], post_in(post, i), bytes);
         memcpy(level->w[move->in[i]], post_in(post, i) + move->doubles, bytes);
+        if (kept) memcpy(level->kept[move->in[i]], post_in(post, i) + 2 * move->doubles, kept);
     }
     post_free(post);
 }
@@ -105,7 +121,11 @@ static void move_data(struct move *move, int tag, const int *from)
 void move_blocks(struct mesh *mesh, int l, const struct tile *tiles, unsigned n_tile, struct mesh_change *ret_change)
 {
     struct level *level = &mesh->levels[l];
-    struct move move = {.pool = mesh->pool, .level = level, .doubles = mesh->n_field * mesh->n_cell};
+    struct move move = {.pool = mesh->pool,
+                        .kept_pool = mesh->kept_pool,
+                        .level = level,
+                        .doubles = mesh->n_field * mesh->n_cell,
+                        .kept = mesh->n_kept * mesh->n_cell};
     level_local(tiles, n_tile, &move.first, &move.n_local);
     move.out = mem_new(level->n_local, sizeof *move.out);
     move.out_items = mem_new(level->n_local, sizeof *move.out_items);

@@ -9,6 +9,7 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "case/shape.h"
+#include "paint/paint_contact.h"
 #include "paint/paint_stretch.h"
 #include "paint/paint_values.h"
 #include "phys/mix.h"
@@ -87,22 +88,57 @@ static double paint_lost(const struct model *model, const double *a, size_t a_st
     return 0.5 * (a_mass * b_mass / (a_mass + b_mass)) * square;
 }
 
-/* u = (1 - f) u + f layer in one cell; `layer` holds its fields `stride` apart. A cut cell has one velocity; what
- * kinetic energy that costs is left out, for as heat it would be a hot spot along the surface of a moving body. */
-static void paint_mix(struct paint *paint, size_t cell, double fraction, const double *layer, size_t stride)
+/* Unit normal of the layer's surface at the middle of a cell, into the layer: from central differences of its level. */
+static void paint_normal(const struct paint *paint, size_t index, double ret_n[3])
+{
+    struct paint_cell cell = paint_cell_at(paint, index);
+    double middle[3] = {0.0}, square = 0.0;
+    memset(ret_n, 0, 3 * sizeof *ret_n);
+    for (int d = 0; d < paint->mesh->dim; d++) middle[d] = 0.5 * (cell.lower[d] + cell.upper[d]);
+    for (int d = 0; d < paint->mesh->dim; d++) {
+        double below[3], above[3];
+        memcpy(below, middle, sizeof below);
+        memcpy(above, middle, sizeof above);
+        below[d] = cell.lower[d];
+        above[d] = cell.upper[d];
+        double rise = shape_level(paint->values.layer->shape, below) - shape_level(paint->values.layer->shape, above);
+        ret_n[d] = rise / (cell.upper[d] - cell.lower[d]);
+        square += ret_n[d] * ret_n[d];
+    }
+    for (int d = 0; d < 3 && square > 0.0; d++) ret_n[d] /= sqrt(square);
+}
+
+/* Where a layer cuts a cell that has a state: what the two do to each other at once. `below`: the cell before the layer. */
+static void paint_meet(struct paint *paint, size_t cell, const double *below, const double *layer)
 {
     const struct model *model = paint->model;
     size_t n_cell = paint->mesh->n_cell;
-    struct paint_stretch_layer stretch = {fraction, paint->covered[cell], layer, stride};
-    double lost = 0.0;
+    double n[3], u[MODEL_FIELDS];
+    paint_normal(paint, cell, n);
+    for (unsigned q = 0; q < model->n_field; q++) u[q] = paint->u[q * n_cell + cell];
+    if (!paint_contact(model, below, layer, n, u)) return;
+    for (unsigned q = 0; q < model->n_field; q++) paint->u[q * n_cell + cell] = u[q];
+}
+
+/* u = (1 - f) u + f layer in one cell. A cut cell has one velocity; what
+ * kinetic energy that costs is left out, for as heat it would be a hot spot along the surface of a moving body. */
+static void paint_mix(struct paint *paint, size_t cell, double fraction, const double *layer)
+{
+    const struct model *model = paint->model;
+    size_t n_cell = paint->mesh->n_cell;
+    struct paint_stretch_layer stretch = {fraction, paint->covered[cell], layer, 1};
+    double lost = 0.0, below[MODEL_FIELDS];
+    bool meets = fraction < 1.0 && paint->covered[cell] == 1.0;
+    for (unsigned q = 0; meets && q < model->n_field; q++) below[q] = paint->u[q * n_cell + cell];
     if (model->n_stretch) paint_stretch_mix(model, &stretch, n_cell, paint->u + cell);
-    if (fraction < 1.0) lost = paint_lost(model, paint->u + cell, n_cell, 1.0 - fraction, layer, stride, fraction);
+    if (fraction < 1.0) lost = paint_lost(model, paint->u + cell, n_cell, 1.0 - fraction, layer, 1, fraction);
     for (unsigned q = 0; q < model->i_V; q++) {
         double *u = paint->u + q * n_cell + cell;
-        *u = fraction < 1.0 ? (1.0 - fraction) * *u + fraction * layer[q * stride] : layer[q * stride];
+        *u = fraction < 1.0 ? (1.0 - fraction) * *u + fraction * layer[q] : layer[q];
     }
     paint->u[model->i_E * n_cell + cell] -= lost;
     paint->covered[cell] = fraction < 1.0 ? (1.0 - fraction) * paint->covered[cell] + fraction : 1.0;
+    if (meets) paint_meet(paint, cell, below, layer);
 }
 
 /* Primitives of a cell before the layer, if it has a state. Its pressure starts from that of 1 bar. */
@@ -189,7 +225,7 @@ static int paint_varying(struct paint *paint, const struct paint_cell *cell, dou
     }
     mix_conserved(paint->model, count, PAINT_POINTS, paint->w.at[0], paint->conserved.at[0]);
     paint_mean(paint, weight, n, mean);
-    paint_mix(paint, cell->index, fraction, mean, 1);
+    paint_mix(paint, cell->index, fraction, mean);
     return STATUS_OK;
 }
 
@@ -200,7 +236,7 @@ static int paint_overlay(struct paint *paint, const struct paint_cell *cell, dou
     for (int d = 0; d < 3; d++) x[d] = 0.5 * (cell->lower[d] + cell->upper[d]);
     TRY(paint_values_at(&paint->values, x, paint_before(paint, cell->index, below), w));
     mix_conserved(paint->model, 1, 1, w, u);
-    paint_mix(paint, cell->index, fraction, u, 1);
+    paint_mix(paint, cell->index, fraction, u);
     return STATUS_OK;
 }
 
@@ -220,7 +256,7 @@ static int paint_layer(struct paint *paint)
         double fraction = cover;
         if (cover < 0.0) fraction = shape_fraction(values->layer->shape, cell.lower, cell.upper, mesh->dim, mesh->beta);
         if (fraction <= 0.0) continue;
-        if (constant) paint_mix(paint, c, fraction, u, 1);
+        if (constant) paint_mix(paint, c, fraction, u);
         else TRY(values->varying ? paint_varying(paint, &cell, fraction) : paint_overlay(paint, &cell, fraction));
     }
     return STATUS_OK;

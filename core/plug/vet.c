@@ -5,9 +5,12 @@
 #include "base/status.h"
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
+#include "bulla/conductivity.h"
+#include "bulla/inelastic.h"
 #include "bulla/limiter.h"
 #include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
+#include "bulla/viscosity.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -34,6 +37,7 @@ struct vet_kind {
     }
 
 static const struct vet_kind vet_kinds[] = {
+    {"conductivity", sizeof(struct bulla_conductivity), {VET_SLOT(bulla_conductivity, k.value)}},
     {"constitutive",
      sizeof(struct bulla_constitutive),
      {VET_SLOT(bulla_constitutive, energy), VET_SLOT(bulla_constitutive, range)}},
@@ -42,9 +46,13 @@ static const struct vet_kind vet_kinds[] = {
      {VET_SLOT(bulla_eos, state), VET_SLOT(bulla_eos, derivatives), VET_SLOT(bulla_eos, temperature),
       VET_SLOT(bulla_eos, entropy), VET_SLOT(bulla_eos, density), VET_SLOT(bulla_eos, p_min),
       VET_SLOT(bulla_eos, range)}},
-    {"limiter", sizeof(struct bulla_limiter), {VET_SLOT(bulla_limiter, slope)}},
+    {"inelastic",
+     sizeof(struct bulla_inelastic),
+     {VET_SLOT(bulla_inelastic, strength), VET_SLOT(bulla_inelastic, needs)}},
+    {"limiter", offsetof(struct bulla_limiter, flags), {{0}}},
     {"reconstruction", sizeof(struct bulla_reconstruction), {{0}}},
     {"riemann", offsetof(struct bulla_riemann, solids), {VET_SLOT(bulla_riemann, solve)}},
+    {"viscosity", sizeof(struct bulla_viscosity), {VET_SLOT(bulla_viscosity, mu.value)}},
 };
 
 enum { VET_KINDS = sizeof vet_kinds / sizeof *vet_kinds };
@@ -95,10 +103,11 @@ static int vet_table(const struct bulla_module *module)
     for (int i = 0; i < VET_KINDS; i++)
         if (module->kind && strcmp(module->kind, vet_kinds[i].name) == 0) kind = &vet_kinds[i];
     if (!kind)
-        return status_fail(STATUS_CASE,
-                           "is of the unknown kind '%s'; kinds are constitutive, eos, limiter, "
-                           "reconstruction, riemann",
-                           module->kind ? module->kind : "");
+        return status_fail(
+            STATUS_CASE,
+            "is of the unknown kind '%s'; kinds are conductivity, constitutive, eos, inelastic, limiter, "
+            "reconstruction, riemann, viscosity",
+            module->kind ? module->kind : "");
     if (!module->table) return status_fail(STATUS_CASE, "has no table of functions");
     uint32_t size;
     memcpy(&size, module->table, sizeof size);
@@ -114,6 +123,30 @@ static int vet_table(const struct bulla_module *module)
     return STATUS_OK;
 }
 
+static bool vet_tells_flags(const struct bulla_limiter *table)
+{
+    return table->size >= offsetof(struct bulla_limiter, flags) + sizeof table->flags;
+}
+
+bool vet_two_sided(const struct bulla_limiter *table)
+{
+    return vet_tells_flags(table) && (table->flags & BULLA_TWO_SIDED);
+}
+
+/* One slope, or edges on two sides. */
+static int vet_limiter(const struct bulla_module *module)
+{
+    if (strcmp(module->kind, "limiter") != 0) return STATUS_OK;
+    const struct bulla_limiter *table = module->table;
+    bool two_sided = vet_two_sided(table);
+    if (vet_tells_flags(table) && (table->flags & ~BULLA_TWO_SIDED))
+        return status_fail(STATUS_CASE, "has the flags 0x%x; this program knows 0x%x", table->flags, BULLA_TWO_SIDED);
+    if (two_sided ? !table->edges : !table->slope)
+        return status_fail(STATUS_CASE, "has no function '%s', which %s needs", two_sided ? "edges" : "slope",
+                           two_sided ? "BULLA_TWO_SIDED" : "kind limiter");
+    return STATUS_OK;
+}
+
 /* What is more than a list of functions. */
 static int vet_reconstruction(const struct bulla_module *module)
 {
@@ -126,6 +159,18 @@ static int vet_reconstruction(const struct bulla_module *module)
         return status_fail(STATUS_CASE, "has neither of the functions 'edges' and 'all', of which kind reconstruction "
                                         "needs one");
     return STATUS_OK;
+}
+
+/* Laws of transport: the time step must know how much they may give. */
+static int vet_coefficient(const struct bulla_module *module)
+{
+    const struct bulla_coefficient *table = module->table;
+    bool heat = strcmp(module->kind, "conductivity") == 0;
+    if (heat && table->needs & BULLA_NEEDS_RATE)
+        return status_fail(STATUS_CASE, "looks at the rate of shear, which kind conductivity does not");
+    if (heat || strcmp(module->kind, "viscosity") != 0) return STATUS_OK;
+    if (!(table->needs & BULLA_NEEDS_RATE) || table->most) return STATUS_OK;
+    return status_fail(STATUS_CASE, "looks at the rate of shear but has no function 'most', which the time step needs");
 }
 
 /* "a|b|c" without empty or repeated words. */
@@ -221,17 +266,26 @@ int vet_module(const struct bulla_module *module, size_t space)
 {
     TRY(vet_head(module, space));
     TRY(vet_table(module));
+    TRY(vet_limiter(module));
     TRY(vet_reconstruction(module));
+    TRY(vet_coefficient(module));
     TRY(vet_params(module));
     return vet_presets(module);
 }
 
-/* Slopes of a straight line, of nothing, of an extremum. */
+/* Slopes of a straight line, of nothing, of an extremum; or edges of such cells. */
 static bool vet_try_limiter(const struct bulla_limiter *limiter, const void *self)
 {
+    enum { CELLS = 3 };
     const double minus[] = {1.0, 0.0, 1.0}, plus[] = {1.0, 0.0, -1.0};
-    double slope[] = {(double)NAN, (double)NAN, (double)NAN};
-    limiter->slope(self, 3, minus, plus, slope);
+    const double rows[3][CELLS] = {{0.0, 1.0, 0.0}, {1.0, 1.0, 1.0}, {2.0, 1.0, 0.0}}; /* one below the other */
+    double slope[CELLS] = {(double)NAN, (double)NAN, (double)NAN}, lower[CELLS], upper[CELLS];
+    if (vet_two_sided(limiter)) {
+        memcpy(lower, slope, sizeof slope);
+        memcpy(upper, slope, sizeof slope);
+        limiter->edges(self, CELLS, CELLS, rows[1], lower, upper);
+        for (int i = 0; i < CELLS; i++) slope[i] = lower[i] + upper[i];
+    } else limiter->slope(self, CELLS, minus, plus, slope);
     return isfinite(slope[0]) && isfinite(slope[1]) && isfinite(slope[2]);
 }
 
@@ -309,13 +363,43 @@ static bool vet_try_constitutive(const struct bulla_constitutive *law, const voi
     return good && isfinite(sum);
 }
 
+/* Strength of a body at rest, of one that has flowed far and fast, and of a hot one. */
+static bool vet_try_inelastic(const struct bulla_inelastic *law, const void *self)
+{
+    enum { N = 3 };
+    const double eps[N] = {0.0, 1.0, 0.1}, rate[N] = {0.0, 1e6, 1.0}, p[N] = {1e5, 1e9, 0.0},
+                 T[N] = {300.0, 600.0, 1e4};
+    const double rho[N] = {1e3, 1e4, 1e3};
+    double Y[N] = {(double)NAN, (double)NAN, (double)NAN};
+    if (law->needs(self) & ~(uint32_t)BULLA_INELASTIC_ALL) return false;
+    law->strength(self, N, eps, rate, p, T, rho, Y);
+    return isfinite(Y[0] + Y[1] + Y[2]) && Y[0] >= 0.0 && Y[1] >= 0.0 && Y[2] >= 0.0;
+}
+
+/* A liquid that is sheared at 300 K: what comes out may stand in a flux, and what bounds it in a time step. */
+static bool vet_try_coefficient(const struct bulla_coefficient *law, const void *self)
+{
+    const double rate = 100.0, T = 300.0, p = 1e5, rho = 1000.0;
+    double value = (double)NAN;
+    law->value(self, 1, law->needs & BULLA_NEEDS_RATE ? &rate : NULL, law->needs & BULLA_NEEDS_TEMPERATURE ? &T : NULL,
+               law->needs & BULLA_NEEDS_PRESSURE ? &p : NULL, law->needs & BULLA_NEEDS_DENSITY ? &rho : NULL, &value);
+    bool bounded = !(law->needs & BULLA_NEEDS_RATE) || (isfinite(law->most(self)) && law->most(self) >= value);
+    return isfinite(value) && value >= 0.0 && bounded;
+}
+
 int vet_instance(const struct bulla_module *module, const void *self)
 {
     if (strcmp(module->kind, "limiter") == 0 && !vet_try_limiter(module->table, self))
-        return status_fail(STATUS_CASE, "limiter '%s' gives no finite slopes for differences of 1 and 0", module->name);
+        return status_fail(STATUS_CASE, "limiter '%s' gives no finite slopes or edges for differences of 1 and 0",
+                           module->name);
     if (strcmp(module->kind, "constitutive") == 0 && !vet_try_constitutive(module->table, self))
         return status_fail(STATUS_CASE,
                            "constitutive '%s' gives no finite energy that rises at stretches of 1, 2 and 4",
+                           module->name);
+    if (strcmp(module->kind, "inelastic") == 0 && !vet_try_inelastic(module->table, self))
+        return status_fail(STATUS_CASE,
+                           "inelastic '%s' gives no finite strengths at plastic strains of 0 and 1, or needs what core "
+                           "does not know",
                            module->name);
     if (strcmp(module->kind, "reconstruction") == 0 && !vet_try_reconstruction(module->table, self))
         return status_fail(STATUS_CASE, "reconstruction '%s' gives no finite edges for a gas of rising density",
@@ -323,5 +407,13 @@ int vet_instance(const struct bulla_module *module, const void *self)
     if (strcmp(module->kind, "riemann") == 0 && !vet_try_riemann(module->table, self))
         return status_fail(STATUS_CASE, "riemann '%s' gives no finite fluxes for air that moves at 10 m/s",
                            module->name);
+    if (strcmp(module->kind, "viscosity") == 0 && !vet_try_coefficient(module->table, self))
+        return status_fail(
+            STATUS_CASE,
+            "viscosity '%s' gives no number from 0 to what it says to be the most, for a liquid at 300 K "
+            "and 1 bar that is sheared at 100 1/s",
+            module->name);
+    if (strcmp(module->kind, "conductivity") == 0 && !vet_try_coefficient(module->table, self))
+        return status_fail(STATUS_CASE, "conductivity '%s' gives no number from 0, at 300 K and 1 bar", module->name);
     return STATUS_OK;
 }

@@ -2,8 +2,10 @@
 #ifndef VET_H
 #define VET_H
 
+#include "bulla/limiter.h"
 #include "bulla/module.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Checks everything that core relies on: magic, interface number, sizes, kind, the functions of
@@ -15,5 +17,8 @@ int vet_module(const struct bulla_module *module, size_t space);
 /* Calls an instance once with harmless numbers: laws that give NaN even there are refused, because core's guard
  * would quietly replace what they say. STATUS_CASE with a whole sentence. `self` is what `open` made. */
 int vet_instance(const struct bulla_module *module, const void *self);
+
+/* Has this limiter two sides? Tables from before there were flags have not. */
+bool vet_two_sided(const struct bulla_limiter *table);
 
 #endif

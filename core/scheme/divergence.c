@@ -17,11 +17,12 @@ static BULLA_KERNEL void divergence_row(size_t n, double a, const double *restri
 /* A row of cells of one tile along axis 0 in curved coordinates: rate -= (A+ (F+ - q) - A- (F- - q)) / V;
  * q is the cell's pressure for the radial momentum, else a row of zeros. */
 static BULLA_KERNEL void divergence_curved(size_t n, const double *restrict area, const double *restrict volume,
-                                           const double *restrict flux, const double *restrict q, double *restrict rate)
+                                           const double *restrict lower, const double *restrict upper,
+                                           const double *restrict q, double *restrict rate)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double low = flux[i], up = flux[i + 1], inside = q[i], old = rate[i];
+        double low = lower[i], up = upper[i], inside = q[i], old = rate[i];
         rate[i] = old - (area[i + 1] * (up - inside) - area[i] * (low - inside)) / volume[i];
     }
 }
@@ -43,6 +44,7 @@ static void divergence_flux(const struct term_tile *tile, const struct divergenc
     const struct metric *metric = tile->metric;
     if (span->curved && flux->kind != TERM_DIFFERENCE)
         divergence_curved(span->n, metric->area, metric->volume, flux->below + span->face,
+                          flux->above + span->face + span->step,
                           flux->kind == TERM_BALANCED ? tile->hoop + span->cell : divergence_zero, rate);
     else divergence_row(span->n, span->per_h, flux->below + span->face, flux->above + span->face + span->step, rate);
 }

@@ -9,6 +9,7 @@
 #include "phys/row.h"
 #include "scheme/edges.h"
 #include "scheme/face_stress.h"
+#include "scheme/low_mach.h"
 
 #include <math.h>
 #include <string.h>
@@ -93,9 +94,13 @@ struct face_work *face_new(const struct model *model)
     work->energy = work->momentum + model->n_velocity * FACE_ROOM;
     work->u = work->energy + FACE_ROOM;
     work->stretch = model->n_stretch ? face_row(model->n_stretch) : NULL;
+    work->strains = model->n_strain ? face_row(model->n_strain) : NULL;
     work->solid = model->n_stretch && model->n_alpha ? face_row(1) : NULL;
+    work->heat_below = model->conducts && model->n_alpha ? face_row(2 * model->n_alpha) : NULL;
+    work->heat_above = work->heat_below ? work->heat_below + model->n_alpha * FACE_ROOM : NULL;
     work->carried = face_row(2 * model->n_alpha);
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
+    for (int side = 0; side < 2 && model->forced; side++) work->rise[side] = face_row(1);
     face_split(model, work->alpha, own->flux_alpha, own->flux_m, own->flux_u);
     face_split(model, own->robust, own->robust_alpha, own->robust_m, own->robust_u);
     face_slide(work, model);
@@ -124,10 +129,14 @@ void face_free(struct face_work *work)
                       work->faces.work[2],
                       work->faces.work[3],
                       work->carried,
+                      work->heat_below,
                       own->origin,
                       own->strain,
                       work->stretch,
-                      work->solid};
+                      work->strains,
+                      work->solid,
+                      work->rise[0],
+                      work->rise[1]};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) mem_free(rows[i]);
     edges_free(own->edges);
     face_stress_free(own->stress);
@@ -194,8 +203,26 @@ static void face_load(struct face_work *work, const struct frame *frame, size_t 
     face_stress_complete(own->stress, model, &edges);
 }
 
+/* Velocities at the faces of a row of cells, before they have an energy; rho c^2 is still that in own->c. */
+static void face_calm(struct face_work *work, const struct frame *frame, const double *rho, bool masked)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    size_t cells = frame_edged(frame);
+    const struct low_mach faces = {.n = cells - frame->inner,
+                                   .right = cells + frame->inner,
+                                   .least = model->scene->scheme.low_mach,
+                                   .rho = rho,
+                                   .rho_c2 = own->c,
+                                   .p = work->frame + model->i_E * FACE_ROOM + frame_reach(frame),
+                                   .mask = masked ? work->mask + frame_reach(frame) : NULL,
+                                   .step = frame->inner,
+                                   .part = own->term};
+    if (faces.least < 1.0) low_mach_draw(&faces, own->state + 2 * (model->i_u + (unsigned)frame->axis) * FACE_ROOM);
+}
+
 /* Partial densities, total energy and fastest speed of n edges. */
-static void face_complete(struct face_work *work, const struct frame *frame, size_t n)
+static void face_complete(struct face_work *work, const struct frame *frame, size_t n, bool masked)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
@@ -218,6 +245,7 @@ static void face_complete(struct face_work *work, const struct frame *frame, siz
         else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
     }
     face_load(work, frame, n, rho);
+    face_calm(work, frame, rho, masked);
     face_finish(n, rho, u[0], u[1], u[2], own->energy, own->c);
 }
 
@@ -315,6 +343,7 @@ static void face_drag(struct face_work *work, size_t right)
     for (unsigned s = 0; s < model->n_solid; s++)
         row_add(n, work->m + model->solids[s].material * FACE_ROOM, own->term);
     face_stress_carry(model, n, right, own->state, own->term, work->stretch);
+    if (work->strains) face_stress_age(model, n, right, own->state, work->m, work->strains);
 }
 
 /* Mean of the two sides, added up. */
@@ -355,13 +384,20 @@ static void face_transport(struct face_work *work, size_t right)
                    work->carried + l * FACE_ROOM, work->strained + l * FACE_ROOM);
 }
 
+void face_begin(struct face_work *work, const struct frame *frame)
+{
+    for (int side = 0; side < 2; side++)
+        if (work->rise[side]) memset(work->rise[side], 0, frame->count * sizeof(double));
+}
+
 void face_solve(struct face_work *work, const struct frame *frame, bool masked)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
     size_t cells = frame_edged(frame);
-    edges_fill(own->edges, model, frame, work->frame, masked ? work->mask : NULL, own->state);
-    face_complete(work, frame, 2 * cells);
+    const struct edges_cells in = {work->frame, masked ? work->mask : NULL, {work->rise[0], work->rise[1]}};
+    edges_fill(own->edges, model, frame, &in, own->state);
+    face_complete(work, frame, 2 * cells, masked);
     face_point(work, frame, cells);
     model->riemann->solve(model->riemann_self, &work->faces);
     if (masked) face_solve_robust(work, frame, work->faces.n);

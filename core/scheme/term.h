@@ -46,8 +46,10 @@ struct term_tile {
 struct term_piece {
     const struct terms *terms;
     const struct model *model;
+    const struct term_tile *tile; /* the tile it is a piece of; a replay of a dump knows no neighbours */
     const struct frame *frame;
     struct face_work *faces;
+    void *own; /* of the term that is called */
 };
 
 /* How a row of fluxes becomes rates. */

@@ -4,11 +4,13 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "scheme/closure.h"
+#include "scheme/conduction.h"
 #include "scheme/convection.h"
 #include "scheme/drag.h"
 #include "scheme/exchange.h"
 #include "scheme/face_stress.h"
 #include "scheme/fraction.h"
+#include "scheme/hardening.h"
 #include "scheme/hoop.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
@@ -19,7 +21,9 @@
 
 const struct term *const terms_all[] = {
     &convection_term,  /* conserved fields through the faces */
+    &hardening_term,   /* plastic strains travel with their solids */
     &hoop_term,        /* what stands against p / r and the hoop stress in curved geometry */
+    &conduction_term,  /* heat from cell to cell and from material to material */
     &face_stress_term, /* one traction for the materials of a cell, in one dimension */
     &source_term,      /* forces, heat, mass, Lua */
     &drag_term,        /* resistance of porous media */

@@ -14,6 +14,7 @@
 #include "solve/beyond.h"
 #include "solve/blame.h"
 #include "solve/pace.h"
+#include "solve/peak.h"
 #include "solve/plan.h"
 #include "solve/regrid.h"
 #include "solve/sync.h"
@@ -39,7 +40,10 @@ double advance_dt(const struct state *state)
 static void advance_run(struct stage *stage)
 {
     const struct plan *plan = plan_of(stage->tableau);
-    for (int i = 0; i < plan->n; i++) plan->step[i].run(stage, plan->step[i].turn);
+    for (int i = 0; i < plan->n; i++) {
+        stage->turn = plan->step[i].turn;
+        plan->step[i].run(stage);
+    }
 }
 
 /* Runs it as an attempt; returns the number of inadmissible cells of all ranks (in the first stage
@@ -325,6 +329,7 @@ static int advance_through(struct state *state, int l, double t, double dt)
         }
         done += part;
         TRY(advance_finer(state, l));
+        peak_take(state, l, stage->t + stage->dt);
         TRY(advance_regrid(state, l, done >= 1.0));
         if (done < 1.0) TRY(advance_look(state, l, t + done * dt));
     }
@@ -342,6 +347,7 @@ static int advance_follow(struct state *state)
     if (state->dt > state->dt_longest) state->dt_longest = state->dt;
     state->step++;
     state->whole = true;
+    peak_take(state, 0, state->t);
     state->dt_shrink = state->dt_shrink * 1.1 < 1.0 ? state->dt_shrink * 1.1 : 1.0;
     TRY(advance_regrid(state, 0, true));
     regrid_signals(state);

@@ -4,6 +4,7 @@
 
 #include "base/mem.h"
 #include "phys/mix.h"
+#include "scheme/operators.h"
 #include "scheme/rate.h"
 #include "solve/guard.h"
 #include "solve/pace.h"
@@ -127,6 +128,25 @@ static void blame_replay_update(struct replay *replay)
     rate_mix(&tile, u_old, row->mix, replay->u);
 }
 
+/* What acts on them before they are judged. */
+static void blame_replay_operate(struct replay *replay)
+{
+    const struct blame_facts *facts = &replay->blame->facts;
+    double dt = tableau_reach(replay->tableau, facts->stage) * facts->dt;
+    struct operators operators;
+    const struct operator_tile tile = {.model = replay->used,
+                                       .mesh = &replay->mesh,
+                                       .level = replay->level,
+                                       .tile = &replay->tile,
+                                       .n_cell = facts->n_cell,
+                                       .t = facts->t + dt,
+                                       .dt = dt,
+                                       .u = replay->u,
+                                       .w = replay->w};
+    operators_of(replay->used, &operators);
+    operators_act(&operators, facts->stage + 1 == replay->tableau->n, &tile);
+}
+
 /* The guard's opinion of the new state, which it may change. */
 static void blame_replay_judge(struct replay *replay, struct blame_outcome *outcome)
 {
@@ -186,7 +206,10 @@ void blame_replay(const struct model *model, const struct blame *blame, struct b
     size_t bytes = model->n_field * facts->n_cell * sizeof(double);
     memcpy(replay->u, blame->block[blame_moves(facts) ? BLAME_U_OLD : BLAME_U], bytes);
     memcpy(replay->w, blame->block[BLAME_W], bytes); /* where an iteration starts */
-    if (blame_moves(facts)) blame_replay_update(replay);
+    if (blame_moves(facts)) {
+        blame_replay_update(replay);
+        blame_replay_operate(replay);
+    }
     mix_primitives(replay->used, facts->n_cell, facts->n_cell, replay->u, replay->w);
     blame_result(replay->again, replay->used, replay->u, replay->w);
     ret_outcome->faces = blame_replay_differences(replay, BLAME_FACES);

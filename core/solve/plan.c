@@ -1,30 +1,27 @@
 /* plan.c - see plan.h. */
 #include "solve/plan.h"
 
-#include <string.h>
-
-static void plan_add(struct plan *plan, const char *name, const char *doc, void (*run)(struct stage *stage, int turn),
-                     int turn)
+static void plan_add(struct plan *plan, struct plan_step step)
 {
-    plan->step[plan->n++] = (struct plan_step){name, doc, run, turn};
+    plan->step[plan->n++] = step;
 }
 
 /* Every stage exchanges and takes; the first one leaves the ghosts of finer levels, the last one is closed. */
 static void plan_make(const struct tableau *tableau, struct plan *plan)
 {
+    static const char *const exchange = "send layers of primitives to neighbouring ranks";
+    static const char *const ghosts =
+        "with finer levels: what they see behind their edges at the beginning of the step";
+    static const char *const close = "w = primitives of u, admissibility, signal speed for the next dt";
+    static const char *const then[] = {": the terms below", ": the terms below; w = primitives of it, admissibility"};
     plan->n = 0;
     for (int s = 0; s < tableau->n; s++) {
-        plan_add(plan, "exchange", "send layers of primitives to neighbouring ranks", stage_exchange, s);
-        if (s == 0)
-            plan_add(plan, "ghosts", "with finer levels: what they see behind their edges at the beginning of the step",
-                     stage_ghosts, s);
-        plan_add(plan, tableau->stage[s].name,
-                 s + 1 < tableau->n ? "%U: the terms below; w = primitives of it, admissibility"
-                                    : "%U: the terms below",
-                 stage_take, s);
+        const struct tableau_stage *stage = &tableau->stage[s];
+        plan_add(plan, (struct plan_step){"exchange", "", exchange, stage_exchange, s});
+        if (s == 0) plan_add(plan, (struct plan_step){"ghosts", "", ghosts, stage_ghosts, s});
+        plan_add(plan, (struct plan_step){stage->name, stage->doc, then[s + 1 < tableau->n], stage_take, s});
     }
-    plan_add(plan, "close", "w = primitives of u, admissibility, signal speed for the next dt", stage_close,
-             tableau->n - 1);
+    plan_add(plan, (struct plan_step){"close", "", close, stage_close, tableau->n - 1});
 }
 
 const struct plan *plan_of(const struct tableau *tableau)
@@ -46,18 +43,6 @@ static void plan_laws(const struct scene *scene, struct text *text)
     }
 }
 
-static void plan_line(const struct tableau *tableau, const struct plan_step *step, struct text *text)
-{
-    for (const char *doc = step->doc; *doc; doc++) {
-        if (*doc != '%') {
-            text_add_n(text, doc, 1);
-            continue;
-        }
-        doc++;
-        if (*doc == 'U') text_add(text, "%s", tableau->stage[step->turn].doc);
-    }
-}
-
 /* What L(w) is made of at the faces. */
 static void plan_faces(const struct scene *scene, struct text *text)
 {
@@ -67,6 +52,15 @@ static void plan_faces(const struct scene *scene, struct text *text)
     text_add(text, "), states (");
     plan_laws(scene, text);
     text_add(text, "), fluxes (%s); then\n", scene->scheme.riemann.module->name);
+}
+
+/* What acts beside the terms. */
+static void plan_operators(const struct model *model, enum operator_when when, const char *head, struct text *text)
+{
+    struct operators operators;
+    operators_of(model, &operators);
+    if (operators.n[when]) text_add(text, "%s", head);
+    operators_say(model, when, text);
 }
 
 /* How the steps of levels follow each other (advance.c, sync.c, regrid.c). */
@@ -91,12 +85,13 @@ void plan_text(const struct model *model, struct text *ret_text)
     const struct plan *plan = plan_of(tableau);
     text_add(ret_text, "one step of %s (%s):\n", scene->mesh.levels ? "each level" : "level 0", tableau->doc);
     for (int i = 0; i < plan->n; i++) {
-        text_add(ret_text, "  %d  %-8s  ", i + 1, plan->step[i].name);
-        plan_line(tableau, &plan->step[i], ret_text);
-        text_add(ret_text, "\n");
+        const struct plan_step *step = &plan->step[i];
+        text_add(ret_text, "  %d  %-8s  %s%s\n", i + 1, step->name, step->formula, step->doc);
     }
     plan_faces(scene, ret_text);
     terms_say(model, ret_text);
+    plan_operators(model, OPERATOR_STAGE, "after every stage, before its primitives:\n", ret_text);
+    plan_operators(model, OPERATOR_STEP, "after the last stage, before close:\n", ret_text);
     if (scene->mesh.levels) plan_levels(scene, ret_text);
     text_add(ret_text,
              "then: an inadmissible cell makes the step run again with first-order states and rusanov fluxes at its\n"

@@ -8,9 +8,10 @@
 
 struct plan_step {
     const char *name;
-    const char *doc;                            /* one line; %U stands for the formula of the stage */
-    void (*run)(struct stage *stage, int turn); /* never NULL */
-    int turn;                                   /* row of the tableau */
+    const char *formula;              /* of the stage that it takes, else empty */
+    const char *doc;                  /* what it does, one line */
+    void (*run)(struct stage *stage); /* never NULL */
+    int turn;                         /* row of the tableau */
 };
 
 struct plan {

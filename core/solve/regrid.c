@@ -13,6 +13,7 @@
 #include "mesh/partition.h"
 #include "paint/paint.h"
 #include "solve/adopt.h"
+#include "solve/peak.h"
 #include "solve/stage.h"
 #include "solve/sync.h"
 #include "solve/tag.h"
@@ -255,6 +256,7 @@ static int regrid_replace(struct regrid *regrid, int l, enum regrid_origin origi
     *set = (struct nest_set){0};
     if (origin == REGRID_PAINTED) status = regrid_paint(state, l, change.born);
     else regrid_interpolate(state, l, change.born);
+    peak_down(state->mesh, l, change.born);
     if (!status) adopt_level(state->stages[l], change.from, change.born);
     mesh_change_free(&change);
     return status;
@@ -290,6 +292,7 @@ static int regrid_apply(struct regrid *regrid, enum regrid_origin origin)
     int finest = regrid->base;
     regrid_partition(regrid);
     while (finest < mesh->most_level && regrid->sets[finest + 1].n) finest++;
+    peak_up(mesh, &state->scene->output, regrid->base);
     for (int l = mesh->n_level - 1; l > finest; l--) regrid_drop(state, l);
     regrid_share(regrid);
     for (int l = regrid->base + 1; l <= finest; l++) TRY(regrid_replace(regrid, l, origin));

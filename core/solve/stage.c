@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "mesh/halo.h"
 #include "phys/elastic.h"
+#include "solve/operate.h"
 #include "solve/verdict.h"
 
 #include <string.h>
@@ -34,9 +35,8 @@ void stage_free(struct stage *stage)
     mem_free(stage);
 }
 
-void stage_exchange(struct stage *stage, int turn)
+void stage_exchange(struct stage *stage)
 {
-    (void)turn;
     halo_start(stage->level->halo, stage->level->w);
     if (stage->guard->masked) halo_start(stage->guard->halo, stage->guard->mask);
     cost_lap(&stage->work->cost, COST_EXCHANGE);
@@ -49,9 +49,8 @@ static void stage_finish_exchange(struct stage *stage)
     cost_lap(&stage->work->cost, COST_EXCHANGE);
 }
 
-void stage_ghosts(struct stage *stage, int turn)
+void stage_ghosts(struct stage *stage)
 {
-    (void)turn;
     if (stage->l + 1 >= stage->mesh->n_level) return;
     halo_finish(stage->level->halo);
     cost_lap(&stage->work->cost, COST_EXCHANGE);
@@ -117,11 +116,12 @@ static void stage_swept(void *data, int axis)
 }
 
 /* Has a tile nothing to compute in this stage? Repeated steps, tiles whose fluxes another level asks for and scenes with
- * terms that move what rests are not skipped; nor is a tile that has already moved, where stages build on each other. */
+ * terms or operators that move what rests are not skipped; nor is a tile that has already moved, where stages build on each other. */
 static bool stage_skips(const struct stage *stage, unsigned local)
 {
     const struct census_tile *tile = &stage->census.tiles[local];
-    if (stage->work->terms[0]->moves || !tile->still || stage->guard->masked) return false;
+    const struct work *work = stage->work;
+    if (work->terms[0]->moves || work->operators[0].moves || !tile->still || stage->guard->masked) return false;
     if (stage->tableau->stage[stage->turn].previous && !tile->skipped) return false;
     return !reflux_concerns(stage->reflux, local) && census_rests(&stage->census, local);
 }
@@ -229,6 +229,7 @@ static void stage_inner_tile(struct stage *stage, unsigned local)
     stage_advance_tile(stage, local, stage->work->u_star);
     stage_keep(stage, local, w, w_next);
     memcpy(w_next + p, w + p, n_cell * sizeof *w); /* where an iteration starts */
+    operate_tile(stage, local, stage->work->u_star, w_next);
     verdict_judge(stage, local, stage->turn, level->u_old[local], stage->work->u_star, w_next);
     stage_remember(stage, local, stage->work->u_star);
 }
@@ -263,10 +264,10 @@ static void stage_tiles(struct stage *stage, void (*work)(struct stage *stage, u
     stage->bound->model = stage->model; /* strips and births need all fields, whatever the last tile held */
 }
 
-void stage_take(struct stage *stage, int turn)
+void stage_take(struct stage *stage)
 {
     struct level *level = stage->level;
-    stage->turn = turn;
+    int turn = stage->turn;
     reflux_weigh(stage->reflux, stage->tableau->stage[turn].weight, tableau_is_first_weight(stage->tableau, turn));
     if (turn + 1 == stage->tableau->n) {
         stage_tiles(stage, stage_last_tile);
@@ -279,12 +280,13 @@ void stage_take(struct stage *stage, int turn)
     for (unsigned tile = 0; tile < level->n_local; tile++) census_turn(&stage->census.tiles[tile]);
 }
 
-void stage_close(struct stage *stage, int turn)
+void stage_close(struct stage *stage)
 {
     const struct level *level = stage->level;
     for (unsigned tile = 0; tile < level->n_local; tile++) {
         if (!stage->census.tiles[tile].skipped) {
-            verdict_judge(stage, tile, turn, level->u_old[tile], level->u_new[tile], level->w[tile]);
+            operate_tile(stage, tile, level->u_new[tile], level->w[tile]);
+            verdict_judge(stage, tile, stage->turn, level->u_old[tile], level->u_new[tile], level->w[tile]);
             verdict_measure(stage, tile, level->w[tile]);
         }
         census_turn(&stage->census.tiles[tile]);

@@ -31,7 +31,7 @@ struct stage {
     struct reflux *reflux;
     struct census census;
     double *previous;    /* [n_local][n_field][n_cell]: conserved fields of the stage before (tableau_keeps), or NULL */
-    int turn;            /* stage under way: its row of the tableau */
+    int turn;            /* stage under way: its row of the tableau, set by who runs the plan */
     int blind;           /* tile whose boundary values a script could not give, times 3 plus the axis; -1: none */
     struct blame *blame; /* a tile being watched while a failed attempt is repeated, and what was seen; or NULL */
     double t, dt;        /* of the step under way */
@@ -45,17 +45,17 @@ struct stage *stage_new(const struct model *model, struct mesh *mesh, int l, str
 void stage_free(struct stage *stage);
 
 /* Sends slabs of w (and of the guard's marks) to other ranks. Collective. */
-void stage_exchange(struct stage *stage, int turn);
+void stage_exchange(struct stage *stage);
 
 /* Waits for the exchange and writes the strips for the next finer level, if there is one. */
-void stage_ghosts(struct stage *stage, int turn);
+void stage_ghosts(struct stage *stage);
 
-/* Stage `turn` of the tableau, in all tiles; waits for the exchange. Of all but the last w becomes the primitives of what
+/* Stage `turn`, in all tiles; waits for the exchange. Of all but the last w becomes the primitives of what
  * it made, judged as that stage; the last one leaves u_new. */
-void stage_take(struct stage *stage, int turn);
+void stage_take(struct stage *stage);
 
 /* w = primitives of u_new; judged as the last stage, measures the signal speed. */
-void stage_close(struct stage *stage, int turn);
+void stage_close(struct stage *stage);
 
 static inline const struct tile *stage_tile(const struct stage *stage, unsigned local)
 {

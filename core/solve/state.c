@@ -10,6 +10,7 @@
 #include "phys/mix.h"
 #include "solve/regrid.h"
 #include "solve/adopt.h"
+#include "solve/peak.h"
 #include "solve/stage.h"
 #include "solve/verdict.h"
 
@@ -66,6 +67,7 @@ static int state_begin(struct state *state)
     TRY(comm_agree(verdict_start(state->stages[0])));
     TRY(regrid_initial(state));
     regrid_signals(state);
+    for (int l = 0; l < state->mesh->n_level; l++) peak_take(state, l, state->t);
     return STATUS_OK;
 }
 
@@ -103,7 +105,8 @@ static int state_load_level(struct state *state, const struct state_source *sour
     double *p = mem_new(n_cell, sizeof *p);
     int status = STATUS_OK;
     for (unsigned t = 0; t < level->n_local && !status; t++) {
-        status = source->fill(source->data, l, level->first + t, level->u_old[t], p);
+        status =
+            source->fill(source->data, l, level->first + t, level->u_old[t], p, level->kept ? level->kept[t] : NULL);
         memcpy(level->w[t] + state->model->i_E * n_cell, p, n_cell * sizeof *p);
         mix_primitives(state->model, n_cell, n_cell, level->u_old[t], level->w[t]);
     }

@@ -35,6 +35,11 @@ int tableau_named(const char *name)
     return -1;
 }
 
+double tableau_reach(const struct tableau *tableau, int stage)
+{
+    return stage + 1 < tableau->n ? tableau->stage[stage + 1].at : 1.0;
+}
+
 bool tableau_keeps(const struct tableau *tableau)
 {
     bool keeps = false;

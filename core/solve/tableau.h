@@ -35,6 +35,9 @@ const struct tableau *tableau_of(const struct scene *scene);
 const struct tableau *tableau_numbered(int integrator);
 int tableau_named(const char *name);
 
+/* Time of the state that a stage makes, since the step began, in dt. */
+double tableau_reach(const struct tableau *tableau, int stage);
+
 /* Does a stage need the conserved fields of the one before? */
 bool tableau_keeps(const struct tableau *tableau);
 

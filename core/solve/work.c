@@ -5,7 +5,9 @@
 
 static void work_add_terms(struct work *work, const struct model *path, struct face_work *faces)
 {
-    if (path) work->terms[model_number(path) + 1] = terms_new(path, faces);
+    if (!path) return;
+    work->terms[model_number(path) + 1] = terms_new(path, faces);
+    operators_of(path, &work->operators[model_number(path) + 1]);
 }
 
 struct work *work_new(const struct model *model, const struct mesh *mesh)
@@ -48,4 +50,9 @@ void work_free(struct work *work)
 const struct terms *work_terms(const struct work *work, const struct model *path)
 {
     return work->terms[model_number(path) + 1];
+}
+
+const struct operators *work_operators(const struct work *work, const struct model *path)
+{
+    return &work->operators[model_number(path) + 1];
 }

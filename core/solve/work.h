@@ -3,16 +3,18 @@
 #define WORK_H
 
 #include "levels/prolong.h"
+#include "scheme/operators.h"
 #include "scheme/rate.h"
 #include "solve/cost.h"
 
 struct work {
     const struct model *model;
     struct face_work *faces;
-    struct face_work *faces_pure;             /* of paths of one material; NULL if the scene has no more */
-    struct face_work *faces_fluids;           /* of the path of all fluids, or NULL */
-    struct terms *terms[SCENE_MATERIALS + 2]; /* by model_number + 1; NULL: the scene has no such path */
-    void *own[TERMS_MOST];                    /* memory of the terms */
+    struct face_work *faces_pure;                    /* of paths of one material; NULL if the scene has no more */
+    struct face_work *faces_fluids;                  /* of the path of all fluids, or NULL */
+    struct terms *terms[SCENE_MATERIALS + 2];        /* by model_number + 1; NULL: the scene has no such path */
+    struct operators operators[SCENE_MATERIALS + 2]; /* likewise */
+    void *own[TERMS_MOST];                           /* memory of the terms */
     struct prolong *prolong;
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
     struct cost cost;                         /* where the time goes, of all levels */
@@ -23,5 +25,8 @@ void work_free(struct work *work); /* NULL is fine */
 
 /* The terms of a path of the scene. */
 const struct terms *work_terms(const struct work *work, const struct model *path);
+
+/* Its operators. */
+const struct operators *work_operators(const struct work *work, const struct model *path);
 
 #endif

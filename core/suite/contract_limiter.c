@@ -1,9 +1,11 @@
 /* contract_limiter.c - see contract_limiter.h. The region is Sweby's (SIAM J. Numer. Anal. 21 (1984)
  * 995-1011): no slope at extremes, at most twice the smaller difference, so that no face value
- * leaves the range of the neighbours. */
+ * leaves the range of the neighbours. A limiter with two sides is asked for the edges of cells of value 0, whose
+ * differences are those drawn, to the bit. */
 #include "suite/contract_limiter.h"
 
 #include "bulla/limiter.h"
+#include "plug/vet.h"
 #include "suite/contract_batch.h"
 
 #include <math.h>
@@ -102,6 +104,89 @@ static void contract_limiter_edges(struct contract *contract)
         }
 }
 
+/* The edges of a cell of value 0 between -below and above. */
+struct limiter_edges {
+    double lower, upper;
+};
+
+static struct limiter_edges contract_limiter_sides(const struct contract *contract, double below, double above)
+{
+    const struct bulla_limiter *limiter = contract->module->table;
+    const double w[3] = {-below, 0.0, above};
+    struct limiter_edges edges = {NAN, NAN};
+    limiter->edges(contract->self, 1, 1, w + 1, &edges.lower, &edges.upper);
+    return edges;
+}
+
+/* Opposite signs or a zero: no step. Else towards the neighbour, and no further. */
+static void contract_limiter_between(struct contract *contract, double below, double above)
+{
+    struct limiter_edges edges = contract_limiter_sides(contract, below, above);
+    double sign = copysign(1.0, below), down = -sign * edges.lower, up = sign * edges.upper;
+    if ((below > 0.0) != (above > 0.0) || below * sign == 0.0 || above == 0.0) {
+        contract_begin(contract, "both edges are the cell's value at an extreme or beside a zero", 0.0);
+        contract_error(contract, !(down == 0.0 && up == 0.0), "edges(%.9g, %.9g) = %.9g, %.9g", below, above,
+                       edges.lower, edges.upper);
+        return;
+    }
+    contract_begin(contract, "an edge lies between its cell and the neighbour of its side", 0.0);
+    contract_error(contract, !(down >= 0.0 && down <= fabs(below) && up >= 0.0 && up <= fabs(above)),
+                   "edges(%.9g, %.9g) = %.9g, %.9g", below, above, edges.lower, edges.upper);
+}
+
+static void contract_limiter_turned(struct contract *contract, double below, double above, double k)
+{
+    struct limiter_edges edges = contract_limiter_sides(contract, below, above);
+    struct limiter_edges odd = contract_limiter_sides(contract, -below, -above);
+    struct limiter_edges back = contract_limiter_sides(contract, -above, -below);
+    struct limiter_edges scaled = contract_limiter_sides(contract, k * below, k * above);
+    double size = k * (fabs(below) + fabs(above));
+    char where[64];
+    snprintf(where, sizeof where, "edges at (%.9g, %.9g)", below, above);
+    contract_begin(contract, "odd: edges(-w) = -edges(w), bitwise", 0.0);
+    contract_holds(contract, odd.lower == -edges.lower && odd.upper == -edges.upper, where);
+    contract_begin(contract, "mirrored cells have mirrored edges, bitwise", 0.0);
+    contract_holds(contract, back.lower == edges.upper && back.upper == edges.lower, where);
+    contract_begin(contract, "homogeneous: edges(k w) = k edges(w)", 1e-13);
+    contract_near(contract, scaled.lower, k * edges.lower, size, where);
+    contract_near(contract, scaled.upper, k * edges.upper, size, where);
+}
+
+/* Rows along and across: bitwise the edges of their cells alone. */
+static void contract_limiter_rows(struct contract *contract)
+{
+    const struct bulla_limiter *limiter = contract->module->table;
+    uint64_t seed = 6;
+    double w[LIMITER_ROW + 2 * LIMITER_PITCH], lower[LIMITER_ROW], upper[LIMITER_ROW], at[2];
+    for (size_t i = 0; i < sizeof w / sizeof *w; i++) w[i] = contract_limiter_draw(&seed);
+    contract_begin(contract, "edges of a row are those of its cells, bitwise", 0.0);
+    for (size_t step = 1; step <= LIMITER_PITCH; step += LIMITER_PITCH - 1) {
+        limiter->edges(contract->self, LIMITER_ROW, step, w + LIMITER_PITCH, lower, upper);
+        for (size_t i = 0; i < LIMITER_ROW; i++) {
+            const double *here = w + LIMITER_PITCH + i, alone[3] = {*(here - step), *here, here[step]};
+            limiter->edges(contract->self, 1, 1, alone + 1, at, at + 1);
+            contract_error(contract, !(lower[i] == at[0] && upper[i] == at[1]), "cell %zu, step %zu: %.17g to %.17g", i,
+                           step, lower[i], upper[i]);
+        }
+    }
+}
+
+/* Sizes at which products overflow are no values of a flow: up to their square roots. */
+static void contract_limiter_two_sided(struct contract *contract)
+{
+    static const double ends[] = {0.0, -0.0, 5e-324, 1e-310, 1e-200, 1.0, 3.0, -3.0, 1e150, 8e307};
+    enum { COUNT = sizeof ends / sizeof *ends };
+    uint64_t seed = 2;
+    for (int i = 0; i < LIMITER_PAIRS; i++) {
+        double a = contract_limiter_draw(&seed), k = pow(10.0, contract_random(&seed, -9.0, 9.0));
+        double b = i % 2 ? contract_limiter_draw(&seed) : a * contract_random(&seed, -1.0, 4.0);
+        contract_limiter_between(contract, a, b);
+        contract_limiter_turned(contract, a, b, k);
+    }
+    for (int i = 0; i < COUNT * COUNT; i++) contract_limiter_between(contract, ends[i / COUNT], ends[i % COUNT]);
+    contract_limiter_rows(contract);
+}
+
 /* The functions as rows. */
 
 static void contract_limiter_run_slope(const struct contract *contract, const struct contract_call *call, size_t n,
@@ -136,6 +221,12 @@ void contract_limiter_run(struct contract *contract)
     const struct bulla_limiter *limiter = contract->module->table;
     const struct contract_call slope = {"slope", 2, 1, contract_limiter_run_slope, contract_limiter_draw_row, NULL};
     const struct contract_call edges = {"edges", 3, 2, contract_limiter_run_edges, contract_limiter_draw_row, NULL};
+    if (vet_two_sided(limiter)) {
+        contract_doing(contract, "edges of both sides");
+        contract_limiter_two_sided(contract);
+        contract_batch_run(contract, &edges);
+        return;
+    }
     contract_doing(contract, "slopes of pairs");
     contract_limiter_pairs(contract);
     contract_doing(contract, "symmetries of slopes");
@@ -148,6 +239,12 @@ void contract_limiter_run(struct contract *contract)
 
 void contract_limiter_probe(const struct contract *contract, double out[static CONTRACT_PROBE])
 {
+    if (vet_two_sided(contract->module->table)) {
+        struct limiter_edges edges = contract_limiter_sides(contract, 1.0, 3.0);
+        out[0] = edges.lower;
+        out[1] = edges.upper;
+        return;
+    }
     out[0] = contract_limiter_slope(contract, 1.0, 3.0);
     out[1] = contract_limiter_slope(contract, 2.0, 2.2);
 }

@@ -3,9 +3,12 @@
 
 #include "suite/contract_constitutive.h"
 #include "suite/contract_eos.h"
+#include "suite/contract_conductivity.h"
+#include "suite/contract_inelastic.h"
 #include "suite/contract_limiter.h"
 #include "suite/contract_reconstruction.h"
 #include "suite/contract_riemann.h"
+#include "suite/contract_viscosity.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -14,11 +17,14 @@ static const struct {
     const char *kind;
     void (*run)(struct contract *contract);
     void (*probe)(const struct contract *contract, double out[static CONTRACT_PROBE]);
-} contract_suite_table[] = {{"constitutive", contract_constitutive_run, contract_constitutive_probe},
+} contract_suite_table[] = {{"conductivity", contract_conductivity_run, contract_conductivity_probe},
+                            {"constitutive", contract_constitutive_run, contract_constitutive_probe},
                             {"eos", contract_eos_run, contract_eos_probe},
+                            {"inelastic", contract_inelastic_run, contract_inelastic_probe},
                             {"limiter", contract_limiter_run, contract_limiter_probe},
                             {"reconstruction", contract_reconstruction_run, contract_reconstruction_probe},
-                            {"riemann", contract_riemann_run, contract_riemann_probe}};
+                            {"riemann", contract_riemann_run, contract_riemann_probe},
+                            {"viscosity", contract_viscosity_run, contract_viscosity_probe}};
 
 enum { SUITE_KINDS = sizeof contract_suite_table / sizeof *contract_suite_table };
 

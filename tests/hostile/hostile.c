@@ -17,6 +17,8 @@ enum flaw {
     no_table,
     short_table,
     null_slot,
+    new_flags,
+    null_edges,
     unknown_kind,
     bad_name,
     no_doc,
@@ -79,7 +81,10 @@ static int hostile_open(const struct bulla_host *host, const struct bulla_value 
 }
 
 static const struct bulla_limiter hostile_table = {.size = IS(short_table) ? 4 : sizeof(struct bulla_limiter),
-                                                   .slope = IS(null_slot) ? NULL : hostile_slope};
+                                                   .slope = IS(null_slot) ? NULL : hostile_slope,
+                                                   .flags = IS(new_flags)    ? 2u
+                                                            : IS(null_edges) ? BULLA_TWO_SIDED
+                                                                             : 0u};
 
 static const struct bulla_param hostile_params[] = {
     {IS(param_upper)      ? "Strength"

@@ -1,6 +1,6 @@
 # Modules with one flaw each, for unit/registry.c: none but the first may load.
-set(hostile_flaws none bad_magic old_abi new_abi short_size no_table short_table null_slot unknown_kind bad_name no_doc
-    param_twice param_upper param_reserved param_range param_fallback param_unit param_choices preset_range duplicate
+set(hostile_flaws none bad_magic old_abi new_abi short_size no_table short_table null_slot new_flags null_edges unknown_kind bad_name
+    no_doc param_twice param_upper param_reserved param_range param_fallback param_unit param_choices preset_range duplicate
     no_symbol small_symbol missing_function flush_to_zero fast_math open_fails aborts)
 foreach(flaw ${hostile_flaws})
   add_library(hostile-${flaw} MODULE hostile/hostile.c)

@@ -252,6 +252,54 @@ static void test_limiter(void **state)
     }
 }
 
+/* Limiters with two sides: the good edges, with a step as it should not be. */
+
+static enum side { FAR, AVERSE, UPPER, SKEW, FLOOR, ROW, EXTREME } side;
+
+static double side_spoilt(double step, double to, double from, size_t at)
+{
+    if (side == FAR) return 3.0 * step;
+    if (side == AVERSE) return -step;
+    if (side == SKEW) return from < 0.0 ? 0.9 * step : step;
+    if (side == FLOOR) return fabs(step) < 1e-6 ? 0.0 : step;
+    if (side == ROW) return at ? 0.9 * step : step;
+    if (side == EXTREME && from * to < 0.0) return 0.1 * to;
+    return step;
+}
+
+static void one_side(const void *self, size_t n, size_t step, const double *w, OUT lower, OUT upper)
+{
+    const struct bulla_limiter *koren = support_module("limiter", "koren")->table;
+    koren->edges(self, n, step, w, lower, upper);
+    for (size_t i = 0; i < n; i++) {
+        double here = w[i], below = here - *(w + i - step), above = w[i + step] - here;
+        upper[i] = here + side_spoilt(upper[i] - here, above, below, i);
+        lower[i] = here - (side == UPPER ? 0.9 : 1.0) * side_spoilt(here - lower[i], below, above, i);
+    }
+}
+
+static void test_sides(void **state)
+{
+    (void)state;
+    static const struct bulla_limiter table = {.size = sizeof table, .edges = one_side, .flags = BULLA_TWO_SIDED};
+    static const struct {
+        enum side side;
+        const char *check;
+    } mutants[] = {
+        {FAR, "an edge lies between"},
+        {AVERSE, "an edge lies between"},
+        {EXTREME, "both edges are"},
+        {UPPER, "mirrored"},
+        {SKEW, "odd"},
+        {FLOOR, "homogeneous"},
+        {ROW, "edges of a row"},
+    };
+    for (size_t i = 0; i < sizeof mutants / sizeof *mutants; i++) {
+        side = mutants[i].side;
+        finds("limiter", "koren", &table, mutants[i].check);
+    }
+}
+
 /* Riemann solvers. */
 
 /* What is spoilt, and how. */
@@ -357,8 +405,8 @@ static void test_settings(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_eos), cmocka_unit_test(test_limiter),
-                                       cmocka_unit_test(test_riemann), cmocka_unit_test(test_instances),
-                                       cmocka_unit_test(test_settings)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_eos),       cmocka_unit_test(test_limiter),
+                                       cmocka_unit_test(test_sides),     cmocka_unit_test(test_riemann),
+                                       cmocka_unit_test(test_instances), cmocka_unit_test(test_settings)};
     return cmocka_run_group_tests(tests, start, support_stop);
 }

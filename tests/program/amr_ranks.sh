@@ -3,7 +3,6 @@
 # guard repairs, and without subcycling.
 set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
-same="$BULLA_BUILD/tests/test-unit-snapshot"
 
 materials='materials:
   water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
@@ -84,21 +83,10 @@ $output
 END2
 sed 's/patience: 1/patience: 1, subcycle: false/; s/max-steps: 24/max-steps: 20/' plane.yaml >whole.yaml
 
-# Same names in folders of their own: a snapshot holds the case, and this the name of its output.
 while read -r name all; do
-    for ranks in $all; do
-        rm -rf $name-$ranks
-        mkdir $name-$ranks
-        (cd $name-$ranks && cp ../$name.yaml . && "$BULLA" run $name.yaml -o out -n $ranks --quiet </dev/null)
-        cmp $name-1/out/history.csv $name-$ranks/out/history.csv
-        cmp $name-1/out/probes.csv $name-$ranks/out/probes.csv
-        for file in $name-1/out/fields/*.hdf; do "$same" $file $name-$ranks/out/fields/${file##*/}; done
-        sed -n '/"guard"/,/}/p' $name-$ranks/out/provenance.json >$name-$ranks/guard
-        cmp $name-1/guard $name-$ranks/guard
-        sed -n '/"refinement"/,/}/p' $name-$ranks/out/provenance.json | grep -v cpu | grep -v share >$name-$ranks/refinement
-        cmp $name-1/refinement $name-$ranks/refinement
-    done
-    grep -q '"regrids": *[1-9]' $name-1/refinement || { echo "$name: levels do not move"; exit 1; }
+    # shellcheck disable=SC2086
+    ranked "$name" $all
+    grep -q '"regrids": *[1-9]' "$name-1/refinement" || fail "$name: levels do not move"
 done <<END2
 plane 1 2 3 4 7
 round 1 2 3 4 7

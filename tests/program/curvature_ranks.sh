@@ -2,8 +2,7 @@
 # 3 and 4 ranks: in snapshots and histories of a plane with levels that move and of an axisymmetric scene; and it is
 # 1/R and 2/R.
 set -eu
-same="$BULLA_BUILD/tests/test-unit-snapshot"
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
+. "$BULLA_SOURCE/tests/lib.sh"
 
 materials='materials:
   water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
@@ -48,12 +47,7 @@ $output
 END2
 
 while read -r name kappa; do
-    for ranks in 1 2 3 4; do
-        mkdir $name-$ranks
-        (cd $name-$ranks && cp ../$name.yaml . && "$BULLA" run $name.yaml -o out -n $ranks --quiet </dev/null)
-        cmp $name-1/out/history.csv $name-$ranks/out/history.csv
-        for file in $name-1/out/fields/*.hdf; do "$same" $file $name-$ranks/out/fields/${file##*/}; done
-    done
+    ranked "$name" 1 2 3 4
     awk -F , -v wanted=$kappa '!/^#/ && $0 !~ /kappa/ {
         rows++
         for (i = 1; i <= NF; i++) if (names[i] == "kappa" && ($i < 0.98 * wanted || $i > 1.02 * wanted)) bad = 1

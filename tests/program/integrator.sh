@@ -2,13 +2,7 @@
 # repaired cells; restarted runs go on as if nothing had been; mass and energy are conserved to round-off; resting tiles
 # are skipped without a trace.
 set -eu
-fields="$BULLA_BUILD/tests/test-unit-snapshot"
-# Open MPI leaks by itself: the leak checker of a sanitized build would only see that
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
-fail() {
-    echo "$1"
-    exit 1
-}
+. "$BULLA_SOURCE/tests/lib.sh"
 
 cat >jet.yaml <<'END'
 bulla: 1
@@ -46,19 +40,11 @@ expect:
   - {value: "abs(last(E)/first(E) - 1)", at-most: 1e-12}
 END
 
-for ranks in 1 2 3; do
-    rm -rf jet-$ranks
-    mkdir jet-$ranks
-    (cd jet-$ranks && "$BULLA" run ../jet.yaml -o out -n $ranks --quiet)
-    cmp jet-1/out/history.csv jet-$ranks/out/history.csv
-    "$fields" jet-1/out/fields/jet_000024.hdf jet-$ranks/out/fields/jet_000024.hdf
-done
+ranked jet 1 2 3
 
 # Stopped after 10 of 24 steps, on two ranks, and gone on with on one.
-mkdir again
-(cd again && "$BULLA" run ../jet.yaml -o out -n 2 --max-steps 10 --quiet && "$BULLA" run ../jet.yaml -o out --restart --quiet)
-cmp jet-1/out/history.csv again/out/history.csv
-"$fields" jet-1/out/fields/jet_000024.hdf again/out/fields/jet_000024.hdf
+resumed jet 10 jet-1
+"$BULLA_BUILD/tests/test-unit-snapshot" jet-1/out/fields/jet_000024.hdf jet-resumed/out/fields/jet_000024.hdf
 
 # Nothing moves where nothing happens, and nearly all of it is skipped.
 cat >rest.yaml <<'END'
@@ -98,13 +84,6 @@ output:
   history: {columns: {m: {mass: air}, E: {total: energy}, pmin: {min: pressure}}}
 END
 sed 's/closure: kapila/closure: allaire/' parting.yaml >torn.yaml
-for case in parting torn; do
-    for ranks in 1 2 3; do
-        "$BULLA" run $case.yaml -o $case-$ranks -n $ranks --quiet
-        cmp $case-1/history.csv $case-$ranks/history.csv
-        sed -n '/"guard"/,/}/p' $case-$ranks/provenance.json >$case-$ranks/guard
-        cmp $case-1/guard $case-$ranks/guard
-    done
-done
+for name in parting torn; do ranked $name 1 2 3; done
 grep -q '"relaxed": *[1-9]' parting-1/guard || fail "nothing was repaired"
 grep -q '"fallback": *[1-9]' torn-1/guard || fail "no cell was marked"

@@ -1,7 +1,6 @@
 # The bits of a 3D run, and of runs whose steps the guard redoes, halves and relaxes, are the same on 1, 2, 3 and 4 ranks.
 set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
-same="$BULLA_BUILD/tests/test-unit-snapshot"
 
 cat >space.yaml <<'END'
 bulla: 1
@@ -61,21 +60,7 @@ END
 
 sed 's/closure: allaire/closure: kapila/' parting.yaml >relaxing.yaml
 
-# Same names in folders of their own: a snapshot holds the case, and this the name of its output.
-for name in space parting relaxing; do
-    last=$(sed -n 's/.*max-steps: \([0-9]*\).*/\1/p' $name.yaml)
-    snapshot=out/fields/${name}_$(printf %06d "$last").hdf
-    for ranks in 1 2 3 4; do
-        rm -rf $name-$ranks
-        mkdir $name-$ranks
-        (cd $name-$ranks && cp ../$name.yaml . && "$BULLA" run $name.yaml -o out -n $ranks --quiet)
-        cmp $name-1/out/history.csv $name-$ranks/out/history.csv
-        cmp $name-1/out/probes.csv $name-$ranks/out/probes.csv
-        "$same" $name-1/$snapshot $name-$ranks/$snapshot
-        sed -n '/"guard"/,/}/p' $name-$ranks/out/provenance.json >$name-$ranks/guard
-        cmp $name-1/guard $name-$ranks/guard
-    done
-done
+for name in space parting relaxing; do ranked $name 1 2 3 4; done
 # the last two are about repairs: all kinds of them must have happened
 grep -q '"fallback": *[1-9]' parting-1/guard
 grep -q '"retries": *[1-9]' parting-1/guard

@@ -2,13 +2,7 @@
 # around the axis and in space; taken up again from a checkpoint; a failed step and its replay. A tile that is too small for it
 # is refused. A scheme from outside the tree that takes all components at once.
 set -eu
-same="$BULLA_BUILD/tests/test-unit-snapshot"
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # Open MPI leaks by itself
-fail() {
-    echo "$1"
-    cat out
-    exit 1
-}
+. "$BULLA_SOURCE/tests/lib.sh"
 
 materials='materials:
   water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
@@ -76,15 +70,10 @@ run: {until: 1, max-steps: 6}
 $output
 END2
 
-# Same names in folders of their own: a snapshot holds the case, and this the name of its output.
 while read -r name all; do
-    for ranks in $all; do
-        mkdir $name-$ranks
-        (cd $name-$ranks && cp ../$name.yaml . && "$BULLA" run $name.yaml -o out -n $ranks --quiet </dev/null)
-        cmp $name-1/out/history.csv $name-$ranks/out/history.csv
-        for file in $name-1/out/fields/*.hdf; do "$same" $file $name-$ranks/out/fields/${file##*/}; done
-    done
-    grep -q '"name": *"weno5-z"' $name-1/out/provenance.json || { echo "$name: another scheme"; exit 1; }
+    # shellcheck disable=SC2086
+    ranked "$name" $all
+    grep -q '"name": *"weno5-z"' "$name-1/out/provenance.json" || fail "$name: another scheme"
 done <<END2
 plane 1 2 3
 round 1 3
@@ -100,7 +89,7 @@ cmp -s plane-1/out/history.csv default/history.csv && { echo "nothing has change
 # Taken up again, on another number of ranks.
 cp -r plane-1 again
 rm again/out/checkpoints/*_000010.chk
-(cd again && "$BULLA" run plane.yaml -o out --restart -n 2 --quiet </dev/null) >out 2>&1 || fail "it is not taken up again"
+(cd again && "$BULLA" run plane.yaml -o out --restart -n 2 --quiet </dev/null) >out 2>&1 || fail "it is not taken up again" out
 cmp plane-1/out/history.csv again/out/history.csv
 
 # A step that fails: streams that part, and its replay.
@@ -117,20 +106,20 @@ scheme: {reconstruction: weno5-z, cfl: 0.9, guard: strict}
 run: {until: 1, max-steps: 100}
 output: {directory: parting}
 END2
-"$BULLA" run parting.yaml >out 2>&1 && fail "the step did not fail"
-"$BULLA" info --replay parting/dump_*.h5 >out 2>&1 || fail "the replay gives something else"
-grep -q 'the same, to the bit' out || fail "the replay says nothing"
+"$BULLA" run parting.yaml >out 2>&1 && fail "the step did not fail" out
+"$BULLA" info --replay parting/dump_*.h5 >out 2>&1 || fail "the replay gives something else" out
+grep -q 'the same, to the bit' out || fail "the replay says nothing" out
 
 # Halves of a tile must hold three layers.
 code=0
 "$BULLA" check plane.yaml --set mesh.tile=4 >out 2>&1 || code=$?
-[ $code = 2 ] && grep -q 'a side of at least 6' out || fail "a tile of 4 was accepted"
-"$BULLA" check plane.yaml --set mesh.tile=4 --set scheme.reconstruction=muscl >out 2>&1 || fail "two layers fit"
+[ $code = 2 ] && grep -q 'a side of at least 6' out || fail "a tile of 4 was accepted" out
+"$BULLA" check plane.yaml --set mesh.tile=4 --set scheme.reconstruction=muscl >out 2>&1 || fail "two layers fit" out
 
 # From outside the tree, with all components at once: a sharper interface.
 cmake -G Ninja -S "$BULLA_SOURCE/tests/plugin" -B plugin -Dbulla_DIR="$BULLA_SOURCE/core/include/bulla" >out 2>&1 &&
-    cmake --build plugin >>out 2>&1 || fail "the plugin does not build"
-"$BULLA" module check plugin/reconstruction-thinc.so >out 2>&1 || fail "thinc does not hold"
+    cmake --build plugin >>out 2>&1 || fail "the plugin does not build" out
+"$BULLA" module check plugin/reconstruction-thinc.so >out 2>&1 || fail "thinc does not hold" out
 cat >contact.yaml <<END2
 bulla: 1
 title: A bubble is carried along
@@ -151,6 +140,6 @@ expect:
   - {value: "max(high - low)", at-most: 1e-3}
   - {value: "max(abs(V/first(V) - 1))", at-most: 1e-12}
 END2
-"$BULLA" run contact.yaml >out 2>&1 || fail "thinc does not carry a bubble"
-"$BULLA" run contact.yaml -o minmod --set scheme.reconstruction=muscl >out 2>&1 && fail "minmod is as sharp"
+"$BULLA" run contact.yaml >out 2>&1 || fail "thinc does not carry a bubble" out
+"$BULLA" run contact.yaml -o minmod --set scheme.reconstruction=muscl >out 2>&1 && fail "minmod is as sharp" out
 exit 0

@@ -41,6 +41,9 @@ static int stop(void **state)
 /* All that is built in, sorted as the registry sorts; one to a line, as others will come. */
 /* clang-format off */
 static const char *const builtin[][2] = {
+    {"conductivity", "constant"},
+    {"conductivity", "powers"},
+    {"conductivity", "sutherland"},
     {"constitutive", "fung"},
     {"constitutive", "gent"},
     {"constitutive", "mooney-rivlin"},
@@ -56,9 +59,15 @@ static const char *const builtin[][2] = {
     {"eos", "stiffened-gas"},
     {"eos", "table"},
     {"eos", "tait"},
+    {"inelastic", "johnson-cook"},
+    {"inelastic", "power-law"},
+    {"inelastic", "steinberg-guinan"},
+    {"inelastic", "von-mises"},
+    {"limiter", "koren"},
     {"limiter", "mc"},
     {"limiter", "minmod"},
     {"limiter", "superbee"},
+    {"limiter", "thinc"},
     {"limiter", "van-albada"},
     {"limiter", "van-leer"},
     {"reconstruction", "muscl"},
@@ -67,6 +76,7 @@ static const char *const builtin[][2] = {
     {"riemann", "hllc"},
     {"riemann", "hlld"},
     {"riemann", "rusanov"},
+    {"viscosity", "newtonian"},
 };
 /* clang-format on */
 enum { BUILTIN = sizeof builtin / sizeof *builtin };
@@ -134,7 +144,10 @@ static const struct refusal refusals[] = {
     {"no_table", "no table of functions"},
     {"short_table", "table of functions of size 4; kind limiter needs"},
     {"null_slot", "has no function 'slope', which kind limiter needs"},
-    {"unknown_kind", "unknown kind 'weather'; kinds are constitutive, eos, limiter, reconstruction, riemann"},
+    {"new_flags", "has the flags 0x2; this program knows 0x1"},
+    {"null_edges", "has no function 'edges', which BULLA_TWO_SIDED needs"},
+    {"unknown_kind", "unknown kind 'weather'; kinds are conductivity, constitutive, eos, inelastic, limiter, "
+                     "reconstruction, riemann, viscosity"},
     {"bad_name", "'Bad_Name'; names are lower case with hyphens"},
     {"no_doc", "lacks its doc"},
     {"param_twice", "parameter 'strength' twice"},

@@ -1,0 +1,422 @@
+/* conduction.c - see conduction.h. Temperatures are made of the frame before anything changes it (`frame`), the channels
+ * when the other fluxes are there (`faces`), volume moves at the end (`cells`). */
+#include "scheme/conduction.h"
+
+#include "base/mem.h"
+#include "phys/mix.h"
+#include "phys/row.h"
+#include "scheme/conduction_channel.h"
+#include "scheme/swell.h"
+#include "scheme/terms.h"
+
+#include <float.h>
+#include <string.h>
+
+enum { CONDUCTION_BATCH = SWELL_BATCH };
+
+/* What a step may take, against the limit of stability of one material: CONDUCTION_PACE D sum 1/h^2 <= 1/dt. */
+#define CONDUCTION_PACE (8.0 / 1.8)
+
+/* A difference of pressure, against rho c^2, over which a law tells its rho cv. */
+#define CONDUCTION_NEAR 1e-4
+
+/* Rows of a frame: [n_material] of cells or faces with pitch FACE_ROOM. */
+struct conduction {
+    double *rows; /* all of the below */
+    double *T, *part, *c, *k;
+    double *left, *right; /* what is left of the materials on both sides of the faces */
+    double *rest, *width, *series, *q, *pair, *per_d;
+    bool traces; /* some material of the piece is less than CONDUCTION_CHANNEL_FELT of its cell */
+};
+
+static bool conduction_has(const struct model *path, unsigned l)
+{
+    return path->conductivity[l].law != NULL;
+}
+
+/* k of n states of material l. */
+static void conduction_ask(const struct model *path, unsigned l, size_t n, const double *T, const double *p,
+                           const double *rho, double *k)
+{
+    const struct model_conductivity *conductivity = &path->conductivity[l];
+    uint32_t needs = conductivity->law->needs;
+    for (size_t i = 0; !needs && i < n; i++) k[i] = conductivity->k;
+    if (needs)
+        conductivity->law->value(conductivity->self, n, NULL, needs & BULLA_NEEDS_TEMPERATURE ? T : NULL,
+                                 needs & BULLA_NEEDS_PRESSURE ? p : NULL, needs & BULLA_NEEDS_DENSITY ? rho : NULL, k);
+}
+
+static bool conduction_wanted(const struct model *path)
+{
+    return path->conducts;
+}
+
+static unsigned conduction_rows(const struct model *path)
+{
+    return path->n_alpha;
+}
+
+static void conduction_list(struct terms *terms, int axis, unsigned first, const struct face_work *faces)
+{
+    const struct model *model = terms->model;
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        terms_flux(terms, axis,
+                   (struct term_flux){.below = faces ? faces->heat_below + l * FACE_ROOM : NULL,
+                                      .above = faces ? faces->heat_above + l * FACE_ROOM : NULL,
+                                      .rate = first + l,
+                                      .sides = true},
+                   "heat", model->scene->material[model->first + l].name);
+}
+
+static void *conduction_open(const struct term_room *room)
+{
+    struct conduction *own = mem_new(1, sizeof *own);
+    size_t n = room->model->n_material, block = n * FACE_ROOM;
+    double **blocks[] = {&own->T, &own->part, &own->c, &own->k, &own->left, &own->right};
+    double **single[] = {&own->rest, &own->width, &own->series, &own->q, &own->pair, &own->per_d};
+    double *at = own->rows = mem_new(6 * block + 6 * FACE_ROOM, sizeof *own->rows);
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++, at += block) *blocks[i] = at;
+    for (size_t i = 0; i < sizeof single / sizeof *single; i++, at += FACE_ROOM) *single[i] = at;
+    return own;
+}
+
+static void conduction_close(void *data)
+{
+    struct conduction *own = data;
+    mem_free(own->rows);
+    mem_free(own);
+}
+
+/* The fraction where it is felt: more than nothing, with a temperature. alpha NULL: the material is alone. */
+static BULLA_KERNEL void conduction_feel(size_t n, const double *restrict alpha, const double *restrict T,
+                                         double *restrict part)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], felt = a > MIX_ABSENT ? a : 0.0;
+        part[i] = T[i] > 0.0 ? felt : 0.0;
+    }
+}
+
+static BULLA_KERNEL void conduction_feel_alone(size_t n, const double *restrict T, double *restrict part)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) part[i] = T[i] > 0.0 ? 1.0 : 0.0;
+}
+
+static bool conduction_has_traces(size_t n, const double *part)
+{
+    bool any = false;
+    for (size_t i = 0; i < n; i++) any |= (part[i] > 0.0) & (part[i] <= CONDUCTION_CHANNEL_FELT);
+    return any;
+}
+
+static BULLA_KERNEL void conduction_nudge(size_t n, const double *restrict p, const double *restrict rho_c2,
+                                          double *restrict higher)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) higher[i] = p[i] + CONDUCTION_NEAR * rho_c2[i];
+}
+
+/* rho cv = d(rho e)/dT; what is none is as good as none. */
+static BULLA_KERNEL void conduction_quotient(size_t n, const double *restrict p, const double *restrict higher,
+                                             const double *restrict T, const double *restrict T_higher,
+                                             const double *restrict de_dp, double *restrict c)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double ratio = de_dp[i] * (higher[i] - p[i]) / (T_higher[i] - T[i]);
+        c[i] = ratio > DBL_MIN ? ratio : DBL_MIN;
+    }
+}
+
+/* Temperature and rho cv of n <= CONDUCTION_BATCH states of a law. */
+static void conduction_capacity(const struct model_eos *eos, size_t n, const double *rho, const double *p, double *T,
+                                double *c)
+{
+    double e[CONDUCTION_BATCH], rho_c2[CONDUCTION_BATCH], higher[CONDUCTION_BATCH], T_higher[CONDUCTION_BATCH];
+    eos->law->state(eos->self, n, rho, p, e, rho_c2);
+    conduction_nudge(n, p, rho_c2, higher);
+    eos->law->temperature(eos->self, n, rho, p, T);
+    eos->law->temperature(eos->self, n, rho, higher, T_higher);
+    eos->law->derivatives(eos->self, n, rho, p, rho_c2, e);
+    conduction_quotient(n, p, higher, T, T_higher, rho_c2, c);
+}
+
+/* Capacities of the cells of a row. */
+static void conduction_weigh(const struct model *path, size_t n, const double *w, struct conduction *own)
+{
+    double T[CONDUCTION_BATCH];
+    for (unsigned l = 0; l < path->n_material; l++)
+        for (size_t from = 0; from < n; from += CONDUCTION_BATCH)
+            conduction_capacity(&path->eos[l], n - from < CONDUCTION_BATCH ? n - from : CONDUCTION_BATCH,
+                                w + (path->i_m + l) * FACE_ROOM + from, w + path->i_E * FACE_ROOM + from, T,
+                                own->c + l * FACE_ROOM + from);
+}
+
+/* Temperatures and fractions of the cells beside faces, from the primitives as they were gathered. */
+static void conduction_frame(const struct term_piece *piece)
+{
+    const struct model *path = piece->model;
+    struct conduction *own = piece->own;
+    size_t n = frame_edged(piece->frame);
+    const double *w = piece->faces->frame + frame_reach(piece->frame);
+    mix_temperatures(path, n, FACE_ROOM, w, own->T);
+    own->traces = false;
+    for (unsigned l = 0; l < path->n_material; l++) {
+        double *T = own->T + l * FACE_ROOM, *part = own->part + l * FACE_ROOM;
+        if (path->n_alpha) conduction_feel(n, w + (path->i_alpha + l) * FACE_ROOM, T, part);
+        else conduction_feel_alone(n, T, part);
+        own->traces = own->traces || conduction_has_traces(n, part);
+        if (conduction_has(path, l))
+            conduction_ask(path, l, n, T, w + path->i_E * FACE_ROOM, w + (path->i_m + l) * FACE_ROOM,
+                           own->k + l * FACE_ROOM);
+    }
+    if (own->traces) conduction_weigh(path, n, w, own);
+}
+
+/* One over the distances of cells along a curved axis. */
+static void conduction_stretch(const struct term_tile *tile, const struct frame *frame, double *per_d)
+{
+    const struct mesh *mesh = tile->mesh;
+    double h = tile->level->h[0], lower = mesh->lower[0], below, row[METRIC_CELLS + 1];
+    int first = tile->tile->at[0] * mesh->n[0];
+    below = metric_centroid(mesh->beta, lower + (first - 1) * h, lower + first * h);
+    for (int i = 0; i <= mesh->n[0]; i++) {
+        double here = metric_centroid(mesh->beta, lower + (first + i) * h, lower + (first + i + 1) * h);
+        row[i] = 1.0 / (here - below);
+        below = here;
+    }
+    if (first == 0 && lower == 0.0) row[0] = 1.0 / h; /* the axis: nothing goes through it */
+    for (size_t o = 0; o < frame->outer; o++) memcpy(per_d + face_at(frame, o, 0), row, (frame->n + 1) * sizeof *row);
+}
+
+static void conduction_distances(const struct term_piece *piece, struct conduction *own)
+{
+    const struct term_tile *tile = piece->tile;
+    size_t n = piece->faces->faces.n;
+    double per_h = 1.0 / tile->level->h[piece->frame->axis];
+    for (size_t i = 0; i < n; i++) own->per_d[i] = per_h;
+    if (tile->model->beta && piece->frame->axis == 0) conduction_stretch(tile, piece->frame, own->per_d);
+}
+
+/* The greatest diffusivity that a trace may have, times two [m2/s]. */
+static double conduction_most(const struct term_tile *tile)
+{
+    double sum = 0.0;
+    for (int d = 0; d < tile->model->dim; d++) sum += 1.0 / (tile->level->h[d] * tile->level->h[d]);
+    return 2.0 / (CONDUCTION_PACE * tile->dt * sum);
+}
+
+/* One piece: what its channels need. */
+struct conduction_piece {
+    struct conduction *own;
+    size_t n, step; /* faces; from a cell to the next */
+    double most;
+};
+
+static struct conduction_channel_side conduction_side(const struct conduction_piece *at, unsigned l, bool right)
+{
+    size_t from = l * (size_t)FACE_ROOM + (right ? at->step : 0);
+    const struct conduction *own = at->own;
+    return (struct conduction_channel_side){own->part + from, own->T + from, own->k + from, own->c + from};
+}
+
+/* q_lm of a channel of the width own->width into q. */
+static void conduction_through(const struct conduction_piece *at, unsigned l, unsigned m, const double *width,
+                               double *q)
+{
+    struct conduction *own = at->own;
+    struct conduction_channel_side left = conduction_side(at, l, false), right = conduction_side(at, m, true);
+    conduction_channel_series(at->n, &left, &right, own->series);
+    if (own->traces) conduction_channel_bound(at->n, at->most, &left, &right, own->series);
+    conduction_channel_flow(at->n, width, own->series, own->per_d, left.T, right.T, q);
+}
+
+static bool conduction_joins(const struct model *path, unsigned l, unsigned m)
+{
+    return conduction_has(path, l) && conduction_has(path, m);
+}
+
+/* What goes from each material to itself. Materials that do not conduct have their part of the face all the same. */
+static void conduction_alike(const struct term_piece *piece, const struct conduction_piece *at)
+{
+    const struct model *path = piece->model;
+    struct conduction *own = at->own;
+    memset(own->rest, 0, at->n * sizeof *own->rest);
+    for (unsigned l = 0; l < path->n_material; l++) {
+        size_t row = l * (size_t)FACE_ROOM;
+        conduction_channel_own(at->n, own->part + row, own->part + row + at->step, own->width, own->left + row,
+                               own->right + row, own->rest);
+        memset(own->q, 0, at->n * sizeof *own->q);
+        if (conduction_joins(path, l, l)) conduction_through(at, l, l, own->width, own->q);
+        row_add(at->n, own->q, piece->faces->energy);
+        if (!path->n_alpha) continue;
+        memcpy(piece->faces->heat_below + row, own->q, at->n * sizeof *own->q);
+        memcpy(piece->faces->heat_above + row, own->q, at->n * sizeof *own->q);
+    }
+}
+
+/* q_lm: out of l on the left into m on the right. */
+static void conduction_cross(const struct term_piece *piece, const struct conduction_piece *at, unsigned l, unsigned m,
+                             double *q)
+{
+    struct conduction *own = at->own;
+    conduction_channel_cross(at->n, own->left + l * FACE_ROOM, own->right + m * FACE_ROOM, own->rest, own->width);
+    conduction_through(at, l, m, own->width, q);
+    row_add(at->n, q, piece->faces->heat_above + l * FACE_ROOM);
+    row_add(at->n, q, piece->faces->heat_below + m * FACE_ROOM);
+}
+
+/* What goes from each material to another. Both ways of a pair are one number, so that a mirror changes its sign. */
+static void conduction_unlike(const struct term_piece *piece, const struct conduction_piece *at)
+{
+    const struct model *path = piece->model;
+    struct conduction *own = at->own;
+    if (row_most(at->n, own->rest) == 0.0) return;
+    for (unsigned l = 0; l < path->n_alpha; l++)
+        for (unsigned m = l + 1; m < path->n_alpha; m++) {
+            if (!conduction_joins(path, l, m)) continue;
+            conduction_cross(piece, at, l, m, own->pair);
+            conduction_cross(piece, at, m, l, own->q);
+            row_add(at->n, own->q, own->pair);
+            row_add(at->n, own->pair, piece->faces->energy);
+        }
+}
+
+/* Does a piece end at the boundary of the domain, there where heat has no way through: where the layers behind are made of
+ * waves? Mirrors and copies let nothing through by themselves. */
+static bool conduction_closed(const struct term_piece *piece, int side)
+{
+    const struct term_tile *tile = piece->tile;
+    int axis = piece->frame->axis, last = tile->level->extent[axis] - 1;
+    if (tile->tile->at[axis] != (side ? last : 0)) return false;
+    return scene_boundary_is(piece->model->scene, 2 * axis + side, SCENE_BOUNDARY_REFERS);
+}
+
+/* Takes the width of a face away: its channels pass nothing. */
+static void conduction_close_side(const struct term_piece *piece, int side, double *per_d)
+{
+    const struct frame *frame = piece->frame;
+    for (size_t o = 0; o < frame->outer; o++)
+        memset(per_d + face_at(frame, o, side ? frame->n : 0), 0, frame->inner * sizeof *per_d);
+}
+
+static void conduction_faces(const struct term_piece *piece)
+{
+    struct conduction *own = piece->own;
+    const struct conduction_piece at = {own, piece->faces->faces.n, piece->frame->inner, conduction_most(piece->tile)};
+    conduction_distances(piece, own);
+    for (int side = 0; side < 2; side++)
+        if (conduction_closed(piece, side)) conduction_close_side(piece, side, own->per_d);
+    conduction_alike(piece, &at);
+    conduction_unlike(piece, &at);
+}
+
+/* Heat per own volume from heat per cell. */
+static BULLA_KERNEL void conduction_own_volume(size_t n, const double *restrict alpha, const double *restrict power,
+                                               double *restrict heat)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], own = power[i] / a;
+        heat[i] = a > MIX_ABSENT ? own : 0.0;
+    }
+}
+
+static void conduction_swell(const struct term_tile *tile, size_t from, size_t n)
+{
+    static const double none[CONDUCTION_BATCH];
+    const struct model *path = tile->model;
+    const double *w = tile->w + from, *p = w + path->i_E * tile->n_cell;
+    const double *power = tile->rates + terms_first(tile->terms, &conduction_term) * tile->n_cell + from;
+    double heat[CONDUCTION_BATCH], rho_e[CONDUCTION_BATCH], rho_c2[CONDUCTION_BATCH];
+    struct swell swell; /* large: filled as far as it is used */
+    swell_begin(&swell, path, n);
+    for (unsigned l = 0; l < path->n_material; l++) {
+        const struct model_eos *eos = &path->eos[l];
+        const double *rho = w + (path->i_m + l) * tile->n_cell, *alpha = w + (path->i_alpha + l) * tile->n_cell;
+        eos->law->state(eos->self, n, rho, p, rho_e, rho_c2);
+        conduction_own_volume(n, alpha, power + l * tile->n_cell, heat);
+        swell_material(&swell, l, alpha, rho, p, rho_c2, heat, none);
+    }
+    swell_share(&swell, tile, from);
+}
+
+static void conduction_cells(struct term_tile *tile)
+{
+    if (!tile->model->kapila) return;
+    for (size_t from = 0; from < tile->n_cell; from += CONDUCTION_BATCH)
+        conduction_swell(tile, from, tile->n_cell - from < CONDUCTION_BATCH ? tile->n_cell - from : CONDUCTION_BATCH);
+}
+
+/* The largest diffusivity k_l/c_l of the materials that count. */
+static BULLA_KERNEL void conduction_diffuse(size_t n, const double *restrict k, const double *restrict alpha,
+                                            const double *restrict c, double *restrict most)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double D = k[i] / c[i], old = most[i], larger = D > old ? D : old;
+        most[i] = alpha[i] > CONDUCTION_CHANNEL_FELT ? larger : old;
+    }
+}
+
+static BULLA_KERNEL void conduction_hurry(size_t n, double a, const double *restrict D, double *restrict rate)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) rate[i] += a * D[i];
+}
+
+/* The same of n <= CONDUCTION_BATCH cells with primitives w. */
+static void conduction_swiftest(const struct model *path, size_t n, size_t stride, const double *w, double *D)
+{
+    double one[CONDUCTION_BATCH], T[CONDUCTION_BATCH], c[CONDUCTION_BATCH], k[CONDUCTION_BATCH];
+    const double *p = w + path->i_E * stride;
+    for (size_t i = 0; i < n; i++) one[i] = 1.0, D[i] = 0.0;
+    for (unsigned l = 0; l < path->n_material; l++) {
+        const double *rho = w + (path->i_m + l) * stride;
+        if (!conduction_has(path, l)) continue;
+        conduction_capacity(&path->eos[l], n, rho, p, T, c);
+        conduction_ask(path, l, n, T, p, rho, k);
+        conduction_diffuse(n, k, path->n_alpha ? w + (path->i_alpha + l) * stride : one, c, D);
+    }
+}
+
+static void conduction_pace(const struct term_pace *pace, double *rate)
+{
+    const struct model *path = pace->model;
+    double factor = 0.0, D[CONDUCTION_BATCH];
+    for (int d = 0; d < path->dim; d++) factor += 1.0 / (pace->level->h[d] * pace->level->h[d]);
+    factor *= CONDUCTION_PACE * path->scene->scheme.cfl; /* dt = cfl / rate */
+    for (size_t from = 0; from < pace->n_cell; from += CONDUCTION_BATCH) {
+        size_t n = pace->n_cell - from < CONDUCTION_BATCH ? pace->n_cell - from : CONDUCTION_BATCH;
+        conduction_swiftest(path, n, pace->n_cell, pace->w + from, D);
+        conduction_hurry(n, factor, D, rate + from);
+    }
+}
+
+static void conduction_say(const struct scene *scene, struct text *text)
+{
+    const char *comma = ": ";
+    for (unsigned l = 0; l < scene->n_material; l++) {
+        if (!scene->material[l].conductivity.module) continue;
+        text_add(text, "%s%s %s", comma, scene->material[l].name, scene->material[l].conductivity.module->name);
+        comma = ", ";
+    }
+}
+
+const struct term conduction_term = {
+    .name = "conduction",
+    .owner = "core/scheme/conduction.c",
+    .equation = "d(rho E)/dt -= div q, q = sum over channels A_lm k_lm (T_lL - T_mR)/d; volume moves with Q_l",
+    .wanted = conduction_wanted,
+    .rows = conduction_rows,
+    .list = conduction_list,
+    .open = conduction_open,
+    .close = conduction_close,
+    .frame = conduction_frame,
+    .faces = conduction_faces,
+    .cells = conduction_cells,
+    .pace = conduction_pace,
+    .say = conduction_say,
+};

@@ -1,0 +1,93 @@
+/* conduction_channel.c - see conduction_channel.h. */
+#include "scheme/conduction_channel.h"
+
+#include "bulla/module.h"
+
+static BULLA_KERNEL void conduction_channel_split(size_t n, const double *restrict left, const double *restrict right,
+                                                  double *restrict own, double *restrict left_rest,
+                                                  double *restrict right_rest, double *restrict rest)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = left[i], b = right[i], sum = rest[i], least = a < b ? a : b, over = a - least, under = b - least;
+        own[i] = least;
+        left_rest[i] = over;
+        right_rest[i] = under;
+        rest[i] = sum + 0.5 * (over + under);
+    }
+}
+
+void conduction_channel_own(size_t n, const double *left, const double *right, double *own, double *left_rest,
+                            double *right_rest, double *rest)
+{
+    conduction_channel_split(n, left, right, own, left_rest, right_rest, rest);
+}
+
+static BULLA_KERNEL void conduction_channel_share(size_t n, const double *restrict left_rest,
+                                                  const double *restrict right_rest, const double *restrict rest,
+                                                  double *restrict cross)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double both = left_rest[i] * right_rest[i], all = rest[i], share = both / all;
+        cross[i] = both > 0.0 ? share : 0.0;
+    }
+}
+
+void conduction_channel_cross(size_t n, const double *left_rest, const double *right_rest, const double *rest,
+                              double *cross)
+{
+    conduction_channel_share(n, left_rest, right_rest, rest, cross);
+}
+
+static BULLA_KERNEL void conduction_channel_mean(size_t n, const double *restrict left, const double *restrict right,
+                                                 double *restrict k)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = left[i], b = right[i], sum = a + b, series = 2.0 * (a * b) / sum;
+        k[i] = sum > 0.0 ? series : 0.0;
+    }
+}
+
+void conduction_channel_series(size_t n, const struct conduction_channel_side *left,
+                               const struct conduction_channel_side *right, double *k)
+{
+    conduction_channel_mean(n, left->k, right->k, k);
+}
+
+static BULLA_KERNEL void conduction_channel_limit(size_t n, double most, const double *restrict left,
+                                                  const double *restrict right, const double *restrict left_c,
+                                                  const double *restrict right_c, double *restrict k)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = left[i], b = right[i], cl = left_c[i], cr = right_c[i], wanted = k[i];
+        double limit = most * (cl * cr / (cl + cr)), least = a < b ? a : b;
+        double kept = limit < wanted ? limit : wanted;
+        k[i] = least > CONDUCTION_CHANNEL_FELT ? wanted : kept;
+    }
+}
+
+void conduction_channel_bound(size_t n, double most, const struct conduction_channel_side *left,
+                              const struct conduction_channel_side *right, double *k)
+{
+    conduction_channel_limit(n, most, left->part, right->part, left->c, right->c, k);
+}
+
+static BULLA_KERNEL void conduction_channel_pass(size_t n, const double *restrict width, const double *restrict k,
+                                                 const double *restrict per_d, const double *restrict T_left,
+                                                 const double *restrict T_right, double *restrict q)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double A = width[i], through = (A * k[i] * per_d[i]) * (T_left[i] - T_right[i]);
+        q[i] = A > 0.0 ? through : 0.0;
+    }
+}
+
+void conduction_channel_flow(size_t n, const double *width, const double *k, const double *per_d, const double *T_left,
+                             const double *T_right, double *q)
+{
+    conduction_channel_pass(n, width, k, per_d, T_left, T_right, q);
+}

@@ -1,0 +1,50 @@
+/* operator.h - what acts on a state beside the rates of the terms: after every stage, or after the step.
+ *
+ * A term (term.h) says how fast a state changes; an operator changes it at once, cell by cell: plastic flow that puts a
+ * stretch back on its yield surface, a reaction, a relaxation. Where it stands in the step:
+ *     every stage:  rates, the new conserved fields; OPERATOR_STAGE; primitives, the guard
+ *     the last one: rates, the new conserved fields; OPERATOR_STAGE, OPERATOR_STEP; primitives, the guard, the signal
+ * It acts on what the attempt makes, never on the state that the step began with: an attempt that is repeated or
+ * halved begins again from that, so what an operator did is undone with everything else, to the bit. Each level calls it
+ * with its own steps; averages of finer levels and refluxing come later, and do not call it.
+ *
+ * An operator sees one cell at a time: no neighbours, no other tiles. So numbers depend neither on ranks nor on the order of
+ * tiles. Mass, momentum and energy stay conserved if it conserves them in a cell. docs/extending.md adds one. */
+#ifndef OPERATOR_H
+#define OPERATOR_H
+
+#include "base/text.h"
+#include "mesh/metric.h"
+#include "phys/model.h"
+
+enum operator_when { OPERATOR_STAGE, OPERATOR_STEP, OPERATOR_TIMES };
+
+/* One tile whose new state stands. Blocks are [rows][n_cell]; only the active fields of `model` mean anything. */
+struct operator_tile {
+    const struct model *model; /* the path that the tile was advanced with */
+    const struct mesh *mesh;
+    const struct level *level;
+    const struct tile *tile;
+    size_t n_cell;
+    double t;  /* of the state [s] */
+    double dt; /* that it has gone through since the step began [s] */
+    double *u; /* conserved fields, which it may change */
+    double *w; /* primitives of u, for operators that ask for them; core makes them anew afterwards */
+};
+
+struct operator
+{
+    const char *name;
+    const char *owner;    /* the file it lives in */
+    const char *equation; /* one line for people */
+    enum operator_when when;
+
+    bool (*wanted)(const struct model *path); /* has a path of a scene this operator? NULL: every path */
+    bool moves;                               /* may it change what is uniform and at rest? Then no tile is skipped */
+    bool (*reads)(const struct model *path);  /* does it read w there? NULL: no */
+
+    void (*acts)(const struct operator_tile *tile);
+    void (*say)(const struct scene *scene, struct text *text); /* what the scene asks of it, for the plan; or NULL */
+};
+
+#endif

@@ -1,0 +1,60 @@
+/* operators.c - see operators.h. The list below is the page that shows what acts beside the equations. */
+#include "scheme/operators.h"
+
+#include "phys/mix.h"
+#include "scheme/plastic.h"
+
+#include <assert.h>
+
+const struct operator* operators_all[OPERATORS_MOST + 1] = {
+    &plastic_operator, /* stresses beyond the strength of solids flow off */
+    NULL,
+};
+
+static bool operators_has(const struct operator* operator, const struct model * path)
+{
+    return !operator->wanted || operator->wanted(path);
+}
+
+void operators_of(const struct model *path, struct operators *ret_operators)
+{
+    *ret_operators = (struct operators){0};
+    for (unsigned i = 0; operators_all[i]; i++) {
+        const struct operator* operator= operators_all[i];
+        if (!operators_has(operator, path)) continue;
+        assert(i < OPERATORS_MOST);
+        ret_operators->at[operator->when][ret_operators->n[operator->when]++] = operator;
+        ret_operators->moves = ret_operators->moves || operator->moves;
+    }
+}
+
+static struct mix_effort operators_act_when(const struct operators *operators, enum operator_when when,
+                                            const struct operator_tile *tile)
+{
+    struct mix_effort effort = {0};
+    for (unsigned i = 0; i < operators->n[when]; i++) {
+        const struct operator* operator= operators->at[when][i];
+        if (operator->reads && operator->reads(tile->model))
+            mix_pressure_sum(&effort, mix_primitives(tile->model, tile->n_cell, tile->n_cell, tile->u, tile->w));
+        operator->acts(tile);
+    }
+    return effort;
+}
+
+struct mix_effort operators_act(const struct operators *operators, bool last, const struct operator_tile *tile)
+{
+    struct mix_effort effort = operators_act_when(operators, OPERATOR_STAGE, tile);
+    if (last) mix_pressure_sum(&effort, operators_act_when(operators, OPERATOR_STEP, tile));
+    return effort;
+}
+
+void operators_say(const struct model *model, enum operator_when when, struct text *text)
+{
+    for (unsigned i = 0; operators_all[i]; i++) {
+        const struct operator* operator= operators_all[i];
+        if (operator->when != when || !operators_has(operator, model)) continue;
+        text_add(text, "  %-10s  %s", operator->name, operator->equation);
+        if (operator->say) operator->say(model->scene, text);
+        text_add(text, "  [%s]\n", operator->owner);
+    }
+}

@@ -1,0 +1,33 @@
+/* operators.h - which operators (operator.h) a scene has: a list like that of the terms, compiled once for each path.
+ *
+ * Stages, replays of dumps, the census and `bulla plan` walk it. A new operator is its two files and one line in
+ * operators.c. */
+#ifndef OPERATORS_H
+#define OPERATORS_H
+
+#include "phys/mix_pressure.h"
+#include "scheme/operator.h"
+
+enum { OPERATORS_MOST = 8 };
+
+/* The list of one path, in the order in which they act. */
+struct operators {
+    unsigned n[OPERATOR_TIMES];
+    const struct operator* at[OPERATOR_TIMES][OPERATORS_MOST];
+    bool moves; /* some operator may change what rests */
+};
+
+/* Every operator there is, in the order in which they act; ends with NULL. There is room for OPERATORS_MOST, to which tests
+ * add theirs before a state is made. */
+extern const struct operator* operators_all[OPERATORS_MOST + 1];
+
+void operators_of(const struct model *path, struct operators *ret_operators);
+
+/* The state of a tile after a stage; `last`: of the step. Primitives are made where an operator asks for them; w then holds
+ * pressures from which an iterated closure starts. Returns what that took. */
+struct mix_effort operators_act(const struct operators *operators, bool last, const struct operator_tile *tile);
+
+/* The list for people, a line each: name, equation, owner. Nothing if the scene has none of this time. */
+void operators_say(const struct model *model, enum operator_when when, struct text *text);
+
+#endif

@@ -1,0 +1,19 @@
+/* operate.c - see operate.h. */
+#include "solve/operate.h"
+
+void operate_tile(struct stage *stage, unsigned local, double *u, double *w)
+{
+    const struct model *path = stage->census.tiles[local].path;
+    double dt = tableau_reach(stage->tableau, stage->turn) * stage->dt;
+    const struct operator_tile tile = {.model = path,
+                                       .mesh = stage->mesh,
+                                       .level = stage->level,
+                                       .tile = stage_tile(stage, local),
+                                       .n_cell = stage->mesh->n_cell,
+                                       .t = stage->t + dt,
+                                       .dt = dt,
+                                       .u = u,
+                                       .w = w};
+    const struct operators *operators = work_operators(stage->work, path);
+    mix_pressure_sum(&stage->effort, operators_act(operators, stage->turn + 1 == stage->tableau->n, &tile));
+}

@@ -1,0 +1,53 @@
+# Heat through channels: the same bits on 1, 2 and 3 ranks, on tiles of 4, 8 and 16, and after a restart, with levels; mass
+# and energy to round-off; the plan shows the term; a scene without conductivity does not know of it.
+set -eu
+# Open MPI leaks by itself: the leak checker of a sanitized build would only see that
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+
+cat >hot.yaml <<'END'
+bulla: 1
+title: A hot bubble in cold water
+domain: {lower: [0, 0], upper: [32 um, 32 um], cells: [32, 32], boundaries: {x-: reflecting, x+: reflecting, y-: no-slip, y+: symmetry}}
+mesh: {tile: 8, levels: 1, refine: [{interface: air, where: {box: {lower: [0, 0], upper: [16 um, 32 um]}}}]}
+materials:
+  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa, cv: 590}, conductivity: 0.607 W/m/K}
+  air: {eos: {type: ideal-gas, gamma: 1.4, cv: 717.5}, conductivity: 0.0262 W/m/K}
+initial:
+  - {everywhere: true, material: water, temperature: 300 K, pressure: 1 atm}
+  - {sphere: {center: [15.3 um, 14.2 um], radius: 7 um}, material: air, temperature: 900 K, pressure: 1 atm}
+scheme: {cfl: 0.4}
+run: {until: 1 ms, max-steps: 30}
+output:
+  directory: out
+  checkpoints: {every: 10 steps}
+  history: {columns: {m: {mass: air}, M: {mass: water}, E: {total: energy}, p: {mean: pressure}, T: {max: temperature_air}}}
+expect:
+  - {value: "abs(last(m)/first(m) - 1)", at-most: 1e-12}
+  - {value: "abs(last(M)/first(M) - 1)", at-most: 1e-12}
+  - {value: "abs(last(E)/first(E) - 1)", at-most: 1e-13}
+END
+for ranks in 1 2 3; do
+    "$BULLA" run hot.yaml -o ranks-$ranks -n $ranks --quiet
+    cmp ranks-1/history.csv ranks-$ranks/history.csv
+done
+"$BULLA" run hot.yaml -o again -n 2 --max-steps 10 --quiet
+"$BULLA" run hot.yaml -o again --restart --quiet
+cmp ranks-1/history.csv again/history.csv
+
+# One level: sums go tile by tile, but extremes do not know of tiles.
+for tile in 4 8 16; do
+    "$BULLA" run hot.yaml -o tile-$tile --set mesh.tile=$tile --set mesh.levels=0 \
+        --set 'output.history={columns: {p: {max: pressure}, q: {min: pressure}, T: {max: temperature_air}, W: {min: temperature_water}}}' \
+        --set 'expect=[]' --quiet
+    cmp tile-4/history.csv tile-$tile/history.csv
+done
+
+"$BULLA" plan hot.yaml >plan
+grep -q '^  conduction .*water constant, air constant .*core/scheme/conduction.c' plan || { cat plan; exit 1; }
+"$BULLA" plan hot.yaml --set materials.water.conductivity=0 --set materials.air.conductivity=0 >without
+! grep -q conduction without || { cat without; exit 1; }
+
+# The gas cools.
+"$BULLA" run hot.yaml -o cold --set materials.water.conductivity=0 --set materials.air.conductivity=0 --quiet
+awk -F, 'FNR == 1 { for (i = 1; i <= NF; i++) if ($i == "p") c = i } { last[FILENAME] = $c }
+    END { exit !(last["ranks-1/history.csv"] < last["cold/history.csv"] - 1) }' ranks-1/history.csv cold/history.csv

@@ -1,0 +1,166 @@
+/* Faces in slow flow: the jump of velocity that is left, kernel by kernel and through each Riemann solver. */
+#include "flow.h"
+
+#include "scheme/bound.h"
+#include "scheme/face.h"
+#include "scheme/low_mach.h"
+#include "scheme/terms.h"
+
+enum { FACES = 64 };
+
+static uint64_t seed = 5;
+
+/* Edges of FACES faces: water at rest, then what the tests change. */
+struct edges_of {
+    double rho[2 * FACES], rho_c2[2 * FACES], u[2 * FACES], part[FACES];
+    double p[FACES + 3], mask[FACES + 1]; /* p: of the cells, one more on each side */
+};
+
+static struct low_mach water(struct edges_of *row, double least)
+{
+    for (int i = 0; i < 2 * FACES; i++) {
+        row->rho[i] = 1000.0;
+        row->rho_c2[i] = 2.6e9;
+    }
+    for (int i = 0; i < FACES + 3; i++) row->p[i] = 1e5 + 1e4 * i; /* an even rise */
+    for (int i = 0; i < FACES; i++) {
+        double mean = i % 3 ? 0.0 : 20.0 * (flow_random(&seed) - 0.5), jump = 2.0 * (flow_random(&seed) - 0.5);
+        row->u[i] = mean - 0.5 * jump;
+        row->u[FACES + i] = mean + 0.5 * jump;
+    }
+    memset(row->mask, 0, sizeof row->mask);
+    return (struct low_mach){.n = FACES,
+                             .right = FACES,
+                             .least = least,
+                             .rho = row->rho,
+                             .rho_c2 = row->rho_c2,
+                             .p = row->p + 1,
+                             .mask = row->mask,
+                             .step = 1,
+                             .part = row->part};
+}
+
+/* The jump becomes `least` and the Mach number of the faster side of it, the mean stays. */
+static void test_jump(void **state)
+{
+    (void)state;
+    struct edges_of row, old;
+    struct low_mach faces = water(&row, 0.05);
+    old = row;
+    low_mach_draw(&faces, row.u);
+    for (int i = 0; i < FACES; i++) {
+        double left = old.u[i], right = old.u[FACES + i];
+        double mach = fmax(fabs(left), fabs(right)) / sqrt(2.6e9 / 1000.0), jump = right - left;
+        assert_true(fabs(row.u[FACES + i] - row.u[i] - (0.05 + mach) * jump) <= 1e-14);
+        assert_true(fabs(row.u[FACES + i] + row.u[i] - (left + right)) <= 1e-14 * (fabs(left) + fabs(right)));
+    }
+}
+
+/* Air beside water: the Mach number of each side is its own, the stiffer side judges how the pressure bends, and the more
+ * bent cell counts. */
+static void test_sides(void **state)
+{
+    (void)state;
+    struct edges_of row, old;
+    struct low_mach faces = water(&row, 0.01);
+    for (int i = 0; i < FACES; i++) {
+        row.rho[i] = 1.2;
+        row.rho_c2[i] = 1.4e5;
+    }
+    for (int i = 0; i < FACES + 3; i++) row.p[i] = 1e5 + i * i * i * 100.0; /* bends by 600 i about cell i */
+    old = row;
+    low_mach_draw(&faces, row.u);
+    for (int i = 0; i < FACES; i++) {
+        double jump = old.u[FACES + i] - old.u[i];
+        double air = fabs(old.u[i]) / sqrt(1.4e5 / 1.2), deep = fabs(old.u[FACES + i]) / sqrt(2.6e9 / 1000.0);
+        double z = 0.01 + fmax(air, deep) + 200.0 * 600.0 * (i + 2) / 2.6e9; /* cell i + 1 is number i + 2 here */
+        assert_true(fabs(row.u[FACES + i] - row.u[i] - z * jump) <= 1e-14);
+    }
+}
+
+/* What moves as fast as sound, waves, troubled cells and equal velocities keep their bits. */
+static void test_kept(void **state)
+{
+    (void)state;
+    struct edges_of row, old;
+    struct low_mach faces = water(&row, 0.05);
+    for (int i = 0; i < FACES; i++) {
+        if (i % 4 == 0) row.u[i] += 1700.0;
+        if (i % 4 == 1) row.p[i + 1 + i / 4 % 2] += 2.6e9 / 200.0;
+        if (i % 4 == 2) row.u[FACES + i] = row.u[i];
+        if (i % 4 == 3) row.mask[i + i / 4 % 2] = 1.0;
+    }
+    old = row;
+    low_mach_draw(&faces, row.u);
+    assert_memory_equal(row.u, old.u, sizeof row.u);
+}
+
+static void test_mirror(void **state)
+{
+    (void)state;
+    struct edges_of row, back;
+    struct low_mach faces = water(&row, 0.05), mirrored = water(&back, 0.05);
+    for (int i = 0; i < FACES + 3; i++) row.p[i] += 1e6 * flow_random(&seed);
+    for (int i = 0; i < FACES + 3; i++) back.p[i] = row.p[FACES + 2 - i];
+    for (int i = 0; i < 2 * FACES; i++) back.u[i] = -row.u[2 * FACES - 1 - i];
+    low_mach_draw(&faces, row.u);
+    low_mach_draw(&mirrored, back.u);
+    for (int i = 0; i < 2 * FACES; i++) assert_true(back.u[i] == -row.u[2 * FACES - 1 - i]);
+}
+
+/* Water that comes and goes from cell to cell by 1 m/s at one pressure: limiters leave the jumps to the faces. */
+static void shake(const struct model *model, const double x[3], double *w)
+{
+    w[model->i_u] = (int)(x[0] * 32.0) % 2 ? 1.0 : -1.0;
+}
+
+/* Largest jump that the normal momentum shows at faces of the shaken water, in rho c. */
+static double shaken(const char *solver, double least, bool masked)
+{
+    struct flow flow;
+    flow_start(&flow,
+               mem_print("bulla: 1\ntitle: shaken\ndomain: {lower: [0], upper: [1], cells: [32], boundaries: {x-: "
+                         "periodic, x+: periodic}}\nmesh: {tile: 32}\nmaterials:\n" FLOW_WATER
+                         "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: 1e5}\n"
+                         "scheme: {riemann: %s, low-mach: %g}\nrun: {until: 1}\n",
+                         solver, least));
+    flow_set(&flow, shake);
+    const struct level *level = flow_level(&flow);
+    const struct model *model = flow.state->model;
+    const struct frame_source source = {.mesh = flow.state->mesh,
+                                        .level = level,
+                                        .arrays = level->w,
+                                        .halo = level->halo,
+                                        .n_field = model->n_field,
+                                        .boundary = bound_fill,
+                                        .data = flow.state->stages[0]->bound};
+    struct face_work *work = face_new(model);
+    struct frame frame = frame_piece(flow.state->mesh, 0, 0);
+    frame_gather(&source, 0, &frame, FACE_ROOM, work->frame);
+    for (size_t i = 0; i < frame.count; i++) work->mask[i] = 1.0;
+    face_solve(work, &frame, masked);
+    double most = 0.0, c = sqrt(4.4 * (1e5 + 6e8) / 1000.0);
+    for (size_t i = 1; i < 32; i++) most = fmax(most, fabs(work->momentum[face_at(&frame, 0, i)] - 1e5));
+    face_free(work);
+    flow_stop(&flow);
+    return most / (1000.0 * c);
+}
+
+static void test_solvers(void **state)
+{
+    (void)state;
+    static const char *const solvers[] = {"hllc", "hll", "hlld", "rusanov"};
+    for (size_t i = 0; i < sizeof solvers / sizeof *solvers; i++) {
+        assert_true(fabs(shaken(solvers[i], 1.0, false) - 1.0) < 0.01);
+        assert_true(fabs(shaken(solvers[i], 0.05, false) - 0.05) < 0.002);
+        assert_true(fabs(shaken(solvers[i], 0.05, true) - 1.0) < 0.01); /* troubled cells: all of it */
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_jump), cmocka_unit_test(test_sides),
+                                       cmocka_unit_test(test_kept), cmocka_unit_test(test_mirror),
+                                       cmocka_unit_test(test_solvers)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
