@@ -6,6 +6,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "case/donor.h"
 #include "case/merge.h"
 #include "case/scene_draft.h"
 #include "case/show.h"
@@ -79,6 +80,7 @@ static void scene_fill(struct draft *draft)
     scene_material(draft);
     scene_domain(draft);
     scene_scheme(draft);
+    scene_heat(draft);
     scene_mesh(draft);
     scene_refine(draft);
     scene_boundary(draft);
@@ -262,6 +264,8 @@ void scene_free(struct scene *scene)
         shape_free(scene->layers[i].shape);
         mem_free(scene->layers[i].fractions);
         mem_free(scene->layers[i].density);
+        mem_free(scene->layers[i].checkpoint);
+        donor_free(scene->layers[i].donor);
     }
     mem_free(scene->layers);
     mem_free(scene->sources);

@@ -51,9 +51,12 @@ struct scene_boundary {
     unsigned n_series;
     const struct script *script;
     /* inflow: a fixed state */
-    double *fractions;           /* [n_material] */
-    struct scene_value *density; /* [n_material] per material */
-    struct scene_value velocity[SCENE_AXES];
+    double *fractions;                       /* [n_material] */
+    struct scene_value *density;             /* [n_material] per material */
+    struct scene_value velocity[SCENE_AXES]; /* no-slip: of the wall; given if it moves */
+    bool moves;                              /* a no-slip wall with a velocity */
+    /* walls: their temperature [K], or the heat that they give to what is inside [W/m2]; neither: none passes */
+    struct scene_value temperature, heat_flux;
 };
 
 struct scene_material {
@@ -78,6 +81,9 @@ struct scene_layer {
     struct scene_value velocity[SCENE_AXES];
     struct scene_value stretch[6]; /* xx, yy, zz, xy, xz, yz; what is not given is that of the identity */
     const struct script *script;   /* `lua:` layer: returns a table of named fields of (x, y, z) */
+    char *checkpoint;              /* of another run, whose state it paints; or NULL */
+    double at[SCENE_AXES];         /* where the origin of that run lies here */
+    struct donor *donor;           /* its cells (case/donor.h), once io/start.h has read them */
     double centre[SCENE_AXES];     /* r in expressions is measured from here */
     int line;                      /* in the case file, for messages */
 };

@@ -148,6 +148,37 @@ static const struct key scene_boundary_far[] = {
     {0},
 };
 
+static const struct key scene_boundary_wall[] = {
+    {.name = "temperature",
+     .type = KEYS_VALUE,
+     .unit = "K",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .doc = "Temperature of the wall, in scenes that conduct heat; without it (and `heat-flux`) no heat passes."},
+    {.name = "heat-flux",
+     .type = KEYS_VALUE,
+     .unit = "W/m2",
+     .min = -KEYS_MOST,
+     .max = KEYS_MOST,
+     .doc = "Heat that the wall gives to what is inside, instead of a temperature."},
+    {0},
+};
+
+/* What becomes of heat at a wall. */
+static void scene_boundary_read_wall(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+{
+    const struct keys_value *temperature = keys_at(map, "temperature"), *flux = keys_at(map, "heat-flux");
+    boundary->temperature = scene_state_value(temperature);
+    boundary->heat_flux = scene_state_value(flux);
+    if (!temperature->node && !flux->node) return;
+    const struct keys_value *last = flux->node ? flux : temperature;
+    if (temperature->node && flux->node)
+        keys_error(&draft->keys, flux, "a wall has a temperature or gives a flux of heat, not both");
+    if (scene_material_conducts(draft)) return;
+    keys_error(&draft->keys, last, "no material conducts heat, so the wall gives none");
+    diag_help(draft->keys.diag, "give a material its 'conductivity: 0.607 W/m/K', or leave this out");
+}
+
 static void scene_boundary_read_far(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     (void)draft;
@@ -191,6 +222,27 @@ static const char scene_boundary_state_rules[] =
     "{'required': ['density', 'pressure', 'velocity'], 'properties': {'temperature': false}, "
     "'anyOf': [{'required': ['material']}, {'required': ['fractions']}]}";
 
+/* One that fluids stick to may slide along itself. */
+static const struct key scene_boundary_sticky[] = {
+    {.name = "velocity",
+     .type = KEYS_VALUE,
+     .many = KEYS_LIST,
+     .unit = "m/s",
+     .doc = "Velocity of the wall, along itself; it rests if not given. Viscous fluids are dragged along."},
+    {0},
+};
+
+static const struct keys_section scene_boundary_any_wall = {.name = "wall", .keys = scene_boundary_wall};
+
+static void scene_boundary_read_sticky(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+{
+    const struct keys_value *velocity = keys_at(map, "velocity");
+    scene_boundary_read_wall(draft, boundary, map);
+    if (!velocity->given) return;
+    scene_state_vector(draft, velocity, boundary->velocity);
+    boundary->moves = true;
+}
+
 struct scene_boundary_row {
     struct keys_section section;
     void (*read)(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map); /* or NULL */
@@ -199,7 +251,10 @@ struct scene_boundary_row {
 
 /* What may be written beside the type, and who reads it. */
 #define SCENE_BOUNDARY_NOTHING .read = NULL
+#define SCENE_BOUNDARY_WALL .section.keys = scene_boundary_wall, .read = scene_boundary_read_wall
 #define SCENE_BOUNDARY_FAR .section.keys = scene_boundary_far, .read = scene_boundary_read_far
+#define SCENE_BOUNDARY_STICKY \
+    .section.keys = scene_boundary_sticky, .section.base = &scene_boundary_any_wall, .read = scene_boundary_read_sticky
 #define SCENE_BOUNDARY_STATE \
     .section.keys = scene_state_rows, .section.rules = scene_boundary_state_rules, .read = scene_boundary_read_state
 #define SCENE_BOUNDARY_WAVE                                                                                        \
@@ -228,7 +283,16 @@ const struct keys_section scene_boundary_keys = {.name = "boundary",
 
 bool scene_boundary_is(const struct scene *scene, int face, unsigned traits)
 {
-    return (scene_boundary_types[scene->domain.boundary[face / 2][face % 2].type].traits & traits) == traits;
+    const struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
+    unsigned has = scene_boundary_types[boundary->type].traits;
+    if (boundary->moves) has &= ~(unsigned)SCENE_BOUNDARY_RESTS;
+    return (has & traits) == traits;
+}
+
+bool scene_boundary_is_heated(const struct scene *scene, int face)
+{
+    const struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
+    return boundary->temperature.given || boundary->heat_flux.given;
 }
 
 const char *scene_boundary_name(enum scene_boundary_type type)
@@ -264,6 +328,12 @@ static void scene_boundary_place(struct draft *draft, int axis, int side, const 
     }
     if (radial && scene_boundary_is(scene, face, SCENE_BOUNDARY_WRAPS))
         keys_error(&draft->keys, type, "the radius is not periodic");
+    const struct scene_boundary *boundary = &scene->domain.boundary[axis][side];
+    const struct scene_value *through = &boundary->velocity[axis];
+    if (!boundary->moves || (!through->script && through->number == 0.0)) return;
+    keys_error(&draft->keys, keys_at(map, "velocity"), "a wall moves along itself: its velocity along %c must be 0",
+               "xyz"[axis]);
+    diag_help(draft->keys.diag, "what flows through a face is an inflow");
 }
 
 /* Both faces of an axis are periodic, or none. */

@@ -152,6 +152,14 @@ unsigned scene_material_strength(const struct draft *draft)
     return known;
 }
 
+bool scene_material_conducts(const struct draft *draft)
+{
+    const struct keys_value *materials = keys_at(draft->root, "materials");
+    for (unsigned i = 0; i < materials->count; i++)
+        if (materials->list[i].map && keys_at(materials->list[i].map, "conductivity")->node) return true;
+    return false;
+}
+
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance)
 {
     const struct keys_map *map = value->map;

@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "case/donor.h"
 #include "case/shape.h"
 #include "paint/paint_contact.h"
 #include "paint/paint_stretch.h"
@@ -122,14 +123,12 @@ static void paint_meet(struct paint *paint, size_t cell, const double *below, co
 
 /* u = (1 - f) u + f layer in one cell. A cut cell has one velocity; what
  * kinetic energy that costs is left out, for as heat it would be a hot spot along the surface of a moving body. */
-static void paint_mix(struct paint *paint, size_t cell, double fraction, const double *layer)
+static void paint_lay(struct paint *paint, size_t cell, double fraction, const double *layer)
 {
     const struct model *model = paint->model;
     size_t n_cell = paint->mesh->n_cell;
     struct paint_stretch_layer stretch = {fraction, paint->covered[cell], layer, 1};
-    double lost = 0.0, below[MODEL_FIELDS];
-    bool meets = fraction < 1.0 && paint->covered[cell] == 1.0;
-    for (unsigned q = 0; meets && q < model->n_field; q++) below[q] = paint->u[q * n_cell + cell];
+    double lost = 0.0;
     if (model->n_stretch) paint_stretch_mix(model, &stretch, n_cell, paint->u + cell);
     if (fraction < 1.0) lost = paint_lost(model, paint->u + cell, n_cell, 1.0 - fraction, layer, 1, fraction);
     for (unsigned q = 0; q < model->i_V; q++) {
@@ -138,6 +137,16 @@ static void paint_mix(struct paint *paint, size_t cell, double fraction, const d
     }
     paint->u[model->i_E * n_cell + cell] -= lost;
     paint->covered[cell] = fraction < 1.0 ? (1.0 - fraction) * paint->covered[cell] + fraction : 1.0;
+}
+
+/* The same; where the layer's surface cuts a cell that has a state, the two meet. */
+static void paint_mix(struct paint *paint, size_t cell, double fraction, const double *layer)
+{
+    const struct model *model = paint->model;
+    double below[MODEL_FIELDS];
+    bool meets = fraction < 1.0 && paint->covered[cell] == 1.0;
+    for (unsigned q = 0; meets && q < model->n_field; q++) below[q] = paint->u[q * paint->mesh->n_cell + cell];
+    paint_lay(paint, cell, fraction, layer);
     if (meets) paint_meet(paint, cell, below, layer);
 }
 
@@ -240,6 +249,21 @@ static int paint_overlay(struct paint *paint, const struct paint_cell *cell, dou
     return STATUS_OK;
 }
 
+/* The state of another run, as far as it reaches. */
+static int paint_donor(struct paint *paint, const struct scene_layer *layer)
+{
+    const struct mesh *mesh = paint->mesh;
+    double mean[MODEL_FIELDS];
+    if (!layer->donor) return status_fail(STATUS_CASE, "%s has not been read", layer->checkpoint);
+    for (size_t c = 0; c < mesh->n_cell; c++) {
+        struct paint_cell cell = paint_cell_at(paint, c);
+        double part = donor_average(layer->donor, layer->at, cell.lower, cell.upper, mesh->dim, mesh->beta,
+                                    paint->model->n_field, mean);
+        if (part > 0.0) paint_lay(paint, c, part, mean);
+    }
+    return STATUS_OK;
+}
+
 static int paint_layer(struct paint *paint)
 {
     const struct paint_values *values = &paint->values;
@@ -285,7 +309,8 @@ static int paint_layers(struct paint *paint)
 {
     for (unsigned i = 0; i < paint->model->scene->n_layer; i++) {
         paint_values_of(paint->model, i, &paint->values);
-        TRY(paint_layer(paint));
+        const struct scene_layer *layer = &paint->model->scene->layers[i];
+        TRY(layer->checkpoint ? paint_donor(paint, layer) : paint_layer(paint));
     }
     return paint_check(paint);
 }

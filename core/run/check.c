@@ -13,6 +13,7 @@
 #include "base/status.h"
 #include "cli/human.h"
 #include "cli/scenes.h"
+#include "scheme/conduction.h"
 #include "scheme/source.h"
 #include "solve/advance.h"
 #include "solve/cost.h"
@@ -58,6 +59,24 @@ static void check_print_module(const char *what, const struct instance *instance
     putchar('\n');
 }
 
+/* A strength beside its modulus, and the stress at which a plane wave becomes plastic (Hugoniot's elastic limit). */
+static void check_print_strength(const struct model *model, unsigned l, double rho, double mu)
+{
+    const struct instance *plastic = &model->scene->material[l].plastic;
+    const struct bulla_inelastic *law = plastic->module->table;
+    const struct model_eos *eos = &model->eos[l];
+    double none = 0, p = 101325, T = 300, Y, rho_e, K;
+    char yield[HUMAN_ROOM], limit[HUMAN_ROOM];
+    law->strength(plastic->self, 1, &none, &none, &p, &T, &rho, &Y);
+    eos->law->state(eos->self, 1, &rho, &p, &rho_e, &K);
+    check_print_module("", plastic);
+    printf("  %-12s plastic: strength %s, %.3g of the shear modulus; elastic limit of plane waves %s\n", "",
+           human_si(Y, "Pa", yield), Y / mu, human_si(Y * (K + 4.0 / 3.0 * mu) / (2.0 * mu), "Pa", limit));
+    if (!(law->needs(plastic->self) & BULLA_INELASTIC_TEMPERATURE)) return;
+    eos->law->temperature(eos->self, 1, &rho, &p, &T);
+    printf("  %-12s its strength looks at temperatures: %.4g K at %g kg/m3 and 1 atm\n", "", T, rho);
+}
+
 /* A material, and what makes it a solid. */
 static void check_print_material(const struct scene *scene, const struct model *model, unsigned l)
 {
@@ -73,6 +92,28 @@ static void check_print_material(const struct scene *scene, const struct model *
     check_print_module("", solid);
     printf("  %-12s a solid: shear modulus %s at %g kg/m3, shear waves at %s\n", "", human_si(rho * c2, "Pa", modulus),
            rho, human_si(sqrt(c2), "m/s", speed));
+    if (material->plastic.module) check_print_strength(model, l, rho, rho * c2);
+}
+
+/* How a material conducts: at 25 C and 1 atm, over the run, and on the finest cells. */
+static void check_print_heat(const struct scene *scene, const struct model *model, unsigned l)
+{
+    const struct conduction_facts facts = conduction_facts(model, l);
+    char k[HUMAN_ROOM], width[HUMAN_ROOM], step[HUMAN_ROOM];
+    double h = HUGE_VAL, sum = 0;
+    if (!scene->material[l].conductivity.module) return;
+    for (int axis = 0; axis < scene->domain.dim; axis++) {
+        double own = (scene->domain.upper[axis] - scene->domain.lower[axis]) /
+                     ldexp(scene->domain.cells[axis], scene->mesh.levels);
+        h = fmin(h, own);
+        sum += 1 / (own * own);
+    }
+    double layer = sqrt(facts.k / facts.rho_cp * scene->run.until);
+    check_print_module("", &scene->material[l].conductivity);
+    printf("  %-12s conducts %s at 25 C and 1 atm, cp %.4g J/kg/K: diffusivity %.3g m2/s\n", "",
+           human_si(facts.k, "W/m/K", k), facts.cp, facts.k / facts.rho_cp);
+    printf("  %-12s heat gets %s far in the run, %.3g of the finest cells; it asks for steps below %s there\n", "",
+           human_si(layer, "m", width), layer / h, human_si(conduction_step(facts.k / facts.rho_cv, sum), "s", step));
 }
 
 static void check_print_fields(const struct model *model)
@@ -211,7 +252,10 @@ static void check_print(const struct scene *scene, const struct model *model, co
     putchar('\n');
     check_print_levels(scene, mesh);
     check_print_fields(model);
-    for (unsigned i = 0; i < scene->n_material; i++) check_print_material(scene, model, i);
+    for (unsigned i = 0; i < scene->n_material; i++) {
+        check_print_material(scene, model, i);
+        check_print_heat(scene, model, i);
+    }
     printf("  %-12s %s\n", "closure", scene->scheme.closure == SCENE_KAPILA ? "kapila" : "allaire");
     check_print_module("riemann", &scene->scheme.riemann);
     check_print_module("scheme", &scene->scheme.reconstruction);

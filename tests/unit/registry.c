@@ -48,9 +48,11 @@ static const char *const builtin[][2] = {
     {"constitutive", "gent"},
     {"constitutive", "mooney-rivlin"},
     {"constitutive", "neo-hookean"},
+    {"eos", "cochran-chan"},
     {"eos", "helmholtz-air"},
     {"eos", "iapws95"},
     {"eos", "ideal-gas"},
+    {"eos", "jwl"},
     {"eos", "mnasg"},
     {"eos", "modified-tait"},
     {"eos", "nasg"},
@@ -76,7 +78,14 @@ static const char *const builtin[][2] = {
     {"riemann", "hllc"},
     {"riemann", "hlld"},
     {"riemann", "rusanov"},
+    {"viscosity", "carreau"},
+    {"viscosity", "casson"},
+    {"viscosity", "cross"},
+    {"viscosity", "herschel-bulkley"},
     {"viscosity", "newtonian"},
+    {"viscosity", "power"},
+    {"viscosity", "sutherland"},
+    {"viscosity", "vogel"},
 };
 /* clang-format on */
 enum { BUILTIN = sizeof builtin / sizeof *builtin };
