@@ -61,8 +61,8 @@ struct scene_material {
     struct instance eos;
     struct instance constitutive; /* of a solid; module NULL: a fluid */
     struct instance viscosity;    /* module NULL: none */
+    struct instance conductivity; /* of heat; module NULL: none (scheme/conduction.h) */
     double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
-    double conductivity;          /* of heat [W/(m K)]; 0: none (scheme/conduction.h) */
 };
 
 /* One layer of paint. Layers are applied in order; a later one covers an earlier one by its

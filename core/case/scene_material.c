@@ -42,6 +42,14 @@ static const struct keys_section scene_material_viscosity = {.name = "viscosity"
                                                              .amount = "newtonian",
                                                              .amount_key = "mu"};
 
+static const struct keys_section scene_material_conductivity = {.name = "conductivity",
+                                                                .doc = "A law of heat conduction and its numbers.",
+                                                                .keys = scene_material_transport,
+                                                                .selector = "type",
+                                                                .kind = "conductivity",
+                                                                .amount = "constant",
+                                                                .amount_key = "k"};
+
 static const struct key scene_material_rows[] = {
     {.name = "eos",
      .type = KEYS_SECTION,
@@ -65,12 +73,10 @@ static const struct key scene_material_rows[] = {
      .doc = "Resistance k of the material against its motion, as in a porous medium (viscosity over permeability): a "
             "force -alpha k u, whose work is heat."},
     {.name = "conductivity",
-     .type = KEYS_NUMBER,
-     .unit = "W/m/K",
-     .max = KEYS_MOST,
-     .fallback = "0",
-     .doc =
-         "Conductivity of heat k: a flux -k grad T in the material, and through the interface to others that conduct."},
+     .type = KEYS_SECTION,
+     .section = &scene_material_conductivity,
+     .doc = "Conductivity of heat: a number with a unit (`0.607 W/m/K`) for a constant one, or a law; without it the "
+            "material has none. Heat goes from cell to cell, and through interfaces to other materials that conduct."},
     {0},
 };
 
@@ -153,7 +159,7 @@ void scene_material(struct draft *draft)
         scene_material_open(draft, keys_at(entry->map, "eos"), &material->eos);
         scene_material_open(draft, keys_at(entry->map, "constitutive"), &material->constitutive);
         scene_material_open(draft, keys_at(entry->map, "viscosity"), &material->viscosity);
+        scene_material_open(draft, keys_at(entry->map, "conductivity"), &material->conductivity);
         material->drag = entry->map ? keys_at(entry->map, "drag")->number : 0.0;
-        material->conductivity = entry->map ? keys_at(entry->map, "conductivity")->number : 0.0;
     }
 }

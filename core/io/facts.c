@@ -63,6 +63,7 @@ void facts_put(const struct scene *scene, const struct model *model, int tile, s
         facts_put_law(material->name, "eos", &material->eos, notes);
         facts_put_law(material->name, "constitutive", &material->constitutive, notes);
         facts_put_law(material->name, "viscosity", &material->viscosity, notes);
+        facts_put_law(material->name, "conductivity", &material->conductivity, notes);
     }
     facts_put_names(notes, "fields", model->n_field, facts_field, model);
 }

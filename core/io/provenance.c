@@ -149,6 +149,8 @@ static json_t *provenance_modules(const struct scene *scene)
         if (scene->material[l].constitutive.module)
             provenance_add_module(modules, scene->material[l].constitutive.module);
         if (scene->material[l].viscosity.module) provenance_add_module(modules, scene->material[l].viscosity.module);
+        if (scene->material[l].conductivity.module)
+            provenance_add_module(modules, scene->material[l].conductivity.module);
     }
     provenance_add_module(modules, scene->scheme.reconstruction.module);
     provenance_add_module(modules, scene->scheme.limiter.module);

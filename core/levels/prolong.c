@@ -8,6 +8,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "levels/prolong_cell.h"
+#include "levels/prolong_held.h"
 #include "levels/prolong_slope.h"
 #include "mesh/metric.h"
 #include "mesh/post.h"
@@ -28,6 +29,7 @@ struct prolong {
     size_t pitch;
     double *w, *u, *rho_c2, *stiffness; /* blocks: primitives, conserved, rho c_f^2 and that of each material */
     double *elastic;                    /* elastic energy per volume; NULL without a solid */
+    struct prolong_held *held;          /* what forces make of pressure; NULL without */
 };
 
 static void prolong_edges(const struct mesh *mesh, int axis, struct prolong *prolong)
@@ -63,6 +65,7 @@ struct prolong *prolong_new(const struct model *model, const struct mesh *mesh)
     prolong->stiffness = mem_new(model->n_material * prolong->cells, sizeof(double));
     prolong->rho_c2 = mem_new(prolong->cells, sizeof(double));
     if (model->n_stretch) prolong->elastic = mem_new(prolong->cells, sizeof(double));
+    prolong->held = prolong_held_new(model, mesh, prolong->cells);
     return prolong;
 }
 
@@ -76,6 +79,7 @@ void prolong_free(struct prolong *prolong)
     mem_free(prolong->stiffness);
     mem_free(prolong->rho_c2);
     mem_free(prolong->elastic);
+    prolong_held_free(prolong->held);
     mem_free(prolong);
 }
 
@@ -184,21 +188,51 @@ struct prolong_row {
     size_t fine[3], count[3];  /* strides of the strip; children per axis: 2, 1 beyond dim */
 };
 
+/* The children of a coarse value c, with what they lie beside it along each axis. */
+static inline void prolong_fill_cell(const struct prolong_row *row, double c, double sx, double sy, double sz,
+                                     double *to)
+{
+    for (size_t k = 0; k < row->count[2]; k++)
+        for (size_t j = 0; j < row->count[1]; j++) {
+            double y = j ? sy : -sy, z = k ? sz : -sz, *pair = to + k * row->fine[2] + j * row->fine[1];
+            pair[0] = c + ((y - sx) + z);
+            pair[row->fine[0]] = c + ((y + sx) + z);
+        }
+}
+
 static BULLA_KERNEL void prolong_fill_row(const struct prolong_row *row, const double *restrict w,
                                           double *restrict strip)
 {
     for (size_t i = 0; i < row->n; i++) {
         const double *at = w + i * row->step;
-        double *to = strip + i * row->fine_step, c = *at;
-        double sx = prolong_slope(at, row->stride[0]), sy = prolong_slope(at, row->stride[1]);
-        double sz = prolong_slope(at, row->stride[2]);
-        for (size_t k = 0; k < row->count[2]; k++)
-            for (size_t j = 0; j < row->count[1]; j++) {
-                double y = j ? sy : -sy, z = k ? sz : -sz, *pair = to + k * row->fine[2] + j * row->fine[1];
-                pair[0] = c + ((y - sx) + z);
-                pair[row->fine[0]] = c + ((y + sx) + z);
-            }
+        prolong_fill_cell(row, *at, prolong_slope(at, row->stride[0]), prolong_slope(at, row->stride[1]),
+                          prolong_slope(at, row->stride[2]), strip + i * row->fine_step);
     }
+}
+
+/* The same for pressure where forces act; G: rows by axis as far as the first cell of the row. */
+static void prolong_fill_held(const struct prolong_row *row, const double *p, const double *const G[3], double *strip)
+{
+    for (size_t i = 0; i < row->n; i++) {
+        double s[3];
+        for (int d = 0; d < 3; d++)
+            s[d] = prolong_held_slope(p + i * row->step, G[d] ? G[d] + i * row->step : NULL, row->stride[d]);
+        prolong_fill_cell(row, p[i * row->step], s[0], s[1], s[2], strip + i * row->fine_step);
+    }
+}
+
+/* A row of component q that begins at `at` in the block. */
+static void prolong_fill(const struct prolong *prolong, const struct prolong_row *row, unsigned q, size_t at,
+                         double *strip)
+{
+    const double *w = prolong->w + q * prolong->cells + at, *G[3];
+    if (!prolong->held || q != prolong->model->i_E) {
+        prolong_fill_row(row, w, strip);
+        return;
+    }
+    const double *const *held = prolong_held_rows(prolong->held);
+    for (int d = 0; d < 3; d++) G[d] = held[d] ? held[d] + at : NULL;
+    prolong_fill_held(row, w, G, strip);
 }
 
 /* Coarse cells along axis d of the patch that the strip of a face across `axis` is made from. */
@@ -229,10 +263,8 @@ static void prolong_strip(const struct prolong *prolong, const struct mesh *mesh
     for (unsigned q = 0; q < model->n_field; q++)
         for (size_t k = 0; k < patch[2]; k++)
             for (size_t j = 0; j < patch[across]; j++)
-                prolong_fill_row(&row,
-                                 prolong->w + q * prolong->cells + from + j * prolong->stride[across] +
-                                     k * prolong->stride[2],
-                                 strip + q * size + 2 * j * row.fine[across] + 2 * k * row.fine[2]);
+                prolong_fill(prolong, &row, q, from + j * prolong->stride[across] + k * prolong->stride[2],
+                             strip + q * size + 2 * j * row.fine[across] + 2 * k * row.fine[2]);
     if (model->n_alpha > 2) prolong_slope_normalise(size, model->n_alpha, strip);
     elastic_settle(model, size, size, strip);
 }
@@ -248,6 +280,22 @@ static struct prolong_box prolong_patch(const struct mesh *mesh, const struct li
     return box;
 }
 
+/* What forces make of the pressure of a gathered box of a local tile. */
+static void prolong_hold(struct prolong *prolong, const struct level *level, unsigned local, double t,
+                         const struct prolong_box *box)
+{
+    const struct prolong_held_block block = {.level = level,
+                                             .tile = &level->tiles[level->first + local],
+                                             .t = t,
+                                             .from = box->from,
+                                             .to = box->to,
+                                             .stride = prolong->stride,
+                                             .origin = prolong->origin,
+                                             .cells = prolong->cells,
+                                             .w = prolong->w};
+    if (prolong->held) prolong_held_fill(prolong->held, &block);
+}
+
 void prolong_strips(struct prolong *prolong, const struct mesh *mesh, int l, struct bound *bound, int slot)
 {
     const struct level *level = &mesh->levels[l];
@@ -257,6 +305,7 @@ void prolong_strips(struct prolong *prolong, const struct mesh *mesh, int l, str
         for (unsigned s = from; s < to; s++) {
             struct prolong_box box = prolong_patch(mesh, &link->sources[s]);
             prolong_gather(prolong, mesh, level, t, bound, &box);
+            prolong_hold(prolong, level, t, bound->t, &box);
             prolong_strip(prolong, mesh, &link->sources[s], link->sources[s].strip[slot]);
         }
     }

@@ -85,6 +85,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     narrow->n_solid = narrow->n_active = 0;
     for (unsigned l = 0; l < n; l++) {
         narrow->eos[l] = model->eos[first + l];
+        narrow->conductivity[l] = model->conductivity[first + l];
         narrow->linear = narrow->linear && narrow->eos[l].law->linear;
     }
     for (unsigned s = 0; s < model->n_solid; s++) {
@@ -112,6 +113,15 @@ static void model_solids(struct model *model)
     model->elastic = model->n_solid > 0;
 }
 
+/* Does the scene have an acceleration along an axis of the mesh? */
+static bool model_is_forced(const struct scene *scene)
+{
+    bool any = false;
+    for (int d = 0; scene->sources && d < scene->domain.dim; d++)
+        any = any || scene->sources->value[SCENE_SOURCE_ACCELERATION + d].given;
+    return any;
+}
+
 /* The fluids alone, if they stand together: they need neither the stretch nor the solids' components. */
 static struct model *model_liquefy(const struct model *model)
 {
@@ -121,6 +131,21 @@ static struct model *model_liquefy(const struct model *model)
     for (unsigned l = from; l < from + n; l++)
         if (l >= model->n_material || model->scene->material[l].constitutive.module) return NULL;
     return model_narrow(model, from, n);
+}
+
+/* Laws of conduction; a constant of 0 is none. */
+static void model_conduct(struct model *model)
+{
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const struct instance *instance = &model->scene->material[l].conductivity;
+        if (!instance->module) continue;
+        const struct bulla_conductivity *table = instance->module->table;
+        struct model_conductivity law = {.law = &table->k, .self = instance->self};
+        if (!table->k.needs) table->k.value(law.self, 1, NULL, NULL, NULL, NULL, &law.k);
+        if (!table->k.needs && law.k == 0.0) continue;
+        model->conductivity[l] = law;
+        model->conducts = true;
+    }
 }
 
 struct model *model_new(const struct scene *scene)
@@ -142,6 +167,7 @@ struct model *model_new(const struct scene *scene)
     model->n_field = model->i_V + model->n_stretch;
     model->split = model->dim == 1 && model->elastic && model->n_alpha > 0;
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
+    model->forced = model_is_forced(scene);
     model->linear = true;
     for (unsigned l = 0; l < model->n_material; l++) {
         const struct instance *instance = &scene->material[l].eos;
@@ -154,8 +180,7 @@ struct model *model_new(const struct scene *scene)
         eos->rho_most = range.rho_max > eos->rho_fill ? range.rho_max : eos->rho_fill;
         if (!eos->law->linear) model->linear = false;
     }
-    for (unsigned l = 0; l < model->n_material; l++)
-        model->conducts = model->conducts || scene->material[l].conductivity > 0.0;
+    model_conduct(model);
     model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO ? !model->linear || model->conducts
                                                                    : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
     model->limiter = (struct model_limiter){scene->scheme.limiter.module->table, scene->scheme.limiter.self};

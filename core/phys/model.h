@@ -9,6 +9,7 @@
 #ifndef MODEL_H
 #define MODEL_H
 
+#include "bulla/conductivity.h"
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/limiter.h"
@@ -30,6 +31,13 @@ struct model_solid {
     const struct bulla_constitutive *law;
     const void *self;
     unsigned material; /* index into the materials of the same model */
+};
+
+/* How a material conducts heat. */
+struct model_conductivity {
+    const struct bulla_coefficient *law; /* NULL: not at all */
+    const void *self;
+    double k; /* of a law that looks at nothing [W/(m K)] */
 };
 
 /* Most evolved fields a scene can have: fractions, densities, velocities, energy, stretch. */
@@ -54,8 +62,10 @@ struct model {
     bool kapila, linear;  /* linear: every law is linear in p, closed-form mixture pressure */
     bool thermal;         /* materials of a cell exchange volume in full: temperatures are meant (scheme/exchange.h) */
     bool conducts;        /* some material of the scene conducts heat (scheme/conduction.h) */
+    bool forced;          /* forces act at faces, and pressure is reconstructed relative to them (scheme/face.h) */
     bool split;           /* the materials of a cell share their normal traction, not their pressure (traction.h) */
     struct model_eos eos[SCENE_MATERIALS];
+    struct model_conductivity conductivity[SCENE_MATERIALS];
     struct model_limiter {
         const struct bulla_limiter *law;
         const void *self;

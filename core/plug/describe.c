@@ -121,7 +121,7 @@ static void describe_presets(const struct bulla_module *module, struct text *tex
 /* How a case names it: laws belong to a material, the rest to the scheme. */
 static void describe_use(const struct bulla_module *module, struct text *text)
 {
-    static const char *const of_materials[] = {"constitutive", "eos", "viscosity"};
+    static const char *const of_materials[] = {"conductivity", "constitutive", "eos", "viscosity"};
     bool law = false;
     for (size_t i = 0; i < sizeof of_materials / sizeof *of_materials; i++)
         law = law || strcmp(module->kind, of_materials[i]) == 0;

@@ -5,6 +5,7 @@
 #include "base/status.h"
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
+#include "bulla/conductivity.h"
 #include "bulla/limiter.h"
 #include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
@@ -35,6 +36,7 @@ struct vet_kind {
     }
 
 static const struct vet_kind vet_kinds[] = {
+    {"conductivity", sizeof(struct bulla_conductivity), {VET_SLOT(bulla_conductivity, k.value)}},
     {"constitutive",
      sizeof(struct bulla_constitutive),
      {VET_SLOT(bulla_constitutive, energy), VET_SLOT(bulla_constitutive, range)}},
@@ -98,7 +100,7 @@ static int vet_table(const struct bulla_module *module)
         if (module->kind && strcmp(module->kind, vet_kinds[i].name) == 0) kind = &vet_kinds[i];
     if (!kind)
         return status_fail(STATUS_CASE,
-                           "is of the unknown kind '%s'; kinds are constitutive, eos, limiter, "
+                           "is of the unknown kind '%s'; kinds are conductivity, constitutive, eos, limiter, "
                            "reconstruction, riemann, viscosity",
                            module->kind ? module->kind : "");
     if (!module->table) return status_fail(STATUS_CASE, "has no table of functions");
@@ -158,7 +160,10 @@ static int vet_reconstruction(const struct bulla_module *module)
 static int vet_coefficient(const struct bulla_module *module)
 {
     const struct bulla_coefficient *table = module->table;
-    if (strcmp(module->kind, "viscosity") != 0) return STATUS_OK;
+    bool heat = strcmp(module->kind, "conductivity") == 0;
+    if (heat && table->needs & BULLA_NEEDS_RATE)
+        return status_fail(STATUS_CASE, "looks at the rate of shear, which kind conductivity does not");
+    if (heat || strcmp(module->kind, "viscosity") != 0) return STATUS_OK;
     if (!(table->needs & BULLA_NEEDS_RATE) || table->most) return STATUS_OK;
     return status_fail(STATUS_CASE, "looks at the rate of shear but has no function 'most', which the time step needs");
 }
@@ -385,5 +390,7 @@ int vet_instance(const struct bulla_module *module, const void *self)
             "viscosity '%s' gives no number from 0 to what it says to be the most, for a liquid at 300 K "
             "and 1 bar that is sheared at 100 1/s",
             module->name);
+    if (strcmp(module->kind, "conductivity") == 0 && !vet_try_coefficient(module->table, self))
+        return status_fail(STATUS_CASE, "conductivity '%s' gives no number from 0, at 300 K and 1 bar", module->name);
     return STATUS_OK;
 }

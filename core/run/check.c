@@ -1,9 +1,10 @@
 /* check.c - see check.h.
  *
  * Steps and time are measured, not guessed: the scene runs for a moment on a coarse copy of its
- * mesh (which also finds scripts that fail). The last time step there, scaled by the cell size,
- * gives the number of steps, and the time of a step the cost per cell on this machine. What
- * happens later in the run may need smaller steps.
+ * mesh (which also finds scripts that fail). Its steps, scaled by the cell size, give the number of steps, and the CPU
+ * time of a step the cost per cell on this machine, whatever else runs on it. Where the copy does not come to the end,
+ * the rest is taken at its last time step, with the range of its longest and shortest; what happens later may need
+ * smaller ones.
  * With levels the real initial mesh is built too, for its cells; the coarse copy has one level. */
 #include "run/check.h"
 
@@ -12,9 +13,9 @@
 #include "base/status.h"
 #include "cli/human.h"
 #include "cli/scenes.h"
-#include "run/progress.h"
 #include "scheme/source.h"
 #include "solve/advance.h"
+#include "solve/cost.h"
 #include "solve/tag.h"
 
 #include <math.h>
@@ -23,11 +24,14 @@
 
 enum { CHECK_COARSE = 32, CHECK_STEPS = 500 }; /* most cells along an axis of the coarse copy; most steps there */
 static const double check_moment = 0.2;        /* most seconds spent on them */
-static const double check_build = 1 << 30;     /* most bytes of a coarsest level that is built to be refined */
+/* How much less and more runs take than is estimated, without levels and with them: measured (docs/running.md). */
+static const double check_error[2][2] = {{0.5, 2}, {1, 5}};
+static const double check_build = 1 << 30; /* most bytes of a coarsest level that is built to be refined */
 
 struct check_cost {
-    double steps, seconds;
-    long coarse_steps; /* what they were measured on */
+    double steps, least, most; /* how many, and between which bounds */
+    double seconds;            /* CPU time of that many */
+    long coarse_steps;         /* what they were measured on */
 };
 
 static const char *const check_geometry[] = {"cartesian", "axisymmetric", "spherical"};
@@ -136,21 +140,31 @@ static struct scene check_coarsen(const struct scene *scene, double *ret_ratio)
     return coarse;
 }
 
+/* Steps of the whole run if what the coarse copy has left is done in steps of `dt` there. */
+static double check_all_steps(const struct scene *scene, const struct state *coarse, double dt, double factor)
+{
+    double left = scene->run.until - coarse->t, steps = factor * ((double)coarse->step + (left > 0 ? left / dt : 0));
+    if (scene->scheme.dt_fixed > 0) steps = scene->run.until / scene->scheme.dt_fixed;
+    return scene->run.max_steps > 0 ? fmin(ceil(steps), (double)scene->run.max_steps) : ceil(steps);
+}
+
 static int check_measure(struct state *coarse, double ratio, const struct scene *scene, const struct check_mesh *mesh,
                          struct check_cost *ret)
 {
-    double begin = progress_clock(), spent = 0, dt = advance_dt(coarse);
+    double begin = cost_cpu(), spent = 0, dt = advance_dt(coarse), longest = dt, shortest = dt;
     while (coarse->step < CHECK_STEPS && coarse->t < scene->run.until && spent < check_moment) {
         dt = advance_dt(coarse);
+        longest = fmax(longest, dt);
+        shortest = fmin(shortest, dt);
         TRY(advance_step(coarse, scene->run.until - coarse->t));
-        spent = progress_clock() - begin;
+        spent = cost_cpu() - begin;
         comm_max(&spent, 1);
     }
-    if (scene->scheme.dt_fixed <= 0) dt /= ratio * mesh->parts;
+    double factor = ratio * mesh->parts;
     ret->coarse_steps = coarse->step;
-    ret->steps = ceil(scene->run.until / dt);
-    if (scene->run.max_steps > 0 && ret->steps > (double)scene->run.max_steps)
-        ret->steps = (double)scene->run.max_steps;
+    ret->steps = check_all_steps(scene, coarse, dt, factor);
+    ret->least = check_all_steps(scene, coarse, longest, factor);
+    ret->most = check_all_steps(scene, coarse, shortest, factor);
     ret->seconds = ret->steps * spent / (double)coarse->step * mesh->updates / scenes_cells(coarse->scene);
     return 0;
 }
@@ -210,13 +224,23 @@ static void check_print(const struct scene *scene, const struct model *model, co
     putchar('\n');
 }
 
+static const char *check_seconds(double seconds, char text[HUMAN_ROOM])
+{
+    double digit = pow(10, floor(log10(fmax(seconds, 1e-300))) - 1); /* no more than two are meant */
+    return seconds < 60 ? human_si(digit * round(seconds / digit), "s", text) : human_duration(seconds, text);
+}
+
 static void check_print_cost(const struct scene *scene, const struct check_cost *cost)
 {
-    char text[HUMAN_ROOM];
-    printf("  %-12s until %s, about %.0f steps\n", "run", human_si(scene->run.until, "s", text), cost->steps);
-    printf("  %-12s about %s on one core (from %ld steps on a coarse copy)\n", "time",
-           cost->seconds < 60 ? human_si(cost->seconds, "s", text) : human_duration(cost->seconds, text),
-           cost->coarse_steps);
+    char text[HUMAN_ROOM], least[HUMAN_ROOM], most[HUMAN_ROOM];
+    const double *error = check_error[scene->mesh.levels > 0];
+    printf("  %-12s until %s, about %.0f steps", "run", human_si(scene->run.until, "s", text), cost->steps);
+    if (cost->most > 1.1 * cost->least) printf(" (%.0f to %.0f)", cost->least, cost->most);
+    printf("\n  %-12s about %s of CPU time, %s to %s (from %ld steps on a coarse copy%s)\n", "time",
+           check_seconds(cost->seconds, text),
+           check_seconds(error[0] * cost->seconds * cost->least / cost->steps, least),
+           check_seconds(error[1] * cost->seconds * cost->most / cost->steps, most), cost->coarse_steps,
+           scene->mesh.levels > 0 ? "; levels as at the start, which may grow" : "");
     printf("  %-12s %s\n", "output", scene->output.directory);
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/comm.h"
 #include "cli/human.h"
+#include "solve/cost.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -10,10 +11,9 @@
 #include <stdlib.h>
 #include <time.h>
 
-/* Seconds between lines, by mode; and the memory of the smoothed speed. */
+/* Seconds between lines, by mode. */
 static const double progress_every[] = {
     [PROGRESS_LINES] = 5, [PROGRESS_LIVE] = 0.1, [PROGRESS_JSON] = 1, [PROGRESS_SILENT] = INFINITY};
-static const double progress_memory = 10;
 
 double progress_clock(void)
 {
@@ -43,6 +43,8 @@ void progress_begin(struct progress *progress, const char *name, const char *dir
     const char *plain = getenv("NO_COLOR");
     progress->color = progress->mode == PROGRESS_LIVE && !(plain && *plain);
     progress->start = progress->shown = progress_clock();
+    progress->cpu = cost_cpu();
+    eta_begin(&progress->eta, progress->share);
     if (progress->mode == PROGRESS_JSON)
         progress_print(json_pack("{ss ss ss sf sI si}", "event", "start", "case", name, "directory", directory, "until",
                                  progress->until, "cells", (json_int_t)progress->cells, "ranks", comm_size()));
@@ -83,32 +85,49 @@ static double progress_share(const struct progress *progress, double t, long ste
     return share < 1 ? share : 1;
 }
 
-static void progress_show(struct progress *progress, double t, double dt, long step, double rate, double eta)
+/* "3:20", or "3:20 (2:40 to 5:00)" where it is not certain. */
+static void progress_left(struct eta_left eta, size_t size, char *ret_text)
 {
-    char time[HUMAN_ROOM], end[HUMAN_ROOM], size[HUMAN_ROOM], speed[HUMAN_ROOM], left[HUMAN_ROOM];
+    char likely[HUMAN_ROOM], least[HUMAN_ROOM], most[HUMAN_ROOM];
+    human_duration(eta.likely, likely);
+    bool sure = !isfinite(eta.likely) || eta.most < 1.25 * eta.least || eta.most - eta.least < 2;
+    if (sure) snprintf(ret_text, size, "%s", likely);
+    else
+        snprintf(ret_text, size, "%s (%s to %s)", likely, human_duration(eta.least, least),
+                 human_duration(eta.most, most));
+}
+
+static void progress_show(struct progress *progress, double t, double dt, long step, double rate, struct eta_left eta)
+{
+    char time[HUMAN_ROOM], end[HUMAN_ROOM], size[HUMAN_ROOM], speed[HUMAN_ROOM], left[4 * HUMAN_ROOM];
     char cells[MESH_LEVELS * HUMAN_ROOM];
     bool live = progress->mode == PROGRESS_LIVE;
     progress_cells(progress, cells, sizeof cells);
+    progress_left(eta, sizeof left, left);
     fprintf(stderr, "%s%s%3.0f%%%s  t %s of %s  step %ld  dt %s  %s cells  %s updates/s  ETA %s%s",
             live ? "\r\033[K" : "", progress->color ? "\033[1;32m" : "", floor(100 * progress->share),
             progress->color ? "\033[0m" : "", human_si(t, "s", time), human_si(progress->until, "s", end), step,
-            human_si(dt, "s", size), cells, human_count(rate, speed), human_duration(eta, left), live ? "" : "\n");
+            human_si(dt, "s", size), cells, human_count(rate, speed), left, live ? "" : "\n");
     fflush(stderr);
     progress->line_open = live;
+}
+
+static void progress_seconds(json_t *object, const char *key, double seconds)
+{
+    json_object_set_new(object, key, isfinite(seconds) ? json_real(seconds) : json_null());
 }
 
 void progress_step(struct progress *progress, double t, double dt, long step)
 {
     double now = progress_clock(), passed = now - progress->shown;
     if (passed < progress_every[progress->mode]) return;
-    double share = progress_share(progress, t, step), speed = (share - progress->share) / passed;
-    double keep = progress->speed > 0 ? exp(-passed / progress_memory) : 0;
+    double share = progress_share(progress, t, step);
     double rate = (progress->work - progress->worked) / passed;
-    progress->speed = keep * progress->speed + (1 - keep) * speed;
+    eta_note(&progress->eta, share, cost_cpu() - progress->cpu, now - progress->start);
     progress->shown = now;
     progress->share = share;
     progress->worked = progress->work;
-    double eta = progress->speed > 0 ? (1 - share) / progress->speed : INFINITY;
+    struct eta_left eta = eta_left(&progress->eta);
     if (progress->mode != PROGRESS_JSON) {
         progress_show(progress, t, dt, step, rate, eta);
         return;
@@ -119,7 +138,9 @@ void progress_step(struct progress *progress, double t, double dt, long step)
     for (int l = 0; l < progress->n_level; l++)
         json_array_append_new(levels, json_integer((json_int_t)progress->level_cells[l]));
     json_object_set_new(object, "cells_by_level", levels);
-    json_object_set_new(object, "eta_s", isfinite(eta) ? json_real(eta) : json_null());
+    progress_seconds(object, "eta_s", eta.likely);
+    progress_seconds(object, "eta_least_s", eta.least);
+    progress_seconds(object, "eta_most_s", eta.most);
     progress_print(object);
 }
 

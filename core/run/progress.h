@@ -6,6 +6,7 @@
 #define PROGRESS_H
 
 #include "mesh/mesh.h"
+#include "run/eta.h"
 
 #include <stdbool.h>
 
@@ -23,9 +24,10 @@ struct progress {
     double work; /* cell updates since the start, and when a line was shown last */
     double worked;
     double start; /* clock at the start [s] */
+    double cpu;   /* CPU time of this process then */
     double shown; /* clock and share of the run when a line was shown last */
     double share;
-    double speed;   /* share of the run per second, smoothed */
+    struct eta eta;
     bool line_open; /* a live line stands on the terminal */
 };
 

@@ -243,8 +243,8 @@ static void run_dump(const struct run *run)
 /* The loop, and what ends it. */
 static int run_until_end(struct run *run)
 {
-    progress_begin(&run->progress, run->scene->name, run->scene->output.directory);
     run->progress.share = run->state->t / run->scene->run.until;
+    progress_begin(&run->progress, run->scene->name, run->scene->output.directory);
     int code = run_loop(run);
     progress_clear(&run->progress);
     if (code == STATUS_RUN) {

@@ -6,6 +6,7 @@
 #include "paint/paint.h"
 #include "phys/mix.h"
 #include "scheme/bound_layer.h"
+#include "scheme/source_value.h"
 
 #include <string.h>
 
@@ -36,6 +37,7 @@ static struct bound *bound_start(const struct model *model, const struct mesh *m
     struct bound *bound = mem_new(1, sizeof *bound);
     *bound = (struct bound){.model = model, .mesh = mesh, .level = level, .n_local = level->n_local};
     bound->reference = mem_new((size_t)level->n_local * MESH_FACES, sizeof *bound->reference);
+    if (model->forced && model->scene->sources) bound->sources = source_value_new(model, mesh);
     return bound;
 }
 
@@ -100,6 +102,7 @@ void bound_free(struct bound *bound)
     for (size_t i = 0; i < (size_t)bound->n_local * MESH_FACES; i++) mem_free(bound->reference[i]);
     mem_free(bound->reference);
     mem_free(bound->message);
+    source_value_free(bound->sources);
     mem_free(bound);
 }
 

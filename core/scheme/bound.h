@@ -16,10 +16,11 @@ struct bound {
     const struct level *level;
     double t; /* [s] at which time-dependent values are taken; set before each stage */
     unsigned n_local;
-    double **reference; /* [n_local * MESH_FACES]: p then u_n of the boundary cells, or NULL */
-    int status;         /* first failure of a script since bound_new */
-    char *message;      /* of it; NULL: none */
-    char blind[192];    /* of what and where it was: "pressure at (0, 0.1) m, beside cell (0, 3, 0)" */
+    double **reference;           /* [n_local * MESH_FACES]: p then u_n of the boundary cells, or NULL */
+    struct source_value *sources; /* forces, which pressure goes on holding behind a boundary; NULL without */
+    int status;                   /* first failure of a script since bound_new */
+    char *message;                /* of it; NULL: none */
+    char blind[192];              /* of what and where it was: "pressure at (0, 0.1) m, beside cell (0, 3, 0)" */
 };
 
 /* For one level; takes the references from the level's primitives w as they are. */

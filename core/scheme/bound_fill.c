@@ -15,6 +15,7 @@
 #include "phys/elastic.h"
 #include "phys/mix.h"
 #include "scheme/bound_layer.h"
+#include "scheme/source_weight.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -291,8 +292,20 @@ static void bound_fill_state(const struct bound_fill *fill)
 static void (*const bound_fill_ways[])(const struct bound_fill *fill) = {SCENE_BOUNDARY_TABLE(BOUND_FILL_WAY)};
 _Static_assert(sizeof bound_fill_ways / sizeof *bound_fill_ways == SCENE_BOUNDARY_TYPES, "a way for each type");
 
+/* Pressure holds the forces behind a boundary, too. */
+static void bound_fill_hold(const struct bound_fill *fill)
+{
+    struct bound *bound = fill->bound;
+    const struct level *level = bound->level;
+    const struct source_value_place place = {level, &level->tiles[level->first + fill->local], bound->t,
+                                             fill->frame->axis};
+    bound->sources->path = bound->model;
+    source_weight_continue(bound->sources, &place, fill->frame, fill->side, fill->pitch, fill->w);
+}
+
 void bound_fill(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w)
 {
     const struct bound_fill fill = {data, local, frame, side, pitch, w};
     bound_fill_ways[bound_fill_boundary(&fill)->type](&fill);
+    if (fill.bound->sources) bound_fill_hold(&fill);
 }

@@ -29,9 +29,21 @@ struct conduction {
     bool traces; /* some material of the piece is less than CONDUCTION_CHANNEL_FELT of its cell */
 };
 
-static double conduction_of(const struct model *path, unsigned l)
+static bool conduction_has(const struct model *path, unsigned l)
 {
-    return path->scene->material[path->first + l].conductivity;
+    return path->conductivity[l].law != NULL;
+}
+
+/* k of n states of material l. */
+static void conduction_ask(const struct model *path, unsigned l, size_t n, const double *T, const double *p,
+                           const double *rho, double *k)
+{
+    const struct model_conductivity *conductivity = &path->conductivity[l];
+    uint32_t needs = conductivity->law->needs;
+    for (size_t i = 0; !needs && i < n; i++) k[i] = conductivity->k;
+    if (needs)
+        conductivity->law->value(conductivity->self, n, NULL, needs & BULLA_NEEDS_TEMPERATURE ? T : NULL,
+                                 needs & BULLA_NEEDS_PRESSURE ? p : NULL, needs & BULLA_NEEDS_DENSITY ? rho : NULL, k);
 }
 
 static bool conduction_wanted(const struct model *path)
@@ -118,11 +130,11 @@ static BULLA_KERNEL void conduction_quotient(size_t n, const double *restrict p,
     }
 }
 
-/* rho cv of n <= CONDUCTION_BATCH states of a law. */
-static void conduction_capacity(const struct model_eos *eos, size_t n, const double *rho, const double *p, double *c)
+/* Temperature and rho cv of n <= CONDUCTION_BATCH states of a law. */
+static void conduction_capacity(const struct model_eos *eos, size_t n, const double *rho, const double *p, double *T,
+                                double *c)
 {
-    double e[CONDUCTION_BATCH], rho_c2[CONDUCTION_BATCH], higher[CONDUCTION_BATCH], T[CONDUCTION_BATCH],
-        T_higher[CONDUCTION_BATCH];
+    double e[CONDUCTION_BATCH], rho_c2[CONDUCTION_BATCH], higher[CONDUCTION_BATCH], T_higher[CONDUCTION_BATCH];
     eos->law->state(eos->self, n, rho, p, e, rho_c2);
     conduction_nudge(n, p, rho_c2, higher);
     eos->law->temperature(eos->self, n, rho, p, T);
@@ -134,10 +146,11 @@ static void conduction_capacity(const struct model_eos *eos, size_t n, const dou
 /* Capacities of the cells of a row. */
 static void conduction_weigh(const struct model *path, size_t n, const double *w, struct conduction *own)
 {
+    double T[CONDUCTION_BATCH];
     for (unsigned l = 0; l < path->n_material; l++)
         for (size_t from = 0; from < n; from += CONDUCTION_BATCH)
             conduction_capacity(&path->eos[l], n - from < CONDUCTION_BATCH ? n - from : CONDUCTION_BATCH,
-                                w + (path->i_m + l) * FACE_ROOM + from, w + path->i_E * FACE_ROOM + from,
+                                w + (path->i_m + l) * FACE_ROOM + from, w + path->i_E * FACE_ROOM + from, T,
                                 own->c + l * FACE_ROOM + from);
 }
 
@@ -155,7 +168,9 @@ static void conduction_frame(const struct term_piece *piece)
         if (path->n_alpha) conduction_feel(n, w + (path->i_alpha + l) * FACE_ROOM, T, part);
         else conduction_feel_alone(n, T, part);
         own->traces = own->traces || conduction_has_traces(n, part);
-        for (size_t i = 0; i < n; i++) own->k[l * FACE_ROOM + i] = conduction_of(path, l);
+        if (conduction_has(path, l))
+            conduction_ask(path, l, n, T, w + path->i_E * FACE_ROOM, w + (path->i_m + l) * FACE_ROOM,
+                           own->k + l * FACE_ROOM);
     }
     if (own->traces) conduction_weigh(path, n, w, own);
 }
@@ -220,7 +235,7 @@ static void conduction_through(const struct conduction_piece *at, unsigned l, un
 
 static bool conduction_joins(const struct model *path, unsigned l, unsigned m)
 {
-    return conduction_of(path, l) > 0.0 && conduction_of(path, m) > 0.0;
+    return conduction_has(path, l) && conduction_has(path, m);
 }
 
 /* What goes from each material to itself. Materials that do not conduct have their part of the face all the same. */
@@ -336,12 +351,12 @@ static void conduction_cells(struct term_tile *tile)
 }
 
 /* The largest diffusivity k_l/c_l of the materials that count. */
-static BULLA_KERNEL void conduction_diffuse(size_t n, double k, const double *restrict alpha, const double *restrict c,
-                                            double *restrict most)
+static BULLA_KERNEL void conduction_diffuse(size_t n, const double *restrict k, const double *restrict alpha,
+                                            const double *restrict c, double *restrict most)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double D = k / c[i], old = most[i], larger = D > old ? D : old;
+        double D = k[i] / c[i], old = most[i], larger = D > old ? D : old;
         most[i] = alpha[i] > CONDUCTION_CHANNEL_FELT ? larger : old;
     }
 }
@@ -352,23 +367,30 @@ static BULLA_KERNEL void conduction_hurry(size_t n, double a, const double *rest
     for (size_t i = 0; i < n; i++) rate[i] += a * D[i];
 }
 
+/* The same of n <= CONDUCTION_BATCH cells with primitives w. */
+static void conduction_swiftest(const struct model *path, size_t n, size_t stride, const double *w, double *D)
+{
+    double one[CONDUCTION_BATCH], T[CONDUCTION_BATCH], c[CONDUCTION_BATCH], k[CONDUCTION_BATCH];
+    const double *p = w + path->i_E * stride;
+    for (size_t i = 0; i < n; i++) one[i] = 1.0, D[i] = 0.0;
+    for (unsigned l = 0; l < path->n_material; l++) {
+        const double *rho = w + (path->i_m + l) * stride;
+        if (!conduction_has(path, l)) continue;
+        conduction_capacity(&path->eos[l], n, rho, p, T, c);
+        conduction_ask(path, l, n, T, p, rho, k);
+        conduction_diffuse(n, k, path->n_alpha ? w + (path->i_alpha + l) * stride : one, c, D);
+    }
+}
+
 static void conduction_pace(const struct term_pace *pace, double *rate)
 {
     const struct model *path = pace->model;
-    double factor = 0.0, one[CONDUCTION_BATCH], c[CONDUCTION_BATCH];
-    for (size_t i = 0; i < CONDUCTION_BATCH; i++) one[i] = 1.0;
+    double factor = 0.0, D[CONDUCTION_BATCH];
     for (int d = 0; d < path->dim; d++) factor += 1.0 / (pace->level->h[d] * pace->level->h[d]);
     factor *= CONDUCTION_PACE * path->scene->scheme.cfl; /* dt = cfl / rate */
     for (size_t from = 0; from < pace->n_cell; from += CONDUCTION_BATCH) {
         size_t n = pace->n_cell - from < CONDUCTION_BATCH ? pace->n_cell - from : CONDUCTION_BATCH;
-        const double *w = pace->w + from;
-        double D[CONDUCTION_BATCH] = {0};
-        for (unsigned l = 0; l < path->n_material; l++) {
-            if (!(conduction_of(path, l) > 0.0)) continue;
-            conduction_capacity(&path->eos[l], n, w + (path->i_m + l) * pace->n_cell, w + path->i_E * pace->n_cell, c);
-            conduction_diffuse(n, conduction_of(path, l), path->n_alpha ? w + (path->i_alpha + l) * pace->n_cell : one,
-                               c, D);
-        }
+        conduction_swiftest(path, n, pace->n_cell, pace->w + from, D);
         conduction_hurry(n, factor, D, rate + from);
     }
 }
@@ -377,8 +399,8 @@ static void conduction_say(const struct scene *scene, struct text *text)
 {
     const char *comma = ": ";
     for (unsigned l = 0; l < scene->n_material; l++) {
-        if (!(scene->material[l].conductivity > 0.0)) continue;
-        text_add(text, "%s%s %g W/m/K", comma, scene->material[l].name, scene->material[l].conductivity);
+        if (!scene->material[l].conductivity.module) continue;
+        text_add(text, "%s%s %s", comma, scene->material[l].name, scene->material[l].conductivity.module->name);
         comma = ", ";
     }
 }

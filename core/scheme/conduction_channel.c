@@ -45,8 +45,8 @@ static BULLA_KERNEL void conduction_channel_mean(size_t n, const double *restric
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = left[i], b = right[i];
-        k[i] = 2.0 * (a * b) / (a + b);
+        double a = left[i], b = right[i], sum = a + b, series = 2.0 * (a * b) / sum;
+        k[i] = sum > 0.0 ? series : 0.0;
     }
 }
 

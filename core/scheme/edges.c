@@ -47,6 +47,7 @@ struct edges_row {
     size_t cells, step;
     const double *w; /* the first cell with edges, component 0 */
     const double *mask;
+    const double *rise[2];
     double *state;
 };
 
@@ -113,7 +114,7 @@ static const struct bulla_limited *edges_limited(const struct edges *edges, cons
 }
 
 /* Row q of cells, and its upper edges. */
-static const double *edges_cells(const struct edges *edges, const struct edges_row *row, unsigned q)
+static const double *edges_inside(const struct edges *edges, const struct edges_row *row, unsigned q)
 {
     return row->w + q * edges->pitch;
 }
@@ -129,7 +130,7 @@ static void edges_each(const struct edges *edges, const struct model *model, con
         unsigned q = model->active[i];
         double *upper = edges_upper(edges, row, q);
         model->reconstruction->edges(model->reconstruction_self, edges_limited(edges, model, q), row->cells, row->step,
-                                     edges_cells(edges, row, q), upper + row->cells, upper);
+                                     edges_inside(edges, row, q), upper + row->cells, upper);
     }
 }
 
@@ -138,7 +139,7 @@ static void edges_together(struct edges *edges, const struct model *model, const
 {
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
-        edges->w[i] = edges_cells(edges, row, q);
+        edges->w[i] = edges_inside(edges, row, q);
         edges->upper[i] = edges_upper(edges, row, q);
         edges->lower[i] = edges->upper[i] + row->cells;
         edges->limited[i] = edges_limited(edges, model, q);
@@ -218,7 +219,7 @@ static void edges_replace(const struct edges *edges, const struct model *model, 
 {
     size_t n = row->cells;
     double *upper = edges_upper(edges, row, q), *spare = edges->spare;
-    edges_limit(edges_limited(edges, model, q), n, row->step, edges_cells(edges, row, q), spare + n, spare);
+    edges_limit(edges_limited(edges, model, q), n, row->step, edges_inside(edges, row, q), spare + n, spare);
     edges_choose(n, edges->mark, spare, upper);
     edges_choose(n, edges->mark, spare + n, upper + n);
 }
@@ -230,7 +231,7 @@ static void edges_bound_fractions(const struct edges *edges, const struct model 
     memset(edges->mark, 0, n * sizeof *edges->mark);
     for (unsigned q = model->i_alpha; q < model->i_alpha + model->n_alpha; q++) {
         const double *upper = edges_upper(edges, row, q);
-        edges_mark_fraction(n, edges_cells(edges, row, q), upper + n, upper, edges->mark);
+        edges_mark_fraction(n, edges_inside(edges, row, q), upper + n, upper, edges->mark);
     }
     if (!edges_any(edges, n)) return;
     for (unsigned q = model->i_alpha; q < model->i_alpha + model->n_alpha; q++) edges_replace(edges, model, row, q);
@@ -242,7 +243,7 @@ static void edges_bound(const struct edges *edges, const struct model *model, co
     edges_bound_fractions(edges, model, row);
     for (unsigned i = model->n_alpha; i < model->n_active; i++) {
         unsigned q = model->active[i];
-        const double *w = edges_cells(edges, row, q), *upper = edges_upper(edges, row, q);
+        const double *w = edges_inside(edges, row, q), *upper = edges_upper(edges, row, q);
         bool positive = q < model->i_u || (q == model->i_E && !model->elastic);
         edges_mark_value(n, positive ? EDGES_LEAST : 0.0, w - row->step, w, w + row->step, upper + n, upper,
                          edges->mark);
@@ -263,6 +264,39 @@ static BULLA_KERNEL void edges_temper(size_t n, const double *restrict alpha, do
     }
 }
 
+/* The difference of pressure that is not held by forces: `above` of the cell before, `below` of the one behind. */
+static BULLA_KERNEL void edges_differ_held(size_t n, const double *restrict a, const double *restrict b,
+                                           const double *restrict above, const double *restrict below,
+                                           double *restrict d)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) d[i] = (b[i] - a[i]) - (above[i] + below[i]);
+}
+
+static BULLA_KERNEL void edges_hold(size_t n, const double *restrict w, const double *restrict slope,
+                                    const double *restrict below, const double *restrict above, double *restrict lower,
+                                    double *restrict upper)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double here = w[i], half = 0.5 * slope[i], low = below[i], high = above[i];
+        lower[i] = here - (half + low);
+        upper[i] = here + (half + high);
+    }
+}
+
+/* Edges of pressure where forces act, by any scheme: with limited slopes. */
+static void edges_press(const struct edges *edges, const struct model *model, const struct edges_row *row)
+{
+    const struct edges_limited *own = &edges->plain;
+    size_t n = row->cells, step = row->step;
+    const double *p = edges_inside(edges, row, model->i_E);
+    double *upper = edges_upper(edges, row, model->i_E);
+    edges_differ_held(n + step, p - step, p, row->rise[1] - step, row->rise[0], own->difference);
+    own->limiter.law->slope(own->limiter.self, n, own->difference, own->difference + step, own->slope);
+    edges_hold(n, p, own->slope, row->rise[0], row->rise[1], upper + n, upper);
+}
+
 /* First-order states at the faces of troubled cells. */
 static void edges_flatten(size_t n, size_t step, const double *w, const double *mask, double *left, double *right)
 {
@@ -273,18 +307,31 @@ static void edges_flatten(size_t n, size_t step, const double *w, const double *
     }
 }
 
+/* The same for pressure, which holds the forces. */
+static void edges_flatten_held(const struct edges_row *row, const double *p, double *left, double *right)
+{
+    size_t step = row->step;
+    for (size_t i = 0; i < row->cells - step; i++) {
+        if (row->mask[i] + row->mask[i + step] == 0.0) continue;
+        left[i] = p[i] + row->rise[1][i];
+        right[i] = p[i + step] - row->rise[0][i + step];
+    }
+}
+
 static void edges_settle(const struct edges *edges, const struct model *model, const struct edges_row *row)
 {
     size_t n = row->cells, step = row->step;
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
-        const double *w = edges_cells(edges, row, q);
+        const double *w = edges_inside(edges, row, q);
         double *upper = edges_upper(edges, row, q);
         if (model_is_fraction(model, q) && !model->kapila) {
             edges_temper(n, w, upper);
             edges_temper(n, w, upper + n);
         }
-        if (row->mask) edges_flatten(n - step, step, w, row->mask, upper, upper + n + step);
+        if (!row->mask) continue;
+        if (row->rise[0] && q == model->i_E) edges_flatten_held(row, w, upper, upper + n + step);
+        else edges_flatten(n - step, step, w, row->mask, upper, upper + n + step);
     }
 }
 
@@ -305,19 +352,22 @@ static void edges_normalise(const struct edges *edges, const struct model *model
     edges_scale(2 * row->cells, model->n_alpha, 2 * edges->pitch, edges_upper(edges, row, model->i_alpha), edges->sum);
 }
 
-void edges_fill(struct edges *edges, const struct model *model, const struct frame *frame, const double *w,
-                const double *mask, double *state)
+void edges_fill(struct edges *edges, const struct model *model, const struct frame *frame, const struct edges_cells *in,
+                double *state)
 {
     size_t reach = frame_reach(frame);
     const struct edges_row row = {.frame = frame,
                                   .cells = frame_edged(frame),
                                   .step = frame->inner,
-                                  .w = w + reach,
-                                  .mask = mask ? mask + reach : NULL,
+                                  .w = in->w + reach,
+                                  .mask = in->mask ? in->mask + reach : NULL,
+                                  .rise = {in->rise[0] ? in->rise[0] + reach : NULL,
+                                           in->rise[1] ? in->rise[1] + reach : NULL},
                                   .state = state};
     if (model->reconstruction->all) edges_together(edges, model, &row);
     else edges_each(edges, model, &row);
     if (!model->reconstruction->bounded) edges_bound(edges, model, &row);
+    if (row.rise[0]) edges_press(edges, model, &row);
     edges_settle(edges, model, &row);
     edges_normalise(edges, model, &row);
 }

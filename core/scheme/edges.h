@@ -14,10 +14,18 @@ struct edges;
 struct edges *edges_new(const struct model *model, size_t pitch);
 void edges_free(struct edges *edges);
 
-/* Fills the edges of all active components of `model` (that of edges_new, or a narrower path of it) from the frame w:
- * component q at state + 2 q pitch. With a mask ([cells of the frame]: 0 or 1), faces of marked cells get the values of
- * the cells: first order. */
-void edges_fill(struct edges *edges, const struct model *model, const struct frame *frame, const double *w,
-                const double *mask, double *state);
+/* What lies in the cells of a frame. */
+struct edges_cells {
+    const double *w;       /* primitives */
+    const double *mask;    /* 0 or 1; or NULL */
+    const double *rise[2]; /* of pressure from the middle to the faces that forces hold (face.h); or NULL */
+};
+
+/* Fills the edges of all active components of `model` (that of edges_new, or a narrower path of it) from a frame:
+ * component q at state + 2 q pitch. With a mask, faces of marked cells get the values of the cells: first order. With
+ * rises b below and a above, pressure has limited slopes of what is left of its differences, less a_i + b_k from cell i to
+ * the next, and edges p - (s/2 + b) and p + (s/2 + a): where p differs by what forces hold, edges of neighbours meet. */
+void edges_fill(struct edges *edges, const struct model *model, const struct frame *frame, const struct edges_cells *in,
+                double *state);
 
 #endif

@@ -99,6 +99,7 @@ struct face_work *face_new(const struct model *model)
     work->heat_above = work->heat_below ? work->heat_below + model->n_alpha * FACE_ROOM : NULL;
     work->carried = face_row(2 * model->n_alpha);
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
+    for (int side = 0; side < 2 && model->forced; side++) work->rise[side] = face_row(1);
     face_split(model, work->alpha, own->flux_alpha, own->flux_m, own->flux_u);
     face_split(model, own->robust, own->robust_alpha, own->robust_m, own->robust_u);
     face_slide(work, model);
@@ -131,7 +132,9 @@ void face_free(struct face_work *work)
                       own->origin,
                       own->strain,
                       work->stretch,
-                      work->solid};
+                      work->solid,
+                      work->rise[0],
+                      work->rise[1]};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) mem_free(rows[i]);
     edges_free(own->edges);
     face_stress_free(own->stress);
@@ -209,7 +212,7 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
                                    .least = model->scene->scheme.low_mach,
                                    .rho = rho,
                                    .rho_c2 = own->c,
-                                   .p = own->state + 2 * model->i_E * FACE_ROOM,
+                                   .p = work->frame + model->i_E * FACE_ROOM + frame_reach(frame),
                                    .mask = masked ? work->mask + frame_reach(frame) : NULL,
                                    .step = frame->inner,
                                    .part = own->term};
@@ -378,12 +381,19 @@ static void face_transport(struct face_work *work, size_t right)
                    work->carried + l * FACE_ROOM, work->strained + l * FACE_ROOM);
 }
 
+void face_begin(struct face_work *work, const struct frame *frame)
+{
+    for (int side = 0; side < 2; side++)
+        if (work->rise[side]) memset(work->rise[side], 0, frame->count * sizeof(double));
+}
+
 void face_solve(struct face_work *work, const struct frame *frame, bool masked)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
     size_t cells = frame_edged(frame);
-    edges_fill(own->edges, model, frame, work->frame, masked ? work->mask : NULL, own->state);
+    const struct edges_cells in = {work->frame, masked ? work->mask : NULL, {work->rise[0], work->rise[1]}};
+    edges_fill(own->edges, model, frame, &in, own->state);
     face_complete(work, frame, 2 * cells, masked);
     face_point(work, frame, cells);
     model->riemann->solve(model->riemann_self, &work->faces);

@@ -27,11 +27,16 @@ struct face_work {
     double *solid;   /* fraction of all solids, mean of the sides (mixtures with a solid) */
     double *slide_left,
         *slide_right; /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */
-    void *own;        /* scratch of face.c */
+    double *rise[2]; /* of p from the middle of each cell of the frame to its lower and its upper face, with the sign of
+                        going up, where it holds the forces [Pa]; NULL where the scene has none (model->forced) */
+    void *own;       /* scratch of face.c */
 };
 
 struct face_work *face_new(const struct model *model);
 void face_free(struct face_work *work);
+
+/* Before terms look at a gathered frame: no forces yet. */
+void face_begin(struct face_work *work, const struct frame *frame);
 
 /* Fills the flux arrays for the frame in work->frame. Face index f of the row is the lower face of
  * frame cell f + ghosts inner. With `masked`, faces of cells marked in work->mask get first-order

@@ -5,22 +5,30 @@
 
 #include <math.h>
 
-/* From the pressure jump over rho c^2 to its part of z. Shocks of more than 1/200 of rho c^2, 11 MPa in water, see the
- * whole jump; with less the tubes R07 to R09 overshoot (docs/decisions/low-mach.md). */
-#define LOW_MACH_JUMP 200.0
+/* From the second difference of pressure over rho c^2 to its part of z: bends of more than 1/200 of rho c^2, 13 MPa in
+ * water, see the whole jump; with less the tubes R08 and R09 overshoot by more than 2 % (docs/decisions/low-mach.md). */
+#define LOW_MACH_BEND 200.0
 
-static BULLA_KERNEL void low_mach_part(size_t n, double least, const double *restrict rho_l,
-                                       const double *restrict rho_r, const double *restrict s_l,
-                                       const double *restrict s_r, const double *restrict p_l,
-                                       const double *restrict p_r, const double *restrict u_l,
-                                       const double *restrict u_r, double *restrict part)
+/* Both neighbours first: mirror images keep their bits. */
+static inline double low_mach_bend(double before, double here, double after)
 {
+    return fabs(before + after - 2.0 * here);
+}
+
+static BULLA_KERNEL void low_mach_part(size_t n, size_t step, double least, const double *restrict rho,
+                                       const double *restrict rho_c2, const double *restrict u, size_t right,
+                                       const double *restrict p, double *restrict part)
+{
+    const double *before = p - step, *next = p + step, *after = next + step;
+    const double *rho_r = rho + right, *rho_c2_r = rho_c2 + right, *u_r = u + right;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = s_l[i], b = s_r[i], left = u_l[i], right = u_r[i], jump = fabs(p_r[i] - p_l[i]);
-        double fast_l = left * left * rho_l[i] / a, fast_r = right * right * rho_r[i] / b;
+        double a = rho_c2[i], b = rho_c2_r[i], left = u[i], go = u_r[i];
+        double fast_l = left * left * rho[i] / a, fast_r = go * go * rho_r[i] / b;
         double fast = fast_l > fast_r ? fast_l : fast_r, stiff = a > b ? a : b;
-        part[i] = least + sqrt(fast) + LOW_MACH_JUMP * jump / stiff;
+        double bend_l = low_mach_bend(before[i], p[i], next[i]), bend_r = low_mach_bend(p[i], next[i], after[i]);
+        double bend = bend_l > bend_r ? bend_l : bend_r;
+        part[i] = least + sqrt(fast) + LOW_MACH_BEND * bend / stiff;
     }
 }
 
@@ -39,8 +47,7 @@ static BULLA_KERNEL void low_mach_blend(size_t n, const double *restrict part, d
 void low_mach_draw(const struct low_mach *faces, double *u)
 {
     const size_t n = faces->n, right = faces->right;
-    low_mach_part(n, faces->least, faces->rho, faces->rho + right, faces->rho_c2, faces->rho_c2 + right, faces->p,
-                  faces->p + right, u, u + right, faces->part);
+    low_mach_part(n, faces->step, faces->least, faces->rho, faces->rho_c2, u, right, faces->p, faces->part);
     for (size_t i = 0; faces->mask && i < n; i++)
         if (faces->mask[i] + faces->mask[i + faces->step] != 0.0) faces->part[i] = 1.0;
     low_mach_blend(n, faces->part, u, u + right);

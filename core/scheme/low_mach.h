@@ -2,24 +2,25 @@
  *
  * Where a fluid is slow, its velocity differs between the two sides of a face by what the reconstruction leaves out, and a
  * solver answers every such difference with a pressure of rho c (u_L - u_R)/2: a viscosity of some c h/2 that has nothing
- * to do with the flow. With `low-mach` the normal velocities at a face are drawn together first,
- *     u = (u_L + u_R)/2 -+ z (u_R - u_L)/2,      z = min(1, least + max(M_L, M_R) + LOW_MACH_JUMP |p_R - p_L|/max rho c^2),
- * whatever the solver (after Thornber, Mosedale, Drikakis, Youngs & Williams, J. Comput. Phys. 227 (2008) 4873-4894, who
- * have z = max(M_L, M_R)). A jump of pressure belongs to a wave, which wants its jump of velocity whole: from 1/200 of
- * rho c^2 on nothing changes. */
+ * to do with the flow. With `low-mach` the normal velocities at a face are drawn together first, whatever the solver,
+ *     u = (u_L + u_R)/2 -+ z (u_R - u_L)/2,      z = min(1, least + max(M_L, M_R) + LOW_MACH_BEND b / max rho c^2),
+ * after Thornber, Mosedale, Drikakis, Youngs & Williams, J. Comput. Phys. 227 (2008) 4873-4894, who have z = max(M_L, M_R).
+ * b is the larger second difference of pressure of the two cells of the face: a shock wants its jump of velocity whole,
+ * and so do the cells behind it, where the jump of pressure is small again; a pressure that rises evenly is no shock. */
 #ifndef LOW_MACH_H
 #define LOW_MACH_H
 
 #include <stddef.h>
 
-/* Faces between edges of a row: the left one of face i stands at i, the right one at right + i. */
+/* Faces between edges of a row: the left one of face i stands at i, the right one at right + i. They lie between the cells
+ * i and i + step of a row that goes on by `step` cells on both sides. */
 struct low_mach {
-    size_t n, right;
-    double least;                   /* z of a fluid at rest */
-    const double *rho, *rho_c2, *p; /* at the edges; rho_c2: of the mixture, frozen */
-    const double *mask;             /* [cells between which the faces lie] 1: its faces keep their jump; or NULL */
-    size_t step;                    /* from the cell left of a face to the one on its right */
-    double *part;                   /* [n] z: work space */
+    size_t n, right, step;
+    double least;               /* z of a fluid at rest */
+    const double *rho, *rho_c2; /* at the edges; rho_c2: of the mixture, frozen */
+    const double *p;            /* of the cells */
+    const double *mask;         /* of the cells; 1: its faces keep their jump; or NULL */
+    double *part;               /* [n] z: work space */
 };
 
 /* Draws the velocities `u` normal to the faces together. Equal ones keep their bits; mirror images give mirror images. */

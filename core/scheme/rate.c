@@ -16,6 +16,17 @@ static void rate_clear(const struct term_tile *tile)
     memset(tile->rates + model->n_field * n_cell, 0, (tile->terms->n_rates - model->n_field) * n_cell * sizeof(double));
 }
 
+/* The slot of all terms that have it. */
+static void rate_each(struct term_piece *piece, void *const *own, bool faces)
+{
+    const struct terms *terms = piece->terms;
+    for (unsigned i = 0; i < terms->n; i++) {
+        void (*slot)(const struct term_piece *) = faces ? terms->at[i]->faces : terms->at[i]->frame;
+        piece->own = own[terms->number[i]];
+        if (slot) slot(piece);
+    }
+}
+
 static void rate_sweep(const struct term_tile *tile, void *const *own, int axis, const struct rate_watch *watch,
                        bool masked)
 {
@@ -23,17 +34,12 @@ static void rate_sweep(const struct term_tile *tile, void *const *own, int axis,
     struct face_work *faces = terms->faces;
     for (size_t index = 0; index < frame_pieces(tile->mesh, axis); index++) {
         struct frame frame = frame_piece(tile->mesh, axis, index);
-        struct term_piece piece = {.terms = terms, .model = tile->model, .tile = tile, .frame = &frame, .faces = faces};
+        struct term_piece piece = {.tile = tile, .terms = terms, .model = tile->model, .frame = &frame, .faces = faces};
         watch->gather(watch->data, &frame, faces);
-        for (unsigned i = 0; i < terms->n; i++) {
-            piece.own = own[terms->number[i]];
-            if (terms->at[i]->frame) terms->at[i]->frame(&piece);
-        }
+        face_begin(faces, &frame);
+        rate_each(&piece, own, false);
         face_solve(faces, &frame, masked);
-        for (unsigned i = 0; i < terms->n; i++) {
-            piece.own = own[terms->number[i]];
-            if (terms->at[i]->faces) terms->at[i]->faces(&piece);
-        }
+        rate_each(&piece, own, true);
         watch->seen(watch->data, &frame, faces);
         divergence_add(tile, &frame);
     }

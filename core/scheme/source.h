@@ -1,7 +1,8 @@
 /* source.h - what acts throughout the domain: body forces, heating, sources of mass (scene_sources).
  *
  * Sources are rates of the conserved fields of a cell, at the middle of its volume and at the time of the stage, added
- * to those of the fluxes: the midpoint rule keeps its second order, levels and refluxing see nothing of them.
+ * to those of the fluxes: the midpoint rule keeps its second order, refluxing sees nothing of them. Pressure is
+ * reconstructed, and interpolated between levels, relative to the forces (source_weight.h).
  *     acceleration a, force f   d(rho u) = rho a + f,  d(rho E) = u . (rho a + f)
  *     heating q_l               d(rho E) = sum alpha_l q_l
  *     mass s_l                  d m_l = s_l,  d(rho u) = s_l u,  d(rho E) = s_l (e_l + p/rho_l + u^2/2)

@@ -49,7 +49,7 @@ struct term_piece {
     const struct term_tile *tile; /* the tile it is a piece of; a replay of a dump knows no neighbours */
     const struct frame *frame;
     struct face_work *faces;
-    void *own; /* as in term_tile */
+    void *own; /* of the term that is called */
 };
 
 /* How a row of fluxes becomes rates. */

@@ -3,6 +3,7 @@
 
 #include "suite/contract_constitutive.h"
 #include "suite/contract_eos.h"
+#include "suite/contract_conductivity.h"
 #include "suite/contract_limiter.h"
 #include "suite/contract_reconstruction.h"
 #include "suite/contract_riemann.h"
@@ -15,7 +16,8 @@ static const struct {
     const char *kind;
     void (*run)(struct contract *contract);
     void (*probe)(const struct contract *contract, double out[static CONTRACT_PROBE]);
-} contract_suite_table[] = {{"constitutive", contract_constitutive_run, contract_constitutive_probe},
+} contract_suite_table[] = {{"conductivity", contract_conductivity_run, contract_conductivity_probe},
+                            {"constitutive", contract_constitutive_run, contract_constitutive_probe},
                             {"eos", contract_eos_run, contract_eos_probe},
                             {"limiter", contract_limiter_run, contract_limiter_probe},
                             {"reconstruction", contract_reconstruction_run, contract_reconstruction_probe},

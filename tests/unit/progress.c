@@ -33,6 +33,7 @@ static size_t tell(json_t *ret_lines[8])
     struct progress progress = {.mode = PROGRESS_JSON, .until = 2};
     progress_mesh(&progress, &mesh, steps); /* what was done before does not count */
     progress_begin(&progress, "a \"case\"", "out");
+    progress.start -= 10;
     progress.shown -= 10; /* ten seconds later: time for a line */
     steps[0] += 5;
     steps[1] += 10;
@@ -68,6 +69,8 @@ static void lines_are_objects(void **state)
     assert_true(rate > 13.5 && rate <= 14.0); /* 5 * 4 + 10 * 12 cells in ten seconds */
     double eta = json_number_value(json_object_get(lines[1], "eta_s"));
     assert_true(eta > 29.9 && eta < 30.5); /* a quarter in ten seconds */
+    assert_true(json_number_value(json_object_get(lines[1], "eta_least_s")) < 30);
+    assert_true(json_number_value(json_object_get(lines[1], "eta_most_s")) > 30);
     assert_string_equal(json_string_value(json_object_get(lines[2], "event")), "end");
     for (int i = 0; i < 3; i++) json_decref(lines[i]);
 }

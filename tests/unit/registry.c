@@ -41,6 +41,9 @@ static int stop(void **state)
 /* All that is built in, sorted as the registry sorts; one to a line, as others will come. */
 /* clang-format off */
 static const char *const builtin[][2] = {
+    {"conductivity", "constant"},
+    {"conductivity", "powers"},
+    {"conductivity", "sutherland"},
     {"constitutive", "fung"},
     {"constitutive", "gent"},
     {"constitutive", "mooney-rivlin"},
@@ -142,7 +145,7 @@ static const struct refusal refusals[] = {
     {"new_flags", "has the flags 0x2; this program knows 0x1"},
     {"null_edges", "has no function 'edges', which BULLA_TWO_SIDED needs"},
     {"unknown_kind",
-     "unknown kind 'weather'; kinds are constitutive, eos, limiter, reconstruction, riemann, viscosity"},
+     "unknown kind 'weather'; kinds are conductivity, constitutive, eos, limiter, reconstruction, riemann, viscosity"},
     {"bad_name", "'Bad_Name'; names are lower case with hyphens"},
     {"no_doc", "lacks its doc"},
     {"param_twice", "parameter 'strength' twice"},

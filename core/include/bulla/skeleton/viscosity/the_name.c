@@ -59,7 +59,7 @@ static const struct bulla_viscosity the_name_table = {.mu = {.size = sizeof(stru
 enum { MU, THINNING, TEMPERATURE, RATE, ZETA };
 
 static const struct bulla_param the_name_params[] = {
-    {"mu", "Pa s", 0.0, 1e6, NAN, "viscosity at rest and at the reference temperature", BULLA_NUMBER, 0},
+    {"mu", "Pa s", 0.0, 1e6, 1e-3, "viscosity at rest and at the reference temperature", BULLA_NUMBER, 0},
     {"thinning", "1/K", 0.0, 0.1, 0.02, "b: relative loss of viscosity per kelvin", BULLA_NUMBER, 0},
     {"temperature", "K", 1.0, 1e4, 298.15, "reference temperature T0", BULLA_NUMBER, 0},
     {"rate", "1/s", 1e-6, 1e12, 1e3, "g: rate of shear at which half of the viscosity is left", BULLA_NUMBER, 0},
