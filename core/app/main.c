@@ -2,11 +2,13 @@
 #include "app/command.h"
 #include "app/viewer.h"
 #include "base/comm.h"
+#include "base/system.h"
 #include "io/h5.h"
 #include "run/launch.h"
 
 int main(int argc, char **argv)
 {
+    system_begin(argv[0]);
     if (viewer_wanted(argc, argv)) return viewer_become(argv);
     h5_begin();
     comm_init(&argc, &argv);

@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/system.h"
 #include "cli/cli.h"
 #include "view/view.h"
 
@@ -22,7 +23,7 @@ bool viewer_wanted(int argc, char **argv)
 int viewer_become(char **argv)
 {
     char own[PATH_MAX] = "";
-    if (readlink("/proc/self/exe", own, sizeof own - 1) < 0) own[0] = '\0';
+    snprintf(own, sizeof own, "%s", system_program());
     char *slash = strrchr(own, '/');
     if (slash) slash[1] = '\0';
     char *program = mem_print("%s" VIEW_PROGRAM, own);

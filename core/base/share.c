@@ -3,9 +3,9 @@
 
 #include "base/comm.h"
 #include "base/status.h"
+#include "base/system.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -25,8 +25,7 @@ static int share_make(size_t bytes, struct share_place *ret_place)
 {
     struct stat facts;
     *ret_place = (struct share_place){.pid = getpid()};
-    int fd = memfd_create("bulla-table", MFD_CLOEXEC);
-    int error = fd < 0 ? errno : posix_fallocate(fd, 0, (off_t)bytes); /* reserved: no trap where memory runs out */
+    int fd = system_shared_file(bytes), error = fd < 0 ? errno : 0;
     if (!error && fstat(fd, &facts)) error = errno;
     if (!error) {
         ret_place->device = facts.st_dev;
@@ -40,10 +39,8 @@ static int share_make(size_t bytes, struct share_place *ret_place)
 /* The file of another rank; -1: it cannot be opened here, or is another. */
 static int share_find(const struct share_place *place)
 {
-    char path[64];
     struct stat facts;
-    snprintf(path, sizeof path, "/proc/%ld/fd/%d", (long)place->pid, place->fd);
-    int fd = open(path, O_RDWR | O_CLOEXEC);
+    int fd = system_shared_open(place->pid, place->fd);
     if (fd < 0) return -1;
     if (!fstat(fd, &facts) && facts.st_dev == place->device && facts.st_ino == place->number) return fd;
     close(fd);
@@ -55,8 +52,7 @@ static void *share_map(size_t bytes, int fd)
     int flags = fd < 0 ? MAP_PRIVATE | MAP_ANONYMOUS : MAP_SHARED;
     void *at = mmap(NULL, bytes, PROT_READ | PROT_WRITE, flags, fd, 0);
     if (at == MAP_FAILED) return NULL;
-    madvise(at, bytes,
-            MADV_HUGEPAGE); /* tables are read here and there: fewer misses where the system has such pages */
+    system_large_pages(at, bytes); /* tables are read here and there: fewer misses */
     return at;
 }
 

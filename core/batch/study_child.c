@@ -3,12 +3,12 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/system.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -53,9 +53,9 @@ int study_child_start(const struct study_child *child, pid_t *ret_pid)
     if (pid == 0) {
         if (child->mask) sigprocmask(SIG_SETMASK, child->mask, NULL);
         setpgid(0, 0);
-        prctl(PR_SET_PDEATHSIG, SIGTERM);
+        system_end_with_parent();
         study_child_files(child->log);
-        if (getppid() == parent) execv("/proc/self/exe", arguments);
+        if (getppid() == parent) system_again(arguments);
         _exit(STATUS_RUN);
     }
     mem_free(arguments);

@@ -5,6 +5,7 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/system.h"
 #include "base/text.h"
 #include "batch/study.h"
 #include "cli/cli.h"
@@ -42,9 +43,8 @@ static char *verify_source(void)
     static const char *const above[] = {"", "/..", "/../..", "/../../..", "/../share/bulla"};
     char exe[4096];
     if (access("cases/verify", R_OK) == 0) return mem_text(".");
-    ssize_t length = readlink("/proc/self/exe", exe, sizeof exe - 1);
-    if (length <= 0) return NULL;
-    exe[length] = '\0';
+    if (!*system_program()) return NULL;
+    snprintf(exe, sizeof exe, "%s", system_program());
     *strrchr(exe, '/') = '\0';
     for (size_t i = 0; i < sizeof above / sizeof *above; i++) {
         char *folder = mem_print("%s%s", exe, above[i]), *cases = mem_print("%s/cases/verify", folder);

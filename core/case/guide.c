@@ -130,6 +130,9 @@ static void guide_below(struct guide *guide, const struct keys_section *section)
     for (const struct key *key = section->keys; key && key->name; key++)
         if (key->type == KEYS_SECTION) guide_section(guide, key->section);
     if (section->others && section->others->section) guide_section(guide, section->others->section);
+    for (const char *const *name = section->selector ? family_names(guide->forest, section) : NULL; name && *name;
+         name++)
+        guide_below(guide, family_find(guide->forest, section, *name));
 }
 
 static void guide_section(struct guide *guide, const struct keys_section *section)

@@ -80,6 +80,7 @@ static void scene_fill(struct draft *draft)
     scene_material(draft);
     scene_domain(draft);
     scene_scheme(draft);
+    scene_heat(draft);
     scene_mesh(draft);
     scene_refine(draft);
     scene_boundary(draft);
@@ -277,6 +278,7 @@ void scene_free(struct scene *scene)
     for (unsigned i = 0; i < scene->n_material; i++) {
         instance_done(&scene->material[i].eos);
         instance_done(&scene->material[i].constitutive);
+        instance_done(&scene->material[i].plastic);
         instance_done(&scene->material[i].viscosity);
         instance_done(&scene->material[i].conductivity);
     }

@@ -54,12 +54,15 @@ struct scene_boundary {
     double *fractions;           /* [n_material] */
     struct scene_value *density; /* [n_material] per material */
     struct scene_value velocity[SCENE_AXES];
+    /* walls: their temperature [K], or the heat that they give to what is inside [W/m2]; neither: none passes */
+    struct scene_value temperature, heat_flux;
 };
 
 struct scene_material {
     char name[SCENE_NAME];
     struct instance eos;
     struct instance constitutive; /* of a solid; module NULL: a fluid */
+    struct instance plastic;      /* strength of a solid; module NULL: none */
     struct instance viscosity;    /* module NULL: none */
     struct instance conductivity; /* of heat; module NULL: none (scheme/conduction.h) */
     double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */

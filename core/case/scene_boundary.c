@@ -148,6 +148,37 @@ static const struct key scene_boundary_far[] = {
     {0},
 };
 
+static const struct key scene_boundary_wall[] = {
+    {.name = "temperature",
+     .type = KEYS_VALUE,
+     .unit = "K",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .doc = "Temperature of the wall, in scenes that conduct heat; without it (and `heat-flux`) no heat passes."},
+    {.name = "heat-flux",
+     .type = KEYS_VALUE,
+     .unit = "W/m2",
+     .min = -KEYS_MOST,
+     .max = KEYS_MOST,
+     .doc = "Heat that the wall gives to what is inside, instead of a temperature."},
+    {0},
+};
+
+/* What becomes of heat at a wall. */
+static void scene_boundary_read_wall(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+{
+    const struct keys_value *temperature = keys_at(map, "temperature"), *flux = keys_at(map, "heat-flux");
+    boundary->temperature = scene_state_value(temperature);
+    boundary->heat_flux = scene_state_value(flux);
+    if (!temperature->node && !flux->node) return;
+    const struct keys_value *last = flux->node ? flux : temperature;
+    if (temperature->node && flux->node)
+        keys_error(&draft->keys, flux, "a wall has a temperature or gives a flux of heat, not both");
+    if (scene_material_conducts(draft)) return;
+    keys_error(&draft->keys, last, "no material conducts heat, so the wall gives none");
+    diag_help(draft->keys.diag, "give a material its 'conductivity: 0.607 W/m/K', or leave this out");
+}
+
 static void scene_boundary_read_far(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     (void)draft;
@@ -199,6 +230,7 @@ struct scene_boundary_row {
 
 /* What may be written beside the type, and who reads it. */
 #define SCENE_BOUNDARY_NOTHING .read = NULL
+#define SCENE_BOUNDARY_WALL .section.keys = scene_boundary_wall, .read = scene_boundary_read_wall
 #define SCENE_BOUNDARY_FAR .section.keys = scene_boundary_far, .read = scene_boundary_read_far
 #define SCENE_BOUNDARY_STATE \
     .section.keys = scene_state_rows, .section.rules = scene_boundary_state_rules, .read = scene_boundary_read_state
@@ -229,6 +261,12 @@ const struct keys_section scene_boundary_keys = {.name = "boundary",
 bool scene_boundary_is(const struct scene *scene, int face, unsigned traits)
 {
     return (scene_boundary_types[scene->domain.boundary[face / 2][face % 2].type].traits & traits) == traits;
+}
+
+bool scene_boundary_is_heated(const struct scene *scene, int face)
+{
+    const struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
+    return boundary->temperature.given || boundary->heat_flux.given;
 }
 
 const char *scene_boundary_name(enum scene_boundary_type type)

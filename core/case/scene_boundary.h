@@ -26,8 +26,8 @@ enum scene_boundary_trait {
     ROW(AXIS, "axis", "The axis or centre r = 0.", NOTHING, slip,                                                   \
         SCENE_BOUNDARY_RESTS | SCENE_BOUNDARY_MIDDLE | SCENE_BOUNDARY_CENTRE)                                       \
     ROW(SYMMETRY, "symmetry", "Plane of symmetry.", NOTHING, slip, SCENE_BOUNDARY_RESTS | SCENE_BOUNDARY_MIDDLE)    \
-    ROW(REFLECTING, "reflecting", "Rigid wall along which the fluid slips.", NOTHING, slip, SCENE_BOUNDARY_RESTS)   \
-    ROW(NO_SLIP, "no-slip", "Rigid wall at which the fluid rests.", NOTHING, no_slip, SCENE_BOUNDARY_RESTS)         \
+    ROW(REFLECTING, "reflecting", "Rigid wall along which the fluid slips.", WALL, slip, SCENE_BOUNDARY_RESTS)      \
+    ROW(NO_SLIP, "no-slip", "Rigid wall at which the fluid rests.", WALL, no_slip, SCENE_BOUNDARY_RESTS)            \
     ROW(OUTFLOW, "outflow", "Zero gradient.", NOTHING, copy, SCENE_BOUNDARY_RESTS)                                  \
     ROW(NONREFLECTING, "non-reflecting", "Outgoing waves leave, none comes in.", FAR, far, SCENE_BOUNDARY_REFERS)   \
     ROW(PERIODIC, "periodic", "What leaves here enters at the opposite face.", NOTHING, copy, SCENE_BOUNDARY_WRAPS) \
@@ -41,6 +41,9 @@ enum scene_boundary_type { SCENE_BOUNDARY_TABLE(SCENE_BOUNDARY_TYPE) SCENE_BOUND
 
 /* Has the boundary at face 2 * axis + side of a scene all these traits? */
 bool scene_boundary_is(const struct scene *scene, int face, unsigned traits);
+
+/* Does heat go through the boundary at a face because a case says so: a temperature, or a flux? */
+bool scene_boundary_is_heated(const struct scene *scene, int face);
 
 /* The word for a type in a case. */
 const char *scene_boundary_name(enum scene_boundary_type type);

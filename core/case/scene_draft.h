@@ -28,6 +28,7 @@ extern const struct keys_section scene_output_keys, scene_history_column_keys, s
 void scene_domain(struct draft *draft);
 void scene_material(struct draft *draft);
 void scene_scheme(struct draft *draft);
+void scene_heat(struct draft *draft);
 void scene_mesh(struct draft *draft);
 void scene_refine(struct draft *draft);
 void scene_boundary(struct draft *draft);
@@ -68,6 +69,12 @@ int scene_material_index(struct draft *draft, const struct keys_value *value);
 /* Has a material a constitutive law, be it right or wrong? The name of the first one that has, or NULL. */
 bool scene_material_is_solid(const struct draft *draft, unsigned material);
 const char *scene_material_solid(const struct draft *draft);
+
+/* 0: no material has a strength; 1: some has; 2: and it knows its plastic strain. */
+unsigned scene_material_strength(const struct draft *draft);
+
+/* Has any material a conductivity of heat? */
+bool scene_material_conducts(const struct draft *draft);
 
 /* Opens the module that a section names; nothing happens if the section is wrong. */
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);

@@ -71,6 +71,14 @@ static const struct scene_field scene_field_solid[] = {
 };
 enum { SCENE_FIELD_SOLID = sizeof scene_field_solid / sizeof *scene_field_solid };
 
+/* In scenes where a solid has a strength, and where that knows plastic strains. */
+static const struct scene_field scene_field_plastic[] = {
+    {"flow_stress", "Pa", SCENE_FIELD_VANISHING},
+    {"plastic_strain", "1", SCENE_FIELD_VANISHING},
+};
+
+enum { SCENE_FIELD_PLASTIC = sizeof scene_field_plastic / sizeof *scene_field_plastic };
+
 static bool scene_field_in(const char *name, const char *const *names)
 {
     for (; *names; names++)
@@ -82,6 +90,8 @@ static bool scene_field_is_solid(const char *name)
 {
     for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++)
         if (strcmp(scene_field_solid[i].name, name) == 0) return true;
+    for (unsigned i = 0; i < SCENE_FIELD_PLASTIC; i++)
+        if (strcmp(scene_field_plastic[i].name, name) == 0) return true;
     return false;
 }
 
@@ -107,7 +117,8 @@ const struct scene_field *scene_field_all(struct draft *draft)
 {
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
-    unsigned count = SCENE_FIELD_PLAIN, most = count + SCENE_FIELD_SOLID + SCENE_FIELD_EACH * scene->n_material;
+    unsigned count = SCENE_FIELD_PLAIN,
+             most = count + SCENE_FIELD_SOLID + SCENE_FIELD_PLASTIC + SCENE_FIELD_EACH * scene->n_material;
     most += 4 * scene->output.n_peak;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
     memcpy(list, scene_field_plain, sizeof scene_field_plain);
@@ -115,6 +126,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
         memcpy(list + count, scene_field_solid, sizeof scene_field_solid);
         count += SCENE_FIELD_SOLID;
     }
+    for (unsigned i = 0; i < scene_material_strength(draft); i++) list[count++] = scene_field_plastic[i];
     for (unsigned i = 0; i < scene->n_material; i++)
         for (unsigned k = 0; k < SCENE_FIELD_EACH; k++) {
             list[count] = scene_field_by_material[k];
@@ -126,9 +138,11 @@ const struct scene_field *scene_field_all(struct draft *draft)
 
 const char *const *scene_field_always(struct forest *forest)
 {
-    const char **names = tree_take(forest, (SCENE_FIELD_PLAIN + SCENE_FIELD_SOLID + 1) * sizeof *names);
+    enum { SOLID = SCENE_FIELD_PLAIN, PLASTIC = SOLID + SCENE_FIELD_SOLID, ALL = PLASTIC + SCENE_FIELD_PLASTIC };
+    const char **names = tree_take(forest, (ALL + 1) * sizeof *names);
     for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++) names[i] = scene_field_plain[i].name;
-    for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++) names[SCENE_FIELD_PLAIN + i] = scene_field_solid[i].name;
+    for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++) names[SOLID + i] = scene_field_solid[i].name;
+    for (unsigned i = 0; i < SCENE_FIELD_PLASTIC; i++) names[PLASTIC + i] = scene_field_plastic[i].name;
     return names;
 }
 

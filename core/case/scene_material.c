@@ -4,7 +4,10 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "bulla/constitutive.h"
+#include "bulla/inelastic.h"
 
+#include <math.h>
 #include <string.h>
 
 static const struct key scene_material_law[] = {
@@ -14,6 +17,11 @@ static const struct key scene_material_law[] = {
 
 static const struct key scene_material_elastic[] = {
     {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "The elastic law."},
+    {0},
+};
+
+static const struct key scene_material_inelastic[] = {
+    {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "The law of its strength."},
     {0},
 };
 
@@ -29,6 +37,11 @@ static const struct keys_section scene_material_constitutive = {.name = "constit
                                                                 .selector = "type",
                                                                 .kind = "constitutive"};
 
+static const struct keys_section scene_material_plastic = {.name = "plastic",
+                                                           .doc = "The strength of a solid and its numbers.",
+                                                           .keys = scene_material_inelastic,
+                                                           .selector = "type",
+                                                           .kind = "inelastic"};
 static const struct key scene_material_transport[] = {
     {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "The law."},
     {0},
@@ -60,6 +73,11 @@ static const struct key scene_material_rows[] = {
      .type = KEYS_SECTION,
      .section = &scene_material_constitutive,
      .doc = "The elastic law, which makes the material a solid; its pressure is that of the equation of state."},
+    {.name = "plastic",
+     .type = KEYS_SECTION,
+     .section = &scene_material_plastic,
+     .doc = "The strength of a solid: stresses beyond it flow off, and their work is heat. Without it the solid is "
+            "elastic."},
     {.name = "viscosity",
      .type = KEYS_SECTION,
      .section = &scene_material_viscosity,
@@ -121,6 +139,27 @@ bool scene_material_is_solid(const struct draft *draft, unsigned material)
     return keys_at(keys_at(draft->root, "materials")->list[material].map, "constitutive")->node != NULL;
 }
 
+unsigned scene_material_strength(const struct draft *draft)
+{
+    unsigned known = 0;
+    for (unsigned i = 0; i < draft->scene->n_material; i++) {
+        const struct instance *plastic = &draft->scene->material[i].plastic;
+        if (!plastic->module) continue;
+        const struct bulla_inelastic *law = plastic->module->table;
+        unsigned here = law->needs(plastic->self) & BULLA_INELASTIC_STRAIN ? 2 : 1;
+        known = here > known ? here : known;
+    }
+    return known;
+}
+
+bool scene_material_conducts(const struct draft *draft)
+{
+    const struct keys_value *materials = keys_at(draft->root, "materials");
+    for (unsigned i = 0; i < materials->count; i++)
+        if (materials->list[i].map && keys_at(materials->list[i].map, "conductivity")->node) return true;
+    return false;
+}
+
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance)
 {
     const struct keys_map *map = value->map;
@@ -138,6 +177,85 @@ void scene_material_open(struct draft *draft, const struct keys_value *value, st
     }
     if (good && instance_open(module, values, ret_instance)) keys_error(&draft->keys, value, "%s", status_text());
     mem_free(values);
+}
+
+/* Number of a parameter of a law; NAN: it has none of that name. */
+static double scene_material_number(const struct instance *law, const char *name)
+{
+    int row = instance_param_find(law->module, name);
+    return row < 0 ? (double)NAN : law->values[row].number;
+}
+
+/* The strength of an unstrained body at rest, at 1 bar, and what its law would know of its density. */
+static double scene_material_yield(const struct scene_material *material, double rho)
+{
+    const struct bulla_inelastic *law = material->plastic.module->table;
+    double none = 0.0, p = 101325.0, T = 300.0, Y;
+    rho = rho > 0.0 ? rho : 1000.0;
+    law->strength(material->plastic.self, 1, &none, &none, &p, &T, &rho, &Y);
+    return Y;
+}
+
+/* A strength that leaves nothing elastic, or everything. */
+static void scene_material_weigh(struct draft *draft, const struct scene_material *material,
+                                 const struct keys_value *plastic)
+{
+    double modulus = scene_material_number(&material->constitutive, "shear-modulus");
+    double yield = scene_material_yield(material, scene_material_number(&material->constitutive, "reference-density"));
+    if (!(yield > 0.0))
+        keys_error(&draft->keys, plastic, "'%s' bears nothing: its strength at 300 K, unstrained, is %.4g Pa",
+                   material->name, yield);
+    else if (yield >= modulus) {
+        keys_error(&draft->keys, plastic, "the strength of '%s', %.4g Pa, is not below its shear modulus, %.4g Pa",
+                   material->name, yield, modulus);
+        diag_help(draft->keys.diag, "such a solid would stretch without end before it yields; leave 'plastic' out");
+    } else if (yield > 0.1 * modulus) {
+        diag_warn(draft->keys.diag, &plastic->node->mark,
+                  "%s: the strength of '%s', %.4g Pa, is %.2g of its shear modulus: strains are large before it yields",
+                  plastic->path, material->name, yield, yield / modulus);
+    }
+}
+
+/* Did the case say this number of a section, or a preset that has it? Defaults stand where their section does. */
+static bool scene_material_says(const struct keys_value *section, const char *key)
+{
+    const struct keys_value *value = keys_at(section->map, key);
+    const struct mark *there = &section->map->node->mark, *here = value->node ? &value->node->mark : there;
+    return tree_get(section->map->node, "preset") || here->line != there->line || here->column != there->column;
+}
+
+/* A law that looks at temperatures needs an equation of state whose specific heat somebody has given. */
+static void scene_material_warm(struct draft *draft, const struct keys_map *entry,
+                                const struct scene_material *material)
+{
+    const struct bulla_inelastic *law = material->plastic.module->table;
+    const struct keys_value *eos = keys_at(entry, "eos"), *plastic = keys_at(entry, "plastic");
+    if (!(law->needs(material->plastic.self) & BULLA_INELASTIC_TEMPERATURE) || !material->eos.module || !eos->map)
+        return;
+    int row = instance_param_find(material->eos.module, "cv");
+    if (row < 0 || isnan(material->eos.module->params[row].fallback) || scene_material_says(eos, "cv")) return;
+    keys_error(&draft->keys, plastic, "'%s' looks at temperatures, and nothing is said of the specific heat of '%s'",
+               material->plastic.module->name, material->name);
+    diag_help(draft->keys.diag, "give 'cv' in its 'eos', or set 'melting-temperature: 0' where the law has that key");
+}
+
+/* A strength wants a solid. */
+static void scene_material_strong(struct draft *draft, const struct keys_map *entry, struct scene_material *material)
+{
+    const struct keys_value *plastic = keys_at(entry, "plastic");
+    if (!plastic->node) return;
+    if (!keys_at(entry, "constitutive")->node) {
+        keys_error(&draft->keys, plastic, "'%s' is a fluid: a strength needs an elastic law", material->name);
+        diag_help(draft->keys.diag, "constitutive: {type: neo-hookean, shear-modulus: ..., reference-density: ...}");
+        return;
+    }
+    scene_material_open(draft, plastic, &material->plastic);
+    if (!material->plastic.module || !material->constitutive.module) return;
+    if (!((const struct bulla_constitutive *)material->constitutive.module->table)->first_only)
+        keys_error(&draft->keys, plastic, "'%s' depends on I2: plastic flow is there for laws of I1 alone",
+                   material->constitutive.module->name);
+    scene_material_weigh(draft, material, plastic);
+    scene_material_warm(draft, entry, material);
 }
 
 void scene_material(struct draft *draft)
@@ -158,6 +276,7 @@ void scene_material(struct draft *draft)
                        SCENE_NAME / 2);
         scene_material_open(draft, keys_at(entry->map, "eos"), &material->eos);
         scene_material_open(draft, keys_at(entry->map, "constitutive"), &material->constitutive);
+        if (entry->map) scene_material_strong(draft, entry->map, material);
         scene_material_open(draft, keys_at(entry->map, "viscosity"), &material->viscosity);
         scene_material_open(draft, keys_at(entry->map, "conductivity"), &material->conductivity);
         material->drag = entry->map ? keys_at(entry->map, "drag")->number : 0.0;

@@ -5,6 +5,7 @@
 #include "bulla/riemann.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #define MODULE_SECTION(kind_name, what)                                                                   \
     static const struct key scene_scheme_##kind_name##_type[] = {                                         \
@@ -41,8 +42,9 @@ static const struct key scene_scheme_rows[] = {
     {.name = "limiter",
      .type = KEYS_SECTION,
      .section = &scene_scheme_limiter,
-     .fallback = "mc",
-     .doc = "The slope limiter: a name, or {type: NAME, ...} with its keys."},
+     .doc =
+         "The slope limiter: a name, or {type: NAME, ...} with its keys. Default: van-albada where a solid is plastic, "
+         "because with mc and van-leer plastic shocks converge to wrong ones; else mc."},
     {.name = "interface-limiter",
      .type = KEYS_SECTION,
      .section = &scene_scheme_limiter,
@@ -101,14 +103,22 @@ const struct keys_section scene_scheme_keys = {.name = "scheme",
                                                .doc = "The numerical method.",
                                                .keys = scene_scheme_rows};
 
-/* The solver that a case without a word about it gets; it stands in the resolved case. */
+/* What a case without a word about it gets; it stands in the resolved case, in the order of the table. */
 static struct keys_value scene_scheme_default(struct draft *draft, const struct keys_value *absent,
-                                              const struct node *scheme)
+                                              const struct keys_section *section, const char *name)
 {
     struct keys_value value = *absent;
     struct forest *forest = draft->keys.forest;
-    value.node = tree_scalar(forest, &scheme->mark, TREE_PLAIN, scene_material_solid(draft) ? "hlld" : "hllc");
-    value.map = keys_read(&draft->keys, value.node, &scene_scheme_riemann, value.path);
+    struct node *scheme = keys_at(draft->root, "scheme")->map->node;
+    unsigned row = 0;
+    value.node = tree_scalar(forest, &scheme->mark, TREE_PLAIN, name);
+    value.map = keys_read(&draft->keys, value.node, section, value.path);
+    tree_set(forest, scheme, absent->key->name, value.node);
+    while (&scene_scheme_rows[row] != absent->key) row++;
+    for (unsigned i = row + 1; i-- > 0;) {
+        int at = tree_find(scheme, scene_scheme_rows[i].name);
+        if (at >= 0) tree_first(scheme, (unsigned)at);
+    }
     return value;
 }
 
@@ -133,14 +143,31 @@ static void scene_scheme_riemann_open(struct draft *draft, const struct keys_map
     const struct keys_value *riemann = keys_at(scheme, "riemann");
     struct keys_value value = *riemann;
     if (!scheme) return;
-    if (!riemann->node && !riemann->meant) {
-        value = scene_scheme_default(draft, riemann, scheme->node);
-        tree_set(draft->keys.forest, scheme->node, "riemann", value.node);
-        tree_first(scheme->node, scheme->node->count - 1); /* in the order of the table */
-        tree_first(scheme->node, (unsigned)tree_find(scheme->node, "closure"));
-    }
+    if (!riemann->node && !riemann->meant)
+        value =
+            scene_scheme_default(draft, riemann, &scene_scheme_riemann, scene_material_solid(draft) ? "hlld" : "hllc");
     scene_material_open(draft, &value, &draft->scene->scheme.riemann);
     scene_scheme_solid(draft, &value);
+}
+
+/* Plastic shocks want a limiter that is smooth and not steep (docs/numerics.md, 6b). */
+static void scene_scheme_limit(struct draft *draft, const struct keys_map *scheme)
+{
+    static const char *const wrong[] = {"mc", "van-leer", "superbee"};
+    const struct keys_value *limiter = keys_at(scheme, "limiter");
+    struct keys_value value = *limiter;
+    unsigned strong = scene_material_strength(draft);
+    struct instance *instance = &draft->scene->scheme.limiter;
+    if (!scheme) return;
+    if (!limiter->node && !limiter->meant)
+        value = scene_scheme_default(draft, limiter, &scene_scheme_limiter, strong ? "van-albada" : "mc");
+    scene_material_open(draft, &value, instance);
+    for (size_t i = 0; strong && instance->module && i < sizeof wrong / sizeof *wrong; i++)
+        if (strcmp(instance->module->name, wrong[i]) == 0)
+            diag_warn(draft->keys.diag, &value.node->mark,
+                      "with limiter '%s' plastic shocks converge to wrong ones, which look clean; van-albada is the "
+                      "default where a solid is plastic",
+                      wrong[i]);
 }
 
 /* The scheme says how many layers of neighbours tiles need. */
@@ -165,7 +192,7 @@ void scene_scheme(struct draft *draft)
     scene->scheme.dt_fixed = keys_at(scheme, "dt")->number;
     scene_scheme_riemann_open(draft, scheme);
     scene_scheme_reconstruct(draft, scheme);
-    scene_material_open(draft, keys_at(scheme, "limiter"), &scene->scheme.limiter);
+    scene_scheme_limit(draft, scheme);
     scene_material_open(draft, keys_at(scheme, "interface-limiter"), &scene->scheme.interface_limiter);
     scene->run.until = keys_at(run, "until")->number;
     scene->run.max_steps = keys_at(run, "max-steps")->integer;

@@ -8,11 +8,12 @@
  * scripts, one that does not as one tick of other work. */
 #include "case/script_guard.h"
 
+#include "base/system.h"
+
 #include <errno.h>
 #include <lauxlib.h>
 #include <signal.h>
 #include <stddef.h>
-#include <time.h>
 
 enum {
     SCRIPT_GUARD_HALVINGS = 6,     /* of the tick, one per call that was ended: many endless scripts end soon, too */
@@ -22,7 +23,6 @@ enum {
 };
 
 static struct {
-    timer_t timer;
     unsigned users;
     lua_State *volatile busy;          /* inside a call, or NULL */
     volatile sig_atomic_t calls, seen; /* calls begun so far; the same at the last tick */
@@ -48,9 +48,8 @@ static void script_guard_strike(lua_State *lua, lua_Debug *where)
 static void script_guard_set(void)
 {
     long tick = (long)script_guard.tick >> script_guard.strikes;
-    struct itimerspec once = {.it_value = {.tv_sec = tick / 1000000, .tv_nsec = tick % 1000000 * 1000 + 1}};
     script_guard.ticking = 1;
-    timer_settime(script_guard.timer, 0, &once, NULL);
+    system_timer_set(tick);
 }
 
 /* Have the calls since there was no debt taken too long in the mean? */
@@ -84,16 +83,14 @@ void script_guard_new(void)
     script_guard.strikes = 0;
     struct sigaction action = {.sa_handler = script_guard_tick, .sa_flags = SA_RESTART};
     sigemptyset(&action.sa_mask);
-    struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGVTALRM};
-    script_guard.timeless =
-        sigaction(SIGVTALRM, &action, NULL) || timer_create(CLOCK_THREAD_CPUTIME_ID, &event, &script_guard.timer);
+    script_guard.timeless = sigaction(SIGVTALRM, &action, NULL) || !system_timer_new(SIGVTALRM);
     script_guard.ticking = script_guard.timeless; /* without a timer there is nothing to set */
 }
 
 void script_guard_free(void)
 {
     if (--script_guard.users) return;
-    if (!script_guard.timeless) timer_delete(script_guard.timer); /* the handler stays: a signal may be under way */
+    if (!script_guard.timeless) system_timer_free(); /* the handler stays: a signal may be under way */
     script_guard.ticking = 0;
 }
 

@@ -85,6 +85,7 @@ static const struct unit_family {
     {{1, 1, -2, 0, 0}, "a force", "N, mN, uN"},
     {{-2, 1, -2, 0, 0}, "a force per volume or a pressure gradient", "N/m3, Pa/m, kPa/m"},
     {{-1, 1, -3, 0, 0}, "a power per volume", "W/m3, MW/m3, W/cm3"},
+    {{0, 1, -3, 0, 0}, "a power per area", "W/m2, kW/m2, W/cm2"},
     {{-3, 1, -1, 0, 0}, "a mass per volume and time", "kg/m3/s, g/cm3/us"},
 };
 enum { UNIT_FAMILIES = sizeof unit_families / sizeof *unit_families };

@@ -18,10 +18,24 @@
 #include <math.h>
 #include <string.h>
 
+/* What a name stands for: DERIVE_STRONG needs a solid with a strength, DERIVE_STRAINED one whose strength knows strains;
+ * DERIVE_OF_SCENE is a name of the case's own. */
+enum derive_form {
+    DERIVE_ONE,
+    DERIVE_VECTOR,
+    DERIVE_AXIS,
+    DERIVE_MATERIAL,
+    DERIVE_SOLID,
+    DERIVE_TENSOR,
+    DERIVE_STRONG,
+    DERIVE_STRAINED,
+    DERIVE_OF_SCENE
+};
+
 struct derive_quantity {
     const char *name; /* with a trailing "_" for per-material, per-axis and tensor quantities */
     const char *unit;
-    enum { DERIVE_ONE, DERIVE_VECTOR, DERIVE_AXIS, DERIVE_MATERIAL, DERIVE_SOLID, DERIVE_TENSOR, DERIVE_OF_SCENE } form;
+    enum derive_form form;
     void (*compute)(const struct derive_view *tile, double *out);
     int index; /* DERIVE_SOLID: tells rows with the same function apart */
     unsigned needs;
@@ -229,6 +243,8 @@ static const struct derive_quantity derive_table[] = {
     {"principal_min_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MIN_DEV, DERIVE_ALONE},
     {"von_mises", "Pa", DERIVE_SOLID, derive_stress_von_mises, 0, DERIVE_ALONE},
     {"strain_energy", "J/m3", DERIVE_SOLID, derive_stress_energy, 0, DERIVE_ALONE},
+    {"flow_stress", "Pa", DERIVE_STRONG, derive_stress_strength, 0, DERIVE_ALONE},
+    {"plastic_strain", "1", DERIVE_STRAINED, derive_stress_plastic, 0, DERIVE_ALONE},
     {"invariant_1", "1", DERIVE_SOLID, derive_stress_invariant, 0, DERIVE_ALONE},
     {"invariant_2", "1", DERIVE_SOLID, derive_stress_invariant, 1, DERIVE_ALONE},
     {"", "", DERIVE_OF_SCENE, derive_kept, 0, DERIVE_ALONE},
@@ -251,6 +267,14 @@ static int derive_suffix(const struct model *model, const struct derive_quantity
     for (unsigned l = 0; l < model->n_material; l++)
         if (!strcmp(suffix, model->scene->material[l].name)) return (int)l;
     return -1;
+}
+
+/* Are there fields of this form in a scene? */
+static bool derive_has(const struct model *model, enum derive_form form)
+{
+    if (form == DERIVE_SOLID || form == DERIVE_TENSOR) return model->elastic;
+    if (form == DERIVE_STRONG) return model->plastic;
+    return form != DERIVE_STRAINED || model->n_strain > 0;
 }
 
 /* One of the peaks that the scene keeps of a field of the table: `prefix` and its name. */
@@ -299,12 +323,11 @@ int derive_find(const struct model *model, const char *name, struct derive *ret_
         const struct derive_quantity *row = &derive_table[i];
         if (row->form == DERIVE_OF_SCENE) continue;
         size_t length = strlen(row->name);
-        bool solid = row->form == DERIVE_SOLID || row->form == DERIVE_TENSOR;
-        bool whole = row->form == DERIVE_ONE || row->form == DERIVE_VECTOR || row->form == DERIVE_SOLID;
+        bool suffixed = row->form == DERIVE_AXIS || row->form == DERIVE_TENSOR || row->form == DERIVE_MATERIAL;
         int index = row->index;
-        if (solid && !model->elastic) continue;
-        if (whole ? strcmp(name, row->name) != 0 : strncmp(name, row->name, length) != 0) continue;
-        if (!whole && (index = derive_suffix(model, row, name + length)) < 0) continue;
+        if (!derive_has(model, row->form)) continue;
+        if (!suffixed ? strcmp(name, row->name) != 0 : strncmp(name, row->name, length) != 0) continue;
+        if (suffixed && (index = derive_suffix(model, row, name + length)) < 0) continue;
         *ret_field = (struct derive){.unit = row->unit,
                                      .components = row->form == DERIVE_VECTOR ? 3 : 1,
                                      .what = i,

@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "phys/elastic.h"
+#include "phys/flow.h"
 
 #include <math.h>
 #include <string.h>
@@ -177,4 +178,25 @@ void derive_stress_invariant(const struct derive_view *tile, double *out)
     elastic_invariants(model, tile->n, tile->n, derive_view_w(tile, model->i_V), first ? out : other,
                        first ? other : out);
     mem_free(other);
+}
+
+void derive_stress_strength(const struct derive_view *tile, double *out)
+{
+    flow_strength(tile->model, tile->n, tile->n, tile->w, out);
+}
+
+void derive_stress_plastic(const struct derive_view *tile, double *out)
+{
+    const struct model *model = tile->model;
+    for (size_t i = 0; i < tile->n; i++) {
+        double mass = 0.0, sum = 0.0;
+        for (unsigned s = 0; s < model->n_solid; s++) {
+            unsigned l = model->solids[s].material, q = model->solids[s].strain;
+            double m = derive_view_alpha(tile, l, i) * derive_view_w(tile, model->i_m + l)[i];
+            if (!q) continue;
+            mass += m;
+            sum += m * derive_view_w(tile, q)[i];
+        }
+        out[i] = mass > ELASTIC_NOTHING ? sum / mass : 0.0;
+    }
 }

@@ -39,4 +39,10 @@ void derive_stress_von_mises(const struct derive_view *tile, double *out);
 void derive_stress_energy(const struct derive_view *tile, double *out);
 void derive_stress_invariant(const struct derive_view *tile, double *out);
 
+/* Static strength, summed by volume as the stress is, beside which von_mises stands (flow.h) [Pa]. */
+void derive_stress_strength(const struct derive_view *tile, double *out);
+
+/* Accumulated plastic strain, the mean by mass of the solids that have one [1]. */
+void derive_stress_plastic(const struct derive_view *tile, double *out);
+
 #endif

@@ -62,6 +62,7 @@ void facts_put(const struct scene *scene, const struct model *model, int tile, s
         const struct scene_material *material = &scene->material[l];
         facts_put_law(material->name, "eos", &material->eos, notes);
         facts_put_law(material->name, "constitutive", &material->constitutive, notes);
+        if (material->plastic.module) facts_put_law(material->name, "plastic", &material->plastic, notes);
         facts_put_law(material->name, "viscosity", &material->viscosity, notes);
         facts_put_law(material->name, "conductivity", &material->conductivity, notes);
     }

@@ -11,7 +11,7 @@ void ledger_take(const struct state *state, struct ledger *ret_ledger)
 {
     const struct mesh *mesh = state->mesh;
     const struct model *model = state->model;
-    unsigned n = model->i_V - model->i_m;
+    unsigned n = model->i_E + 1 - model->i_m;
     double *sums = mem_new((tally_tiles(mesh) + 1) * n, sizeof *sums), *at = sums;
     double *volume = mem_new(mesh->n_cell, sizeof *volume);
     for (int l = 0; l < mesh->n_level; l++) {

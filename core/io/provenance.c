@@ -148,6 +148,7 @@ static json_t *provenance_modules(const struct scene *scene)
         provenance_add_module(modules, scene->material[l].eos.module);
         if (scene->material[l].constitutive.module)
             provenance_add_module(modules, scene->material[l].constitutive.module);
+        if (scene->material[l].plastic.module) provenance_add_module(modules, scene->material[l].plastic.module);
         if (scene->material[l].viscosity.module) provenance_add_module(modules, scene->material[l].viscosity.module);
         if (scene->material[l].conductivity.module)
             provenance_add_module(modules, scene->material[l].conductivity.module);

@@ -1,6 +1,7 @@
 /* provenance_host.c - see provenance_host.h. */
 #include "io/provenance_host.h"
 
+#include "base/system.h"
 #include "base/version.h"
 
 #include <stdbool.h>
@@ -51,26 +52,10 @@ json_t *provenance_host_environment(void)
     return environment;
 }
 
-/* The first `model name` of /proc/cpuinfo, "" where there is none. */
-static void provenance_host_model(char *ret_model, size_t room)
-{
-    char line[256];
-    FILE *stream = fopen("/proc/cpuinfo", "r");
-    snprintf(ret_model, room, "%s", "");
-    while (stream && fgets(line, sizeof line, stream)) {
-        const char *colon = strchr(line, ':');
-        if (strncmp(line, "model name", strlen("model name")) || !colon) continue;
-        colon += 1 + strspn(colon + 1, " ");
-        snprintf(ret_model, room, "%.*s", (int)strcspn(colon, "\n"), colon);
-        break;
-    }
-    if (stream) fclose(stream);
-}
-
 json_t *provenance_host_cpu(void)
 {
     char model[256];
-    provenance_host_model(model, sizeof model);
+    system_processor(sizeof model, model);
     return json_pack("{s:s, s:I}", "model", model, "processors", (json_int_t)sysconf(_SC_NPROCESSORS_ONLN));
 }
 

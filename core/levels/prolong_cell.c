@@ -57,7 +57,7 @@ static double prolong_cell_slack(const struct prolong_cells *source, size_t at, 
     if (model->n_alpha && q < model->i_m) return CELL_TRACE;
     if (model->n_alpha && q < model->i_u) return CELL_TRACE * source->w[q * source->pitch + at];
     for (unsigned l = 0; l < model->n_material; l++) rho += source->u[(model->i_m + l) * source->pitch + at];
-    if (q < model->i_u) return CELL_ROUND_OFF * rho;
+    if (q < model->i_u || model_is_strain(model, q)) return CELL_ROUND_OFF * rho;
     return CELL_ROUND_OFF * (q < model->i_E ? sqrt(rho * stiffness) : stiffness);
 }
 
@@ -71,7 +71,7 @@ static double prolong_cell_share(const struct prolong_cells *source, size_t at, 
     struct prolong_cell_range range = prolong_cell_range(source, at, source->u + q * source->pitch, NULL);
     double slack = prolong_cell_slack(source, at, q), up = 0.0, down = 0.0, phi = 1.0;
     prolong_cell_widen(&range, mean);
-    bool positive = q < source->model->i_u && range.low >= 0.0;
+    bool positive = (q < source->model->i_u || model_is_strain(source->model, q)) && range.low >= 0.0;
     double low = range.low - slack, high = range.high + slack;
     if (positive && low < 0.5 * range.low) low = 0.5 * range.low;
     for (int axis = 0; axis < source->model->dim; axis++) {
@@ -98,7 +98,8 @@ static void prolong_cell_fill(const struct model *model, const double *mean, con
     for (unsigned q = 0; q < model->n_field; q++)
         for (int o = 0; o < 1 << model->dim; o++) {
             double value = mean[q] + phi * prolong_cell_step(give, difference[q], o);
-            ret->u[q][o] = q < model->i_u && mean[q] >= 0.0 && value < 0.0 ? 0.0 : value;
+            bool positive = q < model->i_u || model_is_strain(model, q);
+            ret->u[q][o] = positive && mean[q] >= 0.0 && value < 0.0 ? 0.0 : value;
         }
     elastic_settle(model, (size_t)1 << model->dim, PROLONG_CHILDREN, ret->u[0]);
 }

@@ -125,6 +125,26 @@ static BULLA_KERNEL void mix_subtract(size_t n, const double *restrict a, const 
     for (size_t i = 0; i < n; i++) rest[i] = a[i] - b[i];
 }
 
+/* eps = m eps/m; 0 where there is nothing of the solid. */
+static BULLA_KERNEL void mix_strain(size_t n, const double *restrict amount, const double *restrict m,
+                                    double *restrict eps)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double mass = m[i], value = amount[i] / mass;
+        eps[i] = mass > ELASTIC_NOTHING ? value : 0.0;
+    }
+}
+
+/* Plastic strains of the solids that have one. */
+static void mix_strains(const struct model *model, size_t n, size_t stride, const double *u, double *w)
+{
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        unsigned q = model->solids[s].strain, l = model->i_m + model->solids[s].material;
+        if (q) mix_strain(n, u + q * stride, u + l * stride, w + q * stride);
+    }
+}
+
 /* The stretch is a primitive as it is; total energy without the elastic one. */
 static void mix_unload(const struct model *model, size_t n, size_t stride, const double *u, double *w,
                        struct mix_row *ret_rest)
@@ -132,6 +152,7 @@ static void mix_unload(const struct model *model, size_t n, size_t stride, const
     struct mix_row elastic;
     const double *m[SCENE_MATERIALS];
     mix_solids(model, stride, u, m);
+    mix_strains(model, n, stride, u, w);
     for (unsigned q = model->i_V; q < model->i_V + model->n_stretch; q++)
         memcpy(w + q * stride, u + q * stride, n * sizeof *w);
     elastic_energy(model, n, stride, u + model->i_V * stride, m, elastic.value);
@@ -203,6 +224,10 @@ static void mix_load(const struct model *model, size_t n, size_t stride, const d
     struct mix_row elastic;
     const double *m[SCENE_MATERIALS];
     mix_solids(model, stride, u, m);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        size_t at = model->solids[s].strain * stride;
+        for (size_t i = 0; at && i < n; i++) u[at + i] = m[s][i] * w[at + i];
+    }
     for (unsigned q = model->i_V; q < model->i_V + model->n_stretch; q++)
         memcpy(u + q * stride, w + q * stride, n * sizeof *u);
     elastic_energy(model, n, stride, w + model->i_V * stride, m, elastic.value);

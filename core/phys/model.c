@@ -36,6 +36,10 @@ static void model_name_fields(struct model *model)
         model->field_names[at++] = mem_print("partial_density_%s", model->scene->material[l].name);
     for (unsigned d = 0; d < model->n_velocity; d++) model->field_names[at++] = mem_text(momentum[d]);
     model->field_names[at++] = mem_text("total_energy");
+    for (unsigned s = 0; s < model->n_solid; s++)
+        if (model->solids[s].strain)
+            model->field_names[at++] =
+                mem_print("plastic_strain_mass_%s", model->scene->material[model->solids[s].material].name);
     for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = mem_print("stretch_%s", model_tensor[c]);
 }
 
@@ -54,10 +58,14 @@ static void model_name_derived(struct model *model)
                                         "principal_shear", "principal_max_dev", "principal_min_dev", "von_mises",
                                         "strain_energy",   "invariant_1",       "invariant_2"};
     size_t n_plain = sizeof plain / sizeof *plain, n_each = 5, at = 0;
+    static const char *const plastic[] = {"flow_stress",
+                                          "plastic_strain"}; /* with a strength; one that knows strains */
     size_t n_solid = model->elastic ? sizeof solid / sizeof *solid : 0;
-    model->names = mem_new(n_plain + n_solid + n_each * model->n_material + 1, sizeof *model->names);
+    size_t n_plastic = model->n_strain ? 2 : model->plastic ? 1 : 0;
+    model->names = mem_new(n_plain + n_solid + n_plastic + n_each * model->n_material + 1, sizeof *model->names);
     for (size_t i = 0; i < n_plain; i++) model->names[at++] = mem_text(plain[i]);
     for (size_t i = 0; i < n_solid; i++) model->names[at++] = mem_text(solid[i]);
+    for (size_t i = 0; i < n_plastic; i++) model->names[at++] = mem_text(plastic[i]);
     for (unsigned l = 0; l < model->n_material; l++) {
         const char *name = model->scene->material[l].name;
         model->names[at++] = mem_print("alpha_%s", name);
@@ -83,6 +91,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     narrow->kapila = model->kapila && n > 1;
     narrow->linear = true;
     narrow->n_solid = narrow->n_active = 0;
+    narrow->plastic = false;
     for (unsigned l = 0; l < n; l++) {
         narrow->eos[l] = model->eos[first + l];
         narrow->conductivity[l] = model->conductivity[first + l];
@@ -91,6 +100,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     for (unsigned s = 0; s < model->n_solid; s++) {
         unsigned l = model->solids[s].material - first; /* wraps where it stands before */
         if (l >= n) continue;
+        narrow->plastic = narrow->plastic || model->solids[s].strength;
         narrow->solids[narrow->n_solid] = model->solids[s];
         narrow->solids[narrow->n_solid++].material = l;
     }
@@ -98,7 +108,10 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     narrow->split = model->split && narrow->n_solid;
     for (unsigned l = 0; l < narrow->n_alpha; l++) narrow->active[narrow->n_active++] = narrow->i_alpha + l;
     for (unsigned l = 0; l < n; l++) narrow->active[narrow->n_active++] = narrow->i_m + l;
-    for (unsigned q = model->i_u; q < model->i_V + narrow->n_stretch; q++) narrow->active[narrow->n_active++] = q;
+    for (unsigned q = model->i_u; q <= model->i_E; q++) narrow->active[narrow->n_active++] = q;
+    for (unsigned s = 0; s < narrow->n_solid; s++)
+        if (narrow->solids[s].strain) narrow->active[narrow->n_active++] = narrow->solids[s].strain;
+    for (unsigned c = 0; c < narrow->n_stretch; c++) narrow->active[narrow->n_active++] = model->i_V + c;
     return narrow;
 }
 
@@ -106,9 +119,17 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
 static void model_solids(struct model *model)
 {
     for (unsigned l = 0; l < model->n_material; l++) {
-        const struct instance *instance = &model->scene->material[l].constitutive;
-        if (!instance->module) continue;
-        model->solids[model->n_solid++] = (struct model_solid){instance->module->table, instance->self, l};
+        const struct instance *law = &model->scene->material[l].constitutive;
+        const struct instance *plastic = &model->scene->material[l].plastic;
+        if (!law->module) continue;
+        struct model_solid *solid = &model->solids[model->n_solid++];
+        *solid = (struct model_solid){.law = law->module->table, .self = law->self, .material = l};
+        if (!plastic->module) continue;
+        solid->strength = plastic->module->table;
+        solid->strength_self = plastic->self;
+        solid->needs = solid->strength->needs(plastic->self);
+        model->plastic = true;
+        if (solid->needs & BULLA_INELASTIC_STRAIN) solid->strain = model->i_strain + model->n_strain++;
     }
     model->elastic = model->n_solid > 0;
 }
@@ -161,8 +182,9 @@ struct model *model_new(const struct scene *scene)
     model->i_u = model->i_m + model->n_material;
     model->n_velocity = (unsigned)scene->domain.n_velocity;
     model->i_E = model->i_u + model->n_velocity;
-    model->i_V = model->i_E + 1;
+    model->i_strain = model->i_E + 1;
     model_solids(model);
+    model->i_V = model->i_strain + model->n_strain;
     model->n_stretch = model->elastic ? elastic_count(model->n_velocity) : 0;
     model->n_field = model->i_V + model->n_stretch;
     model->split = model->dim == 1 && model->elastic && model->n_alpha > 0;

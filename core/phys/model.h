@@ -1,8 +1,9 @@
 /* model.h - which fields exist and the laws behind them: built once from a scene.
  *
  * Conserved fields u, in this order: alpha_l (N of them, none if N = 1), m_l = alpha_l rho_l,
- * rho u_i (n_velocity), rho E and, in a scene with a solid, the stretch V (n_stretch: xx, yy, zz, then xy, then xz,
- * yz, as far as n_velocity reaches). Primitives w, same count: alpha_l, rho_l, u_i, p, V. For N = 1 m is rho.
+ * rho u_i (n_velocity), rho E, m_l eps_l (n_strain: of solids whose strength knows their plastic strain eps) and, in a
+ * scene with a solid, the stretch V (n_stretch: xx, yy, zz, then xy, then xz, yz, as far as n_velocity reaches).
+ * Primitives w, same count: alpha_l, rho_l, u_i, p, eps_l, V. For N = 1 m is rho.
  *
  * This folder, phys: materials at points: which fields there are, mixtures, elasticity, presence, relaxation.
  * Batches of points, no neighbours. */
@@ -12,6 +13,7 @@
 #include "bulla/conductivity.h"
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
+#include "bulla/inelastic.h"
 #include "bulla/limiter.h"
 #include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
@@ -30,7 +32,11 @@ struct model_eos {
 struct model_solid {
     const struct bulla_constitutive *law;
     const void *self;
-    unsigned material; /* index into the materials of the same model */
+    unsigned material;                      /* index into the materials of the same model */
+    const struct bulla_inelastic *strength; /* NULL: purely elastic */
+    const void *strength_self;
+    unsigned strain; /* field of its plastic strain; 0: it has none */
+    unsigned needs;  /* enum bulla_inelastic_needs, of the strength */
 };
 
 /* How a material conducts heat. */
@@ -40,8 +46,8 @@ struct model_conductivity {
     double k; /* of a law that looks at nothing [W/(m K)] */
 };
 
-/* Most evolved fields a scene can have: fractions, densities, velocities, energy, stretch. */
-enum { MODEL_FIELDS = 2 * SCENE_MATERIALS + 3 + 1 + 6 };
+/* Most evolved fields a scene can have: fractions, densities, velocities, energy, plastic strains, stretch. */
+enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 };
 
 struct model {
     const struct scene *scene;
@@ -49,12 +55,14 @@ struct model {
     unsigned n_velocity;              /* >= dim */
     unsigned n_solid, n_stretch, i_V; /* stretch: first index; n_stretch 0 in paths without a solid */
     struct model_solid solids[SCENE_MATERIALS];
+    unsigned n_strain, i_strain; /* plastic strains of the scene: first index */
     unsigned n_material, n_alpha, n_field;
     unsigned i_alpha, i_m, i_u, i_E;         /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
     unsigned n_active, active[MODEL_FIELDS]; /* components that evolve; all, but in a pure model */
     unsigned first;                          /* material of the scene that eos[0] is: 0, but in a pure model */
     bool mixed;                              /* the scene has several materials */
     bool elastic;                            /* the scene has a solid (this path need not) */
+    bool plastic;                            /* some solid of this path has a strength (flow.h) */
     struct model *pure[SCENE_MATERIALS];     /* the same scene where only material l is present (NULL for N = 1): one
                                             material, no fractions, indices into the same storage */
     struct model *fluids; /* the same scene where only its fluids are present; NULL without a solid, with less
@@ -83,6 +91,12 @@ struct model {
 static inline bool model_is_fraction(const struct model *model, unsigned q)
 {
     return q - model->i_alpha < model->n_alpha; /* wraps below i_alpha */
+}
+
+/* Is component q a plastic strain? */
+static inline bool model_is_strain(const struct model *model, unsigned q)
+{
+    return q - model->i_strain < model->n_strain; /* wraps below i_strain */
 }
 
 /* Number of a path for files: -1 the scene's model, l its material l alone, SCENE_MATERIALS its fluids. */

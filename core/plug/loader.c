@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/system.h"
 #include "plug/elf.h"
 #include "plug/probe.h"
 #include "plug/vet.h"
@@ -14,7 +15,6 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <link.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -105,10 +105,7 @@ static int loader_map(const char *path, void **ret_handle)
 static const struct bulla_module *loader_symbol(void *handle, size_t *ret_space)
 {
     const void *symbol = dlsym(handle, "bulla_module");
-    Dl_info info;
-    const ElfW(Sym) *entry = NULL;
-    *ret_space = 0;
-    if (symbol && dladdr1(symbol, &info, (void **)&entry, RTLD_DL_SYMENT) && entry) *ret_space = entry->st_size;
+    *ret_space = system_symbol_size(symbol);
     return symbol;
 }
 

@@ -2,6 +2,7 @@
 #include "plug/probe.h"
 
 #include "base/status.h"
+#include "base/system.h"
 #include "plug/vet.h"
 
 #include <dlfcn.h>
@@ -9,7 +10,6 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ static void probe_child(const char *path)
 {
     static const int fatal[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGALRM};
     for (unsigned i = 0; i < sizeof fatal / sizeof *fatal; i++) signal(fatal[i], SIG_DFL);
-    prctl(PR_SET_DUMPABLE, 0);
+    system_no_core();
     alarm(PROBE_SECONDS);
     int nowhere = open("/dev/null", O_RDWR);
     if (nowhere >= 0) {
@@ -42,7 +42,7 @@ int probe_object(const char *path)
     do ended = waitpid(child, &raw, 0);
     while (ended < 0 && errno == EINTR);
     if (ended < 0 || (WIFEXITED(raw) && WEXITSTATUS(raw) == 0)) return STATUS_OK;
-    const char *name = WIFSIGNALED(raw) ? sigabbrev_np(WTERMSIG(raw)) : NULL;
+    const char *name = WIFSIGNALED(raw) ? system_signal_name(WTERMSIG(raw)) : NULL;
     return status_fail(STATUS_CASE, "%s is damaged: trying to load it ended with %s%s", path,
                        WIFSIGNALED(raw) ? "SIG" : "", name ? name : "an error of the system's loader");
 }

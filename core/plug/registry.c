@@ -8,6 +8,7 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/system.h"
 #include "plug/loader.h"
 
 #include <dirent.h>
@@ -111,15 +112,14 @@ static void registry_scan_list(const char *list)
 /* ../lib/bulla/modules seen from the folder of the running program. */
 static void registry_scan_own(void)
 {
-    char program[4096];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length < 0) return;
-    program[length] = '\0';
+    if (!*system_program()) return;
+    char *program = mem_text(system_program());
     char *slash = strrchr(program, '/');
     if (slash) *slash = '\0';
     char *folder = mem_print("%s/../lib/bulla/modules", program);
     registry_scan(folder, false);
     mem_free(folder);
+    mem_free(program);
 }
 
 int registry_init(void)

@@ -6,6 +6,7 @@
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/conductivity.h"
+#include "bulla/inelastic.h"
 #include "bulla/limiter.h"
 #include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
@@ -45,6 +46,9 @@ static const struct vet_kind vet_kinds[] = {
      {VET_SLOT(bulla_eos, state), VET_SLOT(bulla_eos, derivatives), VET_SLOT(bulla_eos, temperature),
       VET_SLOT(bulla_eos, entropy), VET_SLOT(bulla_eos, density), VET_SLOT(bulla_eos, p_min),
       VET_SLOT(bulla_eos, range)}},
+    {"inelastic",
+     sizeof(struct bulla_inelastic),
+     {VET_SLOT(bulla_inelastic, strength), VET_SLOT(bulla_inelastic, needs)}},
     {"limiter", offsetof(struct bulla_limiter, flags), {{0}}},
     {"reconstruction", sizeof(struct bulla_reconstruction), {{0}}},
     {"riemann", offsetof(struct bulla_riemann, solids), {VET_SLOT(bulla_riemann, solve)}},
@@ -99,10 +103,11 @@ static int vet_table(const struct bulla_module *module)
     for (int i = 0; i < VET_KINDS; i++)
         if (module->kind && strcmp(module->kind, vet_kinds[i].name) == 0) kind = &vet_kinds[i];
     if (!kind)
-        return status_fail(STATUS_CASE,
-                           "is of the unknown kind '%s'; kinds are conductivity, constitutive, eos, limiter, "
-                           "reconstruction, riemann, viscosity",
-                           module->kind ? module->kind : "");
+        return status_fail(
+            STATUS_CASE,
+            "is of the unknown kind '%s'; kinds are conductivity, constitutive, eos, inelastic, limiter, "
+            "reconstruction, riemann, viscosity",
+            module->kind ? module->kind : "");
     if (!module->table) return status_fail(STATUS_CASE, "has no table of functions");
     uint32_t size;
     memcpy(&size, module->table, sizeof size);
@@ -358,6 +363,19 @@ static bool vet_try_constitutive(const struct bulla_constitutive *law, const voi
     return good && isfinite(sum);
 }
 
+/* Strength of a body at rest, of one that has flowed far and fast, and of a hot one. */
+static bool vet_try_inelastic(const struct bulla_inelastic *law, const void *self)
+{
+    enum { N = 3 };
+    const double eps[N] = {0.0, 1.0, 0.1}, rate[N] = {0.0, 1e6, 1.0}, p[N] = {1e5, 1e9, 0.0},
+                 T[N] = {300.0, 600.0, 1e4};
+    const double rho[N] = {1e3, 1e4, 1e3};
+    double Y[N] = {(double)NAN, (double)NAN, (double)NAN};
+    if (law->needs(self) & ~(uint32_t)BULLA_INELASTIC_ALL) return false;
+    law->strength(self, N, eps, rate, p, T, rho, Y);
+    return isfinite(Y[0] + Y[1] + Y[2]) && Y[0] >= 0.0 && Y[1] >= 0.0 && Y[2] >= 0.0;
+}
+
 /* A liquid that is sheared at 300 K: what comes out may stand in a flux, and what bounds it in a time step. */
 static bool vet_try_coefficient(const struct bulla_coefficient *law, const void *self)
 {
@@ -377,6 +395,11 @@ int vet_instance(const struct bulla_module *module, const void *self)
     if (strcmp(module->kind, "constitutive") == 0 && !vet_try_constitutive(module->table, self))
         return status_fail(STATUS_CASE,
                            "constitutive '%s' gives no finite energy that rises at stretches of 1, 2 and 4",
+                           module->name);
+    if (strcmp(module->kind, "inelastic") == 0 && !vet_try_inelastic(module->table, self))
+        return status_fail(STATUS_CASE,
+                           "inelastic '%s' gives no finite strengths at plastic strains of 0 and 1, or needs what core "
+                           "does not know",
                            module->name);
     if (strcmp(module->kind, "reconstruction") == 0 && !vet_try_reconstruction(module->table, self))
         return status_fail(STATUS_CASE, "reconstruction '%s' gives no finite edges for a gas of rising density",

@@ -13,6 +13,7 @@
 #include "base/status.h"
 #include "cli/human.h"
 #include "cli/scenes.h"
+#include "scheme/conduction.h"
 #include "scheme/source.h"
 #include "solve/advance.h"
 #include "solve/cost.h"
@@ -73,6 +74,27 @@ static void check_print_material(const struct scene *scene, const struct model *
     check_print_module("", solid);
     printf("  %-12s a solid: shear modulus %s at %g kg/m3, shear waves at %s\n", "", human_si(rho * c2, "Pa", modulus),
            rho, human_si(sqrt(c2), "m/s", speed));
+}
+
+/* How a material conducts: at 25 C and 1 atm, over the run, and on the finest cells. */
+static void check_print_heat(const struct scene *scene, const struct model *model, unsigned l)
+{
+    const struct conduction_facts facts = conduction_facts(model, l);
+    char k[HUMAN_ROOM], width[HUMAN_ROOM], step[HUMAN_ROOM];
+    double h = HUGE_VAL, sum = 0;
+    if (!scene->material[l].conductivity.module) return;
+    for (int axis = 0; axis < scene->domain.dim; axis++) {
+        double own = (scene->domain.upper[axis] - scene->domain.lower[axis]) /
+                     ldexp(scene->domain.cells[axis], scene->mesh.levels);
+        h = fmin(h, own);
+        sum += 1 / (own * own);
+    }
+    double layer = sqrt(facts.k / facts.rho_cp * scene->run.until);
+    check_print_module("", &scene->material[l].conductivity);
+    printf("  %-12s conducts %s at 25 C and 1 atm, cp %.4g J/kg/K: diffusivity %.3g m2/s\n", "",
+           human_si(facts.k, "W/m/K", k), facts.cp, facts.k / facts.rho_cp);
+    printf("  %-12s heat gets %s far in the run, %.3g of the finest cells; it asks for steps below %s there\n", "",
+           human_si(layer, "m", width), layer / h, human_si(conduction_step(facts.k / facts.rho_cv, sum), "s", step));
 }
 
 static void check_print_fields(const struct model *model)
@@ -211,7 +233,10 @@ static void check_print(const struct scene *scene, const struct model *model, co
     putchar('\n');
     check_print_levels(scene, mesh);
     check_print_fields(model);
-    for (unsigned i = 0; i < scene->n_material; i++) check_print_material(scene, model, i);
+    for (unsigned i = 0; i < scene->n_material; i++) {
+        check_print_material(scene, model, i);
+        check_print_heat(scene, model, i);
+    }
     printf("  %-12s %s\n", "closure", scene->scheme.closure == SCENE_KAPILA ? "kapila" : "allaire");
     check_print_module("riemann", &scene->scheme.riemann);
     check_print_module("scheme", &scene->scheme.reconstruction);

@@ -5,6 +5,7 @@
 #include "base/launcher.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/system.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -13,7 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -63,7 +63,7 @@ static void launch_become(char **arguments, const sigset_t *mask)
 {
     sigprocmask(SIG_SETMASK, mask, NULL);
     setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    system_end_with_parent();
     setenv("OMPI_MCA_pml", "^cm", 0); /* not to look for networks of one kind saves 0.2 s at every start */
     int null = open("/dev/null", O_RDONLY);
     if (null >= 0) dup2(null, STDIN_FILENO);
@@ -167,9 +167,8 @@ int launch_check(long wanted)
 
 int launch_run(long ranks, char **argv)
 {
-    char program[4096] = {0};
-    if (readlink("/proc/self/exe", program, sizeof program - 1) < 0)
-        return status_fail(STATUS_RUN, "cannot find the program's own path: %s", strerror(errno));
+    const char *program = system_program();
+    if (!*program) return status_fail(STATUS_RUN, "cannot find the program's own path");
     const char *folder = getenv("TMPDIR");
     char *path = mem_print("%s/bulla-status-XXXXXX", folder && *folder ? folder : "/tmp");
     int file = mkstemp(path), code;

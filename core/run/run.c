@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/system.h"
 #include "base/text.h"
 #include "cli/human.h"
 #include "cli/scenes.h"
@@ -111,7 +112,7 @@ static int run_interruption(struct run *run)
     if (wish[2] > 0.0 && wish[0] == RUN_GO) record_rescue(run->record, run->state); /* an end saves the state itself */
     if (wish[0] == RUN_GO) return 0;
     if (wish[0] == RUN_CLOCK) run_because(run, "interrupted by %s", "walltime");
-    else run_because(run, "interrupted by SIG%s", sigabbrev_np((int)wish[0] - RUN_SIGNAL));
+    else run_because(run, "interrupted by SIG%s", system_signal_name((int)wish[0] - RUN_SIGNAL));
     return STATUS_STOPPED;
 }
 

@@ -125,23 +125,8 @@ static size_t bound_fill_face_cell(const struct frame *frame, size_t c)
 /* Centre of the boundary face of point c of a row. */
 static void bound_fill_position(const struct bound_fill *fill, size_t c, double ret_x[3])
 {
-    const struct mesh *mesh = fill->bound->mesh;
     const struct level *level = fill->bound->level;
-    const struct frame *frame = fill->frame;
-    size_t o = frame->outer_from + c / frame->inner, i = frame->inner_from + c % frame->inner;
-    size_t below = 1, at[3];
-    mesh_corner(mesh, level, &level->tiles[level->first + fill->local], ret_x);
-    for (int d = 0; d < 3; d++) {
-        if (d == frame->axis) {
-            below = 1;
-            continue;
-        }
-        size_t index = d < frame->axis ? i : o;
-        at[d] = index / below % (size_t)mesh->n[d];
-        below *= (size_t)mesh->n[d];
-        ret_x[d] += d < mesh->dim ? ((double)at[d] + 0.5) * level->h[d] : 0.0;
-    }
-    ret_x[frame->axis] = fill->side ? mesh->upper[frame->axis] : mesh->lower[frame->axis];
+    frame_place(fill->frame, fill->bound->mesh, level, &level->tiles[level->first + fill->local], fill->side, c, ret_x);
 }
 
 /* Keeps the first failure: of which value, at which point, beside which cell of the tile. */
@@ -279,6 +264,7 @@ static void bound_fill_compose_state(const struct bound_fill *fill, struct bound
             if (boundary->velocity[d].given && good)
                 good = bound_fill_ask(fill, &boundary->velocity[d], velocity[d], x, u);
         }
+        for (unsigned s = 0; s < model->n_strain; s++) at[(model->i_strain + s) * row->stride] = 0.0;
         for (unsigned v = 0; v < model->n_stretch; v++) at[(model->i_V + v) * row->stride] = v < 3 ? 1.0 : 0.0;
     }
 }

@@ -6,19 +6,15 @@
 #include "phys/mix.h"
 #include "phys/row.h"
 #include "scheme/conduction_channel.h"
+#include "scheme/conduction_law.h"
+#include "scheme/conduction_wall.h"
 #include "scheme/swell.h"
 #include "scheme/terms.h"
 
-#include <float.h>
 #include <string.h>
-
-enum { CONDUCTION_BATCH = SWELL_BATCH };
 
 /* What a step may take, against the limit of stability of one material: CONDUCTION_PACE D sum 1/h^2 <= 1/dt. */
 #define CONDUCTION_PACE (8.0 / 1.8)
-
-/* A difference of pressure, against rho c^2, over which a law tells its rho cv. */
-#define CONDUCTION_NEAR 1e-4
 
 /* Rows of a frame: [n_material] of cells or faces with pitch FACE_ROOM. */
 struct conduction {
@@ -26,25 +22,9 @@ struct conduction {
     double *T, *part, *c, *k;
     double *left, *right; /* what is left of the materials on both sides of the faces */
     double *rest, *width, *series, *q, *pair, *per_d;
+    struct conduction_wall_fault fault;
     bool traces; /* some material of the piece is less than CONDUCTION_CHANNEL_FELT of its cell */
 };
-
-static bool conduction_has(const struct model *path, unsigned l)
-{
-    return path->conductivity[l].law != NULL;
-}
-
-/* k of n states of material l. */
-static void conduction_ask(const struct model *path, unsigned l, size_t n, const double *T, const double *p,
-                           const double *rho, double *k)
-{
-    const struct model_conductivity *conductivity = &path->conductivity[l];
-    uint32_t needs = conductivity->law->needs;
-    for (size_t i = 0; !needs && i < n; i++) k[i] = conductivity->k;
-    if (needs)
-        conductivity->law->value(conductivity->self, n, NULL, needs & BULLA_NEEDS_TEMPERATURE ? T : NULL,
-                                 needs & BULLA_NEEDS_PRESSURE ? p : NULL, needs & BULLA_NEEDS_DENSITY ? rho : NULL, k);
-}
 
 static bool conduction_wanted(const struct model *path)
 {
@@ -84,6 +64,7 @@ static void conduction_close(void *data)
 {
     struct conduction *own = data;
     mem_free(own->rows);
+    mem_free(own->fault.message);
     mem_free(own);
 }
 
@@ -111,47 +92,15 @@ static bool conduction_has_traces(size_t n, const double *part)
     return any;
 }
 
-static BULLA_KERNEL void conduction_nudge(size_t n, const double *restrict p, const double *restrict rho_c2,
-                                          double *restrict higher)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) higher[i] = p[i] + CONDUCTION_NEAR * rho_c2[i];
-}
-
-/* rho cv = d(rho e)/dT; what is none is as good as none. */
-static BULLA_KERNEL void conduction_quotient(size_t n, const double *restrict p, const double *restrict higher,
-                                             const double *restrict T, const double *restrict T_higher,
-                                             const double *restrict de_dp, double *restrict c)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double ratio = de_dp[i] * (higher[i] - p[i]) / (T_higher[i] - T[i]);
-        c[i] = ratio > DBL_MIN ? ratio : DBL_MIN;
-    }
-}
-
-/* Temperature and rho cv of n <= CONDUCTION_BATCH states of a law. */
-static void conduction_capacity(const struct model_eos *eos, size_t n, const double *rho, const double *p, double *T,
-                                double *c)
-{
-    double e[CONDUCTION_BATCH], rho_c2[CONDUCTION_BATCH], higher[CONDUCTION_BATCH], T_higher[CONDUCTION_BATCH];
-    eos->law->state(eos->self, n, rho, p, e, rho_c2);
-    conduction_nudge(n, p, rho_c2, higher);
-    eos->law->temperature(eos->self, n, rho, p, T);
-    eos->law->temperature(eos->self, n, rho, higher, T_higher);
-    eos->law->derivatives(eos->self, n, rho, p, rho_c2, e);
-    conduction_quotient(n, p, higher, T, T_higher, rho_c2, c);
-}
-
 /* Capacities of the cells of a row. */
 static void conduction_weigh(const struct model *path, size_t n, const double *w, struct conduction *own)
 {
-    double T[CONDUCTION_BATCH];
+    double T[CONDUCTION_LAW_BATCH];
     for (unsigned l = 0; l < path->n_material; l++)
-        for (size_t from = 0; from < n; from += CONDUCTION_BATCH)
-            conduction_capacity(&path->eos[l], n - from < CONDUCTION_BATCH ? n - from : CONDUCTION_BATCH,
-                                w + (path->i_m + l) * FACE_ROOM + from, w + path->i_E * FACE_ROOM + from, T,
-                                own->c + l * FACE_ROOM + from);
+        for (size_t from = 0; from < n; from += CONDUCTION_LAW_BATCH)
+            conduction_law_capacity(&path->eos[l], n - from < CONDUCTION_LAW_BATCH ? n - from : CONDUCTION_LAW_BATCH,
+                                    w + (path->i_m + l) * FACE_ROOM + from, w + path->i_E * FACE_ROOM + from, T,
+                                    own->c + l * FACE_ROOM + from);
 }
 
 /* Temperatures and fractions of the cells beside faces, from the primitives as they were gathered. */
@@ -168,9 +117,9 @@ static void conduction_frame(const struct term_piece *piece)
         if (path->n_alpha) conduction_feel(n, w + (path->i_alpha + l) * FACE_ROOM, T, part);
         else conduction_feel_alone(n, T, part);
         own->traces = own->traces || conduction_has_traces(n, part);
-        if (conduction_has(path, l))
-            conduction_ask(path, l, n, T, w + path->i_E * FACE_ROOM, w + (path->i_m + l) * FACE_ROOM,
-                           own->k + l * FACE_ROOM);
+        if (conduction_law_is(path, l))
+            conduction_law_ask(path, l, n, T, w + path->i_E * FACE_ROOM, w + (path->i_m + l) * FACE_ROOM,
+                               own->k + l * FACE_ROOM);
     }
     if (own->traces) conduction_weigh(path, n, w, own);
 }
@@ -235,7 +184,7 @@ static void conduction_through(const struct conduction_piece *at, unsigned l, un
 
 static bool conduction_joins(const struct model *path, unsigned l, unsigned m)
 {
-    return conduction_has(path, l) && conduction_has(path, m);
+    return conduction_law_is(path, l) && conduction_law_is(path, m);
 }
 
 /* What goes from each material to itself. Materials that do not conduct have their part of the face all the same. */
@@ -284,22 +233,27 @@ static void conduction_unlike(const struct term_piece *piece, const struct condu
         }
 }
 
-/* Does a piece end at the boundary of the domain, there where heat has no way through: where the layers behind are made of
- * waves? Mirrors and copies let nothing through by themselves. */
-static bool conduction_closed(const struct term_piece *piece, int side)
-{
-    const struct term_tile *tile = piece->tile;
-    int axis = piece->frame->axis, last = tile->level->extent[axis] - 1;
-    if (tile->tile->at[axis] != (side ? last : 0)) return false;
-    return scene_boundary_is(piece->model->scene, 2 * axis + side, SCENE_BOUNDARY_REFERS);
-}
-
-/* Takes the width of a face away: its channels pass nothing. */
-static void conduction_close_side(const struct term_piece *piece, int side, double *per_d)
+/* Mirrors and copies let no heat through by themselves. Behind other boundaries than inflows there are states of waves:
+ * the width of their faces is taken away. Walls may give heat of their own. */
+static void conduction_bound(const struct term_piece *piece, const struct conduction_piece *at, int side)
 {
     const struct frame *frame = piece->frame;
-    for (size_t o = 0; o < frame->outer; o++)
-        memset(per_d + face_at(frame, o, side ? frame->n : 0), 0, frame->inner * sizeof *per_d);
+    const struct scene *scene = piece->model->scene;
+    int face = 2 * frame->axis + side;
+    if (!conduction_wall_is_there(piece, side)) return;
+    for (size_t o = 0; o < frame->outer && scene_boundary_is(scene, face, SCENE_BOUNDARY_REFERS); o++)
+        memset(at->own->per_d + face_at(frame, o, side ? frame->n : 0), 0, frame->inner * sizeof *at->own->per_d);
+}
+
+static void conduction_walls(const struct term_piece *piece, const struct conduction_piece *at)
+{
+    struct conduction *own = at->own;
+    const struct conduction_wall_cells cells = {own->T, own->part, own->traces ? own->c : NULL, at->most};
+    for (int side = 0; side < 2; side++) {
+        int face = 2 * piece->frame->axis + side;
+        if (!scene_boundary_is_heated(piece->model->scene, face) || !conduction_wall_is_there(piece, side)) continue;
+        conduction_wall_add(piece, side, &cells, &own->fault);
+    }
 }
 
 static void conduction_faces(const struct term_piece *piece)
@@ -307,10 +261,18 @@ static void conduction_faces(const struct term_piece *piece)
     struct conduction *own = piece->own;
     const struct conduction_piece at = {own, piece->faces->faces.n, piece->frame->inner, conduction_most(piece->tile)};
     conduction_distances(piece, own);
-    for (int side = 0; side < 2; side++)
-        if (conduction_closed(piece, side)) conduction_close_side(piece, side, own->per_d);
+    for (int side = 0; side < 2; side++) conduction_bound(piece, &at, side);
     conduction_alike(piece, &at);
     conduction_unlike(piece, &at);
+    conduction_walls(piece, &at);
+}
+
+static int conduction_failure(const void *data, const char **ret_message, const char **ret_place)
+{
+    const struct conduction *own = data;
+    *ret_message = own->fault.message;
+    *ret_place = own->fault.place;
+    return own->fault.status;
 }
 
 /* Heat per own volume from heat per cell. */
@@ -326,11 +288,11 @@ static BULLA_KERNEL void conduction_own_volume(size_t n, const double *restrict 
 
 static void conduction_swell(const struct term_tile *tile, size_t from, size_t n)
 {
-    static const double none[CONDUCTION_BATCH];
+    static const double none[CONDUCTION_LAW_BATCH];
     const struct model *path = tile->model;
     const double *w = tile->w + from, *p = w + path->i_E * tile->n_cell;
     const double *power = tile->rates + terms_first(tile->terms, &conduction_term) * tile->n_cell + from;
-    double heat[CONDUCTION_BATCH], rho_e[CONDUCTION_BATCH], rho_c2[CONDUCTION_BATCH];
+    double heat[CONDUCTION_LAW_BATCH], rho_e[CONDUCTION_LAW_BATCH], rho_c2[CONDUCTION_LAW_BATCH];
     struct swell swell; /* large: filled as far as it is used */
     swell_begin(&swell, path, n);
     for (unsigned l = 0; l < path->n_material; l++) {
@@ -346,8 +308,9 @@ static void conduction_swell(const struct term_tile *tile, size_t from, size_t n
 static void conduction_cells(struct term_tile *tile)
 {
     if (!tile->model->kapila) return;
-    for (size_t from = 0; from < tile->n_cell; from += CONDUCTION_BATCH)
-        conduction_swell(tile, from, tile->n_cell - from < CONDUCTION_BATCH ? tile->n_cell - from : CONDUCTION_BATCH);
+    for (size_t from = 0; from < tile->n_cell; from += CONDUCTION_LAW_BATCH)
+        conduction_swell(tile, from,
+                         tile->n_cell - from < CONDUCTION_LAW_BATCH ? tile->n_cell - from : CONDUCTION_LAW_BATCH);
 }
 
 /* The largest diffusivity k_l/c_l of the materials that count. */
@@ -367,17 +330,17 @@ static BULLA_KERNEL void conduction_hurry(size_t n, double a, const double *rest
     for (size_t i = 0; i < n; i++) rate[i] += a * D[i];
 }
 
-/* The same of n <= CONDUCTION_BATCH cells with primitives w. */
+/* The same of n <= CONDUCTION_LAW_BATCH cells with primitives w. */
 static void conduction_swiftest(const struct model *path, size_t n, size_t stride, const double *w, double *D)
 {
-    double one[CONDUCTION_BATCH], T[CONDUCTION_BATCH], c[CONDUCTION_BATCH], k[CONDUCTION_BATCH];
+    double one[CONDUCTION_LAW_BATCH], T[CONDUCTION_LAW_BATCH], c[CONDUCTION_LAW_BATCH], k[CONDUCTION_LAW_BATCH];
     const double *p = w + path->i_E * stride;
     for (size_t i = 0; i < n; i++) one[i] = 1.0, D[i] = 0.0;
     for (unsigned l = 0; l < path->n_material; l++) {
         const double *rho = w + (path->i_m + l) * stride;
-        if (!conduction_has(path, l)) continue;
-        conduction_capacity(&path->eos[l], n, rho, p, T, c);
-        conduction_ask(path, l, n, T, p, rho, k);
+        if (!conduction_law_is(path, l)) continue;
+        conduction_law_capacity(&path->eos[l], n, rho, p, T, c);
+        conduction_law_ask(path, l, n, T, p, rho, k);
         conduction_diffuse(n, k, path->n_alpha ? w + (path->i_alpha + l) * stride : one, c, D);
     }
 }
@@ -385,14 +348,37 @@ static void conduction_swiftest(const struct model *path, size_t n, size_t strid
 static void conduction_pace(const struct term_pace *pace, double *rate)
 {
     const struct model *path = pace->model;
-    double factor = 0.0, D[CONDUCTION_BATCH];
+    double factor = 0.0, D[CONDUCTION_LAW_BATCH];
     for (int d = 0; d < path->dim; d++) factor += 1.0 / (pace->level->h[d] * pace->level->h[d]);
     factor *= CONDUCTION_PACE * path->scene->scheme.cfl; /* dt = cfl / rate */
-    for (size_t from = 0; from < pace->n_cell; from += CONDUCTION_BATCH) {
-        size_t n = pace->n_cell - from < CONDUCTION_BATCH ? pace->n_cell - from : CONDUCTION_BATCH;
+    for (size_t from = 0; from < pace->n_cell; from += CONDUCTION_LAW_BATCH) {
+        size_t n = pace->n_cell - from < CONDUCTION_LAW_BATCH ? pace->n_cell - from : CONDUCTION_LAW_BATCH;
         conduction_swiftest(path, n, pace->n_cell, pace->w + from, D);
         conduction_hurry(n, factor, D, rate + from);
     }
+}
+
+double conduction_step(double diffusivity, double sum)
+{
+    return 1.0 / (CONDUCTION_PACE * diffusivity * sum);
+}
+
+/* cp by the difference of the enthalpy over 1e-4 of the density. */
+struct conduction_facts conduction_facts(const struct model *model, unsigned l)
+{
+    const struct model_eos *eos = &model->eos[l];
+    struct conduction_facts facts = {0};
+    double p[2] = {101325.0, 101325.0}, T[2] = {298.15, 298.15}, rho[2], e[2], rho_c2[2], c[2];
+    if (!conduction_law_is(model, l)) return facts;
+    eos->law->density(eos->self, 1, p, T, rho);
+    rho[1] = 0.9999 * rho[0];
+    conduction_law_ask(model, l, 1, T, p, rho, &facts.k);
+    conduction_law_capacity(eos, 2, rho, p, T, c);
+    eos->law->state(eos->self, 2, rho, p, e, rho_c2);
+    facts.cp = ((e[1] + p[1]) / rho[1] - (e[0] + p[0]) / rho[0]) / (T[1] - T[0]);
+    facts.rho_cp = rho[0] * facts.cp;
+    facts.rho_cv = c[0];
+    return facts;
 }
 
 static void conduction_say(const struct scene *scene, struct text *text)
@@ -414,6 +400,7 @@ const struct term conduction_term = {
     .list = conduction_list,
     .open = conduction_open,
     .close = conduction_close,
+    .failure = conduction_failure,
     .frame = conduction_frame,
     .faces = conduction_faces,
     .cells = conduction_cells,

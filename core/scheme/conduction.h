@@ -19,4 +19,13 @@
 /* Owns n_alpha rows: the power that each material gets [W/m3 of the cell]. */
 extern const struct term conduction_term;
 
+/* How material l of a model conducts at 25 C and 1 atm; zeros if it does not. */
+struct conduction_facts {
+    double k, cp, rho_cp, rho_cv; /* [W/(m K), J/(kg K), J/(m3 K), J/(m3 K)] */
+};
+struct conduction_facts conduction_facts(const struct model *model, unsigned l);
+
+/* The time step that a diffusivity k/(rho cv) [m2/s] alone would ask for, on cells with this sum of 1/h^2 [s]. */
+double conduction_step(double diffusivity, double sum);
+
 #endif

@@ -160,7 +160,7 @@ static void edges_together(struct edges *edges, const struct model *model, const
     cells.i_rho = cells.n_alpha;
     cells.i_u = cells.i_rho + cells.n_rho;
     cells.i_p = cells.i_u + cells.n_u;
-    cells.i_stretch = cells.i_p + 1;
+    cells.i_stretch = model->n_active - model->n_stretch; /* behind plastic strains */
     model->reconstruction->all(model->reconstruction_self, &cells);
 }
 
@@ -244,7 +244,7 @@ static void edges_bound(const struct edges *edges, const struct model *model, co
     for (unsigned i = model->n_alpha; i < model->n_active; i++) {
         unsigned q = model->active[i];
         const double *w = edges_inside(edges, row, q), *upper = edges_upper(edges, row, q);
-        bool positive = q < model->i_u || (q == model->i_E && !model->elastic);
+        bool positive = q < model->i_u || (q == model->i_E && !model->elastic) || model_is_strain(model, q);
         edges_mark_value(n, positive ? EDGES_LEAST : 0.0, w - row->step, w, w + row->step, upper + n, upper,
                          edges->mark);
         if (edges_any(edges, n)) edges_replace(edges, model, row, q);

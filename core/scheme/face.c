@@ -94,6 +94,7 @@ struct face_work *face_new(const struct model *model)
     work->energy = work->momentum + model->n_velocity * FACE_ROOM;
     work->u = work->energy + FACE_ROOM;
     work->stretch = model->n_stretch ? face_row(model->n_stretch) : NULL;
+    work->strains = model->n_strain ? face_row(model->n_strain) : NULL;
     work->solid = model->n_stretch && model->n_alpha ? face_row(1) : NULL;
     work->heat_below = model->conducts && model->n_alpha ? face_row(2 * model->n_alpha) : NULL;
     work->heat_above = work->heat_below ? work->heat_below + model->n_alpha * FACE_ROOM : NULL;
@@ -132,6 +133,7 @@ void face_free(struct face_work *work)
                       own->origin,
                       own->strain,
                       work->stretch,
+                      work->strains,
                       work->solid,
                       work->rise[0],
                       work->rise[1]};
@@ -341,6 +343,7 @@ static void face_drag(struct face_work *work, size_t right)
     for (unsigned s = 0; s < model->n_solid; s++)
         row_add(n, work->m + model->solids[s].material * FACE_ROOM, own->term);
     face_stress_carry(model, n, right, own->state, own->term, work->stretch);
+    if (work->strains) face_stress_age(model, n, right, own->state, work->m, work->strains);
 }
 
 /* Mean of the two sides, added up. */

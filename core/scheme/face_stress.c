@@ -118,6 +118,18 @@ void face_stress_carry(const struct model *model, size_t n, size_t right, const 
     }
 }
 
+void face_stress_age(const struct model *model, size_t n, size_t right, const double *state, const double *m,
+                     double *out)
+{
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        unsigned q = model->solids[s].strain;
+        const double *edges = state + 2 * q * FACE_ROOM;
+        if (!q) continue;
+        face_stress_upwind(n, m + model->solids[s].material * FACE_ROOM, edges, edges + right,
+                           out + (q - model->i_strain) * FACE_ROOM);
+    }
+}
+
 const struct term face_stress_term = {
     .name = "traction",
     .owner = "core/scheme/face_stress.c",

@@ -135,3 +135,22 @@ void frame_gather(const struct frame_source *source, unsigned local, const struc
     }
     for (int side = 0; side < 2; side++) frame_side(source, local, frame, side, pitch, w);
 }
+
+void frame_place(const struct frame *frame, const struct mesh *mesh, const struct level *level, const struct tile *tile,
+                 int side, size_t c, double ret_x[3])
+{
+    size_t o = frame->outer_from + c / frame->inner, i = frame->inner_from + c % frame->inner;
+    size_t below = 1, at[3];
+    mesh_corner(mesh, level, tile, ret_x);
+    for (int d = 0; d < 3; d++) {
+        if (d == frame->axis) {
+            below = 1;
+            continue;
+        }
+        size_t index = d < frame->axis ? i : o;
+        at[d] = index / below % (size_t)mesh->n[d];
+        below *= (size_t)mesh->n[d];
+        ret_x[d] += d < mesh->dim ? ((double)at[d] + 0.5) * level->h[d] : 0.0;
+    }
+    ret_x[frame->axis] = side ? mesh->upper[frame->axis] : mesh->lower[frame->axis];
+}

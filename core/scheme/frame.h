@@ -50,6 +50,10 @@ struct frame frame_piece(const struct mesh *mesh, int axis, size_t index);
 void frame_gather(const struct frame_source *source, unsigned local, const struct frame *frame, size_t pitch,
                   double *w);
 
+/* Centre of face c (outer, then inner) of a piece at the domain's boundary, `side` of the frame's axis. */
+void frame_place(const struct frame *frame, const struct mesh *mesh, const struct level *level, const struct tile *tile,
+                 int side, size_t c, double ret_x[3]);
+
 /* Cells of a frame along its axis. */
 static inline size_t frame_layers(const struct frame *frame)
 {

@@ -41,7 +41,7 @@ struct operator
 
     bool (*wanted)(const struct model *path); /* has a path of a scene this operator? NULL: every path */
     bool moves;                               /* may it change what is uniform and at rest? Then no tile is skipped */
-    bool primitives;                          /* does it read w? */
+    bool (*reads)(const struct model *path);  /* does it read w there? NULL: no */
 
     void (*acts)(const struct operator_tile *tile);
     void (*say)(const struct scene *scene, struct text *text); /* what the scene asks of it, for the plan; or NULL */

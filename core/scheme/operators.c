@@ -2,10 +2,12 @@
 #include "scheme/operators.h"
 
 #include "phys/mix.h"
+#include "scheme/plastic.h"
 
 #include <assert.h>
 
 const struct operator* operators_all[OPERATORS_MOST + 1] = {
+    &plastic_operator, /* stresses beyond the strength of solids flow off */
     NULL,
 };
 
@@ -32,7 +34,7 @@ static struct mix_effort operators_act_when(const struct operators *operators, e
     struct mix_effort effort = {0};
     for (unsigned i = 0; i < operators->n[when]; i++) {
         const struct operator* operator= operators->at[when][i];
-        if (operator->primitives)
+        if (operator->reads && operator->reads(tile->model))
             mix_pressure_sum(&effort, mix_primitives(tile->model, tile->n_cell, tile->n_cell, tile->u, tile->w));
         operator->acts(tile);
     }

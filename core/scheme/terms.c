@@ -10,6 +10,7 @@
 #include "scheme/exchange.h"
 #include "scheme/face_stress.h"
 #include "scheme/fraction.h"
+#include "scheme/hardening.h"
 #include "scheme/hoop.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
@@ -20,6 +21,7 @@
 
 const struct term *const terms_all[] = {
     &convection_term,  /* conserved fields through the faces */
+    &hardening_term,   /* plastic strains travel with their solids */
     &hoop_term,        /* what stands against p / r and the hoop stress in curved geometry */
     &conduction_term,  /* heat from cell to cell and from material to material */
     &face_stress_term, /* one traction for the materials of a cell, in one dimension */

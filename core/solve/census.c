@@ -88,7 +88,8 @@ static bool census_rests_behind(const struct census *census, unsigned local, int
     const struct neighbour *neighbour = &level->neighbours[local][face];
     size_t n_cell = census->mesh->n_cell;
     if (neighbour->kind == NEIGHBOUR_BOUNDARY)
-        return scene_boundary_is(census->model->scene, face, SCENE_BOUNDARY_RESTS);
+        return scene_boundary_is(census->model->scene, face, SCENE_BOUNDARY_RESTS) &&
+               !scene_boundary_is_heated(census->model->scene, face);
     if (neighbour->kind != NEIGHBOUR_LOCAL) return false;
     const struct census_tile *other = &census->tiles[neighbour->index];
     if (!other->still || other->present != census->tiles[local].present) return false;

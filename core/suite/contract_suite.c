@@ -4,6 +4,7 @@
 #include "suite/contract_constitutive.h"
 #include "suite/contract_eos.h"
 #include "suite/contract_conductivity.h"
+#include "suite/contract_inelastic.h"
 #include "suite/contract_limiter.h"
 #include "suite/contract_reconstruction.h"
 #include "suite/contract_riemann.h"
@@ -19,6 +20,7 @@ static const struct {
 } contract_suite_table[] = {{"conductivity", contract_conductivity_run, contract_conductivity_probe},
                             {"constitutive", contract_constitutive_run, contract_constitutive_probe},
                             {"eos", contract_eos_run, contract_eos_probe},
+                            {"inelastic", contract_inelastic_run, contract_inelastic_probe},
                             {"limiter", contract_limiter_run, contract_limiter_probe},
                             {"reconstruction", contract_reconstruction_run, contract_reconstruction_probe},
                             {"riemann", contract_riemann_run, contract_riemann_probe},

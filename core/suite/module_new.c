@@ -9,6 +9,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/system.h"
 #include "base/text.h"
 #include "plug/registry.h"
 #include "suite/contract_suite.h"
@@ -82,9 +83,8 @@ static int module_new_name(const char *word, struct module_plan *plan)
 static int module_new_places(struct module_plan *plan)
 {
     char program[4096];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length < 0) return status_fail(STATUS_RUN, "cannot find the program's own path: %s", strerror(errno));
-    program[length] = '\0';
+    if (!*system_program()) return status_fail(STATUS_RUN, "cannot find the program's own path");
+    snprintf(program, sizeof program, "%s", system_program());
     plan->program = mem_text(program);
     *strrchr(program, '/') = '\0';
     char *beside = mem_print("%s/../include", program), *header = mem_print("%s/bulla/module.h", beside);

@@ -1,6 +1,7 @@
 /* main.c - where the drawing program starts: one command, the exit code. */
 #include "base/comm.h"
 #include "base/status.h"
+#include "base/system.h"
 #include "io/h5.h"
 #include "view/plot.h"
 #include "view/plot_option.h"
@@ -22,6 +23,7 @@ static int main_command(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    system_begin(argv[0]);
     h5_begin();
     comm_init(&argc, &argv);
     int code = main_command(argc, argv);

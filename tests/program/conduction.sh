@@ -51,3 +51,34 @@ grep -q '^  conduction .*water constant, air constant .*core/scheme/conduction.c
 "$BULLA" run hot.yaml -o cold --set materials.water.conductivity=0 --set materials.air.conductivity=0 --quiet
 awk -F, 'FNR == 1 { for (i = 1; i <= NF; i++) if ($i == "p") c = i } { last[FILENAME] = $c }
     END { exit !(last["ranks-1/history.csv"] < last["cold/history.csv"] - 1) }' ranks-1/history.csv cold/history.csv
+
+# What is wrong or doubtful is said with its line.
+said() { # WORDS ARGS...
+    words=$1
+    shift
+    "$BULLA" check hot.yaml "$@" >out 2>err || true
+    grep -q "$words" err || { echo "not said: $words"; cat out err; exit 1; }
+}
+said "heat spreads 1.6 times as fast"
+said "'water' conducts heat, but its law stiffened-gas has no temperatures" \
+    --set 'materials.water.eos={type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}'
+said "with conduction volume must move with heat, which 'allaire' does not" --set scheme.closure=allaire
+said "temperatures of interfaces come out wrong with 'fast'" --set scheme.exchange=fast
+said "no material conducts heat, so the wall gives none" --set 'domain.boundaries.x-={type: reflecting, temperature: 300 K}' \
+    --set 'materials.water={eos: {type: stiffened-gas, preset: sg44}}' --set 'materials.air={eos: {type: ideal-gas, gamma: 1.4}}'
+said "a wall has a temperature or gives a flux of heat, not both" \
+    --set 'domain.boundaries.x-={type: reflecting, temperature: 300 K, heat-flux: 1 W/m2}'
+said "is outside 0 to" --set materials.water.conductivity=-1
+"$BULLA" check hot.yaml >out 2>err
+grep -q 'conducts 26.2 mW/m/K at 25 C and 1 atm, cp 1005 J/kg/K: diffusivity 2.2' out || { cat out; exit 1; }
+
+# Walls: of a temperature that a script gives; a script that fails says where.
+"$BULLA" run hot.yaml -o warm --set 'domain.boundaries.y-={type: no-slip, temperature: "= 300 + 1e10 * t"}' --set 'expect=[]' --quiet
+"$BULLA" run hot.yaml -o same --set 'domain.boundaries.y-={type: no-slip, temperature: "= 300 + 1e10 * t"}' --set 'expect=[]' -n 2 --quiet
+cmp warm/history.csv same/history.csv
+if cmp -s warm/history.csv ranks-1/history.csv; then echo "the wall does nothing"; exit 1; fi
+code=0
+"$BULLA" run hot.yaml -o broken --set 'domain.boundaries.y-={type: no-slip, temperature: "= t > 1e-10 and nil + 1 or 300"}' \
+    --set 'expect=[]' --quiet 2>err || code=$?
+[ "$code" = 3 ] || [ "$code" = 2 ] || { echo "code $code"; cat err; exit 1; }
+grep -q 'heat of the wall at' err || { cat err; exit 1; }

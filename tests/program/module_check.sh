@@ -30,6 +30,8 @@ count=0
 for file in "$BULLA_BUILD"/lib/bulla/modules/*.so "$BULLA_BUILD"/tests/plugin/*.so "$BULLA_BUILD"/tests/skeleton/*.so; do
     case ${file##*/} in
         eos-table.so) judge 0 "$file" --set file=states.csv ;;
+        inelastic-von-mises.so) judge 0 "$file" --set 'yield=300 MPa' --set 'hardening=500 MPa' --set exponent=0.3 ;;
+        inelastic-power-law.so) judge 0 "$file" --set 'yield=300 MPa' --set reference-rate=1e5 --set sensitivity=0.1 ;;
         *) judge 0 "$file" ;;
     esac
     grep -q '^pass: all [0-9]* checks hold' out || fail "$file: no verdict"

@@ -1,4 +1,4 @@
-# python/bulla.py: the recipes of docs/python.md as they stand there, and their numbers against the program's own, in 1D, 2D
+# packaging/python/bulla.py: the recipes of docs/python.md as they stand there, and their numbers against the program's own, in 1D, 2D
 # with levels, axisymmetric, spherical and 3D scenes; wrong names and folders are refused; Octave reads a snapshot.
 set -eu
 python3=/usr/bin/python3
@@ -6,7 +6,7 @@ python3=/usr/bin/python3
     echo "skipped: no python3-numpy or python3-h5py"
     exit 77
 }
-export PYTHONPATH="$BULLA_SOURCE/python" PYTHONDONTWRITEBYTECODE=1
+export PYTHONPATH="$BULLA_SOURCE/packaging/python" PYTHONDONTWRITEBYTECODE=1
 "$BULLA" run "$BULLA_SOURCE/tests/data/python/gallery.yaml" --quiet
 "$BULLA" sweep "$BULLA_SOURCE/tests/data/python/gallery.yaml" --value 'min(V)/first(V)' --quiet >/dev/null
 

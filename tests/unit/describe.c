@@ -23,13 +23,14 @@ static void test_all(void **state)
     describe_all(&text);
     assert_int_equal(strncmp(text.at, "conductivity\n  constant", 23), 0);
     assert_says(&text, "\neos\n  helmholtz-air");
-    assert_says(&text, "\nlimiter\n  koren          1.0    Koren: the parabola");
+    assert_says(&text, "\ninelastic\n");
+    assert_says(&text, "\nlimiter\n  koren             1.0    Koren: the parabola");
     assert_says(&text, "\nreconstruction\n  muscl ");
     assert_says(&text, "\nriemann\n  hll ");
     assert_says(&text, "\nviscosity\n  ");
     size_t lines = 0;
     for (const char *at = text.at; *at; at++) lines += *at == '\n';
-    assert_int_equal(lines, registry_count() + 7 + 6); /* heads of seven kinds, six blank lines */
+    assert_int_equal(lines, registry_count() + 8 + 7); /* heads of eight kinds, seven blank lines */
     text_done(&text);
 }
 

@@ -35,6 +35,12 @@ static void reach(const struct operator_tile *tile)
     reached[calls++ % 8] = tile->dt;
 }
 
+static bool every(const struct model *path)
+{
+    (void)path;
+    return true;
+}
+
 /* Heats by what the primitives say: a thousandth of the pressure, per step. */
 static void heat(const struct operator_tile *tile)
 {
@@ -53,7 +59,7 @@ static const struct operator heat_operator = {.name = "heat",
                                               .equation = "E += p/1000",
                                               .when = OPERATOR_STEP,
                                               .moves = true,
-                                              .primitives = true,
+                                              .reads = every,
                                               .acts = heat};
 
 /* Adds to the list; both may be NULL. */

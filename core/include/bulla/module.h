@@ -99,7 +99,7 @@ struct bulla_host {
 
 struct bulla_module {
     uint32_t magic, abi, size; /* BULLA_MAGIC, BULLA_ABI, sizeof(struct bulla_module) */
-    const char *kind; /* "conductivity", "constitutive", "eos", "limiter", "reconstruction", "riemann", "viscosity" */
+    const char *kind; /* "eos", "limiter", ...: one of those that docs/modules.md lists */
     const char *name; /* the name used in case files, lower case with hyphens */
     const char *version;                /* of the module, e.g. "1.0" */
     const char *doc;                    /* one or two sentences: what it is and when to use it */
