@@ -44,35 +44,95 @@ static BULLA_KERNEL void divergence_curved(const struct divergence_lines *lines,
     }
 }
 
+/* A force at faces, half of it to the cell on either side: rate += a (upper + lower) */
+static BULLA_KERNEL void divergence_mean(const struct divergence_lines *lines, double a, const double *lower,
+                                         const double *upper, double *rate)
+{
+    size_t n = lines->n;
+    for (size_t k = 0; k < lines->count; k++) {
+        const double *restrict below = lower + k * lines->face, *restrict above = upper + k * lines->face;
+        double *restrict row = rate + k * lines->cell;
+#pragma omp simd
+        for (size_t i = 0; i < n; i++) {
+            double low = below[i], up = above[i], old = row[i];
+            row[i] = old + a * (up + low);
+        }
+    }
+}
+
+/* The same along axis 0 in curved coordinates: rate += (A+ F+ + A- F-) / 2V. */
+static BULLA_KERNEL void divergence_mean_curved(const struct divergence_lines *lines, const struct metric *metric,
+                                                const double *force, double *rate)
+{
+    const double *restrict area = metric->area, *restrict volume = metric->volume;
+    size_t n = lines->n;
+    for (size_t k = 0; k < lines->count; k++) {
+        const double *restrict at = force + k * lines->face;
+        double *restrict row = rate + k * lines->cell;
+#pragma omp simd
+        for (size_t i = 0; i < n; i++) {
+            double low = at[i], up = at[i + 1], old = row[i];
+            row[i] = old + 0.5 * (area[i + 1] * up + area[i] * low) / volume[i];
+        }
+    }
+}
+
 /* For components that no cell value is taken off. */
 static const double divergence_zero[METRIC_CELLS];
 
-/* One flux through lines whose first face and cell these are. */
-static void divergence_flux(const struct term_tile *tile, const struct frame *frame, const struct term_flux *flux,
-                            const struct divergence_lines *lines, size_t face, size_t cell)
+/* Lines whose first face and cell are these. */
+struct divergence_span {
+    const struct divergence_lines *lines;
+    size_t face, next, cell; /* next: from a face to the upper one of its cell */
+    double per_h;            /* of the axis [1/m] */
+    bool curved;             /* axis 0 of a curved geometry */
+};
+
+static void divergence_force(const struct term_tile *tile, const struct divergence_span *span,
+                             const struct term_flux *flux)
 {
-    double *rate = tile->rates + flux->rate * tile->n_cell + cell;
-    const double *below = flux->below + face, *above = flux->above + face + frame->inner;
-    bool curved = tile->model->beta > 0 && frame->axis == 0 && flux->kind != TERM_DIFFERENCE;
+    double *rate = tile->rates + flux->rate * tile->n_cell + span->cell;
+    const double *force = flux->below + span->face;
+    if (span->curved) divergence_mean_curved(span->lines, tile->metric, force, rate);
+    else divergence_mean(span->lines, 0.5 * span->per_h, force, force + span->next, rate);
+}
+
+static void divergence_flux(const struct term_tile *tile, const struct divergence_span *span,
+                            const struct term_flux *flux)
+{
+    double *rate = tile->rates + flux->rate * tile->n_cell + span->cell;
+    const double *below = flux->below + span->face, *above = flux->above + span->face + span->next;
     bool balanced = flux->kind == TERM_BALANCED;
-    if (curved)
-        divergence_curved(lines, tile->metric, below, above, balanced ? tile->hoop + cell : divergence_zero,
-                          balanced ? lines->cell : 0, rate);
-    else divergence_rows(lines, 1.0 / tile->level->h[frame->axis], below, above, rate);
+    if (span->curved && flux->kind != TERM_DIFFERENCE)
+        divergence_curved(span->lines, tile->metric, below, above, balanced ? tile->hoop + span->cell : divergence_zero,
+                          balanced ? span->lines->cell : 0, rate);
+    else divergence_rows(span->lines, span->per_h, below, above, rate);
+}
+
+static void divergence_span(const struct term_tile *tile, int axis, const struct divergence_span *span)
+{
+    const struct terms *terms = tile->terms;
+    for (unsigned i = 0; i < terms->n_flux[axis]; i++) {
+        const struct term_flux *flux = &terms->flux[axis][i];
+        if (flux->kind == TERM_FORCE) divergence_force(tile, span, flux);
+        else if (flux->kind != TERM_TOLD) divergence_flux(tile, span, flux);
+    }
 }
 
 void divergence_add(const struct term_tile *tile, const struct frame *frame)
 {
-    const struct terms *terms = tile->terms;
     bool whole = frame->inner == frame->tile_inner; /* then the rows of an outer slice follow each other */
     const struct divergence_lines lines = {.count = frame->outer,
                                            .n = whole ? frame->n * frame->inner : frame->inner,
                                            .face = frame_layers(frame) * frame->inner,
                                            .cell = frame->n * frame->tile_inner};
-    for (size_t row = 0; row < (whole ? 1 : frame->n); row++)
-        for (unsigned i = 0; i < terms->n_flux[frame->axis]; i++) {
-            const struct term_flux *flux = &terms->flux[frame->axis][i];
-            if (flux->kind != TERM_TOLD)
-                divergence_flux(tile, frame, flux, &lines, face_at(frame, 0, row), frame_tile_at(frame, 0, row));
-        }
+    struct divergence_span span = {.lines = &lines,
+                                   .next = frame->inner,
+                                   .per_h = 1.0 / tile->level->h[frame->axis],
+                                   .curved = tile->model->beta > 0 && frame->axis == 0};
+    for (size_t row = 0; row < (whole ? 1 : frame->n); row++) {
+        span.face = face_at(frame, 0, row);
+        span.cell = frame_tile_at(frame, 0, row);
+        divergence_span(tile, frame->axis, &span);
+    }
 }
