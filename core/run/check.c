@@ -11,6 +11,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "case/shape.h"
 #include "cli/human.h"
 #include "cli/scenes.h"
 #include "scheme/conduction.h"
@@ -43,6 +44,45 @@ static void check_print_sources(const struct scene *scene)
     source_text(scene, &text);
     if (text.at) printf("  %-12s %s\n", "sources", text.at);
     text_done(&text);
+}
+
+/* Last layer up to `index` that is all of a material and has a number for pressure; -1: none. */
+static int check_layer(const struct scene *scene, int index, unsigned material)
+{
+    for (; index >= 0; index--) {
+        const struct scene_layer *layer = &scene->layers[index];
+        bool whole = layer->has_material && layer->fractions && layer->fractions[material] == 1.0;
+        if (whole && layer->pressure.given && !layer->pressure.script) return index;
+    }
+    return -1;
+}
+
+/* What surface tension asks of the pressure in a sphere, against what it has. */
+static void check_print_jump(const struct scene *scene, int index, unsigned inside, unsigned outside, double sigma)
+{
+    const struct scene_layer *layer = &scene->layers[index];
+    int below = check_layer(scene, index - 1, outside);
+    char jump[HUMAN_ROOM], given[HUMAN_ROOM];
+    if (check_layer(scene, index, inside) != index || below < 0) return;
+    if (!layer->shape || layer->shape->type != SHAPE_SPHERE) return;
+    double asked = (double)scene->domain.geometry * sigma / layer->shape->radius;
+    printf("  %-12s asks for %s more in the sphere of initial[%d], which begins with %s more\n", "",
+           human_si(asked, "Pa", jump), index,
+           human_si(layer->pressure.number - scene->layers[below].pressure.number, "Pa", given));
+}
+
+static void check_print_tension(const struct scene *scene)
+{
+    for (unsigned k = 0; k < scene->n_tension; k++) {
+        const struct scene_tension *pair = &scene->tension[k];
+        char sigma[HUMAN_ROOM];
+        printf("  %-12s %s+%s %s\n", k ? "" : "tension", scene->material[pair->one].name,
+               scene->material[pair->other].name, human_si(pair->sigma, "N/m", sigma));
+        for (int i = 0; i < (int)scene->n_layer; i++) {
+            check_print_jump(scene, i, pair->one, pair->other, pair->sigma);
+            check_print_jump(scene, i, pair->other, pair->one, pair->sigma);
+        }
+    }
 }
 
 static void check_print_module(const char *what, const struct instance *instance)
@@ -261,6 +301,7 @@ static void check_print(const struct scene *scene, const struct model *model, co
     check_print_module("scheme", &scene->scheme.reconstruction);
     check_print_module("limiter", &scene->scheme.limiter);
     check_print_sources(scene);
+    check_print_tension(scene);
     if (scene->n_material > 1) check_print_module("interface", &scene->scheme.interface_limiter);
     double bytes = SCENES_BESIDE * scenes_bytes(scene, mesh->all);
     printf("  %-12s about %s", "memory", human_bytes(bytes, text));

@@ -31,6 +31,8 @@ tail -1 1/out/history.csv >last.one
 tail -1 parts/history.csv >last.parts
 cmp last.one last.parts || fail "results depend on restarts" last.one last.parts
 "$BULLA" plan bubble.yaml | grep -q 'tension .*: water+air 0.0728 N/m' || fail "the plan says nothing of it"
+"$BULLA" check bubble.yaml >said 2>&1 || fail "check" said
+grep -q 'asks for 36.4 kPa more in the sphere of initial\[1\], which begins with 101.3 kPa more' said || fail "the jump" said
 "$BULLA" run bubble.yaml -o none --set surface-tension=null --max-steps 1 >said 2>&1 || fail "without" said
 if "$BULLA" plan bubble.yaml --set surface-tension=null | grep -q tension; then fail "the plan speaks of what is not there"; fi
 

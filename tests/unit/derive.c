@@ -213,7 +213,7 @@ static void test_names(void **state)
         bool vector = !strcmp(*name, "velocity") || !strcmp(*name, "vorticity") || !strcmp(*name, "heat_flux");
         assert_int_equal(field.components, vector ? 3 : 1);
     }
-    assert_int_equal(count, 17 + 5 * 3);
+    assert_int_equal(count, 18 + 5 * 3);
     flow_stop(&flow);
 }
 
