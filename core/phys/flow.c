@@ -203,8 +203,7 @@ static ELASTIC_BODY struct elastic_tensor flow_root_space(struct elastic_tensor 
                                 per * V.xy,
                                 per * V.xz,
                                 per * V.yz};
-    for (int round = 0; round < 4; round++) V = flow_root_step(V, B);
-    return V;
+    return flow_root_step(flow_root_step(flow_root_step(flow_root_step(V, B), B), B), B);
 }
 
 #define FLOW_CLOSE(nv)                                                                                           \
