@@ -7,7 +7,7 @@ apt-get update -qq
 case $1 in
 build)
     apt-get install -y -qq --no-install-recommends $(sed -n '/^packages="/,/"$/p' "$2/bulla" | tr -d '"' | sed 's/^packages=//') \
-        dpkg-dev git ca-certificates >/dev/null
+        dpkg-dev file git ca-certificates >/dev/null
     git config --global --add safe.directory "$2" # the commit goes into provenance.json
     cmake -S "$2" --preset release -B /bulla-build -DBULLA_TESTS=OFF
     cmake --build /bulla-build
