@@ -33,6 +33,11 @@ static const struct key scene_initial_rows[] = {
      .type = KEYS_SECTION,
      .section = &scene_stretch_keys,
      .doc = "Initial stretch of a solid: [xx, yy, zz] or a map of components."},
+    {.name = "balance",
+     .type = KEYS_CHOICE,
+     .choices = "tension",
+     .doc = "`tension`: the pressure is the one outside of a sphere, and sigma times the curvature (2/R of a ball, 1/R "
+            "around an axis) is added to it."},
     {.name = "lua",
      .type = KEYS_TEXT,
      .doc = "File or block: function(x, y, z) that returns a table of named fields, {pressure = ..., alpha = {...}}."},
@@ -59,7 +64,7 @@ static const struct key scene_initial_rows[] = {
     "{'required': ['ring']}, {'required': ['polygon']}, {'required': ['complement']}, {'required': ['union']},"        \
     "{'required': ['intersection']}, {'required': ['cloud']}]},"                                                       \
     " 'else': {'properties': {'material': false, 'fractions': false, 'density': false, 'temperature': false,"          \
-    " 'pressure': false, 'velocity': false, 'stretch': false}}},"                                                      \
+    " 'pressure': false, 'velocity': false, 'stretch': false, 'balance': false}}},"                                    \
     "{'if': {'not': {'required': ['lua']}, 'anyOf': [{'required': ['material']}, {'required': ['fractions']}]},"       \
     " 'then': {'anyOf': [{'required': ['density', 'pressure']}, {'required': ['temperature', 'pressure']},"            \
     " {'required': ['density', 'temperature']}]}},"                                                                    \
@@ -142,6 +147,7 @@ static void scene_initial_lua(struct draft *draft, struct scene_layer *layer, co
     layer->script = scene_file_lua(draft, keys_at(map, "lua"));
     for (const struct key *row = scene_state_rows; row->name; row++) scene_initial_lua_alone(draft, map, row->name);
     scene_initial_lua_alone(draft, map, "stretch");
+    scene_initial_lua_alone(draft, map, "balance");
 }
 
 /* A layer out of a checkpoint is where that run was, and says all. */
@@ -242,7 +248,10 @@ void scene_initial(struct draft *draft)
     unsigned before = diag_errors(draft->keys.diag);
     scene->layers = mem_new(initial->count + 1, sizeof *scene->layers);
     scene->n_layer = initial->count;
-    for (unsigned i = 0; i < initial->count; i++) scene_initial_layer(draft, &scene->layers[i], initial->list[i].map);
+    for (unsigned i = 0; i < initial->count; i++) {
+        scene_initial_layer(draft, &scene->layers[i], initial->list[i].map);
+        scene_tension_balance(draft, keys_at(initial->list[i].map, "balance"), i);
+    }
     if (initial->given && scene->domain.dim > 0 && diag_errors(draft->keys.diag) == before)
         scene_initial_cover(draft, initial);
 }

@@ -36,7 +36,9 @@ struct term_tile {
     const double *u; /* conserved fields that the step starts from */
     const double *w; /* primitives at which the rates are taken */
     double *rates;
-    const double *hoop; /* what the radial momentum is taken relative to in curved geometry (hoop.h): a row */
+    const double *around; /* model->around of the tile and one layer of cells around it (scheme/patch.h); NULL: no term
+                             of the scene looks there */
+    const double *hoop;   /* what the radial momentum is taken relative to in curved geometry (hoop.h): a row */
     double *K,
         *rho_c2; /* Kapila closure: K_l of mix_closure, rho_l c_l^2 of mix_stiffness_everywhere; [n_material] rows */
     void *own;   /* of the term that is called: what its `open` gave */
@@ -46,7 +48,8 @@ struct term_tile {
 struct term_piece {
     const struct terms *terms;
     const struct model *model;
-    const struct term_tile *tile; /* the tile it is a piece of; a replay of a dump knows no neighbours */
+    const struct term_tile
+        *tile; /* the tile it is a piece of; a replay of a dump knows no neighbours but tile->around */
     const struct frame *frame;
     struct face_work *faces;
     void *own; /* of the term that is called */
@@ -57,8 +60,15 @@ enum term_kind {
     TERM_DIVERGENCE, /* -(A+ F+ - A- F-)/V */
     TERM_BALANCED,   /* the same of F - q, q the hoop row of the cell, where faces are curved */
     TERM_DIFFERENCE, /* -(F+ - F-)/h, in any geometry */
+    TERM_FORCE,      /* (A+ F+ + A- F-)/(2V): no flux, a force at the faces that acts on both sides */
     TERM_TOLD        /* not at all: dumps tell it */
 };
+
+/* Does a row go through the faces, so that other levels count with it? */
+static inline bool term_is_flux(enum term_kind kind)
+{
+    return kind != TERM_TOLD && kind != TERM_FORCE;
+}
 
 /* Values at the faces across one axis. `below` is what the cell above a face sees at its lower face, `above` what the cell
  * below sees at its upper one: the same row, but for velocities along a face where the sides slip. */
