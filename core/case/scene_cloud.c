@@ -34,13 +34,13 @@ static const struct key scene_cloud_rows[] = {
      .min = KEYS_POSITIVE,
      .max = 0.6,
      .doc = "Instead of a number: the part of the region's volume that they take, as near as whole spheres come."},
-    {.name = "radius",
+    {.name = "radii",
      .type = KEYS_NUMBER,
      .unit = "m",
      .min = KEYS_POSITIVE,
      .max = KEYS_MOST,
      .required = true,
-     .doc = "Their radius; of a distribution the median."},
+     .doc = "Their radii; of a distribution the median."},
     {.name = "spread",
      .type = KEYS_NUMBER,
      .unit = "1",
@@ -108,7 +108,7 @@ static double scene_cloud_normal(struct scene_cloud *cloud)
 
 static double scene_cloud_radius(struct scene_cloud *cloud)
 {
-    double median = keys_at(cloud->map, "radius")->number, spread = keys_at(cloud->map, "spread")->number;
+    double median = keys_at(cloud->map, "radii")->number, spread = keys_at(cloud->map, "spread")->number;
     const struct keys_value *largest = keys_at(cloud->map, "largest");
     double least = keys_at(cloud->map, "smallest")->number, most = largest->given ? largest->number : 4.0 * median;
     double radius = median;
@@ -252,7 +252,7 @@ static bool scene_cloud_check(struct draft *draft, const struct keys_value *valu
         keys_error(&draft->keys, number->node ? part : value, "one of 'number' and 'void-fraction' is needed");
     else if (most->given && most->number < least->number)
         keys_error(&draft->keys, most, "%g m is less than 'smallest', %g m", most->number, least->number);
-    else return value->given && (number->given || part->given) && keys_at(value->map, "radius")->given;
+    else return value->given && (number->given || part->given) && keys_at(value->map, "radii")->given;
     return false;
 }
 

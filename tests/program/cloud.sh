@@ -8,7 +8,7 @@ domain: {lower: [0, 0, 0], upper: [1 mm, 1 mm, 1 mm], cells: [64, 64, 64], bound
 materials: {water: {eos: {type: stiffened-gas, preset: sg44}}, air: {eos: {type: ideal-gas, preset: air}}}
 initial:
   - {everywhere: true, material: water, density: 998, pressure: 1 bar}
-  - cloud: {within: {sphere: {center: [0.5 mm, 0.5 mm, 0.4 mm], radius: 0.35 mm}}, number: 40, radius: 40 um, spread: 0.2, largest: 70 um, gap: 5 um, seed: 7}
+  - cloud: {within: {sphere: {center: [0.5 mm, 0.5 mm, 0.4 mm], radius: 0.35 mm}}, number: 40, radii: 40 um, spread: 0.2, largest: 70 um, gap: 5 um, seed: 7}
     material: air
     density: 1.2
     pressure: 1 bar
@@ -41,7 +41,7 @@ awk -F, 'FILENAME == "one" { V += 4 / 3 * 3.14159265358979 * $4^3 } FNR == 2 && 
 cmp out/history.csv resolved/history.csv
 
 # By void fraction, in the plane.
-sed 's/lower: \[0, 0, 0\], upper: \[1 mm, 1 mm, 1 mm\], cells: \[64, 64, 64\]/lower: [0, 0], upper: [1 mm, 1 mm], cells: [256, 256]/; s/, z-: outflow, z+: outflow//; s/cloud: .*/cloud: {within: {box: {lower: [0, 0.2 mm], upper: [1 mm, 0.8 mm]}}, void-fraction: 0.1, radius: 15 um}/' cloud.yaml >plane.yaml
+sed 's/lower: \[0, 0, 0\], upper: \[1 mm, 1 mm, 1 mm\], cells: \[64, 64, 64\]/lower: [0, 0], upper: [1 mm, 1 mm], cells: [256, 256]/; s/, z-: outflow, z+: outflow//; s/cloud: .*/cloud: {within: {box: {lower: [0, 0.2 mm], upper: [1 mm, 0.8 mm]}}, void-fraction: 0.1, radii: 15 um}/' cloud.yaml >plane.yaml
 "$BULLA" run plane.yaml -o plane --quiet
 awk -F, 'NR == 2 { d = $4 / 0.6e-6; if (d < 0.0993 || d > 0.1007) { print d; exit 1 } }' plane/history.csv
 
@@ -49,8 +49,8 @@ refused() { # WORDS CASE SETTING
     if "$BULLA" check "$2" --set "$3" >said 2>&1; then cat said; exit 1; fi
     grep -q -e "$1" said || { cat said; exit 1; }
 }
-refused 'only [0-9]* of 900 spheres fit' cloud.yaml 'initial[1].cloud={within: {sphere: {center: [0.5 mm, 0.5 mm, 0.4 mm], radius: 0.35 mm}}, number: 900, radius: 40 um}'
-refused 'only 0 of 1 spheres fit' cloud.yaml 'initial[1].cloud={within: {box: {lower: [0, 0, 0], upper: [10 um, 10 um, 10 um]}}, number: 1, radius: 40 um}'
+refused 'only [0-9]* of 900 spheres fit' cloud.yaml 'initial[1].cloud={within: {sphere: {center: [0.5 mm, 0.5 mm, 0.4 mm], radius: 0.35 mm}}, number: 900, radii: 40 um}'
+refused 'only 0 of 1 spheres fit' cloud.yaml 'initial[1].cloud={within: {box: {lower: [0, 0, 0], upper: [10 um, 10 um, 10 um]}}, number: 1, radii: 40 um}'
 refused "one of 'number' and 'void-fraction'" cloud.yaml 'initial[1].cloud.void-fraction=0.1'
 refused 'one sphere is more than that' plane.yaml 'initial[1].cloud.void-fraction=1e-9'
 refused 'is less than .smallest' cloud.yaml 'initial[1].cloud.smallest=80 um'
