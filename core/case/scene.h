@@ -51,9 +51,10 @@ struct scene_boundary {
     unsigned n_series;
     const struct script *script;
     /* inflow: a fixed state */
-    double *fractions;           /* [n_material] */
-    struct scene_value *density; /* [n_material] per material */
-    struct scene_value velocity[SCENE_AXES];
+    double *fractions;                       /* [n_material] */
+    struct scene_value *density;             /* [n_material] per material */
+    struct scene_value velocity[SCENE_AXES]; /* no-slip: of the wall; given if it moves */
+    bool moves;                              /* a no-slip wall with a velocity */
     /* walls: their temperature [K], or the heat that they give to what is inside [W/m2]; neither: none passes */
     struct scene_value temperature, heat_flux;
 };

@@ -222,6 +222,27 @@ static const char scene_boundary_state_rules[] =
     "{'required': ['density', 'pressure', 'velocity'], 'properties': {'temperature': false}, "
     "'anyOf': [{'required': ['material']}, {'required': ['fractions']}]}";
 
+/* One that fluids stick to may slide along itself. */
+static const struct key scene_boundary_sticky[] = {
+    {.name = "velocity",
+     .type = KEYS_VALUE,
+     .many = KEYS_LIST,
+     .unit = "m/s",
+     .doc = "Velocity of the wall, along itself; it rests if not given. Viscous fluids are dragged along."},
+    {0},
+};
+
+static const struct keys_section scene_boundary_any_wall = {.name = "wall", .keys = scene_boundary_wall};
+
+static void scene_boundary_read_sticky(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+{
+    const struct keys_value *velocity = keys_at(map, "velocity");
+    scene_boundary_read_wall(draft, boundary, map);
+    if (!velocity->given) return;
+    scene_state_vector(draft, velocity, boundary->velocity);
+    boundary->moves = true;
+}
+
 struct scene_boundary_row {
     struct keys_section section;
     void (*read)(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map); /* or NULL */
@@ -232,6 +253,8 @@ struct scene_boundary_row {
 #define SCENE_BOUNDARY_NOTHING .read = NULL
 #define SCENE_BOUNDARY_WALL .section.keys = scene_boundary_wall, .read = scene_boundary_read_wall
 #define SCENE_BOUNDARY_FAR .section.keys = scene_boundary_far, .read = scene_boundary_read_far
+#define SCENE_BOUNDARY_STICKY \
+    .section.keys = scene_boundary_sticky, .section.base = &scene_boundary_any_wall, .read = scene_boundary_read_sticky
 #define SCENE_BOUNDARY_STATE \
     .section.keys = scene_state_rows, .section.rules = scene_boundary_state_rules, .read = scene_boundary_read_state
 #define SCENE_BOUNDARY_WAVE                                                                                        \
@@ -260,7 +283,10 @@ const struct keys_section scene_boundary_keys = {.name = "boundary",
 
 bool scene_boundary_is(const struct scene *scene, int face, unsigned traits)
 {
-    return (scene_boundary_types[scene->domain.boundary[face / 2][face % 2].type].traits & traits) == traits;
+    const struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
+    unsigned has = scene_boundary_types[boundary->type].traits;
+    if (boundary->moves) has &= ~(unsigned)SCENE_BOUNDARY_RESTS;
+    return (has & traits) == traits;
 }
 
 bool scene_boundary_is_heated(const struct scene *scene, int face)
@@ -302,6 +328,12 @@ static void scene_boundary_place(struct draft *draft, int axis, int side, const 
     }
     if (radial && scene_boundary_is(scene, face, SCENE_BOUNDARY_WRAPS))
         keys_error(&draft->keys, type, "the radius is not periodic");
+    const struct scene_boundary *boundary = &scene->domain.boundary[axis][side];
+    const struct scene_value *through = &boundary->velocity[axis];
+    if (!boundary->moves || (!through->script && through->number == 0.0)) return;
+    keys_error(&draft->keys, keys_at(map, "velocity"), "a wall moves along itself: its velocity along %c must be 0",
+               "xyz"[axis]);
+    diag_help(draft->keys.diag, "what flows through a face is an inflow");
 }
 
 /* Both faces of an axis are periodic, or none. */

@@ -28,7 +28,7 @@ enum scene_boundary_trait {
         SCENE_BOUNDARY_RESTS | SCENE_BOUNDARY_MIDDLE | SCENE_BOUNDARY_CENTRE)                                       \
     ROW(SYMMETRY, "symmetry", "Plane of symmetry.", NOTHING, slip, SCENE_BOUNDARY_RESTS | SCENE_BOUNDARY_MIDDLE)    \
     ROW(REFLECTING, "reflecting", "Rigid wall along which the fluid slips.", WALL, slip, SCENE_BOUNDARY_RESTS)      \
-    ROW(NO_SLIP, "no-slip", "Rigid wall at which the fluid rests.", WALL, no_slip, SCENE_BOUNDARY_RESTS)            \
+    ROW(NO_SLIP, "no-slip", "Rigid wall to which the fluid sticks.", STICKY, no_slip, SCENE_BOUNDARY_RESTS)         \
     ROW(OUTFLOW, "outflow", "Zero gradient.", NOTHING, copy, SCENE_BOUNDARY_RESTS | SCENE_BOUNDARY_OPEN)            \
     ROW(NONREFLECTING, "non-reflecting", "Outgoing waves leave, none comes in.", FAR, far,                          \
         SCENE_BOUNDARY_REFERS | SCENE_BOUNDARY_OPEN)                                                                \

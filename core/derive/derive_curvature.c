@@ -42,7 +42,7 @@ static struct patch_source derive_curvature_source(const struct model *model, co
     patch_state_rules(model->scene, false, source.rules);
     for (int face = 0; face < 2 * mesh->dim; face++)
         if (model->scene->domain.boundary[face / 2][face % 2].type == SCENE_INFLOW) source.rules[face] = PATCH_GIVEN;
-    const struct rim_form form = {model->n_alpha, CURVATURE_LAYERS, 1, patch_given(source.rules)};
+    const struct rim_form form = {model->n_alpha, CURVATURE_LAYERS, 1, patch_given(source.rules), NULL};
     source.rim = rim_of(mesh, (int)(level - mesh->levels), &form);
     return source;
 }

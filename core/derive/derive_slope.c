@@ -23,16 +23,11 @@ static void derive_slope_behind(void *data, unsigned local, const struct frame *
         bound_copy(NULL, local, frame, side, pitch, w + model->active[i] * pitch);
 }
 
-/* Central differences along an axis of a combination of primitives: `combine` makes one value per
- * frame cell out of the gathered primitives. grad: [n]. */
-static void derive_slope_gradient(const struct derive_view *tile, int axis,
-                                  double (*combine)(const struct model *, const double *w, size_t pitch, int which),
-                                  int which, double *grad)
+void derive_slope_gather(const struct derive_view *tile, const struct frame *frame, size_t pitch, double *w)
 {
-    const struct mesh *mesh = tile->mesh;
     const struct model *model = tile->model;
-    struct bound bound = {.model = model, .mesh = mesh, .level = tile->level, .t = tile->t};
-    const struct frame_source source = {.mesh = mesh,
+    struct bound bound = {.model = model, .mesh = tile->mesh, .level = tile->level, .t = tile->t};
+    const struct frame_source source = {.mesh = tile->mesh,
                                         .level = tile->level,
                                         .arrays = tile->level->w,
                                         .halo = tile->level->halo,
@@ -41,10 +36,21 @@ static void derive_slope_gradient(const struct derive_view *tile, int axis,
                                         .fields = model->active,
                                         .boundary = derive_slope_behind,
                                         .data = &bound};
+    frame_gather(&source, tile->local, frame, pitch, w);
+}
+
+/* Central differences along an axis of a combination of primitives: `combine` makes one value per
+ * frame cell out of the gathered primitives. grad: [n]. */
+static void derive_slope_gradient(const struct derive_view *tile, int axis,
+                                  double (*combine)(const struct model *, const double *w, size_t pitch, int which),
+                                  int which, double *grad)
+{
+    const struct mesh *mesh = tile->mesh;
+    const struct model *model = tile->model;
     double *w = mem_new((size_t)model->n_field * FRAME_CELLS, sizeof *w);
     for (size_t piece = 0; piece < frame_pieces(mesh, axis); piece++) {
         struct frame frame = frame_piece(mesh, axis, piece);
-        frame_gather(&source, tile->local, &frame, FRAME_CELLS, w);
+        derive_slope_gather(tile, &frame, FRAME_CELLS, w);
         for (size_t o = 0; o < frame.outer; o++)
             for (size_t i = 0; i < frame.n; i++)
                 for (size_t j = 0; j < frame.inner; j++) {

@@ -3,6 +3,11 @@
 #define DERIVE_SLOPE_H
 
 #include "derive/derive_view.h"
+#include "scheme/frame.h"
+
+/* Primitives of a piece of the tile and of the layers of neighbours, as the sweeps see them; boundaries that refer to the
+ * start copy. */
+void derive_slope_gather(const struct derive_view *tile, const struct frame *frame, size_t pitch, double *w);
 
 /* curl u [1/s], three components; in axisymmetric scenes the axes are (r, z) and the only component points along
  * theta, which is minus the third direction of the right-handed (r, z, -theta). */

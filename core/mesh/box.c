@@ -34,7 +34,7 @@ void box_copy(unsigned n, const struct box *box, const struct box_block *from, c
     size_t length = (size_t)(box->to[0] - box->from[0]);
     for (unsigned q = 0; q < n; q++)
         for (int k = box->from[2]; k < box->to[2]; k++) {
-            const double *source = from->data + q * from->pitch +
+            const double *source = from->data + (from->fields ? from->fields[q] : q) * from->pitch +
                                    box_at(from, box->from[0] + shift[0], box->from[1] + shift[1], k + shift[2]);
             double *target = to->data + q * to->pitch + box_at(to, box->from[0], box->from[1], k);
             for (int j = box->from[1]; j < box->to[1]; j++, source += from->size[0], target += to->size[0])

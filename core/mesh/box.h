@@ -13,11 +13,13 @@ struct box {
     int from[3], to[3];
 };
 
-/* Fields over a box of cells, x fastest; field q at data + q * pitch. */
+/* Fields over a box of cells, x fastest; field q at data + q * pitch, or, of a block with others between them, at data +
+ * fields[q] * pitch. */
 struct box_block {
     double *data;
     int from[3];
     size_t size[3], pitch;
+    const unsigned char *fields; /* NULL: all */
 };
 
 size_t box_cells(const struct box *box);
@@ -32,7 +34,7 @@ static inline size_t box_at(const struct box_block *block, int i, int j, int k)
            (size_t)(i - block->from[0]);
 }
 
-/* Copies the cells of a box (coordinates of `to`) of n fields; cell c comes from c + shift of `from`. */
+/* Copies the cells of a box (coordinates of `to`) of n fields; cell c comes from c + shift of `from`. `to` has all. */
 void box_copy(unsigned n, const struct box *box, const struct box_block *from, const int shift[3],
               const struct box_block *to);
 

@@ -110,10 +110,38 @@ static void level_mark(struct level *level, const struct level *finer)
     }
 }
 
+/* Place of the tile that lies behind edges or corners, `step` away along each axis; false: there is none. */
+static bool level_beyond(const struct mesh *mesh, const struct level *level, const struct tile *tile, const int step[3],
+                         int ret_at[3])
+{
+    for (int d = 0; d < 3; d++) {
+        int extent = level->extent[d], at = tile->at[d] + step[d];
+        if ((at < 0 || at >= extent) && !mesh->periodic[d]) return false;
+        ret_at[d] = (at + extent) % extent;
+    }
+    return true;
+}
+
+/* Are all tiles around a tile wholly covered, those across edges and corners too? */
+static bool level_surrounded(const struct mesh *mesh, const struct level *level, const struct tile *tile)
+{
+    static const int ways = 27;
+    for (int way = 0; way < ways; way++) {
+        const int step[3] = {way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1};
+        int at[3];
+        if ((mesh->dim < 3 && step[2]) || (mesh->dim < 2 && step[1])) continue;
+        if (!level_beyond(mesh, level, tile, step, at)) continue;
+        int other = level_find(level, morton_key(at));
+        if (other < 0 || level->tiles[other].covered != level_whole(mesh)) return false;
+    }
+    return true;
+}
+
 static bool level_hidden(const struct mesh *mesh, const struct level *level, const struct tile *tile)
 {
     unsigned char whole = level_whole(mesh);
     bool hidden = tile->covered == whole;
+    if (hidden && mesh->corners) return level_surrounded(mesh, level, tile);
     for (int face = 0; hidden && face < 2 * mesh->dim; face++) {
         int at[3];
         if (!level_step(mesh, level, tile, face, at)) continue;

@@ -139,6 +139,8 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
     mesh->n_face_u = n_alpha > 0;
     for (unsigned l = 0; l < scene->n_material; l++)
         if (scene->material[l].constitutive.module) mesh->n_face_u = (unsigned)scene->domain.n_velocity;
+    for (unsigned l = 0; l < scene->n_material; l++)
+        mesh->corners = mesh->corners || scene->material[l].viscosity.module;
     mesh->most_level = scene->mesh.levels;
     mesh_measure(mesh, scene, n);
     mesh->pool = pool_new(n_field * mesh->n_cell);

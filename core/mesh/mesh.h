@@ -31,8 +31,8 @@ struct tile {
     int rank;
     unsigned char covered;  /* bit o: octant o = ox + 2 oy + 4 oz lies under a tile of the next level */
     unsigned char unwanted; /* regrids in a row that found no use for the tile */
-    bool hidden;            /* wholly covered, and so are its face neighbours: nobody reads its cells between
-                               averages of the finer level, so they are not advanced */
+    bool hidden;            /* wholly covered, and so are its neighbours: nobody reads its cells between averages of the
+                               finer level, so they are not advanced */
 };
 
 /* What lies behind face 2 * axis + side of a local tile. */
@@ -72,6 +72,7 @@ struct mesh {
     unsigned n_alpha;  /* volume fractions among them (the first), for the sizes of registers */
     unsigned n_face_u; /* components of the face velocity that registers keep: all with a solid, the normal one with
                           fractions, else none */
+    bool corners;      /* a term looks across edges and corners: neighbours there count (level_cover) */
     unsigned n_kept;   /* rows that outputs keep per cell */
     int n_level;       /* levels in use: none of them is empty */
     int most_level;    /* finest level the case allows */

@@ -32,6 +32,26 @@ void metric_of_tile(const struct mesh *mesh, const struct level *level, const st
     }
 }
 
+double metric_centroid(int beta, double a, double b)
+{
+    if (beta == 0) return 0.5 * (a + b);
+    if (beta == 1) return (2.0 / 3.0) * (a * a + a * b + b * b) / (a + b);
+    return 0.75 * (a + b) * (a * a + b * b) / (a * a + a * b + b * b);
+}
+
+void metric_centroids(const struct mesh *mesh, const struct level *level, const struct tile *tile, double *ret)
+{
+    double h = level->h[0], lower = mesh->lower[0];
+    int n = mesh->n[0], first = tile->at[0] * n, all = level->extent[0] * n;
+    for (int i = -1; i <= n; i++) {
+        int cell = first + i, inside = cell < 0 ? -1 - cell : cell >= all ? 2 * all - 1 - cell : cell;
+        double a = lower + inside * h, b = lower + (inside + 1) * h, r = metric_centroid(mesh->beta, a, b);
+        if (cell < 0) r = 2.0 * lower - r;
+        if (cell >= all) r = 2.0 * (lower + all * h) - r;
+        ret[i + 1] = r;
+    }
+}
+
 void metric_volumes(const struct mesh *mesh, const struct level *level, const struct tile *tile, double *ret_volume)
 {
     struct metric metric;
@@ -41,13 +61,6 @@ void metric_volumes(const struct mesh *mesh, const struct level *level, const st
     size_t n0 = (size_t)mesh->n[0];
     for (size_t row = 0; row < mesh->n_cell; row += n0)
         for (size_t i = 0; i < n0; i++) ret_volume[row + i] = metric.volume[i] * depth;
-}
-
-double metric_centroid(int beta, double a, double b)
-{
-    if (beta == 0) return 0.5 * (a + b);
-    if (beta == 1) return (2.0 / 3.0) * (a * a + a * b + b * b) / (a + b);
-    return 0.75 * (a + b) * (a * a + b * b) / (a * a + a * b + b * b);
 }
 
 double metric_full(int beta)

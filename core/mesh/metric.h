@@ -22,11 +22,15 @@ struct metric {
 
 void metric_of_tile(const struct mesh *mesh, const struct level *level, const struct tile *tile, struct metric *ret);
 
+/* Where cell values stand along axis 0: ret[i + 1] of cell i from -1 to n, the middles of the volumes (the mean of r with
+ * the weight r^beta; cells behind a boundary mirror those inside). ret has METRIC_CELLS + 2 places. */
+void metric_centroids(const struct mesh *mesh, const struct level *level, const struct tile *tile, double *ret);
+
+/* The same of a cell between two radii. */
+double metric_centroid(int beta, double a, double b);
+
 /* Whole volume of each cell of a tile [m3; m2 per metre of depth in 2D cartesian, m in 1D]. */
 void metric_volumes(const struct mesh *mesh, const struct level *level, const struct tile *tile, double *ret_volume);
-
-/* Middle of the volume between two radii: the mean of r with the weight r^beta. */
-double metric_centroid(int beta, double a, double b);
 
 double metric_full(int beta);
 

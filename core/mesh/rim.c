@@ -69,10 +69,10 @@ struct box rim_box(const struct mesh *mesh, int g, int way)
     return box;
 }
 
-struct box_block rim_tile(const struct mesh *mesh, double *array)
+struct box_block rim_tile(const struct rim *rim, double *array)
 {
-    struct box_block block = {.data = array, .pitch = mesh->n_cell};
-    for (int d = 0; d < 3; d++) block.size[d] = (size_t)mesh->n[d];
+    struct box_block block = {.data = array, .pitch = rim->mesh->n_cell, .fields = rim->form.fields};
+    for (int d = 0; d < 3; d++) block.size[d] = (size_t)rim->mesh->n[d];
     return block;
 }
 
@@ -397,7 +397,8 @@ void rim_shelf_free(struct rim **shelf)
 
 static bool rim_is_form(const struct rim_form *a, const struct rim_form *b)
 {
-    return a->n_field == b->n_field && a->g == b->g && a->slots == b->slots && a->given == b->given;
+    return a->n_field == b->n_field && a->g == b->g && a->slots == b->slots && a->given == b->given &&
+           a->fields == b->fields;
 }
 
 struct rim *rim_of(const struct mesh *mesh, int l, const struct rim_form *form)
@@ -415,7 +416,7 @@ struct box_block rim_find(const struct rim *rim, double *const *arrays, unsigned
     memset(ret_shift, 0, 3 * sizeof *ret_shift);
     if (piece->kind == RIM_REMOTE) return box_pack(&box, post_in(rim->same, piece->index));
     rim_shift(rim->mesh, piece->step, ret_shift);
-    if (piece->outer < 0) return rim_tile(rim->mesh, arrays[piece->index]);
+    if (piece->outer < 0) return rim_tile(rim, arrays[piece->index]);
     return rim_outer(rim, piece->index, 2 * piece->outer + (rim_step(way, piece->outer) > 0));
 }
 
@@ -425,7 +426,7 @@ void rim_start(struct rim *rim, double *const *arrays)
         const struct rim_send *send = &rim->sends[i];
         const struct box box = rim_box(rim->mesh, rim->form.g, send->way);
         const struct box_block to = box_pack(&box, post_out(rim->same, i));
-        struct box_block from = rim_tile(rim->mesh, arrays[send->local]);
+        struct box_block from = rim_tile(rim, arrays[send->local]);
         if (send->outer >= 0)
             from = rim_outer(rim, send->local, 2 * send->outer + (rim_step(send->way, send->outer) > 0));
         box_copy(rim->form.n_field, &box, &from, send->shift, &to);

@@ -24,6 +24,8 @@ struct rim_form {
     int slots; /* of pieces on the coarser level: 1, or 2 for what is linear in time between them */
     unsigned char
         given; /* bit 2 * axis + side: what is behind that boundary is in the outer layers of the tile inside */
+    const unsigned char *fields; /* [n_field] components of the arrays, a list that lives as long as the mesh; NULL: the
+                                    first n_field. Told apart by address */
 };
 
 struct rim_piece {
@@ -88,7 +90,7 @@ void rim_shelf_free(struct rim **shelf);
 struct box rim_box(const struct mesh *mesh, int g, int way);
 
 /* A tile's own cells as a block. */
-struct box_block rim_tile(const struct mesh *mesh, double *array);
+struct box_block rim_tile(const struct rim *rim, double *array);
 
 /* The outer layers of a local tile behind a given boundary, to be written before rim_start; data is NULL elsewhere. */
 struct box_block rim_outer(const struct rim *rim, unsigned local, int face);

@@ -46,10 +46,10 @@ static void model_name_fields(struct model *model)
 /* Names that derive.c understands for this scene. */
 static void model_name_derived(struct model *model)
 {
-    static const char *const plain[] = {"density",    "pressure",        "velocity",     "velocity_x",
-                                        "velocity_y", "velocity_z",      "temperature",  "sound_speed",
-                                        "mach",       "internal_energy", "total_energy", "vorticity",
-                                        "schlieren",  "level",           "rank",         "cost"};
+    static const char *const plain[] = {"density",      "pressure",    "velocity",    "velocity_x", "velocity_y",
+                                        "velocity_z",   "temperature", "sound_speed", "mach",       "internal_energy",
+                                        "total_energy", "vorticity",   "heat_flux",   "schlieren",  "level",
+                                        "rank",         "cost"};
     static const char *const solid[] = {"stress_xx",       "stress_yy",         "stress_zz",         "stress_xy",
                                         "stress_xz",       "stress_yz",         "stretch_xx",        "stretch_yy",
                                         "stretch_zz",      "stretch_xy",        "stretch_xz",        "stretch_yz",
@@ -76,6 +76,31 @@ static void model_name_derived(struct model *model)
     }
 }
 
+static void model_viscosity(const struct instance *instance, struct model_viscosity *ret)
+{
+    if (!instance->module) return;
+    ret->law = instance->module->table;
+    ret->mu = (struct model_coefficient){&ret->law->mu, instance->self, 0.0};
+    bool rate = ret->mu.law->needs & BULLA_NEEDS_RATE, only = !(ret->mu.law->needs & ~(uint32_t)BULLA_NEEDS_RATE);
+    if (rate) ret->mu.number = ret->mu.law->most(instance->self);
+    else if (only) ret->mu.law->value(instance->self, 1, NULL, NULL, NULL, NULL, &ret->mu.number);
+    if (only && ret->law->zeta) ret->law->zeta(instance->self, 1, NULL, NULL, NULL, &ret->zeta);
+}
+
+/* Laws of transport, and what their terms look at across edges. */
+static void model_transport(struct model *model)
+{
+    for (unsigned l = 0; l < model->n_material; l++) {
+        model_viscosity(&model->scene->material[l].viscosity, &model->viscosity[l]);
+        model->viscous = model->viscous || model->viscosity[l].law;
+    }
+    if (!model->viscous) return;
+    for (unsigned l = 1; l < model->n_alpha; l++)
+        model->around[model->n_around++] = (unsigned char)(model->i_alpha + l);
+    model->n_around_alpha = model->n_around;
+    for (unsigned d = 0; d < model->n_velocity; d++) model->around[model->n_around++] = (unsigned char)(model->i_u + d);
+}
+
 /* The model of a region that holds nothing but the n materials from `first`: works on the same blocks, leaves the
  * other materials' components alone, and the stretch where none of them is a solid; gives bitwise what the full model
  * would. One material alone needs no fractions either. */
@@ -91,9 +116,12 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     narrow->kapila = model->kapila && n > 1;
     narrow->linear = true;
     narrow->n_solid = narrow->n_active = 0;
+    narrow->viscous = false;
     narrow->plastic = false;
     for (unsigned l = 0; l < n; l++) {
         narrow->eos[l] = model->eos[first + l];
+        narrow->viscosity[l] = model->viscosity[first + l];
+        narrow->viscous = narrow->viscous || narrow->viscosity[l].law;
         narrow->conductivity[l] = model->conductivity[first + l];
         narrow->linear = narrow->linear && narrow->eos[l].law->linear;
     }
@@ -202,6 +230,7 @@ struct model *model_new(const struct scene *scene)
         eos->rho_most = range.rho_max > eos->rho_fill ? range.rho_max : eos->rho_fill;
         if (!eos->law->linear) model->linear = false;
     }
+    model_transport(model);
     model_conduct(model);
     model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO ? !model->linear || model->conducts
                                                                    : scene->scheme.exchange == SCENE_EXCHANGE_FULL;

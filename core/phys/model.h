@@ -17,6 +17,7 @@
 #include "bulla/limiter.h"
 #include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
+#include "bulla/viscosity.h"
 #include "case/scene.h"
 
 #include <stdbool.h>
@@ -37,6 +38,20 @@ struct model_solid {
     const void *strength_self;
     unsigned strain; /* field of its plastic strain; 0: it has none */
     unsigned needs;  /* enum bulla_inelastic_needs, of the strength */
+};
+
+/* A number of a material, as bulla/coefficient.h says; law NULL: 0. */
+struct model_coefficient {
+    const struct bulla_coefficient *law;
+    const void *self;
+    double number; /* of a law that looks at nothing: what it says; of one that looks at the rate: the most */
+};
+
+/* How viscous one material is. */
+struct model_viscosity {
+    struct model_coefficient mu;
+    const struct bulla_viscosity *law; /* NULL: not at all */
+    double zeta;                       /* of a law that looks at nothing but the rate */
 };
 
 /* How a material conducts heat. */
@@ -73,6 +88,12 @@ struct model {
     bool forced;          /* forces act at faces, and pressure is reconstructed relative to them (scheme/face.h) */
     bool split;           /* the materials of a cell share their normal traction, not their pressure (traction.h) */
     struct model_eos eos[SCENE_MATERIALS];
+    struct model_viscosity viscosity[SCENE_MATERIALS];
+    bool viscous; /* some material of the path is */
+    /* What terms that look across edges see there: components of the primitives, the same in all paths of a scene. 0: no
+     * term does. Fractions but the first, then velocities. */
+    unsigned n_around, n_around_alpha;
+    unsigned char around[MODEL_FIELDS];
     struct model_conductivity conductivity[SCENE_MATERIALS];
     struct model_limiter {
         const struct bulla_limiter *law;

@@ -68,11 +68,6 @@ static void bound_fill_slip(const struct bound_fill *fill)
     bound_fill_mirror(fill, false);
 }
 
-static void bound_fill_no_slip(const struct bound_fill *fill)
-{
-    bound_fill_mirror(fill, true);
-}
-
 /* One row of boundary cells taken out of the frame: [n_field] components of `stride` points. */
 struct bound_fill_row {
     size_t n, stride;
@@ -171,6 +166,30 @@ static bool bound_fill_ask(const struct bound_fill *fill, const struct scene_val
     bound_fill_fail(fill, status, what, x);
     *ret = (double)NAN;
     return false;
+}
+
+/* Velocities behind a wall that moves: their mean with those inside is the wall's. */
+static void bound_fill_drag(const struct bound_fill *fill, unsigned d)
+{
+    static const char *const names[] = {"velocity_x of the wall", "velocity_y of the wall", "velocity_z of the wall"};
+    const struct frame *frame = fill->frame;
+    const struct scene_value *value = &bound_fill_boundary(fill)->velocity[d];
+    double *u = fill->w + (fill->bound->model->i_u + d) * fill->pitch;
+    for (size_t c = 0; c < frame->outer * frame->inner; c++) {
+        double x[3], wall;
+        bound_fill_position(fill, c, x);
+        bound_fill_ask(fill, value, names[d], x, &wall);
+        for (int ghost = 0; ghost < (int)frame->ghosts; ghost++)
+            u[frame_at(frame, c / frame->inner, bound_layer_behind(frame, fill->side, ghost)) + c % frame->inner] +=
+                2.0 * wall;
+    }
+}
+
+static void bound_fill_no_slip(const struct bound_fill *fill)
+{
+    bound_fill_mirror(fill, true);
+    for (unsigned d = 0; bound_fill_boundary(fill)->moves && d < fill->bound->model->n_velocity; d++)
+        if (d != (unsigned)fill->frame->axis) bound_fill_drag(fill, d);
 }
 
 /* rho_l moved along its isentrope by dp: midpoint rule on d rho / dp = 1/c^2. */

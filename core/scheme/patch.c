@@ -170,7 +170,7 @@ void patch_gather(const struct patch_source *source, unsigned local, double *w)
     static const int still[3];
     const struct mesh *mesh = source->mesh;
     const struct box_block patch = patch_block(mesh, source->rim->form.g, w);
-    const struct box_block own = rim_tile(mesh, source->arrays[local]);
+    const struct box_block own = rim_tile(source->rim, source->arrays[local]);
     const struct box all = rim_box(mesh, source->rim->form.g, RIM_HERE);
     const struct rim_piece *pieces = source->rim->pieces[local];
     int most = 0;

@@ -30,7 +30,7 @@ enum { PATCH_X = 1, PATCH_Y = 2, PATCH_Z = 4, PATCH_VELOCITY = 8 };
 struct patch_source {
     const struct mesh *mesh;
     const struct level *level;
-    double *const *arrays; /* [n_local] blocks of n_field components */
+    double *const *arrays; /* [n_local] blocks of components, of which the rim's form names n_field */
     struct rim *rim;       /* of the level, from rim_of with the form below */
     enum patch_rule rules[MESH_FACES];
     const unsigned char *parity; /* [n_field]; NULL: scalars */

@@ -17,7 +17,8 @@ void patch_state_rules(const struct scene *scene, bool given, enum patch_rule re
 {
     static const enum patch_rule rules[] = {SCENE_BOUNDARY_TABLE(PATCH_STATE_RULE)};
     for (int face = 0; face < MESH_FACES; face++) {
-        enum patch_rule rule = rules[scene->domain.boundary[face / 2][face % 2].type];
+        const struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
+        enum patch_rule rule = boundary->moves && given ? PATCH_GIVEN : rules[boundary->type];
         bool known = given && face < 2 * scene->domain.dim;
         ret_rules[face] = rule == PATCH_GIVEN && !known ? PATCH_COPY : rule;
     }
@@ -46,7 +47,7 @@ static void patch_state_piece(struct bound *bound, unsigned local, int face, con
                 }
 }
 
-static void patch_state_given(void *data, unsigned local, int face, const struct box_block *ret)
+void patch_state_given(void *data, unsigned local, int face, const struct box_block *ret)
 {
     struct bound *bound = data;
     double *w = mem_new((size_t)bound->model->n_field * FRAME_CELLS, sizeof *w);
@@ -85,7 +86,7 @@ struct patch_source patch_state_source(const struct model *model, const struct m
                                   .data = bound};
     patch_state_describe(model, keep);
     patch_state_rules(model->scene, true, source.rules);
-    const struct rim_form form = {model->n_field, g, slots, patch_given(source.rules)};
+    const struct rim_form form = {model->n_field, g, slots, patch_given(source.rules), NULL};
     source.rim = rim_of(mesh, l, &form);
     return source;
 }

@@ -16,6 +16,9 @@ struct patch_state {
  * PATCH_COPY, for fields of which they say nothing. */
 void patch_state_rules(const struct scene *scene, bool given, enum patch_rule ret_rules[MESH_FACES]);
 
+/* The `given` of a patch_source of all primitives; data: struct bound. */
+void patch_state_given(void *data, unsigned local, int face, const struct box_block *ret);
+
 /* A source of the primitives w of a level, with g layers; slots as in rim_form. `bound`: of that level, its time set
  * (bound_fill says what is given); it and `keep` must live as long as the source. */
 struct patch_source patch_state_source(const struct model *model, const struct mesh *mesh, int l, int g, int slots,

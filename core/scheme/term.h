@@ -36,7 +36,9 @@ struct term_tile {
     const double *u; /* conserved fields that the step starts from */
     const double *w; /* primitives at which the rates are taken */
     double *rates;
-    const double *hoop; /* what the radial momentum is taken relative to in curved geometry (hoop.h): a row */
+    const double *around; /* model->around of the tile and one layer of cells around it (scheme/patch.h); NULL: no term
+                             of the scene looks there */
+    const double *hoop;   /* what the radial momentum is taken relative to in curved geometry (hoop.h): a row */
     double *K,
         *rho_c2; /* Kapila closure: K_l of mix_closure, rho_l c_l^2 of mix_stiffness_everywhere; [n_material] rows */
     void *own;   /* of the term that is called: what its `open` gave */
@@ -46,7 +48,8 @@ struct term_tile {
 struct term_piece {
     const struct terms *terms;
     const struct model *model;
-    const struct term_tile *tile; /* the tile it is a piece of; a replay of a dump knows no neighbours */
+    const struct term_tile
+        *tile; /* the tile it is a piece of; a replay of a dump knows no neighbours but tile->around */
     const struct frame *frame;
     struct face_work *faces;
     void *own; /* of the term that is called */

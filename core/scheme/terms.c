@@ -14,6 +14,7 @@
 #include "scheme/hoop.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
+#include "scheme/viscous.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -27,6 +28,7 @@ const struct term *const terms_all[] = {
     &face_stress_term, /* one traction for the materials of a cell, in one dimension */
     &source_term,      /* forces, heat, mass, Lua */
     &drag_term,        /* resistance of porous media */
+    &viscous_term,     /* stress and heat of what is viscous */
     &fraction_term,    /* volume fractions move with the flow */
     &exchange_term,    /* volume that brings materials back to one pressure */
     &closure_term,     /* K div u, and what was exchanged */

@@ -13,8 +13,9 @@
 
 const char *blame_name(enum blame_block block)
 {
-    static const char *const names[] = {"u_old",   "w",       "u",       "w_new",  "K",      "rho_c2", "u_stage",
-                                        "frame_x", "frame_y", "frame_z", "mark_x", "mark_y", "mark_z", "faces"};
+    static const char *const names[] = {"u_old",  "w",       "u",       "w_new",   "K",
+                                        "rho_c2", "u_stage", "frame_x", "frame_y", "frame_z",
+                                        "mark_x", "mark_y",  "mark_z",  "around",  "faces"};
     return names[block];
 }
 
@@ -38,6 +39,14 @@ static size_t blame_frame_cells(const struct model *model, const struct blame_fa
     return facts->n_cell / n * (n + 2 * (size_t)model->scene->scheme.ghosts);
 }
 
+/* Cells of the tile and one layer around it. */
+static size_t blame_around_cells(const struct model *model, const struct blame_facts *facts)
+{
+    size_t cells = 1;
+    for (int d = 0; d < model->dim; d++) cells *= (size_t)facts->n[d] + 2;
+    return cells;
+}
+
 /* Blocks that hold frames, marks, faces; they exist where a stage was gone through. */
 static struct blame_shape blame_shape_swept(const struct model *model, const struct blame_facts *facts,
                                             enum blame_block block, const char *name)
@@ -46,6 +55,9 @@ static struct blame_shape blame_shape_swept(const struct model *model, const str
     unsigned dim = (unsigned)model->dim;
     int frame = (int)block - BLAME_FRAME_X, mask = (int)block - BLAME_MASK_X;
     if (!blame_moves(facts)) return (struct blame_shape){name, 0, 0};
+    if (block == BLAME_AROUND)
+        return (struct blame_shape){name, blame_used(model, facts)->viscous ? model->n_around : 0,
+                                    blame_around_cells(model, facts)};
     if (block == BLAME_FACES) return (struct blame_shape){name, 2 * dim, blame_columns(model, facts, columns)};
     if (mask < 0)
         return (struct blame_shape){name, frame < model->dim ? model->n_field : 0,
@@ -286,6 +298,9 @@ void blame_rates(struct blame *blame, const struct model *model, const struct te
     blame_take(blame, BLAME_W, model->n_field, tile->w);
     blame_take(blame, BLAME_K, used->n_material, tile->K);
     blame_take(blame, BLAME_STIFFNESS, used->n_material, tile->rho_c2);
+    if (blame->block[BLAME_AROUND])
+        memcpy(blame->block[BLAME_AROUND], tile->around,
+               model->n_around * blame_around_cells(model, &blame->facts) * sizeof *tile->around);
 }
 
 /* What a pure model leaves alone stays out: zero. */

@@ -56,7 +56,8 @@ enum blame_block {
     BLAME_MASK_X, /* marked cells of the same frames */
     BLAME_MASK_Y,
     BLAME_MASK_Z,
-    BLAME_FACES, /* lower and upper face of the cell along each axis: [2 dim][blame_columns] */
+    BLAME_AROUND, /* what terms see across edges: model->around of the tile and a layer of cells around it */
+    BLAME_FACES,  /* lower and upper face of the cell along each axis: [2 dim][blame_columns] */
     BLAME_BLOCKS
 };
 

@@ -119,6 +119,7 @@ static void blame_replay_update(struct replay *replay)
                              .u = row->previous ? blame->block[BLAME_BASE] : u_old,
                              .w = blame->block[BLAME_W],
                              .rates = replay->rates,
+                             .around = blame->block[BLAME_AROUND],
                              .K = replay->K,
                              .rho_c2 = replay->rho_c2};
     const struct rate_watch watch = {replay, blame_replay_gather, blame_replay_seen, NULL};

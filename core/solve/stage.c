@@ -37,7 +37,9 @@ void stage_free(struct stage *stage)
 
 void stage_exchange(struct stage *stage)
 {
+    stage->bound->t = stage->t + stage->tableau->stage[stage->turn].at * stage->dt;
     halo_start(stage->level->halo, stage->level->w);
+    around_start(stage->work->around, stage->l, stage->bound);
     if (stage->guard->masked) halo_start(stage->guard->halo, stage->guard->mask);
     cost_lap(&stage->work->cost, COST_EXCHANGE);
 }
@@ -45,6 +47,7 @@ void stage_exchange(struct stage *stage)
 static void stage_finish_exchange(struct stage *stage)
 {
     halo_finish(stage->level->halo);
+    around_finish(stage->work->around, stage->l, stage->bound);
     if (stage->guard->masked) halo_finish(stage->guard->halo);
     cost_lap(&stage->work->cost, COST_EXCHANGE);
 }
@@ -53,9 +56,11 @@ void stage_ghosts(struct stage *stage)
 {
     if (stage->l + 1 >= stage->mesh->n_level) return;
     halo_finish(stage->level->halo);
+    around_finish(stage->work->around, stage->l, stage->bound);
     cost_lap(&stage->work->cost, COST_EXCHANGE);
     stage->bound->t = stage->t;
     prolong_strips(stage->work->prolong, stage->mesh, stage->l, stage->bound, 0);
+    around_finer(stage->work->around, stage->l, stage->bound, 0);
     cost_lap(&stage->work->cost, COST_LEVELS);
 }
 
@@ -115,6 +120,16 @@ static void stage_swept(void *data, int axis)
     if (sweep->concerned) reflux_average(sweep->stage->reflux, sweep->local, axis);
 }
 
+/* Do tiles across edges and corners rest, where terms look at them? */
+static bool stage_rests_around(const struct stage *stage, unsigned local)
+{
+    unsigned tiles[26];
+    int n = around_diagonal(stage->work->around, stage->l, stage->bound, local, tiles);
+    for (int i = 0; i < n; i++)
+        if (!stage->census.tiles[tiles[i]].still) return false;
+    return n >= 0;
+}
+
 /* Has a tile nothing to compute in this stage? Repeated steps, tiles whose fluxes another level asks for and scenes with
  * terms or operators that move what rests are not skipped; nor is a tile that has already moved, where stages build on each other. */
 static bool stage_skips(const struct stage *stage, unsigned local)
@@ -123,6 +138,7 @@ static bool stage_skips(const struct stage *stage, unsigned local)
     const struct work *work = stage->work;
     if (work->terms[0]->moves || work->operators[0].moves || !tile->still || stage->guard->masked) return false;
     if (stage->tableau->stage[stage->turn].previous && !tile->skipped) return false;
+    if (!stage_rests_around(stage, local)) return false;
     return !reflux_concerns(stage->reflux, local) && census_rests(&stage->census, local);
 }
 
@@ -203,6 +219,7 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
     struct stage_sweep sweep = {stage, terms, local, row->weight > 0.0 && reflux_concerns(stage->reflux, local)};
     const struct rate_watch watch = {&sweep, stage_gather, stage_seen, stage_swept};
     if (stage->mesh->beta) metric_of_tile(stage->mesh, level, tile.tile, &metric);
+    tile.around = path->viscous ? around_gather(work->around, stage->l, stage->bound, local) : NULL;
     stage->bound->model = path;
     rate_take(&tile, work->own, &watch, stage->guard->masked);
     if (sweep.concerned) reflux_keep(stage->reflux, path, local, tile.w, path->kapila ? tile.K : NULL);
@@ -248,6 +265,12 @@ static void stage_last_tile(struct stage *stage, unsigned local)
     stage_keep(stage, local, level->u_old[local], level->u_new[local]);
 }
 
+/* Does a tile need the exchange? */
+static bool stage_waits(const struct stage *stage, unsigned local)
+{
+    return halo_is_remote(stage->level, local) || around_is_remote(stage->work->around, stage->l, stage->bound, local);
+}
+
 /* All tiles, those without remote neighbours while the exchange is under way. */
 static void stage_tiles(struct stage *stage, void (*work)(struct stage *stage, unsigned local))
 {
@@ -257,10 +280,10 @@ static void stage_tiles(struct stage *stage, void (*work)(struct stage *stage, u
     if (stage->blame) stage->blame->turn = stage->turn;
     if (level->link) level->link->theta = stage->from + at * stage->part;
     for (unsigned tile = 0; tile < level->n_local; tile++)
-        if (!halo_is_remote(level, tile)) work(stage, tile);
+        if (!stage_waits(stage, tile)) work(stage, tile);
     stage_finish_exchange(stage);
     for (unsigned tile = 0; tile < level->n_local; tile++)
-        if (halo_is_remote(level, tile)) work(stage, tile);
+        if (stage_waits(stage, tile)) work(stage, tile);
     stage->bound->model = stage->model; /* strips and births need all fields, whatever the last tile held */
 }
 

@@ -21,11 +21,16 @@ enum { SYNC_ATTEMPTS = 5 };
 
 void sync_down(struct stage *coarse, struct stage *fine)
 {
-    halo_start(coarse->level->halo, coarse->level->w);
-    halo_finish(coarse->level->halo);
+    struct around *around = coarse->work->around;
     coarse->bound->t = coarse->t + coarse->dt;
+    halo_start(coarse->level->halo, coarse->level->w);
+    around_start(around, coarse->l, coarse->bound);
+    halo_finish(coarse->level->halo);
+    around_finish(around, coarse->l, coarse->bound);
     prolong_strips(coarse->work->prolong, coarse->mesh, coarse->l, coarse->bound, 1);
+    around_finer(around, coarse->l, coarse->bound, 1);
     link_down(fine->level->link);
+    around_down(around, fine->l, fine->bound);
     census_receive(&fine->census);
     reflux_clear(coarse->reflux);
 }

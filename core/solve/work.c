@@ -22,6 +22,7 @@ struct work *work_new(const struct model *model, const struct mesh *mesh)
     for (unsigned l = 0; l < model->n_alpha; l++) work_add_terms(work, model->pure[l], work->faces_pure);
     terms_open(&(struct term_room){.model = model, .mesh = mesh}, work->own);
     work->prolong = prolong_new(model, mesh);
+    work->around = around_new(model, mesh);
     work->rates = mem_new(work->terms[0]->n_rates * mesh->n_cell, sizeof(double));
     work->K = mem_new(model->n_material * mesh->n_cell, sizeof(double));
     work->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
@@ -39,6 +40,7 @@ void work_free(struct work *work)
     face_free(work->faces_pure);
     face_free(work->faces_fluids);
     prolong_free(work->prolong);
+    around_free(work->around);
     mem_free(work->rates);
     mem_free(work->K);
     mem_free(work->rho_c2);

@@ -5,6 +5,7 @@
 #include "levels/prolong.h"
 #include "scheme/operators.h"
 #include "scheme/rate.h"
+#include "solve/around.h"
 #include "solve/cost.h"
 
 struct work {
@@ -16,6 +17,7 @@ struct work {
     struct operators operators[SCENE_MATERIALS + 2]; /* likewise */
     void *own[TERMS_MOST];                           /* memory of the terms */
     struct prolong *prolong;
+    struct around *around;                    /* or NULL */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
     struct cost cost;                         /* where the time goes, of all levels */
 };

@@ -77,7 +77,7 @@ static void bench(int dim, int tiles, int n, unsigned n_field)
         const struct patch_source patches = {.mesh = mesh,
                                              .level = level,
                                              .arrays = level->w,
-                                             .rim = rim_of(mesh, 0, &(struct rim_form){n_field, g, 1, 0})};
+                                             .rim = rim_of(mesh, 0, &(struct rim_form){n_field, g, 1, 0, NULL})};
         double made = seconds() - start;
         for (int pass = 0; pass < PASSES; pass++) {
             start = seconds();
@@ -133,7 +133,7 @@ static void bench_levels(int dim, int tiles, int n, unsigned n_field)
     struct mesh *mesh = domain(dim, tiles, n, n_field);
     refine(mesh);
     for (int g = 1; g <= RIM_LAYERS; g++) {
-        const struct rim_form form = {n_field, g, 2, 0};
+        const struct rim_form form = {n_field, g, 2, 0, NULL};
         const struct level *level = &mesh->levels[0];
         const struct patch_source source = {.mesh = mesh,
                                             .level = level,

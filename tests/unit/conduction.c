@@ -3,6 +3,7 @@
  * has another temperature is not at rest. */
 #include "flow.h"
 
+#include "scheme/conduction.h"
 #include "scheme/conduction_channel.h"
 #include "solve/census.h"
 
@@ -10,7 +11,6 @@ static const double P = 101325.0, CV_WATER = 590.0, CV_AIR = 717.5, K_WATER = 0.
 
 #define WATER "  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa, cv: 590}, conductivity: 0.607 W/m/K}\n"
 #define AIR "  air: {eos: {type: ideal-gas, gamma: 1.4, cv: 717.5}, conductivity: 0.0262 W/m/K}\n"
-#define WATER_ALONE "  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa, cv: 590}, conductivity: 0.607}\n"
 
 static double rho_water(double T)
 {
@@ -92,6 +92,36 @@ static void test_resistance(void **state)
         }
         assert_true(fabs(cross - 1.0) < 1e-12);
     }
+}
+
+/* Half a cell of each in series. */
+static void test_series(void **state)
+{
+    (void)state;
+    double water = K_WATER, air = K_AIR, none = 0.0, k;
+    const struct conduction_channel_side left = {.k = &water}, right = {.k = &air}, nothing = {.k = &none};
+    conduction_channel_series(1, &left, &right, &k);
+    assert_true(fabs(k * (0.5 / K_WATER + 0.5 / K_AIR) - 1.0) < 1e-14);
+    conduction_channel_series(1, &left, &nothing, &k);
+    assert_true(k == 0.0);
+    conduction_channel_series(1, &nothing, &nothing, &k);
+    assert_true(k == 0.0);
+}
+
+/* What laws say of heat: rho cv by differences. */
+static void test_facts(void **state)
+{
+    (void)state;
+    struct flow flow;
+    start(&flow, "lower: [0], upper: [8 um], cells: [8], boundaries: {x-: reflecting, x+: reflecting}", "", WATER AIR,
+          "cfl: 0.4");
+    struct conduction_facts water = conduction_facts(flow.state->model, 0),
+                            air = conduction_facts(flow.state->model, 1);
+    assert_true(fabs(water.rho_cv / (rho_water(298.15) * CV_WATER) - 1.0) < 1e-3);
+    assert_true(fabs(air.rho_cv / (rho_air(298.15) * CV_AIR) - 1.0) < 1e-3);
+    assert_true(fabs(water.cp / (4.4 * CV_WATER) - 1.0) < 1e-3 && water.k == K_WATER);
+    assert_true(fabs(air.cp / (1.4 * CV_AIR) - 1.0) < 1e-3 && air.k == K_AIR);
+    flow_stop(&flow);
 }
 
 /* --- mixed cells --- */
@@ -350,6 +380,25 @@ static void set_layers(const struct model *model, const double x[3], double *w)
     w[model->i_E] = P;
 }
 
+/* Cells so small that sound would allow steps in which heat gets over two of them. */
+static void test_pace(void **state)
+{
+    (void)state;
+    struct flow flow;
+    start(&flow, "lower: [0], upper: [64 um], cells: [12800], boundaries: {x-: reflecting, x+: reflecting}", "", AIR,
+          "cfl: 0.4");
+    flow_set(&flow, set_layers);
+    flow_steps(&flow, 40);
+    double *rho = flow_primitive(&flow, flow.state->model->i_m), *p = flow_primitive(&flow, flow.state->model->i_E);
+    for (size_t c = 0; c < flow.n_cell; c++) {
+        double T = p[c] / (0.4 * CV_AIR * rho[c]);
+        assert_true(T > 290.0 && T < 405.0);
+    }
+    mem_free(rho);
+    mem_free(p);
+    flow_stop(&flow);
+}
+
 /* One pressure, no motion, two temperatures: heat flows at the step between them; far from it tiles are carried on. */
 static void test_rest(void **state)
 {
@@ -405,11 +454,38 @@ static void test_walls(void **state)
     }
 }
 
+static void set_even(const struct model *model, const double x[3], double *w)
+{
+    (void)x;
+    w[model->i_m] = rho_air(300.0);
+    w[model->i_E] = P;
+}
+
+/* All at rest at one temperature, but for a wall. */
+static void test_rest_at_wall(void **state)
+{
+    (void)state;
+    struct flow flow;
+    start(&flow,
+          "lower: [0], upper: [64 um], cells: [64], boundaries: {x-: {type: reflecting, temperature: 310 K}, x+: "
+          "reflecting}",
+          "mesh: {tile: 8}\n", AIR, "cfl: 0.4");
+    flow_set(&flow, set_even);
+    flow_steps(&flow, 4);
+    double *T = flow_derived(&flow, "temperature_air", 0);
+    assert_true(T[0] > 300.01);
+    assert_true(flow.state->stages[0]->carried > 0);
+    mem_free(T);
+    flow_stop(&flow);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_channels_fill_the_face),
         cmocka_unit_test(test_resistance),
+        cmocka_unit_test(test_series),
+        cmocka_unit_test(test_facts),
         cmocka_unit_test(test_mixed_cell),
         cmocka_unit_test(test_conserved),
         cmocka_unit_test(test_symmetry),
@@ -417,7 +493,9 @@ int main(void)
         cmocka_unit_test(test_void),
         cmocka_unit_test(test_order),
         cmocka_unit_test(test_walls),
+        cmocka_unit_test(test_pace),
         cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_rest_at_wall),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

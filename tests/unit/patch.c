@@ -170,7 +170,7 @@ static struct patch_source source_of(int l, int g)
                                   .given = give,
                                   .data = &world.levels->mesh->levels[l]};
     memcpy(source.rules, world.rules, sizeof source.rules);
-    const struct rim_form form = {LEVELS_FIELDS, g, 2, patch_given(source.rules)};
+    const struct rim_form form = {LEVELS_FIELDS, g, 2, patch_given(source.rules), NULL};
     source.rim = rim_of(mesh, l, &form);
     assert_ptr_equal(rim_of(mesh, l, &form), source.rim);
     return source;

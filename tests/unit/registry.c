@@ -78,7 +78,14 @@ static const char *const builtin[][2] = {
     {"riemann", "hllc"},
     {"riemann", "hlld"},
     {"riemann", "rusanov"},
+    {"viscosity", "carreau"},
+    {"viscosity", "casson"},
+    {"viscosity", "cross"},
+    {"viscosity", "herschel-bulkley"},
     {"viscosity", "newtonian"},
+    {"viscosity", "power"},
+    {"viscosity", "sutherland"},
+    {"viscosity", "vogel"},
 };
 /* clang-format on */
 enum { BUILTIN = sizeof builtin / sizeof *builtin };

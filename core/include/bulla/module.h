@@ -98,9 +98,9 @@ struct bulla_host {
 #define BULLA_HOST_HAS(host, slot) ((host)->size > offsetof(struct bulla_host, slot) && (host)->slot)
 
 struct bulla_module {
-    uint32_t magic, abi, size; /* BULLA_MAGIC, BULLA_ABI, sizeof(struct bulla_module) */
-    const char *kind; /* "eos", "limiter", ...: one of those that docs/modules.md lists */
-    const char *name; /* the name used in case files, lower case with hyphens */
+    uint32_t magic, abi, size;          /* BULLA_MAGIC, BULLA_ABI, sizeof(struct bulla_module) */
+    const char *kind;                   /* "eos", "limiter", ...: one of those that docs/modules.md lists */
+    const char *name;                   /* the name used in case files, lower case with hyphens */
     const char *version;                /* of the module, e.g. "1.0" */
     const char *doc;                    /* one or two sentences: what it is and when to use it */
     const char *cite;                   /* paper and equation */

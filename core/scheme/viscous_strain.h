@@ -1,0 +1,45 @@
+/* viscous_strain.h - the rate of strain of a batch of points, and the direction in which their fractions change. */
+#ifndef VISCOUS_STRAIN_H
+#define VISCOUS_STRAIN_H
+
+#include "phys/model.h"
+
+enum { STRAIN_POINTS = 256, STRAIN_TENSOR = 6 };
+
+/* Gradients below this part of the whole range over a cell are those of a mixture and not of an interface. */
+#define STRAIN_FLAT 1e-3
+
+/* A batch of points: faces of a frame or cells of a tile. Components of tensors are numbered as in elastic.h. */
+struct viscous_strain {
+    const struct model *path;
+    size_t n;
+    double gradient[3][3][STRAIN_POINTS]; /* in: [d][e] d u_d/d x_e, for d < n_velocity, e < dim [1/s] */
+    double hoop[STRAIN_POINTS];           /* in: u_r/r in curved geometry [1/s] */
+    double colour[3][STRAIN_POINTS];      /* in: gradient of the colour along x_e [1/m]; out: m (below) */
+    double D[STRAIN_TENSOR][STRAIN_POINTS];
+    double div[STRAIN_POINTS];
+    double along[3][STRAIN_POINTS]; /* q = D m */
+    double normal[STRAIN_POINTS];   /* m D m */
+    double sharp[STRAIN_POINTS];    /* |m|^2: 1 at an interface, 0 without one */
+    bool interface;                 /* m is not 0 everywhere; else m, q and the two below are not made */
+};
+
+/* D, div u, and where the colour changes m = g/sqrt(|g|^2 + (STRAIN_FLAT/h)^2), g its gradient: nearly a unit vector at an
+ * interface, nothing in a smooth mixture. h: the longest side of a cell. */
+void viscous_strain_make(struct viscous_strain *strain, double h);
+
+/* The longest side of a cell. */
+static inline double viscous_strain_longest(int dim, const double h[3])
+{
+    double most = h[0];
+    for (int d = 1; d < dim; d++) most = h[d] > most ? h[d] : most;
+    return most;
+}
+
+/* sqrt(2 D':D') of the deviator. */
+void viscous_strain_rate(const struct viscous_strain *strain, double *rate);
+
+/* |dev D_l|^2 of a material whose own dilatation is r div u, and r' div u, what of it shows (r' = 1 + |m|^2 (r - 1)). */
+void viscous_strain_own(const struct viscous_strain *strain, const double *r, double *dev2, double *dilatation);
+
+#endif
