@@ -16,7 +16,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { SCENE_AXES = 3, SCENE_MATERIALS = 16, SCENE_NAME = 64, SCENE_SETTINGS = 64 };
+enum { SCENE_AXES = 3, SCENE_MATERIALS = 16, SCENE_PAIRS = 8, SCENE_NAME = 64, SCENE_SETTINGS = 64 };
 
 /* Layers of neighbours that a sweep over a tile may need on each side: fewest and most. */
 enum { SCENE_GHOSTS = 2, SCENE_GHOSTS_MOST = 3 };
@@ -67,6 +67,12 @@ struct scene_material {
     struct instance viscosity;    /* module NULL: none */
     struct instance conductivity; /* of heat; module NULL: none (scheme/conduction.h) */
     double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
+};
+
+/* Surface tension between two materials. */
+struct scene_tension {
+    unsigned one, other;
+    double sigma; /* [N/m] */
 };
 
 /* One layer of paint. Layers are applied in order; a later one covers an earlier one by its
@@ -271,6 +277,7 @@ struct scene_scheme {
     struct instance interface_limiter; /* of the volume fractions */
     int ghosts;                        /* layers of neighbours that the reconstruction needs on each side of a tile */
     double cfl, dt_fixed;              /* dt_fixed 0: from cfl */
+    double first_step;                 /* part of that step with which a run begins */
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
     enum scene_guard guard;
@@ -314,6 +321,8 @@ struct scene {
     struct scene_mesh mesh;
     unsigned n_material;
     struct scene_material material[SCENE_MATERIALS];
+    unsigned n_tension;
+    struct scene_tension tension[SCENE_PAIRS];
     unsigned n_layer;
     struct scene_layer *layers;    /* `initial:` */
     struct scene_sources *sources; /* NULL: none */

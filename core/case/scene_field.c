@@ -21,6 +21,7 @@ static const struct scene_field scene_field_plain[] = {
     {"vorticity", "1/s", SCENE_FIELD_VECTOR | SCENE_FIELD_VANISHING},
     {"heat_flux", "W/m2", SCENE_FIELD_VECTOR | SCENE_FIELD_VANISHING},
     {"schlieren", "1", SCENE_FIELD_FRACTION},
+    {"surface_energy", "J/m3", SCENE_FIELD_VANISHING},
     {"level", "1", 0},
     {"rank", "1", 0},
     {"cost", "1", SCENE_FIELD_POSITIVE},
@@ -214,6 +215,8 @@ const char *scene_field_constant(struct draft *draft, const char *name)
     if (strcmp(name, "heat_flux") == 0 && !scene_material_conducts(draft)) return "0 everywhere: no material conducts";
     if (one && (strcmp(name, "cost") == 0 || strncmp(name, "alpha_", 6) == 0))
         return "1 everywhere: there is one material";
+    if (strcmp(name, "surface_energy") == 0 && scene->n_tension == 0)
+        return "0 everywhere: no pair of materials has a surface tension";
     if (strncmp(name, "curvature_", 10) == 0) {
         if (one) return "0 everywhere: there is one material";
         if (scene->domain.dim == 1 && scene->domain.geometry == SCENE_CARTESIAN)

@@ -33,9 +33,22 @@ static const struct key scene_initial_rows[] = {
      .type = KEYS_SECTION,
      .section = &scene_stretch_keys,
      .doc = "Initial stretch of a solid: [xx, yy, zz] or a map of components."},
+    {.name = "balance",
+     .type = KEYS_CHOICE,
+     .choices = "tension",
+     .doc = "`tension`: the pressure is the one outside of a sphere, and sigma times the curvature (2/R of a ball, 1/R "
+            "around an axis) is added to it."},
     {.name = "lua",
      .type = KEYS_TEXT,
      .doc = "File or block: function(x, y, z) that returns a table of named fields, {pressure = ..., alpha = {...}}."},
+    {.name = "repeat",
+     .type = KEYS_TREE,
+     .doc = "The layer many times: names that its expressions use, each with how often (counted from 0) or [first, "
+            "last]."},
+    {.name = "cloud",
+     .type = KEYS_SECTION,
+     .section = &scene_cloud_keys,
+     .doc = "Many spheres at random places instead of a shape."},
     {.name = "checkpoint",
      .type = KEYS_SECTION,
      .section = &scene_initial_checkpoint_keys,
@@ -49,9 +62,9 @@ static const struct key scene_initial_rows[] = {
     "[{'required': ['everywhere']}, {'required': ['box']},"                                                            \
     "{'required': ['half-space']}, {'required': ['sphere']}, {'required': ['cylinder']}, {'required': ['ellipsoid']}," \
     "{'required': ['ring']}, {'required': ['polygon']}, {'required': ['complement']}, {'required': ['union']},"        \
-    "{'required': ['intersection']}]},"                                                                                \
+    "{'required': ['intersection']}, {'required': ['cloud']}]},"                                                       \
     " 'else': {'properties': {'material': false, 'fractions': false, 'density': false, 'temperature': false,"          \
-    " 'pressure': false, 'velocity': false, 'stretch': false}}},"                                                      \
+    " 'pressure': false, 'velocity': false, 'stretch': false, 'balance': false}}},"                                    \
     "{'if': {'not': {'required': ['lua']}, 'anyOf': [{'required': ['material']}, {'required': ['fractions']}]},"       \
     " 'then': {'anyOf': [{'required': ['density', 'pressure']}, {'required': ['temperature', 'pressure']},"            \
     " {'required': ['density', 'temperature']}]}},"                                                                    \
@@ -134,6 +147,7 @@ static void scene_initial_lua(struct draft *draft, struct scene_layer *layer, co
     layer->script = scene_file_lua(draft, keys_at(map, "lua"));
     for (const struct key *row = scene_state_rows; row->name; row++) scene_initial_lua_alone(draft, map, row->name);
     scene_initial_lua_alone(draft, map, "stretch");
+    scene_initial_lua_alone(draft, map, "balance");
 }
 
 /* A layer out of a checkpoint is where that run was, and says all. */
@@ -207,14 +221,37 @@ static void scene_initial_cover(struct draft *draft, const struct keys_value *in
     mem_free(all.parts);
 }
 
+/* Puts the spheres of clouds into the list of layers, and reads it anew. */
+static void scene_initial_clouds(struct draft *draft)
+{
+    const struct keys_value *initial = keys_at(draft->root, "initial");
+    struct node *layers = tree_list(draft->keys.forest, &initial->node->mark);
+    bool any = false;
+    for (unsigned i = 0; i < initial->count; i++) {
+        const struct keys_value *layer = &initial->list[i], *cloud = keys_at(layer->map, "cloud");
+        any = any || cloud->node;
+        struct node *some = cloud->node ? scene_cloud(draft, cloud, layer->node) : NULL;
+        if (!some) tree_append(draft->keys.forest, layers, layer->node);
+        for (unsigned k = 0; some && k < some->count; k++) tree_append(draft->keys.forest, layers, some->items[k]);
+    }
+    if (!any || diag_errors(draft->keys.diag)) return;
+    initial->node->items = layers->items;
+    initial->node->count = layers->count;
+    keys_again(&draft->keys, draft->root, "initial");
+}
+
 void scene_initial(struct draft *draft)
 {
+    if (keys_at(draft->root, "initial")->given && draft->scene->domain.dim > 0) scene_initial_clouds(draft);
     const struct keys_value *initial = keys_at(draft->root, "initial");
     struct scene *scene = draft->scene;
     unsigned before = diag_errors(draft->keys.diag);
     scene->layers = mem_new(initial->count + 1, sizeof *scene->layers);
     scene->n_layer = initial->count;
-    for (unsigned i = 0; i < initial->count; i++) scene_initial_layer(draft, &scene->layers[i], initial->list[i].map);
+    for (unsigned i = 0; i < initial->count; i++) {
+        scene_initial_layer(draft, &scene->layers[i], initial->list[i].map);
+        scene_tension_balance(draft, keys_at(initial->list[i].map, "balance"), i);
+    }
     if (initial->given && scene->domain.dim > 0 && diag_errors(draft->keys.diag) == before)
         scene_initial_cover(draft, initial);
 }

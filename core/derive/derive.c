@@ -222,6 +222,7 @@ static const struct derive_quantity derive_table[] = {
     {"vorticity", "1/s", DERIVE_VECTOR, derive_slope_vorticity, 0, DERIVE_LAYERS},
     {"heat_flux", "W/m2", DERIVE_VECTOR, derive_heat_flux, 0, DERIVE_LAYERS},
     {"schlieren", "1", DERIVE_ONE, derive_slope_schlieren, 0, DERIVE_LAYERS | DERIVE_STEEPEST},
+    {"surface_energy", "J/m3", DERIVE_ONE, derive_slope_surface, 0, DERIVE_LAYERS},
     {"level", "1", DERIVE_ONE, derive_level, 0, DERIVE_ALONE},
     {"rank", "1", DERIVE_ONE, derive_rank, 0, DERIVE_ALONE},
     {"cost", "1", DERIVE_ONE, derive_cost, 0, DERIVE_ALONE},

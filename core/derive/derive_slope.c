@@ -112,6 +112,39 @@ void derive_slope_schlieren(const struct derive_view *tile, double *out)
         out[i] = tile->field->scale > 0.0 ? exp(-200.0 * out[i] / tile->field->scale) : 1.0;
 }
 
+static double derive_slope_combine_alpha(const struct model *model, const double *w, size_t pitch, int which)
+{
+    return w[(model->i_alpha + (unsigned)which) * pitch];
+}
+
+/* |alpha_b grad alpha_a - alpha_a grad alpha_b|^2 of a pair; a, b: work space [n]. */
+static void derive_slope_pair(const struct derive_view *tile, const struct model_pair *pair, double *a, double *b,
+                              double *square)
+{
+    memset(square, 0, tile->n * sizeof *square);
+    for (int axis = 0; axis < tile->mesh->dim; axis++) {
+        derive_slope_gradient(tile, axis, derive_slope_combine_alpha, (int)pair->inside, a);
+        derive_slope_gradient(tile, axis, derive_slope_combine_alpha, (int)pair->outside, b);
+        for (size_t i = 0; i < tile->n; i++) {
+            double g =
+                derive_view_alpha(tile, pair->outside, i) * a[i] - derive_view_alpha(tile, pair->inside, i) * b[i];
+            square[i] += g * g;
+        }
+    }
+}
+
+void derive_slope_surface(const struct derive_view *tile, double *out)
+{
+    double *work = mem_new(3 * tile->n, sizeof *work), *square = work + 2 * tile->n;
+    memset(out, 0, tile->n * sizeof *out);
+    for (unsigned k = 0; k < tile->model->n_pair; k++) {
+        const struct model_pair *pair = &tile->model->pairs[k];
+        derive_slope_pair(tile, pair, work, work + tile->n, square);
+        for (size_t i = 0; i < tile->n; i++) out[i] += pair->sigma * sqrt(square[i]);
+    }
+    mem_free(work);
+}
+
 void derive_slope_exchange(const struct model *model, const struct mesh *mesh, int base, double t)
 {
     struct prolong *prolong = prolong_new(model, mesh);

@@ -11,6 +11,7 @@
 #include "case/donor.h"
 #include "case/shape.h"
 #include "paint/paint_contact.h"
+#include "paint/paint_curvature.h"
 #include "paint/paint_stretch.h"
 #include "paint/paint_values.h"
 #include "phys/mix.h"
@@ -144,7 +145,7 @@ static void paint_mix(struct paint *paint, size_t cell, double fraction, const d
 {
     const struct model *model = paint->model;
     double below[MODEL_FIELDS];
-    bool meets = fraction < 1.0 && paint->covered[cell] == 1.0;
+    bool meets = fraction < 1.0 && paint->covered[cell] == 1.0 && paint->model->n_pair == 0; /* tension holds a jump */
     for (unsigned q = 0; meets && q < model->n_field; q++) below[q] = paint->u[q * paint->mesh->n_cell + cell];
     paint_lay(paint, cell, fraction, layer);
     if (meets) paint_meet(paint, cell, below, layer);
@@ -210,12 +211,12 @@ static void paint_mean(const struct paint *paint, const double *weight, unsigned
     double part[PAINT_POINTS], used[PAINT_POINTS];
     memcpy(part, weight, n * sizeof *part);
     for (unsigned q = 0; q < model->n_field; q++) {
-        for (unsigned k = 0, at = 0; k < n && q == model->i_V; k++)
+        for (unsigned k = 0, at = 0; k < n && q == model->i_V && model->n_stretch; k++)
             if (weight[k] > 0.0) part[k] *= paint_stretch_share(model, &paint->conserved.at[0][at++], PAINT_POINTS);
         for (unsigned k = 0, at = 0; k < n; k++)
             used[k] = weight[k] > 0.0 ? part[k] * paint->conserved.at[q][at++] : 0.0;
         double whole = paint_sum(part, n);
-        ret_mean[q] = whole > 0.0 ? paint_sum(used, n) / whole : q < model->i_V + 3 ? 1.0 : 0.0;
+        ret_mean[q] = whole > 0.0 ? paint_sum(used, n) / whole : model->n_stretch && q < model->i_V + 3 ? 1.0 : 0.0;
     }
 }
 
@@ -331,6 +332,7 @@ int paint_tile(const struct model *model, const struct mesh *mesh, const struct 
             paint->edges[d][i] = (mesh->lower[d] * (cells - first - i) + mesh->upper[d] * (first + i)) / cells;
     }
     int code = paint_layers(paint);
+    if (!code && model->n_pair) paint_curvature(model, mesh, level, tile, u);
     if (!code && model->n_stretch) paint_stretch_finish(model, mesh->n_cell, mesh->n_cell, u);
     for (int d = 0; d < mesh->dim; d++) mem_free(paint->edges[d]);
     mem_free(paint->covered);

@@ -46,7 +46,7 @@ static void bound_fill_copy(const struct bound_fill *fill)
 static bool bound_fill_is_crossed(const struct model *model, int axis, unsigned q)
 {
     unsigned n = (unsigned)axis;
-    if (q < model->i_V + 3) return false;
+    if (q < model->i_V + 3 || q >= model->i_V + model->n_stretch) return false;
     return q == model->i_V + elastic_component(n, (n + 1) % 3) || q == model->i_V + elastic_component(n, (n + 2) % 3);
 }
 
@@ -330,6 +330,7 @@ static void bound_fill_compose_state(const struct bound_fill *fill, struct bound
         }
         for (unsigned s = 0; s < model->n_strain; s++) at[(model->i_strain + s) * row->stride] = 0.0;
         for (unsigned v = 0; v < model->n_stretch; v++) at[(model->i_V + v) * row->stride] = v < 3 ? 1.0 : 0.0;
+        for (unsigned k = 0; k < model->n_pair; k++) at[model->pairs[k].i_kappa * row->stride] = 0.0;
     }
 }
 
