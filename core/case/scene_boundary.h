@@ -20,6 +20,7 @@ enum scene_boundary_trait {
     SCENE_BOUNDARY_MIDDLE = 16, /* the other half of what is inside lies behind it: may stand at r = 0 */
     SCENE_BOUNDARY_CENTRE = 32, /* stands at r = 0 alone */
     SCENE_BOUNDARY_DRIVES = 64, /* brings states that may be faster than all that is inside: the time step knows them */
+    SCENE_BOUNDARY_OPEN = 128,  /* fluid and waves leave or come in */
 };
 
 /* ROW(constant, word, what it is, what may be written, who fills the layers behind it, what it means to others). */
@@ -29,12 +30,14 @@ enum scene_boundary_trait {
     ROW(SYMMETRY, "symmetry", "Plane of symmetry.", NOTHING, slip, SCENE_BOUNDARY_RESTS | SCENE_BOUNDARY_MIDDLE)    \
     ROW(REFLECTING, "reflecting", "Rigid wall along which the fluid slips.", WALL, slip, SCENE_BOUNDARY_RESTS)      \
     ROW(NO_SLIP, "no-slip", "Rigid wall to which the fluid sticks.", STICKY, no_slip, SCENE_BOUNDARY_RESTS)         \
-    ROW(OUTFLOW, "outflow", "Zero gradient.", NOTHING, copy, SCENE_BOUNDARY_RESTS)                                  \
-    ROW(NONREFLECTING, "non-reflecting", "Outgoing waves leave, none comes in.", FAR, far, SCENE_BOUNDARY_REFERS)   \
+    ROW(OUTFLOW, "outflow", "Zero gradient.", NOTHING, copy, SCENE_BOUNDARY_RESTS | SCENE_BOUNDARY_OPEN)            \
+    ROW(NONREFLECTING, "non-reflecting", "Outgoing waves leave, none comes in.", FAR, far,                          \
+        SCENE_BOUNDARY_REFERS | SCENE_BOUNDARY_OPEN)                                                                \
     ROW(PERIODIC, "periodic", "What leaves here enters at the opposite face.", NOTHING, copy, SCENE_BOUNDARY_WRAPS) \
-    ROW(INFLOW, "inflow", "A fixed state flows in.", STATE, state, SCENE_BOUNDARY_BRINGS | SCENE_BOUNDARY_DRIVES)   \
+    ROW(INFLOW, "inflow", "A fixed state flows in.", STATE, state,                                                  \
+        SCENE_BOUNDARY_BRINGS | SCENE_BOUNDARY_DRIVES | SCENE_BOUNDARY_OPEN)                                        \
     ROW(INCOMING_WAVE, "incoming-wave", "A pressure wave comes in; outgoing waves leave.", WAVE, wave,              \
-        SCENE_BOUNDARY_REFERS | SCENE_BOUNDARY_DRIVES)
+        SCENE_BOUNDARY_REFERS | SCENE_BOUNDARY_DRIVES | SCENE_BOUNDARY_OPEN)
 
 #define SCENE_BOUNDARY_TYPE(type, ...) SCENE_##type,
 enum scene_boundary_type { SCENE_BOUNDARY_TABLE(SCENE_BOUNDARY_TYPE) SCENE_BOUNDARY_TYPES };

@@ -211,6 +211,23 @@ static void face_load(struct face_work *work, const struct frame *frame, size_t 
     face_stress_complete(own->stress, model, &edges);
 }
 
+/* The mask of a frame, NULL without one, in which cells beside open boundaries are marked, too: low_mach.h. */
+static const double *face_shore(struct face_work *work, const struct frame *frame, bool masked)
+{
+    const bool *open = work->open[frame->axis];
+    const struct face_own *own = work->own;
+    double *shore = own->stiffness; /* of a material that is done */
+    if (!open[0] && !open[1]) return masked ? work->mask : NULL;
+    if (masked) memcpy(shore, work->mask, frame->count * sizeof *shore);
+    else memset(shore, 0, frame->count * sizeof *shore);
+    for (size_t o = 0; o < frame->outer; o++)
+        for (int side = 0; side < 2; side++) {
+            double *line = shore + frame_at(frame, o, side ? (int)frame->n - 1 : 0);
+            for (size_t i = 0; open[side] && i < frame->inner; i++) line[i] = 1.0;
+        }
+    return shore;
+}
+
 static BULLA_KERNEL void face_lag(size_t n, const double *restrict p, const double *restrict lag, double *restrict own)
 {
 #pragma omp simd
@@ -237,17 +254,20 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
+    double least = model->scene->scheme.low_mach;
+    if (least >= 1.0) return;
+    const double *mask = face_shore(work, frame, masked);
     size_t cells = frame_edged(frame);
     const struct low_mach faces = {.n = cells - frame->inner,
                                    .right = cells + frame->inner,
-                                   .least = model->scene->scheme.low_mach,
+                                   .least = least,
                                    .rho = rho,
                                    .rho_c2 = own->c,
                                    .p = work->frame + model->i_E * FACE_ROOM + frame_reach(frame),
-                                   .mask = masked ? work->mask + frame_reach(frame) : NULL,
+                                   .mask = mask ? mask + frame_reach(frame) : NULL,
                                    .step = frame->inner,
                                    .part = own->term};
-    if (faces.least < 1.0) low_mach_draw(&faces, own->state + 2 * (model->i_u + (unsigned)frame->axis) * FACE_ROOM);
+    low_mach_draw(&faces, own->state + 2 * (model->i_u + (unsigned)frame->axis) * FACE_ROOM);
 }
 
 /* Partial densities, total energy and fastest speed of n edges. */

@@ -6,7 +6,9 @@
  *     u = (u_L + u_R)/2 -+ z (u_R - u_L)/2,      z = min(1, least + max(M_L, M_R) + LOW_MACH_BEND b / max rho c^2),
  * after Thornber, Mosedale, Drikakis, Youngs & Williams, J. Comput. Phys. 227 (2008) 4873-4894, who have z = max(M_L, M_R).
  * b is the larger second difference of pressure of the two cells of the face: a shock wants its jump of velocity whole,
- * and so do the cells behind it, where the jump of pressure is small again; a pressure that rises evenly is no shock. */
+ * and so do the cells behind it, where the jump of pressure is small again; a pressure that rises evenly is no shock.
+ * Faces of troubled cells and of those beside boundaries that waves cross keep their jumps: what leaves there is a wave,
+ * and with two means in place of its invariants it would not. */
 #ifndef LOW_MACH_H
 #define LOW_MACH_H
 

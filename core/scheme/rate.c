@@ -46,11 +46,22 @@ static void rate_sweep(const struct term_tile *tile, void *const *own, int axis,
     if (watch->swept) watch->swept(watch->data, axis);
 }
 
+/* The sides of a tile at which waves leave the domain or come in. */
+static void rate_open(const struct term_tile *tile)
+{
+    for (int face = 0; face < 2 * tile->mesh->dim; face++) {
+        int axis = face / 2, at = tile->tile->at[axis], end = face % 2 ? tile->level->extent[axis] - 1 : 0;
+        tile->terms->faces->open[axis][face % 2] =
+            at == end && scene_boundary_is(tile->model->scene, face, SCENE_BOUNDARY_OPEN);
+    }
+}
+
 void rate_take(struct term_tile *tile, void *const *own, const struct rate_watch *watch, bool masked)
 {
     const struct terms *terms = tile->terms;
     rate_clear(tile);
     terms->faces->model = tile->model;
+    rate_open(tile);
     for (unsigned i = 0; i < terms->n; i++) {
         tile->own = own[terms->number[i]];
         if (terms->at[i]->begin) terms->at[i]->begin(tile);
