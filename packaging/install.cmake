@@ -16,7 +16,7 @@ install(FILES ${CMAKE_BINARY_DIR}/packaging/bulla.pc DESTINATION share/pkgconfig
 # Cases and schema; the pages link to the cases beside them.
 install(DIRECTORY cases schemas DESTINATION share/bulla)
 install(DIRECTORY docs DESTINATION share/doc/bulla PATTERN site EXCLUDE)
-install(FILES packaging/python/bulla_yt.py DESTINATION share/bulla/python)
+install(FILES packaging/python/bulla.py packaging/python/bulla_yt.py DESTINATION share/bulla/python)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION share/doc/bulla)
 foreach(folder cases schemas)
   file(CREATE_LINK ../../bulla/${folder} ${CMAKE_BINARY_DIR}/packaging/${folder} SYMBOLIC)

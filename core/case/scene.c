@@ -6,6 +6,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "case/donor.h"
 #include "case/merge.h"
 #include "case/scene_draft.h"
 #include "case/show.h"
@@ -83,6 +84,7 @@ static void scene_fill(struct draft *draft)
     scene_mesh(draft);
     scene_refine(draft);
     scene_boundary(draft);
+    scene_tension(draft);
     scene_initial(draft);
     scene_source(draft);
     scene_output(draft);
@@ -263,6 +265,8 @@ void scene_free(struct scene *scene)
         shape_free(scene->layers[i].shape);
         mem_free(scene->layers[i].fractions);
         mem_free(scene->layers[i].density);
+        mem_free(scene->layers[i].checkpoint);
+        donor_free(scene->layers[i].donor);
     }
     mem_free(scene->layers);
     mem_free(scene->sources);

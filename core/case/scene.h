@@ -16,7 +16,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { SCENE_AXES = 3, SCENE_MATERIALS = 16, SCENE_NAME = 64, SCENE_SETTINGS = 64 };
+enum { SCENE_AXES = 3, SCENE_MATERIALS = 16, SCENE_PAIRS = 8, SCENE_NAME = 64, SCENE_SETTINGS = 64 };
 
 /* Layers of neighbours that a sweep over a tile may need on each side: fewest and most. */
 enum { SCENE_GHOSTS = 2, SCENE_GHOSTS_MOST = 3 };
@@ -69,6 +69,12 @@ struct scene_material {
     double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
 };
 
+/* Surface tension between two materials. */
+struct scene_tension {
+    unsigned one, other;
+    double sigma; /* [N/m] */
+};
+
 /* One layer of paint. Layers are applied in order; a later one covers an earlier one by its
  * sub-cell volume fraction. */
 struct scene_layer {
@@ -81,6 +87,9 @@ struct scene_layer {
     struct scene_value velocity[SCENE_AXES];
     struct scene_value stretch[6]; /* xx, yy, zz, xy, xz, yz; what is not given is that of the identity */
     const struct script *script;   /* `lua:` layer: returns a table of named fields of (x, y, z) */
+    char *checkpoint;              /* of another run, whose state it paints; or NULL */
+    double at[SCENE_AXES];         /* where the origin of that run lies here */
+    struct donor *donor;           /* its cells (case/donor.h), once io/start.h has read them */
     double centre[SCENE_AXES];     /* r in expressions is measured from here */
     int line;                      /* in the case file, for messages */
 };
@@ -311,6 +320,8 @@ struct scene {
     struct scene_mesh mesh;
     unsigned n_material;
     struct scene_material material[SCENE_MATERIALS];
+    unsigned n_tension;
+    struct scene_tension tension[SCENE_PAIRS];
     unsigned n_layer;
     struct scene_layer *layers;    /* `initial:` */
     struct scene_sources *sources; /* NULL: none */

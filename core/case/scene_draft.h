@@ -32,6 +32,7 @@ void scene_heat(struct draft *draft);
 void scene_mesh(struct draft *draft);
 void scene_refine(struct draft *draft);
 void scene_boundary(struct draft *draft);
+void scene_tension(struct draft *draft);
 void scene_initial(struct draft *draft);
 void scene_source(struct draft *draft);
 void scene_output(struct draft *draft);
@@ -39,6 +40,9 @@ void scene_peak(struct draft *draft);
 void scene_history(struct draft *draft);
 void scene_map(struct draft *draft);
 void scene_expect(struct draft *draft);
+
+/* `balance: tension` of layer `index`: the pressure inside is made the given one and what surface tension adds. */
+void scene_tension_balance(struct draft *draft, const struct keys_value *balance, unsigned index);
 
 /* The table of times and pressures of a measured pulse. */
 void scene_pulse(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map);

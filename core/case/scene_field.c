@@ -19,7 +19,9 @@ static const struct scene_field scene_field_plain[] = {
     {"internal_energy", "J/kg", 0},
     {"total_energy", "J/m3", 0},
     {"vorticity", "1/s", SCENE_FIELD_VECTOR | SCENE_FIELD_VANISHING},
+    {"heat_flux", "W/m2", SCENE_FIELD_VECTOR | SCENE_FIELD_VANISHING},
     {"schlieren", "1", SCENE_FIELD_FRACTION},
+    {"surface_energy", "J/m3", SCENE_FIELD_VANISHING},
     {"level", "1", 0},
     {"rank", "1", 0},
     {"cost", "1", SCENE_FIELD_POSITIVE},
@@ -90,9 +92,29 @@ static bool scene_field_is_solid(const char *name)
 {
     for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++)
         if (strcmp(scene_field_solid[i].name, name) == 0) return true;
+    return false;
+}
+
+static bool scene_field_is_plastic(const char *name)
+{
     for (unsigned i = 0; i < SCENE_FIELD_PLASTIC; i++)
         if (strcmp(scene_field_plastic[i].name, name) == 0) return true;
     return false;
+}
+
+/* A field of strengths in a scene that has none, or none that knows strains. */
+static bool scene_field_miss_strength(struct draft *draft, const struct keys_value *value)
+{
+    if (!scene_field_is_plastic(value->text)) return false;
+    if (scene_material_strength(draft) == 0) {
+        keys_error(&draft->keys, value,
+                   "'%s' is a field of solids with a strength, and no material has a 'plastic' law", value->text);
+    } else {
+        keys_error(&draft->keys, value, "no strength here looks at plastic strain, so there is no field '%s'",
+                   value->text);
+        diag_help(draft->keys.diag, "'strain: always' in a von-mises law keeps it all the same");
+    }
+    return true;
 }
 
 bool scene_field_is_vector(const char *name)
@@ -190,8 +212,11 @@ const char *scene_field_constant(struct draft *draft, const char *name)
     if (scene->domain.n_velocity < scene_field_shear(name)) return "0 everywhere: nothing moves across these axes";
     if (strcmp(name, "vorticity") == 0 && scene->domain.n_velocity == 1)
         return "0 everywhere: velocities have one component";
+    if (strcmp(name, "heat_flux") == 0 && !scene_material_conducts(draft)) return "0 everywhere: no material conducts";
     if (one && (strcmp(name, "cost") == 0 || strncmp(name, "alpha_", 6) == 0))
         return "1 everywhere: there is one material";
+    if (strcmp(name, "surface_energy") == 0 && scene->n_tension == 0)
+        return "0 everywhere: no pair of materials has a surface tension";
     if (strncmp(name, "curvature_", 10) == 0) {
         if (one) return "0 everywhere: there is one material";
         if (scene->domain.dim == 1 && scene->domain.geometry == SCENE_CARTESIAN)
@@ -210,6 +235,7 @@ bool scene_field(struct draft *draft, const struct keys_value *value, char ret_n
         snprintf(ret_name, SCENE_NAME, "%s", value->text);
         return true;
     }
+    if (scene_field_miss_strength(draft, value)) return false;
     if (scene_field_is_solid(value->text)) {
         keys_error(&draft->keys, value, "'%s' is a field of solids, and no material has a 'constitutive' law",
                    value->text);

@@ -42,7 +42,10 @@ static void scene_idle_materials(struct draft *draft, const struct node *root)
     const struct keys_value *materials = keys_at(draft->root, "materials");
     unsigned missing = 0;
     bool script = false;
-    for (unsigned i = 0; i < draft->scene->n_layer; i++) script = script || draft->scene->layers[i].script;
+    for (unsigned i = 0; i < draft->scene->n_layer; i++) {
+        script = script || draft->scene->layers[i].script;
+        if (draft->scene->layers[i].checkpoint) return; /* which may have any */
+    }
     for (unsigned i = 0; i < materials->count; i++) missing += !scene_idle_found(root, materials->list[i].name);
     for (unsigned i = 0; missing > (script ? 1 : 0) && i < materials->count; i++) {
         const char *name = materials->list[i].name;

@@ -3,31 +3,60 @@
 
 #include "base/mem.h"
 
+#include <errno.h>
 #include <string.h>
+#include <unistd.h>
 
 static const struct keys_section scene_initial_state = {.name = "state",
                                                         .base = &scene_shape_keys,
                                                         .keys = scene_state_rows};
+
+static const struct key scene_initial_checkpoint_rows[] = {
+    {.name = "file", .type = KEYS_TEXT, .required = true, .doc = "A checkpoint, `checkpoints/CASE_STEP.chk` of a run."},
+    {.name = "at",
+     .type = KEYS_NUMBER,
+     .many = KEYS_LIST,
+     .unit = "m",
+     .doc = "Where the origin of that run's coordinates (the centre of a spherical one) lies here; the origin if not "
+            "given."},
+    {0},
+};
+
+static const struct keys_section scene_initial_checkpoint_keys = {
+    .name = "checkpoint",
+    .doc = "The state of another run: of the same geometry and number of axes, or spherical in an axisymmetric or 3D "
+           "scene.",
+    .keys = scene_initial_checkpoint_rows};
 
 static const struct key scene_initial_rows[] = {
     {.name = "stretch",
      .type = KEYS_SECTION,
      .section = &scene_stretch_keys,
      .doc = "Initial stretch of a solid: [xx, yy, zz] or a map of components."},
+    {.name = "balance",
+     .type = KEYS_CHOICE,
+     .choices = "tension",
+     .doc = "`tension`: the pressure is the one outside of a sphere, and sigma times the curvature (2/R of a ball, 1/R "
+            "around an axis) is added to it."},
     {.name = "lua",
      .type = KEYS_TEXT,
      .doc = "File or block: function(x, y, z) that returns a table of named fields, {pressure = ..., alpha = {...}}."},
+    {.name = "checkpoint",
+     .type = KEYS_SECTION,
+     .section = &scene_initial_checkpoint_keys,
+     .doc = "The state of another run, where it has one."},
     {0},
 };
 
 /* A shape or `lua`; with a material a whole state; with `lua` none of its own (scene_initial_layer). */
 #define SCENE_INITIAL_RULES                                                                                            \
-    "{'if': {'not': {'required': ['lua']}}, 'then': {'oneOf': [{'required': ['everywhere']}, {'required': ['box']},"   \
+    "{'if': {'not': {'anyOf': [{'required': ['lua']}, {'required': ['checkpoint']}]}}, 'then': {'oneOf': "             \
+    "[{'required': ['everywhere']}, {'required': ['box']},"                                                            \
     "{'required': ['half-space']}, {'required': ['sphere']}, {'required': ['cylinder']}, {'required': ['ellipsoid']}," \
     "{'required': ['ring']}, {'required': ['polygon']}, {'required': ['complement']}, {'required': ['union']},"        \
     "{'required': ['intersection']}]},"                                                                                \
     " 'else': {'properties': {'material': false, 'fractions': false, 'density': false, 'temperature': false,"          \
-    " 'pressure': false, 'velocity': false, 'stretch': false}}},"                                                      \
+    " 'pressure': false, 'velocity': false, 'stretch': false, 'balance': false}}},"                                    \
     "{'if': {'not': {'required': ['lua']}, 'anyOf': [{'required': ['material']}, {'required': ['fractions']}]},"       \
     " 'then': {'anyOf': [{'required': ['density', 'pressure']}, {'required': ['temperature', 'pressure']},"            \
     " {'required': ['density', 'temperature']}]}},"                                                                    \
@@ -110,6 +139,28 @@ static void scene_initial_lua(struct draft *draft, struct scene_layer *layer, co
     layer->script = scene_file_lua(draft, keys_at(map, "lua"));
     for (const struct key *row = scene_state_rows; row->name; row++) scene_initial_lua_alone(draft, map, row->name);
     scene_initial_lua_alone(draft, map, "stretch");
+    scene_initial_lua_alone(draft, map, "balance");
+}
+
+/* A layer out of a checkpoint is where that run was, and says all. */
+static void scene_initial_checkpoint(struct draft *draft, struct scene_layer *layer, const struct keys_map *map)
+{
+    const struct keys_value *checkpoint = keys_at(map, "checkpoint");
+    const struct keys_value *file = keys_at(checkpoint->map, "file"), *at = keys_at(checkpoint->map, "at");
+    for (unsigned i = 0; i < map->count; i++) {
+        const struct keys_value *value = &map->values[i];
+        if (value->node && value != checkpoint)
+            keys_error(&draft->keys, value, "a layer that is made of a 'checkpoint' has no '%s' of its own",
+                       value->key->name);
+    }
+    if (at->node) scene_domain_vector(draft, at, layer->at);
+    if (!file->given) return;
+    const char *path = scene_file(draft, file);
+    layer->checkpoint = mem_text(path);
+    if (access(path, R_OK) == 0) return;
+    keys_error(&draft->keys, file, "'%s' cannot be read: %s", path, strerror(errno));
+    diag_help(draft->keys.diag,
+              "a run writes checkpoints where 'output.checkpoints' says 'every:', or when it is stopped");
 }
 
 static void scene_initial_layer(struct draft *draft, struct scene_layer *layer, const struct keys_map *map)
@@ -117,6 +168,10 @@ static void scene_initial_layer(struct draft *draft, struct scene_layer *layer, 
     const struct keys_value *lua = keys_at(map, "lua"), *shape = NULL;
     if (!map) return;
     layer->line = map->node->mark.line;
+    if (keys_at(map, "checkpoint")->node) {
+        scene_initial_checkpoint(draft, layer, map);
+        return;
+    }
     layer->shape = scene_shape(draft, map, !lua->node, &shape);
     if (shape) scene_initial_look(draft, layer, shape);
     scene_initial_centre(layer);
@@ -143,7 +198,7 @@ static void scene_initial_cover(struct draft *draft, const struct keys_value *in
     all.parts = mem_new(scene->n_layer + 1, sizeof *all.parts);
     for (unsigned i = 0; i < scene->n_layer; i++) {
         const struct scene_layer *layer = &scene->layers[i];
-        bool whole = layer->has_material || layer->script;
+        bool whole = layer->has_material || layer->script || layer->checkpoint;
         if (whole && layer->shape && layer->shape->type != SHAPE_EVERYWHERE) all.parts[all.n++] = layer->shape;
         else if (whole) all.type = SHAPE_EVERYWHERE;
     }
@@ -165,7 +220,10 @@ void scene_initial(struct draft *draft)
     unsigned before = diag_errors(draft->keys.diag);
     scene->layers = mem_new(initial->count + 1, sizeof *scene->layers);
     scene->n_layer = initial->count;
-    for (unsigned i = 0; i < initial->count; i++) scene_initial_layer(draft, &scene->layers[i], initial->list[i].map);
+    for (unsigned i = 0; i < initial->count; i++) {
+        scene_initial_layer(draft, &scene->layers[i], initial->list[i].map);
+        scene_tension_balance(draft, keys_at(initial->list[i].map, "balance"), i);
+    }
     if (initial->given && scene->domain.dim > 0 && diag_errors(draft->keys.diag) == before)
         scene_initial_cover(draft, initial);
 }

@@ -70,6 +70,15 @@ static const struct key scene_root[] = {
      .section = &scene_material_keys,
      .required = true,
      .doc = "The materials, by name."},
+    {.name = "surface-tension",
+     .type = KEYS_NUMBER,
+     .many = KEYS_NAMED,
+     .unit = "N/m",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .doc =
+         "Surface tension by pairs of materials, as in `water+air: 72.8 mN/m`; pairs that are not named have none. In "
+         "one dimension, around a centre or an axis."},
     {.name = "initial",
      .type = KEYS_SECTION,
      .many = KEYS_LIST,

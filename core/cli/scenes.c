@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "cli/human.h"
+#include "io/start.h"
 #include "judge/norm.h"
 #include "plug/block.h"
 
@@ -75,6 +76,7 @@ int scenes_read(const struct cli_given *given, const char *path, struct scene **
     if (code) return options.json ? code : cli_failed(code);
     code = scenes_limit(*ret_scene, cli_value(given, "--max-memory"), strcmp(given->command->name, "run") != 0);
     if (!code) code = norm_check(*ret_scene);
+    if (!code) code = comm_agree(start_load(*ret_scene));
     if (!code) return STATUS_OK;
     scene_free(*ret_scene);
     *ret_scene = NULL;

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "derive/derive_curvature.h"
 #include "derive/derive_formula.h"
+#include "derive/derive_heat.h"
 #include "derive/derive_slope.h"
 #include "derive/derive_stress.h"
 #include "phys/mix.h"
@@ -219,7 +220,9 @@ static const struct derive_quantity derive_table[] = {
     {"internal_energy", "J/kg", DERIVE_ONE, derive_internal_energy, 0, DERIVE_ALONE},
     {"total_energy", "J/m3", DERIVE_ONE, derive_total_energy, 0, DERIVE_ALONE},
     {"vorticity", "1/s", DERIVE_VECTOR, derive_slope_vorticity, 0, DERIVE_LAYERS},
+    {"heat_flux", "W/m2", DERIVE_VECTOR, derive_heat_flux, 0, DERIVE_LAYERS},
     {"schlieren", "1", DERIVE_ONE, derive_slope_schlieren, 0, DERIVE_LAYERS | DERIVE_STEEPEST},
+    {"surface_energy", "J/m3", DERIVE_ONE, derive_slope_surface, 0, DERIVE_LAYERS},
     {"level", "1", DERIVE_ONE, derive_level, 0, DERIVE_ALONE},
     {"rank", "1", DERIVE_ONE, derive_rank, 0, DERIVE_ALONE},
     {"cost", "1", DERIVE_ONE, derive_cost, 0, DERIVE_ALONE},

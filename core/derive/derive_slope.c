@@ -23,16 +23,11 @@ static void derive_slope_behind(void *data, unsigned local, const struct frame *
         bound_copy(NULL, local, frame, side, pitch, w + model->active[i] * pitch);
 }
 
-/* Central differences along an axis of a combination of primitives: `combine` makes one value per
- * frame cell out of the gathered primitives. grad: [n]. */
-static void derive_slope_gradient(const struct derive_view *tile, int axis,
-                                  double (*combine)(const struct model *, const double *w, size_t pitch, int which),
-                                  int which, double *grad)
+void derive_slope_gather(const struct derive_view *tile, const struct frame *frame, size_t pitch, double *w)
 {
-    const struct mesh *mesh = tile->mesh;
     const struct model *model = tile->model;
-    struct bound bound = {.model = model, .mesh = mesh, .level = tile->level, .t = tile->t};
-    const struct frame_source source = {.mesh = mesh,
+    struct bound bound = {.model = model, .mesh = tile->mesh, .level = tile->level, .t = tile->t};
+    const struct frame_source source = {.mesh = tile->mesh,
                                         .level = tile->level,
                                         .arrays = tile->level->w,
                                         .halo = tile->level->halo,
@@ -41,10 +36,21 @@ static void derive_slope_gradient(const struct derive_view *tile, int axis,
                                         .fields = model->active,
                                         .boundary = derive_slope_behind,
                                         .data = &bound};
+    frame_gather(&source, tile->local, frame, pitch, w);
+}
+
+/* Central differences along an axis of a combination of primitives: `combine` makes one value per
+ * frame cell out of the gathered primitives. grad: [n]. */
+static void derive_slope_gradient(const struct derive_view *tile, int axis,
+                                  double (*combine)(const struct model *, const double *w, size_t pitch, int which),
+                                  int which, double *grad)
+{
+    const struct mesh *mesh = tile->mesh;
+    const struct model *model = tile->model;
     double *w = mem_new((size_t)model->n_field * FRAME_CELLS, sizeof *w);
     for (size_t piece = 0; piece < frame_pieces(mesh, axis); piece++) {
         struct frame frame = frame_piece(mesh, axis, piece);
-        frame_gather(&source, tile->local, &frame, FRAME_CELLS, w);
+        derive_slope_gather(tile, &frame, FRAME_CELLS, w);
         for (size_t o = 0; o < frame.outer; o++)
             for (size_t i = 0; i < frame.n; i++)
                 for (size_t j = 0; j < frame.inner; j++) {
@@ -104,6 +110,39 @@ void derive_slope_schlieren(const struct derive_view *tile, double *out)
     derive_slope_density(tile, out);
     for (size_t i = 0; i < tile->n; i++)
         out[i] = tile->field->scale > 0.0 ? exp(-200.0 * out[i] / tile->field->scale) : 1.0;
+}
+
+static double derive_slope_combine_alpha(const struct model *model, const double *w, size_t pitch, int which)
+{
+    return w[(model->i_alpha + (unsigned)which) * pitch];
+}
+
+/* |alpha_b grad alpha_a - alpha_a grad alpha_b|^2 of a pair; a, b: work space [n]. */
+static void derive_slope_pair(const struct derive_view *tile, const struct model_pair *pair, double *a, double *b,
+                              double *square)
+{
+    memset(square, 0, tile->n * sizeof *square);
+    for (int axis = 0; axis < tile->mesh->dim; axis++) {
+        derive_slope_gradient(tile, axis, derive_slope_combine_alpha, (int)pair->inside, a);
+        derive_slope_gradient(tile, axis, derive_slope_combine_alpha, (int)pair->outside, b);
+        for (size_t i = 0; i < tile->n; i++) {
+            double g =
+                derive_view_alpha(tile, pair->outside, i) * a[i] - derive_view_alpha(tile, pair->inside, i) * b[i];
+            square[i] += g * g;
+        }
+    }
+}
+
+void derive_slope_surface(const struct derive_view *tile, double *out)
+{
+    double *work = mem_new(3 * tile->n, sizeof *work), *square = work + 2 * tile->n;
+    memset(out, 0, tile->n * sizeof *out);
+    for (unsigned k = 0; k < tile->model->n_pair; k++) {
+        const struct model_pair *pair = &tile->model->pairs[k];
+        derive_slope_pair(tile, pair, work, work + tile->n, square);
+        for (size_t i = 0; i < tile->n; i++) out[i] += pair->sigma * sqrt(square[i]);
+    }
+    mem_free(work);
 }
 
 void derive_slope_exchange(const struct model *model, const struct mesh *mesh, int base, double t)

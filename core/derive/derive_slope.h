@@ -1,12 +1,21 @@
-/* derive_slope.h - derived fields that are made of gradients: vorticity and schlieren. */
+/* derive_slope.h - derived fields that are made of gradients: vorticity, schlieren, energy of surfaces. */
 #ifndef DERIVE_SLOPE_H
 #define DERIVE_SLOPE_H
 
 #include "derive/derive_view.h"
+#include "scheme/frame.h"
+
+/* Primitives of a piece of the tile and of the layers of neighbours, as the sweeps see them; boundaries that refer to the
+ * start copy. */
+void derive_slope_gather(const struct derive_view *tile, const struct frame *frame, size_t pitch, double *w);
 
 /* curl u [1/s], three components; in axisymmetric scenes the axes are (r, z) and the only component points along
  * theta, which is minus the third direction of the right-handed (r, z, -theta). */
 void derive_slope_vorticity(const struct derive_view *tile, double *out);
+
+/* Energy of the surfaces in a cell per volume, sum sigma |alpha_b grad alpha_a - alpha_a grad alpha_b| over the pairs with
+ * surface tension [J/m3]: its integral is sigma times their area. */
+void derive_slope_surface(const struct derive_view *tile, double *out);
 
 /* exp(-k |grad rho| / max |grad rho|), k = 200 (model.md 9); the largest gradient is field->scale. */
 void derive_slope_schlieren(const struct derive_view *tile, double *out);

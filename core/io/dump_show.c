@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "case/scene.h"
 #include "io/dump_read.h"
+#include "io/start.h"
 #include "plug/registry.h"
 #include "solve/blame_replay.h"
 
@@ -174,6 +175,7 @@ static int dump_show_scene(const struct dump *dump, struct scene **ret_scene)
     if (stream && (fputs(dump->resolved, stream) < 0) + fclose(stream))
         code = status_fail(STATUS_RUN, "%s: cannot write: %s", path, strerror(errno));
     if (!code) code = scene_read(path, NULL, ret_scene);
+    if (!code) code = start_load(*ret_scene);
     if (file >= 0) unlink(path);
     if (code) status_wrap(code, "%s: the case in the dump: ", dump->path);
     mem_free(path);

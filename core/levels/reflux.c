@@ -73,7 +73,7 @@ static const double *reflux_row(const struct model *model, const struct terms *t
     if (q > model->n_field) return reflux_slide(used, terms->faces, q - model->n_field - 1, left);
     for (unsigned i = 0; i < terms->n_flux[axis]; i++) {
         const struct term_flux *flux = &terms->flux[axis][i];
-        if (flux->rate == q && flux->kind != TERM_TOLD) return flux->below;
+        if (flux->rate == q && term_is_flux(flux->kind)) return flux->below;
     }
     bool alone = q < model->n_alpha && !used->n_alpha && q == used->first;
     return alone ? terms->faces->u : NULL;

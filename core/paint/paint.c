@@ -8,8 +8,10 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "case/donor.h"
 #include "case/shape.h"
 #include "paint/paint_contact.h"
+#include "paint/paint_curvature.h"
 #include "paint/paint_stretch.h"
 #include "paint/paint_values.h"
 #include "phys/mix.h"
@@ -122,14 +124,12 @@ static void paint_meet(struct paint *paint, size_t cell, const double *below, co
 
 /* u = (1 - f) u + f layer in one cell. A cut cell has one velocity; what
  * kinetic energy that costs is left out, for as heat it would be a hot spot along the surface of a moving body. */
-static void paint_mix(struct paint *paint, size_t cell, double fraction, const double *layer)
+static void paint_lay(struct paint *paint, size_t cell, double fraction, const double *layer)
 {
     const struct model *model = paint->model;
     size_t n_cell = paint->mesh->n_cell;
     struct paint_stretch_layer stretch = {fraction, paint->covered[cell], layer, 1};
-    double lost = 0.0, below[MODEL_FIELDS];
-    bool meets = fraction < 1.0 && paint->covered[cell] == 1.0;
-    for (unsigned q = 0; meets && q < model->n_field; q++) below[q] = paint->u[q * n_cell + cell];
+    double lost = 0.0;
     if (model->n_stretch) paint_stretch_mix(model, &stretch, n_cell, paint->u + cell);
     if (fraction < 1.0) lost = paint_lost(model, paint->u + cell, n_cell, 1.0 - fraction, layer, 1, fraction);
     for (unsigned q = 0; q < model->i_V; q++) {
@@ -138,6 +138,16 @@ static void paint_mix(struct paint *paint, size_t cell, double fraction, const d
     }
     paint->u[model->i_E * n_cell + cell] -= lost;
     paint->covered[cell] = fraction < 1.0 ? (1.0 - fraction) * paint->covered[cell] + fraction : 1.0;
+}
+
+/* The same; where the layer's surface cuts a cell that has a state, the two meet. */
+static void paint_mix(struct paint *paint, size_t cell, double fraction, const double *layer)
+{
+    const struct model *model = paint->model;
+    double below[MODEL_FIELDS];
+    bool meets = fraction < 1.0 && paint->covered[cell] == 1.0 && paint->model->n_pair == 0; /* tension holds a jump */
+    for (unsigned q = 0; meets && q < model->n_field; q++) below[q] = paint->u[q * paint->mesh->n_cell + cell];
+    paint_lay(paint, cell, fraction, layer);
     if (meets) paint_meet(paint, cell, below, layer);
 }
 
@@ -201,12 +211,12 @@ static void paint_mean(const struct paint *paint, const double *weight, unsigned
     double part[PAINT_POINTS], used[PAINT_POINTS];
     memcpy(part, weight, n * sizeof *part);
     for (unsigned q = 0; q < model->n_field; q++) {
-        for (unsigned k = 0, at = 0; k < n && q == model->i_V; k++)
+        for (unsigned k = 0, at = 0; k < n && q == model->i_V && model->n_stretch; k++)
             if (weight[k] > 0.0) part[k] *= paint_stretch_share(model, &paint->conserved.at[0][at++], PAINT_POINTS);
         for (unsigned k = 0, at = 0; k < n; k++)
             used[k] = weight[k] > 0.0 ? part[k] * paint->conserved.at[q][at++] : 0.0;
         double whole = paint_sum(part, n);
-        ret_mean[q] = whole > 0.0 ? paint_sum(used, n) / whole : q < model->i_V + 3 ? 1.0 : 0.0;
+        ret_mean[q] = whole > 0.0 ? paint_sum(used, n) / whole : model->n_stretch && q < model->i_V + 3 ? 1.0 : 0.0;
     }
 }
 
@@ -237,6 +247,21 @@ static int paint_overlay(struct paint *paint, const struct paint_cell *cell, dou
     TRY(paint_values_at(&paint->values, x, paint_before(paint, cell->index, below), w));
     mix_conserved(paint->model, 1, 1, w, u);
     paint_mix(paint, cell->index, fraction, u);
+    return STATUS_OK;
+}
+
+/* The state of another run, as far as it reaches. */
+static int paint_donor(struct paint *paint, const struct scene_layer *layer)
+{
+    const struct mesh *mesh = paint->mesh;
+    double mean[MODEL_FIELDS];
+    if (!layer->donor) return status_fail(STATUS_CASE, "%s has not been read", layer->checkpoint);
+    for (size_t c = 0; c < mesh->n_cell; c++) {
+        struct paint_cell cell = paint_cell_at(paint, c);
+        double part = donor_average(layer->donor, layer->at, cell.lower, cell.upper, mesh->dim, mesh->beta,
+                                    paint->model->n_field, mean);
+        if (part > 0.0) paint_lay(paint, c, part, mean);
+    }
     return STATUS_OK;
 }
 
@@ -285,7 +310,8 @@ static int paint_layers(struct paint *paint)
 {
     for (unsigned i = 0; i < paint->model->scene->n_layer; i++) {
         paint_values_of(paint->model, i, &paint->values);
-        TRY(paint_layer(paint));
+        const struct scene_layer *layer = &paint->model->scene->layers[i];
+        TRY(layer->checkpoint ? paint_donor(paint, layer) : paint_layer(paint));
     }
     return paint_check(paint);
 }
@@ -306,6 +332,7 @@ int paint_tile(const struct model *model, const struct mesh *mesh, const struct 
             paint->edges[d][i] = (mesh->lower[d] * (cells - first - i) + mesh->upper[d] * (first + i)) / cells;
     }
     int code = paint_layers(paint);
+    if (!code && model->n_pair) paint_curvature(model, mesh, level, tile, u);
     if (!code && model->n_stretch) paint_stretch_finish(model, mesh->n_cell, mesh->n_cell, u);
     for (int d = 0; d < mesh->dim; d++) mem_free(paint->edges[d]);
     mem_free(paint->covered);

@@ -125,6 +125,13 @@ static BULLA_KERNEL void mix_subtract(size_t n, const double *restrict a, const 
     for (size_t i = 0; i < n; i++) rest[i] = a[i] - b[i];
 }
 
+/* Curvatures are what they are in both. */
+static void mix_curvatures(const struct model *model, size_t n, size_t stride, const double *from, double *to)
+{
+    for (unsigned k = 0; k < model->n_pair; k++)
+        memcpy(to + model->pairs[k].i_kappa * stride, from + model->pairs[k].i_kappa * stride, n * sizeof *to);
+}
+
 /* eps = m eps/m; 0 where there is nothing of the solid. */
 static BULLA_KERNEL void mix_strain(size_t n, const double *restrict amount, const double *restrict m,
                                     double *restrict eps)
@@ -204,6 +211,7 @@ static struct mix_effort mix_primitives_batch(const struct model *model, size_t 
         energy = rest.value;
     }
     mix_internal(n, energy, twice.value, rho_e.value);
+    mix_curvatures(model, n, stride, u, w);
     struct mix_effort effort = mix_pressure_close(model, n, stride, rho_e.value, w);
     if (traces > 0.0) mix_fractions(model, n, stride, u, MIX_ABSENT, 0.0, w);
     return effort;
@@ -262,6 +270,7 @@ static void mix_conserved_batch(const struct model *model, size_t n, size_t stri
         }
     }
     if (model->n_stretch) mix_load(model, n, stride, w, u, energy.value);
+    mix_curvatures(model, n, stride, w, u);
     memcpy(u + model->i_E * stride, energy.value, n * sizeof *u);
 }
 

@@ -80,7 +80,7 @@ static void mix_pressure_linear(const struct model *model, size_t n, size_t stri
         const struct model_eos *eos = &model->eos[l];
         if (!eos->law->linear) continue;
         eos->law->linear(eos->self, n, w + (model->i_m + l) * stride, a.value, b.value);
-        if (model->split) mix_pressure_shift(n, a.value, parts->lag[l], b.value);
+        if (model->lagged) mix_pressure_shift(n, a.value, parts->lag[l], b.value);
         if (model->n_alpha) {
             mix_pressure_weigh(n, w + (model->i_alpha + l) * stride, a.value, b.value, ret_a, ret_b);
         } else {
@@ -117,7 +117,7 @@ static void mix_pressure_floor(const struct model *model, size_t stride, const d
         eos->law->p_min(eos->self, points->n, rho.value, least.value);
         for (size_t k = 0; k < points->n; k++) {
             double alpha = model->n_alpha ? w[(model->i_alpha + l) * stride + points->at[k]] : 1.0;
-            double own = model->split ? least.value[k] - parts->lag[l][points->at[k]] : least.value[k];
+            double own = model->lagged ? least.value[k] - parts->lag[l][points->at[k]] : least.value[k];
             bool raised = alpha > MIX_PRESSURE_FELT && own > points->floor.value[k];
             points->floor.value[k] = raised ? own : points->floor.value[k];
         }
@@ -130,13 +130,13 @@ static void mix_pressure_begin(const struct model *model, size_t stride, const d
                                struct mix_pressure_points *points)
 {
     points->n_law = 0;
-    points->split = model->split;
+    points->split = model->lagged;
     for (unsigned l = 0; l < model->n_material; l++) {
         if (model->eos[l].law->linear) continue;
         unsigned k = points->n_law++;
         points->law[k] = &model->eos[l];
         mix_pressure_gather(points, w + (model->i_m + l) * stride, &points->rho[k]);
-        if (model->split) mix_pressure_gather(points, parts->lag[l], &points->lag[k]);
+        if (model->lagged) mix_pressure_gather(points, parts->lag[l], &points->lag[k]);
         if (model->n_alpha) mix_pressure_gather(points, w + (model->i_alpha + l) * stride, &points->alpha[k]);
         for (size_t i = 0; i < points->n && !model->n_alpha; i++) points->alpha[k].value[i] = 1.0;
     }

@@ -41,15 +41,18 @@ static void model_name_fields(struct model *model)
             model->field_names[at++] =
                 mem_print("plastic_strain_mass_%s", model->scene->material[model->solids[s].material].name);
     for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = mem_print("stretch_%s", model_tensor[c]);
+    for (unsigned k = 0; k < model->n_pair; k++)
+        model->field_names[at++] = mem_print("curvature_%s_%s", model->scene->material[model->pairs[k].inside].name,
+                                             model->scene->material[model->pairs[k].outside].name);
 }
 
 /* Names that derive.c understands for this scene. */
 static void model_name_derived(struct model *model)
 {
-    static const char *const plain[] = {"density",    "pressure",        "velocity",     "velocity_x",
-                                        "velocity_y", "velocity_z",      "temperature",  "sound_speed",
-                                        "mach",       "internal_energy", "total_energy", "vorticity",
-                                        "schlieren",  "level",           "rank",         "cost"};
+    static const char *const plain[] = {"density",      "pressure",    "velocity",    "velocity_x", "velocity_y",
+                                        "velocity_z",   "temperature", "sound_speed", "mach",       "internal_energy",
+                                        "total_energy", "vorticity",   "heat_flux",   "schlieren",  "surface_energy",
+                                        "level",        "rank",        "cost"};
     static const char *const solid[] = {"stress_xx",       "stress_yy",         "stress_zz",         "stress_xy",
                                         "stress_xz",       "stress_yz",         "stretch_xx",        "stretch_yy",
                                         "stretch_zz",      "stretch_xy",        "stretch_xz",        "stretch_yz",
@@ -101,6 +104,18 @@ static void model_transport(struct model *model)
     for (unsigned d = 0; d < model->n_velocity; d++) model->around[model->n_around++] = (unsigned char)(model->i_u + d);
 }
 
+/* Those pairs that a narrowed model has both materials of. */
+static void model_pair_narrow(const struct model *model, struct model *narrow)
+{
+    narrow->n_pair = 0;
+    for (unsigned k = 0; k < model->n_pair; k++) {
+        struct model_pair pair = model->pairs[k];
+        pair.inside -= narrow->first; /* wraps where it stands before */
+        pair.outside -= narrow->first;
+        if (pair.inside < narrow->n_alpha && pair.outside < narrow->n_alpha) narrow->pairs[narrow->n_pair++] = pair;
+    }
+}
+
 /* The model of a region that holds nothing but the n materials from `first`: works on the same blocks, leaves the
  * other materials' components alone, and the stretch where none of them is a solid; gives bitwise what the full model
  * would. One material alone needs no fractions either. */
@@ -134,12 +149,15 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     }
     if (narrow->n_solid == 0) narrow->n_stretch = 0;
     narrow->split = model->split && narrow->n_solid;
+    model_pair_narrow(model, narrow);
+    narrow->lagged = narrow->split || narrow->n_pair > 0;
     for (unsigned l = 0; l < narrow->n_alpha; l++) narrow->active[narrow->n_active++] = narrow->i_alpha + l;
     for (unsigned l = 0; l < n; l++) narrow->active[narrow->n_active++] = narrow->i_m + l;
     for (unsigned q = model->i_u; q <= model->i_E; q++) narrow->active[narrow->n_active++] = q;
     for (unsigned s = 0; s < narrow->n_solid; s++)
         if (narrow->solids[s].strain) narrow->active[narrow->n_active++] = narrow->solids[s].strain;
     for (unsigned c = 0; c < narrow->n_stretch; c++) narrow->active[narrow->n_active++] = model->i_V + c;
+    for (unsigned k = 0; k < narrow->n_pair; k++) narrow->active[narrow->n_active++] = narrow->pairs[k].i_kappa;
     return narrow;
 }
 
@@ -169,6 +187,18 @@ static bool model_is_forced(const struct scene *scene)
     for (int d = 0; scene->sources && d < scene->domain.dim; d++)
         any = any || scene->sources->value[SCENE_SOURCE_ACCELERATION + d].given;
     return any;
+}
+
+/* Pairs with surface tension, and the fields of their curvature. */
+static void model_pair_up(struct model *model)
+{
+    const struct scene *scene = model->scene;
+    model->n_pair = scene->n_tension;
+    for (unsigned k = 0; k < model->n_pair; k++)
+        model->pairs[k] = (struct model_pair){.inside = scene->tension[k].one,
+                                              .outside = scene->tension[k].other,
+                                              .i_kappa = model->n_field++,
+                                              .sigma = scene->tension[k].sigma};
 }
 
 /* The fluids alone, if they stand together: they need neither the stretch nor the solids' components. */
@@ -215,9 +245,11 @@ struct model *model_new(const struct scene *scene)
     model->i_V = model->i_strain + model->n_strain;
     model->n_stretch = model->elastic ? elastic_count(model->n_velocity) : 0;
     model->n_field = model->i_V + model->n_stretch;
+    model_pair_up(model);
     model->split = model->dim == 1 && model->elastic && model->n_alpha > 0;
+    model->lagged = model->split || model->n_pair > 0;
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
-    model->forced = model_is_forced(scene);
+    model->forced = model_is_forced(scene) || model->n_pair > 0;
     model->linear = true;
     for (unsigned l = 0; l < model->n_material; l++) {
         const struct instance *instance = &scene->material[l].eos;

@@ -3,7 +3,9 @@
  * Conserved fields u, in this order: alpha_l (N of them, none if N = 1), m_l = alpha_l rho_l,
  * rho u_i (n_velocity), rho E, m_l eps_l (n_strain: of solids whose strength knows their plastic strain eps) and, in a
  * scene with a solid, the stretch V (n_stretch: xx, yy, zz, then xy, then xz, yz, as far as n_velocity reaches).
- * Primitives w, same count: alpha_l, rho_l, u_i, p, eps_l, V. For N = 1 m is rho.
+ * Last, for each pair of materials with surface tension, the curvature of their interface in the cell, which is no
+ * conserved field but made anew from the fractions in every stage (scheme/tension.h).
+ * Primitives w, same count: alpha_l, rho_l, u_i, p, eps_l, V, kappa. For N = 1 m is rho.
  *
  * This folder, phys: materials at points: which fields there are, mixtures, elasticity, presence, relaxation.
  * Batches of points, no neighbours. */
@@ -61,8 +63,15 @@ struct model_conductivity {
     double k; /* of a law that looks at nothing [W/(m K)] */
 };
 
-/* Most evolved fields a scene can have: fractions, densities, velocities, energy, plastic strains, stretch. */
-enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 };
+/* Two materials with surface tension between them. */
+struct model_pair {
+    unsigned inside, outside; /* materials of the same model; the curvature is positive where they are that */
+    unsigned i_kappa;         /* field of the curvature */
+    double sigma;             /* [N/m] */
+};
+
+/* Most evolved fields a scene can have: fractions, densities, velocities, energy, plastic strains, stretch, curvatures. */
+enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 + SCENE_PAIRS };
 
 struct model {
     const struct scene *scene;
@@ -71,6 +80,8 @@ struct model {
     unsigned n_solid, n_stretch, i_V; /* stretch: first index; n_stretch 0 in paths without a solid */
     struct model_solid solids[SCENE_MATERIALS];
     unsigned n_strain, i_strain; /* plastic strains of the scene: first index */
+    unsigned n_pair;
+    struct model_pair pairs[SCENE_PAIRS];
     unsigned n_material, n_alpha, n_field;
     unsigned i_alpha, i_m, i_u, i_E;         /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
     unsigned n_active, active[MODEL_FIELDS]; /* components that evolve; all, but in a pure model */
@@ -87,6 +98,7 @@ struct model {
     bool conducts;        /* some material of the scene conducts heat (scheme/conduction.h) */
     bool forced;          /* forces act at faces, and pressure is reconstructed relative to them (scheme/face.h) */
     bool split;           /* the materials of a cell share their normal traction, not their pressure (traction.h) */
+    bool lagged;          /* they have pressures of their own, by that or by surface tension */
     struct model_eos eos[SCENE_MATERIALS];
     struct model_viscosity viscosity[SCENE_MATERIALS];
     bool viscous; /* some material of the path is */
@@ -112,6 +124,12 @@ struct model {
 static inline bool model_is_fraction(const struct model *model, unsigned q)
 {
     return q - model->i_alpha < model->n_alpha; /* wraps below i_alpha */
+}
+
+/* Number of active fields that faces see: all but the curvatures, which are the last ones. */
+static inline unsigned model_edged(const struct model *model)
+{
+    return model->n_active - model->n_pair;
 }
 
 /* Is component q a plastic strain? */

@@ -90,6 +90,19 @@ static double relax_start(const struct relax *relax, unsigned l)
     return least + above;
 }
 
+/* Lags by surface tension, at the fractions that the cell arrived with. */
+static void relax_lag(struct relax *relax)
+{
+    const struct model *model = relax->model;
+    const double *alpha = relax->u + model->i_alpha;
+    for (unsigned k = 0; k < model->n_pair; k++) {
+        const struct model_pair *pair = &model->pairs[k];
+        double jump = pair->sigma * relax->u[pair->i_kappa];
+        relax->own[pair->inside] += alpha[pair->outside] * jump;
+        relax->own[pair->outside] -= alpha[pair->inside] * jump;
+    }
+}
+
 /* Start states: the material's own where most of it was here before, else the density it arrived with. */
 static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
 {
@@ -111,6 +124,7 @@ static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
     }
     for (unsigned q = model->i_V; q < model->i_V + model->n_stretch; q++) relax->w[q] = relax->u[q];
     if (model->split) traction_own(model, 1, 1, relax->w, 1, relax->own);
+    relax_lag(relax);
     for (unsigned l = 0; l < model->n_material; l++) {
         const struct model_eos *eos = &model->eos[l];
         double rho = relax->w[model->i_m + l], slope, rho_e, rho_c2;

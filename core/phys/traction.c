@@ -68,12 +68,39 @@ void traction_mean(const struct model *model, size_t n, size_t stride, const dou
                       mean + i);
 }
 
+/* What surface tension adds to the lags of the material inside and of that outside. */
+static BULLA_KERNEL void traction_curve(size_t n, double sigma, const double *restrict kappa,
+                                        const double *restrict inside, const double *restrict outside,
+                                        double *restrict lag_inside, double *restrict lag_outside)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double jump = sigma * kappa[i], a = inside[i], b = outside[i], up = lag_inside[i], down = lag_outside[i];
+        lag_inside[i] = up + b * jump;
+        lag_outside[i] = down - a * jump;
+    }
+}
+
+static void traction_curves(const struct model *model, size_t n, size_t stride, const double *w,
+                            struct traction_pressures *ret)
+{
+    for (unsigned k = 0; k < model->n_pair; k++) {
+        const struct model_pair *pair = &model->pairs[k];
+        traction_curve(n, pair->sigma, w + pair->i_kappa * stride, w + (model->i_alpha + pair->inside) * stride,
+                       w + (model->i_alpha + pair->outside) * stride, ret->lag[pair->inside], ret->lag[pair->outside]);
+    }
+}
+
 void traction_part(const struct model *model, size_t n, size_t stride, const double *w, struct traction_pressures *ret)
 {
     double mean[TRACTION_BATCH];
-    if (!model->split) return;
-    traction_both(model, n, stride, w, TRACTION_BATCH, ret->lag[0], mean);
-    for (unsigned l = 0; l < model->n_material; l++) row_take(n, mean, ret->lag[l]);
+    if (!model->lagged) return;
+    if (model->split) traction_both(model, n, stride, w, TRACTION_BATCH, ret->lag[0], mean);
+    for (unsigned l = 0; l < model->n_material; l++) {
+        if (model->split) row_take(n, mean, ret->lag[l]);
+        else memset(ret->lag[l], 0, n * sizeof *ret->lag[l]);
+    }
+    traction_curves(model, n, stride, w, ret);
 }
 
 static BULLA_KERNEL void traction_give(size_t n, const double *restrict p, const double *restrict lag,
@@ -86,7 +113,7 @@ static BULLA_KERNEL void traction_give(size_t n, const double *restrict p, const
 const double *traction_pressure(const struct model *model, size_t n, unsigned l, const double *p,
                                 struct traction_pressures *parts)
 {
-    if (!model->split) return p;
+    if (!model->lagged) return p;
     traction_give(n, p, parts->lag[l], parts->own);
     return parts->own;
 }

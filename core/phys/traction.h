@@ -4,7 +4,12 @@
  * per its own volume, -p_l + s'_l,nn is the same for all materials. So in a mixed cell each material has a pressure of its own,
  *     p_l = p + s'_l,nn - S,   S = sum_l alpha_l s'_l,nn,
  * about the mean p = sum alpha_l p_l, and the cell's stress is still -p 1 + sum alpha_l s'_l. Where n is known without
- * looking at neighbours: in one dimension, model->split (docs/decisions/common-traction.md). */
+ * looking at neighbours: in one dimension, model->split (docs/decisions/common-traction.md).
+ *
+ * Across an interface with surface tension p differs by sigma kappa. A smeared one has a part of that step in each of its
+ * cells, p = p_outside + alpha_inside sigma kappa, and its materials lag behind the mean of the cell by
+ *     p_l - p = sum_m alpha_m sigma_lm kappa_lm,
+ * so that each has one pressure throughout (docs/decisions/tension.md). Both may act in one cell. */
 #ifndef TRACTION_H
 #define TRACTION_H
 
@@ -26,10 +31,10 @@ struct traction_pressures {
     double own[TRACTION_BATCH];
 };
 
-/* Finds the lags from primitives w; does nothing unless the model is split. */
+/* Finds the lags from primitives w; does nothing unless the model is lagged. */
 void traction_part(const struct model *model, size_t n, size_t stride, const double *w, struct traction_pressures *ret);
 
-/* p_l = p + lag of material l: p itself unless the model is split, else a row that lasts until the next call. */
+/* p_l = p + lag of material l: p itself unless the model is lagged, else a row that lasts until the next call. */
 const double *traction_pressure(const struct model *model, size_t n, unsigned l, const double *p,
                                 struct traction_pressures *parts);
 

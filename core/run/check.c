@@ -60,6 +60,24 @@ static void check_print_module(const char *what, const struct instance *instance
     putchar('\n');
 }
 
+/* A strength beside its modulus, and the stress at which a plane wave becomes plastic (Hugoniot's elastic limit). */
+static void check_print_strength(const struct model *model, unsigned l, double rho, double mu)
+{
+    const struct instance *plastic = &model->scene->material[l].plastic;
+    const struct bulla_inelastic *law = plastic->module->table;
+    const struct model_eos *eos = &model->eos[l];
+    double none = 0, p = 101325, T = 300, Y, rho_e, K;
+    char yield[HUMAN_ROOM], limit[HUMAN_ROOM];
+    law->strength(plastic->self, 1, &none, &none, &p, &T, &rho, &Y);
+    eos->law->state(eos->self, 1, &rho, &p, &rho_e, &K);
+    check_print_module("", plastic);
+    printf("  %-12s plastic: strength %s, %.3g of the shear modulus; elastic limit of plane waves %s\n", "",
+           human_si(Y, "Pa", yield), Y / mu, human_si(Y * (K + 4.0 / 3.0 * mu) / (2.0 * mu), "Pa", limit));
+    if (!(law->needs(plastic->self) & BULLA_INELASTIC_TEMPERATURE)) return;
+    eos->law->temperature(eos->self, 1, &rho, &p, &T);
+    printf("  %-12s its strength looks at temperatures: %.4g K at %g kg/m3 and 1 atm\n", "", T, rho);
+}
+
 /* A material, and what makes it a solid. */
 static void check_print_material(const struct scene *scene, const struct model *model, unsigned l)
 {
@@ -75,6 +93,7 @@ static void check_print_material(const struct scene *scene, const struct model *
     check_print_module("", solid);
     printf("  %-12s a solid: shear modulus %s at %g kg/m3, shear waves at %s\n", "", human_si(rho * c2, "Pa", modulus),
            rho, human_si(sqrt(c2), "m/s", speed));
+    if (material->plastic.module) check_print_strength(model, l, rho, rho * c2);
 }
 
 /* The finest cell's least side, and the sum of 1/h^2 over the axes. */

@@ -31,6 +31,7 @@ struct bound_fill {
     int side;
     size_t pitch;
     double *w;
+    int layer; /* that is composed, from 0 at the face */
 };
 
 /* What lies inside, twice. Nobody looks behind periodic faces in this way: there are neighbours. */
@@ -45,7 +46,7 @@ static void bound_fill_copy(const struct bound_fill *fill)
 static bool bound_fill_is_crossed(const struct model *model, int axis, unsigned q)
 {
     unsigned n = (unsigned)axis;
-    if (q < model->i_V + 3) return false;
+    if (q < model->i_V + 3 || q >= model->i_V + model->n_stretch) return false;
     return q == model->i_V + elastic_component(n, (n + 1) % 3) || q == model->i_V + elastic_component(n, (n + 2) % 3);
 }
 
@@ -89,21 +90,33 @@ static void bound_fill_put(const struct bound_fill *fill, const struct bound_fil
     const struct model *model = fill->bound->model;
     const struct frame *frame = fill->frame;
     for (unsigned a = 0; a < model->n_active; a++)
-        for (int ghost = 0; ghost < (int)frame->ghosts; ghost++)
+        for (int ghost = fill->layer; ghost < (int)frame->ghosts; ghost++)
             for (size_t q = model->active[a], o = 0; o < frame->outer; o++)
                 memcpy(fill->w + q * fill->pitch + frame_at(frame, o, bound_layer_behind(frame, fill->side, ghost)),
                        row->w + q * row->stride + o * frame->inner, frame->inner * sizeof *fill->w);
 }
 
-/* Fills both layers with the states that `compose` makes of the cells inside. */
+/* Do sound waves leave through this side of a ball, where there is one axis? Pressure alone does not say what leaves a
+ * solid. */
+static bool bound_fill_is_round(const struct bound_fill *fill)
+{
+    const struct model *model = fill->bound->model;
+    return model->beta == 2 && !model->elastic && fill->side == 1;
+}
+
+/* Fills the layers with the states that `compose` makes of the cells inside: one for all, but around a ball. */
 static void bound_fill_composed(const struct bound_fill *fill,
                                 void (*compose)(const struct bound_fill *fill, struct bound_fill_row *row))
 {
     double space[MODEL_FIELDS * (size_t)BOUND_FILL_ROW];
     struct bound_fill_row row = {.n = fill->frame->outer * fill->frame->inner, .stride = BOUND_FILL_ROW, .w = space};
-    bound_fill_take(fill, &row);
-    compose(fill, &row);
-    bound_fill_put(fill, &row);
+    struct bound_fill each = *fill;
+    int layers = bound_fill_is_round(fill) ? (int)fill->frame->ghosts : 1;
+    for (each.layer = 0; each.layer < layers; each.layer++) {
+        bound_fill_take(fill, &row);
+        compose(&each, &row);
+        bound_fill_put(&each, &row);
+    }
 }
 
 static const struct scene_boundary *bound_fill_boundary(const struct bound_fill *fill)
@@ -210,6 +223,34 @@ static void bound_fill_outside(const struct bound_fill *fill, size_t n, bool wav
     }
 }
 
+/* Plane waves that leave have p' - Z u' = 0 behind the face, primes: less the far field. Waves from a centre, p' = f'(t -
+ * r/c)/r and Z u' = p' + c f/r^2, have not: what the cell inside has of it is the memory of f, and goes on to the layer
+ * at r + d by
+ *     p' - Z u' = -c f(t - (r + d)/c)/(r + d)^2 = ((p' - Z u')_i r^2 + d r p'_i)/(r + d)^2,
+ * so that d(p' - Z u')/dt = -(c/r) p': a pressure that is not the far field's falls off within 2 r/c. */
+static double bound_fill_near(const struct bound_fill *fill, double p, double Z_u)
+{
+    double h = fill->bound->level->h[0], d = (fill->layer + 1) * h;
+    double r = fill->bound->mesh->upper[0] - 0.5 * h, behind = r + d;
+    return ((p - Z_u) * r + d * p) * r / (behind * behind);
+}
+
+/* p + Z u of the cell that lies `depth` cells inside the outermost one of a line. */
+static double bound_fill_leaving(const struct bound_fill *fill, int depth, double Z)
+{
+    const struct model *model = fill->bound->model;
+    const double *cell = fill->w + frame_at(fill->frame, 0, bound_layer_inside(fill->frame, fill->side, depth));
+    return cell[model->i_E * fill->pitch] + Z * cell[model->i_u * fill->pitch];
+}
+
+/* What leaves goes on as it comes; not at shocks. */
+static double bound_fill_onward(const struct bound_fill *fill, double Z)
+{
+    double last = bound_fill_leaving(fill, 0, Z), before = bound_fill_leaving(fill, 1, Z);
+    double a = last - before, b = before - bound_fill_leaving(fill, 2, Z);
+    return a * b <= 0.0 ? 0.0 : (fill->layer + 1) * (fabs(a) < fabs(b) ? a : b);
+}
+
 static void bound_fill_characteristic(const struct bound_fill *fill, struct bound_fill_row *row, bool wave)
 {
     const struct model *model = fill->bound->model;
@@ -221,6 +262,7 @@ static void bound_fill_characteristic(const struct bound_fill *fill, struct boun
         fill->bound->reference[fill->local * MESH_FACES + (unsigned)(2 * frame->axis + fill->side)];
     double *p = row->w + model->i_E * row->stride, *u = row->w + (model->i_u + (unsigned)frame->axis) * row->stride;
     double outward = fill->side ? 1.0 : -1.0;
+    bool round = !wave && bound_fill_is_round(fill);
     for (size_t c = 0; c < n; c++) far[c] = reference[bound_fill_face_cell(frame, c)];
     bound_fill_outside(fill, n, wave, far, gauge);
     mix_stiffness(model, n, row->stride, row->w, stiff);
@@ -233,7 +275,10 @@ static void bound_fill_characteristic(const struct bound_fill *fill, struct boun
                    row->w[(model->i_m + l) * row->stride + c];
         if (inside >= sound) continue; /* supersonic outflow: nothing comes back */
         double Z = rho * sound, leaving = old[c] + Z * inside;
-        double entering = far[c] + 2.0 * gauge[c] - Z * reference[cells + bound_fill_face_cell(frame, c)];
+        double u_far = reference[cells + bound_fill_face_cell(frame, c)];
+        double entering = far[c] + 2.0 * gauge[c] - Z * u_far;
+        if (round) leaving += bound_fill_onward(fill, Z);
+        if (round) entering += bound_fill_near(fill, old[c] - far[c], Z * (inside - u_far));
         p[c] = 0.5 * (leaving + entering);
         u[c] = outward * (0.5 * (leaving - entering) / Z);
     }
@@ -285,6 +330,7 @@ static void bound_fill_compose_state(const struct bound_fill *fill, struct bound
         }
         for (unsigned s = 0; s < model->n_strain; s++) at[(model->i_strain + s) * row->stride] = 0.0;
         for (unsigned v = 0; v < model->n_stretch; v++) at[(model->i_V + v) * row->stride] = v < 3 ? 1.0 : 0.0;
+        for (unsigned k = 0; k < model->n_pair; k++) at[model->pairs[k].i_kappa * row->stride] = 0.0;
     }
 }
 
@@ -310,7 +356,7 @@ static void bound_fill_hold(const struct bound_fill *fill)
 
 void bound_fill(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w)
 {
-    const struct bound_fill fill = {data, local, frame, side, pitch, w};
+    const struct bound_fill fill = {data, local, frame, side, pitch, w, 0};
     bound_fill_ways[bound_fill_boundary(&fill)->type](&fill);
     if (fill.bound->sources) bound_fill_hold(&fill);
 }

@@ -27,6 +27,28 @@ static BULLA_KERNEL void divergence_curved(size_t n, const double *restrict area
     }
 }
 
+/* rate += a (upper + lower) */
+static BULLA_KERNEL void divergence_mean(size_t n, double a, const double *restrict lower, const double *restrict upper,
+                                         double *restrict rate)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double low = lower[i], up = upper[i], old = rate[i];
+        rate[i] = old + a * (up + low);
+    }
+}
+
+/* The same along axis 0 in curved coordinates: rate += (A+ F+ + A- F-) / 2V. */
+static BULLA_KERNEL void divergence_mean_curved(size_t n, const double *restrict area, const double *restrict volume,
+                                                const double *restrict force, double *restrict rate)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double low = force[i], up = force[i + 1], old = rate[i];
+        rate[i] = old + 0.5 * (area[i + 1] * up + area[i] * low) / volume[i];
+    }
+}
+
 /* For components that no cell value is taken off. */
 static const double divergence_zero[METRIC_CELLS];
 
@@ -36,6 +58,15 @@ struct divergence_span {
     double per_h; /* of the axis [1/m] */
     bool curved;  /* axis 0 of a curved geometry */
 };
+
+static void divergence_force(const struct term_tile *tile, const struct divergence_span *span,
+                             const struct term_flux *flux)
+{
+    double *rate = tile->rates + flux->rate * tile->n_cell + span->cell;
+    const double *force = flux->below + span->face;
+    if (span->curved) divergence_mean_curved(span->n, tile->metric->area, tile->metric->volume, force, rate);
+    else divergence_mean(span->n, 0.5 * span->per_h, force, force + span->step, rate);
+}
 
 static void divergence_flux(const struct term_tile *tile, const struct divergence_span *span,
                             const struct term_flux *flux)
@@ -52,8 +83,11 @@ static void divergence_flux(const struct term_tile *tile, const struct divergenc
 static void divergence_span(const struct term_tile *tile, int axis, const struct divergence_span *span)
 {
     const struct terms *terms = tile->terms;
-    for (unsigned i = 0; i < terms->n_flux[axis]; i++)
-        if (terms->flux[axis][i].kind != TERM_TOLD) divergence_flux(tile, span, &terms->flux[axis][i]);
+    for (unsigned i = 0; i < terms->n_flux[axis]; i++) {
+        const struct term_flux *flux = &terms->flux[axis][i];
+        if (flux->kind == TERM_FORCE) divergence_force(tile, span, flux);
+        else if (flux->kind != TERM_TOLD) divergence_flux(tile, span, flux);
+    }
 }
 
 void divergence_add(const struct term_tile *tile, const struct frame *frame)

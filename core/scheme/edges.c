@@ -126,7 +126,7 @@ static double *edges_upper(const struct edges *edges, const struct edges_row *ro
 
 static void edges_each(const struct edges *edges, const struct model *model, const struct edges_row *row)
 {
-    for (unsigned i = 0; i < model->n_active; i++) {
+    for (unsigned i = 0; i < model_edged(model); i++) {
         unsigned q = model->active[i];
         double *upper = edges_upper(edges, row, q);
         model->reconstruction->edges(model->reconstruction_self, edges_limited(edges, model, q), row->cells, row->step,
@@ -137,7 +137,7 @@ static void edges_each(const struct edges *edges, const struct model *model, con
 /* Active components are numbered by group, so their rows are, too. */
 static void edges_together(struct edges *edges, const struct model *model, const struct edges_row *row)
 {
-    for (unsigned i = 0; i < model->n_active; i++) {
+    for (unsigned i = 0; i < model_edged(model); i++) {
         unsigned q = model->active[i];
         edges->w[i] = edges_inside(edges, row, q);
         edges->upper[i] = edges_upper(edges, row, q);
@@ -148,7 +148,7 @@ static void edges_together(struct edges *edges, const struct model *model, const
                                 .axis = (uint32_t)row->frame->axis,
                                 .n = row->cells,
                                 .step = row->step,
-                                .n_row = model->n_active,
+                                .n_row = model_edged(model),
                                 .n_alpha = model->n_alpha,
                                 .n_rho = model->n_material,
                                 .n_u = model->n_velocity,
@@ -160,7 +160,7 @@ static void edges_together(struct edges *edges, const struct model *model, const
     cells.i_rho = cells.n_alpha;
     cells.i_u = cells.i_rho + cells.n_rho;
     cells.i_p = cells.i_u + cells.n_u;
-    cells.i_stretch = model->n_active - model->n_stretch; /* behind plastic strains */
+    cells.i_stretch = model_edged(model) - model->n_stretch; /* behind plastic strains */
     model->reconstruction->all(model->reconstruction_self, &cells);
 }
 
@@ -241,7 +241,7 @@ static void edges_bound(const struct edges *edges, const struct model *model, co
 {
     size_t n = row->cells;
     edges_bound_fractions(edges, model, row);
-    for (unsigned i = model->n_alpha; i < model->n_active; i++) {
+    for (unsigned i = model->n_alpha; i < model_edged(model); i++) {
         unsigned q = model->active[i];
         const double *w = edges_inside(edges, row, q), *upper = edges_upper(edges, row, q);
         bool positive = q < model->i_u || (q == model->i_E && !model->elastic) || model_is_strain(model, q);
@@ -321,7 +321,7 @@ static void edges_flatten_held(const struct edges_row *row, const double *p, dou
 static void edges_settle(const struct edges *edges, const struct model *model, const struct edges_row *row)
 {
     size_t n = row->cells, step = row->step;
-    for (unsigned i = 0; i < model->n_active; i++) {
+    for (unsigned i = 0; i < model_edged(model); i++) {
         unsigned q = model->active[i];
         const double *w = edges_inside(edges, row, q);
         double *upper = edges_upper(edges, row, q);

@@ -22,6 +22,7 @@ struct face_own {
     double *m, *rho, *energy, *c; /* completed: [n_material], then one each, of 2 FACE_ROOM */
     double *term, *stiffness;     /* one material's rho e and rho c^2 */
     double *origin, *strain;      /* of the face state: pressure of the side it comes from, compression since */
+    double *lagged;               /* one material's pressure at the edges, with surface tension */
     double *zero;                 /* stands in for the velocities of unused axes */
     double *robust;               /* fluxes of the robust solver, same order as the block behind face_work.alpha */
     const double *side_u[2][3], *side_m[2][SCENE_MATERIALS], *side_alpha[2][SCENE_MATERIALS];
@@ -101,6 +102,11 @@ struct face_work *face_new(const struct model *model)
     work->carried = face_row(2 * model->n_alpha);
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
     for (int side = 0; side < 2 && model->forced; side++) work->rise[side] = face_row(1);
+    if (model->n_pair) {
+        work->lag = face_row(n + 1);
+        work->tension = work->lag + n * FACE_ROOM;
+        own->lagged = face_row(2);
+    }
     face_split(model, work->alpha, own->flux_alpha, own->flux_m, own->flux_u);
     face_split(model, own->robust, own->robust_alpha, own->robust_m, own->robust_u);
     face_slide(work, model);
@@ -135,6 +141,8 @@ void face_free(struct face_work *work)
                       work->stretch,
                       work->strains,
                       work->solid,
+                      work->lag,
+                      own->lagged,
                       work->rise[0],
                       work->rise[1]};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) mem_free(rows[i]);
@@ -203,6 +211,27 @@ static void face_load(struct face_work *work, const struct frame *frame, size_t 
     face_stress_complete(own->stress, model, &edges);
 }
 
+static BULLA_KERNEL void face_lag(size_t n, const double *restrict p, const double *restrict lag, double *restrict own)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) own[i] = p[i] + lag[i];
+}
+
+/* Pressure of material l at the edges: what the cell's traction leaves it, and what lies across the face. */
+static const double *face_pressure(const struct face_work *work, const struct frame *frame, unsigned l, size_t n)
+{
+    const struct model *model = work->model;
+    const struct face_own *own = work->own;
+    const double *p = own->state + 2 * model->i_E * FACE_ROOM;
+    size_t cells = n / 2;
+    if (model->split) p = face_stress_pressure(own->stress, l);
+    if (!model->n_pair) return p;
+    const double *above = work->lag + l * FACE_ROOM + frame_reach(frame), *below = above - frame->inner;
+    face_lag(cells, p, above, own->lagged);
+    face_lag(cells, p + cells, below, own->lagged + cells);
+    return own->lagged;
+}
+
 /* Velocities at the faces of a row of cells, before they have an energy; rho c^2 is still that in own->c. */
 static void face_calm(struct face_work *work, const struct frame *frame, const double *rho, bool masked)
 {
@@ -227,18 +256,18 @@ static void face_complete(struct face_work *work, const struct frame *frame, siz
     const struct model *model = work->model;
     struct face_own *own = work->own;
     if (model->split) face_stress_split(own->stress, model, n, own->state);
-    const double *p = own->state + 2 * model->i_E * FACE_ROOM, *u[3] = {own->zero, own->zero, own->zero};
+    const double *u[3] = {own->zero, own->zero, own->zero};
     const double *rho = model->n_alpha ? own->rho : own->state + 2 * model->i_m * FACE_ROOM; /* one material: rho_l */
     for (unsigned d = 0; d < model->n_velocity; d++) u[d] = own->state + 2 * (model->i_u + d) * FACE_ROOM;
     if (!model->n_alpha) {
-        const double *own_p = model->split ? face_stress_pressure(own->stress, 0) : p;
+        const double *own_p = face_pressure(work, frame, 0, n);
         model->eos[0].law->state(model->eos[0].self, n, rho, own_p, own->energy, own->c);
     }
     for (unsigned l = 0; l < model->n_alpha; l++) {
         const double *rho_l = own->state + 2 * (model->i_m + l) * FACE_ROOM,
                      *alpha = own->state + 2 * (model->i_alpha + l) * FACE_ROOM;
         double *m = own->m + 2 * l * FACE_ROOM, *stiffness = own->stiffness;
-        const double *own_p = model->split ? face_stress_pressure(own->stress, l) : p;
+        const double *own_p = face_pressure(work, frame, l, n);
         struct present present = {n, alpha, rho_l, own_p};
         present_state(&model->eos[l], &present, own->term, stiffness);
         if (l == 0) face_first_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);

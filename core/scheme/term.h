@@ -60,8 +60,15 @@ enum term_kind {
     TERM_DIVERGENCE, /* -(A+ F+ - A- F-)/V */
     TERM_BALANCED,   /* the same of F - q, q the hoop row of the cell, where faces are curved */
     TERM_DIFFERENCE, /* -(F+ - F-)/h, in any geometry */
+    TERM_FORCE,      /* (A+ F+ + A- F-)/(2V): no flux, a force at the faces that acts on both sides */
     TERM_TOLD        /* not at all: dumps tell it */
 };
+
+/* Does a row go through the faces, so that other levels count with it? */
+static inline bool term_is_flux(enum term_kind kind)
+{
+    return kind != TERM_TOLD && kind != TERM_FORCE;
+}
 
 /* Values at the faces across one axis. `below` is what the cell above a face sees at its lower face, `above` what the cell
  * below sees at its upper one: the same row, but for velocities along a face where the sides slip. */

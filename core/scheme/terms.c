@@ -14,6 +14,7 @@
 #include "scheme/hoop.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
+#include "scheme/tension.h"
 #include "scheme/viscous.h"
 
 #include <assert.h>
@@ -33,6 +34,7 @@ const struct term *const terms_all[] = {
     &exchange_term,    /* volume that brings materials back to one pressure */
     &closure_term,     /* K div u, and what was exchanged */
     &fraction_sum,     /* fractions sum to 1 */
+    &tension_term,     /* surface tension: its force, and what a surface that moves has stored */
     &strain_term,      /* the stretch of solids */
     NULL,
 };

@@ -23,13 +23,12 @@ struct scene *plot_unit_scene(const char *directory)
 static const char *plot_unit_of_field(const char *field)
 {
     static const char *const units[][2] = {
-        {"pressure", "Pa"},       {"density", "kg/m3"},  {"partial_density", "kg/m3"},
-        {"velocity", "m/s"},      {"temperature", "K"},  {"sound_speed", "m/s"},
-        {"vorticity", "1/s"},     {"stress_", "Pa"},     {"sigma_", "Pa"},
-        {"principal_", "Pa"},     {"von_mises", "Pa"},   {"strain_energy", "J/m3"},
-        {"stretch_", "1"},        {"invariant_", "1"},   {"alpha_", "1"},
-        {"schlieren", "1"},       {"mach", "1"},         {"internal_energy", "J/kg"},
-        {"total_energy", "J/m3"}, {"curvature_", "1/m"},
+        {"pressure", "Pa"},        {"density", "kg/m3"},   {"partial_density", "kg/m3"}, {"velocity", "m/s"},
+        {"temperature", "K"},      {"sound_speed", "m/s"}, {"vorticity", "1/s"},         {"heat_flux", "W/m2"},
+        {"stress_", "Pa"},         {"sigma_", "Pa"},       {"principal_", "Pa"},         {"von_mises", "Pa"},
+        {"strain_energy", "J/m3"}, {"stretch_", "1"},      {"invariant_", "1"},          {"alpha_", "1"},
+        {"schlieren", "1"},        {"mach", "1"},          {"internal_energy", "J/kg"},  {"total_energy", "J/m3"},
+        {"curvature_", "1/m"},
     };
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
         if (strncmp(field, units[i][0], strlen(units[i][0])) == 0) return units[i][1];

@@ -4,7 +4,12 @@
 
 static const struct bulla_param neo_hookean_params[] = {LAW_PARAMS, {0}};
 
-static const struct bulla_preset neo_hookean_presets[] = {LAW_PRESETS(), {0}};
+static const struct bulla_preset neo_hookean_presets[] = {
+    LAW_PRESETS(),
+    {"begostone", "BegoStone 15:3, an artificial kidney stone, 10.7 GPa (Esch et al. 2010)",
+     (const double[]){10.7e9, 1995.0}},
+    {0},
+};
 
 static int neo_hookean_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
 {

@@ -33,6 +33,9 @@ static const struct contract_eos_box thin_gas = {{1e-3, 1e3}, -INFINITY, 1e10, {
 
 static const struct start of_air[2] = {{1e5, 300.0, 300.0}, {1e8, 1500.0, 0.01}},
                           of_water[2] = {{1e5, 300.0, 1.25}, {3e8, 350.0, 1.2}},
+                          of_liquid[2] = {{1e5, 300.0, 1.2}, {3e8, 350.0, 1.1}},
+                          of_products[2] = {{2e10, 3500.0, 0.02}, {1e8, 2500.0, 3.0}},
+                          of_solid[2] = {{1e8, 320.0, 1.3}, {1e10, 800.0, 1.2}},
                           of_states[2] = {{1e5, 300.0, 1.1}, {3e8, 350.0, 0.95}};
 
 static char table[4096], file[4200];
@@ -42,12 +45,25 @@ static const struct row rows[] = {
     {"ideal-gas", {"preset=air"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
     {"ideal-gas", {"preset=air-r287"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
     {"ideal-gas", {"preset=helium"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
+    {"ideal-gas", {"preset=nitrogen"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
+    {"ideal-gas", {"preset=argon"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
+    {"ideal-gas", {"preset=krypton"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
+    {"ideal-gas", {"preset=carbon-dioxide"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
+    {"ideal-gas", {"preset=sf6"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
+    {"ideal-gas", {"preset=r22"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
+    {"ideal-gas", {"preset=water-vapour"}, 1e4, &thin_gas, of_air, 0, 1e-9, 1e-6},
     {"stiffened-gas", {"preset=sg44"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
     {"stiffened-gas", {"preset=sg4"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
     {"stiffened-gas", {"preset=sg659"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
     {"stiffened-gas", {"preset=sg659b"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
     {"stiffened-gas", {"preset=sg3"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
     {"stiffened-gas", {"preset=sg235"}, 9e3, &dense_water, of_water, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=ethanol"}, 2.4e3, NULL, of_liquid, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=glycerol"}, 3.8e3, NULL, of_liquid, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=castor-oil"}, 2.9e3, NULL, of_liquid, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=mercury"}, 4e4, NULL, of_liquid, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=blood"}, 3.2e3, NULL, of_liquid, 0, 1e-9, 1e-6},
+    {"stiffened-gas", {"preset=begostone"}, 6e3, NULL, of_liquid, 0, 1e-9, 1e-6},
     {"nasg", {"preset=water"}, 3 / 6.61e-4, &dense_water, of_water, 0, 1e-9, 1e-6},
     {"mnasg", {"preset=water"}, 3 / 6.7212e-4, &dense_water, of_water, 0, 1e-9, 1e-6},
     {"tait", {"preset=water"}, 4600.0, &on_curve, of_water, 0, 1e-9, 1e-6},
@@ -67,6 +83,12 @@ static const struct row rows[] = {
     {"helmholtz-air", {"preset=air", "interpolation=bicubic"}, 5700.0, NULL, of_air, 0, 3e-8, 1e-5},
     {"helmholtz-air", {"preset=air", "interpolation=bilinear"}, 5700.0, NULL, of_air, 0, 2e-3, 0.2},
     {"table", {file}, 3900.0, &in_states, of_states, 0, 1e-9, 1e-6},
+    {"jwl", {"preset=tnt"}, 4900.0, NULL, of_products, 0, 1e-9, 1e-6},
+    {"jwl", {"preset=c4"}, 4800.0, NULL, of_products, 0, 1e-9, 1e-6},
+    {"jwl", {"preset=petn"}, 5300.0, NULL, of_products, 0, 1e-9, 1e-6},
+    {"cochran-chan", {"preset=nitromethane"}, 3400.0, NULL, of_solid, 0, 1e-9, 1e-6},
+    {"cochran-chan", {"preset=copper"}, 2.6e4, NULL, of_solid, 0, 1e-9, 1e-6},
+    {"cochran-chan", {"preset=tnt"}, 5500.0, NULL, of_solid, 0, 1e-9, 1e-6},
     {"tait-murnaghan", {"preset=water"}, 3000.0, &in_plugin, NULL, 0, 1e-9, 1e-6},
 };
 

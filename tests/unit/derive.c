@@ -210,10 +210,10 @@ static void test_names(void **state)
         assert_int_equal(derive_find(model, *name, &field), 0);
         assert_string_equal(field.name, *name);
         assert_non_null(field.unit);
-        bool vector = !strcmp(*name, "velocity") || !strcmp(*name, "vorticity");
+        bool vector = !strcmp(*name, "velocity") || !strcmp(*name, "vorticity") || !strcmp(*name, "heat_flux");
         assert_int_equal(field.components, vector ? 3 : 1);
     }
-    assert_int_equal(count, 16 + 5 * 3);
+    assert_int_equal(count, 17 + 5 * 3);
     flow_stop(&flow);
 }
 

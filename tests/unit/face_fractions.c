@@ -48,14 +48,7 @@ static void test_sum(void **state)
                          "{water: 1000, air: 1.2, helium: 0.2}, pressure: 1e5}\nrun: {until: 1}\n"));
     flow_set(&flow, set_three);
     const struct model *model = flow.state->model;
-    const struct level *level = flow_level(&flow);
-    const struct frame_source source = {.mesh = flow.state->mesh,
-                                        .level = level,
-                                        .arrays = level->w,
-                                        .halo = level->halo,
-                                        .n_field = model->n_field,
-                                        .boundary = bound_fill,
-                                        .data = flow.state->stages[0]->bound};
+    const struct frame_source source = flow_source(&flow);
     struct face_work *work = face_new(model);
     struct frame frame = frame_piece(flow.state->mesh, 0, 0);
     frame_gather(&source, 0, &frame, FACE_ROOM, work->frame);

@@ -73,6 +73,19 @@ static inline const struct level *flow_level(const struct flow *flow)
     return &flow->state->mesh->levels[0];
 }
 
+/* Where frames of its coarsest level are gathered from, boundaries included. */
+static inline struct frame_source flow_source(const struct flow *flow)
+{
+    const struct level *level = flow_level(flow);
+    return (struct frame_source){.mesh = flow->state->mesh,
+                                 .level = level,
+                                 .arrays = level->w,
+                                 .halo = level->halo,
+                                 .n_field = flow->state->model->n_field,
+                                 .boundary = bound_fill,
+                                 .data = flow->state->stages[0]->bound};
+}
+
 /* Index in the domain of cell c of a local tile. */
 static inline size_t flow_index(const struct flow *flow, unsigned local, size_t c)
 {

@@ -125,15 +125,8 @@ static double shaken(const char *solver, double least, bool masked)
                          "scheme: {riemann: %s, low-mach: %g}\nrun: {until: 1}\n",
                          solver, least));
     flow_set(&flow, shake);
-    const struct level *level = flow_level(&flow);
     const struct model *model = flow.state->model;
-    const struct frame_source source = {.mesh = flow.state->mesh,
-                                        .level = level,
-                                        .arrays = level->w,
-                                        .halo = level->halo,
-                                        .n_field = model->n_field,
-                                        .boundary = bound_fill,
-                                        .data = flow.state->stages[0]->bound};
+    const struct frame_source source = flow_source(&flow);
     struct face_work *work = face_new(model);
     struct frame frame = frame_piece(flow.state->mesh, 0, 0);
     frame_gather(&source, 0, &frame, FACE_ROOM, work->frame);

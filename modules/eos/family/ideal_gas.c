@@ -16,6 +16,14 @@ static const struct bulla_preset ideal_gas_presets[] = {
     {"air", "dry air at room temperature", (const double[]){1.4, 717.5}},
     {"air-r287", "dry air with the gas constant 287.05 J/(kg K)", (const double[]){1.4, 717.625}},
     {"helium", "helium: gamma 5/3, gas constant 2077.26 J/(kg K)", (const double[]){5.0 / 3.0, 3115.9}},
+    {"nitrogen", "nitrogen: gamma 1.4, 28.0135 g/mol", (const double[]){1.4, 742.0055}},
+    {"argon", "argon: gamma 5/3, 39.948 g/mol", (const double[]){5.0 / 3.0, 312.1982}},
+    {"krypton", "krypton: gamma 5/3, 83.798 g/mol", (const double[]){5.0 / 3.0, 148.8304}},
+    {"carbon-dioxide", "carbon dioxide at 20 C (Span & Wagner 1996), 44.0098 g/mol",
+     (const double[]){1.29076, 649.756}},
+    {"sf6", "sulfur hexafluoride at 20 C (Guder & Wagner 2009), 146.0554 g/mol", (const double[]){1.094964, 599.453}},
+    {"r22", "chlorodifluoromethane at 20 C (Kamei et al. 1995), 86.468 g/mol", (const double[]){1.175612, 547.550}},
+    {"water-vapour", "water vapour at 20 C: gamma 1.33, 18.01527 g/mol", (const double[]){1.33, 1398.55}},
     {0},
 };
 

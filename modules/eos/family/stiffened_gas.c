@@ -2,7 +2,10 @@
  * gives liquids and soft solids their sound speed. The family without co-volume.
  *
  * Water has many parameter sets in the literature. The mechanical ones (sg4, sg44, sg659, sg659b)
- * give no temperature of their own; their cv is set so that T = 300 K at 998.2 kg/m3 and 1e5 Pa. */
+ * give no temperature of their own; their cv is set so that T = 300 K at 998.2 kg/m3 and 1e5 Pa.
+ *
+ * Other liquids: gamma = 1 + B/A, p_inf = rho0 c0^2/gamma - 1e5 Pa from the density and the sound speed at rest, cv such that
+ * the temperature there is right; docs/thermodynamics.md says which of these numbers are from where. */
 #define FAMILY_ROOM family_room_all
 #include "family_rows.h"
 
@@ -26,6 +29,13 @@ static const struct bulla_preset stiffened_gas_presets[] = {
     {"sg659b", "water, gamma 6.59, p-inf 410 MPa (mechanical)", (const double[]){6.59, 4.1e8, 244.984801, 0.0}},
     {"sg3", "water, gamma 3, p-inf 853.3 MPa, with temperatures", (const double[]){3.0, 8.533e8, 1395.0, -1148e3}},
     {"sg235", "water, gamma 2.35, p-inf 1 GPa (Le Metayer et al. 2004)", (const double[]){2.35, 1e9, 1816.0, -1167e3}},
+    {"ethanol", "ethanol at 20 C: 789 kg/m3, 1159 m/s", (const double[]){11.5, 92060757.3, 37.9480823, 0.0}},
+    {"glycerol", "glycerol at 25 C: 1261 kg/m3, 1920 m/s", (const double[]){10.0, 464755040.0, 137.380513, 0.0}},
+    {"castor-oil", "castor oil at 25 C: 961 kg/m3, 1490 m/s", (const double[]){12.0, 177693008.3, 56.4109991, 0.0}},
+    {"mercury", "mercury at 25 C: 13534 kg/m3, 1450 m/s", (const double[]){8.8, 3233449431.8, 102.736299, 0.0}},
+    {"blood", "blood at 37 C: 1060 kg/m3, 1571 m/s", (const double[]){7.1, 368368093.0, 183.735215, 0.0}},
+    {"begostone", "BegoStone 15:3, its bulk modulus: 1995 kg/m3, 20.2 GPa (Esch et al. 2010)",
+     (const double[]){4.4, 4590809090.9, 2308.80353, 0.0}},
     {0},
 };
 

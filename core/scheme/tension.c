@@ -1,0 +1,169 @@
+/* tension.c - see tension.h. One dimension: pieces are whole tiles, and rows of faces follow those of cells. */
+#include "scheme/tension.h"
+
+#include "paint/paint_curvature.h"
+#include "phys/row.h"
+#include "phys/traction.h"
+#include "scheme/closure.h"
+#include "scheme/exchange.h"
+#include "scheme/terms.h"
+
+#include <string.h>
+
+static bool tension_wanted(const struct model *path)
+{
+    return path->n_pair > 0;
+}
+
+static unsigned tension_rows(const struct model *path)
+{
+    return path->n_pair;
+}
+
+static void tension_list(struct terms *terms, int axis, unsigned first, const struct face_work *faces)
+{
+    const double *row = faces ? faces->tension : NULL;
+    struct term_flux force = {.below = row,
+                              .above = row,
+                              .rate = terms->model->i_u + (unsigned)axis,
+                              .kind = TERM_FORCE};
+    (void)first;
+    terms_flux(terms, axis, force, "tension", "");
+}
+
+/* beta/r of the faces above the cells of a frame; 0 at the centre. */
+static void tension_curve(const struct term_piece *piece, double *curve)
+{
+    const struct frame *frame = piece->frame;
+    const struct mesh *mesh = piece->tile->mesh;
+    int first = piece->tile->tile->at[0] * mesh->n[0] - (int)frame->ghosts + 1;
+    for (size_t j = 0; j < frame->count; j++) {
+        double r = mesh->lower[0] + (first + (int)j) * piece->tile->level->h[0];
+        curve[j] = r == 0.0 ? 0.0 : mesh->beta / r;
+    }
+}
+
+/* What a pair adds to the force and the lags of the faces above n cells; curve: the size of the curvature. */
+static BULLA_KERNEL void tension_face(size_t n, double sigma, const double *restrict curve, const double *restrict a,
+                                      const double *restrict b, double *restrict force, double *restrict lag_a,
+                                      double *restrict lag_b)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a0 = a[i], a1 = a[i + 1], b0 = b[i], b1 = b[i + 1], f = force[i], up = lag_a[i], down = lag_b[i];
+        double am = 0.5 * (a0 + a1), bm = 0.5 * (b0 + b1), g = bm * (a1 - a0) - am * (b1 - b0);
+        double size = sigma * curve[i], outward = g > 0.0 ? -size : 0.0, jump = g < 0.0 ? size : outward;
+        force[i] = f + jump * g;
+        lag_a[i] = up + bm * jump;
+        lag_b[i] = down - am * jump;
+    }
+}
+
+static void tension_frame(const struct term_piece *piece)
+{
+    const struct model *path = piece->model;
+    const struct frame *frame = piece->frame;
+    struct face_work *faces = piece->faces;
+    const double *alpha = faces->frame + path->i_alpha * FACE_ROOM;
+    double curve[FACE_ROOM], force[FACE_ROOM] = {0}, size[METRIC_CELLS];
+    size_t n = frame->count - 1, reach = frame_reach(frame);
+    double *kappa = piece->tile->rates + terms_first(piece->terms, &tension_term) * piece->tile->n_cell;
+    tension_curve(piece, curve);
+    paint_curvature_size(piece->tile->metric, frame->n, size);
+    for (unsigned l = 0; l < path->n_material; l++) memset(faces->lag + l * FACE_ROOM, 0, frame->count * sizeof *curve);
+    for (unsigned k = 0; k < path->n_pair; k++) {
+        const struct model_pair *pair = &path->pairs[k];
+        const double *a = alpha + pair->inside * FACE_ROOM, *b = alpha + pair->outside * FACE_ROOM;
+        tension_face(n, pair->sigma, curve, a, b, force, faces->lag + pair->inside * FACE_ROOM,
+                     faces->lag + pair->outside * FACE_ROOM);
+        paint_curvature_cells(frame->n, size, a + frame->ghosts - 1, b + frame->ghosts - 1,
+                              kappa + k * piece->tile->n_cell);
+    }
+    memcpy(faces->tension, force + reach, frame_edged(frame) * sizeof *force);
+    for (size_t j = 0; j < n; j++) force[j] *= 0.5;
+    row_add(n, force, faces->rise[1]);
+    row_add(n, force, faces->rise[0] + 1);
+}
+
+/* What volume of a material carries through the faces beside the mean pressure there: energy, and a pressure that it
+ * had (exchange.h). */
+static void tension_faces(const struct term_piece *piece)
+{
+    const struct model *path = piece->model;
+    struct face_work *faces = piece->faces;
+    size_t n = faces->faces.n, reach = frame_reach(piece->frame);
+    for (unsigned l = 0; l < path->n_material; l++) {
+        const double *lag = faces->lag + l * FACE_ROOM + reach, *volume = faces->alpha + l * FACE_ROOM;
+        row_add_product(n, volume, lag, faces->energy);
+        row_add_product(n, volume, lag, faces->carried + l * FACE_ROOM);
+    }
+}
+
+/* Volume that comes in is compared with the pressure that its own material has in the cell. */
+static void tension_cells(struct term_tile *tile)
+{
+    const struct model *path = tile->model;
+    if (!closure_term.wanted(path)) return;
+    double *carried = tile->rates + terms_first(tile->terms, &exchange_term) * tile->n_cell;
+    for (size_t from = 0; from < tile->n_cell; from += TRACTION_BATCH) {
+        size_t n = tile->n_cell - from < TRACTION_BATCH ? tile->n_cell - from : TRACTION_BATCH;
+        struct traction_pressures parts; /* large: filled as far as it is used */
+        double owed[TRACTION_BATCH];
+        traction_part(path, n, tile->n_cell, tile->w + from, &parts);
+        for (unsigned l = 0; l < path->n_material; l++) {
+            memset(owed, 0, n * sizeof *owed);
+            row_add_product(n, parts.lag[l], tile->rates + (path->i_alpha + l) * tile->n_cell + from, owed);
+            row_take(n, owed, carried + l * tile->n_cell + from);
+        }
+    }
+}
+
+/* What the surface that came to a cell since u has stored, sigma kappa d alpha, is taken from its energy. */
+static BULLA_KERNEL void tension_store(size_t n, double sigma, const double *restrict kappa, const double *restrict a0,
+                                       const double *restrict b0, const double *restrict a1, const double *restrict b1,
+                                       double *restrict energy)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = 0.5 * (a0[i] + a1[i]), b = 0.5 * (b0[i] + b1[i]), e = energy[i], jump = sigma * kappa[i];
+        energy[i] = e - jump * (b * (a1[i] - a0[i]) - a * (b1[i] - b0[i]));
+    }
+}
+
+static size_t tension_apply(const struct term_tile *tile, double *u_new)
+{
+    const struct model *path = tile->model;
+    const double *kappa = tile->rates + terms_first(tile->terms, &tension_term) * tile->n_cell;
+    size_t n = tile->n_cell;
+    for (unsigned k = 0; k < path->n_pair; k++) {
+        const struct model_pair *pair = &path->pairs[k];
+        size_t a = (path->i_alpha + pair->inside) * n, b = (path->i_alpha + pair->outside) * n;
+        tension_store(n, pair->sigma, kappa + k * n, tile->u + a, tile->u + b, u_new + a, u_new + b,
+                      u_new + path->i_E * n);
+        memcpy(u_new + pair->i_kappa * n, kappa + k * n, n * sizeof *u_new);
+    }
+    return 0;
+}
+
+static void tension_say(const struct scene *scene, struct text *text)
+{
+    for (unsigned k = 0; k < scene->n_tension; k++) {
+        const struct scene_tension *pair = &scene->tension[k];
+        text_add(text, "%s%s+%s %g N/m", k ? ", " : ": ", scene->material[pair->one].name,
+                 scene->material[pair->other].name, pair->sigma);
+    }
+}
+
+const struct term tension_term = {
+    .name = "tension",
+    .owner = "core/scheme/tension.c",
+    .equation = "d(rho u)/dt += sigma kappa grad alpha, d(rho E)/dt -= sigma kappa d alpha/dt; p_l lag behind p",
+    .wanted = tension_wanted,
+    .rows = tension_rows,
+    .list = tension_list,
+    .frame = tension_frame,
+    .faces = tension_faces,
+    .cells = tension_cells,
+    .apply = tension_apply,
+    .say = tension_say,
+};

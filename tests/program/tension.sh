@@ -1,0 +1,57 @@
+# Surface tension: the same bits on ranks, with levels and after a restart; what makes no sense is refused at its place.
+set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
+
+cat >bubble.yaml <<'END'
+bulla: 1
+title: tension
+domain: {geometry: spherical, lower: [0], upper: [64 um], cells: [64], boundaries: {x-: axis, x+: non-reflecting}}
+mesh: {tile: 8, levels: 2, refine: [{interface: air}]}
+materials: {water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}, air: {eos: {type: ideal-gas, gamma: 1.4}}}
+surface-tension: {water+air: 72.8 mN/m}
+initial:
+  - {everywhere: true, material: water, density: 998.2, pressure: 1 atm}
+  - {sphere: {center: [0], radius: 4 um}, material: air, density: 1.2, pressure: 2 atm}
+run: {until: 150 ns}
+output:
+  snapshots: {every: 150 ns, fields: [density, velocity, pressure, alpha_air, surface_energy], precision: double}
+  history: {every: 1 step, columns: {E: {total: energy}, V: {volume: air}, S: {integral: surface_energy}, u: {max: velocity_x}, p: {max: pressure}}}
+  checkpoints: {every: 20 steps}
+END
+for ranks in 1 3; do
+    mkdir $ranks
+    (cd $ranks && "$BULLA" run ../bubble.yaml -o out -n $ranks) >said 2>&1 || fail "$ranks ranks" said
+done
+cmp 1/out/history.csv 3/out/history.csv || fail "results depend on ranks"
+last=$(ls 1/out/fields/*.hdf | tail -1)
+"$BULLA_BUILD/tests/test-unit-snapshot" "$last" "3${last#1}" || fail "fields depend on ranks"
+"$BULLA" run bubble.yaml -o parts --max-steps 30 >said 2>&1 || fail "first half" said
+"$BULLA" run bubble.yaml -o parts --restart >said 2>&1 || fail "second half" said
+tail -1 1/out/history.csv >last.one
+tail -1 parts/history.csv >last.parts
+cmp last.one last.parts || fail "results depend on restarts" last.one last.parts
+"$BULLA" plan bubble.yaml | grep -q 'tension .*: water+air 0.0728 N/m' || fail "the plan says nothing of it"
+"$BULLA" run bubble.yaml -o none --set surface-tension=null --max-steps 1 >said 2>&1 || fail "without" said
+if "$BULLA" plan bubble.yaml --set surface-tension=null | grep -q tension; then fail "the plan speaks of what is not there"; fi
+
+refused() { # WHAT SETTING...: ends with 2 and says so
+    what=$1
+    shift
+    code=0
+    "$BULLA" show bubble.yaml "$@" >said 2>&1 || code=$?
+    [ "$code" -eq 2 ] || fail "$*: code $code" said
+    grep -qF "$what" said || fail "$*: does not say '$what'" said
+}
+refused "there is no material 'ari'" --set 'surface-tension={water+ari: 0.07}'
+refused "did you mean 'air'?" --set 'surface-tension={water+ari: 0.07}'
+refused "'water' is no pair of materials" --set 'surface-tension={water: 0.07}'
+refused "no surface tension with itself" --set 'surface-tension={air+air: 0.07}'
+refused "this pair has a surface tension already" --set 'surface-tension={water+air: 0.07, air+water: 0.07}'
+refused 'is a pressure' --set 'surface-tension={water+air: 72 Pa}'
+refused 'surface-tension.water+air' --set 'surface-tension={water+air: -0.07}'
+refused 'interfaces are flat here' --set domain.geometry=cartesian --set domain.boundaries.x-=reflecting
+refused 'only a sphere is in balance' --set 'initial.0.balance=tension'
+refused 'no surface tension with the one that it is painted on' --set initial.1.balance=tension --set surface-tension=null
+refused 'the pressure outside of the sphere as a number' --set initial.1.balance=tension --set 'initial.1.pressure=1e5 + x'
+"$BULLA" show bubble.yaml --set 'mesh.refine=[{region: {box: {lower: [0], upper: [9 um]}}}]' >said 2>&1 || true
+grep -q 'nothing refines there' said || fail "no warning where the surface is coarse" said
