@@ -228,6 +228,12 @@ static void keys_read_many(struct keys *keys, struct keys_value *value)
     }
 }
 
+void keys_again(struct keys *keys, const struct keys_map *map, const char *name)
+{
+    for (unsigned i = 0; i < map->count; i++)
+        if (strcmp(map->values[i].key->name, name) == 0) keys_read_many(keys, &map->values[i]);
+}
+
 static void keys_refuse_many(struct keys *keys, const struct keys_value *value, const char *what, const char *help)
 {
     const struct node *node = value->node;

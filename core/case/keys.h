@@ -106,6 +106,9 @@ struct keys {
 /* Reads a map by its table. Mistakes are recorded; what is wrong is simply not `given`. */
 struct keys_map *keys_read(struct keys *keys, struct node *node, const struct keys_section *section, const char *path);
 
+/* Reads a list again, whose node has been given other items. */
+void keys_again(struct keys *keys, const struct keys_map *map, const char *name);
+
 /* The value of a key. The key must be in the table; `map` may be NULL (then nothing is given). */
 const struct keys_value *keys_at(const struct keys_map *map, const char *name);
 

@@ -116,6 +116,7 @@ static void scene_build(struct draft *draft, struct node *root)
     scene_list_variants(draft->scene, root);
     scene_list_settings(draft, root);
     params_read(draft->keys.params, tree_get(root, "parameters"));
+    scene_repeat(draft, tree_get(root, "initial"));
     draft->root = keys_read(&draft->keys, root, &scene_root_keys, "");
     if (draft->root) scene_fill(draft);
     if (diag_errors(draft->keys.diag)) return;

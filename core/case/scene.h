@@ -277,6 +277,7 @@ struct scene_scheme {
     struct instance interface_limiter; /* of the volume fractions */
     int ghosts;                        /* layers of neighbours that the reconstruction needs on each side of a tile */
     double cfl, dt_fixed;              /* dt_fixed 0: from cfl */
+    double first_step;                 /* part of that step with which a run begins */
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
     enum scene_guard guard;

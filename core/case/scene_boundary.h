@@ -19,6 +19,7 @@ enum scene_boundary_trait {
     SCENE_BOUNDARY_WRAPS = 8,   /* the cells of the opposite face lie behind it: to the mesh there is no boundary */
     SCENE_BOUNDARY_MIDDLE = 16, /* the other half of what is inside lies behind it: may stand at r = 0 */
     SCENE_BOUNDARY_CENTRE = 32, /* stands at r = 0 alone */
+    SCENE_BOUNDARY_DRIVES = 64, /* brings states that may be faster than all that is inside: the time step knows them */
 };
 
 /* ROW(constant, word, what it is, what may be written, who fills the layers behind it, what it means to others). */
@@ -31,9 +32,9 @@ enum scene_boundary_trait {
     ROW(OUTFLOW, "outflow", "Zero gradient.", NOTHING, copy, SCENE_BOUNDARY_RESTS)                                  \
     ROW(NONREFLECTING, "non-reflecting", "Outgoing waves leave, none comes in.", FAR, far, SCENE_BOUNDARY_REFERS)   \
     ROW(PERIODIC, "periodic", "What leaves here enters at the opposite face.", NOTHING, copy, SCENE_BOUNDARY_WRAPS) \
-    ROW(INFLOW, "inflow", "A fixed state flows in.", STATE, state, SCENE_BOUNDARY_BRINGS)                           \
+    ROW(INFLOW, "inflow", "A fixed state flows in.", STATE, state, SCENE_BOUNDARY_BRINGS | SCENE_BOUNDARY_DRIVES)   \
     ROW(INCOMING_WAVE, "incoming-wave", "A pressure wave comes in; outgoing waves leave.", WAVE, wave,              \
-        SCENE_BOUNDARY_REFERS)
+        SCENE_BOUNDARY_REFERS | SCENE_BOUNDARY_DRIVES)
 
 #define SCENE_BOUNDARY_TYPE(type, ...) SCENE_##type,
 enum scene_boundary_type { SCENE_BOUNDARY_TABLE(SCENE_BOUNDARY_TYPE) SCENE_BOUNDARY_TYPES };

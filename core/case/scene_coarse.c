@@ -224,19 +224,27 @@ static bool scene_coarse_shape(struct draft *draft, unsigned index, const struct
     return true;
 }
 
+static bool scene_coarse_same(const struct mark *a, const struct mark *b)
+{
+    return a->source == b->source && a->line == b->line && a->column == b->column;
+}
+
 static void scene_coarse_layers(struct draft *draft)
 {
     static const char *const round[] = {"sphere", "cylinder", "ellipsoid", "ring", "union"};
     const struct scene *scene = draft->scene;
     const struct keys_value *initial = keys_at(draft->root, "initial"), *value = NULL;
+    const struct keys_value *last = NULL; /* warned of: of a cloud or a row one is enough */
     for (unsigned i = 0; i < scene->n_layer; i++) {
         const struct scene_layer *layer = &scene->layers[i];
         if (!layer->has_material || !layer->shape || !layer->fractions) continue;
         for (unsigned k = 0; k < sizeof round / sizeof *round; k++)
             if (keys_at(initial->list[i].map, round[k])->node) value = keys_at(initial->list[i].map, round[k]);
+        if (last && scene_coarse_same(&last->node->mark, &value->node->mark)) continue;
         bool warned = layer->shape->type != SHAPE_UNION && scene_coarse_shape(draft, i, layer->shape, value);
         for (unsigned k = 0; !warned && layer->shape->type == SHAPE_UNION && k < layer->shape->n; k++)
             warned = scene_coarse_shape(draft, i, layer->shape->parts[k], value);
+        if (warned) last = value;
     }
 }
 

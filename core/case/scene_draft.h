@@ -21,8 +21,8 @@ extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_str
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
 extern const struct keys_section scene_pulse_units;
 extern const struct keys_section *const scene_boundary_pulse_cases[]; /* ends with NULL */
-extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_map_list_keys, scene_expect_keys,
-    scene_peak_keys;
+extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_map_list_keys, scene_cloud_keys,
+    scene_expect_keys, scene_peak_keys;
 
 /* In the order in which they are called; each reads its section of draft->root. */
 void scene_domain(struct draft *draft);
@@ -126,6 +126,12 @@ void scene_stretch(struct draft *draft, struct scene_layer *layer, const struct 
  * wanted), or after a recorded error. */
 struct shape *scene_shape(struct draft *draft, const struct keys_map *map, bool wanted,
                           const struct keys_value **ret_value);
+
+/* Puts the layers that `repeat:` stands for into the list of layers, before it is read. */
+void scene_repeat(struct draft *draft, struct node *layers);
+
+/* The layers, in a list of the forest, that a layer with `cloud:` stands for; none after a recorded error. */
+struct node *scene_cloud(struct draft *draft, const struct keys_value *value, const struct node *layer);
 
 /* What a field is, for those who compare its values with a number. */
 struct scene_field {

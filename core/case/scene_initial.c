@@ -41,6 +41,14 @@ static const struct key scene_initial_rows[] = {
     {.name = "lua",
      .type = KEYS_TEXT,
      .doc = "File or block: function(x, y, z) that returns a table of named fields, {pressure = ..., alpha = {...}}."},
+    {.name = "repeat",
+     .type = KEYS_TREE,
+     .doc = "The layer many times: names that its expressions use, each with how often (counted from 0) or [first, "
+            "last]."},
+    {.name = "cloud",
+     .type = KEYS_SECTION,
+     .section = &scene_cloud_keys,
+     .doc = "Many spheres at random places instead of a shape."},
     {.name = "checkpoint",
      .type = KEYS_SECTION,
      .section = &scene_initial_checkpoint_keys,
@@ -54,7 +62,7 @@ static const struct key scene_initial_rows[] = {
     "[{'required': ['everywhere']}, {'required': ['box']},"                                                            \
     "{'required': ['half-space']}, {'required': ['sphere']}, {'required': ['cylinder']}, {'required': ['ellipsoid']}," \
     "{'required': ['ring']}, {'required': ['polygon']}, {'required': ['complement']}, {'required': ['union']},"        \
-    "{'required': ['intersection']}]},"                                                                                \
+    "{'required': ['intersection']}, {'required': ['cloud']}]},"                                                       \
     " 'else': {'properties': {'material': false, 'fractions': false, 'density': false, 'temperature': false,"          \
     " 'pressure': false, 'velocity': false, 'stretch': false, 'balance': false}}},"                                    \
     "{'if': {'not': {'required': ['lua']}, 'anyOf': [{'required': ['material']}, {'required': ['fractions']}]},"       \
@@ -213,8 +221,28 @@ static void scene_initial_cover(struct draft *draft, const struct keys_value *in
     mem_free(all.parts);
 }
 
+/* Puts the spheres of clouds into the list of layers, and reads it anew. */
+static void scene_initial_clouds(struct draft *draft)
+{
+    const struct keys_value *initial = keys_at(draft->root, "initial");
+    struct node *layers = tree_list(draft->keys.forest, &initial->node->mark);
+    bool any = false;
+    for (unsigned i = 0; i < initial->count; i++) {
+        const struct keys_value *layer = &initial->list[i], *cloud = keys_at(layer->map, "cloud");
+        any = any || cloud->node;
+        struct node *some = cloud->node ? scene_cloud(draft, cloud, layer->node) : NULL;
+        if (!some) tree_append(draft->keys.forest, layers, layer->node);
+        for (unsigned k = 0; some && k < some->count; k++) tree_append(draft->keys.forest, layers, some->items[k]);
+    }
+    if (!any || diag_errors(draft->keys.diag)) return;
+    initial->node->items = layers->items;
+    initial->node->count = layers->count;
+    keys_again(&draft->keys, draft->root, "initial");
+}
+
 void scene_initial(struct draft *draft)
 {
+    if (keys_at(draft->root, "initial")->given && draft->scene->domain.dim > 0) scene_initial_clouds(draft);
     const struct keys_value *initial = keys_at(draft->root, "initial");
     struct scene *scene = draft->scene;
     unsigned before = diag_errors(draft->keys.diag);

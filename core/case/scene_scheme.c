@@ -3,6 +3,7 @@
 
 #include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
+#include "plug/vet.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -83,8 +84,17 @@ static const struct key scene_scheme_rows[] = {
      .unit = "1",
      .min = KEYS_POSITIVE,
      .max = 1,
-     .fallback = "0.4",
-     .doc = "Courant number of the time step."},
+     .doc = "Courant number of the time step, summed over axes. Default: 0.8 in two and three dimensions, 0.4 in one "
+            "and with allaire."},
+    {.name = "first-step",
+     .type = KEYS_NUMBER,
+     .unit = "1",
+     .min = KEYS_POSITIVE,
+     .max = 1,
+     .doc =
+         "The first time step as a part of the one that cfl allows; each step takes a tenth more of it, until all. "
+         "Jumps of the initial state need small steps until they have become waves. Default: 0.05 where cfl is above "
+         "0.5 per axis, else 1."},
     {.name = "dt",
      .type = KEYS_NUMBER,
      .unit = "s",
@@ -103,6 +113,15 @@ const struct keys_section scene_scheme_keys = {.name = "scheme",
                                                .doc = "The numerical method.",
                                                .keys = scene_scheme_rows};
 
+/* Keys whose defaults were found here stand where they would in a case that gives all. */
+static void scene_scheme_order(struct node *scheme)
+{
+    for (size_t row = sizeof scene_scheme_rows / sizeof *scene_scheme_rows - 1; row-- > 0;) {
+        int at = tree_find(scheme, scene_scheme_rows[row].name);
+        if (at >= 0) tree_first(scheme, (unsigned)at);
+    }
+}
+
 /* What a case without a word about it gets; it stands in the resolved case, in the order of the table. */
 static struct keys_value scene_scheme_default(struct draft *draft, const struct keys_value *absent,
                                               const struct keys_section *section, const char *name)
@@ -110,15 +129,10 @@ static struct keys_value scene_scheme_default(struct draft *draft, const struct 
     struct keys_value value = *absent;
     struct forest *forest = draft->keys.forest;
     struct node *scheme = keys_at(draft->root, "scheme")->map->node;
-    unsigned row = 0;
     value.node = tree_scalar(forest, &scheme->mark, TREE_PLAIN, name);
     value.map = keys_read(&draft->keys, value.node, section, value.path);
     tree_set(forest, scheme, absent->key->name, value.node);
-    while (&scene_scheme_rows[row] != absent->key) row++;
-    for (unsigned i = row + 1; i-- > 0;) {
-        int at = tree_find(scheme, scene_scheme_rows[i].name);
-        if (at >= 0) tree_first(scheme, (unsigned)at);
-    }
+    scene_scheme_order(scheme);
     return value;
 }
 
@@ -151,7 +165,7 @@ static void scene_scheme_riemann_open(struct draft *draft, const struct keys_map
 }
 
 /* Plastic shocks want a limiter that is smooth and not steep (docs/numerics.md, 6b). */
-static void scene_scheme_limit(struct draft *draft, const struct keys_map *scheme)
+static void scene_scheme_slopes(struct draft *draft, const struct keys_map *scheme)
 {
     static const char *const wrong[] = {"mc", "van-leer", "superbee"};
     const struct keys_value *limiter = keys_at(scheme, "limiter");
@@ -170,6 +184,29 @@ static void scene_scheme_limit(struct draft *draft, const struct keys_map *schem
                       wrong[i]);
 }
 
+/* Some limiters are for the surfaces of fluids: elsewhere they make steps of waves, and slip and traction at the surface
+ * of a solid come out wrong. */
+static void scene_scheme_limit(struct draft *draft, const struct keys_map *scheme)
+{
+    const struct keys_value *limiter = keys_at(scheme, "limiter"), *surface = keys_at(scheme, "interface-limiter");
+    struct scene *scene = draft->scene;
+    scene_scheme_slopes(draft, scheme);
+    scene_material_open(draft, surface, &scene->scheme.interface_limiter);
+    const struct bulla_module *plain = scene->scheme.limiter.module, *sharp = scene->scheme.interface_limiter.module;
+    if (plain && vet_surfaces(plain->table)) {
+        keys_error(&draft->keys, limiter, "'%s' is for volume fractions", plain->name);
+        diag_help(draft->keys.diag, "'interface-limiter: %s' is where it belongs; 'limiter: koren' for all else",
+                  plain->name);
+    }
+    for (unsigned l = 0; sharp && vet_surfaces(sharp->table) && l < scene->n_material; l++) {
+        if (!scene->material[l].constitutive.module) continue;
+        keys_error(&draft->keys, surface, "'%s' is for the surfaces of fluids, but '%s' is a solid", sharp->name,
+                   scene->material[l].name);
+        diag_help(draft->keys.diag, "'interface-limiter: superbee' keeps its slip and traction right");
+        return;
+    }
+}
+
 /* The scheme says how many layers of neighbours tiles need. */
 static void scene_scheme_reconstruct(struct draft *draft, const struct keys_map *scheme)
 {
@@ -177,6 +214,37 @@ static void scene_scheme_reconstruct(struct draft *draft, const struct keys_map 
     scene_material_open(draft, keys_at(scheme, "reconstruction"), &scene->scheme.reconstruction);
     const struct bulla_module *module = scene->scheme.reconstruction.module;
     scene->scheme.ghosts = module ? (int)((const struct bulla_reconstruction *)module->table)->layers : SCENE_GHOSTS;
+}
+
+/* Errors follow the Courant number of an axis, costs the sum (docs/decisions/courant.md). It stands in the resolved
+ * case. */
+static double scene_scheme_cfl(struct draft *draft, const struct keys_map *scheme)
+{
+    const struct keys_value *cfl = keys_at(scheme, "cfl");
+    struct forest *forest = draft->keys.forest;
+    const struct scene *scene = draft->scene;
+    bool small = scene->domain.dim < 2 || scene->scheme.closure == SCENE_ALLAIRE;
+    if (cfl->node || cfl->meant) return cfl->number;
+    tree_set(forest, scheme->node, "cfl", tree_scalar(forest, &scheme->node->mark, TREE_PLAIN, small ? "0.4" : "0.8"));
+    scene_scheme_order(scheme->node);
+    return small ? 0.4 : 0.8;
+}
+
+/* Courant numbers of an axis above this one begin with small steps, and with how small ones. */
+#define SCENE_SCHEME_RAMP 0.5
+#define SCENE_SCHEME_FIRST 0.05
+
+/* A fixed step is as long as the case says, from the start. */
+static double scene_scheme_first(struct draft *draft, const struct keys_map *scheme)
+{
+    const struct keys_value *first = keys_at(scheme, "first-step"), *dt = keys_at(scheme, "dt");
+    const struct scene *scene = draft->scene;
+    bool ramp = scene->scheme.cfl > SCENE_SCHEME_RAMP * scene->domain.dim && !dt->given;
+    if (first->given && dt->given) {
+        keys_error(&draft->keys, first, "steps are fixed by 'dt': there is no smaller first one");
+        diag_help(draft->keys.diag, "give one of the two");
+    }
+    return first->given ? first->number : ramp ? SCENE_SCHEME_FIRST : 1.0;
 }
 
 void scene_scheme(struct draft *draft)
@@ -188,12 +256,12 @@ void scene_scheme(struct draft *draft)
     scene->scheme.integrator = (enum scene_integrator)keys_at(scheme, "integrator")->integer;
     scene->scheme.guard = (enum scene_guard)keys_at(scheme, "guard")->integer;
     scene->scheme.low_mach = keys_at(scheme, "low-mach")->number;
-    scene->scheme.cfl = keys_at(scheme, "cfl")->number;
+    scene->scheme.cfl = scene_scheme_cfl(draft, scheme);
     scene->scheme.dt_fixed = keys_at(scheme, "dt")->number;
+    scene->scheme.first_step = scene_scheme_first(draft, scheme);
     scene_scheme_riemann_open(draft, scheme);
     scene_scheme_reconstruct(draft, scheme);
     scene_scheme_limit(draft, scheme);
-    scene_material_open(draft, keys_at(scheme, "interface-limiter"), &scene->scheme.interface_limiter);
     scene->run.until = keys_at(run, "until")->number;
     scene->run.max_steps = keys_at(run, "max-steps")->integer;
     scene->run.dt_least = keys_at(run, "smallest-step")->given ? keys_at(run, "smallest-step")->number : -1.0;

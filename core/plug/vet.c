@@ -17,6 +17,9 @@
 #include <stdbool.h>
 #include <string.h>
 
+/* Flags of limiters that are known. */
+#define VET_LIMITER (BULLA_TWO_SIDED | BULLA_SURFACES)
+
 enum { VET_ROWS = 256, VET_PRESETS = 256, VET_SLOTS = 8 };
 
 /* A function that a kind must supply. */
@@ -133,14 +136,19 @@ bool vet_two_sided(const struct bulla_limiter *table)
     return vet_tells_flags(table) && (table->flags & BULLA_TWO_SIDED);
 }
 
+bool vet_surfaces(const struct bulla_limiter *table)
+{
+    return vet_tells_flags(table) && (table->flags & BULLA_SURFACES);
+}
+
 /* One slope, or edges on two sides. */
 static int vet_limiter(const struct bulla_module *module)
 {
     if (strcmp(module->kind, "limiter") != 0) return STATUS_OK;
     const struct bulla_limiter *table = module->table;
     bool two_sided = vet_two_sided(table);
-    if (vet_tells_flags(table) && (table->flags & ~BULLA_TWO_SIDED))
-        return status_fail(STATUS_CASE, "has the flags 0x%x; this program knows 0x%x", table->flags, BULLA_TWO_SIDED);
+    if (vet_tells_flags(table) && (table->flags & ~VET_LIMITER))
+        return status_fail(STATUS_CASE, "has the flags 0x%x; this program knows 0x%x", table->flags, VET_LIMITER);
     if (two_sided ? !table->edges : !table->slope)
         return status_fail(STATUS_CASE, "has no function '%s', which %s needs", two_sided ? "edges" : "slope",
                            two_sided ? "BULLA_TWO_SIDED" : "kind limiter");

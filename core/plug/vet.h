@@ -21,4 +21,7 @@ int vet_instance(const struct bulla_module *module, const void *self);
 /* Has this limiter two sides? Tables from before there were flags have not. */
 bool vet_two_sided(const struct bulla_limiter *table);
 
+/* Is it for volume fractions of fluids alone? */
+bool vet_surfaces(const struct bulla_limiter *table);
+
 #endif

@@ -3,60 +3,89 @@
 
 #include "scheme/terms.h"
 
+/* Rows of consecutive cells of a piece: how many, how long, and how far apart those of faces and of the tile's cells. */
+struct divergence_lines {
+    size_t count, n, face, cell;
+};
+
 /* rate -= a (upper - lower) */
-static BULLA_KERNEL void divergence_row(size_t n, double a, const double *restrict lower, const double *restrict upper,
-                                        double *restrict rate)
+static BULLA_KERNEL void divergence_rows(const struct divergence_lines *lines, double a, const double *lower,
+                                         const double *upper, double *rate)
 {
+    size_t n = lines->n;
+    for (size_t k = 0; k < lines->count; k++) {
+        const double *restrict below = lower + k * lines->face, *restrict above = upper + k * lines->face;
+        double *restrict row = rate + k * lines->cell;
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double low = lower[i], up = upper[i], old = rate[i];
-        rate[i] = old - a * (up - low);
+        for (size_t i = 0; i < n; i++) {
+            double low = below[i], up = above[i], old = row[i];
+            row[i] = old - a * (up - low);
+        }
     }
 }
 
-/* A row of cells of one tile along axis 0 in curved coordinates: rate -= (A+ (F+ - q) - A- (F- - q)) / V;
- * q is the cell's pressure for the radial momentum, else a row of zeros. */
-static BULLA_KERNEL void divergence_curved(size_t n, const double *restrict area, const double *restrict volume,
-                                           const double *restrict lower, const double *restrict upper,
-                                           const double *restrict q, double *restrict rate)
+/* Rows along axis 0 in curved coordinates: rate -= (A+ (F+ - q) - A- (F- - q)) / V; q is the cell's pressure for the
+ * radial momentum, else a row of zeros for all lines. */
+static BULLA_KERNEL void divergence_curved(const struct divergence_lines *lines, const struct metric *metric,
+                                           const double *lower, const double *upper, const double *q, size_t q_step,
+                                           double *rate)
 {
+    const double *restrict area = metric->area, *restrict volume = metric->volume;
+    size_t n = lines->n;
+    for (size_t k = 0; k < lines->count; k++) {
+        const double *restrict below = lower + k * lines->face, *restrict above = upper + k * lines->face;
+        const double *restrict taken = q + k * q_step;
+        double *restrict row = rate + k * lines->cell;
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double low = lower[i], up = upper[i], inside = q[i], old = rate[i];
-        rate[i] = old - (area[i + 1] * (up - inside) - area[i] * (low - inside)) / volume[i];
+        for (size_t i = 0; i < n; i++) {
+            double low = below[i], up = above[i], inside = taken[i], old = row[i];
+            row[i] = old - (area[i + 1] * (up - inside) - area[i] * (low - inside)) / volume[i];
+        }
     }
 }
 
-/* rate += a (upper + lower) */
-static BULLA_KERNEL void divergence_mean(size_t n, double a, const double *restrict lower, const double *restrict upper,
-                                         double *restrict rate)
+/* A force at faces, half of it to the cell on either side: rate += a (upper + lower) */
+static BULLA_KERNEL void divergence_mean(const struct divergence_lines *lines, double a, const double *lower,
+                                         const double *upper, double *rate)
 {
+    size_t n = lines->n;
+    for (size_t k = 0; k < lines->count; k++) {
+        const double *restrict below = lower + k * lines->face, *restrict above = upper + k * lines->face;
+        double *restrict row = rate + k * lines->cell;
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double low = lower[i], up = upper[i], old = rate[i];
-        rate[i] = old + a * (up + low);
+        for (size_t i = 0; i < n; i++) {
+            double low = below[i], up = above[i], old = row[i];
+            row[i] = old + a * (up + low);
+        }
     }
 }
 
 /* The same along axis 0 in curved coordinates: rate += (A+ F+ + A- F-) / 2V. */
-static BULLA_KERNEL void divergence_mean_curved(size_t n, const double *restrict area, const double *restrict volume,
-                                                const double *restrict force, double *restrict rate)
+static BULLA_KERNEL void divergence_mean_curved(const struct divergence_lines *lines, const struct metric *metric,
+                                                const double *force, double *rate)
 {
+    const double *restrict area = metric->area, *restrict volume = metric->volume;
+    size_t n = lines->n;
+    for (size_t k = 0; k < lines->count; k++) {
+        const double *restrict at = force + k * lines->face;
+        double *restrict row = rate + k * lines->cell;
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double low = force[i], up = force[i + 1], old = rate[i];
-        rate[i] = old + 0.5 * (area[i + 1] * up + area[i] * low) / volume[i];
+        for (size_t i = 0; i < n; i++) {
+            double low = at[i], up = at[i + 1], old = row[i];
+            row[i] = old + 0.5 * (area[i + 1] * up + area[i] * low) / volume[i];
+        }
     }
 }
 
 /* For components that no cell value is taken off. */
 static const double divergence_zero[METRIC_CELLS];
 
-/* One row of consecutive cells: where its faces start and where its cells lie in the tile. */
+/* Lines whose first face and cell are these. */
 struct divergence_span {
-    size_t face, cell, n, step;
-    double per_h; /* of the axis [1/m] */
-    bool curved;  /* axis 0 of a curved geometry */
+    const struct divergence_lines *lines;
+    size_t face, next, cell; /* next: from a face to the upper one of its cell */
+    double per_h;            /* of the axis [1/m] */
+    bool curved;             /* axis 0 of a curved geometry */
 };
 
 static void divergence_force(const struct term_tile *tile, const struct divergence_span *span,
@@ -64,20 +93,20 @@ static void divergence_force(const struct term_tile *tile, const struct divergen
 {
     double *rate = tile->rates + flux->rate * tile->n_cell + span->cell;
     const double *force = flux->below + span->face;
-    if (span->curved) divergence_mean_curved(span->n, tile->metric->area, tile->metric->volume, force, rate);
-    else divergence_mean(span->n, 0.5 * span->per_h, force, force + span->step, rate);
+    if (span->curved) divergence_mean_curved(span->lines, tile->metric, force, rate);
+    else divergence_mean(span->lines, 0.5 * span->per_h, force, force + span->next, rate);
 }
 
 static void divergence_flux(const struct term_tile *tile, const struct divergence_span *span,
                             const struct term_flux *flux)
 {
     double *rate = tile->rates + flux->rate * tile->n_cell + span->cell;
-    const struct metric *metric = tile->metric;
+    const double *below = flux->below + span->face, *above = flux->above + span->face + span->next;
+    bool balanced = flux->kind == TERM_BALANCED;
     if (span->curved && flux->kind != TERM_DIFFERENCE)
-        divergence_curved(span->n, metric->area, metric->volume, flux->below + span->face,
-                          flux->above + span->face + span->step,
-                          flux->kind == TERM_BALANCED ? tile->hoop + span->cell : divergence_zero, rate);
-    else divergence_row(span->n, span->per_h, flux->below + span->face, flux->above + span->face + span->step, rate);
+        divergence_curved(span->lines, tile->metric, below, above, balanced ? tile->hoop + span->cell : divergence_zero,
+                          balanced ? span->lines->cell : 0, rate);
+    else divergence_rows(span->lines, span->per_h, below, above, rate);
 }
 
 static void divergence_span(const struct term_tile *tile, int axis, const struct divergence_span *span)
@@ -93,15 +122,17 @@ static void divergence_span(const struct term_tile *tile, int axis, const struct
 void divergence_add(const struct term_tile *tile, const struct frame *frame)
 {
     bool whole = frame->inner == frame->tile_inner; /* then the rows of an outer slice follow each other */
-    size_t rows = whole ? 1 : frame->n, length = whole ? frame->n * frame->inner : frame->inner;
-    for (size_t o = 0; o < frame->outer; o++)
-        for (size_t row = 0; row < rows; row++) {
-            const struct divergence_span span = {.face = face_at(frame, o, row),
-                                                 .cell = frame_tile_at(frame, o, row),
-                                                 .n = length,
-                                                 .step = frame->inner,
-                                                 .per_h = 1.0 / tile->level->h[frame->axis],
-                                                 .curved = tile->model->beta > 0 && frame->axis == 0};
-            divergence_span(tile, frame->axis, &span);
-        }
+    const struct divergence_lines lines = {.count = frame->outer,
+                                           .n = whole ? frame->n * frame->inner : frame->inner,
+                                           .face = frame_layers(frame) * frame->inner,
+                                           .cell = frame->n * frame->tile_inner};
+    struct divergence_span span = {.lines = &lines,
+                                   .next = frame->inner,
+                                   .per_h = 1.0 / tile->level->h[frame->axis],
+                                   .curved = tile->model->beta > 0 && frame->axis == 0};
+    for (size_t row = 0; row < (whole ? 1 : frame->n); row++) {
+        span.face = face_at(frame, 0, row);
+        span.cell = frame_tile_at(frame, 0, row);
+        divergence_span(tile, frame->axis, &span);
+    }
 }

@@ -103,37 +103,87 @@ static void frame_coarse(const struct frame_source *source, unsigned index, cons
     }
 }
 
-static void frame_side(const struct frame_source *source, unsigned local, const struct frame *frame, int side,
-                       size_t pitch, double *w)
+/* Cells that layers are read from: blocks of one component each, [outer][depth][inner], the first layer at `from`. */
+struct frame_cells {
+    const double *data;
+    size_t block, depth, from;
+};
+
+/* What lies behind a side: cells of this rank or of another one. False: neither. */
+static bool frame_behind(const struct frame_source *source, unsigned local, const struct frame *frame, int side,
+                         struct frame_cells *ret_cells)
 {
     const struct neighbour *neighbour = &source->level->neighbours[local][2 * frame->axis + side];
-    if (neighbour->kind == NEIGHBOUR_COARSE && source->link) {
-        frame_coarse(source, neighbour->index, frame, side, pitch, w);
-        return;
-    }
-    if (neighbour->kind == NEIGHBOUR_BOUNDARY || neighbour->kind == NEIGHBOUR_COARSE) {
-        source->boundary(source->data, local, frame, side, pitch, w);
-        return;
-    }
+    if (neighbour->kind == NEIGHBOUR_BOUNDARY || neighbour->kind == NEIGHBOUR_COARSE) return false;
     bool remote = neighbour->kind == NEIGHBOUR_REMOTE;
-    size_t depth = remote ? frame->ghosts : frame->n, from = remote || side ? 0 : frame->n - frame->ghosts;
-    size_t block = remote ? frame->tile_outer * frame->ghosts * frame->tile_inner : source->mesh->n_cell;
-    const double *data = remote ? halo_slab(source->halo, neighbour->index) : source->arrays[neighbour->index];
-    int to = side ? (int)frame->n : -(int)frame->ghosts;
-    for (unsigned i = 0; i < source->n_field; i++) {
-        unsigned q = frame_field(source, i);
-        frame_copy(frame, data + q * block, depth, from, to, frame->ghosts, w + q * pitch);
+    *ret_cells = (struct frame_cells){.data = remote ? halo_slab(source->halo, neighbour->index)
+                                                     : source->arrays[neighbour->index],
+                                      .block = remote ? frame->tile_outer * frame->ghosts * frame->tile_inner
+                                                      : source->mesh->n_cell,
+                                      .depth = remote ? frame->ghosts : frame->n,
+                                      .from = remote || side ? 0 : frame->n - frame->ghosts};
+    return true;
+}
+
+/* Lines one after the other: layers, own cells, layers, each from lines `depth` apart. Inlined with its numbers, a line
+ * takes a dozen instructions. */
+static inline void frame_lines_of(size_t count, size_t n, size_t ghosts, const double *const from[3],
+                                  const size_t depth[3], double *restrict w)
+{
+    for (size_t o = 0; o < count; o++, w += n + 2 * ghosts) {
+        const double *below = from[0] + o * depth[0], *above = from[2] + o * depth[2];
+        memcpy(w, below, ghosts * sizeof *w);
+        frame_row(n, from[1] + o * depth[1], w + ghosts);
+        memcpy(w + ghosts + n, above, ghosts * sizeof *w);
     }
+}
+
+/* Along axis 0 a line is whole: its cells and the layers on both sides at once, instead of three copies of few cells. */
+static void frame_lines(const struct frame *frame, unsigned q, const struct frame_cells cells[3], double *w)
+{
+    const double *from[3];
+    size_t depth[3], count = frame->outer, n = frame->n;
+    for (int k = 0; k < 3; k++) {
+        depth[k] = cells[k].depth;
+        from[k] = cells[k].data + q * cells[k].block + frame->outer_from * depth[k] + cells[k].from;
+    }
+    if (frame->ghosts == 2 && n == 8) frame_lines_of(count, 8, 2, from, depth, w);
+    else if (frame->ghosts == 2) frame_lines_of(count, n, 2, from, depth, w);
+    else frame_lines_of(count, n, frame->ghosts, from, depth, w);
+}
+
+/* The layers of a side that is no cells. */
+static void frame_beyond(const struct frame_source *source, unsigned local, const struct frame *frame, int side,
+                         size_t pitch, double *w)
+{
+    const struct neighbour *neighbour = &source->level->neighbours[local][2 * frame->axis + side];
+    if (neighbour->kind == NEIGHBOUR_COARSE && source->link)
+        frame_coarse(source, neighbour->index, frame, side, pitch, w);
+    else source->boundary(source->data, local, frame, side, pitch, w);
 }
 
 void frame_gather(const struct frame_source *source, unsigned local, const struct frame *frame, size_t pitch, double *w)
 {
-    const double *own = source->arrays[local];
+    struct frame_cells own = {source->arrays[local], source->mesh->n_cell, frame->n, 0}, cells[3] = {own, own, own};
+    bool behind[2];
+    for (int side = 0; side < 2; side++) behind[side] = frame_behind(source, local, frame, side, &cells[2 * side]);
     for (unsigned i = 0; i < source->n_field; i++) {
         unsigned q = frame_field(source, i);
-        frame_copy(frame, own + q * source->mesh->n_cell, frame->n, 0, 0, frame->n, w + q * pitch);
+        double *row = w + q * pitch;
+        if (frame->axis == 0) {
+            frame_lines(frame, q, cells, row); /* of a side that is no cells its own, until they are replaced */
+            continue;
+        }
+        frame_copy(frame, own.data + q * own.block, own.depth, 0, 0, frame->n, row);
+        for (int side = 0; side < 2; side++) {
+            const struct frame_cells *from = &cells[2 * side];
+            if (!behind[side]) continue;
+            frame_copy(frame, from->data + q * from->block, from->depth, from->from,
+                       side ? (int)frame->n : -(int)frame->ghosts, frame->ghosts, row);
+        }
     }
-    for (int side = 0; side < 2; side++) frame_side(source, local, frame, side, pitch, w);
+    for (int side = 0; side < 2; side++)
+        if (!behind[side]) frame_beyond(source, local, frame, side, pitch, w);
 }
 
 void frame_place(const struct frame *frame, const struct mesh *mesh, const struct level *level, const struct tile *tile,

@@ -23,9 +23,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A finer level halves its step when the speeds have grown since the coarsest chose its own. */
-#define ADVANCE_EXCESS 1.25
-
 /* The least part of a coarser step: sums of such parts still move. */
 #define ADVANCE_PART 0x1p-40
 
@@ -182,7 +179,7 @@ static int advance_too_slow(const struct state *state, int l, double t, double d
         snprintf(limit, sizeof limit, "below %.3g of the longest so far", pace_least(state, 0) / state->dt_longest);
     else snprintf(limit, sizeof limit, "which t does not notice");
     if (state->dt_shrink < 1.0)
-        snprintf(repeated, sizeof repeated, ", of which steps that had to be repeated have left %.3g",
+        snprintf(repeated, sizeof repeated, ", of which the start and steps that had to be repeated have left %.3g",
                  state->dt_shrink);
     if (stage) {
         stage->t = t;
@@ -307,7 +304,7 @@ static int advance_look(struct state *state, int l, double t)
 static int advance_through(struct state *state, int l, double t, double dt)
 {
     struct stage *stage = state->stages[l];
-    double done = 0.0, part = state->scene->mesh.subcycle ? 0.5 : 1.0, most = ADVANCE_EXCESS * state->scene->scheme.cfl;
+    double done = 0.0, part = state->scene->mesh.subcycle ? 0.5 : 1.0, most = PACE_EXCESS * state->scene->scheme.cfl;
     int retries = 0;
     while (done < 1.0) {
         bool good;

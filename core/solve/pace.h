@@ -12,6 +12,10 @@
 /* The least step without run.smallest-step, relative to the longest so far. */
 #define PACE_LEAST 1e-6
 
+/* Signals may have grown by so much since a step was chosen: what comes in through a boundary, or is new on a finer
+ * level, shortens it only beyond that. */
+#define PACE_EXCESS 1.25
+
 /* The least step of level l [s]. */
 double pace_least(const struct state *state, int l);
 

@@ -13,6 +13,7 @@
 #include "mesh/partition.h"
 #include "paint/paint.h"
 #include "solve/adopt.h"
+#include "solve/pace.h"
 #include "solve/peak.h"
 #include "solve/stage.h"
 #include "solve/sync.h"
@@ -41,9 +42,14 @@ bool regrid_due(const struct state *state, int base)
 void regrid_signals(struct state *state)
 {
     const struct mesh *mesh = state->mesh;
+    double most[2 * MESH_LEVELS], *ahead = most + mesh->n_level;
     state->signal = 0.0;
-    for (int l = 0; l < mesh->n_level; l++) state->signals[l] = state->stages[l]->signal;
-    comm_max(state->signals, mesh->n_level);
+    for (int l = 0; l < mesh->n_level; l++) {
+        most[l] = state->stages[l]->signal;
+        ahead[l] = verdict_ahead(state->stages[l], state->t);
+    }
+    comm_max(most, 2 * mesh->n_level);
+    for (int l = 0; l < mesh->n_level; l++) state->signals[l] = ahead[l] > PACE_EXCESS * most[l] ? ahead[l] : most[l];
     double per_step = 1.0; /* steps of a level in one of level 0 */
     for (int l = 0; l < mesh->n_level; l++) {
         if (state->signals[l] / per_step > state->signal) state->signal = state->signals[l] / per_step;

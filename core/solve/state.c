@@ -45,7 +45,7 @@ static struct state *state_blank(const struct scene *scene)
 {
     struct state *state = mem_new(1, sizeof *state);
     state->scene = scene;
-    state->dt_shrink = 1.0;
+    state->dt_shrink = scene->scheme.first_step;
     state->whole = true;
     state->model = model_new(scene);
     state->tagged = mem_new(scene->mesh.n_refine + 1, sizeof *state->tagged);
@@ -120,8 +120,8 @@ static int state_load(struct state *state, const struct state_source *source)
     for (int l = 0; l < source->n_level; l++) TRY(state_load_level(state, source, l));
     for (int l = 0; l < source->n_level; l++) TRY(state_enter(state, l));
     TRY(nest_check(state->mesh));
-    regrid_signals(state);
     state->t = source->t;
+    regrid_signals(state);
     state->dt = source->dt;
     state->dt_shrink = source->dt_shrink;
     state->dt_longest = source->dt_longest;

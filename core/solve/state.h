@@ -40,7 +40,7 @@ struct state {
     long step;                     /* steps of level 0 done */
     long level_steps[MESH_LEVELS]; /* steps of each level done: they say when it is time to regrid */
     struct state_counts counts;
-    double dt_shrink;            /* 1, or the factor that retries left on the time step */
+    double dt_shrink;            /* 1, or the factor that the start and retries left on the time step */
     double dt_longest;           /* the longest step of level 0 so far [s] */
     double signal;               /* largest sum over axes of (|u_a| + c) / h_a in the present state, of all levels; with
                             subcycling that of level l counts 2^-l [1/s] */

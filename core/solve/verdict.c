@@ -4,6 +4,7 @@
 #include "base/status.h"
 #include "phys/mix.h"
 #include "phys/row.h"
+#include "scheme/bound_ahead.h"
 
 #include <string.h>
 
@@ -48,6 +49,39 @@ void verdict_survey(struct stage *stage)
     stage->signal = 0.0;
     for (unsigned tile = 0; tile < stage->level->n_local; tile++)
         if (stage->census.tiles[tile].signal > stage->signal) stage->signal = stage->census.tiles[tile].signal;
+}
+
+/* Signal of the layer behind a side of a piece, taken for cells of the tile. All scratch is free between stages. */
+static double verdict_layer(struct stage *stage, unsigned local, const struct frame *frame, int side)
+{
+    const struct model *model = stage->model;
+    struct work *work = stage->work;
+    size_t n = frame->outer * frame->inner;
+    double *row = work->u_star;
+    bound_ahead_row(stage->bound, local, frame, side, stage->level->w[local], FACE_ROOM, work->faces->frame, row);
+    mix_stiffness(model, n, n, row, work->rho_c2);
+    mix_speed2(model, n, n, row, work->rho_c2, work->c2);
+    const struct term_pace pace = {.model = model, .level = stage->level, .n_cell = n, .w = row, .c2 = work->c2};
+    terms_pace(work->terms[0], &pace, work->rates);
+    return row_most(n, work->rates);
+}
+
+double verdict_ahead(struct stage *stage, double t)
+{
+    double most = 0.0, was = stage->bound->t;
+    stage->bound->t = t;
+    for (unsigned local = 0; local < stage->level->n_local; local++)
+        for (int face = 0; face < 2 * stage->mesh->dim; face++) {
+            size_t pieces = frame_pieces(stage->mesh, face / 2);
+            if (!bound_ahead_is(stage->bound, local, face)) continue;
+            for (size_t index = 0; index < pieces; index++) {
+                struct frame frame = frame_piece(stage->mesh, face / 2, index);
+                double signal = verdict_layer(stage, local, &frame, face % 2);
+                if (signal > most) most = signal;
+            }
+        }
+    stage->bound->t = was;
+    return most;
 }
 
 void verdict_touch(struct stage *stage, unsigned local)

@@ -14,6 +14,10 @@ void verdict_measure(struct stage *stage, unsigned local, const double *w);
 /* The largest signal of the tiles, anew. */
 void verdict_survey(struct stage *stage);
 
+/* The largest signal of what stands behind boundaries of this rank's tiles at time t, where boundaries bring states of
+ * their own; 0 without any. Between stages. */
+double verdict_ahead(struct stage *stage, double t);
+
 /* Tile `local` after its u_old was changed from outside (averages, refluxing; u_new holds an earlier admissible
  * state): primitives, the guard's judgement as the last stage, signal. */
 void verdict_touch(struct stage *stage, unsigned local);

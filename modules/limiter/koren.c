@@ -15,6 +15,8 @@ static inline double koren(double near, double far)
 
 #include "sides.h"
 
+static const struct bulla_limiter koren_table = SIDES_TABLE(0u);
+
 BULLA_EXPORT const struct bulla_module bulla_module = {
     .magic = BULLA_MAGIC,
     .abi = BULLA_ABI,
@@ -25,5 +27,5 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .doc = "Koren: the parabola through three cells, at most as far as the nearer neighbour. Third order at edges in "
            "smooth flow: a third to a half of the error of mc in sound and entropy waves.",
     .cite = "Koren, in: Numerical Methods for Advection-Diffusion Problems, Notes Numer. Fluid Mech. 45 (1993) 117-138",
-    .table = &sides_table,
+    .table = &koren_table,
 };

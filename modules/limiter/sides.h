@@ -28,8 +28,9 @@ BULLA_KERNEL static void sides_edges(const void *self, size_t n, size_t step, co
     (void)values; /* of a limiter without any */
 }
 
-static const struct bulla_limiter sides_table = {.size = sizeof(struct bulla_limiter),
-                                                 .edges = sides_edges,
-                                                 .flags = BULLA_TWO_SIDED};
+#define SIDES_TABLE(flags_)                                                                             \
+    {                                                                                                   \
+        .size = sizeof(struct bulla_limiter), .edges = sides_edges, .flags = BULLA_TWO_SIDED | (flags_) \
+    }
 
 #endif

@@ -33,6 +33,8 @@ static inline double thinc(const double *values, double near, double far)
 
 #include "sides.h"
 
+static const struct bulla_limiter thinc_table = SIDES_TABLE(BULLA_SURFACES);
+
 static const struct bulla_param thinc_params[] = {
     {"beta", "1", 1.0, 3.0, 1.6, "steepness of the tangent per cell: more is sharper, and keeps the guard busier",
      BULLA_NUMBER, 0},
@@ -68,5 +70,5 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .params = thinc_params,
     .open = thinc_open,
     .close = free,
-    .table = &sides_table,
+    .table = &thinc_table,
 };

@@ -82,7 +82,7 @@ static int hostile_open(const struct bulla_host *host, const struct bulla_value 
 
 static const struct bulla_limiter hostile_table = {.size = IS(short_table) ? 4 : sizeof(struct bulla_limiter),
                                                    .slope = IS(null_slot) ? NULL : hostile_slope,
-                                                   .flags = IS(new_flags)    ? 2u
+                                                   .flags = IS(new_flags)    ? 4u
                                                             : IS(null_edges) ? BULLA_TWO_SIDED
                                                                              : 0u};
 

@@ -29,7 +29,7 @@ static void start(struct flow *flow, const struct setup *setup, const char *mate
                                "{jump: pressure, above: 0.9, finest: 1}]}\n"
                                "materials:\n%sinitial:\n"
                                "  - {everywhere: true, material: water, density: 1000, pressure: 1e5}\n"
-                               "  - {sphere: {center: %s, radius: 0.27}, %s}\nrun: {until: 1}\n",
+                               "  - {sphere: {center: %s, radius: 0.27}, %s}\nscheme: {cfl: 0.4}\nrun: {until: 1}\n",
                                setup->lower, setup->upper, setup->cells, setup->sides, setup->levels, materials,
                                CENTRES[setup->dim - 1], inside));
 }

@@ -153,7 +153,7 @@ static const struct refusal refusals[] = {
     {"no_table", "no table of functions"},
     {"short_table", "table of functions of size 4; kind limiter needs"},
     {"null_slot", "has no function 'slope', which kind limiter needs"},
-    {"new_flags", "has the flags 0x2; this program knows 0x1"},
+    {"new_flags", "has the flags 0x4; this program knows 0x3"},
     {"null_edges", "has no function 'edges', which BULLA_TWO_SIDED needs"},
     {"unknown_kind", "unknown kind 'weather'; kinds are conductivity, constitutive, eos, inelastic, limiter, "
                      "reconstruction, riemann, viscosity"},

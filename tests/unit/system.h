@@ -42,6 +42,10 @@ static inline void expect_no_core(void)
     int state = 0;
     pid_t child = fork();
     if (child == 0) {
+        struct rlimit limit = {0, 0};
+        getrlimit(RLIMIT_CORE, &limit);
+        limit.rlim_cur = limit.rlim_max; /* as large as it may be */
+        setrlimit(RLIMIT_CORE, &limit);
         system_no_core();
         abort();
     }

@@ -23,6 +23,7 @@ extern "C" {
 
 /* Values of `flags`. */
 #define BULLA_TWO_SIDED 1u /* edges are not w -+ half of one slope: core calls `edges` alone, `slope` may be NULL */
+#define BULLA_SURFACES 2u  /* for volume fractions of fluids alone: other uses are refused */
 
 struct bulla_limiter {
     uint32_t size; /* sizeof(struct bulla_limiter) */
@@ -37,7 +38,7 @@ struct bulla_limiter {
                   double *BULLA_RESTRICT upper);
 
     /* Since 1.1; a table whose `size` ends before it has none. */
-    uint32_t flags; /* 0 or BULLA_TWO_SIDED */
+    uint32_t flags; /* 0, or a sum of the values above */
 };
 
 #ifdef __cplusplus
