@@ -329,6 +329,12 @@ static void scene_boundary_place(struct draft *draft, int axis, int side, const 
     if (radial && scene_boundary_is(scene, face, SCENE_BOUNDARY_WRAPS))
         keys_error(&draft->keys, type, "the radius is not periodic");
     const struct scene_boundary *boundary = &scene->domain.boundary[axis][side];
+    bool viscous = false;
+    for (unsigned l = 0; l < scene->n_material; l++) viscous = viscous || scene->material[l].viscosity.module;
+    if (boundary->moves && !viscous)
+        diag_warn(draft->keys.diag, &keys_at(map, "velocity")->node->mark,
+                  "%s: the wall drags nothing along, because no material has a viscosity",
+                  keys_at(map, "velocity")->path);
     const struct scene_value *through = &boundary->velocity[axis];
     if (!boundary->moves || (!through->script && through->number == 0.0)) return;
     keys_error(&draft->keys, keys_at(map, "velocity"), "a wall moves along itself: its velocity along %c must be 0",

@@ -14,6 +14,7 @@
 #include "case/shape.h"
 #include "cli/human.h"
 #include "cli/scenes.h"
+#include "phys/coefficient.h"
 #include "scheme/conduction.h"
 #include "scheme/source.h"
 #include "solve/advance.h"
@@ -135,25 +136,57 @@ static void check_print_material(const struct scene *scene, const struct model *
     if (material->plastic.module) check_print_strength(model, l, rho, rho * c2);
 }
 
+/* The finest cell's least side, and the sum of 1/h^2 over the axes. */
+static double check_finest(const struct scene *scene, double *ret_sum)
+{
+    double h = HUGE_VAL;
+    *ret_sum = 0;
+    for (int axis = 0; axis < scene->domain.dim; axis++) {
+        double own = (scene->domain.upper[axis] - scene->domain.lower[axis]) /
+                     ldexp(scene->domain.cells[axis], scene->mesh.levels);
+        h = fmin(h, own);
+        *ret_sum += 1 / (own * own);
+    }
+    return h;
+}
+
 /* How a material conducts: at 25 C and 1 atm, over the run, and on the finest cells. */
 static void check_print_heat(const struct scene *scene, const struct model *model, unsigned l)
 {
     const struct conduction_facts facts = conduction_facts(model, l);
     char k[HUMAN_ROOM], width[HUMAN_ROOM], step[HUMAN_ROOM];
-    double h = HUGE_VAL, sum = 0;
+    double sum, h = check_finest(scene, &sum);
     if (!scene->material[l].conductivity.module) return;
-    for (int axis = 0; axis < scene->domain.dim; axis++) {
-        double own = (scene->domain.upper[axis] - scene->domain.lower[axis]) /
-                     ldexp(scene->domain.cells[axis], scene->mesh.levels);
-        h = fmin(h, own);
-        sum += 1 / (own * own);
-    }
     double layer = sqrt(facts.k / facts.rho_cp * scene->run.until);
     check_print_module("", &scene->material[l].conductivity);
     printf("  %-12s conducts %s at 25 C and 1 atm, cp %.4g J/kg/K: diffusivity %.3g m2/s\n", "",
            human_si(facts.k, "W/m/K", k), facts.cp, facts.k / facts.rho_cp);
     printf("  %-12s heat gets %s far in the run, %.3g of the finest cells; it asks for steps below %s there\n", "",
            human_si(layer, "m", width), layer / h, human_si(conduction_step(facts.k / facts.rho_cv, sum), "s", step));
+}
+
+/* How viscous a material is, at 1 atm and the most that the rate of shear allows: over the run, on the finest cells, and
+ * beside what the faces of the scheme do to a jump between two cells (c h/2, of which limiters and low-mach leave a part). */
+static void check_print_viscosity(const struct scene *scene, const struct model *model, unsigned l)
+{
+    const struct model_viscosity *law = &model->viscosity[l];
+    const double p = 101325, rho = model->eos[l].rho_fill;
+    const struct coefficient_points points = {1, NULL, &p, &rho};
+    double mu, zeta, e, rho_c2, sum, h = check_finest(scene, &sum);
+    char value[HUMAN_ROOM], width[HUMAN_ROOM], step[HUMAN_ROOM];
+    if (!law->law) return;
+    coefficient_viscosities_most(law, &model->eos[l], &points, &mu, &zeta);
+    model->eos[l].law->state(model->eos[l].self, 1, &rho, &p, &e, &rho_c2);
+    double nu = mu / rho, faces = 0.5 * h * sqrt(rho_c2 / rho), layer = sqrt(nu * scene->run.until);
+    check_print_module("", &scene->material[l].viscosity);
+    if (!(mu > 0)) return;
+    printf("  %-12s viscosity %s at %g kg/m3 and 1 atm: %.3g m2/s; layers grow to %s in the run, %.3g of the finest "
+           "cells\n",
+           "", human_si(mu, "Pa s", value), rho, nu, human_si(layer, "m", width), layer / h);
+    printf("  %-12s it asks for steps below %s there; jumps between cells are damped by up to %.3g m2/s, %.3g times "
+           "that%s\n",
+           "", human_si(1.8 / (4 * sum * (4 * mu / 3 + zeta) / rho), "s", step), faces, faces / nu,
+           faces > nu && scene->scheme.low_mach == 1 ? " (scheme.low-mach: less)" : "");
 }
 
 static void check_print_fields(const struct model *model)
@@ -294,6 +327,7 @@ static void check_print(const struct scene *scene, const struct model *model, co
     check_print_fields(model);
     for (unsigned i = 0; i < scene->n_material; i++) {
         check_print_material(scene, model, i);
+        check_print_viscosity(scene, model, i);
         check_print_heat(scene, model, i);
     }
     printf("  %-12s %s\n", "closure", scene->scheme.closure == SCENE_KAPILA ? "kapila" : "allaire");

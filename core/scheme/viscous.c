@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "phys/coefficient.h"
 #include "scheme/viscous_heat.h"
+#include "scheme/viscous_plain.h"
 
 /* Where the real axis leaves the region of stability of the midpoint rule, with some room. */
 #define VISCOUS_REAL 1.8
@@ -182,6 +183,10 @@ static void viscous_faces(const struct term_piece *piece)
     const struct viscous_piece work = {piece->tile, frame, &viscous->slopes, frame_reach(frame)};
     size_t n = frame_edged(frame) - frame->inner;
     viscous_slopes_gather(&viscous->slopes, frame);
+    if (viscous_plain_is(piece->model)) {
+        viscous_plain_faces(&viscous->slopes, frame, piece->faces);
+        return;
+    }
     for (size_t from = 0; from < n; from += STRAIN_POINTS)
         viscous_batch(&work, piece->faces, from, n - from < STRAIN_POINTS ? n - from : STRAIN_POINTS, viscous);
 }

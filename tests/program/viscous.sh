@@ -30,6 +30,11 @@ cmp ranks-1/history.csv again/history.csv
 "$BULLA" plan drop.yaml >plan
 grep -q '^  viscosity .*gas newtonian, oil newtonian .*core/scheme/viscous.c' plan || fail "not in the plan" plan
 
+"$BULLA" check drop.yaml >said 2>&1
+grep -q 'viscosity 50 mPa s at 100 kg/m3' said && grep -q 'jumps between cells are damped by up to' said || fail "check" said
+"$BULLA" check drop.yaml --set materials.gas.viscosity=null --set materials.oil.viscosity=null >said 2>&1 || true
+grep -q 'the wall drags nothing along' said || fail "a wall that moves in vain" said
+
 # It acts, and it conserves: masses with walls, all with periodic boundaries.
 "$BULLA" run drop.yaml -o free --set materials.gas.viscosity=0 --set materials.oil.viscosity=0 --quiet
 ! cmp -s free/history.csv ranks-1/history.csv || fail "viscosity does nothing"
