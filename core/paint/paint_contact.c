@@ -6,8 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Pressures that differ by less than this share of the stiffer body's rho c^2 are one: round-off of closures. */
-#define PAINT_CONTACT_BALANCE 1e-9
+/* Pressures that differ by less than this share of the softer body's rho c^2 are left to the mean: a profile that both
+ * bodies follow differs by so much between the middle of a cell and that of a part of it. */
+#define PAINT_CONTACT_JUMP 0.1
 
 /* Where the pressure of a body is looked for from [Pa]. */
 #define PAINT_CONTACT_START 1e5
@@ -72,8 +73,8 @@ bool paint_contact(const struct model *model, const double *u_a, const double *u
     paint_contact_look(model, u_a, n, &a);
     paint_contact_look(model, u_b, n, &b);
     double sum = a.impedance + b.impedance, wave = a.p - b.p, slip = a.velocity - b.velocity;
-    double stiffness = a.stiffness > b.stiffness ? a.stiffness : b.stiffness;
-    if (!(fabs(wave) > PAINT_CONTACT_BALANCE * stiffness)) return false;
+    double softer = a.stiffness < b.stiffness ? a.stiffness : b.stiffness;
+    if (!(fabs(wave) > PAINT_CONTACT_JUMP * softer)) return false;
     w[model->i_E] = PAINT_CONTACT_START;
     mix_primitives(model, 1, 1, u, w);
     for (unsigned d = 0; d < model->n_velocity; d++) along += n[d] * w[model->i_u + d];

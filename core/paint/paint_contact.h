@@ -15,7 +15,7 @@
 #include <stdbool.h>
 
 /* u_a, u_b: conserved fields of the bodies, per their own volume; n: unit normal from a to b; u: the cell, whose momentum along n
- * and energy change. All of stride 1. False, and u is as it was: the bodies have one pressure or are of one material, one of them
+ * and energy change. All of stride 1. False, and u is as it was: the pressures hardly differ or the bodies are of one material, one of them
  * holds a solid, or the fluids cannot bear p*. */
 bool paint_contact(const struct model *model, const double *u_a, const double *u_b, const double n[3], double *u);
 

@@ -8,10 +8,9 @@ void paint_curvature_size(const struct metric *metric, size_t n, double *size)
     for (size_t i = 0; i < n; i++) size[i] = (metric->area[i + 1] - metric->area[i]) / metric->volume[i];
 }
 
-static BULLA_KERNEL void paint_curvature_sign(size_t n, const double *restrict size, const double *restrict a,
-                                              const double *restrict b, double *restrict kappa)
+static void paint_curvature_sign(size_t n, const double *restrict size, const double *restrict a,
+                                 const double *restrict b, double *restrict kappa)
 {
-#pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double g = b[i + 1] * (a[i + 2] - a[i]) - a[i + 1] * (b[i + 2] - b[i]), s = size[i];
         double outward = g > 0.0 ? -s : 0.0;

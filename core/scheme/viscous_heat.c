@@ -34,7 +34,7 @@ static BULLA_KERNEL void viscous_heat_soften(size_t n, const double *restrict al
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a = alpha[i], K = rho_c2[i], s = compliance[i], part = a / K;
-        compliance[i] = s + ((a > MIX_ABSENT) & (K > 0.0) ? part : 0.0);
+        compliance[i] = s + (((a > MIX_ABSENT) & (K > 0.0)) ? part : 0.0);
     }
 }
 
@@ -45,7 +45,7 @@ static BULLA_KERNEL void viscous_heat_share(size_t n, const double *restrict rho
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double K = rho_c2[i], s = compliance[i], share = 1.0 / (K * s);
-        r[i] = (K > 0.0) & (s > 0.0) ? share : 1.0;
+        r[i] = ((K > 0.0) & (s > 0.0)) ? share : 1.0;
     }
 }
 

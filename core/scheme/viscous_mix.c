@@ -85,7 +85,7 @@ static BULLA_KERNEL void viscous_mix_stiff(size_t n, const struct viscous_mix_ma
         double a = material->alpha[i], mu = material->mu[i], K = rho_c2[i], part = a / K, fluid = 1.0 / mu;
         double squares = sums->squares[i], s = sums->compliance[i], own = sums->own[i], zeta = sums->own_zeta[i],
                f = sums->fluidity[i];
-        part = (a > MIX_ABSENT) & (K > 0.0) ? part : 0.0;
+        part = ((a > MIX_ABSENT) & (K > 0.0)) ? part : 0.0;
         fluid = mu > 1.0 / VISCOUS_MIX_FLUID ? fluid : VISCOUS_MIX_FLUID;
         sums->squares[i] = squares + a * a;
         sums->compliance[i] = s + part;

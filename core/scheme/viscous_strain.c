@@ -3,6 +3,7 @@
 #include "scheme/viscous_strain.h"
 
 #include "phys/elastic.h"
+#include "phys/row.h"
 
 #include <math.h>
 #include <string.h>
@@ -59,17 +60,13 @@ static void viscous_strain_tensor(struct viscous_strain *strain)
 
 /* 1/sqrt(g^2 + flat^2), or 0 where g is a thousandth of flat: then m is 0 to the bit whether or not there is an interface
  * elsewhere. */
-static BULLA_KERNEL double viscous_strain_scale(size_t n, double flat2, double *restrict g2)
+static BULLA_KERNEL void viscous_strain_scale(size_t n, double flat2, double *restrict g2)
 {
-    double most = 0.0;
-#pragma omp simd reduction(max : most)
+#pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double g = g2[i], scale = 1.0 / sqrt(g + flat2);
-        scale = g > 1e-6 * flat2 ? scale : 0.0;
-        most = scale > most ? scale : most;
-        g2[i] = scale;
+        g2[i] = g > 1e-6 * flat2 ? scale : 0.0;
     }
-    return most;
 }
 
 static BULLA_KERNEL void viscous_strain_times(size_t n, const double *restrict scale, double *restrict a)
@@ -87,7 +84,8 @@ static void viscous_strain_normal(struct viscous_strain *strain, double h)
     if (!strain->path->n_alpha) return;
     for (unsigned e = 0; e < dim; e++)
         viscous_strain_add_product(strain->n, 1.0, strain->colour[e], strain->colour[e], scale);
-    strain->interface = viscous_strain_scale(strain->n, STRAIN_FLAT * STRAIN_FLAT / (h * h), scale) > 0.0;
+    viscous_strain_scale(strain->n, STRAIN_FLAT * STRAIN_FLAT / (h * h), scale);
+    strain->interface = row_most(strain->n, scale) > 0.0;
     if (!strain->interface) return;
     memset(strain->normal, 0, strain->n * sizeof *strain->normal);
     memset(strain->sharp, 0, strain->n * sizeof *strain->sharp);
