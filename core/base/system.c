@@ -163,6 +163,19 @@ size_t system_symbol_size(const void *symbol)
     return 0;
 }
 
+double system_cpu_of(pid_t process)
+{
+    struct timespec now = {0};
+    clockid_t clock = CLOCK_MONOTONIC;
+#if BULLA_HAS_TIMER
+    if (clock_getcpuclockid(process, &clock)) return 0.0;
+#else
+    (void)process;
+#endif
+    clock_gettime(clock, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 #if BULLA_HAS_TIMER
 static timer_t system_timer;
 

@@ -44,6 +44,9 @@ void system_processor(size_t room, char *ret_name);
 /* Bytes that the object file gives a symbol; 0: not known. */
 size_t system_symbol_size(const void *symbol);
 
+/* CPU time that a process of this user has taken so far [s]. Stand-in: the time on the wall. */
+double system_cpu_of(pid_t process);
+
 /* The one timer: sends `signal` when the calling thread has used so much more CPU time, once for each time that it is
  * set. false: there is none. Stand-in: none. */
 bool system_timer_new(int signal);

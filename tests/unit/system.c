@@ -15,6 +15,7 @@ static void names(void **state)
     char model[64];
     (void)state;
     expect_signals();
+    expect_time();
     expect_no_core();
     system_processor(sizeof model, model);
     assert_true(strlen(model) < sizeof model);

@@ -36,6 +36,22 @@ static inline void expect_signals(void)
     assert_null(system_signal_name(12345));
 }
 
+/* The time of a process that works grows, and begins with little. */
+static inline void expect_time(void)
+{
+    double from = system_cpu_of(getpid());
+    while (!(system_cpu_of(getpid()) > from + 0.002)) continue;
+    pid_t child = fork();
+    if (child == 0) {
+        pause();
+        _exit(0);
+    }
+    double first = system_cpu_of(child), second = system_cpu_of(child);
+    assert_true(first >= 0.0 && second >= first && second < first + 60.0);
+    kill(child, SIGKILL);
+    assert_int_equal(waitpid(child, NULL, 0), child);
+}
+
 /* A crash after system_no_core leaves no core, however large it may be. */
 static inline void expect_no_core(void)
 {

@@ -35,6 +35,7 @@ static void names(void **state)
     char model[64] = "x";
     (void)state;
     expect_signals();
+    expect_time();
     expect_no_core();
     system_processor(sizeof model, model);
     assert_string_equal(model, "");
