@@ -163,7 +163,7 @@ static void test_foam(void **state)
 /* Two fluids, a front between them, all else random; most of the domain rests. */
 static void set_random(const struct model *model, const double x[3], double *w)
 {
-    uint64_t seed = (uint64_t)(1e6 * (3.0 + x[0] + 17.0 * x[1] + 331.0 * x[2]));
+    uint64_t seed = (uint64_t)(1e6 * (500.0 + x[0] + 17.0 * x[1] + 331.0 * x[2]));
     double part = 0.5 + 0.5 * tanh(9.0 * (x[0] + 0.7 * x[1] - 0.2));
     if (x[0] < -0.2 || x[1] > 0.3) part = 0.0;
     w[model->i_alpha] = part;
