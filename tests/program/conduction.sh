@@ -1,8 +1,7 @@
 # Heat through channels: the same bits on 1, 2 and 3 ranks, on tiles of 4, 8 and 16, and after a restart, with levels; mass
 # and energy to round-off; the plan shows the term; a scene without conductivity does not know of it.
 set -eu
-# Open MPI leaks by itself: the leak checker of a sanitized build would only see that
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+. "$BULLA_SOURCE/tests/lib.sh"
 
 cat >hot.yaml <<'END'
 bulla: 1
@@ -26,13 +25,8 @@ expect:
   - {value: "abs(last(M)/first(M) - 1)", at-most: 1e-12}
   - {value: "abs(last(E)/first(E) - 1)", at-most: 1e-13}
 END
-for ranks in 1 2 3; do
-    "$BULLA" run hot.yaml -o ranks-$ranks -n $ranks --quiet
-    cmp ranks-1/history.csv ranks-$ranks/history.csv
-done
-"$BULLA" run hot.yaml -o again -n 2 --max-steps 10 --quiet
-"$BULLA" run hot.yaml -o again --restart --quiet
-cmp ranks-1/history.csv again/history.csv
+ranked hot 1 2 3
+resumed hot 10 hot-1
 
 # One level: sums go tile by tile, but extremes do not know of tiles.
 for tile in 4 8 16; do
@@ -50,7 +44,7 @@ grep -q '^  conduction .*water constant, air constant .*core/scheme/conduction.c
 # The gas cools.
 "$BULLA" run hot.yaml -o cold --set materials.water.conductivity=0 --set materials.air.conductivity=0 --quiet
 awk -F, 'FNR == 1 { for (i = 1; i <= NF; i++) if ($i == "p") c = i } { last[FILENAME] = $c }
-    END { exit !(last["ranks-1/history.csv"] < last["cold/history.csv"] - 1) }' ranks-1/history.csv cold/history.csv
+    END { exit !(last["hot-1/out/history.csv"] < last["cold/history.csv"] - 1) }' hot-1/out/history.csv cold/history.csv
 
 # What is wrong or doubtful is said with its line.
 said() { # WORDS ARGS...
@@ -76,7 +70,7 @@ grep -q 'conducts 26.2 mW/m/K at 25 C and 1 atm, cp 1005 J/kg/K: diffusivity 2.2
 "$BULLA" run hot.yaml -o warm --set 'domain.boundaries.y-={type: no-slip, temperature: "= 300 + 1e10 * t"}' --set 'expect=[]' --quiet
 "$BULLA" run hot.yaml -o same --set 'domain.boundaries.y-={type: no-slip, temperature: "= 300 + 1e10 * t"}' --set 'expect=[]' -n 2 --quiet
 cmp warm/history.csv same/history.csv
-if cmp -s warm/history.csv ranks-1/history.csv; then echo "the wall does nothing"; exit 1; fi
+if cmp -s warm/history.csv hot-1/out/history.csv; then echo "the wall does nothing"; exit 1; fi
 code=0
 "$BULLA" run hot.yaml -o broken --set 'domain.boundaries.y-={type: no-slip, temperature: "= t > 1e-10 and nil + 1 or 300"}' \
     --set 'expect=[]' --quiet 2>err || code=$?
