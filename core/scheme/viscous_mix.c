@@ -19,12 +19,11 @@
  * parts are at most twice the smaller of both viscosities. */
 #define VISCOUS_MIX_MOST 2.0
 
-/* Sums over the materials. */
+/* Sums over the materials, where there is an interface. */
 struct viscous_mix_sums {
-    double rho[2][STRAIN_POINTS], mu[2][STRAIN_POINTS]; /* of the two sides */
-    /* With an interface: */
-    double fluidity[STRAIN_POINTS];                     /* sum alpha_l/mu_l */
-    double compliance[STRAIN_POINTS];                   /* S */
+    double rho[2][STRAIN_POINTS], mu[2][STRAIN_POINTS], zeta[2][STRAIN_POINTS]; /* of the two sides */
+    double fluidity[STRAIN_POINTS];                                             /* sum alpha_l/mu_l */
+    double compliance[STRAIN_POINTS];                                           /* S */
     double squares[STRAIN_POINTS];                      /* sum alpha_l^2: 1 where one is alone */
     double own[STRAIN_POINTS], own_zeta[STRAIN_POINTS]; /* sum s_l mu_l, sum s_l zeta_l */
 };
@@ -84,24 +83,37 @@ static BULLA_KERNEL void viscous_mix_density(const struct viscous_sides *sides, 
         }
 }
 
-/* The mean of alpha; what the material has of mu, zeta, and of density and viscosity of both sides. */
+/* The mean of alpha, and what the material has of mu and zeta. */
 static BULLA_KERNEL void viscous_mix_weigh(const struct viscous_sides *sides, const double *restrict alpha,
-                                           const double *restrict rho_l, struct viscous_mix_material *restrict material,
-                                           struct viscous_mix_sums *restrict sums, struct viscous_mix *restrict ret)
+                                           struct viscous_mix_material *restrict material,
+                                           struct viscous_mix *restrict ret)
 {
     const double *restrict mu_l = material->rows.mu, *restrict zeta_l = material->rows.zeta;
     const size_t step = sides->step, n = sides->n;
+    for (size_t r = 0, k = 0; r < sides->rows; r++, k += n, alpha += sides->row)
+#pragma omp simd
+        for (size_t i = 0; i < n; i++) {
+            double mean = 0.5 * (alpha[i] + alpha[i + step]), mu = ret->mu[k + i], zeta = ret->zeta[k + i];
+            material->alpha[k + i] = mean;
+            ret->mu[k + i] = mu + mean * mu_l[k + i];
+            ret->zeta[k + i] = zeta + mean * zeta_l[k + i];
+        }
+}
+
+/* What it has of density and viscosities on each side. */
+static BULLA_KERNEL void viscous_mix_side(const struct viscous_sides *sides, const double *restrict alpha,
+                                          const double *restrict rho_l, const struct viscous_mix_rows *rows,
+                                          double *restrict rho, double *restrict mu, double *restrict zeta)
+{
+    const double *restrict mu_l = rows->mu, *restrict zeta_l = rows->zeta;
+    const size_t n = sides->n;
     for (size_t r = 0, k = 0; r < sides->rows; r++, k += n, alpha += sides->row, rho_l += sides->row)
 #pragma omp simd
         for (size_t i = 0; i < n; i++) {
-            double a = alpha[i], b = alpha[i + step], mean = 0.5 * (a + b), m = mu_l[k + i];
-            material->alpha[k + i] = mean;
-            ret->mu[k + i] += mean * m;
-            ret->zeta[k + i] += mean * zeta_l[k + i];
-            sums->rho[0][k + i] += a * rho_l[i];
-            sums->rho[1][k + i] += b * rho_l[i + step];
-            sums->mu[0][k + i] += a * m;
-            sums->mu[1][k + i] += b * m;
+            double a = alpha[i], d = rho[k + i], m = mu[k + i], z = zeta[k + i];
+            rho[k + i] = d + a * rho_l[i];
+            mu[k + i] = m + a * mu_l[k + i];
+            zeta[k + i] = z + a * zeta_l[k + i];
         }
 }
 
@@ -181,12 +193,16 @@ static void viscous_mix_add(const struct viscous_mix_state *state, unsigned l, s
                             struct viscous_mix_sums *sums, struct viscous_mix *ret)
 {
     const struct viscous_strain *strain = state->strain;
+    const struct viscous_sides *sides = state->sides;
     const struct model *path = strain->path;
+    const double *alpha = viscous_mix_row(state, path->i_alpha + l), *rho_l = viscous_mix_row(state, path->i_m + l);
     size_t n = strain->n;
     double e[STRAIN_POINTS], rho_c2[STRAIN_POINTS];
-    viscous_mix_weigh(state->sides, viscous_mix_row(state, path->i_alpha + l), viscous_mix_row(state, path->i_m + l),
-                      material, sums, ret);
+    viscous_mix_weigh(sides, alpha, material, ret);
     if (!strain->interface) return;
+    for (unsigned side = 0; side < 2 && sides->step; side++)
+        viscous_mix_side(sides, alpha + side * sides->step, rho_l + side * sides->step, &material->rows,
+                         sums->rho[side], sums->mu[side], sums->zeta[side]);
     const struct present present = {n, material->alpha, material->rho, state->p};
     if (path->kapila) present_state(&path->eos[l], &present, e, rho_c2);
     else
@@ -194,18 +210,38 @@ static void viscous_mix_add(const struct viscous_mix_state *state, unsigned l, s
     viscous_mix_stiff(n, material, rho_c2, sums);
 }
 
-/* mu_a no more than the lighter side can bear. */
-static BULLA_KERNEL void viscous_mix_bound(size_t n, const struct viscous_mix_sums *restrict sums, double *restrict mu)
+/* The most that a viscosity may be at the faces: what the lighter side can bear. a, b: those of both sides. */
+static BULLA_KERNEL void viscous_mix_bear(size_t n, double rho[2][STRAIN_POINTS], const double *restrict a,
+                                          const double *restrict b, double *restrict most)
+{
+    const double *restrict rho_a = rho[0], *restrict rho_b = rho[1];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double light = rho_a[i] < rho_b[i] ? rho_a[i] : rho_b[i], heavy = rho_a[i] < rho_b[i] ? rho_b[i] : rho_a[i];
+        double own = rho_a[i] < rho_b[i] ? a[i] : b[i], other = (rho_a[i] < rho_b[i] ? b[i] : a[i]) * (light / heavy);
+        most[i] = VISCOUS_MIX_MOST * (own > other ? own : other);
+    }
+}
+
+static BULLA_KERNEL void viscous_mix_cut(size_t n, const double *restrict most, double *restrict x)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double rho_a = sums->rho[0][i], rho_b = sums->rho[1][i], mu_a = sums->mu[0][i], mu_b = sums->mu[1][i],
-               m = mu[i];
-        double light = rho_a < rho_b ? rho_a : rho_b, heavy = rho_a < rho_b ? rho_b : rho_a;
-        double own = rho_a < rho_b ? mu_a : mu_b, other = (rho_a < rho_b ? mu_b : mu_a) * (light / heavy);
-        double most = VISCOUS_MIX_MOST * (own > other ? own : other);
-        mu[i] = m > most ? most : m;
+        double value = x[i];
+        x[i] = value > most[i] ? most[i] : value;
     }
+}
+
+/* No viscosity of a face between two materials is more than that; the harmonic mean is not anyway. */
+static void viscous_mix_bound(size_t n, struct viscous_mix_sums *sums, struct viscous_mix *ret)
+{
+    double most[STRAIN_POINTS];
+    viscous_mix_bear(n, sums->rho, sums->mu[0], sums->mu[1], most);
+    viscous_mix_cut(n, most, ret->mu);
+    viscous_mix_cut(n, most, ret->own);
+    viscous_mix_bear(n, sums->rho, sums->zeta[0], sums->zeta[1], most);
+    viscous_mix_cut(n, most, ret->zeta);
+    viscous_mix_cut(n, most, sums->own_zeta);
 }
 
 /* Without an interface all materials feel the same strain. */
@@ -216,17 +252,28 @@ static BULLA_KERNEL void viscous_mix_plain(size_t n, const double *restrict mu, 
     for (size_t i = 0; i < n; i++) iso[i] = zeta[i] - 2.0 / 3.0 * mu[i];
 }
 
-static BULLA_KERNEL void viscous_mix_split(size_t n, const struct viscous_mix_sums *restrict sums,
-                                           const double *restrict sharp, struct viscous_mix *restrict ret)
+/* Means with the weights of dilatation, of materials that are not alone. */
+static BULLA_KERNEL void viscous_mix_split(size_t n, struct viscous_mix_sums *restrict sums,
+                                           struct viscous_mix *restrict ret)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double mu = ret->mu[i], zeta = ret->zeta[i], w = sharp[i], S = sums->compliance[i], stiff = 1.0 / S;
-        double own = sums->own[i] * stiff, own_zeta = sums->own_zeta[i] * stiff, series = 1.0 / sums->fluidity[i] - mu;
+        double S = sums->compliance[i], stiff = 1.0 / S, mu = ret->mu[i], zeta = ret->zeta[i];
+        double own = sums->own[i] * stiff, own_zeta = sums->own_zeta[i] * stiff;
         int mixed = (S > 0.0) & (sums->squares[i] < 1.0);
-        own = mixed ? own : mu;
-        own_zeta = mixed ? own_zeta : zeta;
-        ret->own[i] = own;
+        ret->own[i] = mixed ? own : mu;
+        sums->own_zeta[i] = mixed ? own_zeta : zeta;
+    }
+}
+
+static BULLA_KERNEL void viscous_mix_turned(size_t n, const struct viscous_mix_sums *restrict sums,
+                                            const double *restrict sharp, struct viscous_mix *restrict ret)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double mu = ret->mu[i], zeta = ret->zeta[i], w = sharp[i], own = ret->own[i], own_zeta = sums->own_zeta[i];
+        double series = 1.0 / sums->fluidity[i] - mu;
+        int mixed = (sums->compliance[i] > 0.0) & (sums->squares[i] < 1.0);
         ret->series[i] = mixed ? series : 0.0;
         ret->iso[i] = (zeta + w * (own_zeta - zeta)) - 2.0 / 3.0 * (mu + w * (own - mu));
     }
@@ -237,15 +284,19 @@ static void viscous_mix_all(const struct viscous_mix_state *state, struct viscou
 {
     const struct model *path = state->strain->path;
     size_t n = state->strain->n, bytes = n * sizeof *ret->mu;
-    double *rows[] = {ret->mu,        ret->zeta,        sums->rho[0],  sums->rho[1], sums->mu[0],   sums->mu[1],
-                      sums->fluidity, sums->compliance, sums->squares, sums->own,    sums->own_zeta};
+    double *rows[] = {ret->mu,       ret->zeta,     sums->rho[0],  sums->rho[1],   sums->mu[0],
+                      sums->mu[1],   sums->zeta[0], sums->zeta[1], sums->fluidity, sums->compliance,
+                      sums->squares, sums->own,     sums->own_zeta};
     struct viscous_mix_material material; /* large: filled as far as it is used */
-    for (size_t i = 0; i < (state->strain->interface ? sizeof rows / sizeof *rows : 6); i++) memset(rows[i], 0, bytes);
+    for (size_t i = 0; i < (state->strain->interface ? sizeof rows / sizeof *rows : 2); i++) memset(rows[i], 0, bytes);
     for (unsigned l = 0; l < path->n_material; l++) {
         viscous_mix_material(state, ret, l, &material);
         viscous_mix_add(state, l, &material, sums, ret);
     }
-    if (state->sides->step) viscous_mix_bound(n, sums, ret->mu);
+    if (!state->strain->interface) return;
+    viscous_mix_split(n, sums, ret);
+    if (state->sides->step) viscous_mix_bound(n, sums, ret);
+    viscous_mix_turned(n, sums, state->strain->sharp, ret);
 }
 
 /* The only material there is. */
@@ -264,8 +315,7 @@ void viscous_mix_make(const struct viscous_strain *strain, const struct viscous_
     viscous_mix_begin(strain, sides, &state);
     if (!strain->path->n_alpha) viscous_mix_alone(&state, ret);
     else viscous_mix_all(&state, &sums, ret);
-    if (strain->interface) viscous_mix_split(strain->n, &sums, strain->sharp, ret);
-    else viscous_mix_plain(strain->n, ret->mu, ret->zeta, ret->iso);
+    if (!strain->interface) viscous_mix_plain(strain->n, ret->mu, ret->zeta, ret->iso);
 }
 
 /* 2 mu D */

@@ -63,13 +63,13 @@ static BULLA_KERNEL double viscous_strain_steepness(size_t n, double limit, cons
     return steep;
 }
 
-/* 1/sqrt(g^2 + flat^2), or 0 where g is a thousandth of flat: then m is 0 to the bit whether or not there is an interface
+/* g/sqrt(g^4 + flat^4), or 0 where g is a thousandth of flat: then m is 0 to the bit whether or not there is an interface
  * elsewhere. */
 static BULLA_KERNEL void viscous_strain_scale(size_t n, double flat2, double limit, double *restrict g2)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double g = g2[i], scale = 1.0 / sqrt(g + flat2);
+        double g = g2[i], scale = sqrt(g / (g * g + flat2 * flat2));
         g2[i] = g > limit ? scale : 0.0;
     }
 }
