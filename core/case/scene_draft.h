@@ -79,6 +79,7 @@ unsigned scene_material_strength(const struct draft *draft);
 
 /* Has any material a conductivity of heat? */
 bool scene_material_conducts(const struct draft *draft);
+bool scene_material_viscous(const struct draft *draft);
 
 /* Opens the module that a section names; nothing happens if the section is wrong. */
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);

@@ -101,6 +101,36 @@ static void viscous_faces(const struct term_piece *piece)
         while (viscous_slopes_batch(&rest, &block)) viscous_batch(piece, &block, viscous);
 }
 
+/* Directions beyond the axes go around the axis or the centre. */
+static void viscous_component(const struct viscous *viscous, unsigned i, unsigned j, double *tau)
+{
+    const struct model *path = viscous->strain.path;
+    if (path->beta && i == j && i >= (unsigned)path->dim) viscous_mix_hoop(&viscous->strain, &viscous->mix, tau);
+    else viscous_mix_stress(&viscous->strain, &viscous->mix, i, j, tau);
+}
+
+void viscous_stress_field(const struct term_tile *tile, void *own, unsigned i, unsigned j, double *tau)
+{
+    struct viscous *viscous = own;
+    size_t length = (size_t)tile->mesh->n[0], all = tile->n_cell / length;
+    viscous_slopes_look(&viscous->slopes, tile);
+    for (size_t first = 0; first < all;) {
+        const struct viscous_block block = viscous_slopes_cells(&viscous->slopes, first, STRAIN_POINTS / length);
+        const struct viscous_sides sides = {tile->w + block.face, tile->n_cell, 0, block.rows, block.n, block.n};
+        viscous_slopes_strain(&viscous->slopes, &block, &viscous->strain);
+        viscous_mix_make(&viscous->strain, &sides, &viscous->mix);
+        viscous_component(viscous, i, j, tau + block.face);
+        first += block.rows;
+    }
+}
+
+void viscous_dissipation_field(const struct term_tile *tile, void *own, double *heat)
+{
+    struct viscous *viscous = own;
+    viscous_slopes_look(&viscous->slopes, tile);
+    viscous_heat_field(tile, &viscous->slopes, &viscous->strain, &viscous->mix, heat);
+}
+
 /* rho += alpha rho_l, D += alpha (4/3 mu + zeta) */
 static BULLA_KERNEL void viscous_spread(size_t n, const double *restrict alpha, const double *restrict rho_l,
                                         const double *restrict mu, const double *restrict zeta, double *restrict rho,

@@ -2,6 +2,7 @@
 #include "scheme/viscous_heat.h"
 
 #include "phys/mix.h"
+#include "phys/row.h"
 #include "scheme/swell.h"
 
 #include <string.h>
@@ -98,7 +99,7 @@ static void viscous_heat_own(const struct viscous_heat *at, unsigned l, double *
     const struct coefficient_points points = {n, at->rate, viscous_heat_row(at, path->i_E),
                                               viscous_heat_row(at, path->i_m + l)};
     const struct viscous_mix_rows rows = viscous_mix_ask(at->mix, path, l, &points, &room);
-    if (!strain->interface) {
+    if (!strain->interface || !path->kapila) {
         viscous_heat_warm(n, &rows, at->square, strain->div, heat);
         return;
     }
@@ -114,7 +115,7 @@ static void viscous_heat_begin(struct viscous_heat *at)
     const struct model *path = at->tile->model;
     viscous_strain_square(strain, at->square);
     if (viscous_mix_sees_rate(path)) viscous_strain_rate(strain, at->square, at->rate);
-    if (!strain->interface) return;
+    if (!strain->interface || !path->kapila) return;
     memset(at->compliance, 0, strain->n * sizeof *at->compliance);
     for (unsigned l = 0; l < path->n_material; l++)
         viscous_heat_soften(strain->n, viscous_heat_row(at, path->i_alpha + l), viscous_heat_stiffness(at, l),
@@ -168,6 +169,34 @@ void viscous_heat_cells(const struct term_tile *tile, const struct viscous_slope
     for (size_t first = 0; first < all;) {
         const struct viscous_block block = viscous_slopes_cells(slopes, first, STRAIN_POINTS / length);
         viscous_heat_block(tile, slopes, &block, strain, mix);
+        first += block.rows;
+    }
+}
+
+static void viscous_heat_sum(struct viscous_heat *at, double *sum)
+{
+    const struct model *path = at->tile->model;
+    size_t n = at->strain->n;
+    double heat[STRAIN_POINTS];
+    viscous_heat_begin(at);
+    memset(sum, 0, n * sizeof *sum);
+    for (unsigned l = 0; l < path->n_material; l++) {
+        viscous_heat_own(at, l, heat);
+        if (path->n_alpha) row_add_product(n, viscous_heat_row(at, path->i_alpha + l), heat, sum);
+        else row_add(n, heat, sum);
+    }
+}
+
+void viscous_heat_field(const struct term_tile *tile, const struct viscous_slopes *slopes,
+                        struct viscous_strain *strain, const struct viscous_mix *mix, double *sum)
+{
+    size_t length = (size_t)tile->mesh->n[0], all = tile->n_cell / length;
+    for (size_t first = 0; first < all;) {
+        const struct viscous_block block = viscous_slopes_cells(slopes, first, STRAIN_POINTS / length);
+        struct viscous_heat at; /* large: filled as far as it is used */
+        at.tile = tile, at.strain = strain, at.mix = mix, at.from = block.face;
+        viscous_slopes_strain(slopes, &block, strain);
+        viscous_heat_sum(&at, sum + block.face);
         first += block.rows;
     }
 }
