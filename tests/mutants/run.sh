@@ -37,7 +37,7 @@ awk -f tests/mutants/seeds.awk tests/mutants/seeds.txt "$build/sources" >"$table
 # A fresh copy, with the times of the files, so that what was built of it stays; but files that a run has spoilt are new.
 rm -rf "$tree"
 mkdir -p "$tree"
-for entry in CHANGELOG.md CMakeLists.txt CMakePresets.json LICENSE README.md bulla cases core docs modules schemas tests; do
+for entry in $(git ls-files | cut -d / -f 1 | sort -u); do
     cp -pR "$entry" "$tree/"
 done
 [ ! -f "$build/spoilt" ] || sort -u "$build/spoilt" | while read -r file; do
