@@ -68,7 +68,7 @@ refused plane 'domain.boundaries.x-.direction.along=[0, 0]' 'a direction is need
 refused plane 'domain.boundaries.x-.direction.along=[1, 0, 0]' '2 numbers are needed'
 refused plane 'domain.boundaries.x-.cycles=0' 'a wave that never ends has no window'
 refused focus 'domain.boundaries.x+.focus.at=[1 mm, 0]' 'not one around an axis'
-refused plane 'initial=[{lua: "function(x, y, z) return {material = \"water\", density = 998, pressure = 1e5} end"}]' 'speed of sound at this face is not known'
-"$BULLA" check plane.yaml --set 'initial=[{lua: "function(x, y, z) return {material = \"water\", density = 998, pressure = 1e5} end"}]' \
+refused plane 'initial=[{lua: "function(x, y, z) return {density = 998, pressure = 1e5} end"}]' 'speed of sound at this face is not known'
+"$BULLA" check plane.yaml --set 'initial=[{lua: "function(x, y, z) return {density = 998, pressure = 1e5} end"}]' \
     --set 'domain.boundaries.x-.sound-speed=1.6 km/s' --set 'domain.boundaries.x+.sound-speed=1.6 km/s' \
     --set 'domain.boundaries.y-.sound-speed=1.6 km/s' --set 'domain.boundaries.y+.sound-speed=1.6 km/s' >said
