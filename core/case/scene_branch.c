@@ -2,6 +2,7 @@
 #include "case/scene_draft.h"
 
 #include "bulla/constitutive.h"
+#include "bulla/eos.h"
 
 #include <math.h>
 
@@ -97,4 +98,52 @@ void scene_branch(struct draft *draft, const struct keys_map *entry, struct scen
         for (unsigned b = 0; b < list->count; b++)
             scene_branch_one(draft, &list->list[b], scene_branch_density(&material->constitutive), material);
     scene_branch_slack(draft, entry, material);
+}
+
+/* A bound of the time step of a level where a material fills its cells, from its fastest unrelaxed wave [s]; NAN: unknown. */
+static double scene_branch_step(const struct scene *scene, const struct scene_material *material, int level)
+{
+    const struct bulla_eos *law = material->eos.module->table;
+    double rho = material->branch[0].density, p = 101325.0, rho_e, M, all = 0.0;
+    int row = instance_param_find(material->constitutive.module, "shear-modulus");
+    law->state(material->eos.self, 1, &rho, &p, &rho_e, &M);
+    if (row >= 0) M += 4.0 / 3.0 * material->constitutive.values[row].number;
+    for (unsigned b = 0; b < material->n_branch; b++) M += 4.0 / 3.0 * material->branch[b].modulus;
+    for (int d = 0; d < scene->domain.dim; d++)
+        all += scene->domain.cells[d] / (scene->domain.upper[d] - scene->domain.lower[d]);
+    double step = scene->scheme.dt_fixed > 0.0 ? scene->scheme.dt_fixed : scene->scheme.cfl / (all * sqrt(M / rho));
+    return ldexp(step, -level);
+}
+
+/* A branch that relaxes within a step bears less than it should, and damps less than G tau. */
+static void scene_branch_resolve(struct draft *draft, const struct scene_material *material, unsigned b,
+                                 const struct keys_value *value)
+{
+    const struct scene *scene = draft->scene;
+    double tau = material->branch[b].time, coarse = scene_branch_step(scene, material, 0);
+    double fine = ldexp(coarse, -scene->mesh.levels), G = material->branch[b].modulus;
+    const struct keys_value *time = keys_at(value->map, "relaxation-time");
+    if (tau < fine) {
+        keys_error(&draft->keys, time,
+                   "this branch relaxes within one time step, which is about %.3g s on the finest level", fine);
+        diag_help(draft->keys.diag,
+                  "the same viscosity of %.3g Pa s: a 'relaxation-time' of some steps with a lower "
+                  "'shear-modulus', or 'viscosity: %.3g Pa s' in its place",
+                  G * tau, G * tau);
+    } else if (tau < 2.0 * coarse) {
+        diag_warn(draft->keys.diag, &time->node->mark,
+                  "%s: a time step is about %.3g s on the coarsest level: the branch damps less than it should there",
+                  time->path, coarse);
+    }
+}
+
+void scene_branch_times(struct draft *draft)
+{
+    const struct keys_value *materials = keys_at(draft->root, "materials");
+    for (unsigned l = 0; l < draft->scene->n_material; l++) {
+        const struct scene_material *material = &draft->scene->material[l];
+        const struct keys_value *list = keys_at(materials->list[l].map, "viscoelastic");
+        for (unsigned b = 0; material->eos.module && material->constitutive.module && b < material->n_branch; b++)
+            scene_branch_resolve(draft, material, b, &list->list[b]);
+    }
 }

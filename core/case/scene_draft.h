@@ -87,6 +87,10 @@ bool scene_material_conducts(const struct draft *draft);
 void scene_branch(struct draft *draft, const struct keys_map *entry, struct scene_material *material);
 extern const struct keys_section scene_branch_keys;
 
+/* Refuses branches that relax within a step of the finest level, warns of those of the coarsest one: once mesh and scheme
+ * are known. */
+void scene_branch_times(struct draft *draft);
+
 /* Opens the module that a section names; nothing happens if the section is wrong. */
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);
 
