@@ -81,6 +81,9 @@ static const struct scene_field scene_field_plastic[] = {
 
 enum { SCENE_FIELD_PLASTIC = sizeof scene_field_plastic / sizeof *scene_field_plastic };
 
+/* In scenes where a solid has Maxwell branches. */
+static const struct scene_field scene_field_branched = {"overstress", "Pa", SCENE_FIELD_VANISHING};
+
 static bool scene_field_in(const char *name, const char *const *names)
 {
     for (; *names; names++)
@@ -140,7 +143,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
     unsigned count = SCENE_FIELD_PLAIN,
-             most = count + SCENE_FIELD_SOLID + SCENE_FIELD_PLASTIC + SCENE_FIELD_EACH * scene->n_material;
+             most = count + SCENE_FIELD_SOLID + SCENE_FIELD_PLASTIC + 1 + SCENE_FIELD_EACH * scene->n_material;
     most += 4 * scene->output.n_peak;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
     memcpy(list, scene_field_plain, sizeof scene_field_plain);
@@ -149,6 +152,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
         count += SCENE_FIELD_SOLID;
     }
     for (unsigned i = 0; i < scene_material_strength(draft); i++) list[count++] = scene_field_plastic[i];
+    if (scene_material_branched(draft)) list[count++] = scene_field_branched;
     for (unsigned i = 0; i < scene->n_material; i++)
         for (unsigned k = 0; k < SCENE_FIELD_EACH; k++) {
             list[count] = scene_field_by_material[k];
@@ -160,11 +164,12 @@ const struct scene_field *scene_field_all(struct draft *draft)
 
 const char *const *scene_field_always(struct forest *forest)
 {
-    enum { SOLID = SCENE_FIELD_PLAIN, PLASTIC = SOLID + SCENE_FIELD_SOLID, ALL = PLASTIC + SCENE_FIELD_PLASTIC };
+    enum { SOLID = SCENE_FIELD_PLAIN, PLASTIC = SOLID + SCENE_FIELD_SOLID, ALL = PLASTIC + SCENE_FIELD_PLASTIC + 1 };
     const char **names = tree_take(forest, (ALL + 1) * sizeof *names);
     for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++) names[i] = scene_field_plain[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++) names[SOLID + i] = scene_field_solid[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_PLASTIC; i++) names[PLASTIC + i] = scene_field_plastic[i].name;
+    names[ALL - 1] = scene_field_branched.name;
     return names;
 }
 
