@@ -9,6 +9,7 @@
 #include "scheme/exchange.h"
 #include "scheme/terms.h"
 
+#include <math.h>
 #include <string.h>
 
 /* No weight worth a quotient. */
@@ -199,6 +200,34 @@ static size_t tension_apply(const struct term_tile *tile, double *u_new)
     return 0;
 }
 
+/* rate += per sqrt(1/(rho_a + rho_b)) where both are. */
+static BULLA_KERNEL void tension_hurry(size_t n, double per, const double *restrict a, const double *restrict b,
+                                       const double *restrict rho_a, const double *restrict rho_b,
+                                       double *restrict rate)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double both = a[i] * b[i], r = rate[i], more = per / sqrt(rho_a[i] + rho_b[i]);
+        rate[i] = both > 0.0 ? r + more : r;
+    }
+}
+
+/* 1/dt = ... + sqrt(4 pi sigma/((rho_a + rho_b) h^3)): waves of the length of two cells. */
+static void tension_pace(const struct term_pace *pace, double *rate)
+{
+    const struct model *path = pace->model;
+    double h = pace->level->h[0];
+    if (path->dim == 1) return;
+    for (int d = 1; d < path->dim; d++) h = pace->level->h[d] < h ? pace->level->h[d] : h;
+    for (unsigned k = 0; k < path->n_pair; k++) {
+        const struct model_pair *pair = &path->pairs[k];
+        const double *alpha = pace->w + path->i_alpha * pace->n_cell, *rho = pace->w + path->i_m * pace->n_cell;
+        double per = path->scene->scheme.cfl * sqrt(4.0 * M_PI * pair->sigma / (h * h * h));
+        tension_hurry(pace->n_cell, per, alpha + pair->inside * pace->n_cell, alpha + pair->outside * pace->n_cell,
+                      rho + pair->inside * pace->n_cell, rho + pair->outside * pace->n_cell, rate);
+    }
+}
+
 static void tension_say(const struct scene *scene, struct text *text)
 {
     for (unsigned k = 0; k < scene->n_tension; k++) {
@@ -219,5 +248,6 @@ const struct term tension_term = {
     .faces = tension_faces,
     .cells = tension_cells,
     .apply = tension_apply,
+    .pace = tension_pace,
     .say = tension_say,
 };
