@@ -106,10 +106,10 @@ static double scene_tension_below(const struct scene *scene, unsigned index)
     return 0.0;
 }
 
-/* What the curvature of a ball is over 1/R. */
-static double scene_tension_turns(const struct scene_domain *domain)
+/* Around an axis a sphere beside it is a ring, whose curvature varies. */
+static bool scene_tension_rings(const struct scene_domain *domain, const struct shape *shape)
 {
-    return domain->dim - 1 + (int)domain->geometry;
+    return domain->geometry == SCENE_AXISYMMETRIC && domain->dim == 2 && shape->a[0] != 0.0;
 }
 
 void scene_tension_balance(struct draft *draft, const struct keys_value *balance, unsigned index)
@@ -120,14 +120,16 @@ void scene_tension_balance(struct draft *draft, const struct keys_value *balance
     if (!balance->given) return;
     if (!layer->shape || layer->shape->type != SHAPE_SPHERE) {
         keys_error(&draft->keys, balance, "only a sphere is in balance with its surface tension");
+    } else if (scene_tension_rings(&scene->domain, layer->shape)) {
+        keys_error(&draft->keys, balance, "a sphere beside the axis is a ring: no one pressure balances it");
     } else if (layer->pressure.script || !layer->pressure.given) {
         keys_error(&draft->keys, balance, "this needs the pressure outside of the sphere as a number");
         diag_help(draft->keys.diag, "give 'pressure: 1 atm'; %s sigma/R is added to it",
-                  scene_tension_turns(&scene->domain) > 1.0 ? "2" : "1");
+                  scene_domain_turns(&scene->domain) > 1 ? "2" : "1");
     } else if (!(sigma > 0.0)) {
         keys_error(&draft->keys, balance, "the material has no surface tension with the one that it is painted on");
         diag_help(draft->keys.diag, "give it: 'surface-tension: {water+air: 72.8 mN/m}'");
     } else {
-        layer->pressure.number += scene_tension_turns(&scene->domain) * sigma / layer->shape->radius;
+        layer->pressure.number += scene_domain_turns(&scene->domain) * sigma / layer->shape->radius;
     }
 }

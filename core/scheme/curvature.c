@@ -161,21 +161,24 @@ static void curvature_normals(struct curvature *room, const struct level *level,
         }
 }
 
-/* kappa -= what the normals of one axis give; across axis 0 with the areas of the geometry. */
-static BULLA_KERNEL void curvature_row_x(size_t n, const struct curvature_around *around, const struct metric *metric,
-                                         double *restrict ret)
+/* Means of what lies around faces across axis 0. */
+static BULLA_KERNEL void curvature_face_row(size_t n, const struct curvature_around *around, double *restrict ret)
 {
     const double *restrict a = around->here, *restrict b = around->y, *restrict c = around->z, *restrict d = around->yz;
-    const double *restrict area = metric->area, *restrict volume = metric->volume;
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double low = 0.25 * ((a[i] + d[i]) + (b[i] + c[i])),
-               high = 0.25 * ((a[i + 1] + d[i + 1]) + (b[i + 1] + c[i + 1]));
-        ret[i] = (area[i + 1] * high - area[i] * low) / volume[i];
-    }
+    for (size_t i = 0; i < n; i++) ret[i] = 0.25 * ((a[i] + d[i]) + (b[i] + c[i]));
 }
 
-/* step from a, b (the lower face's corners) to the upper ones. */
+/* What the normals of axis 0 give to div n, with the areas of the geometry. */
+static BULLA_KERNEL void curvature_row_x(size_t n, const double *restrict face, const struct metric *metric,
+                                         double *restrict ret)
+{
+    const double *restrict area = metric->area, *restrict volume = metric->volume;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) ret[i] = (area[i + 1] * face[i + 1] - area[i] * face[i]) / volume[i];
+}
+
+/* The same of another axis: a, b have the corners of the lower faces, up_a and up_b those of the upper ones. */
 static BULLA_KERNEL void curvature_row(size_t n, const double *restrict a, const double *restrict b,
                                        const double *restrict up_a, const double *restrict up_b, double h,
                                        double *restrict ret)
@@ -206,7 +209,8 @@ static void curvature_divide(struct curvature *room, const struct level *level, 
         for (size_t j = 0; j < to.n[1]; j++) {
             double *ret = room->kappa + j * to.stride[1] + k * to.stride[2];
             struct curvature_around around = curvature_around(&of, room->normal[0], j, k);
-            curvature_row_x(to.n[0], &around, &metric, ret);
+            curvature_face_row(of.n[0], &around, room->spare);
+            curvature_row_x(to.n[0], room->spare, &metric, ret);
             around = curvature_around(&of, room->normal[1], j, k);
             if (mesh->dim > 1) curvature_row(to.n[0], around.here, around.z, around.y, around.yz, level->h[1], ret);
             around = curvature_around(&of, room->normal[2], j, k);
