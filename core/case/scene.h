@@ -38,6 +38,15 @@ enum scene_pulse {
     SCENE_PULSE_SCRIPT,       /* Lua: gauge pressure of (t, x, y, z) */
 };
 
+/* The way of an incoming wave (beam.h). */
+struct scene_beam {
+    enum { SCENE_BEAM_NORMAL, SCENE_BEAM_PLANE, SCENE_BEAM_FOCUS } path;
+    double way[SCENE_AXES];   /* unit vector of the plane wave, or of the transducer's axis */
+    double point[SCENE_AXES]; /* where the pulse is after its delay; or the focus [m] */
+    double radius, cosine;    /* of the transducer [m], of half of its aperture */
+    double power, speed;      /* of F/r; of sound [m/s] */
+};
+
 struct scene_boundary {
     enum scene_boundary_type type;
     /* non-reflecting, incoming-wave: the far-field pressure that gauge pressures add to. Not
@@ -45,7 +54,11 @@ struct scene_boundary {
     struct scene_value pressure;
     /* incoming-wave */
     enum scene_pulse pulse;
-    double amplitude, frequency, decay, cycles, centre, width, delay; /* Pa, Hz, 1/s, 1, s, s, s */
+    double amplitude, frequency, decay, cycles, centre, width, delay;         /* Pa, Hz, 1/s, 1, s, s, s */
+    enum { SCENE_WINDOW_NONE, SCENE_WINDOW_HANN, SCENE_WINDOW_TUKEY } window; /* of a sine of some cycles */
+    struct scene_beam beam;
+    double *sum, sum_step; /* [n_sum] integral of the pulse from 0 to i sum_step [Pa s]; NULL: not needed (pulse_sum) */
+    unsigned n_sum;
     bool compressive_only;       /* keep only p' > 0 up to the first zero (model.md 8) */
     double *series_t, *series_p; /* n_series pairs, t ascending */
     unsigned n_series;
