@@ -282,6 +282,12 @@ struct scene_domain {
     struct scene_boundary boundary[SCENE_AXES][2]; /* [axis][0 lower, 1 upper] */
 };
 
+/* What the curvature of a ball around the origin is over 1/R. */
+static inline int scene_domain_turns(const struct scene_domain *domain)
+{
+    return domain->dim - 1 + (int)domain->geometry;
+}
+
 /* Section `mesh:`. */
 struct scene_mesh {
     int levels, tile;         /* levels above the coarsest; tile 0: chosen by the mesh */

@@ -66,7 +66,7 @@ static void check_print_jump(const struct scene *scene, int index, unsigned insi
     char jump[HUMAN_ROOM], given[HUMAN_ROOM];
     if (check_layer(scene, index, inside) != index || below < 0) return;
     if (!layer->shape || layer->shape->type != SHAPE_SPHERE) return;
-    double asked = (double)scene->domain.geometry * sigma / layer->shape->radius;
+    double asked = scene_domain_turns(&scene->domain) * sigma / layer->shape->radius;
     printf("  %-12s asks for %s more in the sphere of initial[%d], which begins with %s more\n", "",
            human_si(asked, "Pa", jump), index,
            human_si(layer->pressure.number - scene->layers[below].pressure.number, "Pa", given));
