@@ -82,6 +82,7 @@ bool scene_material_branched(const struct draft *draft);
 
 /* Has any material a conductivity of heat? */
 bool scene_material_conducts(const struct draft *draft);
+bool scene_material_viscous(const struct draft *draft);
 
 /* The Maxwell branches of the material that `entry` describes, whose elastic law is open; keys of one branch. */
 void scene_branch(struct draft *draft, const struct keys_map *entry, struct scene_material *material);
