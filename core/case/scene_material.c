@@ -78,6 +78,11 @@ static const struct key scene_material_rows[] = {
      .section = &scene_material_plastic,
      .doc = "The strength of a solid: stresses beyond it flow off, and their work is heat. Without it the solid is "
             "elastic."},
+    {.name = "viscoelastic",
+     .type = KEYS_SECTION,
+     .many = KEYS_LIST,
+     .section = &scene_branch_keys,
+     .doc = "Maxwell branches of a solid, whose stresses add to that of its elastic law and relax."},
     {.name = "viscosity",
      .type = KEYS_SECTION,
      .section = &scene_material_viscosity,
@@ -150,6 +155,13 @@ unsigned scene_material_strength(const struct draft *draft)
         known = here > known ? here : known;
     }
     return known;
+}
+
+bool scene_material_branched(const struct draft *draft)
+{
+    bool any = false;
+    for (unsigned i = 0; i < draft->scene->n_material; i++) any = any || draft->scene->material[i].n_branch > 0;
+    return any;
 }
 
 /* Has some material such a key? */
@@ -288,6 +300,7 @@ void scene_material(struct draft *draft)
         scene_material_open(draft, keys_at(entry->map, "eos"), &material->eos);
         scene_material_open(draft, keys_at(entry->map, "constitutive"), &material->constitutive);
         if (entry->map) scene_material_strong(draft, entry->map, material);
+        if (entry->map) scene_branch(draft, entry->map, material);
         scene_material_open(draft, keys_at(entry->map, "viscosity"), &material->viscosity);
         scene_material_open(draft, keys_at(entry->map, "conductivity"), &material->conductivity);
         material->drag = entry->map ? keys_at(entry->map, "drag")->number : 0.0;

@@ -31,6 +31,7 @@ enum derive_form {
     DERIVE_TENSOR,
     DERIVE_STRONG,
     DERIVE_STRAINED,
+    DERIVE_BRANCHED,
     DERIVE_VISCOUS,        /* of scenes with a viscous material */
     DERIVE_VISCOUS_TENSOR, /* by component */
     DERIVE_OF_SCENE
@@ -252,6 +253,7 @@ static const struct derive_quantity derive_table[] = {
     {"von_mises", "Pa", DERIVE_SOLID, derive_stress_von_mises, 0, DERIVE_ALONE},
     {"strain_energy", "J/m3", DERIVE_SOLID, derive_stress_energy, 0, DERIVE_ALONE},
     {"flow_stress", "Pa", DERIVE_STRONG, derive_stress_strength, 0, DERIVE_ALONE},
+    {"overstress", "Pa", DERIVE_BRANCHED, derive_stress_over, 0, DERIVE_ALONE},
     {"plastic_strain", "1", DERIVE_STRAINED, derive_stress_plastic, 0, DERIVE_ALONE},
     {"invariant_1", "1", DERIVE_SOLID, derive_stress_invariant, 0, DERIVE_ALONE},
     {"invariant_2", "1", DERIVE_SOLID, derive_stress_invariant, 1, DERIVE_ALONE},
@@ -287,6 +289,7 @@ static bool derive_has(const struct model *model, enum derive_form form)
 {
     if (form == DERIVE_SOLID || form == DERIVE_TENSOR) return model->elastic;
     if (form == DERIVE_STRONG) return model->plastic;
+    if (form == DERIVE_BRANCHED) return model->n_branch > 0;
     if (form == DERIVE_VISCOUS || form == DERIVE_VISCOUS_TENSOR) return model->viscous;
     return form != DERIVE_STRAINED || model->n_strain > 0;
 }
