@@ -122,6 +122,15 @@ int scene_stretch_needs(unsigned component);
 /* stretch: of a layer whose fractions are known. */
 void scene_stretch(struct draft *draft, struct scene_layer *layer, const struct keys_value *value);
 
+/* Shapes from files and turned ones, read into a zeroed shape; false after a recorded error. `part`, which must be a shape,
+ * becomes part of it, or is freed. */
+extern const struct keys_section scene_body_surface_keys, scene_body_image_keys, scene_body_array_keys,
+    scene_body_turned_keys, scene_body_prism_keys;
+bool scene_body_surface(struct draft *draft, struct shape *shape, const struct keys_map *map);
+bool scene_body_raster(struct draft *draft, struct shape *shape, const struct keys_map *map, bool image);
+bool scene_body_turned(struct draft *draft, struct shape *shape, struct shape *part, const struct keys_map *map);
+bool scene_body_prism(struct draft *draft, struct shape *shape, struct shape *part, const struct keys_map *map);
+
 /* The shape that a map names by its key (`ret_value`); NULL if it names none (an error if one is
  * wanted), or after a recorded error. */
 struct shape *scene_shape(struct draft *draft, const struct keys_map *map, bool wanted,

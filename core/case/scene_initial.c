@@ -61,7 +61,9 @@ static const struct key scene_initial_rows[] = {
     "{'if': {'not': {'anyOf': [{'required': ['lua']}, {'required': ['checkpoint']}]}}, 'then': {'oneOf': "             \
     "[{'required': ['everywhere']}, {'required': ['box']},"                                                            \
     "{'required': ['half-space']}, {'required': ['sphere']}, {'required': ['cylinder']}, {'required': ['ellipsoid']}," \
-    "{'required': ['ring']}, {'required': ['polygon']}, {'required': ['complement']}, {'required': ['union']},"        \
+    "{'required': ['ring']}, {'required': ['polygon']}, {'required': ['surface']}, {'required': ['image']},"           \
+    "{'required': ['array']}, {'required': ['rotated']}, {'required': ['extruded']}, {'required': ['difference']},"    \
+    "{'required': ['complement']}, {'required': ['union']},"                                                           \
     "{'required': ['intersection']}, {'required': ['cloud']}]},"                                                       \
     " 'else': {'properties': {'material': false, 'fractions': false, 'density': false, 'temperature': false,"          \
     " 'pressure': false, 'velocity': false, 'stretch': false, 'balance': false}}},"                                    \
