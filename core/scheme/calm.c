@@ -16,7 +16,7 @@ struct calm {
     double *share;         /* [FACE_ROOM] s of the faces of a piece */
     struct box_block block;
     size_t stride[3];
-    bool any; /* is there a difference at all? */
+    bool any; /* is there a steep one? */
 };
 
 static bool calm_wanted(const struct model *path)
@@ -46,18 +46,19 @@ static void calm_close(void *own)
     mem_free(calm);
 }
 
-/* Cells at the ends of a line take neighbours of other lines: nobody asks for them. */
-static BULLA_KERNEL void calm_differ(size_t n, size_t stride, const double *restrict p, double *restrict difference)
+/* A difference of less than CALM_LEAST of the lesser pressure is none: rho c^2 is no less than p, and tiles that have no more
+ * are done. Cells at the ends of a line take neighbours of other lines: nobody asks for them. Returns the sum. */
+static BULLA_KERNEL double calm_differ(size_t n, size_t stride, const double *restrict p, double *restrict difference)
 {
-#pragma omp simd
-    for (size_t i = stride; i < n - stride; i++) difference[i] = fabs(p[i + stride] - p[i - stride]);
-}
-
-static bool calm_is_even(size_t n, const double *p)
-{
-    size_t i = 1;
-    while (i < n && p[i] == p[0]) i++;
-    return i == n;
+    double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
+    for (size_t i = stride; i < n - stride; i++) {
+        double a = p[i - stride], b = p[i + stride], least = a < b ? a : b, apart = fabs(b - a);
+        double steep = apart > CALM_LEAST * least ? apart : 0.0;
+        difference[i] = steep;
+        sum += steep;
+    }
+    return sum;
 }
 
 /* Pressure is the last that the scene looks at around its tiles. */
@@ -66,8 +67,9 @@ static void calm_begin(struct term_tile *tile)
     struct calm *calm = tile->own;
     size_t n = calm->block.pitch;
     const double *p = tile->around + (tile->model->n_around - 1) * n;
-    calm->any = !calm_is_even(n, p);
-    for (int d = 0; calm->any && d < tile->mesh->dim; d++) calm_differ(n, calm->stride[d], p, calm->difference[d]);
+    calm->any = false;
+    for (int d = 0; d < tile->mesh->dim; d++)
+        if (calm_differ(n, calm->stride[d], p, calm->difference[d]) > 0.0) calm->any = true;
 }
 
 /* The largest difference along the axes that a face lies in, of the cell `at` of the patch and the next one. */

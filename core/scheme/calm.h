@@ -7,7 +7,7 @@
  *     tau = s D min(rho_L, rho_R) (u_tR - u_tL),   D = -S_L S_R/(S_R - S_L),
  * off the flux of momentum, tau times the mean of u_t off that of energy. s grows from 0 to 1 where the pressures of both
  * neighbours of one of the two cells, along an axis that the face lies in, differ by CALM_LEAST to CALM_MOST of the lesser
- * rho c^2 of both sides: the switch of Quirk, without a jump. Contacts are as sharp as without, and so is shear away from
+ * rho c^2 of both sides, and by CALM_LEAST of the lesser of these pressures: the switch of Quirk, without a jump. Contacts are as sharp as without, and so is shear away from
  * shocks. Pressures come with the layer around the tile (tile->around), so tiles do not show. Not in tiles that hold a solid,
  * whose shear is what hlld is for. */
 #ifndef CALM_H
