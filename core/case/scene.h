@@ -16,7 +16,14 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { SCENE_AXES = 3, SCENE_MATERIALS = 16, SCENE_PAIRS = 8, SCENE_NAME = 64, SCENE_SETTINGS = 64 };
+enum {
+    SCENE_AXES = 3,
+    SCENE_MATERIALS = 16,
+    SCENE_PAIRS = 8,
+    SCENE_BRANCHES = 6,
+    SCENE_NAME = 64,
+    SCENE_SETTINGS = 64
+};
 
 /* Layers of neighbours that a sweep over a tile may need on each side: fewest and most. */
 enum { SCENE_GHOSTS = 2, SCENE_GHOSTS_MOST = 3 };
@@ -79,7 +86,11 @@ struct scene_material {
     struct instance plastic;      /* strength of a solid; module NULL: none */
     struct instance viscosity;    /* module NULL: none */
     struct instance conductivity; /* of heat; module NULL: none (scheme/conduction.h) */
-    double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
+    unsigned n_branch;            /* Maxwell branches beside its elastic law (scheme/viscoelastic.h) */
+    struct scene_branch {
+        double modulus, density, time; /* G [Pa] at that density [kg/m3]; of relaxation [s] */
+    } branch[SCENE_BRANCHES];
+    double drag; /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
 };
 
 /* Surface tension between two materials. */

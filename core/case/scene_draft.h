@@ -77,8 +77,20 @@ const char *scene_material_solid(const struct draft *draft);
 /* 0: no material has a strength; 1: some has; 2: and it knows its plastic strain. */
 unsigned scene_material_strength(const struct draft *draft);
 
+/* Has any material a Maxwell branch? */
+bool scene_material_branched(const struct draft *draft);
+
 /* Has any material a conductivity of heat? */
 bool scene_material_conducts(const struct draft *draft);
+bool scene_material_viscous(const struct draft *draft);
+
+/* The Maxwell branches of the material that `entry` describes, whose elastic law is open; keys of one branch. */
+void scene_branch(struct draft *draft, const struct keys_map *entry, struct scene_material *material);
+extern const struct keys_section scene_branch_keys;
+
+/* Refuses branches that relax within a step of the finest level, warns of those of the coarsest one: once mesh and scheme
+ * are known. */
+void scene_branch_times(struct draft *draft);
 
 /* Opens the module that a section names; nothing happens if the section is wrong. */
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);

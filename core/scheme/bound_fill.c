@@ -42,12 +42,12 @@ static void bound_fill_copy(const struct bound_fill *fill)
         bound_layer_fill(fill->frame, fill->side, false, 1.0, fill->w + model->active[i] * fill->pitch);
 }
 
-/* Is this component of the stretch one of those that a mirror across `axis` turns round? */
+/* Is this component of a stretch one of those that a mirror across `axis` turns round? */
 static bool bound_fill_is_crossed(const struct model *model, int axis, unsigned q)
 {
-    unsigned n = (unsigned)axis;
-    if (q < model->i_V + 3 || q >= model->i_V + model->n_stretch) return false;
-    return q == model->i_V + elastic_component(n, (n + 1) % 3) || q == model->i_V + elastic_component(n, (n + 2) % 3);
+    unsigned n = (unsigned)axis, c;
+    if (!model_is_stretch(model, q, &c) || c < 3) return false;
+    return c == elastic_component(n, (n + 1) % 3) || c == elastic_component(n, (n + 2) % 3);
 }
 
 static void bound_fill_mirror(const struct bound_fill *fill, bool no_slip)
@@ -330,7 +330,8 @@ static void bound_fill_compose_state(const struct bound_fill *fill, struct bound
                 good = bound_fill_ask(fill, &boundary->velocity[d], velocity[d], x, u);
         }
         for (unsigned s = 0; s < model->n_strain; s++) at[(model->i_strain + s) * row->stride] = 0.0;
-        for (unsigned v = 0; v < model->n_stretch; v++) at[(model->i_V + v) * row->stride] = v < 3 ? 1.0 : 0.0;
+        for (unsigned k = 0; k < model_stretches(model); k++)
+            elastic_identity(model, 1, row->stride, at + model_stretch(model, k) * row->stride);
         for (unsigned k = 0; k < model->n_pair; k++) at[model->pairs[k].i_kappa * row->stride] = 0.0;
     }
 }

@@ -70,7 +70,9 @@ static void patch_state_describe(const struct model *model, struct patch_state *
     for (unsigned i = 0; i < 3; i++)
         for (unsigned j = 0; j < i; j++) {
             unsigned component = elastic_component(i, j);
-            if (component < model->n_stretch) ret->parity[model->i_V + component] = (unsigned char)(1u << i | 1u << j);
+            if (component >= model->n_stretch) continue;
+            for (unsigned k = 0; k < model_stretches(model); k++)
+                ret->parity[model_stretch(model, k) + component] = (unsigned char)(1u << i | 1u << j);
         }
 }
 
