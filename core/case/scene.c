@@ -225,6 +225,7 @@ static void scene_free_boundaries(struct scene *scene)
 {
     for (int face = 0; face < 2 * SCENE_AXES; face++) {
         struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
+        mem_free(boundary->sum);
         mem_free(boundary->series_t);
         mem_free(boundary->series_p);
         mem_free(boundary->fractions);

@@ -45,6 +45,15 @@ enum scene_pulse {
     SCENE_PULSE_SCRIPT,       /* Lua: gauge pressure of (t, x, y, z) */
 };
 
+/* The way of an incoming wave (beam.h). */
+struct scene_beam {
+    enum { SCENE_BEAM_NORMAL, SCENE_BEAM_PLANE, SCENE_BEAM_FOCUS } path;
+    double way[SCENE_AXES];   /* unit vector of the plane wave, or of the transducer's axis */
+    double point[SCENE_AXES]; /* where the pulse is after its delay; or the focus [m] */
+    double radius, cosine;    /* of the transducer [m], of half of its aperture */
+    double power, speed;      /* of F/r; of sound [m/s] */
+};
+
 struct scene_boundary {
     enum scene_boundary_type type;
     /* non-reflecting, incoming-wave: the far-field pressure that gauge pressures add to. Not
@@ -52,7 +61,11 @@ struct scene_boundary {
     struct scene_value pressure;
     /* incoming-wave */
     enum scene_pulse pulse;
-    double amplitude, frequency, decay, cycles, centre, width, delay; /* Pa, Hz, 1/s, 1, s, s, s */
+    double amplitude, frequency, decay, cycles, centre, width, delay;         /* Pa, Hz, 1/s, 1, s, s, s */
+    enum { SCENE_WINDOW_NONE, SCENE_WINDOW_HANN, SCENE_WINDOW_TUKEY } window; /* of a sine of some cycles */
+    struct scene_beam beam;
+    double *sum, sum_step; /* [n_sum] integral of the pulse from 0 to i sum_step [Pa s]; NULL: not needed (pulse_sum) */
+    unsigned n_sum;
     bool compressive_only;       /* keep only p' > 0 up to the first zero (model.md 8) */
     double *series_t, *series_p; /* n_series pairs, t ascending */
     unsigned n_series;
@@ -269,6 +282,12 @@ struct scene_domain {
     struct scene_boundary boundary[SCENE_AXES][2]; /* [axis][0 lower, 1 upper] */
 };
 
+/* What the curvature of a ball around the origin is over 1/R. */
+static inline int scene_domain_turns(const struct scene_domain *domain)
+{
+    return domain->dim - 1 + (int)domain->geometry;
+}
+
 /* Section `mesh:`. */
 struct scene_mesh {
     int levels, tile;         /* levels above the coarsest; tile 0: chosen by the mesh */
@@ -293,6 +312,7 @@ struct scene_scheme {
     enum scene_integrator integrator;
     enum scene_guard guard;
     double low_mach; /* least part of a jump of velocity that faces see (scheme/low_mach.h); 1: all of it */
+    bool calm;       /* faces beside strong shocks resist shear (scheme/calm.h) */
 };
 
 /* Section `run:`. */

@@ -46,6 +46,11 @@ static const struct key scene_boundary_sine[] = {
      .max = KEYS_MOST,
      .fallback = "0",
      .doc = "Number of periods; 0: for ever."},
+    {.name = "window",
+     .type = KEYS_CHOICE,
+     .choices = "none|hann|tukey",
+     .fallback = "none",
+     .doc = "How a burst rises and falls: at once, over the whole of it (hann), over an eighth at each end (tukey)."},
     {0},
 };
 
@@ -137,6 +142,20 @@ static const struct key scene_boundary_wave[] = {
      .type = KEYS_FLAG,
      .fallback = "false",
      .doc = "Keep only the first compressive phase, up to the first zero."},
+    {.name = "direction",
+     .type = KEYS_SECTION,
+     .section = &scene_beam_plane_keys,
+     .doc = "A plane wave under an angle; along the inward normal if neither this nor a focus is given."},
+    {.name = "focus",
+     .type = KEYS_SECTION,
+     .section = &scene_beam_focus_keys,
+     .doc = "A wave from a curved transducer to its focus."},
+    {.name = "sound-speed",
+     .type = KEYS_NUMBER,
+     .unit = "m/s",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .doc = "With which such a wave comes; that of the initial state at the middle of the face if not given."},
     {0},
 };
 
@@ -185,6 +204,16 @@ static void scene_boundary_read_far(struct draft *draft, struct scene_boundary *
     boundary->pressure = scene_state_value(keys_at(map, "pressure"));
 }
 
+static void scene_boundary_read_window(struct draft *draft, struct scene_boundary *boundary,
+                                       const struct keys_value *window)
+{
+    if (!window->given) return;
+    boundary->window = (int)window->integer;
+    if (boundary->window == SCENE_WINDOW_NONE || boundary->cycles > 0.0) return;
+    keys_error(&draft->keys, window, "a wave that never ends has no window");
+    diag_help(draft->keys.diag, "say how many periods it has: 'cycles: 10'");
+}
+
 static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     boundary->pressure = scene_state_value(keys_at(map, "pressure"));
@@ -194,6 +223,7 @@ static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary 
     boundary->frequency = keys_at(map, "frequency")->number;
     boundary->decay = keys_at(map, "decay")->number;
     boundary->cycles = keys_at(map, "cycles")->number;
+    scene_boundary_read_window(draft, boundary, keys_at(map, "window"));
     boundary->centre = keys_at(map, "center")->number;
     boundary->width = keys_at(map, "width")->number;
     boundary->delay = keys_at(map, "delay")->number;
@@ -309,6 +339,22 @@ static void scene_boundary_read(struct draft *draft, struct scene_boundary *boun
     if (row->read) row->read(draft, boundary, map);
 }
 
+/* A no-slip wall without viscosity: nothing sticks to it but what the scheme smears, or a solid. */
+static void scene_boundary_drags(struct draft *draft, const struct keys_map *map, const struct scene_boundary *boundary)
+{
+    const struct scene *scene = draft->scene;
+    if (boundary->type != SCENE_NO_SLIP || scene->domain.n_velocity < 2 || scene_material_viscous(draft)) return;
+    if (boundary->moves)
+        diag_warn(draft->keys.diag, &keys_at(map, "velocity")->node->mark,
+                  "%s: the wall drags nothing along, because no material has a viscosity",
+                  keys_at(map, "velocity")->path);
+    if (boundary->moves || scene_material_solid(draft)) return;
+    const struct keys_value *type = keys_at(map, "type");
+    diag_warn(draft->keys.diag, &type->node->mark,
+              "%s: without any viscosity a no-slip wall stops only what the faces of the scheme smear", type->path);
+    diag_help(draft->keys.diag, "'reflecting' lets fluids slip; or give a material a 'viscosity'");
+}
+
 /* Rules that concern the type and the place together. */
 static void scene_boundary_place(struct draft *draft, int axis, int side, const struct keys_map *map)
 {
@@ -329,12 +375,7 @@ static void scene_boundary_place(struct draft *draft, int axis, int side, const 
     if (radial && scene_boundary_is(scene, face, SCENE_BOUNDARY_WRAPS))
         keys_error(&draft->keys, type, "the radius is not periodic");
     const struct scene_boundary *boundary = &scene->domain.boundary[axis][side];
-    bool viscous = false;
-    for (unsigned l = 0; l < scene->n_material; l++) viscous = viscous || scene->material[l].viscosity.module;
-    if (boundary->moves && !viscous)
-        diag_warn(draft->keys.diag, &keys_at(map, "velocity")->node->mark,
-                  "%s: the wall drags nothing along, because no material has a viscosity",
-                  keys_at(map, "velocity")->path);
+    scene_boundary_drags(draft, map, boundary);
     const struct scene_value *through = &boundary->velocity[axis];
     if (!boundary->moves || (!through->script && through->number == 0.0)) return;
     keys_error(&draft->keys, keys_at(map, "velocity"), "a wall moves along itself: its velocity along %c must be 0",
@@ -386,6 +427,8 @@ void scene_boundary(struct draft *draft)
             else if (pair[side]->node) scene_boundary_read(draft, boundary, pair[side]->map);
             else if (axis < draft->scene->domain.dim && !scene_boundary_default(draft, axis, side, boundaries))
                 text_add(&missing, "%s%s", missing.length ? ", " : "", names[axis][side]);
+            if (pair[side]->map && boundary->type == SCENE_INCOMING_WAVE)
+                scene_beam(draft, boundary, pair[side]->map, axis, side);
             scene_boundary_place(draft, axis, side, pair[side]->map);
         }
         scene_boundary_pair(draft, axis, pair);

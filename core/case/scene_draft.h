@@ -82,6 +82,7 @@ bool scene_material_branched(const struct draft *draft);
 
 /* Has any material a conductivity of heat? */
 bool scene_material_conducts(const struct draft *draft);
+bool scene_material_viscous(const struct draft *draft);
 
 /* The Maxwell branches of the material that `entry` describes, whose elastic law is open; keys of one branch. */
 void scene_branch(struct draft *draft, const struct keys_map *entry, struct scene_material *material);
@@ -141,6 +142,14 @@ bool scene_body_surface(struct draft *draft, struct shape *shape, const struct k
 bool scene_body_raster(struct draft *draft, struct shape *shape, const struct keys_map *map, bool image);
 bool scene_body_turned(struct draft *draft, struct shape *shape, struct shape *part, const struct keys_map *map);
 bool scene_body_prism(struct draft *draft, struct shape *shape, struct shape *part, const struct keys_map *map);
+
+/* The way of a wave at the face across `axis` on this side; nothing if the case names none. */
+extern const struct keys_section scene_beam_plane_keys, scene_beam_focus_keys;
+void scene_beam(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map, int axis, int side);
+
+/* Its speed of sound, if the case does not say: that at the face at the start [m/s]; NaN, not known, is an error. */
+void scene_beam_speed(struct draft *draft, struct scene_boundary *boundary, const struct keys_value *value,
+                      double sound);
 
 /* The shape that a map names by its key (`ret_value`); NULL if it names none (an error if one is
  * wanted), or after a recorded error. */

@@ -37,7 +37,7 @@ static const struct key scene_initial_rows[] = {
      .type = KEYS_CHOICE,
      .choices = "tension",
      .doc = "`tension`: the pressure is the one outside of a sphere, and sigma times the curvature (2/R of a ball, 1/R "
-            "around an axis) is added to it."},
+            "of a disc or around an axis in one dimension) is added to it."},
     {.name = "lua",
      .type = KEYS_TEXT,
      .doc = "File or block: function(x, y, z) that returns a table of named fields, {pressure = ..., alpha = {...}}."},

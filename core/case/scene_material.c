@@ -164,12 +164,23 @@ bool scene_material_branched(const struct draft *draft)
     return any;
 }
 
-bool scene_material_conducts(const struct draft *draft)
+/* Has some material such a key? */
+static bool scene_material_has(const struct draft *draft, const char *key)
 {
     const struct keys_value *materials = keys_at(draft->root, "materials");
     for (unsigned i = 0; i < materials->count; i++)
-        if (materials->list[i].map && keys_at(materials->list[i].map, "conductivity")->node) return true;
+        if (materials->list[i].map && keys_at(materials->list[i].map, key)->node) return true;
     return false;
+}
+
+bool scene_material_conducts(const struct draft *draft)
+{
+    return scene_material_has(draft, "conductivity");
+}
+
+bool scene_material_viscous(const struct draft *draft)
+{
+    return scene_material_has(draft, "viscosity");
 }
 
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance)

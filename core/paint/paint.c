@@ -334,7 +334,7 @@ int paint_tile(const struct model *model, const struct mesh *mesh, const struct 
             paint->edges[d][i] = (mesh->lower[d] * (cells - first - i) + mesh->upper[d] * (first + i)) / cells;
     }
     int code = paint_layers(paint);
-    if (!code && model->n_pair) paint_curvature(model, mesh, level, tile, u);
+    if (!code && model->n_pair && mesh->dim == 1) paint_curvature(model, mesh, level, tile, u);
     if (!code && model->n_stretch) paint_stretch_finish(model, mesh->n_cell, mesh->n_cell, u);
     for (int d = 0; d < mesh->dim; d++) mem_free(paint->edges[d]);
     mem_free(paint->covered);

@@ -206,8 +206,8 @@ static void bound_fill_isentrope(const struct model_eos *eos, size_t n, const do
     for (size_t i = 0; i < n; i++) rho[i] += (p_new[i] - p[i]) * half_rho[i] / rho_c2[i];
 }
 
-/* What comes from outside at the points of a row: the far-field pressure, where the case gives one, and the gauge pressure
- * of the wave, if there is one. */
+/* What comes from outside at the points of a row: the far-field pressure, where the case gives one, and what enters
+ * of the gauge pressure of the wave, if there is one (case/pulse.h). */
 static void bound_fill_outside(const struct bound_fill *fill, size_t n, bool wave, double *far, double *gauge)
 {
     const struct scene_boundary *boundary = bound_fill_boundary(fill);
@@ -216,7 +216,8 @@ static void bound_fill_outside(const struct bound_fill *fill, size_t n, bool wav
         bound_fill_position(fill, c, x);
         if (boundary->pressure.given) bound_fill_ask(fill, &boundary->pressure, "far-field pressure", x, &far[c]);
         gauge[c] = 0.0;
-        int status = wave ? pulse_pressure(boundary, fill->bound->t, x, &gauge[c]) : STATUS_OK;
+        int status =
+            !wave ? STATUS_OK : pulse_entering(boundary, fill->bound->t, x, fill->frame->axis, fill->side, &gauge[c]);
         if (!status) continue;
         bound_fill_fail(fill, status, "pressure of the wave", x);
         gauge[c] = (double)NAN;

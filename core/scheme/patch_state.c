@@ -92,3 +92,28 @@ struct patch_source patch_state_source(const struct model *model, const struct m
     source.rim = rim_of(mesh, l, &form);
     return source;
 }
+
+/* Inflows bring their own fractions. */
+static void patch_state_inflow(void *data, unsigned local, int face, const struct box_block *ret)
+{
+    const struct model *model = data;
+    const struct scene_boundary *boundary = &model->scene->domain.boundary[face / 2][face % 2];
+    (void)local;
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        for (size_t c = 0; c < ret->pitch; c++) ret->data[l * ret->pitch + c] = boundary->fractions[l];
+}
+
+struct patch_source patch_state_fractions(const struct model *model, const struct mesh *mesh, int l, int g, int slots)
+{
+    struct patch_source source = {.mesh = mesh,
+                                  .level = &mesh->levels[l],
+                                  .arrays = mesh->levels[l].w,
+                                  .given = patch_state_inflow,
+                                  .data = (void *)model};
+    patch_state_rules(model->scene, false, source.rules);
+    for (int face = 0; face < 2 * mesh->dim; face++)
+        if (model->scene->domain.boundary[face / 2][face % 2].type == SCENE_INFLOW) source.rules[face] = PATCH_GIVEN;
+    const struct rim_form form = {model->n_alpha, g, slots, patch_given(source.rules), NULL};
+    source.rim = rim_of(mesh, l, &form);
+    return source;
+}
