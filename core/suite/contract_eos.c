@@ -420,8 +420,8 @@ contract_eos_EOS_RUN(state, in[1], out[0], out[1]) contract_eos_EOS_RUN(derivati
         contract_eos_EOS_RUN(density, in[1], out[0]) contract_eos_EOS_RUN(p_min, out[0])
             contract_eos_EOS_RUN(linear, out[0], out[1]) contract_eos_EOS_RUN(energy, in[1], out[0], out[1])
 
-                static void eos_run_thermal(const struct contract *contract, const struct contract_call *call, size_t n,
-                                            const double *const *in, double *const *out)
+                static void contract_eos_run_thermal(const struct contract *contract, const struct contract_call *call,
+                                                     size_t n, const double *const *in, double *const *out)
 {
     const struct bulla_eos *eos = contract->module->table;
     (void)call;
@@ -429,7 +429,7 @@ contract_eos_EOS_RUN(state, in[1], out[0], out[1]) contract_eos_EOS_RUN(derivati
     eos->thermal(contract->self, n, in[0], in[1], out[0], out[1], out[2], out[3], out[4], out[5], out[6]);
 }
 
-static void eos_rows(const struct eos_suite *suite)
+static void contract_eos_rows(const struct eos_suite *suite)
 {
     const struct contract_call calls[] = {
         {"state", 2, 2, eos_run_state, contract_eos_draw_state, suite},
@@ -440,12 +440,12 @@ static void eos_rows(const struct eos_suite *suite)
         {"p_min", 2, 1, eos_run_p_min, contract_eos_draw_state, suite},
         {"linear", 2, 2, eos_run_linear, contract_eos_draw_state, suite},
         {"energy", 2, 2, eos_run_energy, contract_eos_draw_state, suite},
-        {"thermal", 2, 7, eos_run_thermal, contract_eos_draw_pT, suite},
+        {"thermal", 2, 7, contract_eos_run_thermal, contract_eos_draw_pT, suite},
     };
     for (size_t i = 0; i < sizeof calls / sizeof *calls; i++) {
         if (calls[i].run == eos_run_linear && !suite->eos->linear) continue;
         if (calls[i].run == eos_run_energy && !BULLA_EOS_HAS(suite->eos, energy)) continue;
-        if (calls[i].run == eos_run_thermal && !BULLA_EOS_HAS(suite->eos, thermal)) continue;
+        if (calls[i].run == contract_eos_run_thermal && !BULLA_EOS_HAS(suite->eos, thermal)) continue;
         contract_batch_run(suite->contract, &calls[i]);
     }
 }
@@ -467,7 +467,7 @@ void contract_eos_run_in(struct contract *contract, const struct contract_eos_bo
     contract_eos_below(&suite);
     contract_doing(contract, "p = NaN");
     contract_eos_nan(&suite);
-    eos_rows(&suite);
+    contract_eos_rows(&suite);
 }
 
 void contract_eos_run(struct contract *contract)

@@ -12,7 +12,7 @@
 #ifndef FAMILY_H
 #define FAMILY_H
 
-#include "../shared/elementary.h"
+#include "shared/elementary.h"
 
 #include <math.h>
 
