@@ -79,6 +79,11 @@ static const struct key scene_root[] = {
      .doc =
          "Surface tension by pairs of materials, as in `water+air: 72.8 mN/m`; pairs that are not named have none. In "
          "one dimension, around a centre or an axis."},
+    {.name = "phase-change",
+     .type = KEYS_SECTION,
+     .many = KEYS_LIST,
+     .section = &scene_phase_keys,
+     .doc = "Liquids that evaporate and vapours that condense."},
     {.name = "initial",
      .type = KEYS_SECTION,
      .many = KEYS_LIST,

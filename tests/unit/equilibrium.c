@@ -1,6 +1,6 @@
 /* equilibrium.c - cells that come to equilibrium: the reference cells (40 digits), random cells far from it with and without
  * another material, entropy, what is kept, and that no cell knows its neighbours. */
-#include "phase.h"
+#include "phase_pairs.h"
 
 #include "phys/equilibrium_point.h"
 

@@ -1,6 +1,6 @@
-/* phase.h - what the tests of phase change share: the pairs of the reference data as families of laws. */
-#ifndef PHASE_H
-#define PHASE_H
+/* phase_pairs.h - what the tests of phase change share: the pairs of the reference data as families of laws. */
+#ifndef PHASE_PAIRS_H
+#define PHASE_PAIRS_H
 
 #include "../module/law.h"
 
