@@ -26,6 +26,24 @@ static BULLA_KERNEL void traction_normal(size_t n, const double *restrict rho, c
 
 static const double traction_zero[TRACTION_BATCH];
 
+/* What the Maxwell branches of the solids add: each a neo-Hookean spring on its own stretch. */
+static void traction_branches(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
+                              double *own)
+{
+    double I1[TRACTION_BATCH], I2[TRACTION_BATCH], k[TRACTION_BATCH], part[TRACTION_BATCH];
+    for (unsigned b = 0; b < model->n_branch; b++) {
+        const struct model_branch *branch = &model->branches[b];
+        const double *V = w + branch->field * stride, *row[6];
+        unsigned l = model->solids[branch->solid].material;
+        for (unsigned c = 0; c < 6; c++) row[c] = c < model->n_stretch ? V + c * stride : traction_zero;
+        for (size_t i = 0; i < n; i++) k[i] = branch->k;
+        elastic_invariants(model, n, stride, V, I1, I2);
+        traction_normal(n, w + (model->i_m + l) * stride, row[ELASTIC_XX], row[ELASTIC_XY], row[ELASTIC_XZ],
+                        row[ELASTIC_YY], row[ELASTIC_YZ], row[ELASTIC_ZZ], I1, I2, k, traction_zero, part);
+        row_add(n, part, own + l * pitch);
+    }
+}
+
 static void traction_batch(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
                            double *own)
 {
@@ -41,6 +59,7 @@ static void traction_batch(const struct model *model, size_t n, size_t stride, c
                         row[ELASTIC_XZ], row[ELASTIC_YY], row[ELASTIC_YZ], row[ELASTIC_ZZ], I1, I2, e_1, e_2,
                         own + solid->material * pitch);
     }
+    traction_branches(model, n, stride, w, pitch, own);
 }
 
 void traction_own(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch, double *own)

@@ -78,48 +78,62 @@ static int registry_is_object(const struct dirent *entry)
 }
 
 /* All *.so of a folder, by name. One that is refused costs a warning, not the run. */
-static void registry_scan(const char *folder, bool must_exist)
+static void registry_scan(const char *folder, bool own)
 {
     struct dirent **files;
     int count = scandir(folder, &files, registry_is_object, alphasort);
     if (count < 0) {
-        if (must_exist) log_warn("module folder %s cannot be read: %s", folder, strerror(errno));
+        if (!own) log_warn("module folder %s cannot be read: %s", folder, strerror(errno));
         return;
     }
     for (int i = 0; i < count; i++) {
         char *path = mem_print("%s/%s", folder, files[i]->d_name);
-        if (registry_add(path, !must_exist)) log_warn("module skipped: %s", status_text());
+        if (registry_add(path, own)) log_warn("module skipped: %s", status_text());
         mem_free(path);
         free(files[i]);
     }
     free(files);
 }
 
-/* Folders of a colon separated list; empty ones are skipped (never the working directory). */
-static void registry_scan_list(const char *list)
+/* ../lib/bulla/modules seen from the folder of the running program; NULL where there is none. free() it. */
+static char *registry_own_folder(void)
 {
+    if (!*system_program()) return NULL;
+    char *program = mem_text(system_program());
+    char *slash = strrchr(program, '/');
+    if (slash) *slash = '\0';
+    char *folder = mem_print("%s/../lib/bulla/modules", program), *real = realpath(folder, NULL);
+    mem_free(folder);
+    mem_free(program);
+    return real;
+}
+
+/* A folder that somebody named: its modules are probed, unless it is the program's own. */
+static void registry_scan_named(const char *folder, const char *own, bool *ret_is_own)
+{
+    char *real = realpath(folder, NULL);
+    bool is_own = real && own && strcmp(real, own) == 0;
+    free(real);
+    if (is_own && *ret_is_own) return;
+    registry_scan(folder, is_own);
+    *ret_is_own |= is_own;
+}
+
+/* Folders of a colon separated list; empty ones are skipped (never the working directory). True if the program's own is
+ * one of them. */
+static bool registry_scan_list(const char *list, const char *own)
+{
+    bool has_own = false;
     while (*list) {
         size_t length = strcspn(list, ":");
         if (length) {
             char *folder = mem_text_n(list, length);
-            registry_scan(folder, true);
+            registry_scan_named(folder, own, &has_own);
             mem_free(folder);
         }
         list += length + (list[length] == ':');
     }
-}
-
-/* ../lib/bulla/modules seen from the folder of the running program. */
-static void registry_scan_own(void)
-{
-    if (!*system_program()) return;
-    char *program = mem_text(system_program());
-    char *slash = strrchr(program, '/');
-    if (slash) *slash = '\0';
-    char *folder = mem_print("%s/../lib/bulla/modules", program);
-    registry_scan(folder, false);
-    mem_free(folder);
-    mem_free(program);
+    return has_own;
 }
 
 int registry_init(void)
@@ -127,8 +141,10 @@ int registry_init(void)
     if (registry_scanned) return STATUS_OK;
     registry_scanned = true;
     const char *list = getenv("BULLA_MODULE_PATH");
-    if (list) registry_scan_list(list);
-    registry_scan_own();
+    char *own = registry_own_folder();
+    bool has_own = list && registry_scan_list(list, own);
+    if (own && !has_own) registry_scan(own, true);
+    free(own);
     return STATUS_OK;
 }
 
