@@ -123,8 +123,9 @@ struct model {
     struct model_eos eos[SCENE_MATERIALS];
     struct model_viscosity viscosity[SCENE_MATERIALS];
     bool viscous; /* some material of the path is */
+    bool calm;    /* faces beside strong shocks resist shear (scheme/calm.h) */
     /* What terms that look across edges see there: components of the primitives, the same in all paths of a scene. 0: no
-     * term does. Fractions but the first, then velocities. */
+     * term does. Fractions but the first, then velocities (viscous); pressure is the last (calm). */
     unsigned n_around, n_around_alpha;
     unsigned char around[MODEL_FIELDS];
     struct model_conductivity conductivity[SCENE_MATERIALS];

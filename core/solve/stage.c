@@ -223,7 +223,7 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
     struct stage_sweep sweep = {stage, terms, local, row->weight > 0.0 && reflux_concerns(stage->reflux, local)};
     const struct rate_watch watch = {&sweep, stage_gather, stage_seen, stage_swept};
     if (stage->mesh->beta) metric_of_tile(stage->mesh, level, tile.tile, &metric);
-    tile.around = path->viscous ? around_gather(work->around, stage->l, stage->bound, local) : NULL;
+    tile.around = path->viscous || path->calm ? around_gather(work->around, stage->l, stage->bound, local) : NULL;
     stage->bound->model = path;
     rate_take(&tile, work->own, &watch, stage->guard->masked);
     if (sweep.concerned) reflux_keep(stage->reflux, path, local, tile.w, path->kapila ? tile.K : NULL);
