@@ -8,6 +8,7 @@
 #ifndef SCENE_H
 #define SCENE_H
 
+#include "case/saturation.h"
 #include "case/scene_boundary.h"
 #include "case/script.h"
 #include "case/shape.h"
@@ -97,6 +98,22 @@ struct scene_material {
 struct scene_tension {
     unsigned one, other;
     double sigma; /* [N/m] */
+};
+
+/* A liquid, its vapour and the gases beside it: section `phase-change:`. */
+enum { SCENE_PHASES = 4 };
+enum scene_phase_rate { SCENE_PHASE_EQUILIBRIUM, SCENE_PHASE_NONE, SCENE_PHASE_RELAXATION, SCENE_PHASE_HERTZ_KNUDSEN };
+enum scene_phase_direction { SCENE_PHASE_BOTH, SCENE_PHASE_EVAPORATION, SCENE_PHASE_CONDENSATION };
+
+struct scene_phase {
+    unsigned liquid, vapour, n_gas, gas[SCENE_MATERIALS];
+    bool mixing, everywhere;
+    enum scene_phase_rate rate;
+    enum scene_phase_direction direction;
+    double time;                   /* of relaxation [s] */
+    double accommodation, area;    /* of hertz-knudsen [1, 1/m] */
+    double tension, superheat;     /* what liquid without vapour bears [Pa, K] */
+    struct saturation_range curve; /* of liquid and vapour */
 };
 
 /* One layer of paint. Layers are applied in order; a later one covers an earlier one by its
@@ -354,6 +371,8 @@ struct scene {
     struct scene_material material[SCENE_MATERIALS];
     unsigned n_tension;
     struct scene_tension tension[SCENE_PAIRS];
+    unsigned n_phase;
+    struct scene_phase phases[SCENE_PHASES];
     unsigned n_layer;
     struct scene_layer *layers;    /* `initial:` */
     struct scene_sources *sources; /* NULL: none */

@@ -36,6 +36,15 @@ static bool scene_idle_found(const struct node *root, const char *name)
     return false;
 }
 
+/* Does it come to be by itself, or is it named where it can only be useful? */
+static bool scene_idle_arises(const struct scene *scene, unsigned material)
+{
+    bool arises = false;
+    for (unsigned k = 0; k < scene->n_phase; k++)
+        arises = arises || scene->phases[k].vapour == material || scene->phases[k].liquid == material;
+    return arises;
+}
+
 /* A Lua layer may leave one material out: it is the rest. */
 static void scene_idle_materials(struct draft *draft, const struct node *root)
 {
@@ -46,10 +55,11 @@ static void scene_idle_materials(struct draft *draft, const struct node *root)
         script = script || draft->scene->layers[i].script;
         if (draft->scene->layers[i].checkpoint) return; /* which may have any */
     }
-    for (unsigned i = 0; i < materials->count; i++) missing += !scene_idle_found(root, materials->list[i].name);
+    for (unsigned i = 0; i < materials->count; i++)
+        missing += !scene_idle_arises(draft->scene, i) && !scene_idle_found(root, materials->list[i].name);
     for (unsigned i = 0; missing > (script ? 1 : 0) && i < materials->count; i++) {
         const char *name = materials->list[i].name;
-        if (scene_idle_found(root, name)) continue;
+        if (scene_idle_arises(draft->scene, i) || scene_idle_found(root, name)) continue;
         diag_warn(draft->keys.diag, &materials->node->keys[i]->mark,
                   "material '%s' is nowhere: no layer, boundary or source has it", name);
         diag_help(draft->keys.diag, "leave it out: it costs two fields in every cell");

@@ -131,6 +131,33 @@ static void model_pair_narrow(const struct model *model, struct model *narrow)
     }
 }
 
+/* Families of the scene. */
+static void model_phases(struct model *model)
+{
+    model->n_phase = model->scene->n_phase;
+    for (unsigned k = 0; k < model->n_phase; k++) {
+        const struct scene_phase *scene = &model->scene->phases[k];
+        struct model_phase *phase = &model->phases[k];
+        *phase = (struct model_phase){.n = 2, .member = {scene->liquid, scene->vapour}, .scene = scene};
+        for (unsigned g = 0; g < scene->n_gas; g++) phase->member[phase->n++] = scene->gas[g];
+    }
+}
+
+/* Those families that a narrowed model has all of. */
+static void model_phase_narrow(const struct model *model, struct model *narrow)
+{
+    narrow->n_phase = 0;
+    for (unsigned k = 0; k < model->n_phase; k++) {
+        struct model_phase phase = model->phases[k];
+        bool all = true;
+        for (unsigned i = 0; i < phase.n; i++) {
+            phase.member[i] -= narrow->first; /* wraps where it stands before */
+            all = all && phase.member[i] < narrow->n_alpha;
+        }
+        if (all) narrow->phases[narrow->n_phase++] = phase;
+    }
+}
+
 /* The branches of solid s, which becomes the next solid of a narrowed model. */
 static void model_narrow_branches(const struct model *model, unsigned s, struct model *narrow)
 {
@@ -176,6 +203,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     if (narrow->n_solid == 0) narrow->n_stretch = 0;
     narrow->split = model->split && narrow->n_solid;
     model_pair_narrow(model, narrow);
+    model_phase_narrow(model, narrow);
     narrow->lagged = narrow->split || narrow->n_pair > 0;
     for (unsigned l = 0; l < narrow->n_alpha; l++) narrow->active[narrow->n_active++] = narrow->i_alpha + l;
     for (unsigned l = 0; l < n; l++) narrow->active[narrow->n_active++] = narrow->i_m + l;
@@ -301,6 +329,7 @@ struct model *model_new(const struct scene *scene)
     model->i_V = model->i_strain + model->n_strain;
     model_stretch_all(model);
     model_pair_up(model);
+    model_phases(model);
     model->split = model->dim == 1 && model->elastic && model->n_alpha > 0;
     model->lagged = model->split || model->n_pair > 0;
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
@@ -319,7 +348,7 @@ struct model *model_new(const struct scene *scene)
     }
     model_transport(model);
     model_conduct(model);
-    model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO ? !model->linear || model->conducts
+    model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO ? !model->linear || model->conducts || model->n_phase
                                                                    : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
     model->limiter = (struct model_limiter){scene->scheme.limiter.module->table, scene->scheme.limiter.self};
     model->limiter_alpha =

@@ -80,6 +80,12 @@ struct model_pair {
     double sigma;             /* [N/m] */
 };
 
+/* A liquid, its vapour and gases, which share a temperature and exchange mass (phys/phase.h). */
+struct model_phase {
+    unsigned n, member[SCENE_MATERIALS]; /* liquid, vapour, gases: materials of the same model */
+    const struct scene_phase *scene;
+};
+
 /* Most evolved fields a scene can have: fractions, densities, velocities, energy, plastic strains, stretches, curvatures. */
 enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 * (1 + SCENE_BRANCHES) + SCENE_PAIRS };
 
@@ -95,6 +101,8 @@ struct model {
     unsigned n_strain, i_strain; /* plastic strains of the scene: first index */
     unsigned n_pair;
     struct model_pair pairs[SCENE_PAIRS];
+    unsigned n_phase;
+    struct model_phase phases[SCENE_PHASES];
     unsigned n_material, n_alpha, n_field;
     unsigned i_alpha, i_m, i_u, i_E;         /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
     unsigned n_active, active[MODEL_FIELDS]; /* components that evolve; all, but in a pure model */

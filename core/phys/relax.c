@@ -3,6 +3,7 @@
 
 #include "phys/elastic.h"
 #include "phys/mix.h"
+#include "phys/squeeze.h"
 #include "phys/traction.h"
 
 #include <math.h>
@@ -30,20 +31,8 @@ struct relax {
 #define RELAX_TRACE 1e-3
 #define RELAX_VOID 1e-13
 
-/* Longest step of a specific volume, as a ratio: a Newton step may miss by orders of magnitude, a search must not. */
-#define RELAX_LEAP 64.0
-
 /* Least distance of p* from the floor, relative to the largest rho_l c_l^2: what the closure can resolve. */
 #define RELAX_RESOLVED 1e-11
-
-static double relax_energy(const struct model_eos *eos, double rho, double p, double *ret_slope)
-{
-    double rho_e, rho_c2, de_dp, de_drho;
-    eos->law->state(eos->self, 1, &rho, &p, &rho_e, &rho_c2);
-    eos->law->derivatives(eos->self, 1, &rho, &p, &de_dp, &de_drho);
-    *ret_slope = de_drho;
-    return rho_e;
-}
 
 /* What the materials have in common: the traction, or the pressure. */
 static double relax_common(const struct model *model, const double *w)
@@ -133,33 +122,17 @@ static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
         double thin = relax_least(relax, l, RELAX_THIN * rho), start = relax_start(relax, l) + relax->own[l];
         if (thin > relax->floor) relax->floor = thin;
         relax->v0[l] = 1.0 / rho;
-        relax->e0[l] = relax_energy(eos, rho, start, &slope) / rho;
+        relax->e0[l] = squeeze_energy(eos, rho, start, &slope) / rho;
         eos->law->state(eos->self, 1, &rho, &start, &rho_e, &rho_c2);
         if (rho_c2 > relax->stiffest) relax->stiffest = rho_c2;
     }
     return isfinite(relax->floor);
 }
 
-/* v_l(p): Newton on e(v, p) + p v = e0 + p v0, which grows with v by rho c^2/Gamma and is linear in v for the
- * stiffened-gas family. Where c^2 is almost nothing, at the end of a law, a step would go anywhere: none is longer than RELAX_LEAP
- * in ratio or leaves the bracket that the signs have left. */
+/* v_l at a common pressure. */
 static double relax_volume(const struct relax *relax, unsigned l, double common)
 {
-    double p = common + relax->own[l];
-    double target = relax->e0[l] + p * relax->v0[l], v = relax->v0[l], low = 0.0, high = HUGE_VAL;
-    for (int i = 0; i < RELAX_ROUNDS && common <= relax_least(relax, l, 1.0 / v); i++) v *= RELAX_LEAP;
-    for (int i = 0; i < RELAX_ROUNDS; i++) {
-        double de_drho, rho_e = relax_energy(&relax->model->eos[l], 1.0 / v, p, &de_drho);
-        double excess = v * rho_e + p * v - target, next = v - excess / (rho_e + p - de_drho / v);
-        if (excess > 0.0) high = v;
-        else low = v;
-        double least = v / RELAX_LEAP > low ? v / RELAX_LEAP : low,
-               most = v * RELAX_LEAP < high ? v * RELAX_LEAP : high;
-        if (fabs(next - v) <= 1e-14 * v) return next;
-        if (!(next > least && next < most)) next = sqrt((excess > 0.0 ? least : v) * (excess > 0.0 ? v : most));
-        v = next;
-    }
-    return v;
+    return squeeze_volume(&relax->model->eos[l], relax->v0[l], relax->e0[l], common + relax->own[l]);
 }
 
 /* Volume of all masses at p, less the cell's; falls with p. */
@@ -264,7 +237,7 @@ static void relax_shift(struct relax *relax, double p)
         for (unsigned l = 0; l < model->n_material; l++) {
             if (!relax->present[l]) continue;
             double density = relax->m[l] / alpha[l],
-                   rho_e = relax_energy(&model->eos[l], density, p + relax->own[l], &slope);
+                   rho_e = squeeze_energy(&model->eos[l], density, p + relax->own[l], &slope);
             gain[l] = rho_e - density * slope;
             excess += alpha[l] * rho_e;
         }

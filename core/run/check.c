@@ -14,6 +14,7 @@
 #include "case/shape.h"
 #include "cli/human.h"
 #include "cli/scenes.h"
+#include "run/check_phase.h"
 #include "run/transport.h"
 #include "scheme/source.h"
 #include "solve/advance.h"
@@ -319,6 +320,7 @@ static void check_print(const struct scene *scene, const struct model *model, co
     check_print_module("limiter", &scene->scheme.limiter);
     check_print_sources(scene);
     check_print_tension(scene);
+    check_phase_print(scene);
     if (scene->n_material > 1) check_print_module("interface", &scene->scheme.interface_limiter);
     double bytes = SCENES_BESIDE * scenes_bytes(scene, mesh->all);
     printf("  %-12s about %s", "memory", human_bytes(bytes, text));

@@ -39,9 +39,10 @@ struct operator
     const char *equation; /* one line for people */
     enum operator_when when;
 
-    bool (*wanted)(const struct model *path); /* has a path of a scene this operator? NULL: every path */
-    bool moves;                               /* may it change what is uniform and at rest? Then no tile is skipped */
-    bool (*reads)(const struct model *path);  /* does it read w there? NULL: no */
+    bool (*wanted)(const struct model *path);   /* has a path of a scene this operator? NULL: every path */
+    bool moves;                                 /* may it change what is uniform and at rest? Then no tile is skipped */
+    bool (*spreads)(const struct scene *scene); /* may it bring a material to tiles without it? NULL: no */
+    bool (*reads)(const struct model *path);    /* does it read w there? NULL: no */
 
     void (*acts)(const struct operator_tile *tile);
     void (*say)(const struct scene *scene, struct text *text); /* what the scene asks of it, for the plan; or NULL */

@@ -2,12 +2,14 @@
 #include "scheme/operators.h"
 
 #include "phys/mix.h"
+#include "scheme/phase_change.h"
 #include "scheme/plastic.h"
 
 #include <assert.h>
 
 const struct operator* operators_all[OPERATORS_MOST + 1] = {
-    &plastic_operator, /* stresses beyond the strength of solids flow off */
+    &phase_change_operator, /* liquids evaporate, vapours condense */
+    &plastic_operator,      /* stresses beyond the strength of solids flow off */
     NULL,
 };
 
@@ -26,6 +28,14 @@ void operators_of(const struct model *path, struct operators *ret_operators)
         ret_operators->at[operator->when][ret_operators->n[operator->when]++] = operator;
         ret_operators->moves = ret_operators->moves || operator->moves;
     }
+}
+
+bool operators_spread(const struct scene *scene)
+{
+    bool spread = false;
+    for (unsigned i = 0; operators_all[i]; i++)
+        spread = spread || (operators_all[i]->spreads && operators_all[i]->spreads(scene));
+    return spread;
 }
 
 static struct mix_effort operators_act_when(const struct operators *operators, enum operator_when when,

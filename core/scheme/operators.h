@@ -23,6 +23,9 @@ extern const struct operator* operators_all[OPERATORS_MOST + 1];
 
 void operators_of(const struct model *path, struct operators *ret_operators);
 
+/* Does some operator bring a material to tiles without it? Then none is narrowed (census.h). */
+bool operators_spread(const struct scene *scene);
+
 /* The state of a tile after a stage; `last`: of the step. Primitives are made where an operator asks for them; w then holds
  * pressures from which an iterated closure starts. Returns what that took. */
 struct mix_effort operators_act(const struct operators *operators, bool last, const struct operator_tile *tile);

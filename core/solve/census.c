@@ -2,6 +2,7 @@
 #include "solve/census.h"
 
 #include "mesh/link.h"
+#include "scheme/operators.h"
 #include "scheme/terms.h"
 
 #include <string.h>
@@ -59,7 +60,7 @@ const struct model *census_choose(const struct census *census, unsigned local)
 {
     const struct model *model = census->model;
     unsigned present = census->tiles[local].present, l = 0;
-    if (!model->mixed || !present || terms_spread(model->scene)) return model;
+    if (!model->mixed || !present || terms_spread(model->scene) || operators_spread(model->scene)) return model;
     while (!(present >> l & 1)) l++;
     if (present >> l == 1 && census_fits(census, local, model->pure[l])) return model->pure[l];
     return model->fluids && census_fits(census, local, model->fluids) ? model->fluids : model;

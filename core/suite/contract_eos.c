@@ -130,6 +130,88 @@ static void contract_eos_energy(const struct eos_suite *suite, double rho, doubl
     contract_holds(suite->contract, rho_e == point.rho_e && de_dp == point.de_dp, where);
 }
 
+/* All that `thermal` says at one point. */
+struct contract_eos_thermal {
+    double rho, v, h, s, v_T, v_p, c_p, g;
+};
+
+static struct contract_eos_thermal contract_eos_thermal_at(const struct eos_suite *suite, double p, double T,
+                                                           double guess)
+{
+    struct contract_eos_thermal at = {.rho = guess};
+    suite->eos->thermal(suite->self, 1, &p, &T, &at.rho, &at.v, &at.h, &at.s, &at.v_T, &at.v_p, &at.c_p);
+    at.g = at.h - T * at.s;
+    return at;
+}
+
+/* `thermal` against the other functions at the same state. */
+static void contract_eos_thermal_same(const struct eos_suite *suite, double rho, double p, double T, const char *where)
+{
+    struct contract *contract = suite->contract;
+    struct eos_point here = contract_eos_at(suite, rho, p);
+    struct contract_eos_thermal at = contract_eos_thermal_at(suite, p, T, 0.0);
+    double energy = fabs(at.h) + (fabs(here.rho_e) + p) / rho, spread = here.de_dp * here.c2;
+    double c2 = at.v * at.v / (-at.v_p - T * at.v_T * at.v_T / at.c_p);
+    contract_begin(contract, "thermal(p, T): density, enthalpy and entropy of the other functions", 1e-9);
+    contract_near(contract, at.rho, rho, rho, where);
+    contract_near(contract, at.v * at.rho, 1.0, 1.0, where);
+    contract_near(contract, at.h, (here.rho_e + p) / rho, energy + spread, where);
+    contract_near(contract, at.s, here.s, fabs(here.s) + at.c_p, where);
+    contract_begin(contract, "thermal(p, T): c^2 = v^2/(-v_p - T v_T^2/c_p)", 1e-8);
+    contract_near(contract, c2, here.c2, here.c2 * (1.0 + 1e-6 * at.c_p * T / here.c2), where);
+    contract_begin(contract, "thermal(p, T) starts from any density", 1e-9);
+    contract_near(contract, contract_eos_thermal_at(suite, p, T, rho).v, at.v, at.v, where);
+}
+
+/* Its derivatives, as those of one potential g = h - T s. What rounding does to differences of large numbers counts as
+ * size. */
+static void contract_eos_thermal_slopes(const struct eos_suite *suite, double rho, double p, double T,
+                                        const char *where)
+{
+    struct contract *contract = suite->contract;
+    struct contract_eos_thermal at = contract_eos_thermal_at(suite, p, T, 0.0);
+    double dT = 2e-4 * T, dp = 2e-4 * (p - contract_eos_p_min(suite, rho));
+    struct contract_eos_thermal hot = contract_eos_thermal_at(suite, p, T + dT, rho),
+                                cold = contract_eos_thermal_at(suite, p, T - dT, rho),
+                                up = contract_eos_thermal_at(suite, p + dp, T, rho),
+                                down = contract_eos_thermal_at(suite, p - dp, T, rho);
+    double g = fabs(at.h) + T * fabs(at.s), noise = 1e-9 * g, order = fabs(at.s) + at.c_p;
+    contract_begin(contract, "thermal(p, T): one potential, g_p = v, g_T = -s", 1e-6);
+    contract_near(contract, (up.g - down.g) / (2 * dp), at.v, at.v + noise / dp, where);
+    contract_near(contract, (hot.g - cold.g) / (2 * dT), -at.s, order + noise / dT, where);
+    contract_begin(contract, "thermal(p, T): h_T = c_p, s_T = c_p/T, h_p = v - T v_T, s_p = -v_T", 1e-6);
+    contract_near(contract, (hot.h - cold.h) / (2 * dT), at.c_p, at.c_p + 1e-9 * fabs(at.h) / dT, where);
+    contract_near(contract, (hot.s - cold.s) / (2 * dT) * T, at.c_p, at.c_p + 1e-9 * order * T / dT, where);
+    contract_near(contract, (up.h - down.h) / (2 * dp), at.v - T * at.v_T,
+                  at.v + T * fabs(at.v_T) + 1e-9 * fabs(at.h) / dp, where);
+    contract_near(contract, (up.s - down.s) / (2 * dp), -at.v_T, fabs(at.v_T) + at.v / T + 1e-9 * order / dp, where);
+    contract_begin(contract, "thermal(p, T): v_T and v_p are slopes of v", 1e-6);
+    contract_near(contract, (hot.v - cold.v) / (2 * dT), at.v_T, fabs(at.v_T) + at.v / T, where);
+    contract_near(contract, (up.v - down.v) / (2 * dp), at.v_p, -at.v_p + 1e-9 * at.v / dp, where);
+}
+
+static void contract_eos_thermal(const struct eos_suite *suite, double rho, double p, const char *where)
+{
+    if (!BULLA_EOS_HAS(suite->eos, thermal)) return;
+    double T = contract_eos_temperature(suite, rho, p);
+    contract_eos_thermal_same(suite, rho, p, T, where);
+    contract_eos_thermal_slopes(suite, rho, p, T, where);
+}
+
+/* A gas constant is that of the dilute gas. */
+static void contract_eos_gas(const struct eos_suite *suite)
+{
+    char where[CONTRACT_WHERE];
+    const struct bulla_eos *eos = suite->eos;
+    if (!BULLA_EOS_HAS(eos, gas_constant)) return;
+    double R = eos->gas_constant(suite->self), T = 0.5 * (suite->range.T_min + suite->range.T_max), p = 1e-3;
+    contract_begin(suite->contract, "gas_constant: 0, or the limit of p v/T", 1e-6);
+    contract_holds(suite->contract, R >= 0.0 && isfinite(R), "gas_constant is not finite, or negative");
+    if (!(R > 0.0) || !BULLA_EOS_HAS(eos, thermal)) return;
+    snprintf(where, sizeof where, "p %.6g, T %.6g", p, T);
+    contract_near(suite->contract, p * contract_eos_thermal_at(suite, p, T, 0.0).v / T, R, R, where);
+}
+
 /* A continuation stands in for the formulas beyond the stated range only. */
 static void contract_eos_counting(const struct eos_suite *suite, double rho, double p, const char *where)
 {
@@ -174,6 +256,7 @@ static void contract_eos_states(const struct eos_suite *suite)
         contract_eos_inverse(suite, rho, p, where);
         contract_eos_linear(suite, rho, p, where);
         contract_eos_energy(suite, rho, p, where);
+        contract_eos_thermal(suite, rho, p, where);
         contract_eos_counting(suite, rho, p, where);
     }
 }
@@ -337,7 +420,16 @@ contract_eos_EOS_RUN(state, in[1], out[0], out[1]) contract_eos_EOS_RUN(derivati
         contract_eos_EOS_RUN(density, in[1], out[0]) contract_eos_EOS_RUN(p_min, out[0])
             contract_eos_EOS_RUN(linear, out[0], out[1]) contract_eos_EOS_RUN(energy, in[1], out[0], out[1])
 
-                static void eos_rows(const struct eos_suite *suite)
+                static void contract_eos_run_thermal(const struct contract *contract, const struct contract_call *call,
+                                                     size_t n, const double *const *in, double *const *out)
+{
+    const struct bulla_eos *eos = contract->module->table;
+    (void)call;
+    for (size_t i = 0; i < n; i++) out[0][i] = 0.0; /* no density to start from */
+    eos->thermal(contract->self, n, in[0], in[1], out[0], out[1], out[2], out[3], out[4], out[5], out[6]);
+}
+
+static void contract_eos_rows(const struct eos_suite *suite)
 {
     const struct contract_call calls[] = {
         {"state", 2, 2, eos_run_state, contract_eos_draw_state, suite},
@@ -348,10 +440,12 @@ contract_eos_EOS_RUN(state, in[1], out[0], out[1]) contract_eos_EOS_RUN(derivati
         {"p_min", 2, 1, eos_run_p_min, contract_eos_draw_state, suite},
         {"linear", 2, 2, eos_run_linear, contract_eos_draw_state, suite},
         {"energy", 2, 2, eos_run_energy, contract_eos_draw_state, suite},
+        {"thermal", 2, 7, contract_eos_run_thermal, contract_eos_draw_pT, suite},
     };
     for (size_t i = 0; i < sizeof calls / sizeof *calls; i++) {
         if (calls[i].run == eos_run_linear && !suite->eos->linear) continue;
         if (calls[i].run == eos_run_energy && !BULLA_EOS_HAS(suite->eos, energy)) continue;
+        if (calls[i].run == contract_eos_run_thermal && !BULLA_EOS_HAS(suite->eos, thermal)) continue;
         contract_batch_run(suite->contract, &calls[i]);
     }
 }
@@ -364,6 +458,7 @@ void contract_eos_run_in(struct contract *contract, const struct contract_eos_bo
     contract_eos_range(&suite);
     contract_doing(contract, "states of the range");
     contract_eos_states(&suite);
+    contract_eos_gas(&suite);
     contract_doing(contract, "any rho and p");
     contract_eos_everywhere(&suite);
     contract_doing(contract, "lines of constant rho and p");
@@ -372,7 +467,7 @@ void contract_eos_run_in(struct contract *contract, const struct contract_eos_bo
     contract_eos_below(&suite);
     contract_doing(contract, "p = NaN");
     contract_eos_nan(&suite);
-    eos_rows(&suite);
+    contract_eos_rows(&suite);
 }
 
 void contract_eos_run(struct contract *contract)

@@ -5,7 +5,7 @@
 
 struct reference {
     const char *set, *module;
-    double numbers[5], cv;
+    double numbers[6], cv;
 };
 
 /* Parameters of the sets in the file, in the order of the modules' tables. */

@@ -42,7 +42,7 @@ struct bulla_eos {
     void (*temperature)(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
                         double *BULLA_RESTRICT T);
 
-    /* Specific entropy [J/(kg K)], up to a constant. */
+    /* Specific entropy [J/(kg K)], up to a constant that is common to the phases of one substance. */
     void (*entropy)(const void *self, size_t n, const double *BULLA_RESTRICT rho, const double *BULLA_RESTRICT p,
                     double *BULLA_RESTRICT s);
 
@@ -72,6 +72,20 @@ struct bulla_eos {
      * Those may reach farther than `range`, which says where data back them. */
     size_t (*count_outside)(const void *self, size_t n, const double *BULLA_RESTRICT rho,
                             const double *BULLA_RESTRICT p);
+
+    /* Optional (NULL: the material can have no partner in `phase-change:`). From pressure and temperature: specific
+     * volume v [m3/kg], enthalpy h [J/kg], entropy s [J/(kg K)], dv/dT at constant p, dv/dp at constant T, and the heat
+     * capacity c_p [J/(kg K)]. rho: a density to start a search from, or 0; out: 1/v. They are one potential g = h - T s
+     * (g_p = v, g_T = -s), and the zeros of h and s are those of `state` and `entropy`: what h and s differ by between the phases
+     * of one substance decides where it boils. Where there is no state, something is not finite, or v <= 0. */
+    void (*thermal)(const void *self, size_t n, const double *BULLA_RESTRICT p, const double *BULLA_RESTRICT T,
+                    double *BULLA_RESTRICT rho, double *BULLA_RESTRICT v, double *BULLA_RESTRICT h,
+                    double *BULLA_RESTRICT s, double *BULLA_RESTRICT v_T, double *BULLA_RESTRICT v_p,
+                    double *BULLA_RESTRICT c_p);
+
+    /* Optional (NULL: 0). The gas constant R [J/(kg K)] of the dilute gas, p v -> R T; 0 for what does not become one. With
+     * it the mole fraction of a vapour among other gases is counted. */
+    double (*gas_constant)(const void *self);
 };
 
 /* Whether a law has a slot that came later. */

@@ -12,6 +12,8 @@
 #ifndef FAMILY_H
 #define FAMILY_H
 
+#include "shared/elementary.h"
+
 #include <math.h>
 
 #define FAMILY_EDGE 0.98                            /* b/vx */
@@ -20,6 +22,7 @@
 
 struct family {
     double gamma, p_inf, b, q, cv;
+    double q_s;     /* zero of the entropy, q' */
     double inverse; /* 1/(gamma - 1) */
 };
 
@@ -79,13 +82,13 @@ static inline double family_temperature(const struct family *par, struct family_
 }
 
 /* s = cv (ln T + (gamma - 1)(integral of dv/w - ln((gamma - 1) cv))): the constant makes it
- * cv ln(T^gamma/(p + p_inf)^(gamma - 1)) up to the edge; beyond, the integral is ln d - x - x^2/2. */
+ * cv ln(T^gamma/(p + p_inf)^(gamma - 1)) + q' up to the edge; beyond, the integral is ln d - x - x^2/2. */
 static inline double family_entropy(const struct family *par, struct family_room room, double rho, double p)
 {
     double T = family_temperature(par, room, rho, p), scale = par->cv / par->inverse;
     double x = 1.0 / sqrt(room.slope) - 1.0;
     double volume = room.slope < 1.0 ? FAMILY_D * par->b : room.w / rho;
-    return par->cv * (log(T) + (log(volume / scale) - x * (1.0 + 0.5 * x)) / par->inverse);
+    return par->cv * (log(T) + (log(volume / scale) - x * (1.0 + 0.5 * x)) / par->inverse) + par->q_s;
 }
 
 /* rho(p, T) from w = (gamma - 1) cv T/(p + p_inf): v = w + b, beyond the edge v = vx + d - d^2/w. */
@@ -94,6 +97,29 @@ static inline double family_density(const struct family *par, double p, double T
     double w = par->cv * T / (par->inverse * (p + par->p_inf)), d = FAMILY_D * par->b;
     double v = w >= d ? w + par->b : FAMILY_REACH * par->b - d * d / w;
     return 1.0 / v;
+}
+
+/* All there is to know at (p, T). */
+struct family_thermal {
+    double v, h, s, v_T, v_p, c_p;
+};
+
+/* With P = p + p_inf, w = (gamma - 1) cv T/P and v - b = w, beyond the edge d (2 - d/w), of slope f = (d/w)^2:
+ *     h = cv T + P (v - b) + p b + q,     s = cv (ln T + (gamma - 1) ln(T/P)) + q',     v_T = f w/T,     v_p = -f w/P,
+ * and c_p = cv + P v_T. Beyond the edge the second logarithm is that at w = d, less x + x^2/2 with x = d/w - 1. */
+static inline __attribute__((always_inline)) struct family_thermal family_thermal(const struct family *par, double p,
+                                                                                  double T)
+{
+    double P = p + par->p_inf, R = par->cv / par->inverse, w = R * T / P, d = FAMILY_D * par->b;
+    double ratio = d / w, beyond = ratio > 1.0 ? ratio : 1.0, f = ratio > 1.0 ? ratio * ratio : 1.0;
+    double free = ratio > 1.0 ? d * (2.0 - ratio) : w, x = beyond - 1.0;
+    double log_T = elementary_log(T), log_P = elementary_log(P), crowd = elementary_log(beyond) - x * (1.0 + 0.5 * x);
+    return (struct family_thermal){.v = free + par->b,
+                                   .h = par->cv * T + P * free + p * par->b + par->q,
+                                   .s = par->cv * log_T + R * (log_T - log_P + crowd) + par->q_s,
+                                   .v_T = f * w / T,
+                                   .v_p = -f * w / P,
+                                   .c_p = par->cv + f * R};
 }
 
 #endif

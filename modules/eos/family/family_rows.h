@@ -10,6 +10,9 @@
 
 #include <stdlib.h>
 
+/* What the parameter q' is for. */
+#define FAMILY_ENTROPY_ZERO "zero of entropy; what it differs by between two phases decides where they boil"
+
 BULLA_KERNEL static void family_rows_state(const void *self, size_t n, const double *BULLA_RESTRICT rho,
                                            const double *BULLA_RESTRICT p, double *BULLA_RESTRICT rho_e,
                                            double *BULLA_RESTRICT rho_c2)
@@ -99,6 +102,34 @@ static size_t family_rows_count_outside(const void *self, size_t n, const double
     return count;
 }
 
+BULLA_KERNEL static void family_rows_thermal(const void *self, size_t n, const double *BULLA_RESTRICT p,
+                                             const double *BULLA_RESTRICT T, double *BULLA_RESTRICT rho,
+                                             double *BULLA_RESTRICT v, double *BULLA_RESTRICT h,
+                                             double *BULLA_RESTRICT s, double *BULLA_RESTRICT v_T,
+                                             double *BULLA_RESTRICT v_p, double *BULLA_RESTRICT c_p)
+{
+    const struct family par = *(const struct family *)self;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double pressure = p[i], temperature = T[i];
+        struct family_thermal at = family_thermal(&par, pressure, temperature);
+        rho[i] = 1.0 / at.v;
+        v[i] = at.v;
+        h[i] = at.h;
+        s[i] = at.s;
+        v_T[i] = at.v_T;
+        v_p[i] = at.v_p;
+        c_p[i] = at.c_p;
+    }
+}
+
+/* A gas is what nothing holds together. */
+static double family_rows_gas_constant(const void *self)
+{
+    const struct family *par = self;
+    return par->p_inf > 0.0 ? 0.0 : par->cv / par->inverse;
+}
+
 /* Makes an instance; the caller's `par` needs no `inverse`. */
 static int family_rows_open(const struct bulla_host *host, struct family par, void **ret_self)
 {
@@ -123,7 +154,8 @@ static void family_rows_close(void *self)
         .size = sizeof(struct bulla_eos), .state = family_rows_state, .derivatives = family_rows_derivatives,   \
         .temperature = family_rows_temperature, .entropy = family_rows_entropy, .density = family_rows_density, \
         .p_min = family_rows_p_min, .linear = family_rows_linear, .range = (range_function),                    \
-        .count_outside = family_rows_count_outside                                                              \
+        .count_outside = family_rows_count_outside, .thermal = family_rows_thermal,                             \
+        .gas_constant = family_rows_gas_constant                                                                \
     }
 
 #endif

@@ -6,7 +6,7 @@ static const struct bulla_param mnasg_params[] = NASG_PARAMS(1.19, 6217.8e5, 6.7
 
 static const struct bulla_preset mnasg_presets[] = {
     {"water", "liquid water, density and sound speed right at 300 K",
-     (const double[]){1.19, 6217.8e5, 6.7212e-4, -1177788.0, 3610.0}},
+     (const double[]){1.19, 6217.8e5, 6.7212e-4, -1177788.0, 3610.0, 0.0}},
     {0},
 };
 

@@ -4,7 +4,9 @@
 static const struct bulla_param nasg_params[] = NASG_PARAMS(1.19, 7028e5, 6.61e-4, -1177788.0, 3610.0);
 
 static const struct bulla_preset nasg_presets[] = {
-    {"water", "liquid water, 300 K to 500 K", (const double[]){1.19, 7028e5, 6.61e-4, -1177788.0, 3610.0}},
+    {"water", "liquid water, 300 K to 500 K", (const double[]){1.19, 7028e5, 6.61e-4, -1177788.0, 3610.0, 0.0}},
+    {"water-2016", "liquid water with steam (ideal-gas, water-2016), gamma = cp/cv (Le Metayer & Saurel 2016)",
+     (const double[]){1.186980609, 7028e5, 6.61e-4, -1177788.0, 3610.0, 0.0}},
     {0},
 };
 

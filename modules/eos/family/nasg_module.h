@@ -18,7 +18,7 @@
              BULLA_NUMBER, NULL},                                                                                        \
             {"cv",         "J/kg/K", 1e-3, 1e9, cv_, "specific heat at constant volume; only temperatures depend on it", \
              BULLA_NUMBER, NULL},                                                                                        \
-            {0},                                                                                                         \
+            {"entropy-zero", "J/kg/K", -1e12, 1e12, 0.0, FAMILY_ENTROPY_ZERO, BULLA_NUMBER, NULL}, {0},                  \
     }
 
 static int nasg_module_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
@@ -27,7 +27,8 @@ static int nasg_module_open(const struct bulla_host *host, const struct bulla_va
                          .p_inf = values[1].number,
                          .b = values[2].number,
                          .q = values[3].number,
-                         .cv = values[4].number};
+                         .cv = values[4].number,
+                         .q_s = values[5].number};
     return family_rows_open(host, par, ret_self);
 }
 

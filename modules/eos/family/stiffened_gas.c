@@ -9,7 +9,7 @@
 #define FAMILY_ROOM family_room_all
 #include "family_rows.h"
 
-enum { GAMMA, P_INF, CV, HEAT_BOND };
+enum { GAMMA, P_INF, CV, HEAT_BOND, ENTROPY_ZERO };
 
 static const struct bulla_param stiffened_gas_params[] = {
     {"gamma", "1", 1.0001, 100.0, NAN, "exponent; with p-inf it sets the sound speed", BULLA_NUMBER, NULL},
@@ -19,23 +19,33 @@ static const struct bulla_param stiffened_gas_params[] = {
      BULLA_NUMBER, NULL},
     {"heat-bond", "J/kg", -1e12, 1e12, 0.0, "energy at zero temperature; shifts the zero of energy", BULLA_NUMBER,
      NULL},
+    {"entropy-zero", "J/kg/K", -1e12, 1e12, 0.0, FAMILY_ENTROPY_ZERO, BULLA_NUMBER, NULL},
     {0},
 };
 
 static const struct bulla_preset stiffened_gas_presets[] = {
-    {"sg44", "water, gamma 4.4, p-inf 600 MPa (mechanical)", (const double[]){4.4, 6e8, 589.394243, 0.0}},
-    {"sg4", "water, gamma 4, p-inf 600 MPa (mechanical)", (const double[]){4.0, 6e8, 667.980142, 0.0}},
-    {"sg659", "water, gamma 6.59, p-inf 4049 atm (mechanical)", (const double[]){6.59, 4.10264925e8, 245.143061, 0.0}},
-    {"sg659b", "water, gamma 6.59, p-inf 410 MPa (mechanical)", (const double[]){6.59, 4.1e8, 244.984801, 0.0}},
-    {"sg3", "water, gamma 3, p-inf 853.3 MPa, with temperatures", (const double[]){3.0, 8.533e8, 1395.0, -1148e3}},
-    {"sg235", "water, gamma 2.35, p-inf 1 GPa (Le Metayer et al. 2004)", (const double[]){2.35, 1e9, 1816.0, -1167e3}},
-    {"ethanol", "ethanol at 20 C: 789 kg/m3, 1159 m/s", (const double[]){11.5, 92060757.3, 37.9480823, 0.0}},
-    {"glycerol", "glycerol at 25 C: 1261 kg/m3, 1920 m/s", (const double[]){10.0, 464755040.0, 137.380513, 0.0}},
-    {"castor-oil", "castor oil at 25 C: 961 kg/m3, 1490 m/s", (const double[]){12.0, 177693008.3, 56.4109991, 0.0}},
-    {"mercury", "mercury at 25 C: 13534 kg/m3, 1450 m/s", (const double[]){8.8, 3233449431.8, 102.736299, 0.0}},
-    {"blood", "blood at 37 C: 1060 kg/m3, 1571 m/s", (const double[]){7.1, 368368093.0, 183.735215, 0.0}},
+    {"sg44", "water, gamma 4.4, p-inf 600 MPa (mechanical)", (const double[]){4.4, 6e8, 589.394243, 0.0, 0.0}},
+    {"sg4", "water, gamma 4, p-inf 600 MPa (mechanical)", (const double[]){4.0, 6e8, 667.980142, 0.0, 0.0}},
+    {"sg659", "water, gamma 6.59, p-inf 4049 atm (mechanical)",
+     (const double[]){6.59, 4.10264925e8, 245.143061, 0.0, 0.0}},
+    {"sg659b", "water, gamma 6.59, p-inf 410 MPa (mechanical)", (const double[]){6.59, 4.1e8, 244.984801, 0.0, 0.0}},
+    {"sg3", "water, gamma 3, p-inf 853.3 MPa, with temperatures", (const double[]){3.0, 8.533e8, 1395.0, -1148e3, 0.0}},
+    {"sg235", "water, gamma 2.35, p-inf 1 GPa (Le Metayer et al. 2004)",
+     (const double[]){2.35, 1e9, 1816.0, -1167e3, 0.0}},
+    {"water-2004", "water with steam (ideal-gas, water-2004), gamma = cp/cv (Le Metayer et al. 2004)",
+     (const double[]){2.35, 1e9, 1816.0, -1167e3, 0.0}},
+    {"water-2017", "water with steam (ideal-gas, water-2017), boils right at 1 atm (Chiapolino et al. 2017)",
+     (const double[]){2.62, 9.05829e8, 1606.97, -1150975.0, 0.0}},
+    {"dodecane-2004", "dodecane with its vapour (ideal-gas, dodecane-2004), gamma = cp/cv (Le Metayer et al. 2004)",
+     (const double[]){2.352831941, 4e8, 1077.0, -755269.0, 0.0}},
+    {"ethanol", "ethanol at 20 C: 789 kg/m3, 1159 m/s", (const double[]){11.5, 92060757.3, 37.9480823, 0.0, 0.0}},
+    {"glycerol", "glycerol at 25 C: 1261 kg/m3, 1920 m/s", (const double[]){10.0, 464755040.0, 137.380513, 0.0, 0.0}},
+    {"castor-oil", "castor oil at 25 C: 961 kg/m3, 1490 m/s",
+     (const double[]){12.0, 177693008.3, 56.4109991, 0.0, 0.0}},
+    {"mercury", "mercury at 25 C: 13534 kg/m3, 1450 m/s", (const double[]){8.8, 3233449431.8, 102.736299, 0.0, 0.0}},
+    {"blood", "blood at 37 C: 1060 kg/m3, 1571 m/s", (const double[]){7.1, 368368093.0, 183.735215, 0.0, 0.0}},
     {"begostone", "BegoStone 15:3, its bulk modulus: 1995 kg/m3, 20.2 GPa (Esch et al. 2010)",
-     (const double[]){4.4, 4590809090.9, 2308.80353, 0.0}},
+     (const double[]){4.4, 4590809090.9, 2308.80353, 0.0, 0.0}},
     {0},
 };
 
@@ -44,7 +54,8 @@ static int stiffened_gas_open(const struct bulla_host *host, const struct bulla_
     struct family par = {.gamma = values[GAMMA].number,
                          .p_inf = values[P_INF].number,
                          .cv = values[CV].number,
-                         .q = values[HEAT_BOND].number};
+                         .q = values[HEAT_BOND].number,
+                         .q_s = values[ENTROPY_ZERO].number};
     return family_rows_open(host, par, ret_self);
 }
 

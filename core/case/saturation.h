@@ -1,0 +1,41 @@
+/* saturation.h - where a liquid and its vapour are in equilibrium: g_l(p, T) = g_v(p, T), g = h - T s of their laws.
+ *
+ * The difference D = g_v - g_l grows with p as long as the vapour is the thinner one (D_p = v_v - v_l) and falls with T
+ * (D_T = s_l - s_v), so each pressure has one temperature and back. Stiffened gases have a second root where the vapour would
+ * be denser than the liquid; the curve ends where v_v < 2 v_l, before that. */
+#ifndef SATURATION_H
+#define SATURATION_H
+
+#include "plug/instance.h"
+
+#include <stdbool.h>
+
+struct bulla_eos;
+
+struct saturation {
+    const struct bulla_eos *law[2]; /* liquid, vapour; both offer `thermal` */
+    const void *self[2];
+};
+
+struct saturation_state {
+    double v[2], h[2], s[2]; /* of liquid and vapour, per mass */
+    double drive;            /* D [J/kg]: below 0 liquid evaporates */
+};
+
+struct saturation_range {
+    double T_min, T_max, p_min, p_max; /* ends of the curve [K, Pa] */
+};
+
+/* False: a law has no `thermal`. */
+bool saturation_of(const struct instance *liquid, const struct instance *vapour, struct saturation *ret_pair);
+
+struct saturation_state saturation_at(const struct saturation *pair, double p, double T);
+
+/* psat(T) [Pa] and Tsat(p) [K]; NaN: there is none, or the vapour is not twice as thin as the liquid there. */
+double saturation_pressure(const struct saturation *pair, double T);
+double saturation_temperature(const struct saturation *pair, double p);
+
+/* The part of the curve between 200 and 2000 K. False: there is none, or none that reaches 10 kPa. */
+bool saturation_ends(const struct saturation *pair, struct saturation_range *ret_range);
+
+#endif

@@ -1,0 +1,295 @@
+/* phase.c - see phase.h. Acting cells are gathered into blocks; all else is untouched. */
+#include "phys/phase.h"
+
+#include "phys/mix.h"
+#include "phys/phase_rate.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { PHASE_BLOCK = EQUILIBRIUM_BLOCK };
+
+#define PHASE_NEAR 1e-9 /* temperatures and D/(R T) that differ by less fit */
+
+typedef double phase_row[PHASE_BLOCK];
+
+/* Cells that may act. */
+struct phase_block {
+    const struct model *model;
+    const struct model_phase *phase;
+    struct equilibrium_family family;
+    size_t n;
+    size_t at[PHASE_BLOCK]; /* place in the tile */
+    phase_row u[MODEL_FIELDS], w[MODEL_FIELDS], T[SCENE_MATERIALS], blur;
+    bool warm[PHASE_BLOCK];    /* temperatures fit */
+    bool thermal[PHASE_BLOCK]; /* no exchange: beyond the end of the curve */
+    bool alone[PHASE_BLOCK];   /* liquid without vapour, which has to nucleate */
+    struct equilibrium_cells cells, start;
+};
+
+static void phase_family(const struct model *model, const struct model_phase *phase, struct equilibrium_family *ret)
+{
+    ret->n = phase->n;
+    ret->mixing = phase->scene->mixing;
+    ret->exchange = phase->scene->rate != SCENE_PHASE_NONE;
+    for (unsigned k = 0; k < phase->n; k++) {
+        const struct model_eos *eos = &model->eos[phase->member[k]];
+        ret->eos[k] = *eos;
+        ret->R[k] = BULLA_EOS_HAS(eos->law, gas_constant) ? eos->law->gas_constant(eos->self) : 0.0;
+    }
+}
+
+/* Is there liquid, and something that it can evaporate into? */
+static bool phase_meets(const struct model *model, const struct model_phase *phase, size_t stride, const double *u,
+                        size_t i)
+{
+    const double *alpha = u + model->i_alpha * stride + i;
+    double thin = 0.0;
+    if (!(alpha[phase->member[EQUILIBRIUM_LIQUID] * stride] > PHASE_FELT)) return false;
+    for (unsigned k = EQUILIBRIUM_VAPOUR; k < phase->n; k++) thin += alpha[phase->member[k] * stride];
+    return thin > PHASE_FELT || phase->scene->everywhere;
+}
+
+static void phase_gather(struct phase_block *block, size_t stride, const double *u, const double *w)
+{
+    const struct model *model = block->model;
+    for (unsigned a = 0; a < model->n_active; a++) {
+        unsigned q = model->active[a];
+        for (size_t i = 0; i < block->n; i++) block->u[q][i] = u[q * stride + block->at[i]];
+    }
+    for (size_t i = 0; i < block->n; i++) block->w[model->i_E][i] = w[model->i_E * stride + block->at[i]];
+    mix_primitives(model, block->n, PHASE_BLOCK, block->u[0], block->w[0]);
+}
+
+/* Where a material is in the family; phase->n: it is none of it. */
+static unsigned phase_place(const struct model_phase *phase, unsigned l)
+{
+    unsigned k = 0;
+    while (k < phase->n && phase->member[k] != l) k++;
+    return k;
+}
+
+/* Masses, temperatures and energy of the family and the others. Traces that fluxes do not see are left out of both. */
+static void phase_fill(struct phase_block *block)
+{
+    const struct model *model = block->model;
+    struct equilibrium_cells *cells = &block->cells;
+    size_t n = block->n;
+    cells->n = n;
+    cells->n_other = 0;
+    memset(cells->energy, 0, sizeof cells->energy);
+    memset(block->blur, 0, sizeof block->blur);
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const struct model_eos *eos = &model->eos[l];
+        const double *alpha = block->w[model->i_alpha + l], *rho = block->w[model->i_m + l], *p = block->w[model->i_E];
+        unsigned k = phase_place(block->phase, l), o = cells->n_other;
+        phase_row rho_e, rho_c2;
+        eos->law->state(eos->self, n, rho, p, rho_e, rho_c2);
+        if (k < block->phase->n) eos->law->temperature(eos->self, n, rho, p, block->T[k]);
+        else cells->other[cells->n_other++] = *eos;
+        for (size_t i = 0; i < n; i++) {
+            double there = alpha[i] > 0.0 ? 1.0 : 0.0, m = there * block->u[model->i_m + l][i];
+            cells->energy[i] += there > 0.0 ? alpha[i] * rho_e[i] : 0.0;
+            if (there > 0.0 && rho_c2[i] > block->blur[i]) block->blur[i] = rho_c2[i];
+            if (k < 2) cells->m[k][i] = block->u[model->i_m + l][i] > 0.0 ? block->u[model->i_m + l][i] : 0.0;
+            else if (k < block->phase->n) cells->m[k][i] = m;
+            if (k < block->phase->n) continue;
+            cells->m_other[o][i] = m;
+            cells->v0[o][i] = 1.0 / rho[i];
+            cells->e0[o][i] = rho_e[i] / rho[i];
+        }
+    }
+    memcpy(cells->p, block->w[model->i_E], n * sizeof(double));
+    memcpy(cells->T, block->T[EQUILIBRIUM_LIQUID], n * sizeof(double));
+}
+
+/* D/(R T) of cell i at its pressure and liquid temperature, for an own vapour alone, shifted by what the liquid bears. */
+static double phase_drive_alone(const struct phase_block *block, size_t i, double tension, double superheat)
+{
+    const struct equilibrium_family *family = &block->family;
+    const struct saturation pair = {{family->eos[0].law, family->eos[1].law},
+                                    {family->eos[0].self, family->eos[1].self}};
+    double p = block->cells.p[i] + tension, T = block->cells.T[i] - superheat;
+    if (!(p > 0.0)) return -HUGE_VAL;
+    return saturation_at(&pair, p, T).drive / (family->R[EQUILIBRIUM_VAPOUR] * T);
+}
+
+/* The same for the vapour that is there, among gases. */
+static double phase_drive(const struct phase_block *block, size_t i)
+{
+    const struct equilibrium_family *family = &block->family;
+    double moles = 0.0, vapour = block->cells.m[EQUILIBRIUM_VAPOUR][i] * family->R[EQUILIBRIUM_VAPOUR];
+    for (unsigned k = EQUILIBRIUM_GAS; k < family->n && family->mixing; k++)
+        moles += block->cells.m[k][i] * family->R[k];
+    double share = moles > 0.0 ? vapour / (vapour + moles) : 1.0;
+    return share > 0.0 ? phase_drive_alone(block, i, 0.0, 0.0) + log(share) : -HUGE_VAL;
+}
+
+/* Volume fraction of vapour and gases. */
+static double phase_thin(const struct phase_block *block, size_t i)
+{
+    double thin = 0.0;
+    for (unsigned k = EQUILIBRIUM_VAPOUR; k < block->phase->n; k++)
+        thin += block->w[block->model->i_alpha + block->phase->member[k]][i];
+    return thin;
+}
+
+/* Temperatures of all that is there, to what the closure resolves of p. */
+static bool phase_warm(const struct phase_block *block, size_t i, double near)
+{
+    double T = block->T[EQUILIBRIUM_LIQUID][i];
+    for (unsigned k = EQUILIBRIUM_VAPOUR; k < block->phase->n; k++) {
+        double alpha = block->w[block->model->i_alpha + block->phase->member[k]][i];
+        if (alpha > 0.0 && !(fabs(block->T[k][i] - T) <= near * T)) return false;
+    }
+    return true;
+}
+
+/* Does cell i need nothing? */
+static bool phase_fits(struct phase_block *block, size_t i)
+{
+    const struct scene_phase *scene = block->phase->scene;
+    double p = block->cells.p[i], near = PHASE_NEAR + 4.0 * DBL_EPSILON * block->blur[i] / fabs(p);
+    if (!isfinite(p) || !(block->cells.T[i] > 0.0)) return true; /* guard's */
+    block->thermal[i] = scene->rate == SCENE_PHASE_NONE || p > scene->curve.p_max;
+    block->alone[i] = !(phase_thin(block, i) > PHASE_FELT);
+    if (block->alone[i])
+        return block->thermal[i] || !(phase_drive_alone(block, i, scene->tension, scene->superheat) < 0.0);
+    block->warm[i] = phase_warm(block, i, near);
+    if (!block->warm[i]) return false;
+    if (block->thermal[i]) return true;
+    double drive = phase_drive(block, i);
+    if (scene->direction == SCENE_PHASE_EVAPORATION && drive >= 0.0) return true;
+    if (scene->direction == SCENE_PHASE_CONDENSATION && drive <= 0.0) return true;
+    if (!(block->cells.m[EQUILIBRIUM_VAPOUR][i] > 0.0) && drive >= 0.0) return true;
+    return fabs(drive) <= near;
+}
+
+/* Cell i takes place `to`. */
+static void phase_move(struct phase_block *block, size_t i, size_t to)
+{
+    struct equilibrium_cells *cells = &block->cells;
+    if (i == to) return;
+    block->at[to] = block->at[i];
+    block->warm[to] = block->warm[i];
+    block->thermal[to] = block->thermal[i];
+    block->alone[to] = block->alone[i];
+    for (unsigned l = 0; l < block->model->n_material; l++)
+        block->u[block->model->i_alpha + l][to] = block->u[block->model->i_alpha + l][i];
+    for (unsigned k = 0; k < block->phase->n; k++) cells->m[k][to] = cells->m[k][i];
+    for (unsigned k = 0; k < cells->n_other; k++) {
+        cells->m_other[k][to] = cells->m_other[k][i];
+        cells->v0[k][to] = cells->v0[k][i];
+        cells->e0[k][to] = cells->e0[k][i];
+    }
+    cells->energy[to] = cells->energy[i];
+    cells->p[to] = cells->p[i];
+    cells->T[to] = cells->T[i];
+}
+
+/* Answers of single cells take the place of those of the block. */
+static void phase_take(const struct equilibrium_point *point, struct equilibrium_cells *cells, size_t i)
+{
+    for (unsigned k = 0; k < point->family->n; k++) cells->m[k][i] = point->m[k], cells->v[k][i] = point->v[k];
+    for (unsigned k = 0; k < point->n_other; k++) cells->v_other[k][i] = point->v_other[k];
+    cells->p[i] = point->p;
+    cells->T[i] = point->T;
+}
+
+/* The state of cell i with other masses of liquid and vapour. */
+static void phase_hold(struct phase_block *block, size_t i, double m_v)
+{
+    struct equilibrium_cells *cells = &block->cells;
+    double all = block->start.m[EQUILIBRIUM_LIQUID][i] + block->start.m[EQUILIBRIUM_VAPOUR][i];
+    struct equilibrium_point point;
+    equilibrium_point_take(&block->family, cells, i, &point);
+    point.m[EQUILIBRIUM_VAPOUR] = m_v;
+    point.m[EQUILIBRIUM_LIQUID] = all - m_v;
+    if (!equilibrium_point_solve(&point)) cells->regime[i] = EQUILIBRIUM_NONE;
+    else phase_take(&point, cells, i);
+}
+
+/* Only as far as the rate, the direction and the end of the curve let it go. `start` has the masses of before, at one p and T
+ * where they are asked. */
+static void phase_limit(struct phase_block *block, size_t i, double dt)
+{
+    const struct scene_phase *scene = block->phase->scene;
+    struct equilibrium_cells *cells = &block->cells;
+    double before = block->start.m[EQUILIBRIUM_VAPOUR][i], after = cells->m[EQUILIBRIUM_VAPOUR][i], m = after;
+    double all = before + block->start.m[EQUILIBRIUM_LIQUID][i];
+    if (cells->regime[i] == EQUILIBRIUM_NONE) return;
+    bool wrong = (scene->direction == SCENE_PHASE_EVAPORATION && after < before) ||
+                 (scene->direction == SCENE_PHASE_CONDENSATION && after > before);
+    if (scene->rate == SCENE_PHASE_RELAXATION) m = before - (after - before) * expm1(-dt / scene->time);
+    if (scene->rate == SCENE_PHASE_HERTZ_KNUDSEN) {
+        struct equilibrium_point point;
+        equilibrium_point_take(&block->family, cells, i, &point);
+        m = phase_rate_step(&point, scene, before, after, dt);
+    }
+    if (wrong || block->thermal[i]) m = before;
+    if (m < EQUILIBRIUM_NOTHING * all) m = 0.0;
+    if (all - m < EQUILIBRIUM_NOTHING * all) m = all;
+    if (m != after) phase_hold(block, i, m);
+}
+
+/* Into the tile. */
+static void phase_scatter(const struct phase_block *block, size_t i, size_t stride, double *w, double *u)
+{
+    const struct model *model = block->model;
+    const struct equilibrium_cells *cells = &block->cells;
+    double alpha[SCENE_MATERIALS], sum = 0.0, thin = 0.0, all = block->start.m[0][i] + block->start.m[1][i];
+    double *at = u + block->at[i];
+    bool same = cells->m[EQUILIBRIUM_VAPOUR][i] == block->start.m[EQUILIBRIUM_VAPOUR][i];
+    if (cells->regime[i] == EQUILIBRIUM_NONE || (same && block->warm[i])) return;
+    for (unsigned l = 0, o = 0; l < model->n_material; l++) {
+        unsigned k = phase_place(block->phase, l);
+        double m = k < block->phase->n ? cells->m[k][i] : cells->m_other[o][i];
+        double v = k < block->phase->n ? cells->v[k][i] : cells->v_other[o][i];
+        o += k == block->phase->n;
+        alpha[l] = m > 0.0 ? m * v : k < 2 ? 0.0 : block->u[model->i_alpha + l][i];
+        sum += alpha[l];
+        thin += k > EQUILIBRIUM_LIQUID && k < block->phase->n ? alpha[l] : 0.0;
+    }
+    if (block->alone[i] && !(thin > PHASE_FELT)) return; /* no bubble that would be felt */
+    for (unsigned l = 0; l < model->n_material; l++) at[(model->i_alpha + l) * stride] = alpha[l] / sum;
+    at[(model->i_m + block->phase->member[EQUILIBRIUM_VAPOUR]) * stride] = cells->m[EQUILIBRIUM_VAPOUR][i];
+    at[(model->i_m + block->phase->member[EQUILIBRIUM_LIQUID]) * stride] = all - cells->m[EQUILIBRIUM_VAPOUR][i];
+    w[model->i_E * stride + block->at[i]] = cells->p[i];
+}
+
+static void phase_run(struct phase_block *block, size_t stride, double dt, double *w, double *u,
+                      struct equilibrium_effort *effort)
+{
+    size_t left = 0;
+    phase_gather(block, stride, u, w);
+    phase_fill(block);
+    memset(block->warm, 0, sizeof block->warm);
+    memset(block->alone, 0, sizeof block->alone);
+    for (size_t i = 0; i < block->n; i++)
+        if (!phase_fits(block, i)) phase_move(block, i, left++);
+    block->cells.n = left;
+    if (left == 0) return;
+    memcpy(block->start.m[0], block->cells.m[0], sizeof(phase_row));
+    memcpy(block->start.m[1], block->cells.m[1], sizeof(phase_row));
+    equilibrium_solve(&block->family, &block->cells, effort);
+    for (size_t i = 0; i < left; i++) {
+        phase_limit(block, i, dt);
+        phase_scatter(block, i, stride, w, u);
+    }
+}
+
+void phase_act(const struct model *model, unsigned k, size_t n, size_t stride, double dt, double *w, double *u,
+               struct equilibrium_effort *effort)
+{
+    struct phase_block block = {.model = model, .phase = &model->phases[k]};
+    phase_family(model, block.phase, &block.family);
+    for (size_t i = 0; i < n; i++) {
+        if (!phase_meets(model, block.phase, stride, u, i)) continue;
+        block.at[block.n++] = i;
+        if (block.n < PHASE_BLOCK) continue;
+        phase_run(&block, stride, dt, w, u, effort);
+        block.n = 0;
+    }
+    if (block.n) phase_run(&block, stride, dt, w, u, effort);
+}

@@ -1,0 +1,90 @@
+/* check_phase.c - see check_phase.h. */
+#include "run/check_phase.h"
+
+#include "bulla/eos.h"
+#include "cli/human.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define CHECK_PHASE_ATM 101325.0
+
+/* psat of water by the auxiliary equation of IAPWS (Wagner & Pruss, J. Phys. Chem. Ref. Data 31 (2002) 387, eq. 2.5), 273 to 647 K. */
+static double check_phase_water(double T)
+{
+    double rest = 1.0 - T / 647.096, root = sqrt(rest), cube = rest * rest * rest;
+    double sum = rest * (-7.85951783 + 1.84408259 * root) + cube * (-11.7866497 + 22.6807411 * root) -
+                 15.9618719 * cube * rest + 1.80122502 * cube * cube * rest * root;
+    return 22.064e6 * exp(647.096 / T * sum);
+}
+
+static bool check_phase_is_water(const struct scene *scene, const struct scene_phase *pair)
+{
+    return strcmp(scene->material[pair->liquid].name, "water") == 0;
+}
+
+/* Temperature of one material of a layer; NaN: it is no number. */
+static double check_phase_temperature(const struct scene *scene, const struct scene_layer *layer, unsigned l)
+{
+    const struct instance *eos = &scene->material[l].eos;
+    const struct bulla_eos *law = eos->module->table;
+    double T = NAN;
+    if (layer->temperature.given) return layer->temperature.script ? (double)NAN : layer->temperature.number;
+    if (!layer->density || !layer->density[l].given || layer->density[l].script) return (double)NAN;
+    law->temperature(eos->self, 1, &layer->density[l].number, &layer->pressure.number, &T);
+    return T;
+}
+
+/* Pressure of the vapour in a layer that holds some: its mole fraction of the layer's. */
+static double check_phase_partial(const struct scene *scene, const struct scene_phase *pair,
+                                  const struct scene_layer *layer)
+{
+    double vapour = layer->fractions[pair->vapour], all = vapour;
+    (void)scene;
+    for (unsigned g = 0; g < pair->n_gas && pair->mixing; g++) all += layer->fractions[pair->gas[g]];
+    return layer->pressure.number * vapour / all; /* at one p and T volumes are mole fractions */
+}
+
+static void check_phase_layer(const struct scene *scene, const struct scene_phase *pair, const struct saturation *both,
+                              unsigned index)
+{
+    const struct scene_layer *layer = &scene->layers[index];
+    char text[HUMAN_ROOM], own[HUMAN_ROOM];
+    if (!layer->has_material || !layer->fractions || !layer->pressure.given || layer->pressure.script) return;
+    bool liquid = layer->fractions[pair->liquid] > 0.0, vapour = layer->fractions[pair->vapour] > 0.0;
+    if (!liquid && !vapour) return;
+    double T = check_phase_temperature(scene, layer, liquid ? pair->liquid : pair->vapour);
+    double psat = saturation_pressure(both, T);
+    if (isnan(psat)) return;
+    printf("  %-12s initial[%u]: %.6g K, saturation pressure %s", "", index, T, human_si(psat, "Pa", text));
+    if (check_phase_is_water(scene, pair) && T > 273.0 && T < 647.0)
+        printf(" (%+.2g %% of IAPWS-95)", 100.0 * (psat / check_phase_water(T) - 1.0));
+    double p = vapour ? check_phase_partial(scene, pair, layer) : layer->pressure.number;
+    if (vapour && p > 1.001 * psat) printf("; its vapour at %s condenses at once", human_si(p, "Pa", own));
+    if (vapour && liquid && p < 0.999 * psat) printf("; its vapour at %s takes up more", human_si(p, "Pa", own));
+    if (!vapour && p < psat) printf("; the liquid at %s is superheated", human_si(p, "Pa", own));
+    putchar('\n');
+}
+
+static void check_phase_pair(const struct scene *scene, const struct scene_phase *pair, const char *head)
+{
+    struct saturation both;
+    char text[HUMAN_ROOM], more[HUMAN_ROOM];
+    const struct saturation_range *curve = &pair->curve;
+    if (!saturation_of(&scene->material[pair->liquid].eos, &scene->material[pair->vapour].eos, &both)) return;
+    printf("  %-12s %s to %s: ", head, scene->material[pair->liquid].name, scene->material[pair->vapour].name);
+    double T = saturation_temperature(&both, CHECK_PHASE_ATM);
+    if (!isnan(T)) {
+        struct saturation_state at = saturation_at(&both, CHECK_PHASE_ATM, T);
+        printf("boils at %.2f K at 1 atm, latent heat %s; ", T, human_si(at.h[1] - at.h[0], "J/kg", text));
+    }
+    printf("curve from %.4g K, %s to %.4g K, %s\n", curve->T_min, human_si(curve->p_min, "Pa", text), curve->T_max,
+           human_si(curve->p_max, "Pa", more));
+    for (unsigned i = 0; i < scene->n_layer; i++) check_phase_layer(scene, pair, &both, i);
+}
+
+void check_phase_print(const struct scene *scene)
+{
+    for (unsigned k = 0; k < scene->n_phase; k++) check_phase_pair(scene, &scene->phases[k], k ? "" : "phase");
+}

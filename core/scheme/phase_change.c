@@ -1,0 +1,46 @@
+/* phase_change.c - see phase_change.h. */
+#include "scheme/phase_change.h"
+
+#include "phys/phase.h"
+
+static bool phase_change_wanted(const struct model *path)
+{
+    return path->n_phase > 0;
+}
+
+/* Vapour may come to be in tiles of liquid alone. */
+static bool phase_change_spreads(const struct scene *scene)
+{
+    bool spreads = false;
+    for (unsigned k = 0; k < scene->n_phase; k++) spreads = spreads || scene->phases[k].everywhere;
+    return spreads;
+}
+
+static void phase_change_acts(const struct operator_tile *tile)
+{
+    struct equilibrium_effort effort = {0};
+    for (unsigned k = 0; k < tile->model->n_phase; k++)
+        phase_act(tile->model, k, tile->n_cell, tile->n_cell, tile->dt, tile->w, tile->u, &effort);
+}
+
+static void phase_change_say(const struct scene *scene, struct text *text)
+{
+    static const char *const rates[] = {"equilibrium", "none", "relaxation", "hertz-knudsen"};
+    for (unsigned k = 0; k < scene->n_phase; k++) {
+        const struct scene_phase *pair = &scene->phases[k];
+        text_add(text, "%s%s to %s, %s, %s", k ? "; " : ": ", scene->material[pair->liquid].name,
+                 scene->material[pair->vapour].name, rates[pair->rate],
+                 pair->everywhere ? "everywhere" : "at interfaces");
+    }
+}
+
+const struct operator phase_change_operator = {
+    .name = "phase",
+    .owner = "core/scheme/phase_change.c",
+    .equation = "mu_v = g_l at one p and T of liquid, vapour and gases; mass, momentum, energy stay",
+    .when = OPERATOR_STAGE,
+    .wanted = phase_change_wanted,
+    .spreads = phase_change_spreads,
+    .acts = phase_change_acts,
+    .say = phase_change_say,
+};

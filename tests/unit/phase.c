@@ -1,0 +1,338 @@
+/* phase.c - liquids and vapours in the cells of a tile (phys/phase.h): what is kept and what is not touched, that a second call
+ * changes no bit, entropy, rates against the reference (finite_rate.csv), thresholds and directions; and runs in closed boxes. */
+#include "flow.h"
+
+#include "phys/phase.h"
+
+enum { CELLS = 256 };
+
+#define NASG "  water: {eos: {type: nasg, preset: water-2016}}\n  steam: {eos: {type: ideal-gas, preset: water-2016}}\n"
+#define SG                                                                                                 \
+    "  water: {eos: {type: stiffened-gas, preset: water-2004}}\n  steam: {eos: {type: ideal-gas, preset: " \
+    "water-2004}}\n"
+#define AIR "  air: {eos: {type: ideal-gas, preset: air}}\n"
+#define STONE "  stone: {eos: {type: stiffened-gas, preset: begostone}}\n"
+
+static void open_scene(struct flow *flow, const char *materials, const char *phase, int cells, const char *scheme)
+{
+    flow_start(flow, mem_print("bulla: 1\ndomain: {lower: [0], upper: [1], cells: [%d], boundaries: {x-: periodic, x+: "
+                               "periodic}}\nmesh: {tile: %d}\nmaterials:\n%sphase-change:\n  - %s\ninitial:\n"
+                               "  - {everywhere: true, material: water, temperature: 300, pressure: 1 bar}\n"
+                               "scheme: {%s}\nrun: {until: 1}\n",
+                               cells, cells, materials, phase, scheme));
+}
+
+static uint64_t seed;
+
+static double between(double low, double high)
+{
+    return low * pow(high / low, flow_random(&seed));
+}
+
+/* All materials at one pressure, with temperatures of their own; some cells hold traces, or one material alone. */
+static void scatter(const struct model *model, const double x[3], double *w)
+{
+    double p = between(1e3, 1e7), sum = 0.0;
+    (void)x;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const struct model_eos *eos = &model->eos[l];
+        double T = between(300.0, l ? 900.0 : 500.0), draw = flow_random(&seed);
+        w[model->i_alpha + l] = l && draw < 0.2 ? 0.0 : l && draw < 0.3 ? 1e-8 : between(1e-5, 1.0);
+        sum += w[model->i_alpha + l];
+        eos->law->density(eos->self, 1, &p, &T, &w[model->i_m + l]);
+    }
+    for (unsigned l = 0; l < model->n_material; l++) w[model->i_alpha + l] /= sum;
+    w[model->i_u] = 50.0;
+    w[model->i_E] = p;
+}
+
+/* Entropy of all materials of a cell, with that of mixing vapour and air; components at `stride`. */
+static double entropy(const struct model *model, size_t stride, const double *u, const double *w)
+{
+    const struct model_phase *phase = &model->phases[0];
+    double sum = 0.0, moles = 0.0, part[SCENE_MATERIALS] = {0};
+    for (unsigned l = 0; l < model->n_material; l++) {
+        double rho = w[(model->i_m + l) * stride], s, m = u[(model->i_m + l) * stride];
+        if (!(w[(model->i_alpha + l) * stride] > 0.0)) continue;
+        model->eos[l].law->entropy(model->eos[l].self, 1, &rho, &w[model->i_E * stride], &s);
+        sum += m * s;
+    }
+    for (unsigned k = EQUILIBRIUM_VAPOUR; k < phase->n; k++) {
+        const struct model_eos *eos = &model->eos[phase->member[k]];
+        part[k] = u[(model->i_m + phase->member[k]) * stride] * eos->law->gas_constant(eos->self);
+        moles += part[k];
+    }
+    for (unsigned k = EQUILIBRIUM_VAPOUR; k < phase->n; k++)
+        if (part[k] > 0.0 && phase->scene->mixing) sum -= part[k] * log(part[k] / moles);
+    return sum;
+}
+
+/* What one call leaves alone: masses of others, momentum, energy; the sum of liquid and vapour. */
+static void check_kept(const struct model *model, const double *before, const double *u, size_t i)
+{
+    for (unsigned q = model->i_m; q < model->n_field; q++)
+        if (q > model->i_m + 1) assert_true(u[q * CELLS + i] == before[q * CELLS + i]);
+    double all = u[model->i_m * CELLS + i] + u[(model->i_m + 1) * CELLS + i],
+           held = before[model->i_m * CELLS + i] + before[(model->i_m + 1) * CELLS + i];
+    assert_true(fabs(all / held - 1.0) <= 4.5e-16);
+    assert_true(u[model->i_m * CELLS + i] >= 0.0 && u[(model->i_m + 1) * CELLS + i] >= 0.0);
+}
+
+struct checked {
+    double p; /* worst difference between the pressure of the equilibrium and that of the closure */
+    int moved;
+};
+
+/* One call on cells anywhere, and a second one. */
+static void check_call(struct flow *flow, struct checked *checked)
+{
+    const struct model *model = flow->state->model;
+    size_t size = model->n_field * CELLS * sizeof(double);
+    double *u = flow_level(flow)->u_old[0], *w = flow_level(flow)->w[0];
+    double *before = mem_new(3 * model->n_field * CELLS, sizeof *before), *after = before + model->n_field * CELLS,
+           *w_before = after + model->n_field * CELLS;
+    struct equilibrium_effort effort = {0};
+    memcpy(before, u, size);
+    memcpy(w_before, w, size);
+    phase_act(model, 0, CELLS, CELLS, 1e-6, w, u, &effort);
+    double *p = mem_new(CELLS, sizeof *p);
+    memcpy(p, w + model->i_E * CELLS, CELLS * sizeof *p);
+    mix_primitives(model, CELLS, CELLS, u, w);
+    for (size_t i = 0; i < CELLS; i++) {
+        bool moved = u[model->i_m * CELLS + i] != before[model->i_m * CELLS + i];
+        checked->moved += moved;
+        check_kept(model, before, u, i);
+        if (!moved) continue;
+        double off = fabs(w[model->i_E * CELLS + i] - p[i]) / (fabs(p[i]) + 1e4);
+        checked->p = off > checked->p ? off : checked->p;
+        double gain = entropy(model, CELLS, u + i, w + i) - entropy(model, CELLS, before + i, w_before + i);
+        assert_true(gain >= -1e-12 * fabs(entropy(model, CELLS, u + i, w + i)));
+    }
+    memcpy(after, u, size);
+    phase_act(model, 0, CELLS, CELLS, 1e-6, w, u, &effort);
+    for (size_t i = 0; i < CELLS; i++)
+        for (unsigned q = 0; q < model->n_field; q++)
+            if (after[q * CELLS + i] != u[q * CELLS + i])
+                fail_msg("cell %zu, field %u: %.17g becomes %.17g; p %.17g, m_v %.17g, alpha %g %g %g", i, q,
+                         after[q * CELLS + i], u[q * CELLS + i], w[model->i_E * CELLS + i],
+                         after[(model->i_m + 1) * CELLS + i], after[i], after[CELLS + i], after[2 * CELLS + i]);
+    assert_int_equal(effort.refused, 0);
+    mem_free(p);
+    mem_free(before);
+}
+
+static void test_call(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *materials, *phase;
+    } cases[] = {
+        {NASG, "{liquid: water, vapour: steam}"},
+        {SG AIR, "{liquid: water, vapour: steam, gases: [air]}"},
+        {NASG AIR STONE, "{liquid: water, vapour: steam, gases: [air]}"},
+        {NASG AIR, "{liquid: water, vapour: steam, gases: [air], mixing: none}"},
+        {NASG AIR, "{liquid: water, vapour: steam, gases: [air], where: everywhere}"},
+        {NASG AIR, "{liquid: water, vapour: steam, gases: [air], direction: evaporation}"},
+        {NASG AIR, "{liquid: water, vapour: steam, gases: [air], direction: condensation}"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct flow flow;
+        struct checked checked = {0};
+        seed = 17;
+        open_scene(&flow, cases[i].materials, cases[i].phase, CELLS, "");
+        flow_set(&flow, scatter);
+        check_call(&flow, &checked);
+        print_message("%s: %d of %d changed, p off by %.2g\n", cases[i].phase, checked.moved, CELLS, checked.p);
+        assert_true(checked.moved > CELLS / 8 && checked.p < 1e-9);
+        flow_stop(&flow);
+    }
+}
+
+/* The direction is kept. */
+static void test_direction(void **state)
+{
+    (void)state;
+    static const char *const ways[] = {"evaporation", "condensation"};
+    for (int way = 0; way < 2; way++) {
+        struct flow flow;
+        char phase[128];
+        snprintf(phase, sizeof phase, "{liquid: water, vapour: steam, direction: %s}", ways[way]);
+        open_scene(&flow, NASG, phase, CELLS, "");
+        seed = 23;
+        flow_set(&flow, scatter);
+        const struct model *model = flow.state->model;
+        double *u = flow_level(&flow)->u_old[0], before[CELLS];
+        memcpy(before, u + (model->i_m + 1) * CELLS, sizeof before);
+        phase_act(model, 0, CELLS, CELLS, 1e-6, flow_level(&flow)->w[0], u, &(struct equilibrium_effort){0});
+        for (size_t i = 0; i < CELLS; i++) {
+            double change = u[(model->i_m + 1) * CELLS + i] - before[i];
+            assert_true(way ? change <= 0.0 : change >= 0.0);
+        }
+        flow_stop(&flow);
+    }
+}
+
+/* Rows of one case of finite_rate.csv. */
+struct series {
+    char pair[32];
+    double s, A, m_l, m_v, m_a, energy, t, m_end;
+};
+
+static struct series read_series(const char *name)
+{
+    struct series last = {.t = -1.0};
+    char line[512];
+    FILE *file = fopen("tests/data/phase/finite_rate.csv", "r");
+    assert_non_null(file);
+    while (fgets(line, sizeof line, file)) {
+        struct series row;
+        if (line[0] != name[0] || line[1] != ',') continue;
+        assert_int_equal(sscanf(line + 2, "%31[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", row.pair, &row.s, &row.A, &row.m_l,
+                                &row.m_v, &row.m_a, &row.energy, &row.t, &row.m_end),
+                         9);
+        if (row.t <= 5e-1 * last.t) break;
+        last = row;
+    }
+    fclose(file);
+    return last;
+}
+
+/* m_v after n steps to the time `t`, from the cell of a series. */
+static double relax(const struct series *series, double t, int n)
+{
+    struct flow flow;
+    char phase[256];
+    snprintf(phase, sizeof phase,
+             "{liquid: water, vapour: steam%s, rate: {type: hertz-knudsen, accommodation: %.17g, area: %.17g}}",
+             series->m_a > 0.0 ? ", gases: [air]" : "", series->s, series->A);
+    open_scene(&flow,
+               strncmp(series->pair, "nasg", 4) == 0 ? series->m_a > 0.0 ? NASG AIR : NASG
+               : series->m_a > 0.0                   ? SG AIR
+                                                     : SG,
+               phase, 8, "");
+    const struct model *model = flow.state->model;
+    double u[FLOW_FIELDS] = {0}, w[FLOW_FIELDS] = {0};
+    struct equilibrium_family family = {.n = series->m_a > 0.0 ? 3 : 2};
+    struct equilibrium_cells cells = {.n = 1,
+                                      .m = {{series->m_l}, {series->m_v}, {series->m_a}},
+                                      .energy = {series->energy},
+                                      .p = {1e5},
+                                      .T = {400.0}};
+    for (unsigned k = 0; k < family.n; k++) family.eos[k] = model->eos[k];
+    equilibrium_solve(&family, &cells, &(struct equilibrium_effort){0});
+    for (unsigned k = 0; k < family.n; k++) {
+        u[model->i_alpha + k] = cells.m[k][0] * cells.v[k][0];
+        u[model->i_m + k] = cells.m[k][0];
+    }
+    u[model->i_E] = series->energy;
+    w[model->i_E] = cells.p[0];
+    for (int i = 0; i < n; i++) phase_act(model, 0, 1, 1, t / n, w, u, &(struct equilibrium_effort){0});
+    flow_stop(&flow);
+    return u[model->i_m + 1];
+}
+
+/* First order in dt, against the reference at a time on the way; equilibrium at its end, whatever the steps. */
+static void test_rate(void **state)
+{
+    (void)state;
+    for (const char *name = "abcd"; *name; name++) {
+        struct series series = read_series(name), early = series;
+        double end = relax(&series, 1e3 * series.t, 3), coarse, fine;
+        char line[512];
+        FILE *file = fopen("tests/data/phase/finite_rate.csv", "r");
+        while (fgets(line, sizeof line, file)) /* the row nearest to halfway in mass */
+            if (line[0] == *name && line[1] == ',') {
+                struct series row;
+                sscanf(line + 2, "%31[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", row.pair, &row.s, &row.A, &row.m_l,
+                       &row.m_v, &row.m_a, &row.energy, &row.t, &row.m_end);
+                if (fabs(row.m_end - row.m_v) < 0.5 * fabs(end - row.m_v)) early = row;
+            }
+        fclose(file);
+        coarse = relax(&early, early.t, 50) / early.m_end - 1.0;
+        fine = relax(&early, early.t, 100) / early.m_end - 1.0;
+        print_message("%s %c: end %.2g, halfway %.3g and %.3g\n", series.pair, *name, end / series.m_end - 1.0, coarse,
+                      fine);
+        assert_true(fabs(end / series.m_end - 1.0) < 1e-6);
+        assert_true(fabs(fine) < 0.02 && fabs(coarse / fine - 2.0) < 0.2);
+    }
+}
+
+/* What is missing falls to 1/e in the given time; `none` shares temperatures alone; liquid bears its tension and no more. */
+static double vapour_after(const char *phase, double T, double p, double alpha)
+{
+    struct flow flow;
+    open_scene(&flow, NASG, phase, 8, "");
+    const struct model *model = flow.state->model;
+    double u[FLOW_FIELDS] = {0}, w[FLOW_FIELDS] = {0};
+    for (unsigned l = 0; l < 2; l++) {
+        w[model->i_alpha + l] = l ? alpha : 1.0 - alpha;
+        model->eos[l].law->density(model->eos[l].self, 1, &p, &T, &w[model->i_m + l]);
+        if (l && !(p > 0.0)) w[model->i_m + l] = 1.0;
+    }
+    w[model->i_E] = p;
+    mix_conserved(model, 1, 1, w, u);
+    double before = u[model->i_m + 1];
+    phase_act(model, 0, 1, 1, 1e-6, w, u, &(struct equilibrium_effort){0});
+    flow_stop(&flow);
+    return u[model->i_m + 1] - before;
+}
+
+static void test_kinds(void **state)
+{
+    (void)state;
+    double all = vapour_after("{liquid: water, vapour: steam}", 400.0, 1e5, 0.1);
+    double part = vapour_after("{liquid: water, vapour: steam, rate: {type: relaxation, time: 1 us}}", 400.0, 1e5, 0.1);
+    assert_true(all > 0.0 && fabs(part / all - (1.0 - exp(-1.0))) < 1e-9);
+    assert_true(vapour_after("{liquid: water, vapour: steam, rate: none}", 400.0, 1e5, 0.1) == 0.0);
+    assert_true(vapour_after("{liquid: water, vapour: steam}", 300.0, -1e6, 0.0) == 0.0);
+    assert_true(vapour_after("{liquid: water, vapour: steam, where: everywhere}", 300.0, -1e6, 0.0) > 0.0);
+    static const char tense[] = "{liquid: water, vapour: steam, where: everywhere, nucleation: {tension: 2 MPa}}";
+    assert_true(vapour_after(tense, 300.0, -1.9e6, 0.0) == 0.0);
+    assert_true(vapour_after(tense, 300.0, -2.1e6, 0.0) > 0.0);
+    static const char hot[] = "{liquid: water, vapour: steam, where: everywhere, nucleation: {superheat: 10 K}}";
+    assert_true(vapour_after(hot, 380.0, 101325.0, 0.0) == 0.0);
+    assert_true(vapour_after(hot, 385.0, 101325.0, 0.0) > 0.0);
+}
+
+/* A wave through a mixture in a closed box: masses, momentum and energy to round-off; entropy does not fall. */
+static void wave(const struct model *model, const double x[3], double *w)
+{
+    double p = 1e5, T = 372.0;
+    w[model->i_alpha] = 0.7;
+    w[model->i_alpha + 1] = 0.2;
+    w[model->i_alpha + 2] = 0.1;
+    for (unsigned l = 0; l < 3; l++) model->eos[l].law->density(model->eos[l].self, 1, &p, &T, &w[model->i_m + l]);
+    w[model->i_u] = 20.0 * sin(2.0 * M_PI * x[0]);
+    w[model->i_E] = p;
+}
+
+static void test_box(void **state)
+{
+    (void)state;
+    struct flow flow;
+    double size, water, energy, air, vapour;
+    open_scene(&flow, NASG AIR, "{liquid: water, vapour: steam, gases: [air]}", 64, "cfl: 0.4");
+    flow_set(&flow, wave);
+    const struct model *model = flow.state->model;
+    water = (double)(flow_total(&flow, model->i_m, &size) + flow_total(&flow, model->i_m + 1, &size));
+    vapour = (double)flow_total(&flow, model->i_m + 1, &size);
+    air = (double)flow_total(&flow, model->i_m + 2, &size);
+    energy = (double)flow_total(&flow, model->i_E, &size);
+    flow_steps(&flow, 400);
+    assert_true(fabs((double)(flow_total(&flow, model->i_m, &size) + flow_total(&flow, model->i_m + 1, &size)) / water -
+                     1.0) < 1e-13);
+    assert_true(fabs((double)flow_total(&flow, model->i_m + 2, &size) / air - 1.0) < 1e-13);
+    assert_true(fabs((double)flow_total(&flow, model->i_E, &size) / energy - 1.0) < 1e-13);
+    assert_true(fabs((double)flow_total(&flow, model->i_u, &size)) < 1e-9 * water);
+    assert_true(fabs((double)flow_total(&flow, model->i_m + 1, &size) / vapour - 1.0) > 1e-4);
+    flow_stop(&flow);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_call),  cmocka_unit_test(test_direction), cmocka_unit_test(test_rate),
+        cmocka_unit_test(test_kinds), cmocka_unit_test(test_box),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
