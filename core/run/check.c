@@ -125,8 +125,8 @@ static void check_print_branches(const struct scene_material *material, double c
     for (unsigned b = 0; b < material->n_branch; b++) {
         const struct scene_branch *branch = &material->branch[b];
         c2 += branch->modulus / branch->density;
-        printf("  %-12s %s %s over %s: as viscous as %s in slow motion\n", "", b ? "and" : "viscoelastic:",
-               human_si(branch->modulus, "Pa", modulus), human_si(branch->time, "s", time),
+        printf("  %-12s %s %s over %s: as viscous as %s in slow motion\n", "",
+               b ? "and" : "viscoelastic:", human_si(branch->modulus, "Pa", modulus), human_si(branch->time, "s", time),
                human_si(branch->modulus * branch->time, "Pa s", viscosity));
     }
     if (material->n_branch)
