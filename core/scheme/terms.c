@@ -42,6 +42,7 @@ const struct term *const terms_all[] = {
     &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */
     NULL,
 };
+_Static_assert(sizeof terms_all / sizeof *terms_all - 1 <= TERMS_MOST, "terms.h has room for fewer");
 
 static bool terms_has(const struct term *term, const struct model *path)
 {
