@@ -411,4 +411,7 @@ int scene_mesh_tile(const struct scene *scene);
 
 void scene_free(struct scene *scene);
 
+/* The pair whose vapour a material is, or NULL. */
+const struct scene_phase *scene_phase_of(const struct scene *scene, unsigned material);
+
 #endif

@@ -97,6 +97,16 @@ static const struct scene_field scene_field_viscous[] = {
 
 enum { SCENE_FIELD_VISCOUS = sizeof scene_field_viscous / sizeof *scene_field_viscous };
 
+/* Of a vapour whose liquid is in the scene (derive_vapour.h), followed by _ and its name. */
+static const struct scene_field scene_field_vapour[] = {
+    {"quality", "1", SCENE_FIELD_FRACTION},
+    {"saturation_pressure", "Pa", SCENE_FIELD_VANISHING},
+    {"saturation_temperature", "K", SCENE_FIELD_VANISHING},
+    {"superheat", "K", SCENE_FIELD_VANISHING | SCENE_FIELD_SIGNED},
+};
+
+enum { SCENE_FIELD_VAPOUR = sizeof scene_field_vapour / sizeof *scene_field_vapour };
+
 static bool scene_field_in(const char *name, const char *const *names)
 {
     for (; *names; names++)
@@ -168,7 +178,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
     unsigned count = SCENE_FIELD_PLAIN, most = count + SCENE_FIELD_SOLID + SCENE_FIELD_PLASTIC + SCENE_FIELD_VISCOUS +
-                                               1 + SCENE_FIELD_EACH * scene->n_material;
+                                               1 + (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR) * scene->n_material;
     most += 4 * scene->output.n_peak;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
     memcpy(list, scene_field_plain, sizeof scene_field_plain);
@@ -184,6 +194,12 @@ const struct scene_field *scene_field_all(struct draft *draft)
         for (unsigned k = 0; k < SCENE_FIELD_EACH; k++) {
             list[count] = scene_field_by_material[k];
             list[count++].name = tree_print(forest, "%s_%s", scene_field_by_material[k].name, scene->material[i].name);
+        }
+    for (unsigned i = 0; i < scene->n_phase; i++)
+        for (unsigned k = 0; k < SCENE_FIELD_VAPOUR; k++) {
+            const char *vapour = scene->material[scene->phases[i].vapour].name;
+            list[count] = scene_field_vapour[k];
+            list[count++].name = tree_print(forest, "%s_%s", scene_field_vapour[k].name, vapour);
         }
     scene_peak_list(draft, list, list + count);
     return list;
@@ -204,8 +220,9 @@ const char *const *scene_field_always(struct forest *forest)
 
 const char *const *scene_field_each(struct forest *forest)
 {
-    const char **names = tree_take(forest, (SCENE_FIELD_EACH + 1) * sizeof *names);
+    const char **names = tree_take(forest, (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR + 1) * sizeof *names);
     for (unsigned i = 0; i < SCENE_FIELD_EACH; i++) names[i] = scene_field_by_material[i].name;
+    for (unsigned i = 0; i < SCENE_FIELD_VAPOUR; i++) names[SCENE_FIELD_EACH + i] = scene_field_vapour[i].name;
     return names;
 }
 

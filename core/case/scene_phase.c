@@ -371,3 +371,10 @@ void scene_phase(struct draft *draft)
     scene_phase_company(draft, section);
     if (!diag_errors(draft->keys.diag)) scene_phase_warn(draft, section);
 }
+
+const struct scene_phase *scene_phase_of(const struct scene *scene, unsigned material)
+{
+    for (unsigned k = 0; k < scene->n_phase; k++)
+        if (scene->phases[k].vapour == material) return &scene->phases[k];
+    return NULL;
+}

@@ -13,6 +13,7 @@
 #include "derive/derive_heat.h"
 #include "derive/derive_slope.h"
 #include "derive/derive_stress.h"
+#include "derive/derive_vapour.h"
 #include "derive/derive_viscous.h"
 #include "phys/mix.h"
 #include "phys/presence.h"
@@ -34,6 +35,7 @@ enum derive_form {
     DERIVE_BRANCHED,
     DERIVE_VISCOUS,        /* of scenes with a viscous material */
     DERIVE_VISCOUS_TENSOR, /* by component */
+    DERIVE_VAPOUR,         /* by material, of those that are the vapour of a liquid */
     DERIVE_OF_SCENE
 };
 
@@ -250,6 +252,10 @@ static const struct derive_quantity derive_table[] = {
     {"principal_min_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MIN_DEV, DERIVE_ALONE},
     {"stress_viscous_", "Pa", DERIVE_VISCOUS_TENSOR, derive_viscous_stress, 0, DERIVE_LAYERS},
     {"dissipation", "W/m3", DERIVE_VISCOUS, derive_viscous_dissipation, 0, DERIVE_LAYERS},
+    {"quality_", "1", DERIVE_VAPOUR, derive_vapour_quality, 0, DERIVE_ALONE},
+    {"saturation_pressure_", "Pa", DERIVE_VAPOUR, derive_vapour_pressure, 0, DERIVE_ALONE},
+    {"saturation_temperature_", "K", DERIVE_VAPOUR, derive_vapour_temperature, 0, DERIVE_ALONE},
+    {"superheat_", "K", DERIVE_VAPOUR, derive_vapour_superheat, 0, DERIVE_ALONE},
     {"von_mises", "Pa", DERIVE_SOLID, derive_stress_von_mises, 0, DERIVE_ALONE},
     {"strain_energy", "J/m3", DERIVE_SOLID, derive_stress_energy, 0, DERIVE_ALONE},
     {"flow_stress", "Pa", DERIVE_STRONG, derive_stress_strength, 0, DERIVE_ALONE},
@@ -280,7 +286,8 @@ static int derive_suffix(const struct model *model, const struct derive_quantity
         if (!strcmp(suffix, model_tensor[c])) return c;
     if (derive_is_tensor(row->form)) return -1;
     for (unsigned l = 0; l < model->n_material; l++)
-        if (!strcmp(suffix, model->scene->material[l].name)) return (int)l;
+        if (!strcmp(suffix, model->scene->material[l].name))
+            return row->form == DERIVE_VAPOUR && !scene_phase_of(model->scene, l) ? -1 : (int)l;
     return -1;
 }
 
@@ -340,7 +347,8 @@ int derive_find(const struct model *model, const char *name, struct derive *ret_
         const struct derive_quantity *row = &derive_table[i];
         if (row->form == DERIVE_OF_SCENE) continue;
         size_t length = strlen(row->name);
-        bool suffixed = row->form == DERIVE_AXIS || derive_is_tensor(row->form) || row->form == DERIVE_MATERIAL;
+        bool suffixed = row->form == DERIVE_AXIS || derive_is_tensor(row->form) || row->form == DERIVE_MATERIAL ||
+                        row->form == DERIVE_VAPOUR;
         int index = row->index;
         if (!derive_has(model, row->form)) continue;
         if (!suffixed ? strcmp(name, row->name) != 0 : strncmp(name, row->name, length) != 0) continue;

@@ -76,8 +76,8 @@ static void model_name_derived(struct model *model)
                                           "plastic_strain"}; /* with a strength; one that knows strains */
     size_t n_solid = model->elastic ? sizeof solid / sizeof *solid : 0;
     size_t n_plastic = model->n_strain ? 2 : model->plastic ? 1 : 0, n_branched = model->n_branch > 0;
-    model->names =
-        mem_new(n_plain + n_solid + n_plastic + n_branched + n_each * model->n_material + 1, sizeof *model->names);
+    model->names = mem_new(n_plain + n_solid + n_plastic + n_branched + (n_each + 4) * model->n_material + 1,
+                           sizeof *model->names);
     for (size_t i = 0; i < n_plain; i++) model->names[at++] = mem_text(plain[i]);
     for (size_t i = 0; i < n_solid; i++) model->names[at++] = mem_text(solid[i]);
     for (size_t i = 0; i < n_plastic; i++) model->names[at++] = mem_text(plastic[i]);
@@ -89,6 +89,11 @@ static void model_name_derived(struct model *model)
         model->names[at++] = mem_print("temperature_%s", name);
         model->names[at++] = mem_print("partial_density_%s", name);
         model->names[at++] = mem_print("curvature_%s", name);
+        if (!scene_phase_of(model->scene, l)) continue;
+        model->names[at++] = mem_print("quality_%s", name);
+        model->names[at++] = mem_print("saturation_pressure_%s", name);
+        model->names[at++] = mem_print("saturation_temperature_%s", name);
+        model->names[at++] = mem_print("superheat_%s", name);
     }
 }
 
