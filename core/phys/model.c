@@ -28,6 +28,7 @@ static double model_fill_density(const struct scene *scene, unsigned l, const st
 static void model_name_fields(struct model *model)
 {
     static const char *const momentum[] = {"momentum_x", "momentum_y", "momentum_z"};
+    static const char *const normal[] = {"normal_x", "normal_y", "normal_z"};
     unsigned at = 0;
     model->field_names = mem_new(model->n_field + 1, sizeof *model->field_names);
     for (unsigned l = 0; l < model->n_alpha; l++)
@@ -41,6 +42,7 @@ static void model_name_fields(struct model *model)
             model->field_names[at++] =
                 mem_print("plastic_strain_mass_%s", model->scene->material[model->solids[s].material].name);
     for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = mem_print("stretch_%s", model_tensor[c]);
+    for (unsigned d = 0; d < model->n_normal; d++) model->field_names[at++] = mem_text(normal[d]);
     for (unsigned k = 0; k < model->n_pair; k++)
         model->field_names[at++] = mem_print("curvature_%s_%s", model->scene->material[model->pairs[k].inside].name,
                                              model->scene->material[model->pairs[k].outside].name);
@@ -97,11 +99,12 @@ static void model_transport(struct model *model)
         model_viscosity(&model->scene->material[l].viscosity, &model->viscosity[l]);
         model->viscous = model->viscous || model->viscosity[l].law;
     }
-    if (!model->viscous) return;
+    if (!model->viscous && !model->n_normal) return;
     for (unsigned l = 1; l < model->n_alpha; l++)
         model->around[model->n_around++] = (unsigned char)(model->i_alpha + l);
     model->n_around_alpha = model->n_around;
-    for (unsigned d = 0; d < model->n_velocity; d++) model->around[model->n_around++] = (unsigned char)(model->i_u + d);
+    for (unsigned d = 0; model->viscous && d < model->n_velocity; d++)
+        model->around[model->n_around++] = (unsigned char)(model->i_u + d);
 }
 
 /* Those pairs that a narrowed model has both materials of. */
@@ -148,7 +151,8 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
         narrow->solids[narrow->n_solid++].material = l;
     }
     if (narrow->n_solid == 0) narrow->n_stretch = 0;
-    narrow->split = model->split && narrow->n_solid;
+    narrow->n_normal = 0; /* nothing meets there */
+    narrow->split = model->split && narrow->n_solid && !model->n_normal;
     model_pair_narrow(model, narrow);
     narrow->lagged = narrow->split || narrow->n_pair > 0;
     for (unsigned l = 0; l < narrow->n_alpha; l++) narrow->active[narrow->n_active++] = narrow->i_alpha + l;
@@ -227,6 +231,12 @@ static void model_conduct(struct model *model)
     }
 }
 
+/* Do the materials of a cell share their traction? */
+static bool model_is_split(const struct model *model)
+{
+    return model->elastic && model->n_alpha > 0 && model->scene->scheme.traction == SCENE_TRACTION_COMMON;
+}
+
 struct model *model_new(const struct scene *scene)
 {
     struct model *model = mem_new(1, sizeof *model);
@@ -244,9 +254,11 @@ struct model *model_new(const struct scene *scene)
     model_solids(model);
     model->i_V = model->i_strain + model->n_strain;
     model->n_stretch = model->elastic ? elastic_count(model->n_velocity) : 0;
-    model->n_field = model->i_V + model->n_stretch;
+    model->n_field = model->i_normal = model->i_V + model->n_stretch;
+    model->split = model_is_split(model);
+    if (model->split && model->dim > 1) model->n_normal = (unsigned)model->dim;
+    model->n_field += model->n_normal;
     model_pair_up(model);
-    model->split = model->dim == 1 && model->elastic && model->n_alpha > 0;
     model->lagged = model->split || model->n_pair > 0;
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
     model->forced = model_is_forced(scene) || model->n_pair > 0;

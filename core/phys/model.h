@@ -71,7 +71,7 @@ struct model_pair {
 };
 
 /* Most evolved fields a scene can have: fractions, densities, velocities, energy, plastic strains, stretch, curvatures. */
-enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 + SCENE_PAIRS };
+enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 + 3 + SCENE_PAIRS };
 
 struct model {
     const struct scene *scene;
@@ -82,6 +82,7 @@ struct model {
     unsigned n_strain, i_strain; /* plastic strains of the scene: first index */
     unsigned n_pair;
     struct model_pair pairs[SCENE_PAIRS];
+    unsigned n_normal, i_normal; /* normals of the surfaces of solids (scheme/normal.h): dim, or 0 */
     unsigned n_material, n_alpha, n_field;
     unsigned i_alpha, i_m, i_u, i_E;         /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
     unsigned n_active, active[MODEL_FIELDS]; /* components that evolve; all, but in a pure model */
@@ -126,10 +127,16 @@ static inline bool model_is_fraction(const struct model *model, unsigned q)
     return q - model->i_alpha < model->n_alpha; /* wraps below i_alpha */
 }
 
-/* Number of active fields that faces see: all but the curvatures, which are the last ones. */
+/* Number of active fields that faces see: all but normals and curvatures, which are the last ones. */
 static inline unsigned model_edged(const struct model *model)
 {
-    return model->n_active - model->n_pair;
+    return model->n_active - model->n_pair - model->n_normal;
+}
+
+/* Has a path terms that look across edges? */
+static inline bool model_looks_around(const struct model *path)
+{
+    return path->viscous || path->n_normal > 0;
 }
 
 /* Is component q a plastic strain? */

@@ -26,17 +26,45 @@ static BULLA_KERNEL void traction_normal(size_t n, const double *restrict rho, c
 
 static const double traction_zero[TRACTION_BATCH];
 
+/* N.s'N with the normals of the cells: B N = V (V N). */
+static BULLA_KERNEL void traction_along(size_t n, const double *restrict rho, const double *const *row,
+                                        const double *const *normal, const double *restrict I1,
+                                        const double *restrict I2, const double *restrict e_1,
+                                        const double *restrict e_2, double *restrict own)
+{
+    const double *restrict xx = row[ELASTIC_XX], *restrict xy = row[ELASTIC_XY], *restrict xz = row[ELASTIC_XZ];
+    const double *restrict yy = row[ELASTIC_YY], *restrict yz = row[ELASTIC_YZ], *restrict zz = row[ELASTIC_ZZ];
+    const double *restrict nx = normal[0], *restrict ny = normal[1], *restrict nz = normal[2];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double x = nx[i], y = ny[i], z = nz[i], square = x * x + y * y + z * z;
+        double a = xx[i], b = xy[i], c = xz[i], d = yy[i], e = yz[i], f = zz[i], first = I1[i], slope = e_2[i];
+        double u = a * x + b * y + c * z, v = b * x + d * y + e * z, w = c * x + e * y + f * z;
+        double Bx = a * u + b * v + c * w, By = b * u + d * v + e * w, Bz = c * u + e * v + f * w;
+        double B = u * u + v * v + w * w, C = Bx * Bx + By * By + Bz * Bz, trace = first * first - 2.0 * I2[i];
+        double G1 = e_1[i] + first * slope;
+        own[i] = 2.0 * rho[i] * (G1 * (B - square * (first / 3.0)) - slope * (C - square * (trace / 3.0)));
+    }
+}
+
 static void traction_batch(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
                            double *own)
 {
     double I1[TRACTION_BATCH], I2[TRACTION_BATCH], e[TRACTION_BATCH], e_1[TRACTION_BATCH], e_2[TRACTION_BATCH];
-    const double *V = w + model->i_V * stride, *row[6];
+    const double *V = w + model->i_V * stride, *row[6], *normal[3];
     for (unsigned c = 0; c < 6; c++) row[c] = c < model->n_stretch ? V + c * stride : traction_zero;
+    for (unsigned d = 0; d < 3; d++)
+        normal[d] = d < model->n_normal ? w + (model->i_normal + d) * stride : traction_zero;
     elastic_invariants(model, n, stride, V, I1, I2);
     for (unsigned l = 0; l < model->n_material; l++) memset(own + l * pitch, 0, n * sizeof *own);
     for (unsigned s = 0; s < model->n_solid; s++) {
         const struct model_solid *solid = &model->solids[s];
         solid->law->energy(solid->self, n, I1, I2, e, e_1, e_2);
+        if (model->n_normal) {
+            traction_along(n, w + (model->i_m + solid->material) * stride, row, normal, I1, I2, e_1, e_2,
+                           own + solid->material * pitch);
+            continue;
+        }
         traction_normal(n, w + (model->i_m + solid->material) * stride, row[ELASTIC_XX], row[ELASTIC_XY],
                         row[ELASTIC_XZ], row[ELASTIC_YY], row[ELASTIC_YZ], row[ELASTIC_ZZ], I1, I2, e_1, e_2,
                         own + solid->material * pitch);

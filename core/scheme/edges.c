@@ -47,7 +47,7 @@ struct edges_row {
     size_t cells, step;
     const double *w; /* the first cell with edges, component 0 */
     const double *mask;
-    const double *rise[2];
+    const double *rise[2], *lean[2];
     double *state;
 };
 
@@ -297,6 +297,28 @@ static void edges_press(const struct edges *edges, const struct model *model, co
     edges_hold(n, p, own->slope, row->rise[0], row->rise[1], upper + n, upper);
 }
 
+/* The same where each cell has its own view of the differences to the cells before and behind, and forces may hold
+ * some of them. */
+static void edges_lean(const struct edges *edges, const struct model *model, const struct edges_row *row)
+{
+    const struct edges_limited *own = &edges->plain;
+    size_t n = row->cells, step = row->step;
+    const double *p = edges_inside(edges, row, model->i_E), *const *rise = row->rise;
+    double *upper = edges_upper(edges, row, model->i_E), *below = edges->spare, *above = edges->spare + edges->pitch;
+    if (rise[0]) {
+        edges_differ_held(n, p - step, p, rise[1] - step, rise[0], below);
+        edges_differ_held(n, p, p + step, rise[1], rise[0] + step, above);
+    } else {
+        edges_differ(n, p - step, p, below);
+        edges_differ(n, p, p + step, above);
+    }
+    row_add(n, row->lean[0], below);
+    row_add(n, row->lean[1], above);
+    own->limiter.law->slope(own->limiter.self, n, below, above, own->slope);
+    if (rise[0]) edges_hold(n, p, own->slope, rise[0], rise[1], upper + n, upper);
+    else edges_slope(n, p, own->slope, upper + n, upper);
+}
+
 /* First-order states at the faces of troubled cells. */
 static void edges_flatten(size_t n, size_t step, const double *w, const double *mask, double *left, double *right)
 {
@@ -363,11 +385,14 @@ void edges_fill(struct edges *edges, const struct model *model, const struct fra
                                   .mask = in->mask ? in->mask + reach : NULL,
                                   .rise = {in->rise[0] ? in->rise[0] + reach : NULL,
                                            in->rise[1] ? in->rise[1] + reach : NULL},
+                                  .lean = {in->lean[0] ? in->lean[0] + reach : NULL,
+                                           in->lean[1] ? in->lean[1] + reach : NULL},
                                   .state = state};
     if (model->reconstruction->all) edges_together(edges, model, &row);
     else edges_each(edges, model, &row);
     if (!model->reconstruction->bounded) edges_bound(edges, model, &row);
-    if (row.rise[0]) edges_press(edges, model, &row);
+    if (row.lean[0]) edges_lean(edges, model, &row);
+    else if (row.rise[0]) edges_press(edges, model, &row);
     edges_settle(edges, model, &row);
     edges_normalise(edges, model, &row);
 }

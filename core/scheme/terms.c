@@ -12,6 +12,7 @@
 #include "scheme/fraction.h"
 #include "scheme/hardening.h"
 #include "scheme/hoop.h"
+#include "scheme/normal.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
 #include "scheme/tension.h"
@@ -35,6 +36,7 @@ const struct term *const terms_all[] = {
     &closure_term,     /* K div u, and what was exchanged */
     &fraction_sum,     /* fractions sum to 1 */
     &tension_term,     /* surface tension: its force, and what a surface that moves has stored */
+    &normal_term,      /* how the surfaces of solids lie */
     &strain_term,      /* the stretch of solids */
     NULL,
 };

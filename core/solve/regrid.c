@@ -19,6 +19,7 @@
 #include "solve/sync.h"
 #include "solve/tag.h"
 #include "solve/verdict.h"
+#include "solve/normals.h"
 
 #include <string.h>
 #include <time.h>
@@ -342,6 +343,7 @@ int regrid_initial(struct state *state)
     }
     state->counts.regrids = 0;
     for (int l = 1; l < state->mesh->n_level && !status; l++) status = comm_agree(verdict_start(state->stages[l]));
+    if (!status) status = normals_begin(state);
     return status ? status : regrid_settle(state);
 }
 
