@@ -297,26 +297,30 @@ static void edges_press(const struct edges *edges, const struct model *model, co
     edges_hold(n, p, own->slope, row->rise[0], row->rise[1], upper + n, upper);
 }
 
-/* The same where each cell has its own view of the differences to the cells before and behind, and forces may hold
- * some of them. */
+/* Given differences, less what forces hold. */
+static BULLA_KERNEL void edges_less(size_t n, const double *restrict lean, const double *restrict above,
+                                    const double *restrict below, double *restrict d)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) d[i] = lean[i] - (above[i] + below[i]);
+}
+
+/* Edges of pressure where each cell has its own view of the differences to the cells before and behind. */
 static void edges_lean(const struct edges *edges, const struct model *model, const struct edges_row *row)
 {
     const struct edges_limited *own = &edges->plain;
     size_t n = row->cells, step = row->step;
     const double *p = edges_inside(edges, row, model->i_E), *const *rise = row->rise;
     double *upper = edges_upper(edges, row, model->i_E), *below = edges->spare, *above = edges->spare + edges->pitch;
-    if (rise[0]) {
-        edges_differ_held(n, p - step, p, rise[1] - step, rise[0], below);
-        edges_differ_held(n, p, p + step, rise[1], rise[0] + step, above);
-    } else {
-        edges_differ(n, p - step, p, below);
-        edges_differ(n, p, p + step, above);
+    if (!rise[0]) {
+        own->limiter.law->slope(own->limiter.self, n, row->lean[0], row->lean[1], own->slope);
+        edges_slope(n, p, own->slope, upper + n, upper);
+        return;
     }
-    row_add(n, row->lean[0], below);
-    row_add(n, row->lean[1], above);
+    edges_less(n, row->lean[0], rise[1] - step, rise[0], below);
+    edges_less(n, row->lean[1], rise[1], rise[0] + step, above);
     own->limiter.law->slope(own->limiter.self, n, below, above, own->slope);
-    if (rise[0]) edges_hold(n, p, own->slope, rise[0], rise[1], upper + n, upper);
-    else edges_slope(n, p, own->slope, upper + n, upper);
+    edges_hold(n, p, own->slope, rise[0], rise[1], upper + n, upper);
 }
 
 /* First-order states at the faces of troubled cells. */

@@ -42,18 +42,27 @@ static bool tilt_any(const struct model *model, size_t n, const double *w)
     return sum > 0.0;
 }
 
-/* Where a cell and both neighbours hold the same nothing meets along this axis: a path of one material says so, too. */
+/* A run of cells: 0 where a cell and both neighbours hold the same. */
+static void tilt_alone(size_t n, size_t step, const double *solid, double *normal)
+{
+    const double *before = solid - step, *behind = solid + step;
+    for (size_t i = 0; i < n; i++) {
+        double a = solid[i], old = normal[i];
+        int alone = (a == 0.0) | (a == 1.0), same = (before[i] == a) & (behind[i] == a);
+        normal[i] = alone & same ? 0.0 : old;
+    }
+}
+
+/* Where a cell and both neighbours hold the same nothing meets along this axis: a path of one material says so, too. The
+ * outermost layers have no neighbours here. */
 static void tilt_forget(const struct model *model, const struct frame *frame, const double *solid, double *w)
 {
-    size_t n = frame->count, step = frame->inner;
-    for (unsigned d = 0; d < model->n_normal; d++) {
-        double *normal = w + (model->i_normal + d) * FACE_ROOM;
-        for (size_t i = step; i + step < n; i++) {
-            double a = solid[i], old = normal[i];
-            int alone = (a == 0.0) | (a == 1.0), same = (solid[i - step] == a) & (solid[i + step] == a);
-            normal[i] = alone & same ? 0.0 : old;
+    size_t run = (frame_layers(frame) - 2) * frame->inner;
+    for (unsigned d = 0; d < model->n_normal; d++)
+        for (size_t o = 0; o < frame->outer; o++) {
+            size_t at = o * frame_layers(frame) * frame->inner + frame->inner;
+            tilt_alone(run, frame->inner, solid + at, w + (model->i_normal + d) * FACE_ROOM + at);
         }
-    }
 }
 
 static void tilt_stress(const struct model *model, size_t n, const double *w, struct tilt *tilt)
@@ -71,10 +80,10 @@ static void tilt_stress(const struct model *model, size_t n, const double *w, st
 
 /* Stress of the cells on the normals of others. */
 struct tilt_lean {
-    const double *normal[3], *stress[6], *mean;
+    const double *normal[3], *stress[6], *mean, *p;
 };
 
-/* What the stress of cells `from` is on the normals of cells `to`, less that on their own. */
+/* P of cells `to` less p of cells `from` and more their stress on the same normals, or the other way round (sign -1). */
 static BULLA_KERNEL void tilt_lean(size_t n, double sign, const struct tilt_lean *to, const struct tilt_lean *from,
                                    double *restrict lean)
 {
@@ -82,25 +91,34 @@ static BULLA_KERNEL void tilt_lean(size_t n, double sign, const struct tilt_lean
     const double *restrict xx = from->stress[ELASTIC_XX], *restrict yy = from->stress[ELASTIC_YY],
                            *restrict zz = from->stress[ELASTIC_ZZ], *restrict xy = from->stress[ELASTIC_XY],
                            *restrict xz = from->stress[ELASTIC_XZ], *restrict yz = from->stress[ELASTIC_YZ];
-    const double *restrict mean = from->mean;
+    const double *restrict mean = to->mean, *restrict p = to->p, *restrict other = from->p;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = x[i], b = y[i], c = z[i], own = mean[i];
+        double a = x[i], b = y[i], c = z[i], held = mean[i], step = p[i] - other[i];
         double straight = a * a * xx[i] + b * b * yy[i] + c * c * zz[i];
         double crossed = a * b * xy[i] + (a * xz[i] + b * yz[i]) * c;
-        lean[i] = sign * (own - (straight + 2.0 * crossed));
+        lean[i] = sign * (step - (held - (straight + 2.0 * crossed)));
     }
 }
 
 /* Rows from cell `at` on. */
 static struct tilt_lean tilt_rows(const struct model *model, const struct tilt *tilt, const double *w, size_t at)
 {
-    struct tilt_lean rows = {.mean = tilt->mean + at};
+    struct tilt_lean rows = {.mean = tilt->mean + at, .p = w + model->i_E * FACE_ROOM + at};
     for (unsigned d = 0; d < 3; d++)
         rows.normal[d] = (d < model->n_normal ? w + (model->i_normal + d) * FACE_ROOM : tilt->zero) + at;
     for (unsigned c = 0; c < 6; c++)
         rows.stress[c] = (c < model->n_stretch ? tilt->stress + c * FACE_ROOM : tilt->zero) + at;
     return rows;
+}
+
+/* The differences where nothing has a normal. */
+static void tilt_plain(size_t n, size_t step, const double *p, double *const *lean)
+{
+    for (int side = 0; side < 2; side++) {
+        const double *one = side ? p : p - step, *next = one + step;
+        for (size_t i = 0; i < n; i++) lean[side][step + i] = next[i] - one[i];
+    }
 }
 
 void tilt_frame(const struct term_piece *piece)
@@ -112,14 +130,16 @@ void tilt_frame(const struct term_piece *piece)
     size_t n = frame->count, step = frame->inner, inside = n - 2 * step;
     elastic_sum(model, n, FACE_ROOM, w + model->i_alpha * FACE_ROOM, tilt->mean);
     tilt_forget(model, frame, tilt->mean, w);
-    for (int side = 0; side < 2; side++) memset(lean[side], 0, n * sizeof **lean);
-    if (!tilt_any(model, n, w)) return;
+    if (!tilt_any(model, n, w)) {
+        tilt_plain(inside, step, w + model->i_E * FACE_ROOM + step, lean);
+        return;
+    }
     traction_mean(model, n, FACE_ROOM, w, tilt->mean);
     tilt_stress(model, n, w, tilt);
     const struct tilt_lean below = tilt_rows(model, tilt, w, 0), here = tilt_rows(model, tilt, w, step),
                            above = tilt_rows(model, tilt, w, 2 * step);
-    tilt_lean(inside, -1.0, &here, &below, lean[0] + step);
-    tilt_lean(inside, 1.0, &here, &above, lean[1] + step);
+    tilt_lean(inside, 1.0, &here, &below, lean[0] + step);
+    tilt_lean(inside, -1.0, &here, &above, lean[1] + step);
     row_take(n, tilt->mean, w + model->i_E * FACE_ROOM);
 }
 

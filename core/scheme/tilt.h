@@ -2,8 +2,8 @@
  *
  * In one dimension the traction on faces is the common one, P = p - sum alpha_l s'_l,nn, and takes the place of p
  * (face_stress.h). With a normal n in each cell,
- * - P is that of the cell's own normal, and the limiter sees its neighbours with the same one: differences of P are
- *   corrected by what the stress of the neighbour is on this normal less that on its own (`lean` of face.h);
+ * - P is that of the cell's own normal, and the limiter sees its neighbours with the same one: the differences to them are
+ *   made of p and the whole stress (`lean` of face.h), the same in all tiles that see a cell;
  * - the normal of a cell holds at its edges;
  * - a face of normal f has -s_ff = P - A (s'_ff - s'_nn) and the shear A s'_ft, with s' per volume of solid and one A for both
  *   sides, the part of the face that solids cover: the mean of their fractions at the two edges, less where one is below
@@ -17,7 +17,7 @@
 /* Work space of a scene, of mem_new; NULL: it has no normals. */
 void *tilt_open(const struct term_room *room);
 
-/* P in place of p in the gathered cells, and the leans. */
+/* P in place of p in the gathered cells, and the differences. */
 void tilt_frame(const struct term_piece *piece);
 
 /* Normals at the edges. `cells`: primitives of the frame; state: as of edges_fill. */

@@ -53,6 +53,10 @@ static unsigned origin(const struct model *model, const double sign[3], const in
         *ret_turned = sign[q - model->i_u];
         return model->i_u + (unsigned)axis[q - model->i_u];
     }
+    if (q - model->i_normal < model->n_normal) { /* wraps below i_normal */
+        *ret_turned = sign[q - model->i_normal];
+        return model->i_normal + (unsigned)axis[q - model->i_normal];
+    }
     for (unsigned i = 0; q >= model->i_V && i < 3; i++)
         for (unsigned j = i; j < 3; j++) {
             if (elastic_component(i, j) != q - model->i_V) continue;
