@@ -122,6 +122,7 @@ static void scene_build(struct draft *draft, struct node *root)
     if (diag_errors(draft->keys.diag)) return;
     scene_idle(draft, root);
     scene_coarse(draft);
+    scene_branch_times(draft);
     scene_spare(draft, root);
     scene_resolve(draft, root);
 }
@@ -224,6 +225,7 @@ static void scene_free_boundaries(struct scene *scene)
 {
     for (int face = 0; face < 2 * SCENE_AXES; face++) {
         struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
+        mem_free(boundary->sum);
         mem_free(boundary->series_t);
         mem_free(boundary->series_p);
         mem_free(boundary->fractions);

@@ -16,7 +16,14 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { SCENE_AXES = 3, SCENE_MATERIALS = 16, SCENE_PAIRS = 8, SCENE_NAME = 64, SCENE_SETTINGS = 64 };
+enum {
+    SCENE_AXES = 3,
+    SCENE_MATERIALS = 16,
+    SCENE_PAIRS = 8,
+    SCENE_BRANCHES = 6,
+    SCENE_NAME = 64,
+    SCENE_SETTINGS = 64
+};
 
 /* Layers of neighbours that a sweep over a tile may need on each side: fewest and most. */
 enum { SCENE_GHOSTS = 2, SCENE_GHOSTS_MOST = 3 };
@@ -38,6 +45,15 @@ enum scene_pulse {
     SCENE_PULSE_SCRIPT,       /* Lua: gauge pressure of (t, x, y, z) */
 };
 
+/* The way of an incoming wave (beam.h). */
+struct scene_beam {
+    enum { SCENE_BEAM_NORMAL, SCENE_BEAM_PLANE, SCENE_BEAM_FOCUS } path;
+    double way[SCENE_AXES];   /* unit vector of the plane wave, or of the transducer's axis */
+    double point[SCENE_AXES]; /* where the pulse is after its delay; or the focus [m] */
+    double radius, cosine;    /* of the transducer [m], of half of its aperture */
+    double power, speed;      /* of F/r; of sound [m/s] */
+};
+
 struct scene_boundary {
     enum scene_boundary_type type;
     /* non-reflecting, incoming-wave: the far-field pressure that gauge pressures add to. Not
@@ -45,7 +61,11 @@ struct scene_boundary {
     struct scene_value pressure;
     /* incoming-wave */
     enum scene_pulse pulse;
-    double amplitude, frequency, decay, cycles, centre, width, delay; /* Pa, Hz, 1/s, 1, s, s, s */
+    double amplitude, frequency, decay, cycles, centre, width, delay;         /* Pa, Hz, 1/s, 1, s, s, s */
+    enum { SCENE_WINDOW_NONE, SCENE_WINDOW_HANN, SCENE_WINDOW_TUKEY } window; /* of a sine of some cycles */
+    struct scene_beam beam;
+    double *sum, sum_step; /* [n_sum] integral of the pulse from 0 to i sum_step [Pa s]; NULL: not needed (pulse_sum) */
+    unsigned n_sum;
     bool compressive_only;       /* keep only p' > 0 up to the first zero (model.md 8) */
     double *series_t, *series_p; /* n_series pairs, t ascending */
     unsigned n_series;
@@ -66,7 +86,11 @@ struct scene_material {
     struct instance plastic;      /* strength of a solid; module NULL: none */
     struct instance viscosity;    /* module NULL: none */
     struct instance conductivity; /* of heat; module NULL: none (scheme/conduction.h) */
-    double drag;                  /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
+    unsigned n_branch;            /* Maxwell branches beside its elastic law (scheme/viscoelastic.h) */
+    struct scene_branch {
+        double modulus, density, time; /* G [Pa] at that density [kg/m3]; of relaxation [s] */
+    } branch[SCENE_BRANCHES];
+    double drag; /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
 };
 
 /* Surface tension between two materials. */
@@ -114,7 +138,7 @@ struct scene_sources {
 };
 
 enum scene_closure { SCENE_KAPILA, SCENE_ALLAIRE };
-enum scene_traction { SCENE_TRACTION_COMMON, SCENE_TRACTION_PRESSURE };
+enum scene_traction { SCENE_TRACTION_AUTO, SCENE_TRACTION_COMMON, SCENE_TRACTION_PRESSURE };
 enum scene_exchange { SCENE_EXCHANGE_AUTO, SCENE_EXCHANGE_FAST, SCENE_EXCHANGE_FULL };
 enum scene_integrator { SCENE_MIDPOINT, SCENE_SSPRK3 }; /* rows of solve/tableau.c */
 enum scene_guard { SCENE_GUARD_NORMAL, SCENE_GUARD_STRICT };
@@ -258,6 +282,12 @@ struct scene_domain {
     char *cells_place;                             /* of the key, as file:line:column, for messages */
     struct scene_boundary boundary[SCENE_AXES][2]; /* [axis][0 lower, 1 upper] */
 };
+
+/* What the curvature of a ball around the origin is over 1/R. */
+static inline int scene_domain_turns(const struct scene_domain *domain)
+{
+    return domain->dim - 1 + (int)domain->geometry;
+}
 
 /* Section `mesh:`. */
 struct scene_mesh {

@@ -46,6 +46,11 @@ static const struct key scene_boundary_sine[] = {
      .max = KEYS_MOST,
      .fallback = "0",
      .doc = "Number of periods; 0: for ever."},
+    {.name = "window",
+     .type = KEYS_CHOICE,
+     .choices = "none|hann|tukey",
+     .fallback = "none",
+     .doc = "How a burst rises and falls: at once, over the whole of it (hann), over an eighth at each end (tukey)."},
     {0},
 };
 
@@ -137,6 +142,20 @@ static const struct key scene_boundary_wave[] = {
      .type = KEYS_FLAG,
      .fallback = "false",
      .doc = "Keep only the first compressive phase, up to the first zero."},
+    {.name = "direction",
+     .type = KEYS_SECTION,
+     .section = &scene_beam_plane_keys,
+     .doc = "A plane wave under an angle; along the inward normal if neither this nor a focus is given."},
+    {.name = "focus",
+     .type = KEYS_SECTION,
+     .section = &scene_beam_focus_keys,
+     .doc = "A wave from a curved transducer to its focus."},
+    {.name = "sound-speed",
+     .type = KEYS_NUMBER,
+     .unit = "m/s",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .doc = "With which such a wave comes; that of the initial state at the middle of the face if not given."},
     {0},
 };
 
@@ -185,6 +204,16 @@ static void scene_boundary_read_far(struct draft *draft, struct scene_boundary *
     boundary->pressure = scene_state_value(keys_at(map, "pressure"));
 }
 
+static void scene_boundary_read_window(struct draft *draft, struct scene_boundary *boundary,
+                                       const struct keys_value *window)
+{
+    if (!window->given) return;
+    boundary->window = (int)window->integer;
+    if (boundary->window == SCENE_WINDOW_NONE || boundary->cycles > 0.0) return;
+    keys_error(&draft->keys, window, "a wave that never ends has no window");
+    diag_help(draft->keys.diag, "say how many periods it has: 'cycles: 10'");
+}
+
 static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     boundary->pressure = scene_state_value(keys_at(map, "pressure"));
@@ -194,6 +223,7 @@ static void scene_boundary_read_wave(struct draft *draft, struct scene_boundary 
     boundary->frequency = keys_at(map, "frequency")->number;
     boundary->decay = keys_at(map, "decay")->number;
     boundary->cycles = keys_at(map, "cycles")->number;
+    scene_boundary_read_window(draft, boundary, keys_at(map, "window"));
     boundary->centre = keys_at(map, "center")->number;
     boundary->width = keys_at(map, "width")->number;
     boundary->delay = keys_at(map, "delay")->number;
@@ -386,6 +416,8 @@ void scene_boundary(struct draft *draft)
             else if (pair[side]->node) scene_boundary_read(draft, boundary, pair[side]->map);
             else if (axis < draft->scene->domain.dim && !scene_boundary_default(draft, axis, side, boundaries))
                 text_add(&missing, "%s%s", missing.length ? ", " : "", names[axis][side]);
+            if (pair[side]->map && boundary->type == SCENE_INCOMING_WAVE)
+                scene_beam(draft, boundary, pair[side]->map, axis, side);
             scene_boundary_place(draft, axis, side, pair[side]->map);
         }
         scene_boundary_pair(draft, axis, pair);

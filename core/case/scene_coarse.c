@@ -144,8 +144,8 @@ static void scene_coarse_units(struct draft *draft, const struct keys_value *pul
 
 static void scene_coarse_boundary(struct draft *draft, int axis, int side, const struct keys_value *pulse)
 {
-    const struct scene *scene = draft->scene;
-    const struct scene_boundary *boundary = &scene->domain.boundary[axis][side];
+    struct scene *scene = draft->scene;
+    struct scene_boundary *boundary = &scene->domain.boundary[axis][side];
     struct scene_coarse_box box;
     double x[SCENE_AXES] = {0.0}, at = side ? scene->domain.upper[axis] : scene->domain.lower[axis];
     memcpy(box.lower, scene->domain.lower, sizeof box.lower);
@@ -157,6 +157,7 @@ static void scene_coarse_boundary(struct draft *draft, int axis, int side, const
     double step = scene->scheme.dt_fixed > 0.0 ? scene->scheme.dt_fixed
                                                : scene->scheme.cfl * ldexp(h, level - scene->mesh.levels) / c;
     struct scene_coarse_pulse times = scene_coarse_times_of(boundary);
+    scene_beam_speed(draft, boundary, pulse, c);
     double length = c * times.wave;
     scene_coarse_units(draft, pulse, times.all, step);
     if (!(length < scene_coarse_wave * h) || times.all * scene_coarse_times < step) return;

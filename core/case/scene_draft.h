@@ -77,8 +77,20 @@ const char *scene_material_solid(const struct draft *draft);
 /* 0: no material has a strength; 1: some has; 2: and it knows its plastic strain. */
 unsigned scene_material_strength(const struct draft *draft);
 
+/* Has any material a Maxwell branch? */
+bool scene_material_branched(const struct draft *draft);
+
 /* Has any material a conductivity of heat? */
 bool scene_material_conducts(const struct draft *draft);
+bool scene_material_viscous(const struct draft *draft);
+
+/* The Maxwell branches of the material that `entry` describes, whose elastic law is open; keys of one branch. */
+void scene_branch(struct draft *draft, const struct keys_map *entry, struct scene_material *material);
+extern const struct keys_section scene_branch_keys;
+
+/* Refuses branches that relax within a step of the finest level, warns of those of the coarsest one: once mesh and scheme
+ * are known. */
+void scene_branch_times(struct draft *draft);
 
 /* Opens the module that a section names; nothing happens if the section is wrong. */
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);
@@ -121,6 +133,23 @@ int scene_stretch_needs(unsigned component);
 
 /* stretch: of a layer whose fractions are known. */
 void scene_stretch(struct draft *draft, struct scene_layer *layer, const struct keys_value *value);
+
+/* Shapes from files and turned ones, read into a zeroed shape; false after a recorded error. `part`, which must be a shape,
+ * becomes part of it, or is freed. */
+extern const struct keys_section scene_body_surface_keys, scene_body_image_keys, scene_body_array_keys,
+    scene_body_turned_keys, scene_body_prism_keys;
+bool scene_body_surface(struct draft *draft, struct shape *shape, const struct keys_map *map);
+bool scene_body_raster(struct draft *draft, struct shape *shape, const struct keys_map *map, bool image);
+bool scene_body_turned(struct draft *draft, struct shape *shape, struct shape *part, const struct keys_map *map);
+bool scene_body_prism(struct draft *draft, struct shape *shape, struct shape *part, const struct keys_map *map);
+
+/* The way of a wave at the face across `axis` on this side; nothing if the case names none. */
+extern const struct keys_section scene_beam_plane_keys, scene_beam_focus_keys;
+void scene_beam(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map, int axis, int side);
+
+/* Its speed of sound, if the case does not say: that at the face at the start [m/s]; NaN, not known, is an error. */
+void scene_beam_speed(struct draft *draft, struct scene_boundary *boundary, const struct keys_value *value,
+                      double sound);
 
 /* The shape that a map names by its key (`ret_value`); NULL if it names none (an error if one is
  * wanted), or after a recorded error. */

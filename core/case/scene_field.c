@@ -81,6 +81,22 @@ static const struct scene_field scene_field_plastic[] = {
 
 enum { SCENE_FIELD_PLASTIC = sizeof scene_field_plastic / sizeof *scene_field_plastic };
 
+/* In scenes where a solid has Maxwell branches. */
+static const struct scene_field scene_field_branched = {"overstress", "Pa", SCENE_FIELD_VANISHING};
+
+/* In scenes where a material is viscous (derive_viscous.h). */
+static const struct scene_field scene_field_viscous[] = {
+    {"stress_viscous_xx", "Pa", SCENE_FIELD_VANISHING | SCENE_FIELD_SIGNED},
+    {"stress_viscous_yy", "Pa", SCENE_FIELD_VANISHING | SCENE_FIELD_SIGNED},
+    {"stress_viscous_zz", "Pa", SCENE_FIELD_VANISHING | SCENE_FIELD_SIGNED},
+    {"stress_viscous_xy", "Pa", SCENE_FIELD_VANISHING | SCENE_FIELD_SIGNED},
+    {"stress_viscous_xz", "Pa", SCENE_FIELD_VANISHING | SCENE_FIELD_SIGNED},
+    {"stress_viscous_yz", "Pa", SCENE_FIELD_VANISHING | SCENE_FIELD_SIGNED},
+    {"dissipation", "W/m3", SCENE_FIELD_VANISHING},
+};
+
+enum { SCENE_FIELD_VISCOUS = sizeof scene_field_viscous / sizeof *scene_field_viscous };
+
 static bool scene_field_in(const char *name, const char *const *names)
 {
     for (; *names; names++)
@@ -99,6 +115,18 @@ static bool scene_field_is_plastic(const char *name)
 {
     for (unsigned i = 0; i < SCENE_FIELD_PLASTIC; i++)
         if (strcmp(scene_field_plastic[i].name, name) == 0) return true;
+    return false;
+}
+
+/* A field of viscous stress in a scene without any. */
+static bool scene_field_miss_viscosity(struct draft *draft, const struct keys_value *value)
+{
+    for (unsigned i = 0; i < SCENE_FIELD_VISCOUS; i++) {
+        if (strcmp(scene_field_viscous[i].name, value->text) != 0) continue;
+        keys_error(&draft->keys, value, "'%s' is a field of viscous materials, and no material has a 'viscosity'",
+                   value->text);
+        return true;
+    }
     return false;
 }
 
@@ -139,8 +167,8 @@ const struct scene_field *scene_field_all(struct draft *draft)
 {
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
-    unsigned count = SCENE_FIELD_PLAIN,
-             most = count + SCENE_FIELD_SOLID + SCENE_FIELD_PLASTIC + SCENE_FIELD_EACH * scene->n_material;
+    unsigned count = SCENE_FIELD_PLAIN, most = count + SCENE_FIELD_SOLID + SCENE_FIELD_PLASTIC + SCENE_FIELD_VISCOUS +
+                                               1 + SCENE_FIELD_EACH * scene->n_material;
     most += 4 * scene->output.n_peak;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
     memcpy(list, scene_field_plain, sizeof scene_field_plain);
@@ -149,6 +177,9 @@ const struct scene_field *scene_field_all(struct draft *draft)
         count += SCENE_FIELD_SOLID;
     }
     for (unsigned i = 0; i < scene_material_strength(draft); i++) list[count++] = scene_field_plastic[i];
+    if (scene_material_branched(draft)) list[count++] = scene_field_branched;
+    for (unsigned i = 0; scene_material_viscous(draft) && i < SCENE_FIELD_VISCOUS; i++)
+        list[count++] = scene_field_viscous[i];
     for (unsigned i = 0; i < scene->n_material; i++)
         for (unsigned k = 0; k < SCENE_FIELD_EACH; k++) {
             list[count] = scene_field_by_material[k];
@@ -160,11 +191,14 @@ const struct scene_field *scene_field_all(struct draft *draft)
 
 const char *const *scene_field_always(struct forest *forest)
 {
-    enum { SOLID = SCENE_FIELD_PLAIN, PLASTIC = SOLID + SCENE_FIELD_SOLID, ALL = PLASTIC + SCENE_FIELD_PLASTIC };
+    enum { SOLID = SCENE_FIELD_PLAIN, PLASTIC = SOLID + SCENE_FIELD_SOLID };
+    enum { VISCOUS = PLASTIC + SCENE_FIELD_PLASTIC, ALL = VISCOUS + SCENE_FIELD_VISCOUS + 1 };
     const char **names = tree_take(forest, (ALL + 1) * sizeof *names);
     for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++) names[i] = scene_field_plain[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++) names[SOLID + i] = scene_field_solid[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_PLASTIC; i++) names[PLASTIC + i] = scene_field_plastic[i].name;
+    names[ALL - 1] = scene_field_branched.name;
+    for (unsigned i = 0; i < SCENE_FIELD_VISCOUS; i++) names[VISCOUS + i] = scene_field_viscous[i].name;
     return names;
 }
 
@@ -197,7 +231,7 @@ const struct scene_field *scene_field_find(struct draft *draft, const char *name
 static int scene_field_shear(const char *name)
 {
     if (strncmp(name, "stress_", 7) != 0 && strncmp(name, "stretch_", 8) != 0) return 0;
-    const char *component = strchr(name, '_') + 1;
+    const char *component = strrchr(name, '_') + 1;
     return strcmp(component, "xy") == 0 ? 2 : strcmp(component, "xz") == 0 || strcmp(component, "yz") == 0 ? 3 : 0;
 }
 
@@ -235,7 +269,7 @@ bool scene_field(struct draft *draft, const struct keys_value *value, char ret_n
         snprintf(ret_name, SCENE_NAME, "%s", value->text);
         return true;
     }
-    if (scene_field_miss_strength(draft, value)) return false;
+    if (scene_field_miss_strength(draft, value) || scene_field_miss_viscosity(draft, value)) return false;
     if (scene_field_is_solid(value->text)) {
         keys_error(&draft->keys, value, "'%s' is a field of solids, and no material has a 'constitutive' law",
                    value->text);

@@ -37,7 +37,7 @@ static const struct key scene_initial_rows[] = {
      .type = KEYS_CHOICE,
      .choices = "tension",
      .doc = "`tension`: the pressure is the one outside of a sphere, and sigma times the curvature (2/R of a ball, 1/R "
-            "around an axis) is added to it."},
+            "of a disc or around an axis in one dimension) is added to it."},
     {.name = "lua",
      .type = KEYS_TEXT,
      .doc = "File or block: function(x, y, z) that returns a table of named fields, {pressure = ..., alpha = {...}}."},
@@ -61,7 +61,9 @@ static const struct key scene_initial_rows[] = {
     "{'if': {'not': {'anyOf': [{'required': ['lua']}, {'required': ['checkpoint']}]}}, 'then': {'oneOf': "             \
     "[{'required': ['everywhere']}, {'required': ['box']},"                                                            \
     "{'required': ['half-space']}, {'required': ['sphere']}, {'required': ['cylinder']}, {'required': ['ellipsoid']}," \
-    "{'required': ['ring']}, {'required': ['polygon']}, {'required': ['complement']}, {'required': ['union']},"        \
+    "{'required': ['ring']}, {'required': ['polygon']}, {'required': ['surface']}, {'required': ['image']},"           \
+    "{'required': ['array']}, {'required': ['rotated']}, {'required': ['extruded']}, {'required': ['difference']},"    \
+    "{'required': ['complement']}, {'required': ['union']},"                                                           \
     "{'required': ['intersection']}, {'required': ['cloud']}]},"                                                       \
     " 'else': {'properties': {'material': false, 'fractions': false, 'density': false, 'temperature': false,"          \
     " 'pressure': false, 'velocity': false, 'stretch': false, 'balance': false}}},"                                    \

@@ -78,6 +78,11 @@ static const struct key scene_material_rows[] = {
      .section = &scene_material_plastic,
      .doc = "The strength of a solid: stresses beyond it flow off, and their work is heat. Without it the solid is "
             "elastic."},
+    {.name = "viscoelastic",
+     .type = KEYS_SECTION,
+     .many = KEYS_LIST,
+     .section = &scene_branch_keys,
+     .doc = "Maxwell branches of a solid, whose stresses add to that of its elastic law and relax."},
     {.name = "viscosity",
      .type = KEYS_SECTION,
      .section = &scene_material_viscosity,
@@ -152,12 +157,30 @@ unsigned scene_material_strength(const struct draft *draft)
     return known;
 }
 
-bool scene_material_conducts(const struct draft *draft)
+bool scene_material_branched(const struct draft *draft)
+{
+    bool any = false;
+    for (unsigned i = 0; i < draft->scene->n_material; i++) any = any || draft->scene->material[i].n_branch > 0;
+    return any;
+}
+
+/* Has some material such a key? */
+static bool scene_material_has(const struct draft *draft, const char *key)
 {
     const struct keys_value *materials = keys_at(draft->root, "materials");
     for (unsigned i = 0; i < materials->count; i++)
-        if (materials->list[i].map && keys_at(materials->list[i].map, "conductivity")->node) return true;
+        if (materials->list[i].map && keys_at(materials->list[i].map, key)->node) return true;
     return false;
+}
+
+bool scene_material_conducts(const struct draft *draft)
+{
+    return scene_material_has(draft, "conductivity");
+}
+
+bool scene_material_viscous(const struct draft *draft)
+{
+    return scene_material_has(draft, "viscosity");
 }
 
 void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance)
@@ -277,6 +300,7 @@ void scene_material(struct draft *draft)
         scene_material_open(draft, keys_at(entry->map, "eos"), &material->eos);
         scene_material_open(draft, keys_at(entry->map, "constitutive"), &material->constitutive);
         if (entry->map) scene_material_strong(draft, entry->map, material);
+        if (entry->map) scene_branch(draft, entry->map, material);
         scene_material_open(draft, keys_at(entry->map, "viscosity"), &material->viscosity);
         scene_material_open(draft, keys_at(entry->map, "conductivity"), &material->conductivity);
         material->drag = entry->map ? keys_at(entry->map, "drag")->number : 0.0;

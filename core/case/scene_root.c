@@ -76,9 +76,7 @@ static const struct key scene_root[] = {
      .unit = "N/m",
      .min = KEYS_POSITIVE,
      .max = KEYS_MOST,
-     .doc =
-         "Surface tension by pairs of materials, as in `water+air: 72.8 mN/m`; pairs that are not named have none. In "
-         "one dimension, around a centre or an axis."},
+     .doc = "Surface tension by pairs of materials, as in `water+air: 72.8 mN/m`; pairs that are not named have none."},
     {.name = "initial",
      .type = KEYS_SECTION,
      .many = KEYS_LIST,

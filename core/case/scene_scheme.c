@@ -65,11 +65,11 @@ static const struct key scene_scheme_rows[] = {
             "(ideal-gas to mnasg, tait), else full."},
     {.name = "traction",
      .type = KEYS_CHOICE,
-     .choices = "common|pressure",
-     .fallback = "common",
+     .choices = "auto|common|pressure",
+     .fallback = "auto",
      .doc = "What solids and fluids of one cell share. common: the traction on their interface, so that each has the "
             "pressure that it needs for that; pressure: one pressure, which heats and shakes the surfaces of stretched "
-            "solids, for comparison."},
+            "solids. auto: common in one dimension, pressure in the plane and in space."},
     {.name = "low-mach",
      .type = KEYS_NUMBER,
      .unit = "1",

@@ -68,7 +68,6 @@ SHAPE(ellipsoid, "ellipsoid", "An ellipsoid along the axes.")
 SHAPE(ring, "ring", "A ring or spherical shell.")
 SHAPE(polygon, "polygon", "A polygon in the plane of the first two axes.")
 
-/* In the order of enum shape_type. */
 static const struct key scene_shape_rows[] = {
     {.name = "everywhere", .type = KEYS_FLAG, .doc = "The whole domain: `everywhere: true`."},
     {.name = "box", .type = KEYS_SECTION, .section = &scene_shape_box_keys, .doc = "A box along the axes."},
@@ -90,6 +89,28 @@ static const struct key scene_shape_rows[] = {
      .type = KEYS_SECTION,
      .section = &scene_shape_polygon_keys,
      .doc = "A polygon in the plane of the first two axes."},
+    {.name = "surface",
+     .type = KEYS_SECTION,
+     .section = &scene_body_surface_keys,
+     .doc = "What a closed surface of triangles encloses (an STL file), in 3D."},
+    {.name = "image",
+     .type = KEYS_SECTION,
+     .section = &scene_body_image_keys,
+     .doc = "The dark or bright part of a PNG image, in the plane of the first two axes."},
+    {.name = "array",
+     .type = KEYS_SECTION,
+     .section = &scene_body_array_keys,
+     .doc = "Where the values of an array (a NumPy file) are below or above one."},
+    {.name = "rotated", .type = KEYS_SECTION, .section = &scene_body_turned_keys, .doc = "A shape, rotated."},
+    {.name = "extruded",
+     .type = KEYS_SECTION,
+     .section = &scene_body_prism_keys,
+     .doc = "A polygon or image between two places of the third axis."},
+    {.name = "difference",
+     .type = KEYS_SECTION,
+     .many = KEYS_LIST,
+     .section = &scene_shape_keys,
+     .doc = "All of the first of several shapes that is in none of the others."},
     {.name = "complement", .type = KEYS_SECTION, .section = &scene_shape_keys, .doc = "All outside of a shape."},
     {.name = "union",
      .type = KEYS_SECTION,
@@ -107,15 +128,12 @@ static const struct key scene_shape_rows[] = {
 const struct keys_section scene_shape_keys = {.name = "shape",
                                               .doc = "A region.",
                                               .keys = scene_shape_rows,
-                                              .choose = SHAPE_INTERSECTION + 1,
+                                              .choose = sizeof scene_shape_rows / sizeof *scene_shape_rows - 1,
                                               .rules = "{'properties': {'everywhere': {'const': true}}}"};
 
-static const char *const scene_shape_names[] = {"everywhere", "box",       "half-space",   "sphere",
-                                                "cylinder",   "ellipsoid", "ring",         "polygon",
-                                                "complement", "union",     "intersection", NULL};
-
-static bool scene_shape_corners(struct draft *draft, struct shape *shape, const struct keys_map *map)
+static bool scene_shape_corners(struct draft *draft, struct shape *shape, const struct keys_value *value)
 {
+    const struct keys_map *map = value->map;
     bool good = scene_domain_vector(draft, keys_at(map, "lower"), shape->a);
     good &= scene_domain_vector(draft, keys_at(map, "upper"), shape->b);
     for (int axis = 0; good && axis < draft->scene->domain.dim; axis++) {
@@ -127,8 +145,9 @@ static bool scene_shape_corners(struct draft *draft, struct shape *shape, const 
     return good;
 }
 
-static bool scene_shape_plane(struct draft *draft, struct shape *shape, const struct keys_map *map)
+static bool scene_shape_plane(struct draft *draft, struct shape *shape, const struct keys_value *value)
 {
+    const struct keys_map *map = value->map;
     const struct keys_value *normal = keys_at(map, "normal");
     bool good = scene_domain_vector(draft, keys_at(map, "point"), shape->a);
     good &= scene_domain_vector(draft, normal, shape->b);
@@ -140,8 +159,9 @@ static bool scene_shape_plane(struct draft *draft, struct shape *shape, const st
     return false;
 }
 
-static bool scene_shape_ball(struct draft *draft, struct shape *shape, const struct keys_map *map)
+static bool scene_shape_ball(struct draft *draft, struct shape *shape, const struct keys_value *value)
 {
+    const struct keys_map *map = value->map;
     const struct keys_value *inner = keys_at(map, "inner");
     bool ring = shape->type == SHAPE_RING, good = scene_domain_vector(draft, keys_at(map, "center"), shape->a);
     shape->radius = keys_at(map, ring ? "outer" : "radius")->number;
@@ -154,15 +174,17 @@ static bool scene_shape_ball(struct draft *draft, struct shape *shape, const str
     return good;
 }
 
-static bool scene_shape_oval(struct draft *draft, struct shape *shape, const struct keys_map *map)
+static bool scene_shape_oval(struct draft *draft, struct shape *shape, const struct keys_value *value)
 {
+    const struct keys_map *map = value->map;
     bool good = scene_domain_vector(draft, keys_at(map, "center"), shape->a);
     good &= scene_domain_vector(draft, keys_at(map, "semi-axes"), shape->b);
     return good;
 }
 
-static bool scene_shape_rod(struct draft *draft, struct shape *shape, const struct keys_map *map)
+static bool scene_shape_rod(struct draft *draft, struct shape *shape, const struct keys_value *value)
 {
+    const struct keys_map *map = value->map;
     bool good = scene_domain_vector(draft, keys_at(map, "from"), shape->a);
     good &= scene_domain_vector(draft, keys_at(map, "to"), shape->b);
     shape->radius = keys_at(map, "radius")->number;
@@ -194,8 +216,9 @@ static bool scene_shape_vertex(struct draft *draft, struct node *node, const cha
     return true;
 }
 
-static bool scene_shape_outline(struct draft *draft, struct shape *shape, const struct keys_map *map)
+static bool scene_shape_outline(struct draft *draft, struct shape *shape, const struct keys_value *value)
 {
+    const struct keys_map *map = value->map;
     const struct keys_value *vertices = keys_at(map, "vertices");
     if (!vertices->given || draft->scene->domain.dim == 0) return false;
     if (draft->scene->domain.dim < 2 || vertices->node->kind != TREE_LIST || vertices->node->count < 3) {
@@ -214,8 +237,49 @@ static bool scene_shape_outline(struct draft *draft, struct shape *shape, const 
     return good;
 }
 
+static bool scene_shape_everywhere(struct draft *draft, struct shape *shape, const struct keys_value *value)
+{
+    (void)shape;
+    if (value->given && !value->integer) keys_error(&draft->keys, value, "only 'everywhere: true' makes sense");
+    return value->given;
+}
+
+static bool scene_shape_surface(struct draft *draft, struct shape *shape, const struct keys_value *value)
+{
+    return scene_body_surface(draft, shape, value->map);
+}
+
+static bool scene_shape_image(struct draft *draft, struct shape *shape, const struct keys_value *value)
+{
+    return scene_body_raster(draft, shape, value->map, true);
+}
+
+static bool scene_shape_array(struct draft *draft, struct shape *shape, const struct keys_value *value)
+{
+    return scene_body_raster(draft, shape, value->map, false);
+}
+
 static struct shape *scene_shape_of(struct draft *draft, const struct keys_map *map, bool wanted,
                                     const struct keys_value **ret_value);
+
+/* The shape within a word that has one. */
+static struct shape *scene_shape_within(struct draft *draft, const struct keys_value *value)
+{
+    const struct keys_value *which;
+    return value->map ? scene_shape_of(draft, keys_at(value->map, "shape")->map, true, &which) : NULL;
+}
+
+static bool scene_shape_turned(struct draft *draft, struct shape *shape, const struct keys_value *value)
+{
+    struct shape *part = scene_shape_within(draft, value);
+    return part && scene_body_turned(draft, shape, part, value->map);
+}
+
+static bool scene_shape_prism(struct draft *draft, struct shape *shape, const struct keys_value *value)
+{
+    struct shape *part = scene_shape_within(draft, value);
+    return part && scene_body_prism(draft, shape, part, value->map);
+}
 
 static bool scene_shape_parts(struct draft *draft, struct shape *shape, const struct keys_value *value)
 {
@@ -232,30 +296,52 @@ static bool scene_shape_parts(struct draft *draft, struct shape *shape, const st
     return good && count > 0;
 }
 
-static bool scene_shape_fill(struct draft *draft, struct shape *shape, const struct keys_value *value)
+/* The first, and what is outside of each other one. */
+static bool scene_shape_difference(struct draft *draft, struct shape *shape, const struct keys_value *value)
 {
-    switch (shape->type) {
-    case SHAPE_EVERYWHERE:
-        if (value->given && !value->integer) keys_error(&draft->keys, value, "only 'everywhere: true' makes sense");
-        return value->given;
-    case SHAPE_BOX: return scene_shape_corners(draft, shape, value->map);
-    case SHAPE_HALF_SPACE: return scene_shape_plane(draft, shape, value->map);
-    case SHAPE_SPHERE:
-    case SHAPE_RING: return scene_shape_ball(draft, shape, value->map);
-    case SHAPE_CYLINDER: return scene_shape_rod(draft, shape, value->map);
-    case SHAPE_ELLIPSOID: return scene_shape_oval(draft, shape, value->map);
-    case SHAPE_POLYGON: return scene_shape_outline(draft, shape, value->map);
-    default: return scene_shape_parts(draft, shape, value);
+    bool good = scene_shape_parts(draft, shape, value);
+    for (unsigned i = 1; i < shape->n; i++) {
+        struct shape *outside = mem_new(1, sizeof *outside);
+        *outside = (struct shape){.type = SHAPE_COMPLEMENT, .n = 1, .parts = mem_new(1, sizeof *outside->parts)};
+        outside->parts[0] = shape->parts[i];
+        shape->parts[i] = outside;
     }
+    return good;
 }
+
+/* The words, what they make and who reads it. */
+static const struct scene_shape_word {
+    const char *name;
+    enum shape_type type;
+    bool (*read)(struct draft *draft, struct shape *shape, const struct keys_value *value);
+} scene_shape_words[] = {
+    {"everywhere", SHAPE_EVERYWHERE, scene_shape_everywhere},
+    {"box", SHAPE_BOX, scene_shape_corners},
+    {"half-space", SHAPE_HALF_SPACE, scene_shape_plane},
+    {"sphere", SHAPE_SPHERE, scene_shape_ball},
+    {"cylinder", SHAPE_CYLINDER, scene_shape_rod},
+    {"ellipsoid", SHAPE_ELLIPSOID, scene_shape_oval},
+    {"ring", SHAPE_RING, scene_shape_ball},
+    {"polygon", SHAPE_POLYGON, scene_shape_outline},
+    {"surface", SHAPE_SURFACE, scene_shape_surface},
+    {"image", SHAPE_RASTER, scene_shape_image},
+    {"array", SHAPE_RASTER, scene_shape_array},
+    {"rotated", SHAPE_TURNED, scene_shape_turned},
+    {"extruded", SHAPE_INTERSECTION, scene_shape_prism},
+    {"difference", SHAPE_INTERSECTION, scene_shape_difference},
+    {"complement", SHAPE_COMPLEMENT, scene_shape_parts},
+    {"union", SHAPE_UNION, scene_shape_parts},
+    {"intersection", SHAPE_INTERSECTION, scene_shape_parts},
+    {NULL, SHAPE_EVERYWHERE, NULL},
+};
 
 static struct shape *scene_shape_of(struct draft *draft, const struct keys_map *map, bool wanted,
                                     const struct keys_value **ret_value)
 {
     const struct keys_value *found = NULL;
-    int type = 0;
-    for (int i = 0; map && scene_shape_names[i]; i++) {
-        const struct keys_value *value = keys_at(map, scene_shape_names[i]);
+    const struct scene_shape_word *chosen = NULL;
+    for (const struct scene_shape_word *word = scene_shape_words; map && word->name; word++) {
+        const struct keys_value *value = keys_at(map, word->name);
         if (value->node && found) {
             keys_error(&draft->keys, value, "one shape is enough: '%s' is already given", found->key->name);
             diag_help(draft->keys.diag, "'union' and 'intersection' combine shapes");
@@ -263,19 +349,22 @@ static struct shape *scene_shape_of(struct draft *draft, const struct keys_map *
         }
         if (!value->node) continue;
         found = value;
-        type = i;
+        chosen = word;
     }
     if (!found) {
         if (!map || !wanted) return NULL;
         diag_error(draft->keys.diag, &map->node->mark, "%s: a shape is missing", map->path);
-        diag_help(draft->keys.diag, "one of everywhere, box, half-space, sphere, cylinder, ellipsoid, ring, polygon, "
-                                    "complement, union, intersection");
+        diag_help(
+            draft->keys.diag,
+            "one of everywhere, box, half-space, sphere, cylinder, ellipsoid, ring, polygon, surface, image, array, "
+            "rotated, extruded, difference, complement, union, intersection");
         return NULL;
     }
     *ret_value = found;
     struct shape *shape = mem_new(1, sizeof *shape);
-    shape->type = (enum shape_type)type;
-    if (scene_shape_fill(draft, shape, found)) return shape;
+    shape->type = chosen->type;
+    bool readable = found->map || found->key->type != KEYS_SECTION || found->key->many == KEYS_LIST;
+    if (readable && chosen->read(draft, shape, found)) return shape;
     shape_free(shape);
     return NULL;
 }

@@ -46,11 +46,7 @@ static bool scene_tension_again(const struct scene *scene, const struct scene_te
 static void scene_tension_geometry(struct draft *draft, const struct keys_value *section)
 {
     const struct scene_domain *domain = &draft->scene->domain;
-    if (domain->dim == 0) return;
-    if (domain->dim > 1) {
-        keys_error(&draft->keys, section, "surface tension is there in one dimension only, not in %d", domain->dim);
-        diag_help(draft->keys.diag, "compute a bubble or a drop in 'geometry: spherical', with one axis");
-    } else if (domain->geometry == SCENE_CARTESIAN) {
+    if (domain->dim == 1 && domain->geometry == SCENE_CARTESIAN) {
         keys_error(&draft->keys, section, "interfaces are flat here: surface tension would do nothing");
         diag_help(draft->keys.diag, "give the domain 'geometry: spherical' or 'geometry: axisymmetric'");
     }
@@ -110,6 +106,12 @@ static double scene_tension_below(const struct scene *scene, unsigned index)
     return 0.0;
 }
 
+/* Around an axis a sphere beside it is a ring, whose curvature varies. */
+static bool scene_tension_rings(const struct scene_domain *domain, const struct shape *shape)
+{
+    return domain->geometry == SCENE_AXISYMMETRIC && domain->dim == 2 && shape->a[0] != 0.0;
+}
+
 void scene_tension_balance(struct draft *draft, const struct keys_value *balance, unsigned index)
 {
     struct scene *scene = draft->scene;
@@ -118,14 +120,16 @@ void scene_tension_balance(struct draft *draft, const struct keys_value *balance
     if (!balance->given) return;
     if (!layer->shape || layer->shape->type != SHAPE_SPHERE) {
         keys_error(&draft->keys, balance, "only a sphere is in balance with its surface tension");
+    } else if (scene_tension_rings(&scene->domain, layer->shape)) {
+        keys_error(&draft->keys, balance, "a sphere beside the axis is a ring: no one pressure balances it");
     } else if (layer->pressure.script || !layer->pressure.given) {
         keys_error(&draft->keys, balance, "this needs the pressure outside of the sphere as a number");
         diag_help(draft->keys.diag, "give 'pressure: 1 atm'; %s sigma/R is added to it",
-                  scene->domain.geometry == SCENE_SPHERICAL ? "2" : "1");
+                  scene_domain_turns(&scene->domain) > 1 ? "2" : "1");
     } else if (!(sigma > 0.0)) {
         keys_error(&draft->keys, balance, "the material has no surface tension with the one that it is painted on");
         diag_help(draft->keys.diag, "give it: 'surface-tension: {water+air: 72.8 mN/m}'");
     } else {
-        layer->pressure.number += (double)scene->domain.geometry * sigma / layer->shape->radius;
+        layer->pressure.number += scene_domain_turns(&scene->domain) * sigma / layer->shape->radius;
     }
 }

@@ -4,7 +4,9 @@
 #include "case/shape.h"
 
 #include "base/mem.h"
+#include "case/raster.h"
 #include "case/shape_volume.h"
+#include "case/surface.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -77,6 +79,16 @@ static double shape_level_polygon(const struct shape *shape, const double x[3])
     return inside ? -least : least;
 }
 
+static double shape_level_turned(const struct shape *shape, const double x[3])
+{
+    double back[3];
+    for (int d = 0; d < 3; d++) {
+        back[d] = shape->a[d];
+        for (int k = 0; k < 3; k++) back[d] += shape->turn[k][d] * (x[k] - shape->a[k]);
+    }
+    return shape_level(shape->parts[0], back);
+}
+
 /* sign 1: the largest level of the parts; -1: the smallest. */
 static double shape_level_parts(const struct shape *shape, const double x[3], double sign)
 {
@@ -100,6 +112,9 @@ double shape_level(const struct shape *shape, const double x[3])
     case SHAPE_ELLIPSOID: return shape_level_ellipsoid(shape, x);
     case SHAPE_RING: return shape_level_ring(shape, x);
     case SHAPE_POLYGON: return shape_level_polygon(shape, x);
+    case SHAPE_SURFACE: return surface_level(shape->surface, x);
+    case SHAPE_RASTER: return raster_level(shape->raster, x);
+    case SHAPE_TURNED: return shape_level_turned(shape, x);
     case SHAPE_COMPLEMENT: return -shape_level(shape->parts[0], x);
     case SHAPE_UNION: return shape_level_parts(shape, x, -1.0);
     case SHAPE_INTERSECTION: return shape_level_parts(shape, x, 1.0);
@@ -236,6 +251,9 @@ static double shape_fraction_cut(const struct shape *shape, const struct shape_c
     case SHAPE_POLYGON:
         if (cell->dim == 1) return shape_fraction_divided(shape, cell, depth);
         return shape_volume_polygon(cell, shape->n, (const double(*)[2])shape->vertex);
+    case SHAPE_SURFACE: return surface_fraction(shape->surface, cell);
+    case SHAPE_RASTER:
+    case SHAPE_TURNED: return shape_fraction_divided(shape, cell, depth);
     case SHAPE_COMPLEMENT: return 1.0 - shape_fraction_cell(shape->parts[0], cell, depth);
     case SHAPE_UNION: return shape_fraction_parts(shape, cell, depth, -1.0);
     case SHAPE_INTERSECTION: return shape_fraction_parts(shape, cell, depth, 1.0);
@@ -317,6 +335,15 @@ static int shape_reaches_parts(const struct shape *shape, const double lower[3],
     return shape->type == SHAPE_UNION ? reached > 0 : reached == shape->n;
 }
 
+/* As far as one level can tell. */
+static int shape_reaches_level(const struct shape *shape, const double lower[3], const double upper[3], int dim)
+{
+    const struct shape_cell box = {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}, dim, 0};
+    double x[3];
+    shape_middle(&box, x);
+    return shape_level(shape, x) <= shape_reach(&box);
+}
+
 int shape_reaches(const struct shape *shape, const double lower[3], const double upper[3], int dim)
 {
     if (!shape) return 1;
@@ -329,6 +356,9 @@ int shape_reaches(const struct shape *shape, const double lower[3], const double
     case SHAPE_SPHERE:
     case SHAPE_RING:
     case SHAPE_ELLIPSOID: return shape_reaches_round(shape, lower, upper, dim);
+    case SHAPE_SURFACE:
+    case SHAPE_RASTER:
+    case SHAPE_TURNED: return shape_reaches_level(shape, lower, upper, dim);
     case SHAPE_BOX:
     case SHAPE_CYLINDER:
     case SHAPE_POLYGON: break;
@@ -341,6 +371,10 @@ void shape_free(struct shape *shape)
     if (!shape) return;
     if (shape->parts)
         for (unsigned i = 0; i < shape->n; i++) shape_free(shape->parts[i]);
+    if (shape->surface) surface_done(shape->surface);
+    if (shape->raster) raster_done(shape->raster);
+    mem_free(shape->surface);
+    mem_free(shape->raster);
     mem_free(shape->parts);
     mem_free(shape->vertex);
     mem_free(shape);

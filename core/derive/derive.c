@@ -13,6 +13,7 @@
 #include "derive/derive_heat.h"
 #include "derive/derive_slope.h"
 #include "derive/derive_stress.h"
+#include "derive/derive_viscous.h"
 #include "phys/mix.h"
 #include "phys/presence.h"
 
@@ -30,6 +31,9 @@ enum derive_form {
     DERIVE_TENSOR,
     DERIVE_STRONG,
     DERIVE_STRAINED,
+    DERIVE_BRANCHED,
+    DERIVE_VISCOUS,        /* of scenes with a viscous material */
+    DERIVE_VISCOUS_TENSOR, /* by component */
     DERIVE_OF_SCENE
 };
 
@@ -244,9 +248,12 @@ static const struct derive_quantity derive_table[] = {
     {"principal_shear", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_SHEAR, DERIVE_ALONE},
     {"principal_max_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MAX_DEV, DERIVE_ALONE},
     {"principal_min_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MIN_DEV, DERIVE_ALONE},
+    {"stress_viscous_", "Pa", DERIVE_VISCOUS_TENSOR, derive_viscous_stress, 0, DERIVE_LAYERS},
+    {"dissipation", "W/m3", DERIVE_VISCOUS, derive_viscous_dissipation, 0, DERIVE_LAYERS},
     {"von_mises", "Pa", DERIVE_SOLID, derive_stress_von_mises, 0, DERIVE_ALONE},
     {"strain_energy", "J/m3", DERIVE_SOLID, derive_stress_energy, 0, DERIVE_ALONE},
     {"flow_stress", "Pa", DERIVE_STRONG, derive_stress_strength, 0, DERIVE_ALONE},
+    {"overstress", "Pa", DERIVE_BRANCHED, derive_stress_over, 0, DERIVE_ALONE},
     {"plastic_strain", "1", DERIVE_STRAINED, derive_stress_plastic, 0, DERIVE_ALONE},
     {"invariant_1", "1", DERIVE_SOLID, derive_stress_invariant, 0, DERIVE_ALONE},
     {"invariant_2", "1", DERIVE_SOLID, derive_stress_invariant, 1, DERIVE_ALONE},
@@ -260,13 +267,18 @@ enum {
     DERIVE_FORMULA = DERIVE_ROWS - 1
 };
 
+static bool derive_is_tensor(enum derive_form form)
+{
+    return form == DERIVE_TENSOR || form == DERIVE_VISCOUS_TENSOR;
+}
+
 /* Axis, component or material that the part after a row's prefix names, or -1. */
 static int derive_suffix(const struct model *model, const struct derive_quantity *row, const char *suffix)
 {
     if (row->form == DERIVE_AXIS) return strlen(suffix) == 1 && strchr("xyz", *suffix) ? *suffix - 'x' : -1;
-    for (int c = 0; row->form == DERIVE_TENSOR && c < 6; c++)
+    for (int c = 0; derive_is_tensor(row->form) && c < 6; c++)
         if (!strcmp(suffix, model_tensor[c])) return c;
-    if (row->form == DERIVE_TENSOR) return -1;
+    if (derive_is_tensor(row->form)) return -1;
     for (unsigned l = 0; l < model->n_material; l++)
         if (!strcmp(suffix, model->scene->material[l].name)) return (int)l;
     return -1;
@@ -277,6 +289,8 @@ static bool derive_has(const struct model *model, enum derive_form form)
 {
     if (form == DERIVE_SOLID || form == DERIVE_TENSOR) return model->elastic;
     if (form == DERIVE_STRONG) return model->plastic;
+    if (form == DERIVE_BRANCHED) return model->n_branch > 0;
+    if (form == DERIVE_VISCOUS || form == DERIVE_VISCOUS_TENSOR) return model->viscous;
     return form != DERIVE_STRAINED || model->n_strain > 0;
 }
 
@@ -326,7 +340,7 @@ int derive_find(const struct model *model, const char *name, struct derive *ret_
         const struct derive_quantity *row = &derive_table[i];
         if (row->form == DERIVE_OF_SCENE) continue;
         size_t length = strlen(row->name);
-        bool suffixed = row->form == DERIVE_AXIS || row->form == DERIVE_TENSOR || row->form == DERIVE_MATERIAL;
+        bool suffixed = row->form == DERIVE_AXIS || derive_is_tensor(row->form) || row->form == DERIVE_MATERIAL;
         int index = row->index;
         if (!derive_has(model, row->form)) continue;
         if (!suffixed ? strcmp(name, row->name) != 0 : strncmp(name, row->name, length) != 0) continue;

@@ -9,6 +9,7 @@
 #include "base/mem.h"
 #include "phys/elastic.h"
 #include "phys/flow.h"
+#include "phys/row.h"
 
 #include <math.h>
 #include <string.h>
@@ -33,15 +34,19 @@ static void derive_stress_partial(const struct derive_view *tile, double *partia
     }
 }
 
-/* Deviatoric stress of the tile, [n_stretch][n]; release with mem_free. */
-static double *derive_stress_deviator(const struct derive_view *tile)
+/* Deviatoric stress of the tile by a model of it, [n_stretch][n]; release with mem_free. */
+static double *derive_stress_by(const struct derive_view *tile, const struct model *model)
 {
-    const struct model *model = tile->model;
     double *s = mem_new((model->n_stretch + model->n_solid) * tile->n, sizeof *s);
     const double *m[SCENE_MATERIALS];
     derive_stress_partial(tile, s + model->n_stretch * tile->n, m);
     elastic_stress(model, tile->n, tile->n, derive_view_w(tile, model->i_V), m, s);
     return s;
+}
+
+static double *derive_stress_deviator(const struct derive_view *tile)
+{
+    return derive_stress_by(tile, tile->model);
 }
 
 static const double *derive_stress_pressure(const struct derive_view *tile)
@@ -147,17 +152,36 @@ void derive_stress_stretch_max(const struct derive_view *tile, double *out)
     for (size_t i = 0; i < tile->n; i++) out[i] = derive_stress_of_all(V, tile->n, tile->model->n_stretch, i).most;
 }
 
-void derive_stress_von_mises(const struct derive_view *tile, double *out)
+/* sqrt(3/2 s:s) of a block of components. */
+static void derive_stress_equivalent(const struct derive_view *tile, const double *s, double *out)
 {
     size_t n = tile->n;
-    double *s = derive_stress_deviator(tile);
     memset(out, 0, n * sizeof *out);
     for (unsigned c = 0; c < tile->model->n_stretch; c++) {
         double weight = c <= ELASTIC_ZZ ? 1.5 : 3.0; /* s_xy stands twice in the tensor */
         for (size_t i = 0; i < n; i++) out[i] += weight * s[c * n + i] * s[c * n + i];
     }
     for (size_t i = 0; i < n; i++) out[i] = sqrt(out[i]);
+}
+
+void derive_stress_von_mises(const struct derive_view *tile, double *out)
+{
+    double *s = derive_stress_deviator(tile);
+    derive_stress_equivalent(tile, s, out);
     mem_free(s);
+}
+
+void derive_stress_over(const struct derive_view *tile, double *out)
+{
+    struct model *rest = mem_new(1, sizeof *rest);
+    *rest = *tile->model;
+    rest->n_branch = 0;
+    double *s = derive_stress_deviator(tile), *less = derive_stress_by(tile, rest);
+    row_take(rest->n_stretch * tile->n, less, s);
+    derive_stress_equivalent(tile, s, out);
+    mem_free(less);
+    mem_free(s);
+    mem_free(rest);
 }
 
 void derive_stress_energy(const struct derive_view *tile, double *out)

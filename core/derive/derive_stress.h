@@ -35,6 +35,9 @@ void derive_stress_principal(const struct derive_view *tile, double *out);
 /* sqrt(3/2 s':s') [Pa]. */
 void derive_stress_von_mises(const struct derive_view *tile, double *out);
 
+/* The same of what Maxwell branches bear, which will relax [Pa]. */
+void derive_stress_over(const struct derive_view *tile, double *out);
+
 /* Elastic energy per volume of the mixture [J/m3]; invariant I1 or I2 (field->index 0 or 1) of B = V V [1]. */
 void derive_stress_energy(const struct derive_view *tile, double *out);
 void derive_stress_invariant(const struct derive_view *tile, double *out);

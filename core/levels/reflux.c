@@ -11,7 +11,7 @@
 /* Values kept of a coarse cell behind finer faces. */
 static unsigned reflux_keeps(const struct model *model)
 {
-    return model->n_alpha + (model->n_stretch ? model->n_stretch + 1 : 0);
+    return model->n_alpha + (model->n_stretch ? model->n_stretched + model_stretches(model) : 0);
 }
 
 /* Rows of the coarse side of a face: its registers, then what is kept of the cell. */
@@ -207,18 +207,28 @@ size_t reflux_cell(const struct mesh *mesh, const struct link_face *source, size
     return at[0] + (size_t)mesh->n[0] * (at[1] + (size_t)mesh->n[1] * at[2]);
 }
 
-/* Partial density of all solids of a path in one cell. */
-static double reflux_solid(const struct model *used, size_t n_cell, const double *w)
+/* Partial density of the solids of a path that carry the stretch of field q, in one cell. */
+static double reflux_solid(const struct model *used, unsigned q, size_t n_cell, const double *w)
 {
     double m = 0.0;
-    for (unsigned s = 0; s < used->n_solid; s++) {
-        unsigned l = used->solids[s].material;
-        m += (used->n_alpha ? w[(used->i_alpha + l) * n_cell] : 1.0) * w[(used->i_m + l) * n_cell];
-    }
+    for (unsigned k = 0; k < model_stretches(used); k++)
+        for (unsigned s = 0; s < used->n_solid; s++) {
+            unsigned l = used->solids[s].material;
+            if (model_stretch(used, k) != q || !model_carries(used, k, s)) continue;
+            m += (used->n_alpha ? w[(used->i_alpha + l) * n_cell] : 1.0) * w[(used->i_m + l) * n_cell];
+        }
     return m;
 }
 
-/* Value q of what is kept of a cell: alpha + K, with K where the path knows of it, then V and m_s. */
+/* Is field q evolved by a path? */
+static bool reflux_knows(const struct model *used, unsigned q)
+{
+    for (unsigned i = model_drawn(used); i < model_edged(used); i++)
+        if (used->active[i] == q) return true;
+    return false;
+}
+
+/* Value q of what is kept of a cell: alpha + K, with K where the path knows of it, then the stretches and m_s of each. */
 static double reflux_kept(const struct reflux *reflux, const struct model *used, unsigned q, const double *w,
                           const double *K, size_t cell)
 {
@@ -226,9 +236,10 @@ static double reflux_kept(const struct reflux *reflux, const struct model *used,
     size_t n_cell = reflux->mesh->n_cell;
     unsigned l = q - used->first, c = q - model->n_alpha;
     if (q < model->n_alpha) return w[q * n_cell + cell] + (K && l < used->n_material ? K[l * n_cell + cell] : 0.0);
-    if (c == model->n_stretch) return reflux_solid(used, n_cell, w + cell);
-    if (used->n_stretch) return w[(model->i_V + c) * n_cell + cell];
-    return c <= ELASTIC_ZZ ? 1.0 : 0.0;
+    if (c >= model->n_stretched)
+        return reflux_solid(used, model_stretch(model, c - model->n_stretched), n_cell, w + cell);
+    if (reflux_knows(used, model->i_V + c)) return w[(model->i_V + c) * n_cell + cell];
+    return c % model->n_stretch <= ELASTIC_ZZ ? 1.0 : 0.0;
 }
 
 void reflux_keep(struct reflux *reflux, const struct model *used, unsigned local, const double *w, const double *K)
@@ -285,35 +296,36 @@ static double reflux_difference(const struct reflux_value *value, unsigned q)
 /* Share of the solid in a cell that refluxing may exchange with its stretch. */
 #define REFLUX_MOST 0.5
 
-/* V* F as a change of V: per mass of the solid that the cell has; a cell that has hardly any keeps its V. ret_arrived: the
+/* V* F as a change of stretch k: per mass of the solid that the cell has; a cell that has hardly any keeps its V. ret_arrived: the
  * mass that comes, as a share of it; or NULL. */
-static void reflux_by_mass(const struct reflux *reflux, const struct reflux_value *value, double *change,
+static void reflux_by_mass(const struct reflux *reflux, const struct reflux_value *value, unsigned k, double *change,
                            double *ret_arrived)
 {
     const struct model *model = reflux->model;
-    unsigned kept = reflux->up->n_register + model->n_alpha + model->n_stretch;
+    unsigned kept = reflux->up->n_register + model->n_alpha + model->n_stretched + k;
     double arrived = 0.0, m = value->coarse[kept * value->step];
-    for (unsigned s = 0; s < model->n_solid; s++) arrived += change[model->i_m + model->solids[s].material];
+    for (unsigned s = 0; s < model->n_solid; s++)
+        if (model_carries(model, k, s)) arrived += change[model->i_m + model->solids[s].material];
     double per_m = m > ELASTIC_NOTHING && fabs(arrived) < REFLUX_MOST * m ? 1.0 / m : 0.0;
-    for (unsigned c = 0; c < model->n_stretch; c++) change[model->i_V + c] *= per_m;
+    for (unsigned c = 0; c < model->n_stretch; c++) change[model_stretch(model, k) + c] *= per_m;
     if (ret_arrived) *ret_arrived = arrived * per_m;
 }
 
-/* The stretch's part of the corrected change. s: -1 for a cell on the lower side of the face, else 1. */
-static void reflux_stretch(const struct reflux *reflux, const struct reflux_value *value, int axis, double s,
-                           double swept, double *change)
+/* The part of stretch k in the corrected change. s: -1 for a cell on the lower side of the face, else 1. */
+static void reflux_stretch(const struct reflux *reflux, const struct reflux_value *value, unsigned k, int axis,
+                           double s, double swept, double *change)
 {
     const struct model *model = reflux->model;
     double V[6], velocity[3], per_h = s / reflux->level->h[axis], arrived;
-    unsigned kept = reflux->up->n_register + model->n_alpha;
-    reflux_by_mass(reflux, value, change, &arrived);
+    unsigned first = model_stretch(model, k), kept = reflux->up->n_register + model->n_alpha + first - model->i_V;
+    reflux_by_mass(reflux, value, k, change, &arrived);
     for (unsigned c = 0; c < model->n_stretch; c++) V[c] = value->coarse[(kept + c) * value->step];
     double carried[6];
-    for (unsigned c = 0; c < model->n_stretch; c++) carried[c] = change[model->i_V + c];
+    for (unsigned c = 0; c < model->n_stretch; c++) carried[c] = change[first + c];
     for (unsigned d = 0; d < model->n_velocity; d++)
         velocity[axis_component(axis, d)] = -per_h * reflux_difference(value, model->n_field + d);
     const struct elastic_correction in = {V, carried, arrived, swept, velocity, axis};
-    elastic_correct(model, &in, change + model->i_V);
+    elastic_correct(model, &in, change + first);
 }
 
 void reflux_source(const struct reflux *reflux, unsigned s, size_t index, const struct metric *metric, double dt,
@@ -327,13 +339,14 @@ void reflux_source(const struct reflux *reflux, unsigned s, size_t index, const 
     double scale = sign * reflux_area(reflux, metric, source, reflux_cell(reflux->mesh, source, index));
     for (unsigned q = 0; q < model->n_field; q++) ret_change[q] = scale * reflux_difference(&value, q);
     if (model->scene->mesh.reflux != SCENE_REFLUX_CORRECTED || !reflux->mesh->n_face_u) {
-        if (model->n_stretch) reflux_by_mass(reflux, &value, ret_change, NULL);
+        for (unsigned k = 0; k < model_stretches(model); k++) reflux_by_mass(reflux, &value, k, ret_change, NULL);
         return;
     }
     double swept = scale * reflux_difference(&value, model->n_field);
     for (unsigned l = 0; l < model->n_alpha; l++)
         ret_change[l] -= value.coarse[(reflux->up->n_register + l) * value.step] * swept;
-    if (model->n_stretch) reflux_stretch(reflux, &value, source->face / 2, sign, swept, ret_change);
+    for (unsigned k = 0; k < model_stretches(model); k++)
+        reflux_stretch(reflux, &value, k, source->face / 2, sign, swept, ret_change);
 }
 
 void reflux_delta(const struct reflux *reflux, unsigned local, double dt, double *delta)

@@ -26,11 +26,12 @@ struct reflux {
     const struct level *level;
     struct link *down, *up; /* to the coarser and from the finer level, or NULL */
     double *fine;           /* [down->n_face][n_register][face_cells] of the step under way */
-    double *coarse;         /* [up->n_source][n_register + n_alpha + n_stretch + 1][face_cells]: fluxes, then alpha + K,
+    double
+        *coarse; /* [up->n_source][n_register + n_alpha + n_stretched + stretches][face_cells]: fluxes, then alpha + K,
                                V and m_s (both with a solid), of the cell */
-    double *plane;          /* scratch: both fine faces of an axis, [2][n_register][n^(d-1)], then one mean */
-    double weight;          /* of the stage under way */
-    bool fresh;             /* it is the first one that counts */
+    double *plane; /* scratch: both fine faces of an axis, [2][n_register][n^(d-1)], then one mean */
+    double weight; /* of the stage under way */
+    bool fresh;    /* it is the first one that counts */
 };
 
 struct reflux *reflux_new(const struct model *model, const struct mesh *mesh, int l);

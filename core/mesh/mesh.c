@@ -141,6 +141,7 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
         if (scene->material[l].constitutive.module) mesh->n_face_u = (unsigned)scene->domain.n_velocity;
     for (unsigned l = 0; l < scene->n_material; l++)
         mesh->corners = mesh->corners || scene->material[l].viscosity.module;
+    mesh->corners = mesh->corners || (scene->n_tension && mesh->dim > 1);
     mesh->most_level = scene->mesh.levels;
     mesh_measure(mesh, scene, n);
     mesh->pool = pool_new(n_field * mesh->n_cell);

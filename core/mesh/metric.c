@@ -18,18 +18,22 @@ static double metric_volume(int beta, double a, double b)
     return (b - a) * (a * a + a * b + b * b) / 3.0;
 }
 
-void metric_of_tile(const struct mesh *mesh, const struct level *level, const struct tile *tile, struct metric *ret)
+void metric_of_cells(const struct mesh *mesh, const struct level *level, int first, int n, struct metric *ret)
 {
     double h = level->h[0], lower = mesh->lower[0];
-    int first = tile->at[0] * mesh->n[0];
-    for (int i = 0; i <= mesh->n[0]; i++) {
+    for (int i = 0; i <= n; i++) {
         double r = lower + (first + i) * h;
         ret->area[i] = metric_area(mesh->beta, r);
-        if (i == mesh->n[0]) break;
+        if (i == n) break;
         double next = lower + (first + i + 1) * h;
         ret->volume[i] = mesh->beta == 0 ? h : metric_volume(mesh->beta, r, next);
         ret->centre[i] = 0.5 * (r + next);
     }
+}
+
+void metric_of_tile(const struct mesh *mesh, const struct level *level, const struct tile *tile, struct metric *ret)
+{
+    metric_of_cells(mesh, level, tile->at[0] * mesh->n[0], mesh->n[0], ret);
 }
 
 double metric_centroid(int beta, double a, double b)

@@ -20,6 +20,8 @@ struct metric {
     double centre[METRIC_CELLS]; /* middle of the cell along axis 0 */
 };
 
+/* Of n <= METRIC_CELLS cells of a level, from number `first` on along axis 0; those before 0 lie behind the axis or a wall. */
+void metric_of_cells(const struct mesh *mesh, const struct level *level, int first, int n, struct metric *ret);
 void metric_of_tile(const struct mesh *mesh, const struct level *level, const struct tile *tile, struct metric *ret);
 
 /* Where cell values stand along axis 0: ret[i + 1] of cell i from -1 to n, the middles of the volumes (the mean of r with

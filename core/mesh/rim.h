@@ -15,12 +15,12 @@
 #include "mesh/box.h"
 #include "mesh/mesh.h"
 
-enum { RIM_WAYS = 27, RIM_HERE = 13, RIM_LAYERS = 2 };
+enum { RIM_WAYS = 27, RIM_HERE = 13, RIM_LAYERS = 3 };
 
 /* What a rim is for; rims of equal forms are one. */
 struct rim_form {
     unsigned n_field;
-    int g;     /* layers, 1 or 2 */
+    int g;     /* layers, 1 to RIM_LAYERS */
     int slots; /* of pieces on the coarser level: 1, or 2 for what is linear in time between them */
     unsigned char
         given; /* bit 2 * axis + side: what is behind that boundary is in the outer layers of the tile inside */

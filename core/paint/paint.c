@@ -216,7 +216,8 @@ static void paint_mean(const struct paint *paint, const double *weight, unsigned
         for (unsigned k = 0, at = 0; k < n; k++)
             used[k] = weight[k] > 0.0 ? part[k] * paint->conserved.at[q][at++] : 0.0;
         double whole = paint_sum(part, n);
-        ret_mean[q] = whole > 0.0 ? paint_sum(used, n) / whole : model->n_stretch && q < model->i_V + 3 ? 1.0 : 0.0;
+        unsigned c;
+        ret_mean[q] = whole > 0.0 ? paint_sum(used, n) / whole : model_is_stretch(model, q, &c) && c < 3 ? 1.0 : 0.0;
     }
 }
 
@@ -325,6 +326,7 @@ int paint_tile(const struct model *model, const struct mesh *mesh, const struct 
     paint->u = u;
     paint->covered = mem_new(mesh->n_cell, sizeof *paint->covered);
     memset(u, 0, model->n_field * mesh->n_cell * sizeof *u);
+    paint_stretch_relaxed(model, mesh->n_cell, mesh->n_cell, u);
     for (int d = 0; d < mesh->dim; d++) {
         int cells = level->extent[d] * mesh->n[d], first = tile->at[d] * mesh->n[d];
         paint->edges[d] = mem_new((size_t)mesh->n[d] + 1, sizeof **paint->edges);
@@ -332,7 +334,7 @@ int paint_tile(const struct model *model, const struct mesh *mesh, const struct 
             paint->edges[d][i] = (mesh->lower[d] * (cells - first - i) + mesh->upper[d] * (first + i)) / cells;
     }
     int code = paint_layers(paint);
-    if (!code && model->n_pair) paint_curvature(model, mesh, level, tile, u);
+    if (!code && model->n_pair && mesh->dim == 1) paint_curvature(model, mesh, level, tile, u);
     if (!code && model->n_stretch) paint_stretch_finish(model, mesh->n_cell, mesh->n_cell, u);
     for (int d = 0; d < mesh->dim; d++) mem_free(paint->edges[d]);
     mem_free(paint->covered);

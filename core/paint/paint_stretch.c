@@ -53,3 +53,9 @@ void paint_stretch_finish(const struct model *model, size_t n, size_t stride, do
     elastic_fade(model, n, stride, share, V);
     mem_free(share);
 }
+
+void paint_stretch_relaxed(const struct model *model, size_t n, size_t stride, double *fields)
+{
+    for (unsigned b = 0; b < model->n_branch; b++)
+        elastic_identity(model, n, stride, fields + model->branches[b].field * stride);
+}

@@ -28,4 +28,7 @@ void paint_stretch_mix(const struct model *model, const struct paint_stretch_lay
  * there is hardly any solid. */
 void paint_stretch_finish(const struct model *model, size_t n, size_t stride, double *u);
 
+/* Maxwell branches begin relaxed: the stretches of all of them, of n points, become the identity. */
+void paint_stretch_relaxed(const struct model *model, size_t n, size_t stride, double *fields);
+
 #endif

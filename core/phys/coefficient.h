@@ -24,6 +24,12 @@ static inline bool coefficient_sees_rate(const struct model_coefficient *coeffic
     return coefficient->law && (coefficient->law->needs & BULLA_NEEDS_RATE);
 }
 
+/* Is it one number, or nothing? */
+static inline bool coefficient_is_number(const struct model_coefficient *coefficient)
+{
+    return !coefficient->law || !coefficient->law->needs;
+}
+
 /* value[n]: what the law says; 0 without one. `eos`: of the material, for its temperature. */
 void coefficient_values(const struct model_coefficient *coefficient, const struct model_eos *eos,
                         const struct coefficient_points *points, double *value);

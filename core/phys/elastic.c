@@ -3,7 +3,7 @@
  * With B = V V and I1, I2 its invariants, every isotropic law comes down to two moduli per point,
  *     G1 = sum_l 2 m_l (e_1 + I1 e_2),   G2 = sum_l 2 m_l e_2,   s' = G1 dev B - G2 dev B^2,
  * and their derivatives for wave speeds. Laws of I1 alone with constant slope (neo-Hookean) take the short path,
- * G2 = 0 and constant G1. */
+ * G2 = 0 and constant G1. So does every Maxwell branch, on a stretch of its own; what it finds is added. */
 #include "phys/elastic.h"
 
 #include "mesh/axis.h"
@@ -20,42 +20,6 @@ struct elastic_batch {
     double I1[ELASTIC_BATCH], I2[ELASTIC_BATCH], energy[ELASTIC_BATCH], G1[ELASTIC_BATCH], G2[ELASTIC_BATCH];
     double H11[ELASTIC_BATCH], H12[ELASTIC_BATCH], H22[ELASTIC_BATCH]; /* sum_l 2 m_l e_11 ... */
 };
-
-#define ELASTIC_INVARIANTS(nv)                                                                             \
-    static BULLA_KERNEL void elastic_invariants_##nv(size_t n, struct elastic_rows V, double *restrict I1, \
-                                                     double *restrict I2)                                  \
-    {                                                                                                      \
-        ELASTIC_LOCAL(V);                                                                                  \
-        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                 \
-        {                                                                                                  \
-            struct elastic_tensor B = elastic_tensor_square(ELASTIC_AT(i, nv));                            \
-            double trace = elastic_tensor_trace(B);                                                        \
-            I1[i] = trace;                                                                                 \
-            I2[i] = 0.5 * (trace * trace - elastic_tensor_norm2(B));                                       \
-        }                                                                                                  \
-    }
-ELASTIC_INVARIANTS(1)
-ELASTIC_INVARIANTS(2)
-ELASTIC_INVARIANTS(3)
-
-void elastic_invariants(const struct model *model, size_t n, size_t stride, const double *V, double *restrict I1,
-                        double *restrict I2)
-{
-    struct elastic_rows rows = elastic_tensor_rows(V, stride, model->n_stretch);
-    ELASTIC_CHOOSE(model->n_velocity, elastic_invariants, n, rows, I1, I2);
-}
-
-/* I1 alone, which is all that plain laws ask for. */
-#define ELASTIC_FIRST(nv)                                                                             \
-    static BULLA_KERNEL void elastic_first_##nv(size_t n, struct elastic_rows V, double *restrict I1) \
-    {                                                                                                 \
-        ELASTIC_LOCAL(V);                                                                             \
-        _Pragma("omp simd") for (size_t i = 0; i < n; i++) I1[i] =                                    \
-            elastic_tensor_trace(elastic_tensor_square(ELASTIC_AT(i, nv)));                           \
-    }
-ELASTIC_FIRST(1)
-ELASTIC_FIRST(2)
-ELASTIC_FIRST(3)
 
 /* One plain solid's part of the energy and of G1. */
 static BULLA_KERNEL void elastic_add_plain(size_t n, const double *restrict m, const double *restrict e,
@@ -111,10 +75,9 @@ static void elastic_moduli(const struct model *model, size_t n, size_t stride, c
     double e[ELASTIC_BATCH], e_1[ELASTIC_BATCH], e_2[ELASTIC_BATCH];
     double *sums[] = {batch->energy, batch->G1, batch->G2};
     bool plain = elastic_is_plain(model);
-    struct elastic_rows rows = elastic_tensor_rows(V, stride, model->n_stretch);
     for (size_t i = 0; i < (plain ? 2 : 3); i++) memset(sums[i], 0, n * sizeof *e);
-    if (plain) ELASTIC_CHOOSE(model->n_velocity, elastic_first, n, rows, batch->I1);
-    else ELASTIC_CHOOSE(model->n_velocity, elastic_invariants, n, rows, batch->I1, batch->I2);
+    if (plain) elastic_invariants_first(model, n, stride, V, batch->I1);
+    else elastic_invariants(model, n, stride, V, batch->I1, batch->I2);
     for (unsigned s = 0; s < model->n_solid; s++) {
         const struct model_solid *solid = &model->solids[s];
         solid->law->energy(solid->self, n, batch->I1, plain ? batch->I1 : batch->I2, e, e_1, e_2);
@@ -137,6 +100,29 @@ static void elastic_curvature(const struct model *model, size_t n, size_t from, 
     }
 }
 
+/* The spring of a branch: what it adds to the energy, and its modulus. */
+static BULLA_KERNEL void elastic_spring(size_t n, double k, const double *restrict m, const double *restrict I1,
+                                        double *restrict energy, double *restrict G1)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double stiff = m[i] * k;
+        energy[i] = stiff * (I1[i] - 3.0);
+        G1[i] = 2.0 * stiff;
+    }
+}
+
+/* I1, energy and modulus of branch b alone, as elastic_moduli has them of the springs at rest; its rows. */
+static struct elastic_rows elastic_pull(const struct model *model, unsigned b, size_t n, size_t stride, const double *V,
+                                        size_t from, const double *const *m, struct elastic_batch *batch)
+{
+    const struct model_branch *branch = &model->branches[b];
+    const double *own = V + elastic_branch(model, b, stride) + from;
+    elastic_invariants_first(model, n, stride, own, batch->I1);
+    elastic_spring(n, branch->k, m[branch->solid] + from, batch->I1, batch->energy, batch->G1);
+    return elastic_tensor_rows(own, stride, model->n_stretch);
+}
+
 static size_t elastic_part(size_t n, size_t from)
 {
     return n - from < ELASTIC_BATCH ? n - from : ELASTIC_BATCH;
@@ -150,6 +136,10 @@ void elastic_energy(const struct model *model, size_t n, size_t stride, const do
         size_t part = elastic_part(n, from);
         elastic_moduli(model, part, stride, V + from, from, m, &batch);
         memcpy(rho_es + from, batch.energy, part * sizeof *rho_es);
+        for (unsigned b = 0; b < model->n_branch; b++) {
+            elastic_pull(model, b, part, stride, V, from, m, &batch);
+            row_add(part, batch.energy, rho_es + from);
+        }
     }
 }
 
@@ -163,18 +153,18 @@ static ELASTIC_BODY struct elastic_tensor elastic_deviator(struct elastic_tensor
                                    G1 * B.xz - G2 * C.xz,          G1 * B.yz - G2 * C.yz};
 }
 
-/* Scalar points: stress is asked for by output and boundaries, not by the solver's rows. */
-static void elastic_stress_part(const struct model *model, size_t n, size_t stride, const double *V,
-                                const struct elastic_batch *batch, double *s)
+/* s' of one stretch, or that added to what there is. Scalar points: stress is asked for by output and boundaries, not by the
+ * solver's rows. */
+static void elastic_stress_part(const struct model *model, bool plain, bool add, size_t n, size_t stride,
+                                const double *V, const struct elastic_batch *batch, double *s)
 {
-    bool plain = elastic_is_plain(model);
     for (size_t i = 0; i < n; i++) {
         double at[6] = {0}, out[6];
         for (unsigned c = 0; c < model->n_stretch; c++) at[c] = V[c * stride + i];
         struct elastic_tensor here = {at[0], at[1], at[2], at[3], at[4], at[5]};
         struct elastic_tensor dev = elastic_deviator(here, batch->G1[i], plain ? 0.0 : batch->G2[i]);
         memcpy(out, (double[]){dev.xx, dev.yy, dev.zz, dev.xy, dev.xz, dev.yz}, sizeof out);
-        for (unsigned c = 0; c < model->n_stretch; c++) s[c * stride + i] = out[c];
+        for (unsigned c = 0; c < model->n_stretch; c++) s[c * stride + i] = add ? s[c * stride + i] + out[c] : out[c];
     }
 }
 
@@ -185,7 +175,12 @@ void elastic_stress(const struct model *model, size_t n, size_t stride, const do
     for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
         size_t part = elastic_part(n, from);
         elastic_moduli(model, part, stride, V + from, from, m, &batch);
-        elastic_stress_part(model, part, stride, V + from, &batch, s + from);
+        elastic_stress_part(model, elastic_is_plain(model), false, part, stride, V + from, &batch, s + from);
+        for (unsigned b = 0; b < model->n_branch; b++) {
+            elastic_pull(model, b, part, stride, V, from, m, &batch);
+            elastic_stress_part(model, true, true, part, stride, V + elastic_branch(model, b, stride) + from, &batch,
+                                s + from);
+        }
     }
 }
 
@@ -222,6 +217,12 @@ void elastic_hoop(const struct model *model, size_t n, size_t stride, const doub
         const double *zz = V + ELASTIC_ZZ * stride + from;
         if (elastic_is_plain(model)) elastic_hoop_plain(part, zz, &batch, p + from, ret + from);
         else elastic_hoop_part(part, zz, &batch, p + from, ret + from);
+        for (unsigned b = 0; b < model->n_branch; b++) {
+            double beside[ELASTIC_BATCH];
+            memcpy(beside, ret + from, part * sizeof *beside);
+            elastic_pull(model, b, part, stride, V, from, m, &batch);
+            elastic_hoop_plain(part, zz + elastic_branch(model, b, stride), &batch, beside, ret + from);
+        }
     }
 }
 
@@ -345,6 +346,28 @@ static struct elastic_rows elastic_turn(const struct model *model, int axis, siz
     return rows;
 }
 
+/* What the branches add to a row of faces. The stiffness along the normal adds up to first order in what couples it to
+ * the tangents, which is squared in it; all else is exact. `stiffness`: of the fluid, from 0. */
+static void elastic_sides_pull(const struct model *model, int axis, size_t n, size_t stride, const double *V,
+                               size_t from, const double *const *m, const double *stiffness,
+                               const struct elastic_out *out, double *energy)
+{
+    struct elastic_batch batch;
+    double row[5][ELASTIC_BATCH];
+    const struct elastic_out own = {row[0], row[1], row[2], row[3], row[4]};
+    for (unsigned b = 0; b < model->n_branch; b++) {
+        struct elastic_rows rows = elastic_turn(model, axis, stride, V + elastic_branch(model, b, stride) + from);
+        elastic_pull(model, b, n, stride, V, from, m, &batch);
+        ELASTIC_CHOOSE(model->n_velocity, elastic_plain, n, rows, &batch, stiffness, own);
+        if (energy) row_add(n, batch.energy, energy);
+        row_add(n, own.normal, out->normal);
+        row_add(n, own.stiff, out->stiff);
+        row_add(n, own.rigid, out->rigid);
+        if (model->n_velocity > 1) row_add(n, own.shear_1, out->shear_1);
+        if (model->n_velocity > 2) row_add(n, own.shear_2, out->shear_2);
+    }
+}
+
 void elastic_sides(const struct model *model, int axis, size_t n, size_t stride, const double *V,
                    const double *const *m, const double *stiffness, const struct elastic_side *ret)
 {
@@ -361,6 +384,9 @@ void elastic_sides(const struct model *model, int axis, size_t n, size_t stride,
         if (!plain) elastic_curvature(model, part, from, m, &batch);
         if (plain) ELASTIC_CHOOSE(model->n_velocity, elastic_plain, part, rows, &batch, stiffness + from, out);
         else ELASTIC_CHOOSE(model->n_velocity, elastic_general, part, rows, &batch, stiffness + from, out);
+        if (model->n_branch)
+            elastic_sides_pull(model, axis, part, stride, V, from, m, stiffness + from, &out,
+                               ret->energy ? ret->energy + from : NULL);
     }
 }
 
@@ -420,12 +446,13 @@ void elastic_speed2(const struct model *model, size_t n, size_t stride, const do
                     const double *rho, double *c2)
 {
     double most[ELASTIC_BATCH], fluid[ELASTIC_BATCH];
+    bool plain = elastic_is_plain(model); /* other laws find their branches beside them */
     struct elastic_batch batch;
     for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
         size_t part = elastic_part(n, from);
         const double *masses[SCENE_MATERIALS];
         for (unsigned s = 0; s < model->n_solid; s++) masses[s] = m[s] + from;
-        if (elastic_is_plain(model)) {
+        if (plain) {
             struct elastic_rows rows = elastic_tensor_rows(V + from, stride, model->n_stretch);
             elastic_moduli(model, part, stride, V + from, 0, masses, &batch);
             ELASTIC_CHOOSE(model->n_velocity, elastic_bound, part, rows, &batch, most);
@@ -434,57 +461,10 @@ void elastic_speed2(const struct model *model, size_t n, size_t stride, const do
             elastic_bound_general(model, part, stride, V + from, masses, fluid, most);
         }
         elastic_speed(part, most, rho + from, c2 + from);
-    }
-}
-
-void elastic_sum(const struct model *model, size_t n, size_t stride, const double *block, double *restrict sum)
-{
-    memset(sum, 0, n * sizeof *sum);
-    for (unsigned s = 0; s < model->n_solid; s++) row_add(n, block + model->solids[s].material * stride, sum);
-}
-
-/* Square of |V - 1|, component by component: weight 2 off the diagonal. */
-static BULLA_KERNEL void elastic_distance(size_t n, double one, double weight, const double *restrict V,
-                                          double *restrict square)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double e = V[i] - one, s = square[i];
-        square[i] = s + weight * e * e;
-    }
-}
-
-/* How much of V - 1 stays: 1 within the bound, 0 without solid. */
-static BULLA_KERNEL void elastic_share(size_t n, const double *restrict alpha, double *restrict square)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double phi = alpha[i] / ELASTIC_FADE, bound = phi * phi, size = sqrt(square[i]), cut = bound / size;
-        double share = size > bound ? cut : 1.0;
-        square[i] = phi > 0.0 ? share : 0.0;
-    }
-}
-
-static BULLA_KERNEL void elastic_shrink(size_t n, double one, const double *restrict share, double *restrict V)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double v = V[i], s = share[i], less = one + s * (v - one);
-        less = s < 1.0 ? less : v;
-        V[i] = s > 0.0 ? less : one;
-    }
-}
-
-void elastic_fade(const struct model *model, size_t n, size_t stride, const double *alpha, double *V)
-{
-    double share[ELASTIC_BATCH];
-    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
-        size_t part = elastic_part(n, from);
-        for (size_t i = 0; i < part; i++) share[i] = 0.0;
-        for (unsigned c = 0; c < model->n_stretch; c++)
-            elastic_distance(part, c < 3 ? 1.0 : 0.0, c < 3 ? 1.0 : 2.0, V + c * stride + from, share);
-        elastic_share(part, alpha + from, share);
-        for (unsigned c = 0; c < model->n_stretch; c++)
-            elastic_shrink(part, c < 3 ? 1.0 : 0.0, share, V + c * stride + from);
+        for (unsigned b = 0; plain && b < model->n_branch; b++) {
+            struct elastic_rows rows = elastic_pull(model, b, part, stride, V, from, m, &batch);
+            ELASTIC_CHOOSE(model->n_velocity, elastic_bound, part, rows, &batch, most);
+            elastic_speed(part, most, rho + from, c2 + from);
+        }
     }
 }

@@ -3,7 +3,10 @@
  * V is the symmetric unimodular left stretch, B = V V the left Cauchy-Green tensor (model.md 3). Blocks of V have
  * n_stretch components in the order of ELASTIC_XX ...: component c at V + c * stride. m: [n_solid] rows of partial
  * densities alpha_l rho_l of the solids of the model. Batches of any length. A fluid has m = 0, hence no elastic part
- * at all, bitwise. */
+ * at all, bitwise.
+ *
+ * Maxwell branches add up: V is where the fields of stretches begin, and energy, stress and speeds are those of the springs
+ * at rest on the first of them and of each branch of the model on its own (model_stretch()). */
 #ifndef ELASTIC_H
 #define ELASTIC_H
 
@@ -33,9 +36,12 @@ void elastic_energy(const struct model *model, size_t n, size_t stride, const do
 void elastic_stress(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
                     double *s);
 
-/* Invariants I1, I2 of B. */
+/* Invariants I1, I2 of B of the springs at rest. */
 void elastic_invariants(const struct model *model, size_t n, size_t stride, const double *V, double *restrict I1,
                         double *restrict I2);
+
+/* I1 alone, which is all that plain laws ask for. */
+void elastic_invariants_first(const struct model *model, size_t n, size_t stride, const double *V, double *restrict I1);
 
 /* What a face normal to `axis` needs of one side; rows of n doubles. */
 struct elastic_side {
@@ -86,6 +92,19 @@ void elastic_unimodular(const struct model *model, size_t n, size_t stride, doub
 /* Sum over the solids of a block that has one row per material of the model, such as fractions or partial densities. */
 void elastic_sum(const struct model *model, size_t n, size_t stride, const double *block, double *restrict sum);
 
+/* The same over the solids that carry stretch k (model_carries()). */
+void elastic_carriers(const struct model *model, unsigned k, size_t n, size_t stride, const double *block,
+                      double *restrict sum);
+
+/* V = 1: a stretch that nothing carries, or one that nothing has stretched yet. */
+void elastic_identity(const struct model *model, size_t n, size_t stride, double *V);
+
+/* The block of branch b in the fields of stretches that begin at V. */
+static inline size_t elastic_branch(const struct model *model, unsigned b, size_t stride)
+{
+    return (model->branches[b].field - model->i_V) * stride;
+}
+
 /* Bounds the stretch where there is little solid: |V - 1| <= (phi/ELASTIC_FADE)^2, phi = alpha the fraction of all solids;
  * the identity where there is none. Idempotent, so a step more or less does not matter; total energy is not touched, so
  * that the elastic energy lost becomes heat. Call before elastic_unimodular. */
@@ -97,7 +116,7 @@ void elastic_fade(const struct model *model, size_t n, size_t stride, const doub
  * nothing can be divided. */
 #define ELASTIC_NOTHING 1e-280
 
-/* The stretch of n points whose fields (conserved or primitive) were averaged or interpolated: faded, then det 1. What
+/* The stretches of n points whose fields (conserved or primitive) were averaged or interpolated: faded, then det 1. What
  * this would change by round-off alone keeps its bits, so that a uniform stretch stays uniform. */
 void elastic_settle(const struct model *model, size_t n, size_t stride, double *fields);
 

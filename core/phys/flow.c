@@ -8,6 +8,7 @@
 
 #include "phys/elastic.h"
 #include "phys/elastic_tensor.h"
+#include "phys/flow_curve.h"
 #include "phys/traction.h"
 
 #include <math.h>
@@ -63,17 +64,6 @@ bool flow_reads(const struct model *path)
     return reads;
 }
 
-static ELASTIC_BODY struct elastic_tensor flow_deviator(struct elastic_tensor t)
-{
-    double mean = elastic_tensor_trace(t) / 3.0;
-    return (struct elastic_tensor){t.xx - mean, t.yy - mean, t.zz - mean, t.xy, t.xz, t.yz};
-}
-
-static ELASTIC_BODY double flow_product(struct elastic_tensor s, struct elastic_tensor t)
-{
-    return (s.xx * t.xx + s.yy * t.yy + s.zz * t.zz) + 2.0 * (s.xy * t.xy + s.xz * t.xz + s.yz * t.yz);
-}
-
 /* I1 and r = sqrt(3/2 dev B:dev B). */
 #define FLOW_MEASURE(nv)                                                                                \
     static BULLA_KERNEL void flow_measure_##nv(size_t n, struct elastic_rows V, double *restrict first, \
@@ -84,7 +74,7 @@ static ELASTIC_BODY double flow_product(struct elastic_tensor s, struct elastic_
         {                                                                                               \
             struct elastic_tensor B = elastic_tensor_square(ELASTIC_AT(i, nv));                         \
             first[i] = elastic_tensor_trace(B);                                                         \
-            r[i] = sqrt(1.5 * elastic_tensor_norm2(flow_deviator(B)));                                  \
+            r[i] = sqrt(1.5 * elastic_tensor_norm2(flow_curve_deviator(B)));                            \
         }                                                                                               \
     }
 FLOW_MEASURE(1)
@@ -100,11 +90,11 @@ FLOW_MEASURE(3)
         _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                             \
         {                                                                                                              \
             struct elastic_tensor B = elastic_tensor_square(ELASTIC_AT(i, nv)), C = elastic_tensor_cofactors(B);       \
-            struct elastic_tensor dev_B = flow_deviator(B), dev_C = flow_deviator(C);                                  \
+            struct elastic_tensor dev_B = flow_curve_deviator(B), dev_C = flow_curve_deviator(C);                      \
             I1[i] = elastic_tensor_trace(B);                                                                           \
             I2[i] = elastic_tensor_trace(C);                                                                           \
             a[i] = 1.5 * elastic_tensor_norm2(dev_B);                                                                  \
-            b[i] = 1.5 * flow_product(dev_B, dev_C);                                                                   \
+            b[i] = 1.5 * flow_curve_product(dev_B, dev_C);                                                             \
             c[i] = 1.5 * elastic_tensor_norm2(dev_C);                                                                  \
         }                                                                                                              \
     }
@@ -166,70 +156,32 @@ static BULLA_KERNEL void flow_secant(size_t n, double halve, struct flow *flow)
     }
 }
 
-/* V from B(x), by the closed form of a plane or by Newton's method from a stretch with the same axes. */
-static ELASTIC_BODY struct elastic_tensor flow_root_plane(struct elastic_tensor B)
-{
-    double d = sqrt(B.xx * B.yy - B.xy * B.xy), per = 1.0 / sqrt((B.xx + B.yy) + 2.0 * d);
-    return (struct elastic_tensor){(B.xx + d) * per, (B.yy + d) * per, sqrt(B.zz), B.xy * per, 0.0, 0.0};
-}
-
-static ELASTIC_BODY struct elastic_tensor flow_root_line(struct elastic_tensor B)
-{
-    return (struct elastic_tensor){sqrt(B.xx), sqrt(B.yy), sqrt(B.zz), 0.0, 0.0, 0.0};
-}
-
-/* One step V <- (V + V^-1 B)/2 of commuting tensors. */
-static ELASTIC_BODY struct elastic_tensor flow_root_step(struct elastic_tensor V, struct elastic_tensor B)
-{
-    struct elastic_tensor C = elastic_tensor_cofactors(V);
-    double half = 0.5 / elastic_tensor_det(V);
-    double xy = C.xx * B.xy + C.xy * B.yy + C.xz * B.yz, yx = C.xy * B.xx + C.yy * B.xy + C.yz * B.xz;
-    double xz = C.xx * B.xz + C.xy * B.yz + C.xz * B.zz, zx = C.xz * B.xx + C.yz * B.xy + C.zz * B.xz;
-    double yz = C.xy * B.xz + C.yy * B.yz + C.yz * B.zz, zy = C.xz * B.xy + C.yz * B.yy + C.zz * B.yz;
-    return (struct elastic_tensor){0.5 * V.xx + half * (C.xx * B.xx + C.xy * B.xy + C.xz * B.xz),
-                                   0.5 * V.yy + half * (C.xy * B.xy + C.yy * B.yy + C.yz * B.yz),
-                                   0.5 * V.zz + half * (C.xz * B.xz + C.yz * B.yz + C.zz * B.zz),
-                                   0.5 * (V.xy + half * (xy + yx)),
-                                   0.5 * (V.xz + half * (xz + zx)),
-                                   0.5 * (V.yz + half * (yz + zy))};
-}
-
-static ELASTIC_BODY struct elastic_tensor flow_root_space(struct elastic_tensor V, struct elastic_tensor B, double x)
-{
-    double per = 1.0 / (1.0 + x); /* at small strain V - 1 falls by this */
-    V = (struct elastic_tensor){1.0 + per * (V.xx - 1.0),
-                                1.0 + per * (V.yy - 1.0),
-                                1.0 + per * (V.zz - 1.0),
-                                per * V.xy,
-                                per * V.xz,
-                                per * V.yz};
-    return flow_root_step(flow_root_step(flow_root_step(flow_root_step(V, B), B), B), B);
-}
-
-#define FLOW_CLOSE(nv)                                                                                           \
-    static BULLA_KERNEL void flow_close_##nv(size_t n, struct elastic_rows V, const struct flow *flow,           \
-                                             double(*out)[FLOW_BATCH])                                           \
-    {                                                                                                            \
-        const double *restrict x = flow->x, *restrict E = flow->E, *restrict I2 = flow->I2;                      \
-        double *restrict xx = out[0], *restrict yy = out[1], *restrict zz = out[2];                              \
-        double *restrict xy = out[3], *restrict xz = out[4], *restrict yz = out[5];                              \
-        ELASTIC_LOCAL(V);                                                                                        \
-        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                       \
-        {                                                                                                        \
-            double t = x[i], per = 1.0 / (E[i] * E[i]), add = t * (I2[i] + t);                                   \
-            struct elastic_tensor from = ELASTIC_AT(i, nv), B = elastic_tensor_square(from);                     \
-            struct elastic_tensor C = elastic_tensor_cofactors(B);                                               \
-            B = (struct elastic_tensor){per * ((B.xx - t * C.xx) + add), per * ((B.yy - t * C.yy) + add),        \
-                                        per * ((B.zz - t * C.zz) + add), per * (B.xy - t * C.xy),                \
-                                        per * (B.xz - t * C.xz),         per * (B.yz - t * C.yz)};               \
-            from = (nv) == 1 ? flow_root_line(B) : (nv) == 2 ? flow_root_plane(B) : flow_root_space(from, B, t); \
-            xx[i] = from.xx;                                                                                     \
-            yy[i] = from.yy;                                                                                     \
-            zz[i] = from.zz;                                                                                     \
-            if ((nv) > 1) xy[i] = from.xy;                                                                       \
-            if ((nv) > 2) xz[i] = from.xz;                                                                       \
-            if ((nv) > 2) yz[i] = from.yz;                                                                       \
-        }                                                                                                        \
+#define FLOW_CLOSE(nv)                                                                                    \
+    static BULLA_KERNEL void flow_close_##nv(size_t n, struct elastic_rows V, const struct flow *flow,    \
+                                             double(*out)[FLOW_BATCH])                                    \
+    {                                                                                                     \
+        const double *restrict x = flow->x, *restrict E = flow->E, *restrict I2 = flow->I2;               \
+        double *restrict xx = out[0], *restrict yy = out[1], *restrict zz = out[2];                       \
+        double *restrict xy = out[3], *restrict xz = out[4], *restrict yz = out[5];                       \
+        ELASTIC_LOCAL(V);                                                                                 \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                \
+        {                                                                                                 \
+            double t = x[i], per = 1.0 / (E[i] * E[i]), add = t * (I2[i] + t);                            \
+            struct elastic_tensor from = ELASTIC_AT(i, nv), B = elastic_tensor_square(from);              \
+            struct elastic_tensor C = elastic_tensor_cofactors(B);                                        \
+            B = (struct elastic_tensor){per * ((B.xx - t * C.xx) + add), per * ((B.yy - t * C.yy) + add), \
+                                        per * ((B.zz - t * C.zz) + add), per * (B.xy - t * C.xy),         \
+                                        per * (B.xz - t * C.xz),         per * (B.yz - t * C.yz)};        \
+            from = (nv) == 1   ? flow_curve_root_line(B)                                                  \
+                   : (nv) == 2 ? flow_curve_root_plane(B)                                                 \
+                               : flow_curve_root_space(from, B, 1.0 / (1.0 + t));                         \
+            xx[i] = from.xx;                                                                              \
+            yy[i] = from.yy;                                                                              \
+            zz[i] = from.zz;                                                                              \
+            if ((nv) > 1) xy[i] = from.xy;                                                                \
+            if ((nv) > 2) xz[i] = from.xz;                                                                \
+            if ((nv) > 2) yz[i] = from.yz;                                                                \
+        }                                                                                                 \
     }
 FLOW_CLOSE(1)
 FLOW_CLOSE(2)

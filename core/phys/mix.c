@@ -154,7 +154,7 @@ static void mix_strains(const struct model *model, size_t n, size_t stride, cons
     }
 }
 
-/* The stretch is a primitive as it is; total energy without the elastic one. */
+/* Stretches are primitives as they are; total energy without the elastic one. */
 static void mix_unload(const struct model *model, size_t n, size_t stride, const double *u, double *w,
                        struct mix_row *ret_rest)
 {
@@ -162,8 +162,8 @@ static void mix_unload(const struct model *model, size_t n, size_t stride, const
     const double *m[SCENE_MATERIALS];
     mix_solids(model, stride, u, m);
     mix_strains(model, n, stride, u, w);
-    for (unsigned q = model->i_V; q < model->i_V + model->n_stretch; q++)
-        memcpy(w + q * stride, u + q * stride, n * sizeof *w);
+    for (unsigned i = model_drawn(model); i < model_edged(model); i++)
+        memcpy(w + model->active[i] * stride, u + model->active[i] * stride, n * sizeof *w);
     elastic_energy(model, n, stride, u + model->i_V * stride, m, elastic.value);
     mix_subtract(n, u + model->i_E * stride, elastic.value, ret_rest->value);
 }
@@ -228,7 +228,7 @@ struct mix_effort mix_primitives(const struct model *model, size_t n, size_t str
     return effort;
 }
 
-/* Copies the stretch and adds the elastic energy; u has its partial densities. */
+/* Copies stretches and adds the elastic energy; u has its partial densities. */
 static void mix_load(const struct model *model, size_t n, size_t stride, const double *w, double *u, double *energy)
 {
     struct mix_row elastic;
@@ -238,8 +238,8 @@ static void mix_load(const struct model *model, size_t n, size_t stride, const d
         size_t at = model->solids[s].strain * stride;
         for (size_t i = 0; at && i < n; i++) u[at + i] = m[s][i] * w[at + i];
     }
-    for (unsigned q = model->i_V; q < model->i_V + model->n_stretch; q++)
-        memcpy(u + q * stride, w + q * stride, n * sizeof *u);
+    for (unsigned i = model_drawn(model); i < model_edged(model); i++)
+        memcpy(u + model->active[i] * stride, w + model->active[i] * stride, n * sizeof *u);
     elastic_energy(model, n, stride, w + model->i_V * stride, m, elastic.value);
     row_add(n, elastic.value, energy);
 }

@@ -25,6 +25,15 @@ static double model_fill_density(const struct scene *scene, unsigned l, const st
     return rho > 0 && isfinite(rho) ? rho : 1.0;
 }
 
+/* Of a component of a branch's stretch: the branches of a material count from 1. */
+static char *model_branch_name(const struct model *model, unsigned b, unsigned c)
+{
+    unsigned solid = model->branches[b].solid, number = 1;
+    for (unsigned other = 0; other < b; other++) number += model->branches[other].solid == solid;
+    return mem_print("stretch_%s_%u_%s", model->scene->material[model->solids[solid].material].name, number,
+                     model_tensor[c]);
+}
+
 static void model_name_fields(struct model *model)
 {
     static const char *const momentum[] = {"momentum_x", "momentum_y", "momentum_z"};
@@ -42,6 +51,8 @@ static void model_name_fields(struct model *model)
             model->field_names[at++] =
                 mem_print("plastic_strain_mass_%s", model->scene->material[model->solids[s].material].name);
     for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = mem_print("stretch_%s", model_tensor[c]);
+    for (unsigned b = 0; b < model->n_branch; b++)
+        for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = model_branch_name(model, b, c);
     for (unsigned d = 0; d < model->n_normal; d++) model->field_names[at++] = mem_text(normal[d]);
     for (unsigned k = 0; k < model->n_pair; k++)
         model->field_names[at++] = mem_print("curvature_%s_%s", model->scene->material[model->pairs[k].inside].name,
@@ -66,11 +77,13 @@ static void model_name_derived(struct model *model)
     static const char *const plastic[] = {"flow_stress",
                                           "plastic_strain"}; /* with a strength; one that knows strains */
     size_t n_solid = model->elastic ? sizeof solid / sizeof *solid : 0;
-    size_t n_plastic = model->n_strain ? 2 : model->plastic ? 1 : 0;
-    model->names = mem_new(n_plain + n_solid + n_plastic + n_each * model->n_material + 1, sizeof *model->names);
+    size_t n_plastic = model->n_strain ? 2 : model->plastic ? 1 : 0, n_branched = model->n_branch > 0;
+    model->names =
+        mem_new(n_plain + n_solid + n_plastic + n_branched + n_each * model->n_material + 1, sizeof *model->names);
     for (size_t i = 0; i < n_plain; i++) model->names[at++] = mem_text(plain[i]);
     for (size_t i = 0; i < n_solid; i++) model->names[at++] = mem_text(solid[i]);
     for (size_t i = 0; i < n_plastic; i++) model->names[at++] = mem_text(plastic[i]);
+    if (n_branched) model->names[at++] = mem_text("overstress");
     for (unsigned l = 0; l < model->n_material; l++) {
         const char *name = model->scene->material[l].name;
         model->names[at++] = mem_print("alpha_%s", name);
@@ -119,6 +132,16 @@ static void model_pair_narrow(const struct model *model, struct model *narrow)
     }
 }
 
+/* The branches of solid s, which becomes the next solid of a narrowed model. */
+static void model_narrow_branches(const struct model *model, unsigned s, struct model *narrow)
+{
+    for (unsigned b = 0; b < model->n_branch; b++) {
+        if (model->branches[b].solid != s) continue;
+        narrow->branches[narrow->n_branch] = model->branches[b];
+        narrow->branches[narrow->n_branch++].solid = narrow->n_solid;
+    }
+}
+
 /* The model of a region that holds nothing but the n materials from `first`: works on the same blocks, leaves the
  * other materials' components alone, and the stretch where none of them is a solid; gives bitwise what the full model
  * would. One material alone needs no fractions either. */
@@ -133,7 +156,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     narrow->i_m = model->i_m + first;
     narrow->kapila = model->kapila && n > 1;
     narrow->linear = true;
-    narrow->n_solid = narrow->n_active = 0;
+    narrow->n_solid = narrow->n_active = narrow->n_branch = 0;
     narrow->viscous = false;
     narrow->plastic = false;
     for (unsigned l = 0; l < n; l++) {
@@ -147,6 +170,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
         unsigned l = model->solids[s].material - first; /* wraps where it stands before */
         if (l >= n) continue;
         narrow->plastic = narrow->plastic || model->solids[s].strength;
+        model_narrow_branches(model, s, narrow);
         narrow->solids[narrow->n_solid] = model->solids[s];
         narrow->solids[narrow->n_solid++].material = l;
     }
@@ -160,9 +184,38 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     for (unsigned q = model->i_u; q <= model->i_E; q++) narrow->active[narrow->n_active++] = q;
     for (unsigned s = 0; s < narrow->n_solid; s++)
         if (narrow->solids[s].strain) narrow->active[narrow->n_active++] = narrow->solids[s].strain;
-    for (unsigned c = 0; c < narrow->n_stretch; c++) narrow->active[narrow->n_active++] = model->i_V + c;
+    for (unsigned k = 0; k < model_stretches(narrow); k++)
+        for (unsigned c = 0; c < narrow->n_stretch; c++)
+            narrow->active[narrow->n_active++] = model_stretch(narrow, k) + c;
     for (unsigned k = 0; k < narrow->n_pair; k++) narrow->active[narrow->n_active++] = narrow->pairs[k].i_kappa;
     return narrow;
+}
+
+/* Bears a law nothing, however it is stretched? */
+static bool model_is_slack(const struct model_solid *solid)
+{
+    double I1 = 3.5, I2 = 3.25, e, e_1, e_2;
+    solid->law->energy(solid->self, 1, &I1, &I2, &e, &e_1, &e_2);
+    return e_1 == 0.0 && e_2 == 0.0;
+}
+
+/* The fields of stretches: of all solids together, then of each Maxwell branch. */
+static void model_stretch_all(struct model *model)
+{
+    model->n_stretch = model->elastic ? elastic_count(model->n_velocity) : 0;
+    model->n_field = model->i_V + model->n_stretch;
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        const struct scene_material *material = &model->scene->material[model->solids[s].material];
+        for (unsigned b = 0; b < material->n_branch; b++) {
+            const struct scene_branch *branch = &material->branch[b];
+            model->branches[model->n_branch++] = (struct model_branch){.solid = s,
+                                                                       .field = model->n_field,
+                                                                       .k = 0.5 * branch->modulus / branch->density,
+                                                                       .time = branch->time};
+            model->n_field += model->n_stretch;
+        }
+    }
+    model->n_stretched = model->n_field - model->i_V;
 }
 
 /* The solids of a scene. */
@@ -174,6 +227,7 @@ static void model_solids(struct model *model)
         if (!law->module) continue;
         struct model_solid *solid = &model->solids[model->n_solid++];
         *solid = (struct model_solid){.law = law->module->table, .self = law->self, .material = l};
+        solid->slack = model_is_slack(solid);
         if (!plastic->module) continue;
         solid->strength = plastic->module->table;
         solid->strength_self = plastic->self;
@@ -234,7 +288,9 @@ static void model_conduct(struct model *model)
 /* Do the materials of a cell share their traction? */
 static bool model_is_split(const struct model *model)
 {
-    return model->elastic && model->n_alpha > 0 && model->scene->scheme.traction == SCENE_TRACTION_COMMON;
+    enum scene_traction traction = model->scene->scheme.traction;
+    bool wanted = traction == SCENE_TRACTION_AUTO ? model->dim == 1 : traction == SCENE_TRACTION_COMMON;
+    return wanted && model->elastic && model->n_alpha > 0;
 }
 
 struct model *model_new(const struct scene *scene)
@@ -253,8 +309,8 @@ struct model *model_new(const struct scene *scene)
     model->i_strain = model->i_E + 1;
     model_solids(model);
     model->i_V = model->i_strain + model->n_strain;
-    model->n_stretch = model->elastic ? elastic_count(model->n_velocity) : 0;
-    model->n_field = model->i_normal = model->i_V + model->n_stretch;
+    model_stretch_all(model);
+    model->i_normal = model->n_field;
     model->split = model_is_split(model);
     if (model->split && model->dim > 1) model->n_normal = (unsigned)model->dim;
     model->n_field += model->n_normal;

@@ -2,10 +2,11 @@
  *
  * Conserved fields u, in this order: alpha_l (N of them, none if N = 1), m_l = alpha_l rho_l,
  * rho u_i (n_velocity), rho E, m_l eps_l (n_strain: of solids whose strength knows their plastic strain eps) and, in a
- * scene with a solid, the stretch V (n_stretch: xx, yy, zz, then xy, then xz, yz, as far as n_velocity reaches).
+ * scene with a solid, the stretch V (n_stretch: xx, yy, zz, then xy, then xz, yz, as far as n_velocity reaches), then as
+ * many more for each Maxwell branch of a solid, which has a stretch of its own (scheme/viscoelastic.h).
  * Last, for each pair of materials with surface tension, the curvature of their interface in the cell, which is no
  * conserved field but made anew from the fractions in every stage (scheme/tension.h).
- * Primitives w, same count: alpha_l, rho_l, u_i, p, eps_l, V, kappa. For N = 1 m is rho.
+ * Primitives w, same count: alpha_l, rho_l, u_i, p, eps_l, V, those of the branches, kappa. For N = 1 m is rho.
  *
  * This folder, phys: materials at points: which fields there are, mixtures, elasticity, presence, relaxation.
  * Batches of points, no neighbours. */
@@ -40,6 +41,15 @@ struct model_solid {
     const void *strength_self;
     unsigned strain; /* field of its plastic strain; 0: it has none */
     unsigned needs;  /* enum bulla_inelastic_needs, of the strength */
+    bool slack;      /* its law bears nothing, as in a Maxwell fluid: its stretch means nothing and stays 1 */
+};
+
+/* A Maxwell branch of a solid: a neo-Hookean spring on a stretch of its own, e = k (I1 - 3), and a dashpot in a row. */
+struct model_branch {
+    unsigned solid; /* index into the solids of the same model */
+    unsigned field; /* first component of its stretch */
+    double k;       /* G/(2 rho0) [J/kg] */
+    double time;    /* of relaxation [s] */
 };
 
 /* A number of a material, as bulla/coefficient.h says; law NULL: 0. */
@@ -70,8 +80,9 @@ struct model_pair {
     double sigma;             /* [N/m] */
 };
 
-/* Most evolved fields a scene can have: fractions, densities, velocities, energy, plastic strains, stretch, curvatures. */
-enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 + 3 + SCENE_PAIRS };
+/* Most evolved fields a scene can have: fractions, densities, velocities, energy, plastic strains, stretches, normals,
+ * curvatures. */
+enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 * (1 + SCENE_BRANCHES) + 3 + SCENE_PAIRS };
 
 struct model {
     const struct scene *scene;
@@ -79,6 +90,9 @@ struct model {
     unsigned n_velocity;              /* >= dim */
     unsigned n_solid, n_stretch, i_V; /* stretch: first index; n_stretch 0 in paths without a solid */
     struct model_solid solids[SCENE_MATERIALS];
+    unsigned n_stretched; /* components of all stretches of the scene, be they of this path or not */
+    unsigned n_branch;
+    struct model_branch branches[SCENE_BRANCHES];
     unsigned n_strain, i_strain; /* plastic strains of the scene: first index */
     unsigned n_pair;
     struct model_pair pairs[SCENE_PAIRS];
@@ -137,6 +151,38 @@ static inline unsigned model_edged(const struct model *model)
 static inline bool model_looks_around(const struct model *path)
 {
     return path->viscous || path->n_normal > 0;
+}
+
+/* Number of stretches of a path: that of the springs at rest, then those of the branches. */
+static inline unsigned model_stretches(const struct model *model)
+{
+    return model->n_stretch ? 1 + model->n_branch : 0;
+}
+
+/* First component of stretch k of a path. */
+static inline unsigned model_stretch(const struct model *model, unsigned k)
+{
+    return k ? model->branches[k - 1].field : model->i_V;
+}
+
+/* Active fields of stretches: the last but the curvatures, from active[model_drawn()] to active[model_edged()]. */
+static inline unsigned model_drawn(const struct model *model)
+{
+    return model_edged(model) - model_stretches(model) * model->n_stretch;
+}
+
+/* Is component q one of a stretch? ret_component: xx, yy, ... */
+static inline bool model_is_stretch(const struct model *model, unsigned q, unsigned *ret_component)
+{
+    bool is = model->n_stretch && q - model->i_V < model->n_stretched; /* wraps below i_V */
+    *ret_component = is ? (q - model->i_V) % model->n_stretch : 0;
+    return is;
+}
+
+/* Does solid s carry stretch k of a path with its mass? */
+static inline bool model_carries(const struct model *model, unsigned k, unsigned s)
+{
+    return k ? model->branches[k - 1].solid == s : !model->solids[s].slack;
 }
 
 /* Is component q a plastic strain? */

@@ -122,7 +122,8 @@ static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
         bool own = before[model->i_alpha + l] > 0.0 && old[model->i_m + l] > 0.5 * m && old[model->i_m + l] < 2.0 * m;
         relax->w[model->i_m + l] = own ? before[model->i_m + l] : m / alpha;
     }
-    for (unsigned q = model->i_V; q < model->i_V + model->n_stretch; q++) relax->w[q] = relax->u[q];
+    for (unsigned i = model_drawn(model); i < model_edged(model); i++)
+        relax->w[model->active[i]] = relax->u[model->active[i]];
     if (model->split) traction_own(model, 1, 1, relax->w, 1, relax->own);
     relax_lag(relax);
     for (unsigned l = 0; l < model->n_material; l++) {

@@ -47,28 +47,62 @@ static BULLA_KERNEL void traction_along(size_t n, const double *restrict rho, co
     }
 }
 
+/* A stretch in a batch, and what it is looked at with. */
+struct traction_view {
+    const double *row[6], *normal[3]; /* [normal]: of models that have them */
+    double I1[TRACTION_BATCH], I2[TRACTION_BATCH], e_1[TRACTION_BATCH], e_2[TRACTION_BATCH];
+};
+
+static void traction_look(const struct model *model, size_t n, size_t stride, const double *w, unsigned first,
+                          struct traction_view *ret)
+{
+    const double *V = w + first * stride;
+    for (unsigned c = 0; c < 6; c++) ret->row[c] = c < model->n_stretch ? V + c * stride : traction_zero;
+    for (unsigned d = 0; d < 3; d++)
+        ret->normal[d] = d < model->n_normal ? w + (model->i_normal + d) * stride : traction_zero;
+    elastic_invariants(model, n, stride, V, ret->I1, ret->I2);
+}
+
+/* s'_nn of the slopes e_1, e_2 of a view. */
+static void traction_of(const struct model *model, size_t n, const double *rho, const struct traction_view *view,
+                        double *own)
+{
+    const double *const *row = view->row;
+    if (model->n_normal) traction_along(n, rho, row, view->normal, view->I1, view->I2, view->e_1, view->e_2, own);
+    else
+        traction_normal(n, rho, row[ELASTIC_XX], row[ELASTIC_XY], row[ELASTIC_XZ], row[ELASTIC_YY], row[ELASTIC_YZ],
+                        row[ELASTIC_ZZ], view->I1, view->I2, view->e_1, view->e_2, own);
+}
+
+/* What the Maxwell branches of the solids add: each a neo-Hookean spring on its own stretch. */
+static void traction_branches(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
+                              double *own)
+{
+    struct traction_view view;
+    double part[TRACTION_BATCH];
+    for (unsigned b = 0; b < model->n_branch; b++) {
+        const struct model_branch *branch = &model->branches[b];
+        unsigned l = model->solids[branch->solid].material;
+        traction_look(model, n, stride, w, branch->field, &view);
+        for (size_t i = 0; i < n; i++) view.e_1[i] = branch->k, view.e_2[i] = 0.0;
+        traction_of(model, n, w + (model->i_m + l) * stride, &view, part);
+        row_add(n, part, own + l * pitch);
+    }
+}
+
 static void traction_batch(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
                            double *own)
 {
-    double I1[TRACTION_BATCH], I2[TRACTION_BATCH], e[TRACTION_BATCH], e_1[TRACTION_BATCH], e_2[TRACTION_BATCH];
-    const double *V = w + model->i_V * stride, *row[6], *normal[3];
-    for (unsigned c = 0; c < 6; c++) row[c] = c < model->n_stretch ? V + c * stride : traction_zero;
-    for (unsigned d = 0; d < 3; d++)
-        normal[d] = d < model->n_normal ? w + (model->i_normal + d) * stride : traction_zero;
-    elastic_invariants(model, n, stride, V, I1, I2);
+    struct traction_view view;
+    double e[TRACTION_BATCH];
+    traction_look(model, n, stride, w, model->i_V, &view);
     for (unsigned l = 0; l < model->n_material; l++) memset(own + l * pitch, 0, n * sizeof *own);
     for (unsigned s = 0; s < model->n_solid; s++) {
         const struct model_solid *solid = &model->solids[s];
-        solid->law->energy(solid->self, n, I1, I2, e, e_1, e_2);
-        if (model->n_normal) {
-            traction_along(n, w + (model->i_m + solid->material) * stride, row, normal, I1, I2, e_1, e_2,
-                           own + solid->material * pitch);
-            continue;
-        }
-        traction_normal(n, w + (model->i_m + solid->material) * stride, row[ELASTIC_XX], row[ELASTIC_XY],
-                        row[ELASTIC_XZ], row[ELASTIC_YY], row[ELASTIC_YZ], row[ELASTIC_ZZ], I1, I2, e_1, e_2,
-                        own + solid->material * pitch);
+        solid->law->energy(solid->self, n, view.I1, view.I2, e, view.e_1, view.e_2);
+        traction_of(model, n, w + (model->i_m + solid->material) * stride, &view, own + solid->material * pitch);
     }
+    traction_branches(model, n, stride, w, pitch, own);
 }
 
 void traction_own(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch, double *own)

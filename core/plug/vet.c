@@ -362,8 +362,9 @@ static bool vet_try_constitutive(const struct bulla_constitutive *law, const voi
     double e[N] = {nan, nan, nan}, e_1[N] = {nan, nan, nan}, e_2[N] = {nan, nan, nan}, sum = 0.0;
     law->energy(self, N, I1, I2, e, e_1, e_2);
     for (int i = 0; i < N; i++) sum += e[i] + e_1[i] + e_2[i];
-    bool good = isfinite(sum);
-    for (int i = 0; i < N; i++) good &= e_1[i] + e_2[i] > 0.0;
+    bool good = isfinite(sum), none = true;
+    for (int i = 0; i < N; i++) none &= e[i] == 0.0 && e_1[i] == 0.0 && e_2[i] == 0.0;
+    for (int i = 0; i < N; i++) good &= none || e_1[i] + e_2[i] > 0.0; /* a Maxwell fluid bears nothing at rest */
     if (!law->second) return good;
     double e_11[N] = {nan, nan, nan}, e_12[N] = {nan, nan, nan}, e_22[N] = {nan, nan, nan};
     law->second(self, N, I1, I2, e_11, e_12, e_22);

@@ -66,7 +66,7 @@ static void check_print_jump(const struct scene *scene, int index, unsigned insi
     char jump[HUMAN_ROOM], given[HUMAN_ROOM];
     if (check_layer(scene, index, inside) != index || below < 0) return;
     if (!layer->shape || layer->shape->type != SHAPE_SPHERE) return;
-    double asked = (double)scene->domain.geometry * sigma / layer->shape->radius;
+    double asked = scene_domain_turns(&scene->domain) * sigma / layer->shape->radius;
     printf("  %-12s asks for %s more in the sphere of initial[%d], which begins with %s more\n", "",
            human_si(asked, "Pa", jump), index,
            human_si(layer->pressure.number - scene->layers[below].pressure.number, "Pa", given));
@@ -118,6 +118,21 @@ static void check_print_strength(const struct model *model, unsigned l, double r
     printf("  %-12s its strength looks at temperatures: %.4g K at %g kg/m3 and 1 atm\n", "", T, rho);
 }
 
+/* The Maxwell branches of a solid: each with its viscosity, and what waves feel that are faster than all of them. */
+static void check_print_branches(const struct scene_material *material, double c2)
+{
+    char modulus[HUMAN_ROOM], time[HUMAN_ROOM], viscosity[HUMAN_ROOM], speed[HUMAN_ROOM];
+    for (unsigned b = 0; b < material->n_branch; b++) {
+        const struct scene_branch *branch = &material->branch[b];
+        c2 += branch->modulus / branch->density;
+        printf("  %-12s %s %s over %s: as viscous as %s in slow motion\n", "", b ? "and" : "viscoelastic:",
+               human_si(branch->modulus, "Pa", modulus), human_si(branch->time, "s", time),
+               human_si(branch->modulus * branch->time, "Pa s", viscosity));
+    }
+    if (material->n_branch)
+        printf("  %-12s before they relax, shear waves at %s\n", "", human_si(sqrt(c2), "m/s", speed));
+}
+
 /* A material, and what makes it a solid. */
 static void check_print_material(const struct scene *scene, const struct model *model, unsigned l)
 {
@@ -133,6 +148,7 @@ static void check_print_material(const struct scene *scene, const struct model *
     check_print_module("", solid);
     printf("  %-12s a solid: shear modulus %s at %g kg/m3, shear waves at %s\n", "", human_si(rho * c2, "Pa", modulus),
            rho, human_si(sqrt(c2), "m/s", speed));
+    check_print_branches(material, c2);
     if (material->plastic.module) check_print_strength(model, l, rho, rho * c2);
 }
 

@@ -42,12 +42,12 @@ static void bound_fill_copy(const struct bound_fill *fill)
         bound_layer_fill(fill->frame, fill->side, false, 1.0, fill->w + model->active[i] * fill->pitch);
 }
 
-/* Is this component of the stretch one of those that a mirror across `axis` turns round? */
+/* Is this component of a stretch one of those that a mirror across `axis` turns round? */
 static bool bound_fill_is_crossed(const struct model *model, int axis, unsigned q)
 {
-    unsigned n = (unsigned)axis;
-    if (q < model->i_V + 3 || q >= model->i_V + model->n_stretch) return false;
-    return q == model->i_V + elastic_component(n, (n + 1) % 3) || q == model->i_V + elastic_component(n, (n + 2) % 3);
+    unsigned n = (unsigned)axis, c;
+    if (!model_is_stretch(model, q, &c) || c < 3) return false;
+    return c == elastic_component(n, (n + 1) % 3) || c == elastic_component(n, (n + 2) % 3);
 }
 
 static void bound_fill_mirror(const struct bound_fill *fill, bool no_slip)
@@ -207,8 +207,8 @@ static void bound_fill_isentrope(const struct model_eos *eos, size_t n, const do
     for (size_t i = 0; i < n; i++) rho[i] += (p_new[i] - p[i]) * half_rho[i] / rho_c2[i];
 }
 
-/* What comes from outside at the points of a row: the far-field pressure, where the case gives one, and the gauge pressure
- * of the wave, if there is one. */
+/* What comes from outside at the points of a row: the far-field pressure, where the case gives one, and what enters
+ * of the gauge pressure of the wave, if there is one (case/pulse.h). */
 static void bound_fill_outside(const struct bound_fill *fill, size_t n, bool wave, double *far, double *gauge)
 {
     const struct scene_boundary *boundary = bound_fill_boundary(fill);
@@ -217,7 +217,8 @@ static void bound_fill_outside(const struct bound_fill *fill, size_t n, bool wav
         bound_fill_position(fill, c, x);
         if (boundary->pressure.given) bound_fill_ask(fill, &boundary->pressure, "far-field pressure", x, &far[c]);
         gauge[c] = 0.0;
-        int status = wave ? pulse_pressure(boundary, fill->bound->t, x, &gauge[c]) : STATUS_OK;
+        int status =
+            !wave ? STATUS_OK : pulse_entering(boundary, fill->bound->t, x, fill->frame->axis, fill->side, &gauge[c]);
         if (!status) continue;
         bound_fill_fail(fill, status, "pressure of the wave", x);
         gauge[c] = (double)NAN;
@@ -330,7 +331,8 @@ static void bound_fill_compose_state(const struct bound_fill *fill, struct bound
                 good = bound_fill_ask(fill, &boundary->velocity[d], velocity[d], x, u);
         }
         for (unsigned s = 0; s < model->n_strain; s++) at[(model->i_strain + s) * row->stride] = 0.0;
-        for (unsigned v = 0; v < model->n_stretch; v++) at[(model->i_V + v) * row->stride] = v < 3 ? 1.0 : 0.0;
+        for (unsigned k = 0; k < model_stretches(model); k++)
+            elastic_identity(model, 1, row->stride, at + model_stretch(model, k) * row->stride);
         for (unsigned d = 0; d < model->n_normal; d++) at[(model->i_normal + d) * row->stride] = 0.0;
         for (unsigned k = 0; k < model->n_pair; k++) at[model->pairs[k].i_kappa * row->stride] = 0.0;
     }

@@ -15,9 +15,14 @@ bool closure_wanted(const struct model *path)
     return path->kapila;
 }
 
-static void closure_cells(struct term_tile *tile)
+/* Whoever moves volume asks for it. */
+static void closure_begin(struct term_tile *tile)
 {
     mix_stiffness_everywhere(tile->model, tile->n_cell, tile->n_cell, tile->w, tile->rho_c2);
+}
+
+static void closure_cells(struct term_tile *tile)
+{
     mix_closure(tile->model, tile->n_cell, tile->n_cell, tile->w, tile->rho_c2, tile->K);
 }
 
@@ -62,6 +67,7 @@ const struct term closure_term = {
     .owner = "core/scheme/closure.c",
     .equation = "d alpha_l/dt += K_l div u* + exchange; no step below a quarter of a fraction",
     .wanted = closure_wanted,
+    .begin = closure_begin,
     .cells = closure_cells,
     .apply = closure_apply,
 };

@@ -288,7 +288,6 @@ static BULLA_KERNEL void conduction_own_volume(size_t n, const double *restrict 
 
 static void conduction_swell(const struct term_tile *tile, size_t from, size_t n)
 {
-    static const double none[CONDUCTION_LAW_BATCH];
     const struct model *path = tile->model;
     const double *w = tile->w + from, *p = w + path->i_E * tile->n_cell;
     const double *power = tile->rates + terms_first(tile->terms, &conduction_term) * tile->n_cell + from;
@@ -300,7 +299,7 @@ static void conduction_swell(const struct term_tile *tile, size_t from, size_t n
         const double *rho = w + (path->i_m + l) * tile->n_cell, *alpha = w + (path->i_alpha + l) * tile->n_cell;
         eos->law->state(eos->self, n, rho, p, rho_e, rho_c2);
         conduction_own_volume(n, alpha, power + l * tile->n_cell, heat);
-        swell_material(&swell, l, alpha, rho, p, rho_c2, heat, none);
+        swell_material(&swell, l, alpha, rho, p, rho_c2, heat, NULL);
     }
     swell_share(&swell, tile, from);
 }

@@ -57,11 +57,11 @@ static void convection_list(struct terms *terms, int axis, unsigned first, const
                "velocity", "");
 }
 
-/* Fields that change by their rates alone: not fractions, not the stretch, not curvatures. */
+/* Fields that change by their rates alone: not fractions, not stretches, not curvatures. */
 static size_t convection_apply(const struct term_tile *tile, double *u_new)
 {
     const struct model *model = tile->model;
-    for (unsigned i = model->n_alpha; i < model_edged(model) - model->n_stretch; i++) {
+    for (unsigned i = model->n_alpha; i < model_drawn(model); i++) {
         size_t at = model->active[i] * tile->n_cell;
         row_step(tile->n_cell, tile->dt, tile->u + at, tile->rates + at, u_new + at);
     }

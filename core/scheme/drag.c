@@ -63,7 +63,6 @@ static BULLA_KERNEL void drag_heat(size_t n, double k, const double *restrict sp
 /* The heat of each material moves volume. */
 static void drag_swell(const struct term_tile *tile, size_t from, size_t n, const double *speed2)
 {
-    static const double none[SWELL_BATCH];
     const struct model *path = tile->model;
     const double *w = tile->w + from, *p = w + path->i_E * tile->n_cell;
     double heat[SWELL_BATCH], rho_e[SWELL_BATCH], rho_c2[SWELL_BATCH];
@@ -74,7 +73,7 @@ static void drag_swell(const struct term_tile *tile, size_t from, size_t n, cons
         const double *rho = w + (path->i_m + l) * tile->n_cell;
         eos->law->state(eos->self, n, rho, p, rho_e, rho_c2);
         drag_heat(n, drag_of(path, l), speed2, heat);
-        swell_material(&swell, l, w + (path->i_alpha + l) * tile->n_cell, rho, p, rho_c2, heat, none);
+        swell_material(&swell, l, w + (path->i_alpha + l) * tile->n_cell, rho, p, rho_c2, heat, NULL);
     }
     swell_share(&swell, tile, from);
 }

@@ -152,7 +152,7 @@ static void edges_together(struct edges *edges, const struct model *model, const
                                 .n_alpha = model->n_alpha,
                                 .n_rho = model->n_material,
                                 .n_u = model->n_velocity,
-                                .n_stretch = model->n_stretch,
+                                .n_stretch = model_edged(model) - model_drawn(model),
                                 .w = edges->w,
                                 .lower = edges->lower,
                                 .upper = edges->upper,
@@ -160,7 +160,7 @@ static void edges_together(struct edges *edges, const struct model *model, const
     cells.i_rho = cells.n_alpha;
     cells.i_u = cells.i_rho + cells.n_rho;
     cells.i_p = cells.i_u + cells.n_u;
-    cells.i_stretch = model_edged(model) - model->n_stretch; /* behind plastic strains */
+    cells.i_stretch = model_drawn(model); /* behind plastic strains */
     model->reconstruction->all(model->reconstruction_self, &cells);
 }
 

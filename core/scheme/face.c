@@ -95,7 +95,7 @@ struct face_work *face_new(const struct model *model)
     work->momentum = work->m + n * FACE_ROOM;
     work->energy = work->momentum + model->n_velocity * FACE_ROOM;
     work->u = work->energy + FACE_ROOM;
-    work->stretch = model->n_stretch ? face_row(model->n_stretch) : NULL;
+    work->stretch = model->n_stretch ? face_row(model->n_stretched) : NULL;
     work->strains = model->n_strain ? face_row(model->n_strain) : NULL;
     work->solid = model->n_stretch && model->n_alpha ? face_row(1) : NULL;
     work->heat_below = model->conducts && model->n_alpha ? face_row(2 * model->n_alpha) : NULL;
@@ -386,7 +386,7 @@ static BULLA_KERNEL void face_carry(size_t n, const double *restrict u, const do
     }
 }
 
-/* The stretch that the solids carry through the faces. */
+/* The stretches that the solids carry through the faces. */
 static void face_drag(struct face_work *work, size_t right)
 {
     const struct model *model = work->model;
@@ -394,8 +394,9 @@ static void face_drag(struct face_work *work, size_t right)
     size_t n = work->faces.n;
     memset(own->term, 0, n * sizeof *own->term);
     for (unsigned s = 0; s < model->n_solid; s++)
-        row_add(n, work->m + model->solids[s].material * FACE_ROOM, own->term);
+        if (model_carries(model, 0, s)) row_add(n, work->m + model->solids[s].material * FACE_ROOM, own->term);
     face_stress_carry(model, n, right, own->state, own->term, work->stretch);
+    face_stress_carry_branches(model, n, right, own->state, work->m, work->stretch);
     if (work->strains) face_stress_age(model, n, right, own->state, work->m, work->strains);
 }
 

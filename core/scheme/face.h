@@ -20,7 +20,7 @@ struct face_work {
                                                   alpha: alpha* u*, u: u* */
     double *carried;                           /* [n_alpha] alpha* u* times the pressure of the side it comes from */
     double *strained;                          /* [n_alpha] alpha* u* times the compression on the way to the face */
-    double *stretch; /* [n_stretch] V* F, F the mass flux of all solids, V* of the side it comes from */
+    double *stretch; /* [n_stretched] V* F, F the mass flux of the solids that carry it, V* of the side it comes from */
     double *strains; /* [n_strain of the scene] eps* F_l, F_l the mass flux of the solid */
     double *heat_below,
         *heat_above; /* [n_alpha] heat of each material as the cells above and below the face get and give

@@ -129,6 +129,17 @@ void face_stress_carry(const struct model *model, size_t n, size_t right, const 
     }
 }
 
+void face_stress_carry_branches(const struct model *model, size_t n, size_t right, const double *state, const double *m,
+                                double *out)
+{
+    for (unsigned i = model_drawn(model) + model->n_stretch; i < model_edged(model); i++) {
+        unsigned q = model->active[i], b = (i - model_drawn(model)) / model->n_stretch - 1;
+        const double *edges = state + 2 * q * FACE_ROOM;
+        face_stress_upwind(n, m + model->solids[model->branches[b].solid].material * FACE_ROOM, edges, edges + right,
+                           out + (q - model->i_V) * FACE_ROOM);
+    }
+}
+
 void face_stress_age(const struct model *model, size_t n, size_t right, const double *state, const double *m,
                      double *out)
 {

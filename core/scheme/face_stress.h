@@ -54,6 +54,10 @@ void face_stress_point(struct face_stress *stress, const struct model *model, si
 void face_stress_carry(const struct model *model, size_t n, size_t right, const double *state, const double *mass,
                        double *out);
 
+/* The same of the branches, each with the mass flux of its solid; m: [n_material] mass fluxes. */
+void face_stress_carry_branches(const struct model *model, size_t n, size_t right, const double *state, const double *m,
+                                double *out);
+
 /* eps* F_l of the solids that have a plastic strain, the same way; m: [n_material] mass fluxes. */
 void face_stress_age(const struct model *model, size_t n, size_t right, const double *state, const double *m,
                      double *out);

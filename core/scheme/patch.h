@@ -1,6 +1,6 @@
 /* patch.h - a tile with g layers all around it, edges and corners included, gathered for terms that need them.
  *
- * [n_field][n_z + 2g][n_y + 2g][n_x + 2g], g = 1 or 2 (no layers along axes that are not used). Frames (frame.h)
+ * [n_field][n_z + 2g][n_y + 2g][n_x + 2g], g = 1 to 3 (no layers along axes that are not used). Frames (frame.h)
  * are enough for what looks along one axis at a time; tangential gradients at faces and normals at corners look
  * across edges. Fields may be any numbers per cell, primitives (patch_state.h) or what a term made of them. Pieces of
  * neighbours come as they are, from ranks and from the coarser level (mesh/rim.h). What lies behind boundaries is

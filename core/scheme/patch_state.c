@@ -70,7 +70,9 @@ static void patch_state_describe(const struct model *model, struct patch_state *
     for (unsigned i = 0; i < 3; i++)
         for (unsigned j = 0; j < i; j++) {
             unsigned component = elastic_component(i, j);
-            if (component < model->n_stretch) ret->parity[model->i_V + component] = (unsigned char)(1u << i | 1u << j);
+            if (component >= model->n_stretch) continue;
+            for (unsigned k = 0; k < model_stretches(model); k++)
+                ret->parity[model_stretch(model, k) + component] = (unsigned char)(1u << i | 1u << j);
         }
 }
 
@@ -87,6 +89,31 @@ struct patch_source patch_state_source(const struct model *model, const struct m
     patch_state_describe(model, keep);
     patch_state_rules(model->scene, true, source.rules);
     const struct rim_form form = {model->n_field, g, slots, patch_given(source.rules), NULL};
+    source.rim = rim_of(mesh, l, &form);
+    return source;
+}
+
+/* Inflows bring their own fractions. */
+static void patch_state_inflow(void *data, unsigned local, int face, const struct box_block *ret)
+{
+    const struct model *model = data;
+    const struct scene_boundary *boundary = &model->scene->domain.boundary[face / 2][face % 2];
+    (void)local;
+    for (unsigned l = 0; l < model->n_alpha; l++)
+        for (size_t c = 0; c < ret->pitch; c++) ret->data[l * ret->pitch + c] = boundary->fractions[l];
+}
+
+struct patch_source patch_state_fractions(const struct model *model, const struct mesh *mesh, int l, int g, int slots)
+{
+    struct patch_source source = {.mesh = mesh,
+                                  .level = &mesh->levels[l],
+                                  .arrays = mesh->levels[l].w,
+                                  .given = patch_state_inflow,
+                                  .data = (void *)model};
+    patch_state_rules(model->scene, false, source.rules);
+    for (int face = 0; face < 2 * mesh->dim; face++)
+        if (model->scene->domain.boundary[face / 2][face % 2].type == SCENE_INFLOW) source.rules[face] = PATCH_GIVEN;
+    const struct rim_form form = {model->n_alpha, g, slots, patch_given(source.rules), NULL};
     source.rim = rim_of(mesh, l, &form);
     return source;
 }

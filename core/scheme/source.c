@@ -234,7 +234,7 @@ static void source_fractions(const struct source *source, const struct source_ba
     }
 }
 
-/* Rates of the stretch are those of m V, m the mass of the solids (elastic.h). */
+/* Rates of a stretch are those of m V, m the mass of the solids that carry it (elastic.h). */
 static void source_stretch(const struct source *source, const struct source_batch *batch)
 {
     const struct model *path = batch->path;
@@ -254,6 +254,10 @@ static void source_stretch(const struct source *source, const struct source_batc
         row_add_product(batch->n, V + c * batch->stride, arrives, source_rate(batch, path->i_V + c));
         if (given) row_add_product(batch->n, given, m, source_rate(batch, path->i_V + c));
     }
+    for (unsigned b = 0; b < path->n_branch; b++)
+        for (unsigned c = 0; c < path->n_stretch; c++)
+            row_add_product(batch->n, V + elastic_branch(path, b, batch->stride) + c * batch->stride,
+                            masses[path->branches[b].solid], source_rate(batch, path->branches[b].field + c));
 }
 
 static void source_cells(struct term_tile *tile)

@@ -54,7 +54,7 @@ static void strain_list(struct terms *terms, int axis, unsigned first, const str
                    "", "");
 }
 
-/* -(K_s/alpha_s) div u of all solids together; 0 where there is none. */
+/* -(K_s/alpha_s) div u of those that carry a stretch; 0 where there is none. */
 static BULLA_KERNEL void strain_squeeze(size_t n, const double *restrict K, const double *restrict alpha,
                                         const double *restrict div, double *restrict squeeze)
 {
@@ -65,11 +65,12 @@ static BULLA_KERNEL void strain_squeeze(size_t n, const double *restrict K, cons
     }
 }
 
-/* n cells from `from`. */
-static void strain_batch(const struct term_tile *tile, size_t from, size_t n, double *u_new)
+/* Stretch k in n cells from `from`. */
+static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, size_t n, const double *V_old,
+                         double *u_new)
 {
     const struct model *model = tile->model;
-    size_t n_cell = tile->n_cell, first = model->i_V * n_cell + from;
+    size_t n_cell = tile->n_cell, first = model_stretch(model, k) * n_cell + from;
     size_t fraction = model->i_alpha * n_cell + from, mass = model->i_m * n_cell + from;
     const double *div = tile->rates + terms_first(tile->terms, &convection_term) * n_cell + from;
     const double *gradient = tile->rates + terms_first(tile->terms, &strain_term) * n_cell + from;
@@ -77,28 +78,38 @@ static void strain_batch(const struct term_tile *tile, size_t from, size_t n, do
     double *V = u_new + first;
     struct elastic_rates rates = {
         .carried = tile->rates + first, .m_old = m_old, .m_new = m_new, .div = div, .gradient = gradient};
-    elastic_sum(model, n, n_cell, tile->u + mass, m_old);
-    elastic_sum(model, n, n_cell, u_new + mass, m_new);
+    elastic_carriers(model, k, n, n_cell, tile->u + mass, m_old);
+    elastic_carriers(model, k, n, n_cell, u_new + mass, m_new);
     if (model->kapila) {
-        elastic_sum(model, n, n_cell, tile->K + from, K);
-        elastic_sum(model, n, n_cell, tile->w + fraction, solid);
+        elastic_carriers(model, k, n, n_cell, tile->K + from, K);
+        elastic_carriers(model, k, n, n_cell, tile->w + fraction, solid);
         strain_squeeze(n, K, solid, div, squeeze);
         rates.squeeze = squeeze;
         rates.slope = gradient + model->n_velocity * (unsigned)model->dim * n_cell;
     }
-    elastic_advance(model, n, n_cell, tile->dt, tile->u + first, &rates, V);
-    if (model->n_alpha) elastic_sum(model, n, n_cell, u_new + fraction, solid);
+    elastic_advance(model, n, n_cell, tile->dt, V_old + from, &rates, V);
+    if (model->n_alpha) elastic_carriers(model, k, n, n_cell, u_new + fraction, solid);
     if (model->n_alpha) elastic_fade(model, n, n_cell, solid, V);
 }
 
-/* The stretch of a tile: moved, faded where its solids are not, unimodular. */
-static size_t strain_apply(const struct term_tile *tile, double *u_new)
+void strain_move(const struct term_tile *tile, unsigned k, const double *V_old, double *u_new)
 {
     for (size_t from = 0; from < tile->n_cell; from += STRAIN_BATCH) {
         size_t rest = tile->n_cell - from;
-        strain_batch(tile, from, rest < STRAIN_BATCH ? rest : STRAIN_BATCH, u_new);
+        strain_batch(tile, k, from, rest < STRAIN_BATCH ? rest : STRAIN_BATCH, V_old, u_new);
     }
-    elastic_unimodular(tile->model, tile->n_cell, tile->n_cell, u_new + tile->model->i_V * tile->n_cell);
+    elastic_unimodular(tile->model, tile->n_cell, tile->n_cell, u_new + model_stretch(tile->model, k) * tile->n_cell);
+}
+
+/* The stretch of a tile. Where nothing bears it, as in a Maxwell fluid, it would grow without end: it stays 1. */
+static size_t strain_apply(const struct term_tile *tile, double *u_new)
+{
+    const struct model *model = tile->model;
+    size_t first = model->i_V * tile->n_cell;
+    bool carried = false;
+    for (unsigned s = 0; s < model->n_solid; s++) carried = carried || model_carries(model, 0, s);
+    if (carried) strain_move(tile, 0, tile->u + first, u_new);
+    else elastic_identity(model, tile->n_cell, tile->n_cell, u_new + first);
     return 0;
 }
 

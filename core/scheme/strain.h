@@ -8,4 +8,8 @@
  * masses and fractions of the new state stand. */
 extern const struct term strain_term;
 
+/* Stretch k of a tile (model_stretches()) from V_old, [n_stretch][n_cell], into the new state: moved with the mass of the
+ * solids that carry it, faded where there is little of them, unimodular. For terms behind this one in the list. */
+void strain_move(const struct term_tile *tile, unsigned k, const double *V_old, double *u_new);
+
 #endif

@@ -16,17 +16,27 @@ void swell_begin(struct swell *swell, const struct model *path, size_t n)
     memset(swell->all, 0, n * sizeof *swell->all);
 }
 
-/* What one material would have for a volume rate of its own, and its compliance. */
-static BULLA_KERNEL void swell_own(size_t n, const double *restrict alpha, const double *restrict rho,
-                                   const double *restrict rho_c2, const double *restrict de_dp,
-                                   const double *restrict heat, const double *restrict mass, double *restrict own,
+/* What heat would give one material for a volume rate of its own, and its compliance. */
+static BULLA_KERNEL void swell_own(size_t n, const double *restrict alpha, const double *restrict rho_c2,
+                                   const double *restrict de_dp, const double *restrict heat, double *restrict own,
                                    double *restrict compliance)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = alpha[i], part = a / rho_c2[i], volume = part * heat[i] / de_dp[i] + mass[i] / rho[i];
+        double a = alpha[i], part = a / rho_c2[i], volume = part * heat[i] / de_dp[i];
         own[i] = a > MIX_ABSENT ? volume : 0.0;
         compliance[i] = a > MIX_ABSENT ? part : 0.0;
+    }
+}
+
+/* The volume that mass brings. */
+static BULLA_KERNEL void swell_mass(size_t n, const double *restrict alpha, const double *restrict rho,
+                                    const double *restrict mass, double *restrict own)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double volume = own[i], more = volume + mass[i] / rho[i];
+        own[i] = alpha[i] > MIX_ABSENT ? more : volume;
     }
 }
 
@@ -36,7 +46,8 @@ void swell_material(struct swell *swell, unsigned l, const double *alpha, const 
     const struct model_eos *eos = &swell->path->eos[l];
     double de_dp[SWELL_BATCH], de_drho[SWELL_BATCH];
     eos->law->derivatives(eos->self, swell->n, rho, p, de_dp, de_drho);
-    swell_own(swell->n, alpha, rho, rho_c2, de_dp, heat, mass, swell->own[l], swell->compliance[l]);
+    swell_own(swell->n, alpha, rho_c2, de_dp, heat, swell->own[l], swell->compliance[l]);
+    if (mass) swell_mass(swell->n, alpha, rho, mass, swell->own[l]);
     row_add(swell->n, swell->own[l], swell->sum);
     row_add(swell->n, swell->compliance[l], swell->all);
 }

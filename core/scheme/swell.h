@@ -23,7 +23,7 @@ struct swell {
 
 void swell_begin(struct swell *swell, const struct model *path, size_t n);
 
-/* What material l gets: heat [W/m3 of its own volume], mass [kg/m3/s of the cell]; alpha, rho_l, p_l and rho_l c_l^2 of the
+/* What material l gets: heat [W/m3 of its own volume], mass [kg/m3/s of the cell], or NULL; alpha, rho_l, p_l and rho_l c_l^2 of the
  * cells. Rows of n. Every material of the path once. */
 void swell_material(struct swell *swell, unsigned l, const double *alpha, const double *rho, const double *p,
                     const double *rho_c2, const double *heat, const double *mass);

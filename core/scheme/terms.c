@@ -16,6 +16,7 @@
 #include "scheme/source.h"
 #include "scheme/strain.h"
 #include "scheme/tension.h"
+#include "scheme/viscoelastic.h"
 #include "scheme/viscous.h"
 
 #include <assert.h>
@@ -23,21 +24,22 @@
 #include <string.h>
 
 const struct term *const terms_all[] = {
-    &convection_term,  /* conserved fields through the faces */
-    &hardening_term,   /* plastic strains travel with their solids */
-    &hoop_term,        /* what stands against p / r and the hoop stress in curved geometry */
-    &conduction_term,  /* heat from cell to cell and from material to material */
-    &face_stress_term, /* one traction for the materials of a cell, in one dimension */
-    &source_term,      /* forces, heat, mass, Lua */
-    &drag_term,        /* resistance of porous media */
-    &viscous_term,     /* stress and heat of what is viscous */
-    &fraction_term,    /* volume fractions move with the flow */
-    &exchange_term,    /* volume that brings materials back to one pressure */
-    &closure_term,     /* K div u, and what was exchanged */
-    &fraction_sum,     /* fractions sum to 1 */
-    &tension_term,     /* surface tension: its force, and what a surface that moves has stored */
-    &normal_term,      /* how the surfaces of solids lie */
-    &strain_term,      /* the stretch of solids */
+    &convection_term,   /* conserved fields through the faces */
+    &hardening_term,    /* plastic strains travel with their solids */
+    &hoop_term,         /* what stands against p / r and the hoop stress in curved geometry */
+    &conduction_term,   /* heat from cell to cell and from material to material */
+    &face_stress_term,  /* one traction for the materials of a cell */
+    &source_term,       /* forces, heat, mass, Lua */
+    &drag_term,         /* resistance of porous media */
+    &viscous_term,      /* stress and heat of what is viscous */
+    &fraction_term,     /* volume fractions move with the flow */
+    &exchange_term,     /* volume that brings materials back to one pressure */
+    &closure_term,      /* K div u, and what was exchanged */
+    &fraction_sum,      /* fractions sum to 1 */
+    &tension_term,      /* surface tension: its force, and what a surface that moves has stored */
+    &normal_term,       /* how the surfaces of solids lie */
+    &strain_term,       /* the stretch of solids */
+    &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */
     NULL,
 };
 

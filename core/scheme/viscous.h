@@ -20,4 +20,12 @@
 
 extern const struct term viscous_term;
 
+/* For fields, of a tile of the whole model with tile->around and tile->rho_c2 (mix_stiffness_everywhere; NULL: no mixtures), `own`
+ * from the term's `open`; n_cell numbers each. The gradients are those of the cells, which need no edges and corners.
+ * Component (i, j) of tau [Pa]; third directions in curved geometry are those around the axis or the centre. */
+void viscous_stress_field(const struct term_tile *tile, void *own, unsigned i, unsigned j, double *tau);
+
+/* sum alpha_l (2 mu_l |dev D_l|^2 + zeta_l d_l^2) [W/m3]: heat that the materials get. */
+void viscous_dissipation_field(const struct term_tile *tile, void *own, double *heat);
+
 #endif

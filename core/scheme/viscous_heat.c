@@ -1,29 +1,37 @@
 /* viscous_heat.c - see viscous_heat.h. */
 #include "scheme/viscous_heat.h"
 
-#include "phys/coefficient.h"
 #include "phys/mix.h"
+#include "phys/row.h"
 #include "scheme/swell.h"
 
+#include <string.h>
+
 /* The hoop stress pulls inwards: as divergence.h does with the pressure. */
-static void viscous_heat_hoop(const struct term_tile *tile, const struct viscous_lines *lines, const double *tau)
+static void viscous_heat_hoop(const struct term_tile *tile, const struct viscous_block *block, const double *tau)
 {
     const struct metric *metric = tile->metric;
-    double *rate = tile->rates + tile->model->i_u * tile->n_cell + lines->first * lines->length;
-    for (size_t k = 0; k < lines->n; k++)
-        for (size_t i = 0; i < lines->length; i++)
-            rate[k * lines->length + i] -=
-                tau[k * lines->length + i] * (metric->area[i + 1] - metric->area[i]) / metric->volume[i];
+    double *rate = tile->rates + tile->model->i_u * tile->n_cell + block->face;
+    for (size_t k = 0; k < block->rows; k++)
+        for (size_t i = 0; i < block->n; i++)
+            rate[k * block->n + i] -=
+                tau[k * block->n + i] * (metric->area[i + 1] - metric->area[i]) / metric->volume[i];
+}
+
+/* At how many cells a material is there and not alone. */
+static BULLA_KERNEL double viscous_heat_count(size_t n, const double *restrict alpha)
+{
+    double found = 0.0;
+#pragma omp simd reduction(+ : found)
+    for (size_t i = 0; i < n; i++) found += ((alpha[i] > MIX_ABSENT) & (alpha[i] < 1.0 - MIX_ABSENT)) ? 1.0 : 0.0;
+    return found;
 }
 
 /* Is there a cell with two materials? */
 static bool viscous_heat_is_mixed(const struct model *path, size_t n, size_t stride, const double *w)
 {
-    for (unsigned l = 0; l < path->n_alpha; l++) {
-        const double *alpha = w + (path->i_alpha + l) * stride;
-        for (size_t i = 0; i < n; i++)
-            if (alpha[i] > MIX_ABSENT && alpha[i] < 1.0 - MIX_ABSENT) return true;
-    }
+    for (unsigned l = 0; l < path->n_alpha; l++)
+        if (viscous_heat_count(n, w + (path->i_alpha + l) * stride) > 0.0) return true;
     return false;
 }
 
@@ -49,73 +57,146 @@ static BULLA_KERNEL void viscous_heat_share(size_t n, const double *restrict rho
     }
 }
 
-/* 2 mu |dev D_l|^2 + zeta d_l^2 */
-static BULLA_KERNEL void viscous_heat_warm(size_t n, const double *restrict mu, const double *restrict zeta,
-                                           const double *restrict dev2, const double *restrict dilatation,
-                                           double *restrict heat)
+/* 2 mu |dev D|^2 + zeta d^2, with D:D = square and d = div u */
+static BULLA_KERNEL void viscous_heat_warm(size_t n, const struct viscous_mix_rows *rows, const double *restrict square,
+                                           const double *restrict dilatation, double *restrict heat)
 {
+    const double *restrict mu = rows->mu, *restrict zeta = rows->zeta;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double d = dilatation[i];
-        heat[i] = 2.0 * mu[i] * dev2[i] + zeta[i] * (d * d);
+        double d = dilatation[i], dev = square[i] - d * d / 3.0, dev2 = dev > 0.0 ? dev : 0.0;
+        heat[i] = 2.0 * mu[i] * dev2 + zeta[i] * (d * d);
     }
 }
 
-/* Heat of each material moves volume. Rows of w begin at cell `from`. */
-static void viscous_heat_swell(const struct term_tile *tile, size_t from, const struct viscous_strain *strain)
+/* A batch of cells. */
+struct viscous_heat {
+    const struct term_tile *tile;
+    const struct viscous_strain *strain;
+    const struct viscous_mix *mix;
+    size_t from;
+    double rate[STRAIN_POINTS], square[STRAIN_POINTS], compliance[STRAIN_POINTS];
+};
+
+static const double *viscous_heat_row(const struct viscous_heat *heat, unsigned q)
 {
-    static const double none[STRAIN_POINTS];
-    const struct model *path = tile->model;
-    const double *w = tile->w + from, *p = w + path->i_E * tile->n_cell;
-    size_t n = strain->n;
-    double rho_c2[SCENE_MATERIALS][STRAIN_POINTS], S[STRAIN_POINTS] = {0}, r[STRAIN_POINTS], heat[STRAIN_POINTS];
-    double rate[STRAIN_POINTS], dev2[STRAIN_POINTS], dilatation[STRAIN_POINTS], mu[STRAIN_POINTS], zeta[STRAIN_POINTS];
-    struct swell swell; /* large: filled as far as it is used */
-    viscous_strain_rate(strain, rate);
-    for (unsigned l = 0; l < path->n_material; l++) {
-        const struct model_eos *eos = &path->eos[l];
-        eos->law->state(eos->self, n, w + (path->i_m + l) * tile->n_cell, p, heat, rho_c2[l]);
-        viscous_heat_soften(n, w + (path->i_alpha + l) * tile->n_cell, rho_c2[l], S);
-    }
-    swell_begin(&swell, path, n);
-    for (unsigned l = 0; l < path->n_material; l++) {
-        const double *rho = w + (path->i_m + l) * tile->n_cell;
-        const struct coefficient_points points = {n, rate, p, rho};
-        viscous_heat_share(n, rho_c2[l], S, r);
-        viscous_strain_own(strain, r, dev2, dilatation);
-        coefficient_viscosities(&path->viscosity[l], &path->eos[l], &points, mu, zeta);
-        viscous_heat_warm(n, mu, zeta, dev2, dilatation, heat);
-        swell_material(&swell, l, w + (path->i_alpha + l) * tile->n_cell, rho, p, rho_c2[l], heat, none);
-    }
-    swell_share(&swell, tile, from);
+    return heat->tile->w + q * heat->tile->n_cell + heat->from;
 }
 
-static void viscous_heat_lines(const struct term_tile *tile, const struct viscous_slopes *slopes,
-                               const struct viscous_lines *lines, struct viscous_strain *strain,
+static const double *viscous_heat_stiffness(const struct viscous_heat *heat, unsigned l)
+{
+    return heat->tile->rho_c2 + l * heat->tile->n_cell + heat->from;
+}
+
+/* Heat per own volume of material l: of its own strain where there is an interface. */
+static void viscous_heat_own(const struct viscous_heat *at, unsigned l, double *heat)
+{
+    const struct viscous_strain *strain = at->strain;
+    const struct model *path = at->tile->model;
+    size_t n = strain->n;
+    double r[STRAIN_POINTS], square[STRAIN_POINTS], dilatation[STRAIN_POINTS];
+    struct viscous_mix_number room;
+    const struct coefficient_points points = {n, at->rate, viscous_heat_row(at, path->i_E),
+                                              viscous_heat_row(at, path->i_m + l)};
+    const struct viscous_mix_rows rows = viscous_mix_ask(at->mix, path, l, &points, &room);
+    if (!strain->interface || !path->kapila) {
+        viscous_heat_warm(n, &rows, at->square, strain->div, heat);
+        return;
+    }
+    viscous_heat_share(n, viscous_heat_stiffness(at, l), at->compliance, r);
+    viscous_strain_own(strain, at->square, r, square, dilatation);
+    viscous_heat_warm(n, &rows, square, dilatation, heat);
+}
+
+/* What all materials need. */
+static void viscous_heat_begin(struct viscous_heat *at)
+{
+    const struct viscous_strain *strain = at->strain;
+    const struct model *path = at->tile->model;
+    viscous_strain_square(strain, at->square);
+    if (viscous_mix_sees_rate(path)) viscous_strain_rate(strain, at->square, at->rate);
+    if (!strain->interface || !path->kapila) return;
+    memset(at->compliance, 0, strain->n * sizeof *at->compliance);
+    for (unsigned l = 0; l < path->n_material; l++)
+        viscous_heat_soften(strain->n, viscous_heat_row(at, path->i_alpha + l), viscous_heat_stiffness(at, l),
+                            at->compliance);
+}
+
+/* Heat of each material moves volume. */
+static void viscous_heat_swell(struct viscous_heat *at)
+{
+    const struct model *path = at->tile->model;
+    double heat[STRAIN_POINTS];
+    struct swell swell; /* large: filled as far as it is used */
+    viscous_heat_begin(at);
+    swell_begin(&swell, path, at->strain->n);
+    for (unsigned l = 0; l < path->n_material; l++) {
+        viscous_heat_own(at, l, heat);
+        swell_material(&swell, l, viscous_heat_row(at, path->i_alpha + l), viscous_heat_row(at, path->i_m + l),
+                       viscous_heat_row(at, path->i_E), viscous_heat_stiffness(at, l), heat, NULL);
+    }
+    swell_share(&swell, at->tile, at->from);
+}
+
+static void viscous_heat_block(const struct term_tile *tile, const struct viscous_slopes *slopes,
+                               const struct viscous_block *block, struct viscous_strain *strain,
                                struct viscous_mix *mix)
 {
     const struct model *path = tile->model;
-    size_t from = lines->first * lines->length, n = lines->n * lines->length;
-    bool mixed = path->kapila && viscous_heat_is_mixed(path, n, tile->n_cell, tile->w + from);
+    size_t n = block->rows * block->n;
+    bool mixed = path->kapila && viscous_heat_is_mixed(path, n, tile->n_cell, tile->w + block->face);
     if (!mixed && !path->beta) return;
-    viscous_slopes_cells(slopes, lines, strain);
+    viscous_slopes_strain(slopes, block, strain);
     if (path->beta) {
-        const struct viscous_sides sides = {tile->w + from, tile->n_cell, 0};
+        const struct viscous_sides sides = {tile->w + block->face, tile->n_cell, 0, block->rows, block->n, block->n};
         double tau[STRAIN_POINTS];
         viscous_mix_make(strain, &sides, mix);
         viscous_mix_hoop(strain, mix, tau);
-        viscous_heat_hoop(tile, lines, tau);
+        viscous_heat_hoop(tile, block, tau);
     }
-    if (mixed) viscous_heat_swell(tile, from, strain);
+    if (mixed) {
+        struct viscous_heat at; /* large: filled as far as it is used */
+        at.tile = tile, at.strain = strain, at.mix = mix, at.from = block->face;
+        viscous_heat_swell(&at);
+    }
 }
 
 void viscous_heat_cells(const struct term_tile *tile, const struct viscous_slopes *slopes,
                         struct viscous_strain *strain, struct viscous_mix *mix)
 {
+    size_t length = (size_t)tile->mesh->n[0], all = tile->n_cell / length;
     if (!tile->model->beta && !tile->model->kapila) return;
-    size_t length = (size_t)tile->mesh->n[0], all = tile->n_cell / length, most = STRAIN_POINTS / length;
-    for (size_t first = 0; first < all; first += most) {
-        const struct viscous_lines lines = {first, all - first < most ? all - first : most, length};
-        viscous_heat_lines(tile, slopes, &lines, strain, mix);
+    for (size_t first = 0; first < all;) {
+        const struct viscous_block block = viscous_slopes_cells(slopes, first, STRAIN_POINTS / length);
+        viscous_heat_block(tile, slopes, &block, strain, mix);
+        first += block.rows;
+    }
+}
+
+static void viscous_heat_sum(struct viscous_heat *at, double *sum)
+{
+    const struct model *path = at->tile->model;
+    size_t n = at->strain->n;
+    double heat[STRAIN_POINTS];
+    viscous_heat_begin(at);
+    memset(sum, 0, n * sizeof *sum);
+    for (unsigned l = 0; l < path->n_material; l++) {
+        viscous_heat_own(at, l, heat);
+        if (path->n_alpha) row_add_product(n, viscous_heat_row(at, path->i_alpha + l), heat, sum);
+        else row_add(n, heat, sum);
+    }
+}
+
+void viscous_heat_field(const struct term_tile *tile, const struct viscous_slopes *slopes,
+                        struct viscous_strain *strain, const struct viscous_mix *mix, double *sum)
+{
+    size_t length = (size_t)tile->mesh->n[0], all = tile->n_cell / length;
+    for (size_t first = 0; first < all;) {
+        const struct viscous_block block = viscous_slopes_cells(slopes, first, STRAIN_POINTS / length);
+        struct viscous_heat at; /* large: filled as far as it is used */
+        at.tile = tile, at.strain = strain, at.mix = mix, at.from = block.face;
+        viscous_slopes_strain(slopes, &block, strain);
+        viscous_heat_sum(&at, sum + block.face);
+        first += block.rows;
     }
 }

@@ -9,4 +9,8 @@
 void viscous_heat_cells(const struct term_tile *tile, const struct viscous_slopes *slopes,
                         struct viscous_strain *strain, struct viscous_mix *mix);
 
+/* sum alpha_l (2 mu_l |dev D_l|^2 + zeta_l d_l^2) of all cells [W/m3]. */
+void viscous_heat_field(const struct term_tile *tile, const struct viscous_slopes *slopes,
+                        struct viscous_strain *strain, const struct viscous_mix *mix, double *sum);
+
 #endif

@@ -5,7 +5,7 @@
  * on the same numbers has the same bits. */
 #include "scheme/viscous_mix.h"
 
-#include "phys/coefficient.h"
+#include "base/mem.h"
 #include "phys/elastic.h"
 #include "phys/mix.h"
 #include "phys/present.h"
@@ -19,70 +19,111 @@
  * parts are at most twice the smaller of both viscosities. */
 #define VISCOUS_MIX_MOST 2.0
 
-/* Sums over the materials. */
+/* Sums over the materials, where there is an interface. */
 struct viscous_mix_sums {
-    double fluidity[STRAIN_POINTS];                     /* sum alpha_l/mu_l */
-    double compliance[STRAIN_POINTS];                   /* S */
+    double rho[2][STRAIN_POINTS], mu[2][STRAIN_POINTS], zeta[2][STRAIN_POINTS]; /* of the two sides */
+    double fluidity[STRAIN_POINTS];                                             /* sum alpha_l/mu_l */
+    double compliance[STRAIN_POINTS];                                           /* S */
     double squares[STRAIN_POINTS];                      /* sum alpha_l^2: 1 where one is alone */
     double own[STRAIN_POINTS], own_zeta[STRAIN_POINTS]; /* sum s_l mu_l, sum s_l zeta_l */
-    double rho[2][STRAIN_POINTS], mu[2][STRAIN_POINTS]; /* of the two sides */
 };
 
 /* One material at the points. */
 struct viscous_mix_material {
-    double alpha[STRAIN_POINTS], rho[STRAIN_POINTS], p[STRAIN_POINTS]; /* means of the sides, rho by mass */
-    double mu[STRAIN_POINTS], zeta[STRAIN_POINTS];
+    double alpha[STRAIN_POINTS], rho[STRAIN_POINTS]; /* means of the sides, rho by mass */
+    struct viscous_mix_number room;
+    struct viscous_mix_rows rows;
 };
 
-static BULLA_KERNEL void viscous_mix_means(size_t n, const double *restrict a, const double *restrict b,
+void viscous_mix_open(const struct model *model, struct viscous_mix *ret)
+{
+    ret->number = mem_new(model->n_material, sizeof *ret->number);
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const struct coefficient_points points = {.n = STRAIN_POINTS};
+        if (coefficient_is_number(&model->viscosity[l].mu))
+            coefficient_viscosities(&model->viscosity[l], &model->eos[l], &points, ret->number[l].mu,
+                                    ret->number[l].zeta);
+    }
+}
+
+void viscous_mix_close(struct viscous_mix *mix)
+{
+    mem_free(mix->number);
+}
+
+struct viscous_mix_rows viscous_mix_ask(const struct viscous_mix *mix, const struct model *path, unsigned l,
+                                        const struct coefficient_points *points, struct viscous_mix_number *room)
+{
+    const struct viscous_mix_number *number = &mix->number[path->first + l];
+    if (coefficient_is_number(&path->viscosity[l].mu)) return (struct viscous_mix_rows){number->mu, number->zeta};
+    coefficient_viscosities(&path->viscosity[l], &path->eos[l], points, room->mu, room->zeta);
+    return (struct viscous_mix_rows){room->mu, room->zeta};
+}
+
+static BULLA_KERNEL void viscous_mix_means(const struct viscous_sides *sides, const double *restrict a,
                                            double *restrict mean)
 {
+    const double *restrict b = a + sides->step;
+    for (size_t r = 0; r < sides->rows; r++, a += sides->row, b += sides->row, mean += sides->n)
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) mean[i] = 0.5 * (a[i] + b[i]);
+        for (size_t i = 0; i < sides->n; i++) mean[i] = 0.5 * (a[i] + b[i]);
 }
 
 /* Density of what both sides have of a material. */
-static BULLA_KERNEL void viscous_mix_density(size_t n, const double *restrict alpha_a, const double *restrict alpha_b,
-                                             const double *restrict rho_a, const double *restrict rho_b,
-                                             double *restrict rho)
+static BULLA_KERNEL void viscous_mix_density(const struct viscous_sides *sides, const double *restrict alpha,
+                                             const double *restrict rho_l, double *restrict rho)
 {
+    const size_t step = sides->step, row = sides->row;
+    for (size_t r = 0; r < sides->rows; r++, alpha += row, rho_l += row, rho += sides->n)
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double a = alpha_a[i], b = alpha_b[i], all = a + b, mean = 0.5 * (rho_a[i] + rho_b[i]);
-        double both = (a * rho_a[i] + b * rho_b[i]) / all;
-        rho[i] = all > 0.0 ? both : mean;
-    }
+        for (size_t i = 0; i < sides->n; i++) {
+            double a = alpha[i], b = alpha[i + step], all = a + b, mean = 0.5 * (rho_l[i] + rho_l[i + step]);
+            double both = (a * rho_l[i] + b * rho_l[i + step]) / all;
+            rho[i] = all > 0.0 ? both : mean;
+        }
 }
 
-static BULLA_KERNEL void viscous_mix_sum(size_t n, const struct viscous_mix_material *material, double *restrict mu,
-                                         double *restrict zeta)
+/* The mean of alpha, and what the material has of mu and zeta. */
+static BULLA_KERNEL void viscous_mix_weigh(const struct viscous_sides *sides, const double *restrict alpha,
+                                           struct viscous_mix_material *restrict material,
+                                           struct viscous_mix *restrict ret)
 {
+    const double *restrict mu_l = material->rows.mu, *restrict zeta_l = material->rows.zeta;
+    const size_t step = sides->step, n = sides->n;
+    for (size_t r = 0, k = 0; r < sides->rows; r++, k += n, alpha += sides->row)
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double a = material->alpha[i], m = mu[i], z = zeta[i];
-        mu[i] = m + a * material->mu[i];
-        zeta[i] = z + a * material->zeta[i];
-    }
+        for (size_t i = 0; i < n; i++) {
+            double mean = 0.5 * (alpha[i] + alpha[i + step]), mu = ret->mu[k + i], zeta = ret->zeta[k + i];
+            material->alpha[k + i] = mean;
+            ret->mu[k + i] = mu + mean * mu_l[k + i];
+            ret->zeta[k + i] = zeta + mean * zeta_l[k + i];
+        }
 }
 
-/* Density and viscosity of one side. */
-static BULLA_KERNEL void viscous_mix_side(size_t n, const double *restrict alpha, const double *restrict rho_l,
-                                          const double *restrict mu_l, double *restrict rho, double *restrict mu)
+/* What it has of density and viscosities on each side. */
+static BULLA_KERNEL void viscous_mix_side(const struct viscous_sides *sides, const double *restrict alpha,
+                                          const double *restrict rho_l, const struct viscous_mix_rows *rows,
+                                          double *restrict rho, double *restrict mu, double *restrict zeta)
 {
+    const double *restrict mu_l = rows->mu, *restrict zeta_l = rows->zeta;
+    const size_t n = sides->n;
+    for (size_t r = 0, k = 0; r < sides->rows; r++, k += n, alpha += sides->row, rho_l += sides->row)
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double a = alpha[i], r = rho[i], m = mu[i];
-        rho[i] = r + a * rho_l[i];
-        mu[i] = m + a * mu_l[i];
-    }
+        for (size_t i = 0; i < n; i++) {
+            double a = alpha[i], d = rho[k + i], m = mu[k + i], z = zeta[k + i];
+            rho[k + i] = d + a * rho_l[i];
+            mu[k + i] = m + a * mu_l[k + i];
+            zeta[k + i] = z + a * zeta_l[k + i];
+        }
 }
 
-static BULLA_KERNEL void viscous_mix_stiff(size_t n, const struct viscous_mix_material *material,
-                                           const double *restrict rho_c2, struct viscous_mix_sums *sums)
+static BULLA_KERNEL void viscous_mix_stiff(size_t n, const struct viscous_mix_material *restrict material,
+                                           const double *restrict rho_c2, struct viscous_mix_sums *restrict sums)
 {
+    const double *restrict mu_l = material->rows.mu, *restrict zeta_l = material->rows.zeta;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = material->alpha[i], mu = material->mu[i], K = rho_c2[i], part = a / K, fluid = 1.0 / mu;
+        double a = material->alpha[i], mu = mu_l[i], K = rho_c2[i], part = a / K, fluid = 1.0 / mu;
         double squares = sums->squares[i], s = sums->compliance[i], own = sums->own[i], zeta = sums->own_zeta[i],
                f = sums->fluidity[i];
         part = ((a > MIX_ABSENT) & (K > 0.0)) ? part : 0.0;
@@ -90,66 +131,117 @@ static BULLA_KERNEL void viscous_mix_stiff(size_t n, const struct viscous_mix_ma
         sums->squares[i] = squares + a * a;
         sums->compliance[i] = s + part;
         sums->own[i] = own + part * mu;
-        sums->own_zeta[i] = zeta + part * material->zeta[i];
+        sums->own_zeta[i] = zeta + part * zeta_l[i];
         sums->fluidity[i] = f + a * fluid;
     }
 }
 
-static const double *viscous_mix_row(const struct viscous_sides *sides, unsigned q, size_t further)
+bool viscous_mix_sees_rate(const struct model *path)
 {
-    return sides->w + q * sides->pitch + further;
+    bool sees = false;
+    for (unsigned l = 0; l < path->n_material; l++) sees = sees || coefficient_sees_rate(&path->viscosity[l].mu);
+    return sees;
+}
+
+/* What the laws of a batch are asked with. */
+struct viscous_mix_state {
+    const struct viscous_strain *strain;
+    const struct viscous_sides *sides;
+    double rate[STRAIN_POINTS], p[STRAIN_POINTS];
+    bool wanted; /* some material wants p and its own density */
+};
+
+static const double *viscous_mix_row(const struct viscous_mix_state *state, unsigned q)
+{
+    return state->sides->w + q * state->sides->pitch;
+}
+
+static void viscous_mix_rate(const struct viscous_strain *strain, double *rate)
+{
+    double square[STRAIN_POINTS];
+    viscous_strain_square(strain, square);
+    viscous_strain_rate(strain, square, rate);
+}
+
+static void viscous_mix_begin(const struct viscous_strain *strain, const struct viscous_sides *sides,
+                              struct viscous_mix_state *ret)
+{
+    const struct model *path = strain->path;
+    ret->strain = strain;
+    ret->sides = sides;
+    ret->wanted = strain->interface && path->kapila;
+    for (unsigned l = 0; l < path->n_material; l++)
+        ret->wanted = ret->wanted || coefficient_sees_state(&path->viscosity[l].mu);
+    if (viscous_mix_sees_rate(path)) viscous_mix_rate(strain, ret->rate);
+    if (ret->wanted) viscous_mix_means(sides, viscous_mix_row(ret, path->i_E), ret->p);
 }
 
 /* State and viscosities of material l. */
-static void viscous_mix_material(const struct viscous_strain *strain, const struct viscous_sides *sides, unsigned l,
-                                 const double *rate, struct viscous_mix_material *ret)
+static void viscous_mix_material(const struct viscous_mix_state *state, const struct viscous_mix *mix, unsigned l,
+                                 struct viscous_mix_material *ret)
 {
-    const struct model *path = strain->path;
-    unsigned i_alpha = path->i_alpha + l, i_rho = path->i_m + l;
-    size_t n = strain->n, step = sides->step;
-    const double *rho = viscous_mix_row(sides, i_rho, 0), *p = viscous_mix_row(sides, path->i_E, 0);
-    bool state = coefficient_sees_state(&path->viscosity[l].mu) || (strain->interface && path->kapila);
-    if (path->n_alpha) {
-        const double *alpha = viscous_mix_row(sides, i_alpha, 0);
-        viscous_mix_means(n, alpha, alpha + step, ret->alpha);
-        if (state) viscous_mix_density(n, alpha, alpha + step, rho, rho + step, ret->rho);
-    } else if (state) viscous_mix_means(n, rho, rho + step, ret->rho);
-    if (state) viscous_mix_means(n, p, p + step, ret->p);
-    const struct coefficient_points points = {n, rate, ret->p, ret->rho};
-    coefficient_viscosities(&path->viscosity[l], &path->eos[l], &points, ret->mu, ret->zeta);
+    const struct model *path = state->strain->path;
+    const double *rho = viscous_mix_row(state, path->i_m + l);
+    if (state->wanted && path->n_alpha)
+        viscous_mix_density(state->sides, viscous_mix_row(state, path->i_alpha + l), rho, ret->rho);
+    else if (state->wanted) viscous_mix_means(state->sides, rho, ret->rho);
+    const struct coefficient_points points = {state->strain->n, state->rate, state->p, ret->rho};
+    ret->rows = viscous_mix_ask(mix, path, l, &points, &ret->room);
 }
 
-static void viscous_mix_add(const struct viscous_strain *strain, const struct viscous_sides *sides, unsigned l,
-                            const struct viscous_mix_material *material, struct viscous_mix_sums *sums,
-                            struct viscous_mix *ret)
+static void viscous_mix_add(const struct viscous_mix_state *state, unsigned l, struct viscous_mix_material *material,
+                            struct viscous_mix_sums *sums, struct viscous_mix *ret)
 {
+    const struct viscous_strain *strain = state->strain;
+    const struct viscous_sides *sides = state->sides;
     const struct model *path = strain->path;
+    const double *alpha = viscous_mix_row(state, path->i_alpha + l), *rho_l = viscous_mix_row(state, path->i_m + l);
     size_t n = strain->n;
     double e[STRAIN_POINTS], rho_c2[STRAIN_POINTS];
-    viscous_mix_sum(n, material, ret->mu, ret->zeta);
-    for (unsigned side = 0; side < 2 && sides->step; side++)
-        viscous_mix_side(n, viscous_mix_row(sides, path->i_alpha + l, side * sides->step),
-                         viscous_mix_row(sides, path->i_m + l, side * sides->step), material->mu, sums->rho[side],
-                         sums->mu[side]);
+    viscous_mix_weigh(sides, alpha, material, ret);
     if (!strain->interface) return;
-    const struct present present = {n, material->alpha, material->rho, material->p};
+    for (unsigned side = 0; side < 2 && sides->step; side++)
+        viscous_mix_side(sides, alpha + side * sides->step, rho_l + side * sides->step, &material->rows,
+                         sums->rho[side], sums->mu[side], sums->zeta[side]);
+    const struct present present = {n, material->alpha, material->rho, state->p};
     if (path->kapila) present_state(&path->eos[l], &present, e, rho_c2);
     else
         for (size_t i = 0; i < n; i++) rho_c2[i] = 1.0;
     viscous_mix_stiff(n, material, rho_c2, sums);
 }
 
-/* mu_a no more than the lighter side can bear. */
-static BULLA_KERNEL void viscous_mix_bound(size_t n, const struct viscous_mix_sums *sums, double *restrict mu)
+/* The most that a viscosity may be at the faces: what the lighter side can bear. a, b: those of both sides. */
+static BULLA_KERNEL void viscous_mix_bear(size_t n, double rho[2][STRAIN_POINTS], const double *restrict a,
+                                          const double *restrict b, double *restrict most)
+{
+    const double *restrict rho_a = rho[0], *restrict rho_b = rho[1];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double light = rho_a[i] < rho_b[i] ? rho_a[i] : rho_b[i], heavy = rho_a[i] < rho_b[i] ? rho_b[i] : rho_a[i];
+        double own = rho_a[i] < rho_b[i] ? a[i] : b[i], other = (rho_a[i] < rho_b[i] ? b[i] : a[i]) * (light / heavy);
+        most[i] = VISCOUS_MIX_MOST * (own > other ? own : other);
+    }
+}
+
+static BULLA_KERNEL void viscous_mix_cut(size_t n, const double *restrict most, double *restrict x)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double rho_a = sums->rho[0][i], rho_b = sums->rho[1][i], nu_a = sums->mu[0][i] / rho_a,
-               nu_b = sums->mu[1][i] / rho_b, m = mu[i];
-        double light = rho_a < rho_b ? rho_a : rho_b, nu = nu_a > nu_b ? nu_a : nu_b;
-        double most = VISCOUS_MIX_MOST * (nu * light);
-        mu[i] = m > most ? most : m;
+        double value = x[i];
+        x[i] = value > most[i] ? most[i] : value;
     }
+}
+
+/* No viscosity of a face between two materials is more than that; the harmonic mean is not anyway. */
+static void viscous_mix_bound(size_t n, struct viscous_mix_sums *sums, struct viscous_mix *ret)
+{
+    double most[STRAIN_POINTS];
+    viscous_mix_bear(n, sums->rho, sums->mu[0], sums->mu[1], most);
+    viscous_mix_cut(n, most, ret->mu);
+    viscous_mix_cut(n, most, ret->own);
+    viscous_mix_bear(n, sums->rho, sums->zeta[0], sums->zeta[1], most);
+    viscous_mix_cut(n, most, ret->zeta);
+    viscous_mix_cut(n, most, sums->own_zeta);
 }
 
 /* Without an interface all materials feel the same strain. */
@@ -160,66 +252,73 @@ static BULLA_KERNEL void viscous_mix_plain(size_t n, const double *restrict mu, 
     for (size_t i = 0; i < n; i++) iso[i] = zeta[i] - 2.0 / 3.0 * mu[i];
 }
 
-static BULLA_KERNEL void viscous_mix_split(size_t n, const struct viscous_mix_sums *sums, const double *restrict sharp,
+/* Means with the weights of dilatation, of materials that are not alone. */
+static BULLA_KERNEL void viscous_mix_split(size_t n, struct viscous_mix_sums *restrict sums,
                                            struct viscous_mix *restrict ret)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double mu = ret->mu[i], zeta = ret->zeta[i], w = sharp[i], S = sums->compliance[i];
-        double own = sums->own[i] / S, own_zeta = sums->own_zeta[i] / S, series = 1.0 / sums->fluidity[i] - mu;
+        double S = sums->compliance[i], stiff = 1.0 / S, mu = ret->mu[i], zeta = ret->zeta[i];
+        double own = sums->own[i] * stiff, own_zeta = sums->own_zeta[i] * stiff;
         int mixed = (S > 0.0) & (sums->squares[i] < 1.0);
-        own = mixed ? own : mu;
-        own_zeta = mixed ? own_zeta : zeta;
-        ret->own[i] = own;
-        ret->own_zeta[i] = own_zeta;
+        ret->own[i] = mixed ? own : mu;
+        sums->own_zeta[i] = mixed ? own_zeta : zeta;
+    }
+}
+
+static BULLA_KERNEL void viscous_mix_turned(size_t n, const struct viscous_mix_sums *restrict sums,
+                                            const double *restrict sharp, struct viscous_mix *restrict ret)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double mu = ret->mu[i], zeta = ret->zeta[i], w = sharp[i], own = ret->own[i], own_zeta = sums->own_zeta[i];
+        double series = 1.0 / sums->fluidity[i] - mu;
+        int mixed = (sums->compliance[i] > 0.0) & (sums->squares[i] < 1.0);
         ret->series[i] = mixed ? series : 0.0;
         ret->iso[i] = (zeta + w * (own_zeta - zeta)) - 2.0 / 3.0 * (mu + w * (own - mu));
     }
 }
 
-static bool viscous_mix_sees_rate(const struct model *path)
+static void viscous_mix_all(const struct viscous_mix_state *state, struct viscous_mix_sums *sums,
+                            struct viscous_mix *ret)
 {
-    bool sees = false;
-    for (unsigned l = 0; l < path->n_material; l++) sees = sees || coefficient_sees_rate(&path->viscosity[l].mu);
-    return sees;
+    const struct model *path = state->strain->path;
+    size_t n = state->strain->n, bytes = n * sizeof *ret->mu;
+    double *rows[] = {ret->mu,       ret->zeta,     sums->rho[0],  sums->rho[1],   sums->mu[0],
+                      sums->mu[1],   sums->zeta[0], sums->zeta[1], sums->fluidity, sums->compliance,
+                      sums->squares, sums->own,     sums->own_zeta};
+    struct viscous_mix_material material; /* large: filled as far as it is used */
+    for (size_t i = 0; i < (state->strain->interface ? sizeof rows / sizeof *rows : 2); i++) memset(rows[i], 0, bytes);
+    for (unsigned l = 0; l < path->n_material; l++) {
+        viscous_mix_material(state, ret, l, &material);
+        viscous_mix_add(state, l, &material, sums, ret);
+    }
+    if (!state->strain->interface) return;
+    viscous_mix_split(n, sums, ret);
+    if (state->sides->step) viscous_mix_bound(n, sums, ret);
+    viscous_mix_turned(n, sums, state->strain->sharp, ret);
 }
 
 /* The only material there is. */
-static void viscous_mix_alone(const struct viscous_strain *strain, const struct viscous_sides *sides,
-                              const double *rate, struct viscous_mix *ret)
+static void viscous_mix_alone(const struct viscous_mix_state *state, struct viscous_mix *ret)
 {
-    struct viscous_mix_material material;
-    viscous_mix_material(strain, sides, 0, rate, &material);
-    memcpy(ret->mu, material.mu, strain->n * sizeof *ret->mu);
-    memcpy(ret->zeta, material.zeta, strain->n * sizeof *ret->zeta);
-}
-
-static void viscous_mix_all(const struct viscous_strain *strain, const struct viscous_sides *sides, const double *rate,
-                            struct viscous_mix_sums *sums, struct viscous_mix *ret)
-{
-    struct viscous_mix_material material;
-    memset(ret->mu, 0, strain->n * sizeof *ret->mu);
-    memset(ret->zeta, 0, strain->n * sizeof *ret->zeta);
-    memset(sums, 0, sizeof *sums);
-    for (unsigned l = 0; l < strain->path->n_material; l++) {
-        viscous_mix_material(strain, sides, l, rate, &material);
-        viscous_mix_add(strain, sides, l, &material, sums, ret);
-    }
-    if (sides->step) viscous_mix_bound(strain->n, sums, ret->mu);
+    struct viscous_mix_material material; /* large: filled as far as it is used */
+    viscous_mix_material(state, ret, 0, &material);
+    memcpy(ret->mu, material.rows.mu, state->strain->n * sizeof *ret->mu);
+    memcpy(ret->zeta, material.rows.zeta, state->strain->n * sizeof *ret->zeta);
 }
 
 void viscous_mix_make(const struct viscous_strain *strain, const struct viscous_sides *sides, struct viscous_mix *ret)
 {
-    double rate[STRAIN_POINTS];
+    struct viscous_mix_state state; /* large: filled as far as it is used */
     struct viscous_mix_sums sums;
-    bool rates = viscous_mix_sees_rate(strain->path);
-    if (rates) viscous_strain_rate(strain, rate);
-    if (!strain->path->n_alpha) viscous_mix_alone(strain, sides, rate, ret);
-    else viscous_mix_all(strain, sides, rate, &sums, ret);
-    if (strain->interface) viscous_mix_split(strain->n, &sums, strain->sharp, ret);
-    else viscous_mix_plain(strain->n, ret->mu, ret->zeta, ret->iso);
+    viscous_mix_begin(strain, sides, &state);
+    if (!strain->path->n_alpha) viscous_mix_alone(&state, ret);
+    else viscous_mix_all(&state, &sums, ret);
+    if (!strain->interface) viscous_mix_plain(strain->n, ret->mu, ret->zeta, ret->iso);
 }
 
+/* 2 mu D */
 static BULLA_KERNEL void viscous_mix_twice(size_t n, const double *restrict mu, const double *restrict D,
                                            double *restrict tau)
 {
@@ -227,14 +326,12 @@ static BULLA_KERNEL void viscous_mix_twice(size_t n, const double *restrict mu, 
     for (size_t i = 0; i < n; i++) tau[i] = 2.0 * mu[i] * D[i];
 }
 
-static BULLA_KERNEL void viscous_mix_dilate(size_t n, const double *restrict iso, const double *restrict div,
-                                            double *restrict tau)
+/* 2 mu D + iso div u */
+static BULLA_KERNEL void viscous_mix_press(size_t n, const double *restrict mu, const double *restrict D,
+                                           const double *restrict iso, const double *restrict div, double *restrict tau)
 {
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double t = tau[i];
-        tau[i] = t + iso[i] * div[i];
-    }
+    for (size_t i = 0; i < n; i++) tau[i] = 2.0 * mu[i] * D[i] + iso[i] * div[i];
 }
 
 /* - 2 (mu_a - own) div u m_i m_a + 2 (mu_h - mu_a) (m_i q_a + q_i m_a - 2 (m D m) m_i m_a) */
@@ -256,17 +353,16 @@ static BULLA_KERNEL void viscous_mix_turn(size_t n, const struct viscous_strain 
 void viscous_mix_stress(const struct viscous_strain *strain, const struct viscous_mix *mix, unsigned i, unsigned axis,
                         double *tau)
 {
-    static const double none[STRAIN_POINTS];
+    const double *D = strain->D[elastic_component(i, axis)];
     size_t n = strain->n;
-    viscous_mix_twice(n, mix->mu, strain->D[elastic_component(i, axis)], tau);
-    if (i == axis) viscous_mix_dilate(n, mix->iso, strain->div, tau);
+    if (i == axis) viscous_mix_press(n, mix->mu, D, mix->iso, strain->div, tau);
+    else viscous_mix_twice(n, mix->mu, D, tau);
     if (!strain->interface) return;
-    const double *m_i = i < (unsigned)strain->path->dim ? strain->colour[i] : none;
-    viscous_mix_turn(n, strain, mix, m_i, strain->colour[axis], strain->along[i], strain->along[axis], tau);
+    viscous_mix_turn(n, strain, mix, strain->colour[i], strain->colour[axis], strain->along[i], strain->along[axis],
+                     tau);
 }
 
 void viscous_mix_hoop(const struct viscous_strain *strain, const struct viscous_mix *mix, double *tau)
 {
-    viscous_mix_twice(strain->n, mix->mu, strain->hoop, tau);
-    viscous_mix_dilate(strain->n, mix->iso, strain->div, tau);
+    viscous_mix_press(strain->n, mix->mu, strain->hoop, mix->iso, strain->div, tau);
 }

@@ -2,24 +2,43 @@
 #ifndef VISCOUS_MIX_H
 #define VISCOUS_MIX_H
 
+#include "phys/coefficient.h"
 #include "scheme/viscous_strain.h"
 
-/* Where the materials of a batch are taken from: the means of primitives at i and at i + step (0: those at i). Component q
- * at w + q * pitch. */
+/* Where the materials of a batch are taken from: rows of n primitives, a row `row` further than the one before; means of those
+ * at i and at i + step (0: those at i). Component q at w + q * pitch. */
 struct viscous_sides {
     const double *w;
-    size_t pitch, step;
+    size_t pitch, step, rows, n, row;
+};
+
+/* The viscosities of one material, where they are numbers. */
+struct viscous_mix_number {
+    double mu[STRAIN_POINTS], zeta[STRAIN_POINTS];
 };
 
 struct viscous_mix {
-    double mu[STRAIN_POINTS];   /* mu_a = sum alpha_l mu_l [Pa s] */
-    double zeta[STRAIN_POINTS]; /* sum alpha_l zeta_l */
+    struct viscous_mix_number *number; /* [n_material] of the scene */
+    double mu[STRAIN_POINTS];          /* mu_a = sum alpha_l mu_l [Pa s] */
+    double zeta[STRAIN_POINTS];        /* sum alpha_l zeta_l */
     /* Where the batch has an interface (strain->interface), else the same as above or not made: */
-    double own[STRAIN_POINTS];      /* sum alpha_l mu_l d_l/div u */
-    double own_zeta[STRAIN_POINTS]; /* sum alpha_l zeta_l d_l/div u */
-    double series[STRAIN_POINTS];   /* mu_h - mu_a */
-    double iso[STRAIN_POINTS];      /* of the isotropic part: tau = 2 mu_a D + iso div u I + ... */
+    double own[STRAIN_POINTS];    /* sum alpha_l mu_l d_l/div u */
+    double series[STRAIN_POINTS]; /* mu_h - mu_a */
+    double iso[STRAIN_POINTS];    /* of the isotropic part: tau = 2 mu_a D + iso div u I + ... */
 };
+
+void viscous_mix_open(const struct model *model, struct viscous_mix *ret);
+void viscous_mix_close(struct viscous_mix *mix);
+
+/* Does some law look at the rate of shear? */
+bool viscous_mix_sees_rate(const struct model *path);
+
+/* mu and zeta [n] of material l of a path: rows of their own, or `room`. */
+struct viscous_mix_rows {
+    const double *mu, *zeta;
+};
+struct viscous_mix_rows viscous_mix_ask(const struct viscous_mix *mix, const struct model *path, unsigned l,
+                                        const struct coefficient_points *points, struct viscous_mix_number *room);
 
 /* mu_a is bounded by what the lighter side can bear (numerics.md): a time step that the cells' own viscosities set is good for
  * it. */

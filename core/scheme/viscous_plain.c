@@ -1,83 +1,112 @@
-/* viscous_plain.c - see viscous_plain.h. One pass per component of the momentum. Sums are in the order of
- * viscous_strain.c and viscous_mix.c; halves and doubles are exact, wherever they stand. */
+/* viscous_plain.c - see viscous_plain.h. One pass per component of the momentum, over values of the patch. Sums are in the order
+ * of viscous_strain.c and viscous_mix.c; halves and doubles are exact, wherever they stand. */
 #include "scheme/viscous_plain.h"
 
 #include "phys/coefficient.h"
 
 bool viscous_plain_is(const struct model *path)
 {
-    return path->n_material == 1 && !path->beta && !coefficient_sees_rate(&path->viscosity[0].mu) &&
-           !coefficient_sees_state(&path->viscosity[0].mu);
+    return path->n_material == 1 && !path->beta && coefficient_is_number(&path->viscosity[0].mu);
 }
 
-/* For axes that are not there. */
-static const double viscous_plain_none[FACE_ROOM];
-
-/* Rows of cells around n faces: u through the faces, slopes along them of the velocities along them. */
+/* Of a block of faces; pointers to where it begins in the patch. */
 struct viscous_plain {
-    size_t n, step;
-    double per_h, mu2, iso; /* 2 mu, zeta - 2/3 mu */
-    const double *u, *across[2];
+    double per_h, mu2, iso;  /* 2 mu, zeta - 2/3 mu */
+    const double *u;         /* through the faces */
+    const double *across[2]; /* the velocities along them */
+    size_t aside[2];         /* from a cell to the next in their directions, and 1/(2 h); 0: no such axis */
+    double per_2h[2];
     bool last; /* the normal is the last of three axes: its derivative is added last */
 };
 
-static BULLA_KERNEL void viscous_plain_normal(const struct viscous_plain *work, double *restrict momentum,
-                                              double *restrict energy)
+/* The mean of the slopes of both cells along a face. */
+static inline double viscous_plain_slope(const double *a, size_t step, size_t t, double per)
 {
-    const double *restrict u = work->u, *restrict v = work->across[0], *restrict w = work->across[1];
-    const size_t step = work->step;
-    const double per_h = work->per_h, mu2 = work->mu2, iso = work->iso;
-    const bool last = work->last;
+    return 0.5 * ((a[t] - *(a - t)) * per + (a[step + t] - *(a + step - t)) * per);
+}
+
+/* A row of faces; which sum div u is comes from outside, so that no loop asks. */
+static inline __attribute__((always_inline)) void viscous_plain_row(size_t n, size_t step,
+                                                                    const struct viscous_plain *work, bool last,
+                                                                    size_t from, double *restrict momentum,
+                                                                    double *restrict energy)
+{
+    const double *restrict u = work->u + from, *restrict v = work->across[0] + from,
+                           *restrict w = work->across[1] + from;
+    const size_t tv = work->aside[0], tw = work->aside[1];
+    const double per_h = work->per_h, mu2 = work->mu2, iso = work->iso, pv = work->per_2h[0], pw = work->per_2h[1];
 #pragma omp simd
-    for (size_t i = 0; i < work->n; i++) {
-        double a = u[i], b = u[i + step], m = momentum[i], e = energy[i];
-        double d = (b - a) * per_h, dv = 0.5 * (v[i] + v[i + step]), dw = 0.5 * (w[i] + w[i + step]);
-        double div = last ? (dv + dw) + d : (d + dv) + dw;
-        double tau = mu2 * d + iso * div;
+    for (size_t i = 0; i < n; i++) {
+        double a = u[i], b = u[i + step], m = momentum[i], e = energy[i], d = (b - a) * per_h;
+        double dv = viscous_plain_slope(v + i, step, tv, pv), dw = viscous_plain_slope(w + i, step, tw, pw);
+        double div = last ? (dv + dw) + d : (d + dv) + dw, tau = mu2 * d + iso * div;
         momentum[i] = m - tau;
         energy[i] = e - tau * (0.5 * (a + b));
     }
 }
 
-/* v along the faces; slope: of u along v. */
-static BULLA_KERNEL void viscous_plain_shear(const struct viscous_plain *work, const double *restrict v,
-                                             const double *restrict slope, double *restrict momentum,
+static BULLA_KERNEL void viscous_plain_normal(const struct viscous_block *block, const struct viscous_plain *work,
+                                              double *restrict momentum, double *restrict energy)
+{
+    for (size_t r = 0; r < block->rows; r++) {
+        size_t from = r * block->patch_row, to = r * block->face_row;
+        if (work->last) viscous_plain_row(block->n, block->step, work, true, from, momentum + to, energy + to);
+        else viscous_plain_row(block->n, block->step, work, false, from, momentum + to, energy + to);
+    }
+}
+
+/* v along the faces; t, per: in its direction, along which u has a slope. */
+static BULLA_KERNEL void viscous_plain_shear(const struct viscous_block *block, const struct viscous_plain *work,
+                                             const double *restrict v, size_t t, double per, double *restrict momentum,
                                              double *restrict energy)
 {
-    const size_t step = work->step;
+    const double *restrict u = work->u;
+    const size_t n = block->n, step = block->step, row = block->patch_row;
     const double per_h = work->per_h, mu2 = work->mu2;
+    for (size_t r = 0; r < block->rows; r++, u += row, v += row) {
 #pragma omp simd
-    for (size_t i = 0; i < work->n; i++) {
-        double a = v[i], b = v[i + step], m = momentum[i], e = energy[i];
-        double d = (b - a) * per_h, other = 0.5 * (slope[i] + slope[i + step]);
-        double tau = mu2 * (0.5 * (d + other));
-        momentum[i] = m - tau;
-        energy[i] = e - tau * (0.5 * (a + b));
+        for (size_t i = 0; i < n; i++) {
+            double a = v[i], b = v[i + step], m = momentum[i], e = energy[i];
+            double d = (b - a) * per_h, tau = mu2 * (0.5 * (d + viscous_plain_slope(u + i, step, t, per)));
+            momentum[i] = m - tau;
+            energy[i] = e - tau * (0.5 * (a + b));
+        }
+        momentum += block->face_row;
+        energy += block->face_row;
     }
+}
+
+static void viscous_plain_block(const struct viscous_slopes *slopes, const struct viscous_block *block,
+                                struct viscous_plain *work, struct face_work *faces)
+{
+    const struct model *path = slopes->tile->model;
+    double *energy = faces->energy + block->face, *momentum = faces->momentum + block->face;
+    work->u = viscous_slopes_velocity(slopes, (unsigned)block->axis) + block->patch;
+    for (unsigned k = 0; k < 2; k++) {
+        unsigned i = axis_component(block->axis, k + 1);
+        work->across[k] = i < path->n_velocity ? viscous_slopes_velocity(slopes, i) + block->patch : work->u;
+    }
+    viscous_plain_normal(block, work, momentum, energy);
+    for (unsigned k = 1; k < path->n_velocity; k++)
+        viscous_plain_shear(block, work, work->across[k - 1], work->aside[k - 1], work->per_2h[k - 1],
+                            momentum + k * FACE_ROOM, energy);
 }
 
 void viscous_plain_faces(const struct viscous_slopes *slopes, const struct frame *frame, struct face_work *faces)
 {
-    const struct term_tile *tile = slopes->tile;
-    const struct model *path = tile->model;
+    const struct model *path = slopes->tile->model;
     const struct model_viscosity *law = &path->viscosity[0];
-    size_t shift = frame_reach(frame);
-    unsigned axis = (unsigned)frame->axis, dim = (unsigned)path->dim;
-    struct viscous_plain work = {.n = frame_edged(frame) - frame->inner,
-                                 .step = frame->inner,
-                                 .per_h = 1.0 / tile->level->h[axis],
+    const double *h = slopes->tile->level->h;
+    struct viscous_walk walk = {slopes, frame, 0, 0};
+    struct viscous_block block;
+    struct viscous_plain work = {.per_h = 1.0 / h[frame->axis],
                                  .mu2 = 2.0 * law->mu.number,
                                  .iso = law->zeta - 2.0 / 3.0 * law->mu.number,
-                                 .u = viscous_slopes_row(slopes, axis, 0) + shift,
-                                 .across = {viscous_plain_none, viscous_plain_none},
-                                 .last = axis == 2};
-    for (unsigned k = 1; k < dim; k++)
-        work.across[k - 1] = viscous_slopes_row(slopes, axis_component(frame->axis, k), k) + shift;
-    viscous_plain_normal(&work, faces->momentum, faces->energy);
-    for (unsigned d = 1; d < path->n_velocity; d++) {
-        unsigned i = axis_component(frame->axis, d);
-        const double *slope = i < dim ? viscous_slopes_row(slopes, axis, d) + shift : viscous_plain_none;
-        viscous_plain_shear(&work, viscous_slopes_row(slopes, i, 0) + shift, slope, faces->momentum + d * FACE_ROOM,
-                            faces->energy);
+                                 .last = frame->axis == 2};
+    for (unsigned k = 0; k < 2; k++) {
+        unsigned i = axis_component(frame->axis, k + 1);
+        work.aside[k] = i < (unsigned)path->dim ? slopes->stride[i] : 0;
+        work.per_2h[k] = i < (unsigned)path->dim ? 0.5 / h[i] : 0.0;
     }
+    while (viscous_slopes_next(&walk, &block)) viscous_plain_block(slopes, &block, &work, faces);
 }

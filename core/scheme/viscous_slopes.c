@@ -9,12 +9,11 @@
 
 void viscous_slopes_open(const struct mesh *mesh, struct viscous_slopes *ret)
 {
-    *ret = (struct viscous_slopes){.rows = mem_new((size_t)3 * SLOPES_QUANTITIES * FACE_ROOM, sizeof *ret->rows)};
     const struct box_block block = patch_block(mesh, 1, NULL);
     size_t stride = 1;
-    ret->mixed = mem_new(block.pitch, sizeof *ret->mixed);
-    ret->pitch = block.pitch;
-    ret->first = box_at(&block, 0, 0, 0);
+    *ret = (struct viscous_slopes){.mixed = mem_new(block.pitch, sizeof *ret->mixed),
+                                   .pitch = block.pitch,
+                                   .first = box_at(&block, 0, 0, 0)};
     for (int d = 0; d < mesh->dim; d++) {
         ret->stride[d] = stride;
         stride *= block.size[d];
@@ -23,7 +22,6 @@ void viscous_slopes_open(const struct mesh *mesh, struct viscous_slopes *ret)
 
 void viscous_slopes_close(struct viscous_slopes *slopes)
 {
-    mem_free(slopes->rows);
     mem_free(slopes->mixed);
 }
 
@@ -40,70 +38,37 @@ static const double *viscous_slopes_colour(const struct viscous_slopes *slopes)
     return slopes->mixed;
 }
 
+/* Distances along the radius are those of centroids. */
+static void viscous_slopes_curve(struct viscous_slopes *slopes)
+{
+    const struct term_tile *tile = slopes->tile;
+    int n = tile->mesh->n[0];
+    double *r = slopes->centroid;
+    metric_centroids(tile->mesh, tile->level, tile->tile, r);
+    for (int i = 0; i <= n; i++) {
+        double face = tile->mesh->lower[0] + (tile->tile->at[0] * n + i) * tile->level->h[0];
+        slopes->across[0][i] = 1.0 / (r[i + 1] - r[i]);
+        slopes->part[i] = (face - r[i]) / (r[i + 1] - r[i]);
+    }
+    for (int i = 0; i < n; i++) slopes->along[0][i] = 1.0 / (r[i + 2] - r[i]);
+}
+
 void viscous_slopes_look(struct viscous_slopes *slopes, const struct term_tile *tile)
 {
-    int n = tile->mesh->n[0];
-    double half = 0.5 / tile->level->h[0];
     slopes->tile = tile;
     slopes->data = tile->around;
     slopes->colour = viscous_slopes_colour(slopes);
-    for (int i = 0; i < n; i++) slopes->along[i] = half;
-    if (!tile->mesh->beta) return;
-    metric_centroids(tile->mesh, tile->level, tile->tile, slopes->centroid);
-    for (int i = 0; i <= n; i++)
-        slopes->radius[i] = tile->mesh->lower[0] + (tile->tile->at[0] * n + i) * tile->level->h[0];
-    for (int i = 0; i < n; i++) slopes->along[i] = 1.0 / (slopes->centroid[i + 2] - slopes->centroid[i]);
+    for (int d = 0; d < tile->mesh->dim; d++)
+        for (int i = 0; i <= tile->mesh->n[0]; i++) {
+            slopes->along[d][i] = 0.5 / tile->level->h[d];
+            slopes->across[d][i] = 1.0 / tile->level->h[d];
+        }
+    if (tile->mesh->beta) viscous_slopes_curve(slopes);
 }
 
-/* Velocity d, or the colour, over the patch. */
-static const double *viscous_slopes_quantity(const struct viscous_slopes *slopes, unsigned quantity)
+static inline size_t viscous_slopes_least(size_t a, size_t b)
 {
-    if (quantity == SLOPES_COLOUR) return slopes->colour;
-    return slopes->data + (slopes->tile->model->n_around_alpha + quantity) * slopes->pitch;
-}
-
-/* Cells that follow each other along x, in the patch and in a row. */
-struct viscous_run {
-    size_t patch, row, n, x; /* x: of the first one, where slopes are taken along axis 0 */
-};
-
-static inline void viscous_slopes_copy(size_t n, const double *restrict from, double *restrict to)
-{
-    for (size_t i = 0; i < n; i++) to[i] = from[i];
-}
-
-static inline void viscous_slopes_differ(size_t n, size_t stride, double per, const double *restrict from,
-                                         double *restrict to)
-{
-    for (size_t i = 0; i < n; i++) to[i] = (from[i + stride] - from[i - stride]) * per;
-}
-
-/* Along axis 0, whose cells have distances of their own. */
-static inline void viscous_slopes_radial(size_t n, const double *restrict per, const double *restrict from,
-                                         double *restrict to)
-{
-    for (size_t i = 0; i < n; i++) to[i] = (from[i + 1] - from[i - 1]) * per[i];
-}
-
-/* Slope of a quantity along an axis of space, of a run; to: where the run begins. */
-static void viscous_slopes_run(const struct viscous_slopes *slopes, const double *from, int axis,
-                               const struct viscous_run *run, double *to)
-{
-    if (axis == 0) viscous_slopes_radial(run->n, slopes->along + run->x, from + run->patch, to);
-    else viscous_slopes_differ(run->n, slopes->stride[axis], 0.5 / slopes->tile->level->h[axis], from + run->patch, to);
-}
-
-/* All quantities of a run, and their slopes along the two other axes. */
-static void viscous_slopes_all(const struct viscous_slopes *slopes, int axis, const struct viscous_run *run)
-{
-    for (unsigned q = 0; q < SLOPES_QUANTITIES; q++) {
-        double *rows = slopes->rows + (size_t)(3 * q) * FACE_ROOM + run->row;
-        if (q == SLOPES_COLOUR ? !slopes->colour : q >= slopes->tile->model->n_velocity) continue;
-        const double *from = viscous_slopes_quantity(slopes, q);
-        viscous_slopes_copy(run->n, from + run->patch, rows);
-        for (int k = 1; k < slopes->tile->mesh->dim; k++)
-            viscous_slopes_run(slopes, from, (int)axis_component(axis, (unsigned)k), run, rows + (size_t)k * FACE_ROOM);
-    }
+    return a < b ? a : b;
 }
 
 /* Where a line of cells along x begins in the patch. */
@@ -113,55 +78,169 @@ static size_t viscous_slopes_line(const struct viscous_slopes *slopes, size_t li
     return slopes->first + line % n1 * slopes->stride[1] + line / n1 * slopes->stride[2];
 }
 
-/* A layer of a piece across axis 1 or 2, which may begin and end within a line of cells. */
-static void viscous_slopes_layer(const struct viscous_slopes *slopes, const struct frame *frame, size_t o, int i)
+/* Lines that follow line `line` at one distance, as many as `most`. */
+static size_t viscous_slopes_even(const struct viscous_slopes *slopes, size_t line, size_t most)
 {
-    size_t n0 = (size_t)slopes->tile->mesh->n[0], end = frame->inner_from + frame->inner;
-    ptrdiff_t layer = i * (ptrdiff_t)slopes->stride[frame->axis];
-    size_t base = slopes->first + (frame->axis == 1 ? (frame->outer_from + o) * slopes->stride[2] : 0);
-    for (size_t c = frame->inner_from; c < end;) {
-        size_t x = c % n0, n = n0 - x < end - c ? n0 - x : end - c;
-        size_t at = base + x + (frame->axis == 2 ? c / n0 * slopes->stride[1] : 0);
-        const struct viscous_run run = {.patch = (size_t)((ptrdiff_t)at + layer),
-                                        .row = frame_at(frame, o, i) + (c - frame->inner_from),
-                                        .n = n,
-                                        .x = x};
-        viscous_slopes_all(slopes, frame->axis, &run);
-        c += n;
+    size_t n1 = (size_t)slopes->tile->mesh->n[1];
+    return viscous_slopes_least(n1 - line % n1, most);
+}
+
+/* Faces across axis 0: a row is a line, or a part of a very long one. */
+static void viscous_slopes_lines(struct viscous_walk *walk, struct viscous_block *ret)
+{
+    const struct viscous_slopes *slopes = walk->slopes;
+    const struct frame *frame = walk->frame;
+    size_t line = frame->outer_from + walk->o, faces = frame->n + 1;
+    size_t rows = viscous_slopes_even(slopes, line, frame->outer - walk->o);
+    size_t n = viscous_slopes_least(faces - walk->c, STRAIN_POINTS);
+    *ret = (struct viscous_block){.rows = rows,
+                                  .n = n,
+                                  .x = walk->c,
+                                  .patch = viscous_slopes_line(slopes, line) - 1 + walk->c,
+                                  .patch_row = slopes->stride[1],
+                                  .face = face_at(frame, walk->o, 0) + walk->c,
+                                  .face_row = frame_layers(frame),
+                                  .step = 1};
+    walk->c += n;
+    if (walk->c < faces) return;
+    walk->c = 0;
+    walk->o += rows;
+}
+
+/* Faces across axis 1 or 2: a row is a layer of cells, as much of it as lies in one line. */
+static void viscous_slopes_layers(struct viscous_walk *walk, struct viscous_block *ret)
+{
+    const struct viscous_slopes *slopes = walk->slopes;
+    const struct frame *frame = walk->frame;
+    size_t n0 = (size_t)slopes->tile->mesh->n[0], cell = frame->inner_from + walk->c, x = cell % n0;
+    size_t step = slopes->stride[frame->axis];
+    size_t plane = frame->axis == 1 ? (frame->outer_from + walk->o) * slopes->stride[2] : cell / n0 * slopes->stride[1];
+    *ret = (struct viscous_block){.rows = frame->n + 1,
+                                  .n = viscous_slopes_least(n0 - x, frame->inner - walk->c),
+                                  .x = x,
+                                  .patch = slopes->first + plane + x - step,
+                                  .patch_row = step,
+                                  .face = face_at(frame, walk->o, 0) + walk->c,
+                                  .face_row = frame->inner,
+                                  .step = step,
+                                  .axis = frame->axis};
+    walk->c += ret->n;
+    if (walk->c < frame->inner) return;
+    walk->c = 0;
+    walk->o++;
+}
+
+bool viscous_slopes_next(struct viscous_walk *walk, struct viscous_block *ret)
+{
+    if (walk->o >= walk->frame->outer) return false;
+    if (walk->frame->axis == 0) viscous_slopes_lines(walk, ret);
+    else viscous_slopes_layers(walk, ret);
+    return true;
+}
+
+bool viscous_slopes_batch(struct viscous_block *rest, struct viscous_block *ret)
+{
+    size_t most = STRAIN_POINTS / rest->n, parts = (rest->rows + most - 1) / most;
+    if (!rest->rows) return false;
+    *ret = *rest;
+    ret->rows = (rest->rows + parts - 1) / parts; /* parts of one size */
+    rest->rows -= ret->rows;
+    rest->patch += ret->rows * rest->patch_row;
+    rest->face += ret->rows * rest->face_row;
+    return true;
+}
+
+struct viscous_block viscous_slopes_cells(const struct viscous_slopes *slopes, size_t first, size_t most)
+{
+    size_t n = (size_t)slopes->tile->mesh->n[0];
+    return (struct viscous_block){.rows = viscous_slopes_even(slopes, first, most),
+                                  .n = n,
+                                  .patch = viscous_slopes_line(slopes, first),
+                                  .patch_row = slopes->stride[1],
+                                  .face = first * n,
+                                  .face_row = n,
+                                  .axis = -1};
+}
+
+static BULLA_KERNEL void viscous_slopes_differ(const struct viscous_block *block, const double *restrict low,
+                                               const double *restrict high, const double *restrict per,
+                                               double *restrict slope)
+{
+    size_t n = block->n, row = block->patch_row;
+    for (size_t r = 0; r < block->rows; r++, low += row, high += row, slope += n)
+#pragma omp simd
+        for (size_t i = 0; i < n; i++) slope[i] = (high[i] - low[i]) * per[i];
+}
+
+/* Slopes along a face: the mean of those of both cells. t: from a cell to the next along the face. */
+static BULLA_KERNEL void viscous_slopes_along(const struct viscous_block *block, size_t t, const double *restrict a,
+                                              const double *restrict per, double *restrict slope)
+{
+    size_t n = block->n, row = block->patch_row;
+    const double *restrict b = a + block->step;
+    for (size_t r = 0; r < block->rows; r++, a += row, b += row, slope += n)
+#pragma omp simd
+        for (size_t i = 0; i < n; i++)
+            slope[i] = 0.5 * ((a[i + t] - (a - t)[i]) * per[i] + (b[i + t] - (b - t)[i]) * per[i]);
+}
+
+/* Gradient of one quantity; from: over the patch. */
+static void viscous_slopes_derive(const struct viscous_slopes *slopes, const struct viscous_block *block,
+                                  const double *from, double (*ret)[STRAIN_POINTS])
+{
+    const double *at = from + block->patch;
+    for (int e = 0; e < slopes->tile->mesh->dim; e++) {
+        size_t t = slopes->stride[e];
+        const double *along = slopes->along[e] + block->x, *across = slopes->across[e] + block->x;
+        if (e == block->axis) viscous_slopes_differ(block, at, at + t, across, ret[e]);
+        else if (block->step) viscous_slopes_along(block, t, at, along, ret[e]);
+        else viscous_slopes_differ(block, at - t, at + t, along, ret[e]);
     }
 }
 
-void viscous_slopes_gather(struct viscous_slopes *slopes, const struct frame *frame)
+/* u_r/r. At r = 0, where the area is 0, that is du_r/dr. */
+static void viscous_slopes_hoop(const struct viscous_slopes *slopes, const struct viscous_block *block,
+                                struct viscous_strain *strain)
 {
-    for (size_t o = 0; o < frame->outer; o++) {
-        if (frame->axis == 0) {
-            const struct viscous_run run = {.patch = viscous_slopes_line(slopes, frame->outer_from + o) - 1,
-                                            .row = frame_at(frame, o, -1),
-                                            .n = frame->n + 2};
-            viscous_slopes_all(slopes, 0, &run);
-            continue;
+    const double *r = slopes->centroid + block->x, *u = viscous_slopes_velocity(slopes, 0) + block->patch;
+    for (size_t k = 0; k < block->rows; k++, u += block->patch_row)
+        for (size_t i = 0; i < block->n; i++) {
+            size_t to = k * block->n + i;
+            double sum = block->axis ? 2.0 * r[i + 1] : r[i] + r[i + 1];
+            strain->hoop[to] = sum > 0.0 ? (u[i] + u[i + block->step]) / sum : strain->gradient[0][0][to];
         }
-        for (int i = -1; i <= (int)frame->n; i++) viscous_slopes_layer(slopes, frame, o, i);
-    }
 }
 
-void viscous_slopes_cells(const struct viscous_slopes *slopes, const struct viscous_lines *lines,
-                          struct viscous_strain *ret)
+void viscous_slopes_strain(const struct viscous_slopes *slopes, const struct viscous_block *block,
+                           struct viscous_strain *ret)
 {
     const struct term_tile *tile = slopes->tile;
     ret->path = tile->model;
-    ret->n = lines->n * lines->length;
-    for (size_t k = 0; k < lines->n; k++) {
-        const struct viscous_run run = {.patch = viscous_slopes_line(slopes, lines->first + k), .n = lines->length};
-        const double *radial = viscous_slopes_quantity(slopes, 0) + run.patch;
-        size_t to = k * lines->length;
-        for (int e = 0; e < tile->mesh->dim; e++) {
-            for (unsigned d = 0; d < tile->model->n_velocity; d++)
-                viscous_slopes_run(slopes, viscous_slopes_quantity(slopes, d), e, &run, ret->gradient[d][e] + to);
-            if (slopes->colour) viscous_slopes_run(slopes, slopes->colour, e, &run, ret->colour[e] + to);
-        }
-        for (size_t i = 0; tile->mesh->beta && i < lines->length; i++)
-            ret->hoop[to + i] = radial[i] / slopes->centroid[i + 1];
-    }
+    ret->n = block->rows * block->n;
+    for (unsigned d = 0; d < ret->path->n_velocity; d++)
+        viscous_slopes_derive(slopes, block, viscous_slopes_velocity(slopes, d), ret->gradient[d]);
+    if (slopes->colour) viscous_slopes_derive(slopes, block, slopes->colour, ret->colour);
+    if (tile->mesh->beta) viscous_slopes_hoop(slopes, block, ret);
     viscous_strain_make(ret, viscous_strain_longest(tile->mesh->dim, tile->level->h));
+}
+
+static BULLA_KERNEL void viscous_slopes_mean(const struct viscous_block *block, const double *restrict a,
+                                             double *restrict mean)
+{
+    size_t n = block->n, step = block->step;
+    for (size_t r = 0; r < block->rows; r++, a += block->patch_row, mean += n)
+#pragma omp simd
+        for (size_t i = 0; i < n; i++) mean[i] = 0.5 * (a[i] + a[i + step]);
+}
+
+void viscous_slopes_speed(const struct viscous_slopes *slopes, const struct viscous_block *block, unsigned d,
+                          double *ret)
+{
+    const double *u = viscous_slopes_velocity(slopes, d) + block->patch, *part = slopes->part + block->x;
+    if (!slopes->tile->mesh->beta || block->axis) {
+        viscous_slopes_mean(block, u, ret);
+        return;
+    }
+    for (size_t r = 0; r < block->rows; r++, u += block->patch_row)
+        for (size_t i = 0; i < block->n; i++) ret[r * block->n + i] = u[i] + part[i] * (u[i + 1] - u[i]);
 }

@@ -3,10 +3,12 @@
 #include "scheme/viscous_strain.h"
 
 #include "phys/elastic.h"
-#include "phys/row.h"
 
 #include <math.h>
 #include <string.h>
+
+/* For components that are not there. */
+static const double viscous_strain_none[STRAIN_POINTS];
 
 static BULLA_KERNEL void viscous_strain_mean(size_t n, const double *restrict a, const double *restrict b,
                                              double *restrict mean)
@@ -15,91 +17,98 @@ static BULLA_KERNEL void viscous_strain_mean(size_t n, const double *restrict a,
     for (size_t i = 0; i < n; i++) mean[i] = 0.5 * (a[i] + b[i]);
 }
 
-static BULLA_KERNEL void viscous_strain_half(size_t n, const double *restrict a, double *restrict half)
+/* a + b + c + f d */
+static BULLA_KERNEL void viscous_strain_sum(size_t n, const double *restrict a, const double *restrict b,
+                                            const double *restrict c, double f, const double *restrict d,
+                                            double *restrict sum)
 {
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) half[i] = 0.5 * a[i];
+    for (size_t i = 0; i < n; i++) sum[i] = ((a[i] + b[i]) + c[i]) + f * d[i];
 }
 
-/* sum += f a */
-static BULLA_KERNEL void viscous_strain_add(size_t n, double f, const double *restrict a, double *restrict sum)
+/* One component, as a row. */
+static const double *viscous_strain_component(struct viscous_strain *strain, unsigned i, unsigned j)
 {
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double s = sum[i];
-        sum[i] = s + f * a[i];
-    }
-}
-
-/* sum += f a b */
-static BULLA_KERNEL void viscous_strain_add_product(size_t n, double f, const double *restrict a,
-                                                    const double *restrict b, double *restrict sum)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double s = sum[i];
-        sum[i] = s + f * (a[i] * b[i]);
-    }
+    const struct model *path = strain->path;
+    unsigned dim = (unsigned)path->dim;
+    if (i >= path->n_velocity || j >= dim) return viscous_strain_none;
+    if (i == j) return strain->gradient[i][i];
+    double *shear = strain->shear[elastic_component(i, j) - 3];
+    viscous_strain_mean(strain->n, strain->gradient[i][j], i < dim ? strain->gradient[j][i] : viscous_strain_none,
+                        shear);
+    return shear;
 }
 
 static void viscous_strain_tensor(struct viscous_strain *strain)
 {
-    unsigned dim = (unsigned)strain->path->dim, n_velocity = strain->path->n_velocity;
-    for (unsigned i = 0; i < n_velocity; i++)
-        for (unsigned j = 0; j <= i; j++) {
-            double *D = strain->D[elastic_component(i, j)];
-            if (j >= dim) memset(D, 0, strain->n * sizeof *D);
-            else if (i >= dim) viscous_strain_half(strain->n, strain->gradient[i][j], D);
-            else if (i == j) memcpy(D, strain->gradient[i][i], strain->n * sizeof *D);
-            else viscous_strain_mean(strain->n, strain->gradient[i][j], strain->gradient[j][i], D);
-        }
-    memcpy(strain->div, strain->gradient[0][0], strain->n * sizeof *strain->div);
-    for (unsigned d = 1; d < dim; d++) viscous_strain_add(strain->n, 1.0, strain->gradient[d][d], strain->div);
-    if (strain->path->beta) viscous_strain_add(strain->n, strain->path->beta, strain->hoop, strain->div);
+    const struct model *path = strain->path;
+    for (unsigned i = 0; i < 3; i++)
+        for (unsigned j = 0; j <= i; j++) strain->D[elastic_component(i, j)] = viscous_strain_component(strain, i, j);
+    viscous_strain_sum(strain->n, strain->D[0], strain->D[1], strain->D[2], path->beta,
+                       path->beta ? strain->hoop : viscous_strain_none, strain->div);
 }
 
-/* 1/sqrt(g^2 + flat^2), or 0 where g is a thousandth of flat: then m is 0 to the bit whether or not there is an interface
+/* |g|^2, and at how many points it is above a limit. */
+static BULLA_KERNEL double viscous_strain_steepness(size_t n, double limit, const double *restrict a,
+                                                    const double *restrict b, const double *restrict c,
+                                                    double *restrict g2)
+{
+    double steep = 0.0;
+#pragma omp simd reduction(+ : steep)
+    for (size_t i = 0; i < n; i++) {
+        double g = (a[i] * a[i] + b[i] * b[i]) + c[i] * c[i];
+        g2[i] = g;
+        steep += g > limit ? 1.0 : 0.0;
+    }
+    return steep;
+}
+
+/* g/sqrt(g^4 + flat^4), or 0 where g is a thousandth of flat: then m is 0 to the bit whether or not there is an interface
  * elsewhere. */
-static BULLA_KERNEL void viscous_strain_scale(size_t n, double flat2, double *restrict g2)
+static BULLA_KERNEL void viscous_strain_scale(size_t n, double flat2, double limit, double *restrict g2)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double g = g2[i], scale = 1.0 / sqrt(g + flat2);
-        g2[i] = g > 1e-6 * flat2 ? scale : 0.0;
+        double g = g2[i], scale = sqrt(g / (g * g + flat2 * flat2));
+        g2[i] = g > limit ? scale : 0.0;
     }
 }
 
-static BULLA_KERNEL void viscous_strain_times(size_t n, const double *restrict scale, double *restrict a)
+/* m, q = D m, m D m and |m|^2 from the gradient and its scale. Rows beyond the axes are 0. */
+static BULLA_KERNEL void viscous_strain_turn(size_t n, const double *restrict scale,
+                                             struct viscous_strain *restrict strain)
 {
+    const double *restrict xx = strain->D[0], *restrict yy = strain->D[1], *restrict zz = strain->D[2];
+    const double *restrict xy = strain->D[3], *restrict xz = strain->D[4], *restrict yz = strain->D[5];
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) a[i] *= scale[i];
+    for (size_t i = 0; i < n; i++) {
+        double s = scale[i], a = s * strain->colour[0][i], b = s * strain->colour[1][i], c = s * strain->colour[2][i];
+        double p = (xx[i] * a + xy[i] * b) + xz[i] * c, q = (xy[i] * a + yy[i] * b) + yz[i] * c,
+               r = (xz[i] * a + yz[i] * b) + zz[i] * c;
+        strain->colour[0][i] = a;
+        strain->colour[1][i] = b;
+        strain->colour[2][i] = c;
+        strain->along[0][i] = p;
+        strain->along[1][i] = q;
+        strain->along[2][i] = r;
+        strain->normal[i] = (a * p + b * q) + c * r;
+        strain->sharp[i] = (a * a + b * b) + c * c;
+    }
 }
 
 /* m from the gradient of the colour, and what it makes of D. */
 static void viscous_strain_normal(struct viscous_strain *strain, double h)
 {
-    unsigned dim = (unsigned)strain->path->dim;
-    double scale[STRAIN_POINTS] = {0};
-    strain->interface = false;
-    if (!strain->path->n_alpha) return;
-    for (unsigned e = 0; e < dim; e++)
-        viscous_strain_add_product(strain->n, 1.0, strain->colour[e], strain->colour[e], scale);
-    viscous_strain_scale(strain->n, STRAIN_FLAT * STRAIN_FLAT / (h * h), scale);
-    strain->interface = row_most(strain->n, scale) > 0.0;
+    double scale[STRAIN_POINTS], flat2 = STRAIN_FLAT * STRAIN_FLAT / (h * h), limit = 1e-6 * flat2;
+    int dim = strain->path->dim;
+    strain->interface =
+        strain->path->n_alpha &&
+        viscous_strain_steepness(strain->n, limit, strain->colour[0], dim > 1 ? strain->colour[1] : viscous_strain_none,
+                                 dim > 2 ? strain->colour[2] : viscous_strain_none, scale) > 0.0;
     if (!strain->interface) return;
-    memset(strain->normal, 0, strain->n * sizeof *strain->normal);
-    memset(strain->sharp, 0, strain->n * sizeof *strain->sharp);
-    for (unsigned e = 0; e < dim; e++) viscous_strain_times(strain->n, scale, strain->colour[e]);
-    for (unsigned i = 0; i < strain->path->n_velocity; i++) {
-        memset(strain->along[i], 0, strain->n * sizeof *strain->along[i]);
-        for (unsigned e = 0; e < dim; e++)
-            viscous_strain_add_product(strain->n, 1.0, strain->D[elastic_component(i, e)], strain->colour[e],
-                                       strain->along[i]);
-    }
-    for (unsigned e = 0; e < dim; e++) {
-        viscous_strain_add_product(strain->n, 1.0, strain->colour[e], strain->along[e], strain->normal);
-        viscous_strain_add_product(strain->n, 1.0, strain->colour[e], strain->colour[e], strain->sharp);
-    }
+    for (int e = dim; e < 3; e++) memset(strain->colour[e], 0, strain->n * sizeof *strain->colour[e]);
+    viscous_strain_scale(strain->n, flat2, limit, scale);
+    viscous_strain_turn(strain->n, scale, strain);
 }
 
 void viscous_strain_make(struct viscous_strain *strain, double h)
@@ -109,57 +118,56 @@ void viscous_strain_make(struct viscous_strain *strain, double h)
 }
 
 /* D:D, the hoop included. What the exchange of x and y exchanges is added up first. */
-static void viscous_strain_square(const struct viscous_strain *strain, double *sum)
+static BULLA_KERNEL void viscous_strain_square_of(size_t n, const double *const D[STRAIN_TENSOR], double beta,
+                                                  const double *restrict hoop, double *restrict square)
+{
+    const double *restrict xx = D[0], *restrict yy = D[1], *restrict zz = D[2];
+    const double *restrict xy = D[3], *restrict xz = D[4], *restrict yz = D[5];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double own = (xx[i] * xx[i] + yy[i] * yy[i]) + zz[i] * zz[i];
+        double crossed = (xz[i] * xz[i] + yz[i] * yz[i]) + xy[i] * xy[i];
+        square[i] = (own + 2.0 * crossed) + beta * (hoop[i] * hoop[i]);
+    }
+}
+
+void viscous_strain_square(const struct viscous_strain *strain, double *square)
 {
     const struct model *path = strain->path;
-    double crossed[STRAIN_POINTS];
-    memset(sum, 0, strain->n * sizeof *sum);
-    memset(crossed, 0, strain->n * sizeof *crossed);
-    for (unsigned i = 0; i < path->n_velocity; i++)
-        viscous_strain_add_product(strain->n, 1.0, strain->D[i], strain->D[i], sum);
-    for (unsigned i = path->n_velocity; i-- > 1;)
-        for (unsigned j = 0; j < i; j++) {
-            const double *D = strain->D[elastic_component(i, j)];
-            viscous_strain_add_product(strain->n, 2.0, D, D, crossed);
-        }
-    viscous_strain_add(strain->n, 1.0, crossed, sum);
-    if (path->beta) viscous_strain_add_product(strain->n, path->beta, strain->hoop, strain->hoop, sum);
+    viscous_strain_square_of(strain->n, strain->D, path->beta, path->beta ? strain->hoop : viscous_strain_none, square);
 }
 
-static BULLA_KERNEL void viscous_strain_root(size_t n, double *restrict square)
+static BULLA_KERNEL void viscous_strain_root(size_t n, const double *restrict square, const double *restrict div,
+                                             double *restrict rate)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double s = square[i], root = sqrt(2.0 * s);
-        square[i] = s < 0.0 ? 0.0 : root;
+        double d = div[i], s = square[i] - 1.0 / 3.0 * (d * d), root = sqrt(2.0 * s);
+        rate[i] = s < 0.0 ? 0.0 : root;
     }
 }
 
-void viscous_strain_rate(const struct viscous_strain *strain, double *rate)
+void viscous_strain_rate(const struct viscous_strain *strain, const double *square, double *rate)
 {
-    viscous_strain_square(strain, rate);
-    viscous_strain_add_product(strain->n, -1.0 / 3.0, strain->div, strain->div, rate);
-    viscous_strain_root(strain->n, rate);
+    viscous_strain_root(strain->n, square, strain->div, rate);
 }
 
-/* D_l = D - (1 - r) div u m m: from D:D, m D m and |m|^2. */
-static BULLA_KERNEL void viscous_strain_reduce(size_t n, const double *restrict r, const double *restrict div,
-                                               const double *restrict normal, const double *restrict sharp,
-                                               double *restrict dev2, double *restrict dilatation)
+/* D_l = D - (1 - r) div u m m: D_l:D_l from D:D, m D m and |m|^2. */
+static BULLA_KERNEL void viscous_strain_reduce(size_t n, const struct viscous_strain *restrict strain,
+                                               const double *restrict square, const double *restrict r,
+                                               double *restrict ret_square, double *restrict dilatation)
 {
+    const double *restrict div = strain->div, *restrict normal = strain->normal, *restrict sharp = strain->sharp;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double less = (1.0 - r[i]) * div[i], w = sharp[i], d = div[i] - w * less, old = dev2[i];
-        double square = old - 2.0 * less * normal[i] + less * less * (w * w), dev = square - d * d / 3.0;
-        dev2[i] = dev > 0.0 ? dev : 0.0;
-        dilatation[i] = d;
+        double less = (1.0 - r[i]) * div[i], w = sharp[i];
+        dilatation[i] = div[i] - w * less;
+        ret_square[i] = square[i] - 2.0 * less * normal[i] + less * less * (w * w);
     }
 }
 
-void viscous_strain_own(const struct viscous_strain *strain, const double *r, double *dev2, double *dilatation)
+void viscous_strain_own(const struct viscous_strain *strain, const double *square, const double *r, double *ret_square,
+                        double *dilatation)
 {
-    static const double none[STRAIN_POINTS];
-    viscous_strain_square(strain, dev2);
-    viscous_strain_reduce(strain->n, r, strain->div, strain->interface ? strain->normal : none,
-                          strain->interface ? strain->sharp : none, dev2, dilatation);
+    viscous_strain_reduce(strain->n, strain, square, r, ret_square, dilatation);
 }

@@ -16,7 +16,8 @@ struct viscous_strain {
     double gradient[3][3][STRAIN_POINTS]; /* in: [d][e] d u_d/d x_e, for d < n_velocity, e < dim [1/s] */
     double hoop[STRAIN_POINTS];           /* in: u_r/r in curved geometry [1/s] */
     double colour[3][STRAIN_POINTS];      /* in: gradient of the colour along x_e [1/m]; out: m (below) */
-    double D[STRAIN_TENSOR][STRAIN_POINTS];
+    double shear[3][STRAIN_POINTS];       /* room for what lies beside the diagonal */
+    const double *D[STRAIN_TENSOR];       /* rows, some of them those of the gradient */
     double div[STRAIN_POINTS];
     double along[3][STRAIN_POINTS]; /* q = D m */
     double normal[STRAIN_POINTS];   /* m D m */
@@ -24,8 +25,8 @@ struct viscous_strain {
     bool interface;                 /* m is not 0 everywhere; else m, q and the two below are not made */
 };
 
-/* D, div u, and where the colour changes m = g/sqrt(|g|^2 + (STRAIN_FLAT/h)^2), g its gradient: nearly a unit vector at an
- * interface, nothing in a smooth mixture. h: the longest side of a cell. */
+/* D, div u, and where the colour changes m = g |g|/sqrt(|g|^4 + (STRAIN_FLAT/h)^4), g its gradient: a unit vector to 1e-12 at
+ * a sharp interface, nothing in a smooth mixture. h: the longest side of a cell. */
 void viscous_strain_make(struct viscous_strain *strain, double h);
 
 /* The longest side of a cell. */
@@ -36,10 +37,15 @@ static inline double viscous_strain_longest(int dim, const double h[3])
     return most;
 }
 
-/* sqrt(2 D':D') of the deviator. */
-void viscous_strain_rate(const struct viscous_strain *strain, double *rate);
+/* D:D, with the hoop. */
+void viscous_strain_square(const struct viscous_strain *strain, double *square);
 
-/* |dev D_l|^2 of a material whose own dilatation is r div u, and r' div u, what of it shows (r' = 1 + |m|^2 (r - 1)). */
-void viscous_strain_own(const struct viscous_strain *strain, const double *r, double *dev2, double *dilatation);
+/* sqrt(2 D':D') of the deviator, from the above. */
+void viscous_strain_rate(const struct viscous_strain *strain, const double *square, double *rate);
+
+/* D_l:D_l of a material whose own dilatation is r div u, and r' div u, what of it shows (r' = 1 + |m|^2 (r - 1)); at an
+ * interface. square: D:D. */
+void viscous_strain_own(const struct viscous_strain *strain, const double *square, const double *r, double *ret_square,
+                        double *dilatation);
 
 #endif

@@ -73,9 +73,10 @@ static bool census_is_still(const struct model *model, size_t n_cell, const doub
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
         const double *row = w + q * n_cell;
-        bool velocity = q >= model->i_u && q < model->i_E, stretch = q >= model->i_V;
+        unsigned c;
+        bool velocity = q >= model->i_u && q < model->i_E, stretch = model_is_stretch(model, q, &c);
         if (velocity && memcmp(row, &zero, sizeof zero)) return false;
-        if (stretch && *row != (q < model->i_V + 3 ? 1.0 : 0.0)) return false; /* mirrors and hoops feel it */
+        if (stretch && *row != (c < 3 ? 1.0 : 0.0)) return false; /* mirrors and hoops feel it; branches relax */
         if (memcmp(row, row + 1, (n_cell - 1) * sizeof *row)) return false;
     }
     return true;

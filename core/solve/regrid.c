@@ -342,7 +342,12 @@ int regrid_initial(struct state *state)
         regrid_free(&regrid);
     }
     state->counts.regrids = 0;
-    for (int l = 1; l < state->mesh->n_level && !status; l++) status = comm_agree(verdict_start(state->stages[l]));
+    for (int l = 1; l < state->mesh->n_level && !status; l++) {
+        curve_finer(state->work->curve, l - 1, 0);
+        curve_down(state->work->curve, l);
+        curve_take(state->work->curve, l, state->mesh->levels[l].u_old);
+        status = comm_agree(verdict_start(state->stages[l]));
+    }
     if (!status) status = normals_begin(state);
     return status ? status : regrid_settle(state);
 }

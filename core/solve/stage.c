@@ -37,7 +37,10 @@ void stage_free(struct stage *stage)
 
 void stage_exchange(struct stage *stage)
 {
-    stage->bound->t = stage->t + stage->tableau->stage[stage->turn].at * stage->dt;
+    double at = stage->tableau->stage[stage->turn].at;
+    stage->bound->t = stage->t + at * stage->dt;
+    if (stage->level->link) stage->level->link->theta = stage->from + at * stage->part;
+    curve_take(stage->work->curve, stage->l, stage->level->w);
     halo_start(stage->level->halo, stage->level->w);
     around_start(stage->work->around, stage->l, stage->bound);
     if (stage->guard->masked) halo_start(stage->guard->halo, stage->guard->mask);
@@ -61,6 +64,7 @@ void stage_ghosts(struct stage *stage)
     stage->bound->t = stage->t;
     prolong_strips(stage->work->prolong, stage->mesh, stage->l, stage->bound, 0);
     around_finer(stage->work->around, stage->l, stage->bound, 0);
+    curve_finer(stage->work->curve, stage->l, 0);
     cost_lap(&stage->work->cost, COST_LEVELS);
 }
 

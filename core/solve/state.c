@@ -64,6 +64,7 @@ static int state_begin(struct state *state)
     TRY(state_build(state));
     TRY(state_paint(state));
     TRY(state_enter(state, 0));
+    curve_take(state->work->curve, 0, state->mesh->levels[0].u_old);
     TRY(comm_agree(verdict_start(state->stages[0])));
     TRY(regrid_initial(state));
     regrid_signals(state);

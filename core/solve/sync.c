@@ -22,15 +22,19 @@ enum { SYNC_ATTEMPTS = 5 };
 void sync_down(struct stage *coarse, struct stage *fine)
 {
     struct around *around = coarse->work->around;
+    struct curve *curve = coarse->work->curve;
     coarse->bound->t = coarse->t + coarse->dt;
+    curve_take(curve, coarse->l, coarse->level->w);
     halo_start(coarse->level->halo, coarse->level->w);
     around_start(around, coarse->l, coarse->bound);
     halo_finish(coarse->level->halo);
     around_finish(around, coarse->l, coarse->bound);
     prolong_strips(coarse->work->prolong, coarse->mesh, coarse->l, coarse->bound, 1);
     around_finer(around, coarse->l, coarse->bound, 1);
+    curve_finer(curve, coarse->l, 1);
     link_down(fine->level->link);
     around_down(around, fine->l, fine->bound);
+    curve_down(curve, fine->l);
     census_receive(&fine->census);
     reflux_clear(coarse->reflux);
 }

@@ -23,6 +23,7 @@ struct work *work_new(const struct model *model, const struct mesh *mesh)
     terms_open(&(struct term_room){.model = model, .mesh = mesh}, work->own);
     work->prolong = prolong_new(model, mesh);
     work->around = around_new(model, mesh);
+    work->curve = curve_new(model, mesh);
     work->rates = mem_new(work->terms[0]->n_rates * mesh->n_cell, sizeof(double));
     work->K = mem_new(model->n_material * mesh->n_cell, sizeof(double));
     work->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
@@ -41,6 +42,7 @@ void work_free(struct work *work)
     face_free(work->faces_fluids);
     prolong_free(work->prolong);
     around_free(work->around);
+    curve_free(work->curve);
     mem_free(work->rates);
     mem_free(work->K);
     mem_free(work->rho_c2);

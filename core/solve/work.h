@@ -7,6 +7,7 @@
 #include "scheme/rate.h"
 #include "solve/around.h"
 #include "solve/cost.h"
+#include "solve/curve.h"
 
 struct work {
     const struct model *model;
@@ -18,6 +19,7 @@ struct work {
     void *own[TERMS_MOST];                           /* memory of the terms */
     struct prolong *prolong;
     struct around *around;                    /* or NULL */
+    struct curve *curve;                      /* or NULL */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
     struct cost cost;                         /* where the time goes, of all levels */
 };

@@ -32,13 +32,15 @@ struct law {
         }                                                                                      \
     }
 
-#define LAW_PARAMS                                                                                             \
-    {"shear-modulus", "Pa", 1e-6, 1e13, NAN, "shear modulus of small strains", BULLA_NUMBER, NULL},            \
+/* Of at least `least` Pa. */
+#define LAW_PARAMS_FROM(least)                                                                                 \
+    {"shear-modulus", "Pa", least, 1e13, NAN, "shear modulus of small strains", BULLA_NUMBER, NULL},           \
     {                                                                                                          \
         "reference-density", "kg/m3", 1e-3, 1e5, NAN,                                                          \
             "density of the unstretched solid; sqrt(shear-modulus/reference-density) is its shear wave speed", \
             BULLA_NUMBER, NULL                                                                                 \
     }
+#define LAW_PARAMS LAW_PARAMS_FROM(1e-6)
 
 static inline struct law law_make(const struct bulla_value *values, double own)
 {

@@ -1,8 +1,9 @@
 /* neo_hookean.c - e^s = mu/(2 rho0) (I1 - 3): the energy of a network of Gaussian chains, used for gels and, with a
- * modulus of its own, for each soft tissue. Linear in I1, so the wave speeds need no second derivatives. */
+ * modulus of its own, for each soft tissue. Linear in I1, so the wave speeds need no second derivatives. A
+ * modulus of 0 is that of a Maxwell fluid, whose branches bear all. */
 #include "law.h"
 
-static const struct bulla_param neo_hookean_params[] = {LAW_PARAMS, {0}};
+static const struct bulla_param neo_hookean_params[] = {LAW_PARAMS_FROM(0.0), {0}};
 
 static const struct bulla_preset neo_hookean_presets[] = {
     LAW_PRESETS(),

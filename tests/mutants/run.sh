@@ -59,7 +59,7 @@ targets() { # REGEX
     grep -E -- "$1" "$build/tests" | while read -r test; do
         case $test in
         unit-* | module-*) echo "test-$test" ;;
-        program-ranks-mesh) echo test-unit-post test-unit-levels test-unit-link ;;
+        program-ranks-mesh) sed -n '/^for name in/{s///;s/; do//;s/ \([a-z]\)/ test-unit-\1/gp;}' tests/program/ranks_mesh.sh ;;
         *) echo program test-unit-snapshot test-unit-checkpoint ;;
         esac
     done

@@ -36,6 +36,28 @@ grep -q 'asks for 36.4 kPa more in the sphere of initial\[1\], which begins with
 "$BULLA" run bubble.yaml -o none --set surface-tension=null --max-steps 1 >said 2>&1 || fail "without" said
 if "$BULLA" plan bubble.yaml --set surface-tension=null | grep -q tension; then fail "the plan speaks of what is not there"; fi
 
+# In the plane the curvature is made before each stage, and travels with the layers of the frames: an oval on a finer
+# level, between all kinds of boundaries.
+cat >plane.yaml <<'END'
+bulla: 1
+title: tension in the plane
+domain: {lower: [-8 um, -8 um], upper: [8 um, 8 um], cells: [32, 32], boundaries: {x-: reflecting, x+: outflow, y-: no-slip, y+: non-reflecting}}
+mesh: {tile: 8, levels: 1, refine: [{interface: air}]}
+materials: {water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}, air: {eos: {type: ideal-gas, gamma: 1.4}}}
+surface-tension: {water+air: 72.8 mN/m}
+initial:
+  - {everywhere: true, material: water, density: 998.2, pressure: 1 atm}
+  - {ellipsoid: {center: [0.6 um, 0], semi-axes: [3.3 um, 2.4 um]}, material: air, density: 1.2, pressure: 1.2 atm}
+run: {until: 5 ns}
+output:
+  snapshots: {every: 5 ns, fields: [density, velocity, pressure, alpha_air, surface_energy], precision: double}
+  history: {every: 1 step, columns: {E: {total: energy}, m: {mass: air}, S: {integral: surface_energy}, u: {max: velocity_x}, p: {max: pressure}}}
+  checkpoints: {every: 20 steps}
+expect: [{value: "max(abs(m/first(m) - 1))", at-most: 1e-13}, {value: max(u), at-least: 0.1}, {value: max(guard_fallback + guard_relaxed), at-most: 0}]
+END
+ranked plane 1 3
+resumed plane 30 plane-1
+
 refused() { # WHAT SETTING...: ends with 2 and says so
     what=$1
     shift

@@ -244,7 +244,7 @@ static void set_skew(const struct model *model, const double x[3], double *w)
     for (unsigned d = 0; d < model->n_velocity; d++) w[model->i_u + d] = 4.0 * cos(3.0 * x[0] + 2.0 * x[1] + (double)d);
     w[model->i_E] = x[0] + 0.5 * x[1] - x[2] > 0.6 ? 2e6 : 2e5;
     for (unsigned c = 0; c < model->n_stretch && solid > 0.0; c++)
-        w[model->i_V + c] = (c < 3) + 0.001 * sin(4.0 * x[0] + 3.0 * x[1] + (double)c);
+        w[model->i_V + c] = (c < 3) + 0.02 * sin(4.0 * x[0] + 3.0 * x[1] + (double)c);
     elastic_unimodular(model, 1, 1, w + model->i_V);
 }
 

@@ -92,7 +92,7 @@ static void a_cut_cell_has_the_stretch_of_its_solid(void **state)
     struct small small;
     unsigned cut = 0;
     small_start(&small, PLANE "initial:\n  - {everywhere: true, " AIR "}\n  - {sphere: {center: [0.5, 0.5],"
-                              " radius: 0.3}, " GEL ", stretch: [1.25, 0.8, 1]}\nscheme: {traction: pressure}\n");
+                              " radius: 0.3}, " GEL ", stretch: [1.25, 0.8, 1]}\n");
     const double inside[6] = {1.25, 0.8, 1, 0, 0, 0};
     for (size_t cell = 0; cell < 256; cell++) {
         double alpha = field(&small, small.state->model->i_alpha, cell);

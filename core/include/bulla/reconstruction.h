@@ -27,7 +27,7 @@ struct bulla_limited {
                   double *BULLA_RESTRICT lower, double *BULLA_RESTRICT upper);
 };
 
-/* Rows of all components: alpha_l (none for one material), rho_l, u_i, p, then the stretch of a solid. The first of n
+/* Rows of all components: alpha_l (none for one material), rho_l, u_i, p, then the stretch of a solid and those of its branches. The first of n
  * cells is w[q][0]; w[q][i + k step] may be read for |k| < layers. */
 struct bulla_cells {
     uint32_t size; /* sizeof(struct bulla_cells) */

@@ -22,6 +22,7 @@ class Bulla(CMakePackage):
     depends_on("xxhash")
     depends_on("zlib-api")
     depends_on("cairo+png")
+    depends_on("libpng")
 
     generator("ninja")
 

@@ -1,0 +1,20 @@
+/* flow_relax.h - a Maxwell branch relaxes: dV/dt = -dev B V/(2 tau) on batches of points, at constant mass, momentum and
+ * total energy; what elastic energy is lost is heat.
+ *
+ * For a neo-Hookean spring Dp = s'/(2 eta) with eta = G tau is dev B/(2 tau), whatever its modulus, and B follows the curve of
+ * flow.h. With r = 1/(1 + x), J1 = I1 - 3 and J2 = I2 - 3 of B0,
+ *     B(r) = [1 + r^2 (B0 - 1) + r (1 - r) (J2 1 - (B0^-1 - 1))]/g^2,   g^3 = 1 + r (1 - r) [r J1 + (1 - r) J2],
+ *     dr/dt = -r g/tau,
+ * so r = exp(-t/tau) at small strain. */
+#ifndef FLOW_RELAX_H
+#define FLOW_RELAX_H
+
+#include "phys/model.h"
+
+#include <stddef.h>
+
+/* Lets one stretch of n points relax for `part` of its relaxation time, in place: exactly at small strain, by fourth-order
+ * steps of at most an eighth of that time else. V: [n_stretch] rows, det V = 1. The identity keeps its bits. */
+void flow_relax(const struct model *model, size_t n, size_t stride, double part, double *V);
+
+#endif

@@ -1,0 +1,301 @@
+/* curvature.c - see curvature.h. Blocks of numbers in corners and cells by turns, each with one place less along every axis
+ * than the one before. A corner lies between 2^dim cells; along axes that are not used both cells of a pair are the same
+ * one, which leaves means as they are. Sums of four begin with opposite ones, so that mirrors and the exchange of x
+ * and y keep all bits. */
+#include "scheme/curvature.h"
+
+#include "base/mem.h"
+#include "mesh/metric.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Least difference of psi over a cell that says where the surface looks. */
+#define CURVATURE_FLAT 1e-3
+
+/* Where a block counts as empty: no quotient is taken. */
+#define CURVATURE_NONE 1e-300
+
+struct curvature {
+    const struct mesh *mesh;
+    int g;
+    double *rows, *psi, *other, *kappa, *spare;
+    double *normal[3];
+};
+
+/* A block of numbers, x fastest; a stride is 0 along axes that are not used. */
+struct curvature_grid {
+    size_t n[3], stride[3];
+};
+
+/* `more` places more along each axis than a tile has cells. */
+static struct curvature_grid curvature_grid(const struct mesh *mesh, int more)
+{
+    struct curvature_grid grid = {{1, 1, 1}, {0, 0, 0}};
+    size_t stride = 1;
+    for (int d = 0; d < mesh->dim; d++) {
+        grid.n[d] = (size_t)(mesh->n[d] + more);
+        grid.stride[d] = stride;
+        stride *= grid.n[d];
+    }
+    return grid;
+}
+
+static size_t curvature_cells(const struct mesh *mesh, int more)
+{
+    const struct curvature_grid grid = curvature_grid(mesh, more);
+    return grid.n[0] * grid.n[1] * grid.n[2];
+}
+
+struct curvature *curvature_new(const struct mesh *mesh, int g)
+{
+    enum { BLOCKS = 7 };
+    struct curvature *room = mem_new(1, sizeof *room);
+    size_t cells = curvature_cells(mesh, 2 * g);
+    room->mesh = mesh;
+    room->g = g;
+    room->rows = mem_new(BLOCKS * cells, sizeof *room->rows);
+    room->psi = room->rows;
+    room->other = room->psi + cells;
+    room->kappa = room->other + cells;
+    room->spare = room->kappa + cells;
+    for (size_t d = 0; d < 3; d++) room->normal[d] = room->spare + (d + 1) * cells;
+    return room;
+}
+
+void curvature_free(struct curvature *room)
+{
+    if (!room) return;
+    mem_free(room->rows);
+    mem_free(room);
+}
+
+bool curvature_is_mixed(size_t n, const double *a, double least)
+{
+    double low = a[0], high = a[0];
+    for (size_t i = 1; i < n; i++) {
+        low = a[i] < low ? a[i] : low;
+        high = a[i] > high ? a[i] : high;
+    }
+    return high >= least && low <= 1.0 - least;
+}
+
+/* The four rows along x around a place: those one step along y, along z and along both. */
+struct curvature_around {
+    const double *here, *y, *z, *yz;
+};
+
+static struct curvature_around curvature_around(const struct curvature_grid *of, const double *from, size_t j, size_t k)
+{
+    const double *at = from + j * of->stride[1] + k * of->stride[2];
+    return (struct curvature_around){at, at + of->stride[1], at + of->stride[2], at + of->stride[1] + of->stride[2]};
+}
+
+static BULLA_KERNEL void curvature_mean_row(size_t n, const struct curvature_around *around, double *restrict ret)
+{
+    const double *restrict a = around->here, *restrict b = around->y, *restrict c = around->z, *restrict d = around->yz;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double low = 0.25 * ((a[i] + b[i + 1]) + (a[i + 1] + b[i]));
+        double high = 0.25 * ((c[i] + d[i + 1]) + (c[i + 1] + d[i]));
+        ret[i] = 0.5 * (low + high);
+    }
+}
+
+/* Means of what lies around each place of a block with one place less: from cells to corners, from corners to cells. */
+static void curvature_between(const struct mesh *mesh, int more, const double *from, double *ret)
+{
+    const struct curvature_grid of = curvature_grid(mesh, more), to = curvature_grid(mesh, more - 1);
+    for (size_t k = 0; k < to.n[2]; k++)
+        for (size_t j = 0; j < to.n[1]; j++) {
+            const struct curvature_around around = curvature_around(&of, from, j, k);
+            curvature_mean_row(to.n[0], &around, ret + j * to.stride[1] + k * to.stride[2]);
+        }
+}
+
+static BULLA_KERNEL void curvature_straighten(size_t n, const double *restrict b, double *restrict psi)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double x = psi[i], y = b[i], some = x > 0.0 ? x : 0.0, rest = y > 0.0 ? y : 0.0;
+        some = sqrt(sqrt(sqrt(some)));
+        rest = sqrt(sqrt(sqrt(rest)));
+        double sum = some + rest;
+        psi[i] = sum > 0.0 ? some / sum : 0.0;
+    }
+}
+
+/* Unit vectors along the differences of psi, [n] rows; per: h_0/h_d. */
+static BULLA_KERNEL void curvature_normal_row(size_t n, const struct curvature_around *around, const double per[3],
+                                              double *restrict x, double *restrict y, double *restrict z)
+{
+    const double *restrict a = around->here, *restrict b = around->y, *restrict c = around->z, *restrict d = around->yz;
+    double per_y = per[1], per_z = per[2];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a0 = a[i], a1 = a[i + 1], b0 = b[i], b1 = b[i + 1], c0 = c[i], c1 = c[i + 1], d0 = d[i], d1 = d[i + 1];
+        double gx = 0.25 * (((a1 + d1) + (b1 + c1)) - ((a0 + d0) + (b0 + c0)));
+        double gy = 0.25 * (((b0 + d1) + (b1 + d0)) - ((a0 + c1) + (a1 + c0))) * per_y;
+        double gz = 0.25 * (((c0 + d1) + (c1 + d0)) - ((a0 + b1) + (a1 + b0))) * per_z;
+        double length2 = (gx * gx + gy * gy) + gz * gz;
+        double length = length2 > CURVATURE_FLAT * CURVATURE_FLAT ? sqrt(length2) : (double)INFINITY;
+        x[i] = gx / length; /* exactly 1 in one dimension */
+        y[i] = gy / length;
+        z[i] = gz / length;
+    }
+}
+
+/* At the corners of the block of psi. */
+static void curvature_normals(struct curvature *room, const struct level *level, int more)
+{
+    const struct mesh *mesh = room->mesh;
+    const struct curvature_grid of = curvature_grid(mesh, more), to = curvature_grid(mesh, more - 1);
+    double per[3] = {0.0};
+    for (int d = 0; d < mesh->dim; d++) per[d] = level->h[0] / level->h[d];
+    for (size_t k = 0; k < to.n[2]; k++)
+        for (size_t j = 0; j < to.n[1]; j++) {
+            const struct curvature_around around = curvature_around(&of, room->psi, j, k);
+            size_t at = j * to.stride[1] + k * to.stride[2];
+            curvature_normal_row(to.n[0], &around, per, room->normal[0] + at, room->normal[1] + at,
+                                 room->normal[2] + at);
+        }
+}
+
+/* Means of what lies around faces across axis 0. */
+static BULLA_KERNEL void curvature_face_row(size_t n, const struct curvature_around *around, double *restrict ret)
+{
+    const double *restrict a = around->here, *restrict b = around->y, *restrict c = around->z, *restrict d = around->yz;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) ret[i] = 0.25 * ((a[i] + d[i]) + (b[i] + c[i]));
+}
+
+/* What the normals of axis 0 give to div n, with the areas of the geometry. */
+static BULLA_KERNEL void curvature_row_x(size_t n, const double *restrict face, const struct metric *metric,
+                                         double *restrict ret)
+{
+    const double *restrict area = metric->area, *restrict volume = metric->volume;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) ret[i] = (area[i + 1] * face[i + 1] - area[i] * face[i]) / volume[i];
+}
+
+/* The same of another axis: a, b have the corners of the lower faces, up_a and up_b those of the upper ones. */
+static BULLA_KERNEL void curvature_row(size_t n, const double *restrict a, const double *restrict b,
+                                       const double *restrict up_a, const double *restrict up_b, double h,
+                                       double *restrict ret)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double low = 0.25 * ((a[i] + b[i + 1]) + (a[i + 1] + b[i]));
+        double high = 0.25 * ((up_a[i] + up_b[i + 1]) + (up_a[i + 1] + up_b[i]));
+        double old = ret[i];
+        ret[i] = old + (high - low) / h;
+    }
+}
+
+static BULLA_KERNEL void curvature_turn(size_t n, double *kappa)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) kappa[i] = 0.0 - kappa[i]; /* no -0 */
+}
+
+/* kappa of the cells between the corners. */
+static void curvature_divide(struct curvature *room, const struct level *level, const struct tile *tile, int more)
+{
+    const struct mesh *mesh = room->mesh;
+    const struct curvature_grid of = curvature_grid(mesh, more), to = curvature_grid(mesh, more - 1);
+    struct metric metric;
+    metric_of_cells(mesh, level, tile->at[0] * mesh->n[0] - (more - 1) / 2, mesh->n[0] + more - 1, &metric);
+    for (size_t k = 0; k < to.n[2]; k++)
+        for (size_t j = 0; j < to.n[1]; j++) {
+            double *ret = room->kappa + j * to.stride[1] + k * to.stride[2];
+            struct curvature_around around = curvature_around(&of, room->normal[0], j, k);
+            curvature_face_row(of.n[0], &around, room->spare);
+            curvature_row_x(to.n[0], room->spare, &metric, ret);
+            around = curvature_around(&of, room->normal[1], j, k);
+            if (mesh->dim > 1) curvature_row(to.n[0], around.here, around.z, around.y, around.yz, level->h[1], ret);
+            around = curvature_around(&of, room->normal[2], j, k);
+            if (mesh->dim > 2) curvature_row(to.n[0], around.here, around.y, around.z, around.yz, level->h[2], ret);
+            curvature_turn(to.n[0], ret);
+        }
+}
+
+const double *curvature_take(struct curvature *room, const struct level *level, const struct tile *tile,
+                             const double *a, const double *b)
+{
+    const struct mesh *mesh = room->mesh;
+    int more = 2 * room->g;
+    curvature_between(mesh, more, a, room->spare);
+    curvature_between(mesh, more - 1, room->spare, room->psi);
+    curvature_between(mesh, more, b, room->spare);
+    curvature_between(mesh, more - 1, room->spare, room->other);
+    curvature_straighten(curvature_cells(mesh, more - 2), room->other, room->psi);
+    curvature_normals(room, level, more - 2);
+    curvature_divide(room, level, tile, more - 3);
+    return room->kappa;
+}
+
+const double *curvature_psi(const struct curvature *room)
+{
+    return room->psi;
+}
+
+double curvature_psi_of(double a)
+{
+    double b = 1.0 - a;
+    curvature_straighten(1, &b, &a);
+    return a;
+}
+
+static BULLA_KERNEL void curvature_weigh_row(size_t n, const double *restrict a, const double *restrict b,
+                                             double *restrict kappa, double *restrict weight)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double both = a[i] * b[i], part = both > 0.0 ? both * both : 0.0, k = kappa[i];
+        weight[i] = part;
+        kappa[i] = part * k;
+    }
+}
+
+static BULLA_KERNEL void curvature_mean_of(size_t n, double least, const double *restrict a, const double *restrict b,
+                                           const double *restrict sum, const double *restrict weight,
+                                           double *restrict kappa)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double w = weight[i], s = sum[i], k = s / (w > CURVATURE_NONE ? w : 1.0);
+        kappa[i] = a[i] * b[i] > least ? k : 0.0;
+    }
+}
+
+/* First number of row (j, k) of the tile, without the layers around it. */
+static const double *curvature_inside(const struct curvature_grid *grid, const double *of, size_t layers, size_t j,
+                                      size_t k)
+{
+    return of + layers * (grid->stride[0] + grid->stride[1] + grid->stride[2]) + j * grid->stride[1] +
+           k * grid->stride[2];
+}
+
+void curvature_mean(struct curvature *room, const double *a, const double *b, double least, double *kappa)
+{
+    const struct mesh *mesh = room->mesh;
+    const struct curvature_grid patch = curvature_grid(mesh, 6), wide = curvature_grid(mesh, 2),
+                                own = curvature_grid(mesh, 0);
+    double *weight = room->other, *sums = room->psi;
+    for (size_t k = 0; k < wide.n[2]; k++)
+        for (size_t j = 0; j < wide.n[1]; j++) {
+            size_t at = j * wide.stride[1] + k * wide.stride[2];
+            curvature_weigh_row(wide.n[0], curvature_inside(&patch, a, 2, j, k), curvature_inside(&patch, b, 2, j, k),
+                                room->kappa + at, weight + at);
+        }
+    curvature_between(mesh, 2, room->kappa, room->spare);
+    curvature_between(mesh, 1, room->spare, sums);
+    curvature_between(mesh, 2, weight, room->spare);
+    curvature_between(mesh, 1, room->spare, weight);
+    for (size_t k = 0; k < own.n[2]; k++)
+        for (size_t j = 0; j < own.n[1]; j++) {
+            size_t at = j * own.stride[1] + k * own.stride[2];
+            curvature_mean_of(own.n[0], least, curvature_inside(&patch, a, 3, j, k),
+                              curvature_inside(&patch, b, 3, j, k), sums + at, weight + at, kappa + at);
+        }
+}

@@ -1,0 +1,75 @@
+/* viscoelastic.c - see viscoelastic.h.
+ *
+ * Relaxation F and motion A make a step F(dt/2) A(dt) F(dt/2), which is of second order (Strang, SIAM J. Numer. Anal. 5
+ * (1968) 506-517). F is exact (phys/flow_relax.h), so a step may be longer than tau. What flows in through the faces is that
+ * of the middle of the step, and is added in the middle. */
+#include "scheme/viscoelastic.h"
+
+#include "base/mem.h"
+#include "phys/flow_relax.h"
+#include "scheme/strain.h"
+#include "scheme/terms.h"
+
+#include <string.h>
+
+static bool viscoelastic_wanted(const struct model *path)
+{
+    return path->n_branch > 0;
+}
+
+static void viscoelastic_list(struct terms *terms, int axis, unsigned first, const struct face_work *faces)
+{
+    const struct model *model = terms->model;
+    (void)first;
+    for (unsigned b = 0; b < model->n_branch; b++)
+        for (unsigned c = 0; c < model->n_stretch; c++) {
+            unsigned q = model->branches[b].field + c;
+            const double *row = faces && faces->stretch ? faces->stretch + (q - model->i_V) * FACE_ROOM : NULL;
+            terms_flux(terms, axis, (struct term_flux){.below = row, .above = row, .rate = q}, model->field_names[q],
+                       "");
+        }
+}
+
+/* Room for the stretch of one branch of a tile. */
+static void *viscoelastic_open(const struct term_room *room)
+{
+    return mem_new(room->model->n_stretch * room->mesh->n_cell, sizeof(double));
+}
+
+static size_t viscoelastic_apply(const struct term_tile *tile, double *u_new)
+{
+    const struct model *model = tile->model;
+    size_t n_cell = tile->n_cell;
+    double *half = tile->own;
+    for (unsigned b = 0; b < model->n_branch; b++) {
+        const struct model_branch *branch = &model->branches[b];
+        double part = 0.5 * tile->dt / branch->time;
+        memcpy(half, tile->u + branch->field * n_cell, model->n_stretch * n_cell * sizeof *half);
+        flow_relax(model, n_cell, n_cell, part, half);
+        strain_move(tile, b + 1, half, u_new);
+        flow_relax(model, n_cell, n_cell, part, u_new + branch->field * n_cell);
+    }
+    return 0;
+}
+
+static void viscoelastic_say(const struct scene *scene, struct text *text)
+{
+    const char *comma = ": ";
+    for (unsigned l = 0; l < scene->n_material; l++)
+        for (unsigned b = 0; b < scene->material[l].n_branch; b++) {
+            text_add(text, "%s%s tau = %g s", comma, scene->material[l].name, scene->material[l].branch[b].time);
+            comma = ", ";
+        }
+}
+
+const struct term viscoelastic_term = {
+    .name = "branches",
+    .owner = "core/scheme/viscoelastic.c",
+    .equation = "dV_b/dt = -u.grad V_b + (L V_b)_sym-part - dev B_b V_b/(2 tau); its work is heat",
+    .wanted = viscoelastic_wanted,
+    .list = viscoelastic_list,
+    .open = viscoelastic_open,
+    .close = mem_free,
+    .apply = viscoelastic_apply,
+    .say = viscoelastic_say,
+};
