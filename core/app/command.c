@@ -106,7 +106,8 @@ static const struct cli_command command_table[] = {
      1, -1, inspect_info},
     {VIEW_PLOT, NULL, 1, -1, NULL}, /* viewer.h */
     {VIEW_REPORT, NULL, 1, 1, NULL},
-    {"verify", "[ID...]", "Errors, orders and cost of the verification scenes (r09: r09a, r09b, ...; none: all).",
+    {"verify", "[ID...]",
+     "Errors, orders and cost of the verification scenes (r09: r09a, r09b, ...; none: all; hard: cases/hard).",
      verify_option_table, 0, -1, verify_command},
     {"schema", "", "The JSON Schema of case files, with all loaded modules.", command_schema_options, 0, 0,
      inspect_schema},

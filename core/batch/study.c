@@ -3,7 +3,6 @@
 
 #include "base/mem.h"
 #include "base/status.h"
-#include "batch/study_child.h"
 #include "case/scene.h"
 
 #include <errno.h>
@@ -86,9 +85,20 @@ static double study_user_time(void)
     return (double)usage.ru_utime.tv_sec + 1e-6 * (double)usage.ru_utime.tv_usec;
 }
 
+int study_trial(const struct study_child *child, struct study_row *ret_row)
+{
+    double before = study_user_time();
+    int state = 0;
+    pid_t pid = 0;
+    TRY(study_child_start(child, &pid));
+    while (waitpid(pid, &state, 0) < 0 && errno == EINTR) continue;
+    study_row_read(child->directory, study_child_code(state), ret_row);
+    if (isnan(ret_row->cpu)) ret_row->cpu = study_user_time() - before;
+    return STATUS_OK;
+}
+
 int study_run(struct study *study, unsigned index, const struct study_options *options)
 {
-    struct study_row *row = &study->rows[index];
     char *directory = mem_print("%s/%s/%u", options->directory, study->id, index);
     char *log = mem_print("%s.txt", directory);
     struct study_child child = {.path = study->path,
@@ -96,16 +106,8 @@ int study_run(struct study *study, unsigned index, const struct study_options *o
                                 .log = log,
                                 .ranks = options->ranks,
                                 .sets = study->matrix.rows[index].sets};
-    double before = study_user_time();
-    int state = 0;
-    pid_t pid = 0;
-    int code = study_child_start(&child, &pid);
-    while (!code && waitpid(pid, &state, 0) < 0 && errno == EINTR) continue;
-    if (!code) {
-        study_row_read(directory, study_child_code(state), row);
-        if (isnan(row->cpu)) row->cpu = study_user_time() - before;
-        row->judged = study->matrix.rows[index].count >= study->matrix.count;
-    }
+    int code = study_trial(&child, &study->rows[index]);
+    study->rows[index].judged = study->matrix.rows[index].count >= study->matrix.count;
     mem_free(log);
     mem_free(directory);
     return code;

@@ -5,6 +5,7 @@
 #define STUDY_H
 
 #include "batch/matrix.h"
+#include "batch/study_child.h"
 #include "batch/study_row.h"
 
 #include <stdbool.h>
@@ -27,6 +28,10 @@ void study_done(struct study *study);
 
 /* Runs row `index`. A run that fails is noted in the row, not an error; STATUS_RUN: it could not be started. */
 int study_run(struct study *study, unsigned index, const struct study_options *options);
+
+/* One run, waited for: reads what it left into *ret_row. A run that fails is noted there, not an error; STATUS_RUN: it
+ * could not be started. */
+int study_trial(const struct study_child *child, struct study_row *ret_row);
 
 /* Observed order of value `v` from row `from` to row `to`, which must be finer; NaN if there is none. */
 double study_order(const struct study *study, unsigned from, unsigned to, unsigned v);

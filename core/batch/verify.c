@@ -8,6 +8,9 @@
 #include "base/system.h"
 #include "base/text.h"
 #include "batch/study.h"
+#include "batch/verify_cost.h"
+#include "batch/verify_file.h"
+#include "batch/verify_hard.h"
 #include "cli/cli.h"
 
 #include <ctype.h>
@@ -32,29 +35,13 @@ struct verify {
 static const struct cli_option verify_list_option = {"--list", NULL, NULL, "The scenes there are, with their cells."};
 static const struct cli_option verify_save_option = {"--save", NULL, NULL,
                                                      "Write the tables into docs/verification.md too."};
+static const struct cli_option verify_cost_option = {
+    "--cost", NULL, NULL, "Error against CPU seconds of schemes and meshes (cases/cost.yaml): table, CSV, picture."};
 static const struct cli_option verify_output_option = {"--output", "-o", "DIR", "Where the runs write (out/verify)."};
 static const struct cli_option verify_ranks_option = {"--ranks", "-n", "RANKS", "MPI ranks of each run."};
-const struct cli_option *const verify_option_table[] = {&verify_list_option, &verify_save_option, &verify_output_option,
+const struct cli_option *const verify_option_table[] = {&verify_list_option,  &verify_save_option,
+                                                        &verify_cost_option,  &verify_output_option,
                                                         &verify_ranks_option, NULL};
-
-/* The folder above cases/verify: the working directory, or the one the program was built or installed in. */
-static char *verify_source(void)
-{
-    static const char *const above[] = {"", "/..", "/../..", "/../../..", "/../share/bulla"};
-    char exe[4096];
-    if (access("cases/verify", R_OK) == 0) return mem_text(".");
-    if (!*system_program()) return NULL;
-    snprintf(exe, sizeof exe, "%s", system_program());
-    *strrchr(exe, '/') = '\0';
-    for (size_t i = 0; i < sizeof above / sizeof *above; i++) {
-        char *folder = mem_print("%s%s", exe, above[i]), *cases = mem_print("%s/cases/verify", folder);
-        bool found = access(cases, R_OK) == 0;
-        mem_free(cases);
-        if (found) return folder;
-        mem_free(folder);
-    }
-    return NULL;
-}
 
 static int verify_by_name(const void *a, const void *b)
 {
@@ -213,51 +200,11 @@ static void verify_table(struct text *out, const struct study *study)
     verify_bounds(out, study, columns);
 }
 
-/* The text of a file, "" if there is none. */
-static void verify_load(const char *path, struct text *out)
-{
-    char buffer[4096];
-    FILE *file = fopen(path, "r");
-    for (size_t n; file && (n = fread(buffer, 1, sizeof buffer, file)) > 0;) text_add_n(out, buffer, n);
-    if (file) fclose(file);
-}
-
 static int verify_save(const struct verify *verify, const struct study *study, const char *table)
 {
     char *path = mem_print("%s/docs/verification.md", verify->source ? verify->source : ".");
-    char *begin = mem_print("<!-- verify %s -->\n", study->id), *end = mem_print("<!-- end %s -->", study->id);
-    struct text old = {0}, now = {0};
-    verify_load(path, &old);
-    const char *text = old.at ? old.at : "", *from = strstr(text, begin), *to = from ? strstr(from, end) : NULL;
-    size_t head = to ? (size_t)(from - text) : strlen(text);
-    text_add_n(&now, text, head);
-    if (!to) text_add(&now, "\n### %s\n\n", study->matrix.title);
-    text_add(&now, "%s%s%s%s", begin, table, end, to ? to + strlen(end) : "\n");
-    FILE *file = fopen(path, "w");
-    bool written = file && fwrite(now.at, 1, now.length, file) == now.length;
-    if (file && fclose(file) != 0) written = false;
-    int code = written ? STATUS_OK : status_fail(STATUS_RUN, "cannot write %s: %s", path, strerror(errno));
-    text_done(&old);
-    text_done(&now);
-    mem_free(begin);
-    mem_free(end);
+    int code = verify_file_save(path, study->id, study->matrix.title, table);
     mem_free(path);
-    return code;
-}
-
-static int verify_folder(const char *path)
-{
-    char *part = mem_text(path);
-    for (char *at = part + 1; *at; at++)
-        if (*at == '/') {
-            *at = '\0';
-            mkdir(part, 0777);
-            *at = '/';
-        }
-    int code = mkdir(part, 0777) && errno != EEXIST
-                   ? status_fail(STATUS_RUN, "cannot make %s: %s", part, strerror(errno))
-                   : STATUS_OK;
-    mem_free(part);
     return code;
 }
 
@@ -267,7 +214,7 @@ static int verify_scene(const struct verify *verify, const char *path, bool *ret
     struct text table = {0};
     TRY(study_new(path, &study));
     char *folder = mem_print("%s/%s", verify->options.directory, study.id);
-    int code = verify_folder(folder);
+    int code = verify_file_folder(folder);
     for (unsigned i = 0; !code && i < study.matrix.n_row; i++) {
         fprintf(stderr, "%s: %s cells (%u of %u)\n", study.id, study.matrix.rows[i].cells, i + 1, study.matrix.n_row);
         code = study_run(&study, i, &verify->options);
@@ -298,16 +245,49 @@ static int verify_all(const struct verify *verify)
     return STATUS_OK;
 }
 
+/* `bulla verify hard [SCENE...]`. */
+static int verify_of_hard(const struct verify *verify, const struct cli_given *given)
+{
+    if (!verify->source) return status_fail(STATUS_CASE, "no folder cases/verify here, and no cases/hard beside it");
+    struct verify_hard_options options = {.source = verify->source,
+                                          .directory = verify->options.directory,
+                                          .ranks = verify->options.ranks,
+                                          .words = given->words + 1,
+                                          .n_word = given->n_word - 1,
+                                          .save = verify->save};
+    return verify_hard(&options);
+}
+
+/* `bulla verify --cost ID...`. */
+static int verify_of_cost(const struct verify *verify, const struct cli_given *given)
+{
+    struct verify_cost_options options = {verify->source, verify->options.directory, verify->options.ranks,
+                                          verify->save};
+    if (!verify->source)
+        return status_fail(STATUS_CASE, "no folder cases/verify here, and no cases/cost.yaml beside it");
+    if (given->n_word == 0) return status_fail(STATUS_CASE, "--cost of which scene? cases/cost.yaml lists them");
+    for (int i = 0; i < given->n_word; i++) TRY(verify_cost(&options, given->words[i]));
+    return STATUS_OK;
+}
+
+static int verify_of_scenes(struct verify *verify, const struct cli_given *given)
+{
+    TRY(verify_read(verify, given));
+    return cli_value(given, "--list") ? verify_list(verify) : verify_all(verify);
+}
+
 int verify_command(const struct cli_given *given)
 {
     const char *directory = cli_value(given, "--output");
     struct verify verify = {
         .save = cli_value(given, "--save") != NULL,
-        .source = verify_source(),
+        .source = verify_file_source(),
         .options = {.directory = directory ? directory : "out/verify", .ranks = cli_value(given, "--ranks")},
     };
-    int code = verify_read(&verify, given);
-    if (!code) code = cli_value(given, "--list") ? verify_list(&verify) : verify_all(&verify);
+    bool hard = given->n_word > 0 && strcmp(given->words[0], "hard") == 0;
+    int code = hard                         ? verify_of_hard(&verify, given)
+               : cli_value(given, "--cost") ? verify_of_cost(&verify, given)
+                                            : verify_of_scenes(&verify, given);
     for (unsigned i = 0; i < verify.n_path; i++) mem_free(verify.paths[i]);
     mem_free(verify.paths);
     mem_free(verify.source);

@@ -1,7 +1,8 @@
 /* verify.h - `bulla verify [ID...]`: how far the verification scenes are from what is known.
  *
  * Scenes are the files cases/verify/ID.yaml, or any case file given by its path. Each runs once
- * per row of its `matrix:`; the table shows cells, CPU time, errors and observed orders. */
+ * per row of its `matrix:`; the table shows cells, CPU time, errors and observed orders. `bulla verify hard` is another
+ * table (verify_hard.h). */
 #ifndef VERIFY_H
 #define VERIFY_H
 

@@ -314,6 +314,7 @@ struct scene_scheme {
     enum scene_integrator integrator;
     enum scene_guard guard;
     double low_mach; /* least part of a jump of velocity that faces see (scheme/low_mach.h); 1: all of it */
+    bool calm;       /* faces beside strong shocks resist shear (scheme/calm.h) */
 };
 
 /* Section `run:`. */

@@ -339,6 +339,22 @@ static void scene_boundary_read(struct draft *draft, struct scene_boundary *boun
     if (row->read) row->read(draft, boundary, map);
 }
 
+/* A no-slip wall without viscosity: nothing sticks to it but what the scheme smears, or a solid. */
+static void scene_boundary_drags(struct draft *draft, const struct keys_map *map, const struct scene_boundary *boundary)
+{
+    const struct scene *scene = draft->scene;
+    if (boundary->type != SCENE_NO_SLIP || scene->domain.n_velocity < 2 || scene_material_viscous(draft)) return;
+    if (boundary->moves)
+        diag_warn(draft->keys.diag, &keys_at(map, "velocity")->node->mark,
+                  "%s: the wall drags nothing along, because no material has a viscosity",
+                  keys_at(map, "velocity")->path);
+    if (boundary->moves || scene_material_solid(draft)) return;
+    const struct keys_value *type = keys_at(map, "type");
+    diag_warn(draft->keys.diag, &type->node->mark,
+              "%s: without any viscosity a no-slip wall stops only what the faces of the scheme smear", type->path);
+    diag_help(draft->keys.diag, "'reflecting' lets fluids slip; or give a material a 'viscosity'");
+}
+
 /* Rules that concern the type and the place together. */
 static void scene_boundary_place(struct draft *draft, int axis, int side, const struct keys_map *map)
 {
@@ -359,12 +375,7 @@ static void scene_boundary_place(struct draft *draft, int axis, int side, const 
     if (radial && scene_boundary_is(scene, face, SCENE_BOUNDARY_WRAPS))
         keys_error(&draft->keys, type, "the radius is not periodic");
     const struct scene_boundary *boundary = &scene->domain.boundary[axis][side];
-    bool viscous = false;
-    for (unsigned l = 0; l < scene->n_material; l++) viscous = viscous || scene->material[l].viscosity.module;
-    if (boundary->moves && !viscous)
-        diag_warn(draft->keys.diag, &keys_at(map, "velocity")->node->mark,
-                  "%s: the wall drags nothing along, because no material has a viscosity",
-                  keys_at(map, "velocity")->path);
+    scene_boundary_drags(draft, map, boundary);
     const struct scene_value *through = &boundary->velocity[axis];
     if (!boundary->moves || (!through->script && through->number == 0.0)) return;
     keys_error(&draft->keys, keys_at(map, "velocity"), "a wall moves along itself: its velocity along %c must be 0",

@@ -29,7 +29,8 @@ static const struct key scene_expect_rows[] = {
      .doc = "What is compared: a field of the last snapshot, or a history or probe column over time."},
     {.name = "reference",
      .type = KEYS_TEXT,
-     .doc = "CSV file, relative to this file; or `exact-riemann`, or `initial`."},
+     .doc = "CSV file, relative to this file; or `exact-riemann`, `initial`, or `mirror-x`, `-y`, `-z`: the same "
+            "field about the middle of the domain."},
     {.name = "column", .type = KEYS_TEXT, .doc = "Column of the CSV; the name of the field if not given."},
     {.name = "coordinate",
      .type = KEYS_TEXT,
@@ -100,7 +101,10 @@ static void scene_expect_value(struct draft *draft, struct formula *plan, struct
 
 static bool scene_expect_word(const char *name)
 {
-    return strcmp(name, "exact-riemann") == 0 || strcmp(name, "initial") == 0;
+    static const char *const words[] = {"exact-riemann", "initial", "mirror-x", "mirror-y", "mirror-z"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(name, words[i]) == 0) return true;
+    return false;
 }
 
 /* What would be found only after the run, and what would not be found at all. */
@@ -128,9 +132,11 @@ static void scene_expect_table(struct draft *draft, const struct scene_expect *e
 static void scene_expect_reference(struct draft *draft, struct scene_expect *expect, const struct keys_value *reference,
                                    bool over_time)
 {
-    bool word = scene_expect_word(reference->text);
+    bool word = scene_expect_word(reference->text), mirror = strncmp(reference->text, "mirror-", 7) == 0;
     expect->reference = mem_text(word ? reference->text : scene_file(draft, reference));
     if (!word) scene_expect_table(draft, expect, reference, over_time);
+    if (word && mirror && (over_time || reference->text[7] - 'x' >= draft->scene->domain.dim))
+        keys_error(&draft->keys, reference, "'%s' needs a field of the snapshots and that axis", reference->text);
 }
 
 /* Is a field, or the vector that it is a component of, in the snapshots? */
@@ -153,7 +159,7 @@ static void scene_expect_norm(struct draft *draft, const struct formula *plan, s
                             *reference = keys_at(map, "reference"), *column = keys_at(map, "column");
     if (!field->node) keys_error(&draft->keys, norm, "'field' is missing: what is compared with the reference");
     if (!reference->node)
-        keys_error(&draft->keys, norm, "'reference' is missing: a CSV file, 'exact-riemann' or 'initial'");
+        keys_error(&draft->keys, norm, "'reference' is missing: a CSV file, 'exact-riemann', 'initial' or 'mirror-x'");
     if (!field->given || !reference->given) return;
     char name[SCENE_NAME];
     struct trace trace;

@@ -80,6 +80,13 @@ static const struct key scene_scheme_rows[] = {
          "Faces in slow flow: how much of a jump of velocity a fluid at rest shows to the Riemann solver; more where "
          "it moves and where pressure jumps. 0.05 leaves a tenth of the numerical damping of slow bubbles; 1: all "
          "of it everywhere."},
+    {.name = "shock-fronts",
+     .type = KEYS_CHOICE,
+     .choices = "plain|calm",
+     .fallback = "plain",
+     .doc = "calm: faces along which a strong shock runs resist shear, which keeps the front of shocks along the mesh "
+            "plane "
+            "(no carbuncle) with any Riemann solver; contacts stay as sharp. In two and three dimensions, for fluids."},
     {.name = "integrator",
      .type = KEYS_CHOICE,
      .choices = "midpoint|ssprk3",
@@ -249,6 +256,7 @@ void scene_scheme(struct draft *draft)
     scene->scheme.exchange = (enum scene_exchange)keys_at(scheme, "exchange")->integer;
     scene->scheme.integrator = (enum scene_integrator)keys_at(scheme, "integrator")->integer;
     scene->scheme.guard = (enum scene_guard)keys_at(scheme, "guard")->integer;
+    scene->scheme.calm = keys_at(scheme, "shock-fronts")->integer == 1;
     scene->scheme.low_mach = keys_at(scheme, "low-mach")->number;
     scene->scheme.cfl = keys_at(scheme, "cfl")->number;
     scene->scheme.dt_fixed = keys_at(scheme, "dt")->number;

@@ -144,6 +144,8 @@ static json_t *expect_json(const struct scene *scene, const struct expect_result
         json_object_set_new(item, "field",
                             scene->expects[i].value ? json_null() : json_string(scene->expects[i].field));
         json_object_set_new(item, "order", json_real(scene->expects[i].order));
+        if (scene->expects[i].norm) json_object_set_new(item, "reference", json_string(scene->expects[i].reference));
+        if (scene->expects[i].has_equals) json_object_set_new(item, "equals", json_real(scene->expects[i].equals));
         json_array_append_new(list, item);
         all = all && results[i].passed;
     }

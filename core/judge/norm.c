@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "case/table.h"
 #include "io/read.h"
+#include "judge/mirror.h"
 #include "judge/overlap.h"
 #include "judge/tube.h"
 
@@ -158,6 +159,25 @@ static int norm_against_initial(const char *name, const struct snapshot *last, c
     return code;
 }
 
+/* The axis that `mirror-x` names; -1: the reference is another one. */
+static int norm_mirror_axis(const struct scene_expect *expect)
+{
+    static const char *const words[] = {"mirror-x", "mirror-y", "mirror-z"};
+    for (int axis = 0; axis < 3; axis++)
+        if (norm_is_reference(expect, words[axis])) return axis;
+    return -1;
+}
+
+static int norm_against_mirror(const char *name, const struct snapshot *last, int axis, struct norm *norm)
+{
+    struct norm_cells cells;
+    TRY(norm_cells_of(last, name, &cells));
+    size_t length = strlen(name);
+    bool turned = cells.stride == 3 && length > 2 && name[length - 2] == '_' && name[length - 1] == 'x' + axis;
+    mirror_visit(&(struct mirror_side){last, cells.data, cells.stride, turned ? -1.0 : 1.0}, axis, norm_visit, norm);
+    return STATUS_OK;
+}
+
 /* The two columns of the reference; release `table`. `coordinate` if the case names none. */
 static int norm_reference(const struct scene_expect *expect, const char *coordinate, struct table_pair *ret)
 {
@@ -192,6 +212,8 @@ int norm_of_field(const struct scene *scene, const struct scene_expect *expect, 
         if (norm_is_reference(expect, "exact-riemann")) code = norm_against_exact(scene, expect->field, last, &norm);
         else if (norm_is_reference(expect, "initial"))
             code = norm_against_initial(expect->field, last, series.paths[0], &norm);
+        else if (norm_mirror_axis(expect) >= 0)
+            code = norm_against_mirror(expect->field, last, norm_mirror_axis(expect), &norm);
         else code = norm_against_profile(expect, last, &norm);
         read_free(last);
     }

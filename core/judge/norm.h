@@ -3,8 +3,8 @@
  * Of a field: the mean over the domain of the last snapshot (cells weighted by their extents)
  * against `exact-riemann` (exact cell averages of the scene's own Riemann problem), `initial`
  * (the snapshot at t = 0: waves that return after a period; where the two are refined differently, on the coarser
- * cells), or a CSV profile along x (1D),
- * averaged over each cell. Of a history or probe column: the mean over time against a CSV
+ * cells), `mirror-x`, `-y`, `-z` (each cell's mirror image about the middle of the domain: 0 if the scene has stayed
+ * symmetric to the bit), or a CSV profile along x (1D), averaged over each cell. Of a history or probe column: the mean over time against a CSV
  * column, over the time span that both cover. */
 #ifndef NORM_H
 #define NORM_H

@@ -20,7 +20,7 @@ enum { RIM_WAYS = 27, RIM_HERE = 13, RIM_LAYERS = 3 };
 /* What a rim is for; rims of equal forms are one. */
 struct rim_form {
     unsigned n_field;
-    int g;     /* layers, 1 to RIM_LAYERS */
+    int g;     /* layers, 1 to RIM_LAYERS (three are a cell and a half of the coarser level) */
     int slots; /* of pieces on the coarser level: 1, or 2 for what is linear in time between them */
     unsigned char
         given; /* bit 2 * axis + side: what is behind that boundary is in the outer layers of the tile inside */

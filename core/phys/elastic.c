@@ -468,3 +468,23 @@ void elastic_speed2(const struct model *model, size_t n, size_t stride, const do
         }
     }
 }
+
+void elastic_sum(const struct model *model, size_t n, size_t stride, const double *block, double *restrict sum)
+{
+    memset(sum, 0, n * sizeof *sum);
+    for (unsigned s = 0; s < model->n_solid; s++) row_add(n, block + model->solids[s].material * stride, sum);
+}
+
+void elastic_carriers(const struct model *model, unsigned k, size_t n, size_t stride, const double *block,
+                      double *restrict sum)
+{
+    memset(sum, 0, n * sizeof *sum);
+    for (unsigned s = 0; s < model->n_solid; s++)
+        if (model_carries(model, k, s)) row_add(n, block + model->solids[s].material * stride, sum);
+}
+
+void elastic_identity(const struct model *model, size_t n, size_t stride, double *V)
+{
+    for (unsigned c = 0; c < model->n_stretch; c++)
+        for (size_t i = 0; i < n; i++) V[c * stride + i] = c < 3 ? 1.0 : 0.0;
+}

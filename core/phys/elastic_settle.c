@@ -1,81 +1,13 @@
-/* elastic_settle.c - whose a stretch is, how much of it stays where there is little solid, and how those that were
- * averaged or interpolated become stretches again; see elastic.h. */
+/* elastic_settle.c - stretches that were averaged or interpolated become stretches again; see elastic.h. */
 #include "phys/elastic.h"
 
 #include "phys/elastic_tensor.h"
-#include "phys/row.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 enum { SETTLE_BATCH = 128 };
-
-void elastic_sum(const struct model *model, size_t n, size_t stride, const double *block, double *restrict sum)
-{
-    memset(sum, 0, n * sizeof *sum);
-    for (unsigned s = 0; s < model->n_solid; s++) row_add(n, block + model->solids[s].material * stride, sum);
-}
-
-void elastic_carriers(const struct model *model, unsigned k, size_t n, size_t stride, const double *block,
-                      double *restrict sum)
-{
-    memset(sum, 0, n * sizeof *sum);
-    for (unsigned s = 0; s < model->n_solid; s++)
-        if (model_carries(model, k, s)) row_add(n, block + model->solids[s].material * stride, sum);
-}
-
-void elastic_identity(const struct model *model, size_t n, size_t stride, double *V)
-{
-    for (unsigned c = 0; c < model->n_stretch; c++)
-        for (size_t i = 0; i < n; i++) V[c * stride + i] = c < 3 ? 1.0 : 0.0;
-}
-
-/* Square of |V - 1|, component by component: weight 2 off the diagonal. */
-static BULLA_KERNEL void elastic_settle_distance(size_t n, double one, double weight, const double *restrict V,
-                                                 double *restrict square)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double e = V[i] - one, s = square[i];
-        square[i] = s + weight * e * e;
-    }
-}
-
-/* How much of V - 1 stays: 1 within the bound, 0 without solid. */
-static BULLA_KERNEL void elastic_settle_share(size_t n, const double *restrict alpha, double *restrict square)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double phi = alpha[i] / ELASTIC_FADE, bound = phi * phi, size = sqrt(square[i]), cut = bound / size;
-        double share = size > bound ? cut : 1.0;
-        square[i] = phi > 0.0 ? share : 0.0;
-    }
-}
-
-static BULLA_KERNEL void elastic_settle_shrink(size_t n, double one, const double *restrict share, double *restrict V)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double v = V[i], s = share[i], less = one + s * (v - one);
-        less = s < 1.0 ? less : v;
-        V[i] = s > 0.0 ? less : one;
-    }
-}
-
-void elastic_fade(const struct model *model, size_t n, size_t stride, const double *alpha, double *V)
-{
-    double share[SETTLE_BATCH];
-    for (size_t from = 0; from < n; from += SETTLE_BATCH) {
-        size_t part = n - from < SETTLE_BATCH ? n - from : SETTLE_BATCH;
-        for (size_t i = 0; i < part; i++) share[i] = 0.0;
-        for (unsigned c = 0; c < model->n_stretch; c++)
-            elastic_settle_distance(part, c < 3 ? 1.0 : 0.0, c < 3 ? 1.0 : 2.0, V + c * stride + from, share);
-        elastic_settle_share(part, alpha + from, share);
-        for (unsigned c = 0; c < model->n_stretch; c++)
-            elastic_settle_shrink(part, c < 3 ? 1.0 : 0.0, share, V + c * stride + from);
-    }
-}
 
 /* What rounding can do to the components of V on the way to det V = 1: as much as to its determinant. */
 static double elastic_settle_round_off(const double V[6])

@@ -7,15 +7,10 @@
 
 enum { UNIMODULAR_BATCH = 512 };
 
-/* d^(-1/3) for 1/8 < d < 8 to round-off, by the series of (1 - e)^(-1/3) with e = 1 - d x^3; NaN for d <= 0. Farther
- * out det V comes nearer to 1 by each call. */
+/* d^(-1/3); NaN for d <= 0. Farther out than 1/8 < d < 8 det V comes nearer to 1 by each call. */
 static ELASTIC_BODY double elastic_unimodular_root(double d)
 {
-    double x = 2.0 / (1.0 + d);
-    for (int round = 0; round < 4; round++) {
-        double e = 1.0 - d * x * x * x;
-        x = x * (1.0 + e * (1.0 / 3.0 + e * (2.0 / 9.0 + e * (14.0 / 81.0))));
-    }
+    double x = elastic_tensor_per_root(d, 4);
     return d > 0.0 ? x : (double)NAN;
 }
 

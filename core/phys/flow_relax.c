@@ -34,17 +34,6 @@ RELAX_OPEN(1)
 RELAX_OPEN(2)
 RELAX_OPEN(3)
 
-/* d^(-1/3) for d >= 1, by the series of (1 - e)^(-1/3) with e = 1 - d x^3: two rounds to 1e-8 up to 2, three to round-off. */
-static ELASTIC_BODY double flow_relax_root(double d, int rounds)
-{
-    double x = 2.0 / (1.0 + d);
-    for (int round = 0; round < rounds; round++) {
-        double e = 1.0 - d * x * x * x;
-        x = x * (1.0 + e * (1.0 / 3.0 + e * (2.0 / 9.0 + e * (14.0 / 81.0))));
-    }
-    return x;
-}
-
 /* g^3 at r. */
 static ELASTIC_BODY double flow_relax_cube(double r, double J1, double J2)
 {
@@ -55,7 +44,7 @@ static ELASTIC_BODY double flow_relax_cube(double r, double J1, double J2)
 /* q (1 - g), which sets the pace; 0 to the bit without stretch. */
 static ELASTIC_BODY double flow_relax_slope(double q, double left, double J1, double J2)
 {
-    double cube = flow_relax_cube(q * left, J1, J2), per = flow_relax_root(cube, 2);
+    double cube = flow_relax_cube(q * left, J1, J2), per = elastic_tensor_per_root(cube, 2);
     return q * (1.0 - cube * per * per);
 }
 
@@ -85,40 +74,41 @@ static BULLA_KERNEL void flow_relax_short(size_t n, double h, double half, const
 }
 
 /* V of B(r). */
-#define RELAX_CLOSE(nv)                                                                                           \
-    static BULLA_KERNEL void relax_close_##nv(size_t n, double left, const double *restrict q,                    \
-                                              const double *restrict J1, const double *restrict J2,               \
-                                              double *const out[6])                                               \
-    {                                                                                                             \
-        double *restrict xx = out[0], *restrict yy = out[1], *restrict zz = out[2];                               \
-        double *restrict xy = out[3], *restrict xz = out[4], *restrict yz = out[5];                               \
-        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                        \
-        {                                                                                                         \
-            double r = q[i] * left, per = flow_relax_root(flow_relax_cube(r, J1[i], J2[i]), 3), part = per * per; \
-            double a = part * r * r, b = part * r * (1.0 - r), add = part + b * J2[i];                            \
-            struct elastic_tensor from = {xx[i],                                                                  \
-                                          yy[i],                                                                  \
-                                          zz[i],                                                                  \
-                                          (nv) > 1 ? xy[(nv) > 1 ? i : 0] : 0.0,                                  \
-                                          (nv) > 2 ? xz[(nv) > 2 ? i : 0] : 0.0,                                  \
-                                          (nv) > 2 ? yz[(nv) > 2 ? i : 0] : 0.0};                                 \
-            struct elastic_tensor B = elastic_tensor_square(from), C = elastic_tensor_cofactors(B);               \
-            B = (struct elastic_tensor){(a * (B.xx - 1.0) - b * (C.xx - 1.0)) + add,                              \
-                                        (a * (B.yy - 1.0) - b * (C.yy - 1.0)) + add,                              \
-                                        (a * (B.zz - 1.0) - b * (C.zz - 1.0)) + add,                              \
-                                        a * B.xy - b * C.xy,                                                      \
-                                        a * B.xz - b * C.xz,                                                      \
-                                        a * B.yz - b * C.yz};                                                     \
-            from = (nv) == 1   ? flow_curve_root_line(B)                                                          \
-                   : (nv) == 2 ? flow_curve_root_plane(B)                                                         \
-                               : flow_curve_root_space(from, B, r);                                               \
-            xx[i] = from.xx;                                                                                      \
-            yy[i] = from.yy;                                                                                      \
-            zz[i] = from.zz;                                                                                      \
-            if ((nv) > 1) xy[i] = from.xy;                                                                        \
-            if ((nv) > 2) xz[i] = from.xz;                                                                        \
-            if ((nv) > 2) yz[i] = from.yz;                                                                        \
-        }                                                                                                         \
+#define RELAX_CLOSE(nv)                                                                                 \
+    static BULLA_KERNEL void relax_close_##nv(size_t n, double left, const double *restrict q,          \
+                                              const double *restrict J1, const double *restrict J2,     \
+                                              double *const out[6])                                     \
+    {                                                                                                   \
+        double *restrict xx = out[0], *restrict yy = out[1], *restrict zz = out[2];                     \
+        double *restrict xy = out[3], *restrict xz = out[4], *restrict yz = out[5];                     \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                              \
+        {                                                                                               \
+            double r = q[i] * left, per = elastic_tensor_per_root(flow_relax_cube(r, J1[i], J2[i]), 3), \
+                   part = per * per;                                                                    \
+            double a = part * r * r, b = part * r * (1.0 - r), add = part + b * J2[i];                  \
+            struct elastic_tensor from = {xx[i],                                                        \
+                                          yy[i],                                                        \
+                                          zz[i],                                                        \
+                                          (nv) > 1 ? xy[(nv) > 1 ? i : 0] : 0.0,                        \
+                                          (nv) > 2 ? xz[(nv) > 2 ? i : 0] : 0.0,                        \
+                                          (nv) > 2 ? yz[(nv) > 2 ? i : 0] : 0.0};                       \
+            struct elastic_tensor B = elastic_tensor_square(from), C = elastic_tensor_cofactors(B);     \
+            B = (struct elastic_tensor){(a * (B.xx - 1.0) - b * (C.xx - 1.0)) + add,                    \
+                                        (a * (B.yy - 1.0) - b * (C.yy - 1.0)) + add,                    \
+                                        (a * (B.zz - 1.0) - b * (C.zz - 1.0)) + add,                    \
+                                        a * B.xy - b * C.xy,                                            \
+                                        a * B.xz - b * C.xz,                                            \
+                                        a * B.yz - b * C.yz};                                           \
+            from = (nv) == 1   ? flow_curve_root_line(B)                                                \
+                   : (nv) == 2 ? flow_curve_root_plane(B)                                               \
+                               : flow_curve_root_space(from, B, r);                                     \
+            xx[i] = from.xx;                                                                            \
+            yy[i] = from.yy;                                                                            \
+            zz[i] = from.zz;                                                                            \
+            if ((nv) > 1) xy[i] = from.xy;                                                              \
+            if ((nv) > 2) xz[i] = from.xz;                                                              \
+            if ((nv) > 2) yz[i] = from.yz;                                                              \
+        }                                                                                               \
     }
 RELAX_CLOSE(1)
 RELAX_CLOSE(2)

@@ -112,12 +112,14 @@ static void model_transport(struct model *model)
         model_viscosity(&model->scene->material[l].viscosity, &model->viscosity[l]);
         model->viscous = model->viscous || model->viscosity[l].law;
     }
-    if (!model->viscous && !model->n_normal) return;
-    for (unsigned l = 1; l < model->n_alpha; l++)
+    bool surfaces = model->viscous || model->n_normal;
+    for (unsigned l = 1; surfaces && l < model->n_alpha; l++)
         model->around[model->n_around++] = (unsigned char)(model->i_alpha + l);
     model->n_around_alpha = model->n_around;
     for (unsigned d = 0; model->viscous && d < model->n_velocity; d++)
         model->around[model->n_around++] = (unsigned char)(model->i_u + d);
+    model->calm = model->scene->scheme.calm && model->dim > 1;
+    if (model->calm) model->around[model->n_around++] = (unsigned char)model->i_E;
 }
 
 /* Those pairs that a narrowed model has both materials of. */

@@ -117,8 +117,9 @@ struct model {
     struct model_eos eos[SCENE_MATERIALS];
     struct model_viscosity viscosity[SCENE_MATERIALS];
     bool viscous; /* some material of the path is */
+    bool calm;    /* faces beside strong shocks resist shear (scheme/calm.h) */
     /* What terms that look across edges see there: components of the primitives, the same in all paths of a scene. 0: no
-     * term does. Fractions but the first, then velocities. */
+     * term does. Fractions but the first, then velocities (viscous); pressure is the last (calm). */
     unsigned n_around, n_around_alpha;
     unsigned char around[MODEL_FIELDS];
     struct model_conductivity conductivity[SCENE_MATERIALS];
@@ -150,7 +151,7 @@ static inline unsigned model_edged(const struct model *model)
 /* Has a path terms that look across edges? */
 static inline bool model_looks_around(const struct model *path)
 {
-    return path->viscous || path->n_normal > 0;
+    return path->viscous || path->calm || path->n_normal > 0;
 }
 
 /* Number of stretches of a path: that of the springs at rest, then those of the branches. */

@@ -14,8 +14,7 @@
 #include "case/shape.h"
 #include "cli/human.h"
 #include "cli/scenes.h"
-#include "phys/coefficient.h"
-#include "scheme/conduction.h"
+#include "run/transport.h"
 #include "scheme/source.h"
 #include "solve/advance.h"
 #include "solve/cost.h"
@@ -35,6 +34,7 @@ struct check_cost {
     double steps, least, most; /* how many, and between which bounds */
     double seconds;            /* CPU time of that many */
     long coarse_steps;         /* what they were measured on */
+    double speed;              /* of the fastest flow there [m/s] */
 };
 
 static const char *const check_geometry[] = {"cartesian", "axisymmetric", "spherical"};
@@ -125,8 +125,8 @@ static void check_print_branches(const struct scene_material *material, double c
     for (unsigned b = 0; b < material->n_branch; b++) {
         const struct scene_branch *branch = &material->branch[b];
         c2 += branch->modulus / branch->density;
-        printf("  %-12s %s %s over %s: as viscous as %s in slow motion\n", "", b ? "and" : "viscoelastic:",
-               human_si(branch->modulus, "Pa", modulus), human_si(branch->time, "s", time),
+        printf("  %-12s %s %s over %s: as viscous as %s in slow motion\n", "",
+               b ? "and" : "viscoelastic:", human_si(branch->modulus, "Pa", modulus), human_si(branch->time, "s", time),
                human_si(branch->modulus * branch->time, "Pa s", viscosity));
     }
     if (material->n_branch)
@@ -150,59 +150,6 @@ static void check_print_material(const struct scene *scene, const struct model *
            rho, human_si(sqrt(c2), "m/s", speed));
     check_print_branches(material, c2);
     if (material->plastic.module) check_print_strength(model, l, rho, rho * c2);
-}
-
-/* The finest cell's least side, and the sum of 1/h^2 over the axes. */
-static double check_finest(const struct scene *scene, double *ret_sum)
-{
-    double h = HUGE_VAL;
-    *ret_sum = 0;
-    for (int axis = 0; axis < scene->domain.dim; axis++) {
-        double own = (scene->domain.upper[axis] - scene->domain.lower[axis]) /
-                     ldexp(scene->domain.cells[axis], scene->mesh.levels);
-        h = fmin(h, own);
-        *ret_sum += 1 / (own * own);
-    }
-    return h;
-}
-
-/* How a material conducts: at 25 C and 1 atm, over the run, and on the finest cells. */
-static void check_print_heat(const struct scene *scene, const struct model *model, unsigned l)
-{
-    const struct conduction_facts facts = conduction_facts(model, l);
-    char k[HUMAN_ROOM], width[HUMAN_ROOM], step[HUMAN_ROOM];
-    double sum, h = check_finest(scene, &sum);
-    if (!scene->material[l].conductivity.module) return;
-    double layer = sqrt(facts.k / facts.rho_cp * scene->run.until);
-    check_print_module("", &scene->material[l].conductivity);
-    printf("  %-12s conducts %s at 25 C and 1 atm, cp %.4g J/kg/K: diffusivity %.3g m2/s\n", "",
-           human_si(facts.k, "W/m/K", k), facts.cp, facts.k / facts.rho_cp);
-    printf("  %-12s heat gets %s far in the run, %.3g of the finest cells; it asks for steps below %s there\n", "",
-           human_si(layer, "m", width), layer / h, human_si(conduction_step(facts.k / facts.rho_cv, sum), "s", step));
-}
-
-/* How viscous a material is, at 1 atm and the most that the rate of shear allows: over the run, on the finest cells, and
- * beside what the faces of the scheme do to a jump between two cells (c h/2, of which limiters and low-mach leave a part). */
-static void check_print_viscosity(const struct scene *scene, const struct model *model, unsigned l)
-{
-    const struct model_viscosity *law = &model->viscosity[l];
-    const double p = 101325, rho = model->eos[l].rho_fill;
-    const struct coefficient_points points = {1, NULL, &p, &rho};
-    double mu, zeta, e, rho_c2, sum, h = check_finest(scene, &sum);
-    char value[HUMAN_ROOM], width[HUMAN_ROOM], step[HUMAN_ROOM];
-    if (!law->law) return;
-    coefficient_viscosities_most(law, &model->eos[l], &points, &mu, &zeta);
-    model->eos[l].law->state(model->eos[l].self, 1, &rho, &p, &e, &rho_c2);
-    double nu = mu / rho, faces = 0.5 * h * sqrt(rho_c2 / rho), layer = sqrt(nu * scene->run.until);
-    check_print_module("", &scene->material[l].viscosity);
-    if (!(mu > 0)) return;
-    printf("  %-12s viscosity %s at %g kg/m3 and 1 atm: %.3g m2/s; layers grow to %s in the run, %.3g of the finest "
-           "cells\n",
-           "", human_si(mu, "Pa s", value), rho, nu, human_si(layer, "m", width), layer / h);
-    printf("  %-12s it asks for steps below %s there; jumps between cells are damped by up to %.3g m2/s, %.3g times "
-           "that%s\n",
-           "", human_si(1.8 / (4 * sum * (4 * mu / 3 + zeta) / rho), "s", step), faces, faces / nu,
-           faces > nu && scene->scheme.low_mach == 1 ? " (scheme.low-mach: less)" : "");
 }
 
 static void check_print_fields(const struct model *model)
@@ -278,6 +225,23 @@ static double check_all_steps(const struct scene *scene, const struct state *coa
     return scene->run.max_steps > 0 ? fmin(ceil(steps), (double)scene->run.max_steps) : ceil(steps);
 }
 
+/* The fastest flow. */
+static double check_speed(const struct state *state)
+{
+    const struct level *level = &state->mesh->levels[0];
+    const struct model *model = state->model;
+    size_t n = state->mesh->n_cell;
+    double most = 0;
+    for (unsigned t = 0; t < level->n_local; t++)
+        for (size_t i = 0; i < n; i++) {
+            double square = 0;
+            for (unsigned d = 0; d < model->n_velocity; d++) square += pow(level->w[t][(model->i_u + d) * n + i], 2);
+            most = fmax(most, square);
+        }
+    comm_max(&most, 1);
+    return sqrt(most);
+}
+
 static int check_measure(struct state *coarse, double ratio, const struct scene *scene, const struct check_mesh *mesh,
                          struct check_cost *ret)
 {
@@ -289,6 +253,7 @@ static int check_measure(struct state *coarse, double ratio, const struct scene 
         TRY(advance_step(coarse, scene->run.until - coarse->t));
         spent = cost_cpu() - begin;
         comm_max(&spent, 1);
+        ret->speed = fmax(ret->speed, check_speed(coarse));
     }
     double factor = ratio * mesh->parts;
     ret->coarse_steps = coarse->step;
@@ -343,8 +308,10 @@ static void check_print(const struct scene *scene, const struct model *model, co
     check_print_fields(model);
     for (unsigned i = 0; i < scene->n_material; i++) {
         check_print_material(scene, model, i);
-        check_print_viscosity(scene, model, i);
-        check_print_heat(scene, model, i);
+        if (scene->material[i].viscosity.module) check_print_module("", &scene->material[i].viscosity);
+        transport_print_viscosity(scene, model, i);
+        if (scene->material[i].conductivity.module) check_print_module("", &scene->material[i].conductivity);
+        transport_print_heat(scene, model, i);
     }
     printf("  %-12s %s\n", "closure", scene->scheme.closure == SCENE_KAPILA ? "kapila" : "allaire");
     check_print_module("riemann", &scene->scheme.riemann);
@@ -421,6 +388,7 @@ static int check_one(const struct cli_given *given, const char *path)
     else if (comm_rank() == 0) {
         printf("%s: good\n", scene->path);
         check_print(scene, coarse->model, &mesh);
+        transport_print_reynolds(scene, coarse->model, cost.speed);
         check_print_cost(scene, &cost);
     }
     state_free(coarse);

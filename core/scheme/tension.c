@@ -123,8 +123,9 @@ static void tension_frame(const struct term_piece *piece)
     const struct frame *frame = piece->frame;
     struct face_work *faces = piece->faces;
     const double *alpha = faces->frame + path->i_alpha * FACE_ROOM;
-    double curve[FACE_ROOM], force[FACE_ROOM] = {0};
+    double curve[FACE_ROOM], force[FACE_ROOM]; /* large: filled as far as they are used */
     size_t n = frame->count - frame->inner;
+    memset(force, 0, frame->count * sizeof *force);
     for (unsigned l = 0; l < path->n_material; l++) memset(faces->lag + l * FACE_ROOM, 0, frame->count * sizeof *curve);
     for (unsigned k = 0; k < path->n_pair; k++) {
         const struct model_pair *pair = &path->pairs[k];

@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "scheme/calm.h"
 #include "scheme/closure.h"
 #include "scheme/conduction.h"
 #include "scheme/convection.h"
@@ -32,6 +33,7 @@ const struct term *const terms_all[] = {
     &source_term,       /* forces, heat, mass, Lua */
     &drag_term,         /* resistance of porous media */
     &viscous_term,      /* stress and heat of what is viscous */
+    &calm_term,         /* shear beside strong shocks */
     &fraction_term,     /* volume fractions move with the flow */
     &exchange_term,     /* volume that brings materials back to one pressure */
     &closure_term,      /* K div u, and what was exchanged */

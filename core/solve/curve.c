@@ -47,12 +47,13 @@ static struct patch_source curve_source(const struct curve *curve, int l)
     return patch_state_fractions(curve->model, curve->mesh, l, CURVE_LAYERS, 2);
 }
 
-/* Does a tile hold a surface of the pair? */
-static bool curve_is_there(size_t n, const double *restrict a, const double *restrict b)
+/* Cells of a tile that hold a surface of the pair. */
+static BULLA_KERNEL int curve_count(size_t n, const double *restrict a, const double *restrict b)
 {
-    double most = 0.0;
-    for (size_t i = 0; i < n; i++) most = a[i] * b[i] > most ? a[i] * b[i] : most;
-    return most > CURVE_LEAST;
+    int count = 0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) count += a[i] * b[i] > CURVE_LEAST;
+    return count;
 }
 
 static void curve_tile(struct curve *curve, const struct patch_source *source, unsigned local)
@@ -66,7 +67,7 @@ static void curve_tile(struct curve *curve, const struct patch_source *source, u
         const struct model_pair *pair = &model->pairs[k];
         const double *a = curve->patch + pair->inside * curve->pitch, *b = curve->patch + pair->outside * curve->pitch;
         double *kappa = block + pair->i_kappa * n;
-        if (!curve_is_there(n, block + pair->inside * n, block + pair->outside * n)) {
+        if (!curve_count(n, block + pair->inside * n, block + pair->outside * n)) {
             memset(kappa, 0, n * sizeof *kappa);
             continue;
         }

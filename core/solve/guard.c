@@ -28,7 +28,7 @@ struct guard *guard_new(const struct model *model, const struct mesh *mesh, int 
     const struct level *level = &mesh->levels[l];
     *guard = (struct guard){
         .model = model, .mesh = mesh, .level = level, .l = l, .n_local = level->n_local, .n_stage = n_stage};
-    guard->repair = model->kapila && model->scene->scheme.guard != SCENE_GUARD_STRICT;
+    guard->repair = model->n_alpha > 1 && model->scene->scheme.guard != SCENE_GUARD_STRICT;
     guard->mask = mem_new(level->n_local, sizeof *guard->mask);
     guard->halo = halo_new(mesh, level, 1);
     return guard;

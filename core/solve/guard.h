@@ -41,7 +41,7 @@ struct guard {
     bool marked;       /* masks are there and may hold marks */
     struct halo *halo; /* exchange of the masks */
     bool masked;       /* some cell of some rank is marked */
-    bool repair;       /* relaxation is allowed (Kapila closure, guard not strict) */
+    bool repair;       /* relaxation is allowed (several materials, guard not strict) */
     long long relaxed; /* cells repaired in the present attempt */
     int n_stage;       /* stages of a step */
     long long bad[TABLEAU_STAGES]; /* inadmissible cells found after each stage of the present attempt */

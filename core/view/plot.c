@@ -9,6 +9,7 @@
 #include "view/picture_canvas.h"
 #include "view/plot_along.h"
 #include "view/plot_case.h"
+#include "view/plot_cost.h"
 #include "view/plot_history.h"
 #include "view/plot_interface.h"
 #include "view/plot_map.h"
@@ -253,6 +254,8 @@ static int plot_run(const struct cli_given *given, const char *directory)
                            "--over %s: references go over histories: bulla plot %s history COLUMN --over %s",
                            option.over[0], directory, option.over[0]);
     if (shared) return plot_together(given, shared, n_run, &option);
+    if (what && strcmp(what, "cost") == 0 && !plot_is_directory(directory))
+        return plot_cost_write(given->words[0], &option);
     if (!plot_is_directory(directory)) return plot_no_directory(directory);
     if (!map && option.n_time > 1)
         return status_fail(STATUS_CASE, "--time %g and %g: one time for a picture of a snapshot", option.times[0],

@@ -51,3 +51,6 @@ cmp most-8 most-16
 "$BULLA" plan splash.yaml >plan
 grep -q '^  branches .*gel tau = 5e-06 s, gel tau = 0.0001 s, slime tau = 2e-05 s .*core/scheme/viscoelastic.c' plan || fail "the plan does not say it" plan
 ! "$BULLA" plan "$BULLA_SOURCE/cases/verify/es1.yaml" | grep -q viscoelastic || fail "a branch that nobody named"
+
+# A wave against its exact solution, where it crosses levels.
+"$BULLA" run "$BULLA_SOURCE/cases/verify/pulse-s-levels.yaml" --variant quick -o levels --quiet >said || fail "the wave is wrong" said

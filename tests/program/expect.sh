@@ -95,3 +95,32 @@ grep -q '^warning: case.yaml:9: expect: .at(rho, 5)., character 1: at: the run h
 [ "$(grep -c '^ *FAIL' stdout)" = 2 ]
 [ "$(grep -c '^ *pass' stdout)" = 1 ]
 grep -q '"fault": "case.yaml:9: ' out/expect.json
+
+# Mirror images: the same bits on both sides, or not; a vector turns round; an axis that is not there is a mistake.
+mirror() { # CENTRE
+    cat <<END2
+bulla: 1
+domain: {lower: [-1, -1], upper: [1, 1], cells: [16, 16], boundaries: {x-: outflow, x+: outflow, y-: outflow, y+: outflow}}
+materials: {gas: {eos: {type: ideal-gas, gamma: 1.4}}}
+initial: [{everywhere: true, material: gas, density: 1, pressure: 1}, {sphere: {center: [0, $1], radius: 0.4}, pressure: 3}]
+mesh: {tile: 8, levels: 1, refine: [{jump: pressure, above: 0.2}]}
+scheme: {cfl: 0.4}
+run: {until: 0.2}
+output: {directory: out, snapshots: {every: 0.2, fields: [density, velocity], precision: double}}
+expect:
+END2
+}
+{ mirror 0
+  for axis in x y; do
+      for field in density velocity_x velocity_y; do echo "  - {norm: Linf, field: $field, reference: mirror-$axis, at-most: 0}"; done
+  done
+} >case.yaml
+run 0
+{ mirror 0.1
+  for axis in x y; do echo "  - {norm: L1, field: density, reference: mirror-$axis, at-most: 0}"; done
+} >case.yaml
+run 1
+[ "$(grep -c '^ *pass' stdout)" = 1 ]
+{ mirror 0; echo '  - {norm: L1, field: density, reference: mirror-z, at-most: 0}'; } >case.yaml
+run 2
+grep -q "'mirror-z' needs a field of the snapshots and that axis" stderr

@@ -77,5 +77,9 @@ refused 'interfaces are flat here' --set domain.geometry=cartesian --set domain.
 refused 'only a sphere is in balance' --set 'initial.0.balance=tension'
 refused 'no surface tension with the one that it is painted on' --set initial.1.balance=tension --set surface-tension=null
 refused 'the pressure outside of the sphere as a number' --set initial.1.balance=tension --set 'initial.1.pressure=1e5 + x'
+if "$BULLA" show plane.yaml --set domain.geometry=axisymmetric --set 'domain.lower=[0, -8 um]' --set domain.boundaries.x-=axis \
+    --set 'initial.1={sphere: {center: [1 um, 0], radius: 1 um}, material: air, density: 1, pressure: 1 atm, balance: tension}' \
+    >said 2>&1; then fail "a ring in balance" said; fi
+grep -q 'a sphere beside the axis is a ring' said || fail "the ring" said
 "$BULLA" show bubble.yaml --set 'mesh.refine=[{region: {box: {lower: [0], upper: [9 um]}}}]' >said 2>&1 || true
 grep -q 'nothing refines there' said || fail "no warning where the surface is coarse" said

@@ -56,3 +56,55 @@ grep -q '^Before' docs/verification.md
 grep -q '^After' docs/verification.md
 grep -q '^| 64 |' docs/verification.md
 ! grep -q '^old' docs/verification.md
+
+# Hard scenes: every combination a line, what is not allowed counts nowhere, a run that stops is named.
+cd ..
+mkdir -p there/cases/verify there/cases/hard there/docs
+cp tube.yaml there/cases/verify/
+cd there
+{ grep -v '^matrix' ../tube.yaml; echo 'quick: {domain: {cells: [32]}}'; } >cases/hard/h1-tube.yaml
+sed 's/pressure: 0.1/pressure: 1/; s/exact-riemann/mirror-x/; s/, order: 0.5//' cases/hard/h1-tube.yaml >cases/hard/h2-even.yaml
+sed 's/pressure: 0.1/pressure: 0.01/' cases/hard/h1-tube.yaml >cases/hard/h10-strong.yaml
+cat >cases/hard.yaml <<'END2'
+title: A few
+matrix:
+  scheme.riemann: [hllc, no-such-solver]
+  scheme.limiter + scheme.interface-limiter: [mc + superbee, koren + thinc]
+  scheme.cfl: [0.4]
+END2
+printf '<!-- verify hard -->\n<!-- end hard -->\n' >docs/hard.md
+expect_code 0 "$BULLA" verify hard --save
+grep -q '^| | riemann | limiter + interface-limiter | cfl | finish |' docs/hard.md
+grep -q '^| 1 | hllc | mc + superbee | 0.4 | 3/3 | 2 | 0/1 | 1.00 |' docs/hard.md
+grep -q '^| 2 | hllc | koren + thinc | 0.4 | 3/3 |' docs/hard.md
+grep -q '^| 3 | no-such-solver | mc + superbee | 0.4 | 0/0 |' docs/hard.md
+grep -q '^| h2-even |.* ok skew |' docs/hard.md
+awk -F '|' '/^\| h/ {print $2}' docs/hard.md | tr -d ' \n' | grep -q '^h1-tubeh2-evenh10-strong$'
+expect_code 0 "$BULLA" verify hard h10
+[ "$(grep -c '^| h' stdout)" = 1 ]
+expect_code 2 "$BULLA" verify hard h7
+
+# Error against cost: every scheme a line, the front marked, rows of others, a picture.
+cat >cases/cost.yaml <<'END2'
+schemes: {mc: {cfl: 0.4}, minmod: {limiter: minmod, cfl: 0.4}, wrong: {limiter: nothing}}
+scenes:
+  tube:
+    case: verify/tube
+    error: L1(pressure)
+    set: {expect: [{norm: L1, field: density, reference: exact-riemann, at-most: 1}, {norm: L1, field: pressure, reference: exact-riemann, at-most: 1}]}
+    matrix: {domain.cells: [[32], [64]]}
+    others: {theirs: [[2, 0.01], [4, 0.005]]}
+END2
+expect_code 0 "$BULLA" verify --cost tube
+grep -q '^| scheme | 32 | 64 |' stdout
+grep -q '^| wrong | - | - |' stdout
+grep -q '^theirs: 0.01 in 2 s, 0.005 in 4 s.' stdout
+[ -s out/verify/cost/tube.png ]
+grep -q '^mc,64,.*,front$' out/verify/cost/tube.csv
+[ "$(grep -c ',other$' out/verify/cost/tube.csv)" = 2 ]
+"$BULLA" run cases/verify/tube.yaml --quiet --overwrite -o own --set 'domain.cells=[32]' --set 'scheme.cfl=0.4' \
+    --set 'expect.0.field=pressure'
+own=$(sed -n 's/.*"value": //p' own/expect.json | tr -d ,)
+awk -F, -v own="$own" '/^mc,32/ {exit ($3 / own - 1)^2 > 1e-8}' out/verify/cost/tube.csv
+expect_code 2 "$BULLA" verify --cost nothing
+grep -q "no scene 'nothing'" stderr

@@ -29,6 +29,18 @@ grep -q '^  viscosity .*gas newtonian, oil newtonian .*core/scheme/viscous.c' pl
 grep -q 'viscosity 50 mPa s at 100 kg/m3' said && grep -q 'jumps between cells are damped by up to' said || fail "check" said
 "$BULLA" check drop.yaml --set materials.gas.viscosity=null --set materials.oil.viscosity=null >said 2>&1 || true
 grep -q 'the wall drags nothing along' said || fail "a wall that moves in vain" said
+grep -q 'without any viscosity a no-slip wall stops only' said || fail "a wall at rest in vain" said
+"$BULLA" check drop.yaml >said 2>&1
+! grep -q 'without any viscosity' said || fail "a wall that is not in vain" said
+grep -q 'its steps: .* on level 0 (sound allows .* on level 1 (sound allows' said || fail "limits by level" said
+grep -q 'reynolds  *gas [0-9.]*, oil [0-9.]*: flow of ' said || fail "reynolds" said
+
+# Stress and heat as fields: on ranks to the bit, and refused where nothing is viscous.
+cp drop.yaml fields.yaml
+sed -i 's/max: pressure}}/max: pressure}, s: {max: stress_viscous_xy}, q: {max: dissipation}, z: {max: stress_viscous_zz}}/' fields.yaml
+ranked fields 1 2
+"$BULLA" check fields.yaml --set materials.gas.viscosity=null --set materials.oil.viscosity=null >said 2>&1 && fail "fields of nothing" said
+grep -q "'stress_viscous_xy' is a field of viscous materials" said || fail "fields of nothing, why" said
 
 # It acts, and it conserves: masses with walls, all with periodic boundaries.
 "$BULLA" run drop.yaml -o free --set materials.gas.viscosity=0 --set materials.oil.viscosity=0 --quiet

@@ -152,7 +152,7 @@ static void faces_have_the_bits_of_frames(void **state)
             twolevel_bear(&two);
             twolevel_close(&two);
             struct bound *fine = bound_new(two.model, two.mesh, two.fine);
-            for (int g = 1; g <= RIM_LAYERS; g++) {
+            for (int g = 1; g <= two.mesh->ghosts; g++) {
                 exchange(&two, fine, g, &keep);
                 for (int step = 0; step < 3; step++) {
                     two.fine->link->theta = 0.35 * step;

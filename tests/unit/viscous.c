@@ -248,10 +248,74 @@ static void test_symmetry(void **state)
     flow_stop(&flow);
 }
 
+/* 1/dt = signal/cfl + 4/h^2 (4/3 mu + zeta)/(1.8 rho): what viscosity adds. */
+static double slower(double mu, double zeta)
+{
+    struct flow flow;
+    char *material = mem_print(gas, mu, zeta);
+    flow_start(&flow, mem_print("bulla: 1\ntitle: pace\ndomain: %s\nmaterials:\n%sinitial:\n"
+                                "  - {everywhere: true, material: air, density: 1.2, pressure: 1e5}\nrun: {until: 1}\n",
+                                BOX1, material));
+    double h = flow.state->mesh->levels[0].h[0], rate = 1.0 / advance_dt(flow.state);
+    mem_free(material);
+    flow_stop(&flow);
+    return rate * h * h * 1.8 * 1.2 / 4.0;
+}
+
+static void same(double ratio)
+{
+    if (!(fabs(ratio - 1.0) < 1e-8)) fail_msg("1 expected, not %.12g", ratio);
+}
+
+static void test_pace(void **state)
+{
+    (void)state;
+    double still = slower(0.0, 0.0);
+    same((slower(MU, 0.0) - still) / (4.0 / 3.0 * MU));
+    same((slower(0.0, ZETA) - still) / ZETA);
+}
+
+/* A field in the middle of a box; the state of its moment. */
+static double field(const char *name, flow_setter *set)
+{
+    struct flow flow;
+    struct derive what;
+    start(&flow, MU, ZETA, BOX2, set);
+    struct state *now = flow.state;
+    struct derive_moment moment = derive_moment(now->model, now->mesh, 0.0);
+    double *out = mem_new(3 * now->mesh->n_cell, sizeof *out), most = 0.0;
+    if (derive_find(now->model, name, &what)) fail_msg("%s", status_text());
+    derive_prepare(&moment, &what);
+    for (unsigned t = 0; t < now->mesh->levels[0].n_local; t++) {
+        const struct tile *tile = &now->mesh->levels[0].tiles[t];
+        bool inside = true;
+        for (int d = 0; d < 2; d++)
+            inside = inside && tile->at[d] > 0 && tile->at[d] + 1 < now->mesh->levels[0].extent[d];
+        if (!inside) continue;
+        derive_tile(now->model, now->mesh, 0, t, 0.0, &what, out);
+        most = out[0];
+    }
+    mem_free(out);
+    flow_stop(&flow);
+    return most;
+}
+
+/* Linear motion: stress and heat are those of the formulas. */
+static void test_fields(void **state)
+{
+    (void)state;
+    same(field("stress_viscous_xy", set_shear) / (MU * A));
+    same(field("dissipation", set_shear) / (MU * A * A));
+    double div = 2.0 * A, part = 2.0 * MU * (A - div / 3.0);
+    same(field("stress_viscous_yy", set_swell) / (part + ZETA * div));
+    same(field("stress_viscous_zz", set_swell) / (ZETA * div - 2.0 / 3.0 * MU * div));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_dilatation), cmocka_unit_test(test_rotation),
                                        cmocka_unit_test(test_shear),      cmocka_unit_test(test_foam),
-                                       cmocka_unit_test(test_tiles),      cmocka_unit_test(test_symmetry)};
+                                       cmocka_unit_test(test_tiles),      cmocka_unit_test(test_symmetry),
+                                       cmocka_unit_test(test_pace),       cmocka_unit_test(test_fields)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

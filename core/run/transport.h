@@ -1,0 +1,19 @@
+/* transport.h - what `bulla check` says of viscosity and heat: how far they reach, what they ask of time steps, how they stand
+ * beside the mesh. Prints to stdout, nothing of materials without either. */
+#ifndef TRANSPORT_H
+#define TRANSPORT_H
+
+#include "phys/model.h"
+
+/* Of material l at 1 atm, with the most that the rate of shear allows: layers of the run, steps by level, the jumps of the scheme
+ * between cells. */
+void transport_print_viscosity(const struct scene *scene, const struct model *model, unsigned l);
+
+/* Of material l at 25 C and 1 atm. */
+void transport_print_heat(const struct scene *scene, const struct model *model, unsigned l);
+
+/* Reynolds numbers rho u L/mu of the viscous materials: u the larger of `speed` [m/s] and what walls move with, L the shortest
+ * side of the domain. */
+void transport_print_reynolds(const struct scene *scene, const struct model *model, double speed);
+
+#endif
