@@ -155,6 +155,7 @@ struct scene_sources {
 };
 
 enum scene_closure { SCENE_KAPILA, SCENE_ALLAIRE };
+enum scene_traction { SCENE_TRACTION_AUTO, SCENE_TRACTION_COMMON, SCENE_TRACTION_PRESSURE };
 enum scene_exchange { SCENE_EXCHANGE_AUTO, SCENE_EXCHANGE_FAST, SCENE_EXCHANGE_FULL };
 enum scene_integrator { SCENE_MIDPOINT, SCENE_SSPRK3 }; /* rows of solve/tableau.c */
 enum scene_guard { SCENE_GUARD_NORMAL, SCENE_GUARD_STRICT };
@@ -325,6 +326,7 @@ struct scene_scheme {
     int ghosts;                        /* layers of neighbours that the reconstruction needs on each side of a tile */
     double cfl, dt_fixed;              /* dt_fixed 0: from cfl */
     double first_step;                 /* part of that step with which a run begins */
+    enum scene_traction traction;      /* what the materials of a cell with a solid share */
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
     enum scene_guard guard;

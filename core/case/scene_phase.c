@@ -339,10 +339,12 @@ static void scene_phase_company(struct draft *draft, const struct keys_value *se
         keys_error(&draft->keys, closure,
                    "phase change needs the closure kapila: with allaire, mixtures are not in mechanical equilibrium");
     if (scene->n_tension) keys_error(&draft->keys, section, "phase change and surface tension do not go together yet");
-    if (scene_material_solid(draft) && scene->domain.dim == 1)
-        keys_error(&draft->keys, section,
-                   "phase change beside a solid needs two or three dimensions: in one, the materials of a cell have "
-                   "pressures of their own");
+    bool line = scene->domain.dim == 1 && scene->scheme.traction == SCENE_TRACTION_AUTO;
+    if (!scene_material_solid(draft) || !(line || scene->scheme.traction == SCENE_TRACTION_COMMON)) return;
+    keys_error(
+        &draft->keys, section,
+        "phase change beside a solid needs one pressure in a cell; here its materials have pressures of their own");
+    diag_help(draft->keys.diag, "'scheme: {traction: pressure}', the default in two and three dimensions");
 }
 
 /* Infinite rates at resolved surfaces measure the mesh. */

@@ -63,6 +63,13 @@ static const struct key scene_scheme_rows[] = {
             "sound, which gives least radii of coarse bubbles 1 % closer. auto: fast where all laws are linear in "
             "pressure "
             "(ideal-gas to mnasg, tait), else full."},
+    {.name = "traction",
+     .type = KEYS_CHOICE,
+     .choices = "auto|common|pressure",
+     .fallback = "auto",
+     .doc = "What solids and fluids of one cell share. common: the traction on their interface, so that each has the "
+            "pressure that it needs for that; pressure: one pressure, which heats and shakes the surfaces of stretched "
+            "solids. auto: common in one dimension, pressure in the plane and in space."},
     {.name = "low-mach",
      .type = KEYS_NUMBER,
      .unit = "1",
@@ -245,6 +252,7 @@ void scene_scheme(struct draft *draft)
     const struct keys_map *scheme = keys_at(draft->root, "scheme")->map, *run = keys_at(draft->root, "run")->map;
     struct scene *scene = draft->scene;
     scene->scheme.closure = (enum scene_closure)keys_at(scheme, "closure")->integer;
+    scene->scheme.traction = (enum scene_traction)keys_at(scheme, "traction")->integer;
     scene->scheme.exchange = (enum scene_exchange)keys_at(scheme, "exchange")->integer;
     scene->scheme.integrator = (enum scene_integrator)keys_at(scheme, "integrator")->integer;
     scene->scheme.guard = (enum scene_guard)keys_at(scheme, "guard")->integer;

@@ -37,6 +37,7 @@ static char *model_branch_name(const struct model *model, unsigned b, unsigned c
 static void model_name_fields(struct model *model)
 {
     static const char *const momentum[] = {"momentum_x", "momentum_y", "momentum_z"};
+    static const char *const normal[] = {"normal_x", "normal_y", "normal_z"};
     unsigned at = 0;
     model->field_names = mem_new(model->n_field + 1, sizeof *model->field_names);
     for (unsigned l = 0; l < model->n_alpha; l++)
@@ -52,6 +53,7 @@ static void model_name_fields(struct model *model)
     for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = mem_print("stretch_%s", model_tensor[c]);
     for (unsigned b = 0; b < model->n_branch; b++)
         for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = model_branch_name(model, b, c);
+    for (unsigned d = 0; d < model->n_normal; d++) model->field_names[at++] = mem_text(normal[d]);
     for (unsigned k = 0; k < model->n_pair; k++)
         model->field_names[at++] = mem_print("curvature_%s_%s", model->scene->material[model->pairs[k].inside].name,
                                              model->scene->material[model->pairs[k].outside].name);
@@ -115,7 +117,8 @@ static void model_transport(struct model *model)
         model_viscosity(&model->scene->material[l].viscosity, &model->viscosity[l]);
         model->viscous = model->viscous || model->viscosity[l].law;
     }
-    for (unsigned l = 1; model->viscous && l < model->n_alpha; l++)
+    bool surfaces = model->viscous || model->n_normal;
+    for (unsigned l = 1; surfaces && l < model->n_alpha; l++)
         model->around[model->n_around++] = (unsigned char)(model->i_alpha + l);
     model->n_around_alpha = model->n_around;
     for (unsigned d = 0; model->viscous && d < model->n_velocity; d++)
@@ -206,7 +209,8 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
         narrow->solids[narrow->n_solid++].material = l;
     }
     if (narrow->n_solid == 0) narrow->n_stretch = 0;
-    narrow->split = model->split && narrow->n_solid;
+    narrow->n_normal = 0; /* nothing meets there */
+    narrow->split = model->split && narrow->n_solid && !model->n_normal;
     model_pair_narrow(model, narrow);
     model_phase_narrow(model, narrow);
     narrow->lagged = narrow->split || narrow->n_pair > 0;
@@ -316,6 +320,14 @@ static void model_conduct(struct model *model)
     }
 }
 
+/* Do the materials of a cell share their traction? */
+static bool model_is_split(const struct model *model)
+{
+    enum scene_traction traction = model->scene->scheme.traction;
+    bool wanted = traction == SCENE_TRACTION_AUTO ? model->dim == 1 : traction == SCENE_TRACTION_COMMON;
+    return wanted && model->elastic && model->n_alpha > 0;
+}
+
 struct model *model_new(const struct scene *scene)
 {
     struct model *model = mem_new(1, sizeof *model);
@@ -333,9 +345,12 @@ struct model *model_new(const struct scene *scene)
     model_solids(model);
     model->i_V = model->i_strain + model->n_strain;
     model_stretch_all(model);
+    model->i_normal = model->n_field;
+    model->split = model_is_split(model);
+    if (model->split && model->dim > 1) model->n_normal = (unsigned)model->dim;
+    model->n_field += model->n_normal;
     model_pair_up(model);
     model_phases(model);
-    model->split = model->dim == 1 && model->elastic && model->n_alpha > 0;
     model->lagged = model->split || model->n_pair > 0;
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
     model->forced = model_is_forced(scene) || model->n_pair > 0;

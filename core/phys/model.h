@@ -86,8 +86,9 @@ struct model_phase {
     const struct scene_phase *scene;
 };
 
-/* Most evolved fields a scene can have: fractions, densities, velocities, energy, plastic strains, stretches, curvatures. */
-enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 * (1 + SCENE_BRANCHES) + SCENE_PAIRS };
+/* Most evolved fields a scene can have: fractions, densities, velocities, energy, plastic strains, stretches, normals,
+ * curvatures. */
+enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 * (1 + SCENE_BRANCHES) + 3 + SCENE_PAIRS };
 
 struct model {
     const struct scene *scene;
@@ -103,6 +104,7 @@ struct model {
     struct model_pair pairs[SCENE_PAIRS];
     unsigned n_phase;
     struct model_phase phases[SCENE_PHASES];
+    unsigned n_normal, i_normal; /* normals of the surfaces of solids (scheme/normal.h): dim, or 0 */
     unsigned n_material, n_alpha, n_field;
     unsigned i_alpha, i_m, i_u, i_E;         /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
     unsigned n_active, active[MODEL_FIELDS]; /* components that evolve; all, but in a pure model */
@@ -148,10 +150,16 @@ static inline bool model_is_fraction(const struct model *model, unsigned q)
     return q - model->i_alpha < model->n_alpha; /* wraps below i_alpha */
 }
 
-/* Number of active fields that faces see: all but the curvatures, which are the last ones. */
+/* Number of active fields that faces see: all but normals and curvatures, which are the last ones. */
 static inline unsigned model_edged(const struct model *model)
 {
-    return model->n_active - model->n_pair;
+    return model->n_active - model->n_pair - model->n_normal;
+}
+
+/* Has a path terms that look across edges? */
+static inline bool model_looks_around(const struct model *path)
+{
+    return path->viscous || path->calm || path->n_normal > 0;
 }
 
 /* Number of stretches of a path: that of the springs at rest, then those of the branches. */

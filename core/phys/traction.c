@@ -26,20 +26,66 @@ static BULLA_KERNEL void traction_normal(size_t n, const double *restrict rho, c
 
 static const double traction_zero[TRACTION_BATCH];
 
+/* N.s'N with the normals of the cells: B N = V (V N). */
+static BULLA_KERNEL void traction_along(size_t n, const double *restrict rho, const double *const *row,
+                                        const double *const *normal, const double *restrict I1,
+                                        const double *restrict I2, const double *restrict e_1,
+                                        const double *restrict e_2, double *restrict own)
+{
+    const double *restrict xx = row[ELASTIC_XX], *restrict xy = row[ELASTIC_XY], *restrict xz = row[ELASTIC_XZ];
+    const double *restrict yy = row[ELASTIC_YY], *restrict yz = row[ELASTIC_YZ], *restrict zz = row[ELASTIC_ZZ];
+    const double *restrict nx = normal[0], *restrict ny = normal[1], *restrict nz = normal[2];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double x = nx[i], y = ny[i], z = nz[i], square = x * x + y * y + z * z;
+        double a = xx[i], b = xy[i], c = xz[i], d = yy[i], e = yz[i], f = zz[i], first = I1[i], slope = e_2[i];
+        double u = a * x + b * y + c * z, v = b * x + d * y + e * z, w = c * x + e * y + f * z;
+        double Bx = a * u + b * v + c * w, By = b * u + d * v + e * w, Bz = c * u + e * v + f * w;
+        double B = u * u + v * v + w * w, C = Bx * Bx + By * By + Bz * Bz, trace = first * first - 2.0 * I2[i];
+        double G1 = e_1[i] + first * slope;
+        own[i] = 2.0 * rho[i] * (G1 * (B - square * (first / 3.0)) - slope * (C - square * (trace / 3.0)));
+    }
+}
+
+/* A stretch in a batch, and what it is looked at with. */
+struct traction_view {
+    const double *row[6], *normal[3]; /* [normal]: of models that have them */
+    double I1[TRACTION_BATCH], I2[TRACTION_BATCH], e_1[TRACTION_BATCH], e_2[TRACTION_BATCH];
+};
+
+static void traction_look(const struct model *model, size_t n, size_t stride, const double *w, unsigned first,
+                          struct traction_view *ret)
+{
+    const double *V = w + first * stride;
+    for (unsigned c = 0; c < 6; c++) ret->row[c] = c < model->n_stretch ? V + c * stride : traction_zero;
+    for (unsigned d = 0; d < 3; d++)
+        ret->normal[d] = d < model->n_normal ? w + (model->i_normal + d) * stride : traction_zero;
+    elastic_invariants(model, n, stride, V, ret->I1, ret->I2);
+}
+
+/* s'_nn of the slopes e_1, e_2 of a view. */
+static void traction_of(const struct model *model, size_t n, const double *rho, const struct traction_view *view,
+                        double *own)
+{
+    const double *const *row = view->row;
+    if (model->n_normal) traction_along(n, rho, row, view->normal, view->I1, view->I2, view->e_1, view->e_2, own);
+    else
+        traction_normal(n, rho, row[ELASTIC_XX], row[ELASTIC_XY], row[ELASTIC_XZ], row[ELASTIC_YY], row[ELASTIC_YZ],
+                        row[ELASTIC_ZZ], view->I1, view->I2, view->e_1, view->e_2, own);
+}
+
 /* What the Maxwell branches of the solids add: each a neo-Hookean spring on its own stretch. */
 static void traction_branches(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
                               double *own)
 {
-    double I1[TRACTION_BATCH], I2[TRACTION_BATCH], k[TRACTION_BATCH], part[TRACTION_BATCH];
+    struct traction_view view;
+    double part[TRACTION_BATCH];
     for (unsigned b = 0; b < model->n_branch; b++) {
         const struct model_branch *branch = &model->branches[b];
-        const double *V = w + branch->field * stride, *row[6];
         unsigned l = model->solids[branch->solid].material;
-        for (unsigned c = 0; c < 6; c++) row[c] = c < model->n_stretch ? V + c * stride : traction_zero;
-        for (size_t i = 0; i < n; i++) k[i] = branch->k;
-        elastic_invariants(model, n, stride, V, I1, I2);
-        traction_normal(n, w + (model->i_m + l) * stride, row[ELASTIC_XX], row[ELASTIC_XY], row[ELASTIC_XZ],
-                        row[ELASTIC_YY], row[ELASTIC_YZ], row[ELASTIC_ZZ], I1, I2, k, traction_zero, part);
+        traction_look(model, n, stride, w, branch->field, &view);
+        for (size_t i = 0; i < n; i++) view.e_1[i] = branch->k, view.e_2[i] = 0.0;
+        traction_of(model, n, w + (model->i_m + l) * stride, &view, part);
         row_add(n, part, own + l * pitch);
     }
 }
@@ -47,17 +93,14 @@ static void traction_branches(const struct model *model, size_t n, size_t stride
 static void traction_batch(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
                            double *own)
 {
-    double I1[TRACTION_BATCH], I2[TRACTION_BATCH], e[TRACTION_BATCH], e_1[TRACTION_BATCH], e_2[TRACTION_BATCH];
-    const double *V = w + model->i_V * stride, *row[6];
-    for (unsigned c = 0; c < 6; c++) row[c] = c < model->n_stretch ? V + c * stride : traction_zero;
-    elastic_invariants(model, n, stride, V, I1, I2);
+    struct traction_view view;
+    double e[TRACTION_BATCH];
+    traction_look(model, n, stride, w, model->i_V, &view);
     for (unsigned l = 0; l < model->n_material; l++) memset(own + l * pitch, 0, n * sizeof *own);
     for (unsigned s = 0; s < model->n_solid; s++) {
         const struct model_solid *solid = &model->solids[s];
-        solid->law->energy(solid->self, n, I1, I2, e, e_1, e_2);
-        traction_normal(n, w + (model->i_m + solid->material) * stride, row[ELASTIC_XX], row[ELASTIC_XY],
-                        row[ELASTIC_XZ], row[ELASTIC_YY], row[ELASTIC_YZ], row[ELASTIC_ZZ], I1, I2, e_1, e_2,
-                        own + solid->material * pitch);
+        solid->law->energy(solid->self, n, view.I1, view.I2, e, view.e_1, view.e_2);
+        traction_of(model, n, w + (model->i_m + solid->material) * stride, &view, own + solid->material * pitch);
     }
     traction_branches(model, n, stride, w, pitch, own);
 }

@@ -57,8 +57,9 @@ static void bound_fill_mirror(const struct bound_fill *fill, bool no_slip)
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
         bool velocity = q >= model->i_u && q < model->i_E;
-        bool reversed =
-            velocity ? no_slip || q == model->i_u + (unsigned)axis : !no_slip && bound_fill_is_crossed(model, axis, q);
+        bool normal = model->n_normal && q == model->i_normal + (unsigned)axis;
+        bool turned = normal || (!no_slip && bound_fill_is_crossed(model, axis, q));
+        bool reversed = velocity ? no_slip || q == model->i_u + (unsigned)axis : turned;
         bound_layer_fill(fill->frame, fill->side, true, reversed ? -1.0 : 1.0, fill->w + q * fill->pitch);
     }
 }
@@ -332,6 +333,7 @@ static void bound_fill_compose_state(const struct bound_fill *fill, struct bound
         for (unsigned s = 0; s < model->n_strain; s++) at[(model->i_strain + s) * row->stride] = 0.0;
         for (unsigned k = 0; k < model_stretches(model); k++)
             elastic_identity(model, 1, row->stride, at + model_stretch(model, k) * row->stride);
+        for (unsigned d = 0; d < model->n_normal; d++) at[(model->i_normal + d) * row->stride] = 0.0;
         for (unsigned k = 0; k < model->n_pair; k++) at[model->pairs[k].i_kappa * row->stride] = 0.0;
     }
 }

@@ -47,7 +47,7 @@ struct edges_row {
     size_t cells, step;
     const double *w; /* the first cell with edges, component 0 */
     const double *mask;
-    const double *rise[2];
+    const double *rise[2], *lean[2];
     double *state;
 };
 
@@ -297,6 +297,32 @@ static void edges_press(const struct edges *edges, const struct model *model, co
     edges_hold(n, p, own->slope, row->rise[0], row->rise[1], upper + n, upper);
 }
 
+/* Given differences, less what forces hold. */
+static BULLA_KERNEL void edges_less(size_t n, const double *restrict lean, const double *restrict above,
+                                    const double *restrict below, double *restrict d)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) d[i] = lean[i] - (above[i] + below[i]);
+}
+
+/* Edges of pressure where each cell has its own view of the differences to the cells before and behind. */
+static void edges_lean(const struct edges *edges, const struct model *model, const struct edges_row *row)
+{
+    const struct edges_limited *own = &edges->plain;
+    size_t n = row->cells, step = row->step;
+    const double *p = edges_inside(edges, row, model->i_E), *const *rise = row->rise;
+    double *upper = edges_upper(edges, row, model->i_E), *below = edges->spare, *above = edges->spare + edges->pitch;
+    if (!rise[0]) {
+        own->limiter.law->slope(own->limiter.self, n, row->lean[0], row->lean[1], own->slope);
+        edges_slope(n, p, own->slope, upper + n, upper);
+        return;
+    }
+    edges_less(n, row->lean[0], rise[1] - step, rise[0], below);
+    edges_less(n, row->lean[1], rise[1], rise[0] + step, above);
+    own->limiter.law->slope(own->limiter.self, n, below, above, own->slope);
+    edges_hold(n, p, own->slope, rise[0], rise[1], upper + n, upper);
+}
+
 /* First-order states at the faces of troubled cells. */
 static void edges_flatten(size_t n, size_t step, const double *w, const double *mask, double *left, double *right)
 {
@@ -363,11 +389,14 @@ void edges_fill(struct edges *edges, const struct model *model, const struct fra
                                   .mask = in->mask ? in->mask + reach : NULL,
                                   .rise = {in->rise[0] ? in->rise[0] + reach : NULL,
                                            in->rise[1] ? in->rise[1] + reach : NULL},
+                                  .lean = {in->lean[0] ? in->lean[0] + reach : NULL,
+                                           in->lean[1] ? in->lean[1] + reach : NULL},
                                   .state = state};
     if (model->reconstruction->all) edges_together(edges, model, &row);
     else edges_each(edges, model, &row);
     if (!model->reconstruction->bounded) edges_bound(edges, model, &row);
-    if (row.rise[0]) edges_press(edges, model, &row);
+    if (row.lean[0]) edges_lean(edges, model, &row);
+    else if (row.rise[0]) edges_press(edges, model, &row);
     edges_settle(edges, model, &row);
     edges_normalise(edges, model, &row);
 }

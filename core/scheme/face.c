@@ -10,6 +10,7 @@
 #include "scheme/edges.h"
 #include "scheme/face_stress.h"
 #include "scheme/low_mach.h"
+#include "scheme/tilt.h"
 
 #include <math.h>
 #include <string.h>
@@ -102,6 +103,7 @@ struct face_work *face_new(const struct model *model)
     work->carried = face_row(2 * model->n_alpha);
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
     for (int side = 0; side < 2 && model->forced; side++) work->rise[side] = face_row(1);
+    for (int side = 0; side < 2 && model->n_normal; side++) work->lean[side] = face_row(1);
     if (model->n_pair) {
         work->lag = face_row(n + 1);
         work->tension = work->lag + n * FACE_ROOM;
@@ -143,6 +145,8 @@ void face_free(struct face_work *work)
                       work->solid,
                       work->lag,
                       own->lagged,
+                      work->lean[0],
+                      work->lean[1],
                       work->rise[0],
                       work->rise[1]};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) mem_free(rows[i]);
@@ -445,8 +449,10 @@ void face_solve(struct face_work *work, const struct frame *frame, bool masked)
     const struct model *model = work->model;
     struct face_own *own = work->own;
     size_t cells = frame_edged(frame);
-    const struct edges_cells in = {work->frame, masked ? work->mask : NULL, {work->rise[0], work->rise[1]}};
+    struct edges_cells in = {work->frame, masked ? work->mask : NULL, {work->rise[0], work->rise[1]}, {NULL, NULL}};
+    if (model->n_normal) in.lean[0] = work->lean[0], in.lean[1] = work->lean[1];
     edges_fill(own->edges, model, frame, &in, own->state);
+    if (model->n_normal) tilt_aim(model, frame, work->frame, own->state);
     face_complete(work, frame, 2 * cells, masked);
     face_point(work, frame, cells);
     model->riemann->solve(model->riemann_self, &work->faces);

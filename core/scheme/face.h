@@ -30,6 +30,9 @@ struct face_work {
         *slide_right; /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */
     double *rise[2]; /* of p from the middle of each cell of the frame to its lower and its upper face, with the sign of
                         going up, where it holds the forces [Pa]; NULL where the scene has none (model->forced) */
+    double
+        *lean[2]; /* of each cell of the frame: what its neighbours' normals make of the differences of the traction to
+                        the cells before and behind [Pa]; NULL where normals are axes */
     bool open[3][2]; /* [axis][side] does the tile of the frames end there, at a boundary that waves cross? */
     double *lag; /* [n_material] p_l - p at the face between each cell of the frame and the next, at the place of the
                         cell before, by surface tension (tension.h) [Pa]; NULL where the scene has none */

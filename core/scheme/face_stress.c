@@ -5,6 +5,7 @@
 #include "phys/elastic.h"
 #include "phys/row.h"
 #include "phys/traction.h"
+#include "scheme/tilt.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,7 +15,7 @@ struct face_stress *face_stress_new(const struct model *model)
     if (!model->n_stretch) return NULL;
     struct face_stress *stress = mem_new(1, sizeof *stress);
     double **rows[] = {&stress->energy, &stress->normal, &stress->shear[0], &stress->shear[1],
-                       &stress->stiff,  &stress->rigid,  &stress->traction};
+                       &stress->stiff,  &stress->rigid,  &stress->traction, &stress->mean};
     double *block = mem_new(sizeof rows / sizeof *rows * 2 * FACE_ROOM, sizeof *block);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) *rows[i] = block + i * 2 * FACE_ROOM;
     if (model->split) stress->own = mem_new((size_t)model->n_material * 2 * FACE_ROOM, sizeof *block);
@@ -36,6 +37,10 @@ static bool face_stress_wanted(const struct model *path)
 static void face_stress_frame(const struct term_piece *piece)
 {
     double mean[FACE_ROOM], *w = piece->faces->frame;
+    if (piece->model->n_normal) {
+        tilt_frame(piece);
+        return;
+    }
     traction_mean(piece->model, piece->frame->count, FACE_ROOM, w, mean);
     row_take(piece->frame->count, mean, w + piece->model->i_E * FACE_ROOM);
 }
@@ -49,6 +54,10 @@ static BULLA_KERNEL void face_stress_press(size_t n, const double *restrict trac
 void face_stress_split(struct face_stress *stress, const struct model *model, size_t n, const double *state)
 {
     traction_own(model, n, 2 * FACE_ROOM, state, 2 * FACE_ROOM, stress->own);
+    memset(stress->mean, 0, n * sizeof *stress->mean);
+    for (unsigned l = 0; l < model->n_material && model->n_normal; l++)
+        row_add_product(n, state + 2 * (model->i_alpha + l) * FACE_ROOM, stress->own + (size_t)l * 2 * FACE_ROOM,
+                        stress->mean);
     for (unsigned l = 0; l < model->n_material; l++)
         face_stress_press(n, state + 2 * model->i_E * FACE_ROOM, stress->own + (size_t)l * 2 * FACE_ROOM);
 }
@@ -82,6 +91,8 @@ void face_stress_complete(struct face_stress *stress, const struct model *model,
                     edges->rho_c2);
     if (model->split)
         memcpy(stress->traction, edges->state + 2 * model->i_E * FACE_ROOM, edges->n * sizeof *edges->rho);
+    const struct tilt_edges tilt = {edges->state, stress->mean, stress->normal, stress->traction, stress->shear};
+    if (model->n_normal) tilt_share(model, edges->frame, &tilt);
 }
 
 void face_stress_point(struct face_stress *stress, const struct model *model, size_t right, struct bulla_faces *faces)
@@ -146,5 +157,7 @@ const struct term face_stress_term = {
     .owner = "core/scheme/face_stress.c",
     .equation = "p_l = p + s'_l,nn - S: -s_nn is common to the materials of a cell, and is reconstructed",
     .wanted = face_stress_wanted,
+    .open = tilt_open,
+    .close = mem_free,
     .frame = face_stress_frame,
 };

@@ -13,6 +13,7 @@
 struct face_stress {
     double *energy, *normal, *shear[2], *stiff, *rigid; /* of elastic_sides; `rigid` becomes c_s */
     double *traction;                                   /* -s_nn = p - s'_nn */
+    double *mean;                                       /* sum alpha_l s'_l,nn, of models with normals (tilt.h) */
     double *own;                                        /* [n_material] pressures of the materials (split models) */
     const double *sides[2][2];                          /* [side][tangent] shear tractions, for the solver */
     double *slide_left[2], *slide_right[2], *robust_left[2], *robust_right[2];

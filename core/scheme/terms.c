@@ -13,6 +13,7 @@
 #include "scheme/fraction.h"
 #include "scheme/hardening.h"
 #include "scheme/hoop.h"
+#include "scheme/normal.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
 #include "scheme/tension.h"
@@ -28,7 +29,7 @@ const struct term *const terms_all[] = {
     &hardening_term,    /* plastic strains travel with their solids */
     &hoop_term,         /* what stands against p / r and the hoop stress in curved geometry */
     &conduction_term,   /* heat from cell to cell and from material to material */
-    &face_stress_term,  /* one traction for the materials of a cell, in one dimension */
+    &face_stress_term,  /* one traction for the materials of a cell */
     &source_term,       /* forces, heat, mass, Lua */
     &drag_term,         /* resistance of porous media */
     &viscous_term,      /* stress and heat of what is viscous */
@@ -38,6 +39,7 @@ const struct term *const terms_all[] = {
     &closure_term,      /* K div u, and what was exchanged */
     &fraction_sum,      /* fractions sum to 1 */
     &tension_term,      /* surface tension: its force, and what a surface that moves has stored */
+    &normal_term,       /* how the surfaces of solids lie */
     &strain_term,       /* the stretch of solids */
     &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */
     NULL,

@@ -56,10 +56,7 @@ static struct blame_shape blame_shape_swept(const struct model *model, const str
     int frame = (int)block - BLAME_FRAME_X, mask = (int)block - BLAME_MASK_X;
     if (!blame_moves(facts)) return (struct blame_shape){name, 0, 0};
     if (block == BLAME_AROUND)
-        return (struct blame_shape){name,
-                                    blame_used(model, facts)->viscous || blame_used(model, facts)->calm
-                                        ? model->n_around
-                                        : 0,
+        return (struct blame_shape){name, model_looks_around(blame_used(model, facts)) ? model->n_around : 0,
                                     blame_around_cells(model, facts)};
     if (block == BLAME_FACES) return (struct blame_shape){name, 2 * dim, blame_columns(model, facts, columns)};
     if (mask < 0)

@@ -19,6 +19,7 @@
 #include "solve/sync.h"
 #include "solve/tag.h"
 #include "solve/verdict.h"
+#include "solve/normals.h"
 
 #include <string.h>
 #include <time.h>
@@ -347,6 +348,7 @@ int regrid_initial(struct state *state)
         curve_take(state->work->curve, l, state->mesh->levels[l].u_old);
         status = comm_agree(verdict_start(state->stages[l]));
     }
+    if (!status) status = normals_begin(state);
     return status ? status : regrid_settle(state);
 }
 

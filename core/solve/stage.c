@@ -158,7 +158,7 @@ static void stage_carry(struct stage *stage, unsigned local, const double *from,
     stage->carried += (long long)stage->mesh->n_cell;
 }
 
-/* Copies the components that a narrowed path leaves alone. Its fractions and stretch are the same constants in all
+/* Copies the components that a narrowed path leaves alone; it has no normals. Its fractions and stretch are the same constants in all
  * three arrays, so that after a stage more than a step has they need no copying; densities are not. */
 static void stage_keep(struct stage *stage, unsigned local, const double *from, double *to)
 {
@@ -173,7 +173,9 @@ static void stage_keep(struct stage *stage, unsigned local, const double *from, 
         bool density = q >= model->i_m && q < model->i_u;
         bool evolved = active < path->n_active && path->active[active] == q;
         active += evolved;
-        if (!evolved && (density || tile->streak < settled))
+        bool normal = q - model->i_normal < model->n_normal; /* wraps below i_normal */
+        if (normal && tile->streak < settled) memset(to + q * n_cell, 0, n_cell * sizeof *to);
+        else if (!evolved && (density || tile->streak < settled))
             memcpy(to + q * n_cell, from + q * n_cell, n_cell * sizeof *to);
     }
     if (tile->streak < settled) tile->streak++;
@@ -223,7 +225,7 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
     struct stage_sweep sweep = {stage, terms, local, row->weight > 0.0 && reflux_concerns(stage->reflux, local)};
     const struct rate_watch watch = {&sweep, stage_gather, stage_seen, stage_swept};
     if (stage->mesh->beta) metric_of_tile(stage->mesh, level, tile.tile, &metric);
-    tile.around = path->viscous || path->calm ? around_gather(work->around, stage->l, stage->bound, local) : NULL;
+    tile.around = model_looks_around(path) ? around_gather(work->around, stage->l, stage->bound, local) : NULL;
     stage->bound->model = path;
     rate_take(&tile, work->own, &watch, stage->guard->masked);
     if (sweep.concerned) reflux_keep(stage->reflux, path, local, tile.w, path->kapila ? tile.K : NULL);

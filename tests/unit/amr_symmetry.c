@@ -53,6 +53,10 @@ static unsigned origin(const struct model *model, const double sign[3], const in
         *ret_turned = sign[q - model->i_u];
         return model->i_u + (unsigned)axis[q - model->i_u];
     }
+    if (q - model->i_normal < model->n_normal) { /* wraps below i_normal */
+        *ret_turned = sign[q - model->i_normal];
+        return model->i_normal + (unsigned)axis[q - model->i_normal];
+    }
     for (unsigned i = 0; q >= model->i_V && i < 3; i++)
         for (unsigned j = i; j < 3; j++) {
             if (elastic_component(i, j) != q - model->i_V) continue;
@@ -117,16 +121,18 @@ static void test_three(void **state)
               "fractions: {air: 0.6, helium: 0.4}, density: {air: 100, helium: 20}, pressure: 5e7");
 }
 
-/* The gas in a solid, which is sheared on all sides. */
+/* The gas in a solid, which is sheared on all sides, with one pressure and with one traction. */
 static void test_gas_in_solid(void **state)
 {
     (void)state;
     static const char *const solid = "  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}, constitutive: "
                                      "{type: neo-hookean, shear-modulus: 200 MPa, reference-density: 1000}}\n";
-    char *materials = mem_print(FLOW_AIR "%s", solid);
-    for (size_t i = 0; i < sizeof SETUPS / sizeof *SETUPS; i++)
-        check(&SETUPS[i], materials, "material: air, density: 100, pressure: 5e7");
-    mem_free(materials);
+    for (int common = 0; common < 2; common++) {
+        char *materials = mem_print(FLOW_AIR "%sscheme: {traction: %s}\n", solid, common ? "common" : "pressure");
+        for (size_t i = 0; i < sizeof SETUPS / sizeof *SETUPS; i++)
+            check(&SETUPS[i], materials, "material: air, density: 100, pressure: 5e7");
+        mem_free(materials);
+    }
 }
 
 int main(void)

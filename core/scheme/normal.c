@@ -1,0 +1,98 @@
+/* normal.c - see normal.h. */
+#include "scheme/normal.h"
+
+#include "base/mem.h"
+#include "phys/row.h"
+#include "scheme/patch.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Steps of fractions that small count less. */
+#define NORMAL_TRACE 1e-3
+
+enum { NORMAL_ROW = 256 }; /* at least the cells of a tile along x, and its ghosts */
+
+static bool normal_wanted(const struct model *path)
+{
+    return path->n_normal > 0;
+}
+
+/* Fraction of the solids of a row of cells: of the first material there is what the others leave. */
+static void normal_colour(const struct model *model, size_t n, size_t pitch, const double *around, double *colour)
+{
+    bool first = false;
+    unsigned char solid[SCENE_MATERIALS] = {0};
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        solid[model->solids[s].material] = 1;
+        first = first || model->solids[s].material == 0;
+    }
+    for (size_t i = 0; i < n; i++) colour[i] = first ? 1.0 : 0.0;
+    for (unsigned l = 1; l < model->n_alpha; l++) {
+        const double *alpha = around + (l - 1) * pitch;
+        if (first && !solid[l]) row_take(n, alpha, colour);
+        if (!first && solid[l]) row_add(n, alpha, colour);
+    }
+}
+
+/* Difference along one axis, over the neighbours across the two others; a step of 0 is an axis that is not there. */
+static double normal_difference(const double *c, ptrdiff_t along, ptrdiff_t one, ptrdiff_t two)
+{
+    const double *b = c - along, *a = c + along;
+    double middle = a[0] - b[0];
+    if (!one) return middle;
+    double sides = (a[one] - b[one]) + (a[-one] - b[-one]);
+    if (!two) return 0.25 * (sides + 2.0 * middle);
+    double others = (a[two] - b[two]) + (a[-two] - b[-two]);
+    double corners = ((a[one + two] - b[one + two]) + (a[-one - two] - b[-one - two])) +
+                     ((a[one - two] - b[one - two]) + (a[two - one] - b[two - one]));
+    return 0.0625 * (corners + 2.0 * (sides + others) + 4.0 * middle);
+}
+
+static void normal_cell(int dim, const double *c, const ptrdiff_t stride[3], const double *h, double ret[3])
+{
+    double d[3], square = 0.0, size = 0.0;
+    bool even = true;
+    for (int a = 0; a < dim; a++) even = even && c[stride[a]] == c[0] && c[-stride[a]] == c[0];
+    for (int a = 0; a < dim; a++) {
+        d[a] = even ? 0.0 : normal_difference(c, stride[a], stride[(a + 1) % dim], dim > 2 ? stride[(a + 2) % dim] : 0);
+        size += d[a] * d[a];
+        ret[a] = d[a] * (h[0] / h[a]);
+        square += ret[a] * ret[a];
+    }
+    size = sqrt(size) / NORMAL_TRACE;
+    double scale = square > 0.0 ? (size < 1.0 ? size : 1.0) / sqrt(square) : 0.0;
+    for (int a = 0; a < dim; a++) ret[a] *= scale;
+}
+
+void normal_make(const struct model *model, const struct mesh *mesh, const double *h, const double *around,
+                 double *ret_normal)
+{
+    const struct box_block block = patch_block(mesh, 1, NULL);
+    ptrdiff_t stride[3] = {1, (ptrdiff_t)block.size[0], (ptrdiff_t)(block.size[0] * block.size[1])};
+    double *colour = mem_new(block.pitch, sizeof *colour);
+    normal_colour(model, block.pitch, block.pitch, around, colour);
+    size_t at = 0;
+    for (int k = 0; k < mesh->n[2]; k++)
+        for (int j = 0; j < mesh->n[1]; j++)
+            for (int i = 0; i < mesh->n[0]; i++, at++) {
+                double n[3];
+                normal_cell(mesh->dim, colour + box_at(&block, i, j, k), stride, h, n);
+                for (int a = 0; a < mesh->dim; a++) ret_normal[(size_t)a * mesh->n_cell + at] = n[a];
+            }
+    mem_free(colour);
+}
+
+static size_t normal_apply(const struct term_tile *tile, double *u_new)
+{
+    normal_make(tile->model, tile->mesh, tile->level->h, tile->around, u_new + tile->model->i_normal * tile->n_cell);
+    return 0;
+}
+
+const struct term normal_term = {
+    .name = "normal",
+    .owner = "core/scheme/normal.c",
+    .equation = "n = grad alpha_s/|grad alpha_s|: on it the materials of a cell have one traction",
+    .wanted = normal_wanted,
+    .apply = normal_apply,
+};

@@ -1,0 +1,38 @@
+/* tilt.h - faces of models whose materials share the traction on a surface that lies as it likes (scheme/normal.h).
+ *
+ * In one dimension the traction on faces is the common one, P = p - sum alpha_l s'_l,nn, and takes the place of p
+ * (face_stress.h). With a normal n in each cell,
+ * - P is that of the cell's own normal, and the limiter sees its neighbours with the same one: the differences to them are
+ *   made of p and the whole stress (`lean` of face.h), the same in all tiles that see a cell;
+ * - the normal of a cell holds at its edges;
+ * - a face of normal f has -s_ff = P - A (s'_ff - s'_nn) and the shear A s'_ft, with s' per volume of solid and one A for both
+ *   sides, the part of the face that solids cover: the mean of their fractions at the two edges, less where one is below
+ *   1/16 of the other. Beside cells without solid nothing bears it.
+ * After docs/decisions/oblique-surfaces.md. */
+#ifndef TILT_H
+#define TILT_H
+
+#include "scheme/term.h"
+
+/* Work space of a scene, of mem_new; NULL: it has no normals. */
+void *tilt_open(const struct term_room *room);
+
+/* P in place of p in the gathered cells, and the differences. */
+void tilt_frame(const struct term_piece *piece);
+
+/* Normals at the edges. `cells`: primitives of the frame; state: as of edges_fill. */
+void tilt_aim(const struct model *model, const struct frame *frame, const double *cells, double *state);
+
+/* Rows of the edges of a frame, upper ones first. */
+struct tilt_edges {
+    const double *state;  /* primitives, component q at 2 q FACE_ROOM */
+    const double *mean;   /* sum alpha_l s'_l,nn */
+    const double *stress; /* s'_ff of the cell */
+    double *traction;     /* in: P; out: -s_ff */
+    double *const *shear; /* [n_velocity - 1] s'_ft: in: of the cell; out: of the face */
+};
+
+/* Puts what the face bears in place of what the edges' own fractions say; where no normal is there they stay. */
+void tilt_share(const struct model *model, const struct frame *frame, const struct tilt_edges *edges);
+
+#endif
