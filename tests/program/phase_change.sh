@@ -64,3 +64,30 @@ sed -e 's/gases: \[air\]/gases: [air], calibrate: {temperature: 373.124 K, press
 "$BULLA" check set.yaml >out.txt 2>err.txt || fail "calibrate" err.txt
 grep -q "boils at 373.12 K at 1 atm" out.txt || fail "no boiling point" out.txt
 grep -q "latent heat 2.2[56]" out.txt || fail "no latent heat" out.txt
+
+# Fields of the pair: the curve of the references at 360 K, and at that pressure; a tenth of the mass is steam in every cell.
+cat >fields.yaml <<'CASE'
+bulla: 1
+title: Liquid and vapour as fields
+domain: {lower: [0], upper: [1 mm], cells: [8], boundaries: {x-: reflecting, x+: reflecting}}
+materials: {water: {eos: {type: nasg, preset: water-2016}}, steam: {eos: {type: ideal-gas, preset: water-2016}}}
+phase-change: [{liquid: water, vapour: steam, rate: {type: relaxation, time: 1 s}}]
+initial:
+  - {everywhere: true, fractions: {water: 0.5, steam: 0.5}, temperature: 370, pressure: 63611.973390880049}
+  - {half-space: {point: [0.5 mm], normal: [1]}, fractions: {water: 0.5, steam: 0.5}, temperature: 360, pressure: 63611.973390880049}
+run: {until: 1 ns, max-steps: 1}
+output:
+  directory: out
+  history:
+    columns: {p: {min: saturation_pressure_steam}, T: {min: saturation_temperature_steam}, s: {max: superheat_steam}, z: {min: superheat_steam}, m: {mass: steam}, w: {mass: water}, q: {max: quality_steam}}
+expect:
+  - {value: "first(p)", equals: 63611.973390880049, relative: 1e-9}
+  - {value: "first(T)", equals: 360, relative: 1e-9}
+  - {value: "first(s)", equals: 10, relative: 1e-6}
+  - {value: "first(z)", equals: 0, tolerance: 1e-6}
+  - {value: "first(q)", equals: 3.9879e-4, relative: 2e-2}
+CASE
+"$BULLA" run fields.yaml --quiet
+code=0
+"$BULLA" check fields.yaml --set 'output.history.columns={x: {max: quality_water}}' >said 2>&1 || code=$?
+[ "$code" = 2 ] && grep -q "no field .quality_water" said || fail "quality of a liquid is no field" said
