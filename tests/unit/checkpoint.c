@@ -252,8 +252,9 @@ static void other_cases_are_refused(void **state)
         {"domain.geometry=cartesian", "domain.geometry is 'axisymmetric' there and 'cartesian' here"},
         {"domain.upper=[2 mm, 1 mm]", "domain.upper is '0.001 0.001' there and '0.002 0.001' here"},
         {"mesh.tile=8", "mesh.tile is '16' there and '8' here"},
-        {"materials.air.eos.gamma=1.5", "materials.air.eos is 'ideal-gas gamma=1.4 cv=717.5' there and 'ideal-gas "
-                                        "gamma=1.5 cv=717.5' here"},
+        {"materials.air.eos.gamma=1.5", "materials.air.eos is 'ideal-gas gamma=1.4 cv=717.5 heat-bond=0 "
+                                        "entropy-zero=0' there and 'ideal-gas gamma=1.5 "
+                                        "cv=717.5 heat-bond=0 entropy-zero=0' here"},
         {"run.until=5 us", NULL},
         {"scheme.cfl=0.1", NULL},
         {"output.history.every=3 steps", NULL},

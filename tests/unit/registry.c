@@ -123,7 +123,7 @@ static void test_params(void **state)
 {
     (void)state;
     const struct bulla_module *module = registry_find("eos", "mnasg")->module;
-    assert_int_equal(instance_param_count(module), 5);
+    assert_int_equal(instance_param_count(module), 6);
     assert_int_equal(instance_param_find(module, "covolume"), 2);
     assert_int_equal(instance_param_find(module, "co-volume"), -1);
     assert_int_equal(instance_param_count(registry_find("limiter", "mc")->module), 0);
