@@ -20,7 +20,7 @@ initial:
     density: 1.2
     pressure: 1 bar
 run: {until: 1 us, max-steps: 4}
-output: {directory: out, history: {columns: {A: {volume: a}, B: {volume: b}}}, snapshots: {every: 1 us, fields: [density]}}
+output: {directory: out, history: {columns: {A: {volume: a}, B: {volume: b}, low: {volume: b, where: {half-space: {point: [0, 0], normal: [0, -1]}}}}}, snapshots: {every: 1 us, fields: [density]}}
 CASE
 cat >space.yaml <<'CASE'
 bulla: 1
@@ -48,6 +48,8 @@ ranked space 1 2
 # pi 8 4 mm2; pi 25 less the half strip, sqrt(24) + 25 asin(1/5): between values 0.6 mm apart a circle of 5 mm loses 0.3 %.
 near plane-1/out/history.csv A 1.00531e-4 2e-3
 near plane-1/out/history.csv B 6.86069e-5 4e-3
+# Below the middle lies all of the strip but a triangle, sqrt(3)/2: it turned counterclockwise.
+near plane-1/out/history.csv low 3.0203e-5 1e-2
 near space-1/out/history.csv A 1.6666667e-7 1e-6
 near space-1/out/history.csv B 2.8953e-7 2e-2
 # Turned, a surface is as exact as it was; a cross-section is as exact as its image.
