@@ -32,3 +32,34 @@ resumed gel 10 gel-1
 grep -q '^  normal .*core/scheme/normal.c' plan || fail 'the plan has no normals' plan
 "$BULLA" plan gel.yaml --set scheme.traction=auto >plain
 ! grep -q normal.c plain || fail 'normals that nobody asked for' plain
+
+# Stripes of stretched gel and gas under 45 degrees rest to round-off, with normals and shear in every cell of a surface; under
+# 63 degrees as well as they do.
+cat >stripes.yaml <<'END_STRIPES'
+bulla: 1
+title: Stripes at rest
+domain: {lower: [0, 0], upper: [1, 1], cells: [24, 24], boundaries: {x-: periodic, x+: periodic, y-: periodic, y+: periodic}}
+materials:
+  gel: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 616576970.0}, constitutive: {type: neo-hookean, shear-modulus: 2 MPa, reference-density: 1060}}
+  gas: {eos: {type: ideal-gas, gamma: 1.4}}
+initial:
+  - {everywhere: true, material: gas, density: 10, pressure: 10 MPa, velocity: [0, 0]}
+  - union:
+      - {intersection: [{half-space: {normal: [1, 1], point: [0.253, 0]}}, {half-space: {normal: [-1, -1], point: [0.753, 0]}}]}
+      - {intersection: [{half-space: {normal: [1, 1], point: [1.253, 0]}}, {half-space: {normal: [-1, -1], point: [1.753, 0]}}]}
+    material: gel
+    density: 1060
+    pressure: 12111111.111111112
+    velocity: [0, 0]
+    stretch: {xx: 1.158248290463863, yy: 1.158248290463863, zz: 0.816496580927726, xy: 0.341751709536137}
+scheme: {traction: common}
+run: {until: 1 s, max-steps: 40}
+output:
+  directory: out
+  history: {columns: {u: {max: "= math.sqrt(velocity_x^2 + velocity_y^2)"}}}
+expect:
+  - {value: "max(u)", at-most: 1e-8}
+END_STRIPES
+"$BULLA" run stripes.yaml --quiet
+"$BULLA" run "$BULLA_SOURCE/cases/verify/rest-gel.yaml" --variant quick -o rest-gel --quiet
+"$BULLA" run "$BULLA_SOURCE/cases/verify/rest-stiff.yaml" --variant quick -o rest-stiff --quiet
