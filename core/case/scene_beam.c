@@ -49,16 +49,6 @@ const struct keys_section scene_beam_focus_keys = {.name = "focus",
                                                    .doc = "A wave from a curved transducer to its focus.",
                                                    .keys = scene_beam_focus_rows};
 
-static bool scene_beam_unit(struct draft *draft, const struct keys_value *value, double ret[3])
-{
-    if (!scene_domain_vector(draft, value, ret)) return false;
-    double length = sqrt(ret[0] * ret[0] + ret[1] * ret[1] + ret[2] * ret[2]);
-    for (int d = 0; d < 3; d++) ret[d] /= length;
-    if (length > 0.0 && isfinite(length)) return true;
-    keys_error(&draft->keys, value, "a direction is needed, not [0, ...]");
-    return false;
-}
-
 /* The corner of the domain that a plane wave meets first. */
 static void scene_beam_corner(const struct scene *scene, struct scene_beam *beam)
 {
@@ -69,7 +59,7 @@ static void scene_beam_corner(const struct scene *scene, struct scene_beam *beam
 static void scene_beam_read_plane(struct draft *draft, struct scene_beam *beam, const struct keys_map *map)
 {
     const struct keys_value *from = keys_at(map, "from");
-    if (!scene_beam_unit(draft, keys_at(map, "along"), beam->way)) return;
+    if (!scene_domain_direction(draft, keys_at(map, "along"), beam->way)) return;
     scene_beam_corner(draft->scene, beam);
     if (from->node && !scene_domain_vector(draft, from, beam->point)) return;
     beam->path = SCENE_BEAM_PLANE;
@@ -81,7 +71,7 @@ static void scene_beam_read_focus(struct draft *draft, struct scene_beam *beam, 
     const struct keys_value *along = keys_at(map, "along");
     beam->way[axis] = side ? -1.0 : 1.0;
     if (!scene_domain_vector(draft, keys_at(map, "at"), beam->point) || !keys_at(map, "radius")->given) return;
-    if (along->node && !scene_beam_unit(draft, along, beam->way)) return;
+    if (along->node && !scene_domain_direction(draft, along, beam->way)) return;
     beam->radius = keys_at(map, "radius")->number;
     beam->cosine = cos(keys_at(map, "aperture")->number);
     beam->power = draft->scene->domain.dim == 2 && draft->scene->domain.geometry == SCENE_CARTESIAN ? 0.5 : 1.0;

@@ -209,12 +209,7 @@ static bool scene_body_axis(struct draft *draft, const struct keys_value *value,
         keys_error(&draft->keys, value, "in the plane shapes turn about its normal alone");
         return false;
     }
-    if (!scene_domain_vector(draft, value, ret)) return false;
-    double length = sqrt(ret[0] * ret[0] + ret[1] * ret[1] + ret[2] * ret[2]);
-    for (int d = 0; d < 3; d++) ret[d] /= length;
-    if (length > 0.0 && isfinite(length)) return true;
-    keys_error(&draft->keys, value, "a direction is needed, not [0, ...]");
-    return false;
+    return scene_domain_direction(draft, value, ret);
 }
 
 /* A box in the plane is a polygon, and a turned polygon is one: its volume stays exact. */

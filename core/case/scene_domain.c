@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 
+#include <math.h>
 #include <string.h>
 
 static const struct key scene_domain_boundaries[] = {
@@ -112,6 +113,16 @@ bool scene_domain_vector(struct draft *draft, const struct keys_value *value, do
     }
     for (int axis = 0; axis < dim; axis++) ret[axis] = value->list[axis].number;
     return true;
+}
+
+bool scene_domain_direction(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES])
+{
+    if (!scene_domain_vector(draft, value, ret)) return false;
+    double length = sqrt(ret[0] * ret[0] + ret[1] * ret[1] + ret[2] * ret[2]);
+    for (int axis = 0; axis < SCENE_AXES; axis++) ret[axis] /= length;
+    if (length > 0.0 && isfinite(length)) return true;
+    keys_error(&draft->keys, value, "a direction is needed, not [0, ...]");
+    return false;
 }
 
 /* The dimension is the length of `lower`, if that is a list of one to three. */

@@ -68,6 +68,9 @@ void scene_coarse(struct draft *draft);
 /* A list of `dim` numbers into ret[3] (rest 0); false after a recorded error. */
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES]);
 
+/* The same, of length 1; a vector without a length is an error. */
+bool scene_domain_direction(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES]);
+
 /* Index of a material, or -1 after a recorded error with a suggestion. */
 int scene_material_index(struct draft *draft, const struct keys_value *value);
 

@@ -148,15 +148,8 @@ static bool scene_shape_corners(struct draft *draft, struct shape *shape, const 
 static bool scene_shape_plane(struct draft *draft, struct shape *shape, const struct keys_value *value)
 {
     const struct keys_map *map = value->map;
-    const struct keys_value *normal = keys_at(map, "normal");
     bool good = scene_domain_vector(draft, keys_at(map, "point"), shape->a);
-    good &= scene_domain_vector(draft, normal, shape->b);
-    if (!good) return false;
-    double length = sqrt(shape->b[0] * shape->b[0] + shape->b[1] * shape->b[1] + shape->b[2] * shape->b[2]);
-    for (int axis = 0; axis < SCENE_AXES; axis++) shape->b[axis] /= length;
-    if (length > 0.0 && isfinite(length)) return true;
-    keys_error(&draft->keys, normal, "a direction is needed, not [0, ...]");
-    return false;
+    return scene_domain_direction(draft, keys_at(map, "normal"), shape->b) && good;
 }
 
 static bool scene_shape_ball(struct draft *draft, struct shape *shape, const struct keys_value *value)
