@@ -134,9 +134,7 @@ bool scene_body_surface(struct draft *draft, struct shape *shape, const struct k
         return false;
     }
     shape->surface = mem_new(1, sizeof *shape->surface);
-    if (surface_read(scene_file(draft, file), shape->surface))
-        return scene_body_refuse(draft, file,
-                                 "a region needs a closed surface; meshlab or admesh mend and check STL files");
+    if (surface_read(scene_file(draft, file), shape->surface)) return scene_body_refuse(draft, file, NULL);
     surface_bounds(shape->surface, lower, upper);
     for (int d = 0; d < 3 && centre->node; d++) offset[d] = at[d] - scale->number * 0.5 * (lower[d] + upper[d]);
     surface_place(shape->surface, SCENE_BODY_STILL, scale->number, offset);

@@ -49,7 +49,8 @@ int surface_check(const struct surface *surface)
         const double *a = surface->vertex[edges[where].ends[0]], *b = surface->vertex[edges[where].ends[1]];
         code = status_fail(STATUS_CASE,
                            "the surface is not closed: %zu of its edges belong to one triangle alone, at %zu two "
-                           "neighbours are wound against each other; one runs from (%g, %g, %g) to (%g, %g, %g)",
+                           "neighbours are wound against each other; one runs from (%g, %g, %g) to (%g, %g, %g); "
+                           "meshlab and admesh mend such files",
                            holes, twisted, a[0], a[1], a[2], b[0], b[1], b[2]);
     }
     mem_free(edges);
