@@ -33,6 +33,7 @@ struct term_tile {
     size_t n_cell;
     double t;        /* of the primitives [s] */
     double dt;       /* from u to the new state [s] */
+    double begun;    /* time of u [s] */
     const double *u; /* conserved fields that the step starts from */
     const double *w; /* primitives at which the rates are taken */
     double *rates;

@@ -1,0 +1,58 @@
+/* cut_wall.c - see cut_wall.h. */
+#include "scheme/cut_wall.h"
+
+#include "phys/mix.h"
+#include "phys/row.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CUT_WALL_STEEP 0.6
+
+static BULLA_KERNEL void cut_wall_solve(size_t n, const double *restrict p, const double *restrict rho,
+                                        const double *restrict c2, const double *restrict u, double *restrict ret)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double towards = u[i], steep = CUT_WALL_STEEP * towards, here = p[i], r = rho[i], s = c2[i];
+        ret[i] = here + r * towards * (steep + sqrt(steep * steep + s));
+    }
+}
+
+/* Velocity towards the wall: along the unit vector of its area. */
+static void cut_wall_towards(const struct cut_wall *wall, double *u)
+{
+    const struct rigid_cells *cells = wall->cells;
+    for (size_t i = 0; i < wall->n; i++) {
+        size_t at = wall->at[i];
+        double along = 0.0, square = 0.0;
+        for (int d = 0; d < wall->model->dim; d++) {
+            double W = cells->wall[d][at], speed = cells->speed[d] ? cells->speed[d][at] : 0.0;
+            along += W * (wall->w[(wall->model->i_u + (unsigned)d) * wall->stride + i] - speed);
+            square += W * W;
+        }
+        u[i] = square > 0.0 ? along / sqrt(square) : 0.0;
+    }
+}
+
+static void cut_wall_density(const struct cut_wall *wall, double *rho)
+{
+    const struct model *model = wall->model;
+    memset(rho, 0, wall->n * sizeof *rho);
+    for (unsigned l = 0; l < model->n_material; l++) {
+        const double *rho_l = wall->w + (model->i_m + l) * wall->stride;
+        if (model->n_alpha) row_add_product(wall->n, wall->w + (model->i_alpha + l) * wall->stride, rho_l, rho);
+        else row_add(wall->n, rho_l, rho);
+    }
+}
+
+void cut_wall_pressure(const struct cut_wall *wall, double *ret_p)
+{
+    const struct model *model = wall->model;
+    double *rho = wall->scratch, *c2 = rho + wall->stride, *u = c2 + wall->stride, *stiff = u + wall->stride;
+    mix_stiffness(model, wall->n, wall->stride, wall->w, stiff);
+    mix_speed2(model, wall->n, wall->stride, wall->w, stiff, c2);
+    cut_wall_density(wall, rho);
+    cut_wall_towards(wall, u);
+    cut_wall_solve(wall->n, wall->w + model->i_E * wall->stride, rho, c2, u, ret_p);
+}

@@ -1,0 +1,24 @@
+/* cut_wall.h - the pressure of fluids on a rigid wall. */
+#ifndef CUT_WALL_H
+#define CUT_WALL_H
+
+#include "mesh/rigid.h"
+#include "phys/model.h"
+
+/* n cells that a wall closes: primitives of the path, component q at w + q stride; where each lies in the block of `cells`. */
+struct cut_wall {
+    const struct model *model;
+    size_t n, stride;
+    const double *w;
+    const struct rigid_cells *cells;
+    const size_t *at; /* [n] */
+    double *scratch;  /* [n_material + 3] rows of `stride` */
+};
+
+/* Pressure between what is in a cell and its image that the wall makes of it:
+ *     p + rho u (s u + sqrt(s^2 u^2 + c^2)),   s = (gamma + 1)/4 of a gas of two atoms, 0.6,
+ * u the velocity towards the wall, relative to it: exact for shocks in such a gas, and p + rho c u of sound (Toro 2009, 3.1.3
+ * and 6.3.3). With stiffer laws u is small against c. p where there is no wall. */
+void cut_wall_pressure(const struct cut_wall *wall, double *ret_p);
+
+#endif
