@@ -220,13 +220,14 @@ static double rigid_swept(const struct rigid_make *make, int d, const struct rig
     return rigid_left(&make->middle, &box, make->mesh->beta);
 }
 
-/* The part of the lower face of a cell. */
-static double rigid_face(const struct rigid_make *make, int d, size_t i, size_t below, const struct rigid_part_box *cell)
+/* The part of a face between two cells of the block, at `place` along d. */
+static double rigid_face(const struct rigid_make *make, int d, size_t i, size_t below, double place,
+                         const struct rigid_part_box *cell)
 {
     struct rigid_part_box face = *cell;
     double h = make->level->h[d], way[3] = {0.0};
     const double *part = make->part;
-    face.upper[d] = face.lower[d];
+    face.lower[d] = face.upper[d] = place;
     if (part[i] == 0.0 || part[below] == 0.0) return 0.0;
     if (part[i] == 1.0 && part[below] == 1.0) return 1.0;
     if (make->rigid->moves) rigid_way(make, (unsigned)make->body[part[i] < part[below] ? i : below], &face, way);
@@ -238,8 +239,11 @@ static void rigid_open(struct rigid_make *make, const int at[3], size_t i, const
 {
     const struct rigid_cells *cells = &make->entry->cells;
     size_t step = 1;
-    for (int d = 0; d < make->mesh->dim; step *= cells->size[d], d++)
-        if (at[d] > -cells->pad) make->open[d][i] = rigid_face(make, d, i, i - step, cell);
+    for (int d = 0; d < make->mesh->dim; step *= cells->size[d], d++) {
+        bool last = at[d] + 1 < make->mesh->n[d] + cells->pad && rigid_cell(make, d, at[d] + 1) < 0;
+        if (at[d] > -cells->pad) make->open[d][i] = rigid_face(make, d, i, i - step, cell->lower[d], cell);
+        if (last) make->open[d][i + step] = rigid_face(make, d, i, i + step, cell->upper[d], cell);
+    }
 }
 
 /* --- walls --- */

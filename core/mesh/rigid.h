@@ -14,7 +14,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#define RIGID_LEAST 1e-3
+#define RIGID_LEAST 1e-6
 
 /* Around a tile: its cells and `pad` layers on all sides that exist, x fastest. Cells outside of the domain are open. */
 struct rigid_cells {

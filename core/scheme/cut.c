@@ -206,10 +206,14 @@ static size_t cut_row_add(struct cut_rows *rows, const struct model *model, size
     return i;
 }
 
+/* Pressure on the walls, then what slides along them: the velocity towards a wall is taken away. */
 static void cut_rows_press(struct cut_rows *rows, const struct model *model, const struct rigid_cells *cells)
 {
     const struct cut_wall wall = {model, rows->n, rows->stride, rows->w, cells, rows->at, rows->scratch};
-    if (rows->n) cut_wall_pressure(&wall, rows->p);
+    if (!rows->n) return;
+    cut_wall_pressure(&wall, rows->p);
+    cut_wall_slide(&wall, rows->w);
+    mix_conserved(model, rows->n, rows->stride, rows->w, rows->u);
 }
 
 /* --- fluxes --- */
@@ -297,38 +301,32 @@ static void cut_find(const struct term_piece *piece, const struct rigid_cells *c
             for (int i = 0; i <= line.n; i++) cut_face(piece, cells, &line, i);
         }
     cut_rows_press(&cut->rows, piece->model, cells);
-    if (cells->speed[0]) mix_conserved(piece->model, cut->rows.n, cut->rows.stride, cut->rows.w, cut->rows.u);
 }
 
-/* G of one flux in a compact row: what a wall that moves carries along, and its push. */
-static double cut_wall_flux(const struct term_piece *piece, const struct rigid_cells *cells,
-                            const struct term_flux *flux, size_t i)
+/* G of one flux in a compact row: of what slides along the wall. */
+static double cut_wall_flux(const struct term_piece *piece, const struct term_flux *flux, size_t i)
 {
     const struct cut_rows *rows = &((const struct cut *)piece->own)->rows;
     const struct model *model = piece->model;
-    const struct face_work *faces = piece->faces;
-    unsigned axis = (unsigned)piece->frame->axis;
-    double speed = cells->speed[axis] ? cells->speed[axis][rows->at[i]] : 0.0, G = 0.0;
-    if (flux->rate == model->i_u + axis) G = rows->p[i];
-    if (speed == 0.0) return G;
+    unsigned axis = model->i_u + (unsigned)piece->frame->axis;
+    double speed = rows->w[axis * rows->stride + i], G = flux->rate == axis ? rows->p[i] : 0.0;
     if (flux->rate < model->n_field) G += speed * rows->u[flux->rate * rows->stride + i];
     if (flux->rate == model->i_E) G += speed * rows->p[i];
-    if (flux->below == faces->u) return speed;
+    if (flux->below == piece->faces->u) return speed;
     for (unsigned l = 0; l < model->n_alpha; l++)
-        if (flux->below == faces->carried + l * FACE_ROOM)
+        if (flux->below == piece->faces->carried + l * FACE_ROOM)
             G = speed * rows->w[(model->i_alpha + l) * rows->stride + i] * rows->w[model->i_E * rows->stride + i];
     return G;
 }
 
-static void cut_change(const struct term_piece *piece, const struct rigid_cells *cells, const struct term_flux *flux,
-                       double *row)
+static void cut_change(const struct term_piece *piece, const struct term_flux *flux, double *row)
 {
     const struct cut *cut = piece->own;
     for (size_t f = 0; f < cut->n_face; f++) {
         const struct cut_face *face = &cut->faces[f];
         double value = face->keep * row[face->k];
-        if (face->lower > 0.0) value += face->lower * cut_wall_flux(piece, cells, flux, face->below);
-        if (face->upper > 0.0) value += face->upper * cut_wall_flux(piece, cells, flux, face->above);
+        if (face->lower > 0.0) value += face->lower * cut_wall_flux(piece, flux, face->below);
+        if (face->upper > 0.0) value += face->upper * cut_wall_flux(piece, flux, face->above);
         row[face->k] = face->open * value;
     }
 }
@@ -351,8 +349,8 @@ static void cut_faces(const struct term_piece *piece)
     for (unsigned i = 0; i < terms->n_flux[axis]; i++) {
         const struct term_flux *flux = &terms->flux[axis][i];
         double *below = (double *)flux->below, *above = (double *)flux->above;
-        if (!cut_is_done(terms, axis, i, below)) cut_change(piece, cells, flux, below);
-        if (above != below && !cut_is_done(terms, axis, i, above)) cut_change(piece, cells, flux, above);
+        if (!cut_is_done(terms, axis, i, below)) cut_change(piece, flux, below);
+        if (above != below && !cut_is_done(terms, axis, i, above)) cut_change(piece, flux, above);
     }
 }
 
@@ -456,7 +454,6 @@ static void cut_rates(struct term_tile *tile)
     if (!cells) return;
     cut_gather(cut, rows, tile->model, tile->mesh, cells, tile->w);
     cut_rows_press(rows, tile->model, cells);
-    if (cut->fresh) mix_conserved(tile->model, rows->n, rows->stride, rows->w, rows->u);
     for (size_t i = 0; i < rows->n; i++) {
         double part = cells->part[rows->at[i]];
         cut_push(tile, cells, rows, i);

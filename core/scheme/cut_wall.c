@@ -19,19 +19,35 @@ static BULLA_KERNEL void cut_wall_solve(size_t n, const double *restrict p, cons
     }
 }
 
-/* Velocity towards the wall: along the unit vector of its area. */
-static void cut_wall_towards(const struct cut_wall *wall, double *u)
+/* Velocity of row i towards the wall, relative to it, times the length of its area vector; and the square of that. */
+static double cut_wall_along(const struct cut_wall *wall, size_t i, double *ret_square)
 {
     const struct rigid_cells *cells = wall->cells;
+    size_t at = wall->at[i];
+    double along = 0.0;
+    *ret_square = 0.0;
+    for (int d = 0; d < wall->model->dim; d++) {
+        double W = cells->wall[d][at], speed = cells->speed[d] ? cells->speed[d][at] : 0.0;
+        along += W * (wall->w[(wall->model->i_u + (unsigned)d) * wall->stride + i] - speed);
+        *ret_square += W * W;
+    }
+    return along;
+}
+
+static void cut_wall_towards(const struct cut_wall *wall, double *u)
+{
     for (size_t i = 0; i < wall->n; i++) {
-        size_t at = wall->at[i];
-        double along = 0.0, square = 0.0;
-        for (int d = 0; d < wall->model->dim; d++) {
-            double W = cells->wall[d][at], speed = cells->speed[d] ? cells->speed[d][at] : 0.0;
-            along += W * (wall->w[(wall->model->i_u + (unsigned)d) * wall->stride + i] - speed);
-            square += W * W;
-        }
+        double square, along = cut_wall_along(wall, i, &square);
         u[i] = square > 0.0 ? along / sqrt(square) : 0.0;
+    }
+}
+
+void cut_wall_slide(const struct cut_wall *wall, double *w)
+{
+    for (size_t i = 0; i < wall->n; i++) {
+        double square, along = cut_wall_along(wall, i, &square);
+        for (int d = 0; d < wall->model->dim && square > 0.0; d++)
+            w[(wall->model->i_u + (unsigned)d) * wall->stride + i] -= along / square * wall->cells->wall[d][wall->at[i]];
     }
 }
 

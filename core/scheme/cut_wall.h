@@ -21,4 +21,7 @@ struct cut_wall {
  * and 6.3.3). With stiffer laws u is small against c. p where there is no wall. */
 void cut_wall_pressure(const struct cut_wall *wall, double *ret_p);
 
+/* Takes the velocity towards the wall out of the primitives w: what is left goes along it, or with it. */
+void cut_wall_slide(const struct cut_wall *wall, double *w);
+
 #endif
