@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { RIGID_ROWS = 12, RIGID_SLOTS = 64 };
+enum { RIGID_ROWS = 13, RIGID_SLOTS = 64 };
 
 /* A way through a face that is shorter than this, in cells, leaves it as it is in the middle of it. */
 #define RIGID_STILL 1e-3
@@ -43,7 +43,7 @@ struct rigid_make {
     const struct tile *tile;
     struct rigid_entry *entry;
     struct rigid_part from, to, now, middle;
-    double *part, *now_part, *open[3], *wall[3], *speed[3], *plane, *body;
+    double *part, *now_theta, *was, *open[3], *wall[3], *speed[3], *plane, *body;
 };
 
 struct rigid *rigid_new(const struct scene *scene)
@@ -190,10 +190,11 @@ static void rigid_see(struct rigid_make *make, const int at[3], size_t i, const 
     (void)at;
     double a = rigid_fluid(&make->from, cell, beta), b = moves ? rigid_fluid(&make->to, cell, beta) : a;
     make->part[i] = 0.5 * (a + b);
-    make->now_part[i] = moves ? rigid_fluid(&make->now, cell, beta) : a;
+    make->was[i] = a;
+    make->now_theta[i] = moves ? rigid_fluid(&make->now, cell, beta) : a;
     if (beta) make->plane[i] = rigid_fluid(&make->middle, cell, beta - 1);
     if (make->part[i] < RIGID_LEAST) make->part[i] = 0.0;
-    if (make->part[i] == 1.0 && make->now_part[i] == 1.0) return;
+    if (make->part[i] == 1.0 && make->now_theta[i] == 1.0) return;
     make->entry->cells.any = true;
     make->body[i] = rigid_which(make, cell);
 }
@@ -293,14 +294,15 @@ static void rigid_rows(struct rigid_make *make)
     if (!entry->rows) entry->rows = mem_new(RIGID_ROWS * cells->count, sizeof *entry->rows);
     double *row = entry->rows;
     memset(row, 0, RIGID_ROWS * cells->count * sizeof *row);
-    for (size_t i = 0; i < 5 * cells->count; i++) row[i] = 1.0; /* parts and faces */
+    for (size_t i = 0; i < 6 * cells->count; i++) row[i] = 1.0; /* parts and faces */
     cells->part = make->part = row;
-    cells->now = make->now_part = row + cells->count;
-    cells->body = make->body = row + 5 * cells->count;
+    cells->now = make->now_theta = row + cells->count;
+    cells->was = make->was = row + 5 * cells->count;
+    cells->body = make->body = row + 6 * cells->count;
     for (size_t d = 0; d < 3; d++) {
         cells->open[d] = make->open[d] = row + (2 + d) * cells->count;
-        cells->wall[d] = make->wall[d] = row + (6 + d) * cells->count;
-        make->speed[d] = row + (9 + d) * cells->count;
+        cells->wall[d] = make->wall[d] = row + (7 + d) * cells->count;
+        make->speed[d] = row + (10 + d) * cells->count;
         cells->speed[d] = make->rigid->moves ? make->speed[d] : NULL;
     }
     make->plane = make->mesh->beta ? make->speed[2] : NULL; /* around an axis nothing moves along a third one */

@@ -22,6 +22,7 @@ struct rigid_cells {
     int pad;
     size_t size[3], count;
     const double *part;     /* theta; 0: covered all the time */
+    const double *was;      /* theta at the first time; 0: covered then */
     const double *now;      /* theta at the time of the primitives; 0: covered then */
     const double *open[3];  /* a of the lower face along an axis */
     const double *wall[3];  /* W_d of the cells inside the outermost layer; 0 elsewhere */

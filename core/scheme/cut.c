@@ -433,8 +433,9 @@ static void cut_divide(const struct term_tile *tile, double part, size_t cell)
     for (unsigned q = model->n_field; q < tile->terms->n_rates; q++) tile->rates[q * tile->n_cell + cell] *= per;
 }
 
-/* A cell that was covered begins the step as what it is filled with. */
-static void cut_start(const struct term_tile *tile, const struct cut_rows *rows, size_t i)
+/* A cell that was covered when the step began has no state to begin with: it is what it is filled with, or what it has become
+ * by the time of the primitives, and goes on from there. */
+static void cut_start(const struct term_tile *tile, const struct cut_rows *rows, size_t i, double rest)
 {
     const struct model *model = tile->model;
     size_t cell = rows->from[i], n = tile->n_cell;
@@ -442,7 +443,7 @@ static void cut_start(const struct term_tile *tile, const struct cut_rows *rows,
     for (unsigned k = 0; k < model->n_active; k++) {
         unsigned q = model->active[k];
         double *rate = &tile->rates[q * n + cell], start = rows->u[q * rows->stride + i];
-        *rate = (model_is_fraction(model, q) ? 0.0 : *rate) + (start - tile->u[q * n + cell]) / tile->dt;
+        *rate = (model_is_fraction(model, q) ? 0.0 : rest * *rate) + (start - tile->u[q * n + cell]) / tile->dt;
     }
 }
 
@@ -459,7 +460,8 @@ static void cut_rates(struct term_tile *tile)
         cut_push(tile, cells, rows, i);
         cut_carry(tile, cells, rows, i);
         cut_divide(tile, part, rows->from[i]);
-        if (part > 0.0 && cut->fresh && cut->weight[rows->from[i]] > 0.0) cut_start(tile, rows, i);
+        if (part > 0.0 && cells->was[rows->at[i]] == 0.0)
+            cut_start(tile, rows, i, (tile->begun + tile->dt - tile->t) / tile->dt);
     }
 }
 
