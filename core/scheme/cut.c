@@ -35,6 +35,7 @@ struct cut_face {
 };
 
 struct cut {
+    const struct rigid *rigid;
     struct cut_rows rows;
     size_t *slot; /* [FACE_ROOM] 1 + place of a cell of the frame in the rows; 0: none */
     struct cut_face *faces;
@@ -61,6 +62,7 @@ static void *cut_open(const struct term_room *room)
 {
     const struct model *model = room->model;
     struct cut *cut = mem_new(1, sizeof *cut);
+    cut->rigid = room->mesh->rigid;
     size_t n = FACE_ROOM > room->mesh->n_cell ? FACE_ROOM : room->mesh->n_cell;
     cut->rows.stride = n;
     cut->rows.at = mem_new(n, sizeof *cut->rows.at);
@@ -89,6 +91,13 @@ static void cut_close(void *own)
     mem_free(cut->faces);
     mem_free(cut->fresh);
     mem_free(cut);
+}
+
+/* Of a script that says where a body is. */
+static int cut_failure(const void *own, const char **ret_message, const char **ret_place)
+{
+    *ret_place = "where bodies are";
+    return rigid_failure(((const struct cut *)own)->rigid, ret_message);
 }
 
 /* --- lines of a frame --- */
@@ -207,12 +216,12 @@ static size_t cut_row_add(struct cut_rows *rows, const struct model *model, size
 }
 
 /* Pressure on the walls, then what slides along them: the velocity towards a wall is taken away. */
-static void cut_rows_press(struct cut_rows *rows, const struct model *model, const struct rigid_cells *cells)
+static void cut_rows_press(struct cut_rows *rows, const struct model *model, const struct rigid_cells *cells, bool stop)
 {
     const struct cut_wall wall = {model, rows->n, rows->stride, rows->w, cells, rows->at, rows->scratch};
     if (!rows->n) return;
     cut_wall_pressure(&wall, rows->p);
-    cut_wall_slide(&wall, rows->w);
+    cut_wall_slide(&wall, stop, rows->w);
     mix_conserved(model, rows->n, rows->stride, rows->w, rows->u);
 }
 
@@ -300,7 +309,7 @@ static void cut_find(const struct term_piece *piece, const struct rigid_cells *c
             struct cut_line line = cut_line(frame, piece->tile->mesh, cells, o, c);
             for (int i = 0; i <= line.n; i++) cut_face(piece, cells, &line, i);
         }
-    cut_rows_press(&cut->rows, piece->model, cells);
+    cut_rows_press(&cut->rows, piece->model, cells, piece->tile->masked);
 }
 
 /* G of one flux in a compact row: of what slides along the wall. */
@@ -454,7 +463,7 @@ static void cut_rates(struct term_tile *tile)
     const struct rigid_cells *cells = cut_cells(tile);
     if (!cells) return;
     cut_gather(cut, rows, tile->model, tile->mesh, cells, tile->w);
-    cut_rows_press(rows, tile->model, cells);
+    cut_rows_press(rows, tile->model, cells, tile->masked);
     for (size_t i = 0; i < rows->n; i++) {
         double part = cells->part[rows->at[i]];
         cut_push(tile, cells, rows, i);
@@ -474,7 +483,7 @@ double cut_force(const struct cut_force *force, unsigned rigid, int axis)
     struct cut *cut = cut_open(&(struct term_room){.model = force->model, .mesh = force->mesh});
     struct cut_rows *rows = &cut->rows;
     cut_gather(NULL, rows, force->model, force->mesh, cells, force->w);
-    cut_rows_press(rows, force->model, cells);
+    cut_rows_press(rows, force->model, cells, false);
     for (size_t i = 0; i < rows->n; i++)
         if (cells->now[rows->at[i]] > 0.0 && cells->body[rows->at[i]] == rigid)
             sum += rows->p[i] * cells->wall[axis][rows->at[i]] * force->volume[rows->from[i]];
@@ -505,6 +514,7 @@ const struct term cut_term = {
     .moves = true,
     .open = cut_open,
     .close = cut_close,
+    .failure = cut_failure,
     .begin = cut_begin,
     .frame = cut_frame,
     .cells = cut_rates,

@@ -7,7 +7,10 @@
 #include <math.h>
 #include <string.h>
 
+/* (gamma + 1)/4, (gamma - 1)/2 and gamma of a gas of two atoms; 2 gamma/(gamma - 1) is 7. */
 #define CUT_WALL_STEEP 0.6
+#define CUT_WALL_THIN 0.2
+#define CUT_WALL_GAMMA 1.4
 
 static BULLA_KERNEL void cut_wall_solve(size_t n, const double *restrict p, const double *restrict rho,
                                         const double *restrict c2, const double *restrict u, double *restrict ret)
@@ -15,7 +18,10 @@ static BULLA_KERNEL void cut_wall_solve(size_t n, const double *restrict p, cons
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double towards = u[i], steep = CUT_WALL_STEEP * towards, here = p[i], r = rho[i], s = c2[i];
-        ret[i] = here + r * towards * (steep + sqrt(steep * steep + s));
+        double push = r * towards * (steep + sqrt(steep * steep + s));
+        double left = 1.0 + CUT_WALL_THIN * towards / sqrt(s), kept = left > 0.0 ? left : 0.0;
+        double cube = kept * kept * kept, pull = r * s / CUT_WALL_GAMMA * (1.0 - cube * cube * kept);
+        ret[i] = towards > 0.0 ? here + push : here - pull;
     }
 }
 
@@ -42,12 +48,16 @@ static void cut_wall_towards(const struct cut_wall *wall, double *u)
     }
 }
 
-void cut_wall_slide(const struct cut_wall *wall, double *w)
+void cut_wall_slide(const struct cut_wall *wall, bool stop, double *w)
 {
     for (size_t i = 0; i < wall->n; i++) {
-        double square, along = cut_wall_along(wall, i, &square);
-        for (int d = 0; d < wall->model->dim && square > 0.0; d++)
-            w[(wall->model->i_u + (unsigned)d) * wall->stride + i] -= along / square * wall->cells->wall[d][wall->at[i]];
+        double square, along = cut_wall_along(wall, i, &square), *u = w + wall->model->i_u * wall->stride + i;
+        if (!(square > 0.0)) continue;
+        for (int d = 0; d < wall->model->dim && stop; d++) along -= wall->cells->wall[d][wall->at[i]] * u[(size_t)d * wall->stride];
+        for (int d = 0; d < wall->model->dim; d++) {
+            double *at = &u[(size_t)d * wall->stride];
+            *at = (stop ? 0.0 : *at) - along / square * wall->cells->wall[d][wall->at[i]];
+        }
     }
 }
 
