@@ -170,13 +170,14 @@ static double rigid_fluid(const struct rigid_part *part, const struct rigid_part
     return fluid < RIGID_LEAST ? 0.0 : fluid > 1.0 - RIGID_FULL ? 1.0 : fluid;
 }
 
-/* The body that covers most of a cell in the middle of the times. */
+/* The body that covers most of a cell at the times. */
 static unsigned rigid_which(const struct rigid_make *make, const struct rigid_part_box *cell)
 {
     unsigned which = 0;
     double most = -1.0;
     for (unsigned k = 0; k < make->rigid->scene->n_rigid; k++) {
-        double covers = rigid_part_body(&make->middle, k, cell, 0);
+        double covers = rigid_part_body(&make->from, k, cell, 0) + rigid_part_body(&make->to, k, cell, 0) +
+                        rigid_part_body(&make->now, k, cell, 0);
         if (covers > most) which = k;
         most = covers > most ? covers : most;
     }
