@@ -50,11 +50,13 @@ static void scene_rigid_beside(struct draft *draft, const struct keys_value *sec
     const struct scene *scene = draft->scene;
     const char *solid = scene_material_solid(draft);
     if (solid) {
-        keys_error(&draft->keys, section, "'%s' is an elastic solid: beside rigid bodies only fluids are computed", solid);
+        keys_error(&draft->keys, section, "'%s' is an elastic solid: beside rigid bodies only fluids are computed",
+                   solid);
         diag_help(draft->keys.diag, "make it a fluid, or the body a stiff material");
     }
     if (scene->n_tension) {
-        keys_error(&draft->keys, section, "surface tension is not computed beside rigid bodies: no angle of contact is known");
+        keys_error(&draft->keys, section,
+                   "surface tension is not computed beside rigid bodies: no angle of contact is known");
         diag_help(draft->keys.diag, "leave 'surface-tension' out");
     }
     for (int axis = 0; axis < scene->domain.dim; axis++)
@@ -67,8 +69,7 @@ static void scene_rigid_motion(struct draft *draft, const struct keys_value *val
     const struct scene_domain *domain = &draft->scene->domain;
     const struct keys_value *velocity = keys_at(value->map, "velocity"), *way = keys_at(value->map, "displacement"),
                             *angle = keys_at(value->map, "angle"), *pivot = keys_at(value->map, "pivot");
-    if (velocity->node && way->node)
-        keys_error(&draft->keys, way, "a body has a velocity or a displacement, not both");
+    if (velocity->node && way->node) keys_error(&draft->keys, way, "a body has a velocity or a displacement, not both");
     if (velocity->given) scene_domain_vector(draft, velocity, rigid->velocity);
     if (way->given && domain->dim > 0 && way->count != (unsigned)domain->dim)
         keys_error(&draft->keys, way, "%d components are needed, one per axis, not %u", domain->dim, way->count);
@@ -202,8 +203,10 @@ static bool scene_rigid_look(struct draft *draft, const struct keys_value *secti
     }
     if (inside == n) keys_error(&draft->keys, value, "it fills the whole domain at t = %.6g s", t);
     if (inside == 0 && !scene_rigid_reaches(domain, &scene->rigids[which], &pose[which])) {
-        keys_error(&draft->keys, value, t > 0.0 ? "it has left the domain at t = %.6g s" : "none of it is in the domain", t);
-        diag_help(draft->keys.diag, t > 0.0 ? "end the run before that, or let it move less" : "look at its place and size");
+        keys_error(&draft->keys, value,
+                   t > 0.0 ? "it has left the domain at t = %.6g s" : "none of it is in the domain", t);
+        diag_help(draft->keys.diag,
+                  t > 0.0 ? "end the run before that, or let it move less" : "look at its place and size");
         return false;
     }
     return inside < n;
@@ -248,11 +251,8 @@ static void scene_rigid_refine(struct scene *scene)
 {
     struct scene_mesh *mesh = &scene->mesh;
     if (mesh->levels == 0) return;
-    mesh->refines[mesh->n_refine++] = (struct scene_refine){.kind = SCENE_REFINE_BODIES,
-                                                            .material = -1,
-                                                            .finest = mesh->levels,
-                                                            .t_from = -INFINITY,
-                                                            .t_until = INFINITY};
+    mesh->refines[mesh->n_refine++] = (struct scene_refine){
+        .kind = SCENE_REFINE_BODIES, .material = -1, .finest = mesh->levels, .t_from = -INFINITY, .t_until = INFINITY};
 }
 
 void scene_rigid(struct draft *draft)

@@ -276,7 +276,8 @@ static double measure_force(const struct measures *measures, const struct measur
     const struct tile *tile = &measures->level->tiles[measures->level->first + measures->local];
     double *volume = mem_new(mesh->n_cell, sizeof *volume);
     tally_volumes(mesh, measures->level, tile, volume);
-    struct cut_force force = {.model = state->model, .mesh = mesh, .level = measures->level, .tile = tile, .t = state->t};
+    struct cut_force force = {
+        .model = state->model, .mesh = mesh, .level = measures->level, .tile = tile, .t = state->t};
     force.w = measures->level->w[measures->local];
     force.volume = volume;
     double sum = cut_force(&force, (unsigned)column->from->rigid, column->axis);

@@ -136,9 +136,8 @@ static bool rigid_near(const struct rigid_make *make)
 }
 
 /* Goes over all cells of the block that are in the domain. */
-static void rigid_each(struct rigid_make *make,
-                       void (*visit)(struct rigid_make *make, const int at[3], size_t i,
-                                     const struct rigid_part_box *cell))
+static void rigid_each(struct rigid_make *make, void (*visit)(struct rigid_make *make, const int at[3], size_t i,
+                                                              const struct rigid_part_box *cell))
 {
     const struct rigid_cells *cells = &make->entry->cells;
     int first[3], end[3], at[3];
@@ -349,7 +348,8 @@ static void rigid_grow(struct rigid *rigid)
     rigid->room = room;
     slots_start(&rigid->slots, room);
     for (unsigned i = 0; i < rigid->n; i++)
-        *slots_find(&rigid->slots, rigid_hash(rigid->entries[i]), rigid_same, rigid->entries, rigid->entries[i]) = i + 1;
+        *slots_find(&rigid->slots, rigid_hash(rigid->entries[i]), rigid_same, rigid->entries, rigid->entries[i]) =
+            i + 1;
 }
 
 /* The entry of a key: found, or new with nothing in it. */

@@ -111,10 +111,8 @@ static double rigid_part_along(const struct rigid_part_line *line)
         double a = (double)i / RIGID_PART_SPANS, b = (double)(i + 1) / RIGID_PART_SPANS;
         double behind = rigid_part_at(line, b);
         if (before > 0.0 && behind > 0.0) open += rigid_part_share(line, a, b);
-        else if (before > 0.0)
-            open += rigid_part_share(line, a, rigid_part_root(line, a, before, b, behind));
-        else if (behind > 0.0)
-            open += rigid_part_share(line, rigid_part_root(line, a, before, b, behind), b);
+        else if (before > 0.0) open += rigid_part_share(line, a, rigid_part_root(line, a, before, b, behind));
+        else if (behind > 0.0) open += rigid_part_share(line, rigid_part_root(line, a, before, b, behind), b);
         before = behind;
     }
     return open;

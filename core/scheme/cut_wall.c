@@ -53,7 +53,8 @@ void cut_wall_slide(const struct cut_wall *wall, bool stop, double *w)
     for (size_t i = 0; i < wall->n; i++) {
         double square, along = cut_wall_along(wall, i, &square), *u = w + wall->model->i_u * wall->stride + i;
         if (!(square > 0.0)) continue;
-        for (int d = 0; d < wall->model->dim && stop; d++) along -= wall->cells->wall[d][wall->at[i]] * u[(size_t)d * wall->stride];
+        for (int d = 0; d < wall->model->dim && stop; d++)
+            along -= wall->cells->wall[d][wall->at[i]] * u[(size_t)d * wall->stride];
         for (int d = 0; d < wall->model->dim; d++) {
             double *at = &u[(size_t)d * wall->stride];
             *at = (stop ? 0.0 : *at) - along / square * wall->cells->wall[d][wall->at[i]];

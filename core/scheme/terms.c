@@ -44,7 +44,7 @@ const struct term *const terms_all[] = {
     &normal_term,       /* how the surfaces of solids lie */
     &strain_term,       /* the stretch of solids */
     &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */
-    &cut_face_term,     /* rigid bodies: what they leave of fluxes */
+    &cut_flux_term,     /* rigid bodies: what they leave of fluxes */
     NULL,
 };
 _Static_assert(sizeof terms_all / sizeof *terms_all - 1 <= TERMS_MOST, "terms.h has room for fewer");

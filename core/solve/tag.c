@@ -412,8 +412,7 @@ char *tag_describe(const struct scene *scene, unsigned criterion)
 {
     const struct scene_refine *refine = &scene->mesh.refines[criterion];
     struct text text = {0};
-    if (refine->kind != SCENE_REFINE_BODIES)
-        text_add(&text, "mesh.refine[%u] (line %d): ", criterion, refine->line);
+    if (refine->kind != SCENE_REFINE_BODIES) text_add(&text, "mesh.refine[%u] (line %d): ", criterion, refine->line);
     switch (refine->kind) {
     case SCENE_REFINE_GRADIENT:
     case SCENE_REFINE_JUMP:
