@@ -60,10 +60,11 @@ static int cut_failure(const void *own, const char **ret_message, const char **r
 
 /* --- what is covered, before faces are made --- */
 
-/* The nearest open cell along a line on one side of a covered one, or `i` if there is none within reach. */
+/* The nearest open cell along a line on one side of a covered one, or `i` if there is none so near that its edges look here. */
 static int cut_nearest(const struct cut_rows_line *line, const double *now, int i, int way)
 {
-    for (int k = i + way; k >= -line->ghosts && k < line->n + line->ghosts; k += way)
+    for (int k = i + way, left = line->ghosts; left > 0 && k >= -line->ghosts && k < line->n + line->ghosts;
+         k += way, left--)
         if (now[cut_rows_place(line, k)] > 0.0) return k;
     return i;
 }
