@@ -78,24 +78,19 @@ static void contract_boundary_at(const struct contract *contract, const struct b
     contract_boundary_call(contract, place, 1, rows, results);
 }
 
-static double contract_boundary_log(uint64_t *seed, double low, double high)
-{
-    return pow(10.0, contract_random(seed, log10(low), log10(high)));
-}
-
 static void contract_boundary_draw(const struct contract *contract, const struct contract_call *call, uint64_t *seed,
                                    double *in)
 {
-    double a = contract_random(seed, -0.3, 1.3), c = contract_boundary_log(seed, 10.0, 1e4);
+    double a = contract_random(seed, -0.3, 1.3), c = contract_decades(seed, 10.0, 1e4);
     (void)contract, (void)call;
     a = a < 0.0 ? 0.0 : a > 1.0 ? 1.0 : a;
     in[BOUNDARY_ALPHA] = a;
     in[BOUNDARY_ALPHA + 1] = 1.0 - a;
-    for (int l = 0; l < BOUNDARY_MATERIALS; l++) in[BOUNDARY_RHO + l] = contract_boundary_log(seed, 1e-3, 2e4);
+    for (int l = 0; l < BOUNDARY_MATERIALS; l++) in[BOUNDARY_RHO + l] = contract_decades(seed, 1e-3, 2e4);
     for (int d = 0; d < BOUNDARY_AXES; d++) in[BOUNDARY_U + d] = contract_random(seed, -2e3, 2e3);
-    in[BOUNDARY_P] = contract_boundary_log(seed, 1e2, 1e10);
+    in[BOUNDARY_P] = contract_decades(seed, 1e2, 1e10);
     in[BOUNDARY_Z] = c * (a * in[BOUNDARY_RHO] + (1.0 - a) * in[BOUNDARY_RHO + 1]);
-    in[BOUNDARY_P_START] = contract_boundary_log(seed, 1e3, 1e8);
+    in[BOUNDARY_P_START] = contract_decades(seed, 1e3, 1e8);
     in[BOUNDARY_U_START] = contract_random(seed, -10.0, 10.0);
     for (int d = 0; d < BOUNDARY_AXES; d++) in[BOUNDARY_X + d] = contract_random(seed, -1.0, 1.0);
 }

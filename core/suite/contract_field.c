@@ -95,26 +95,21 @@ static void contract_field_at(const struct contract *contract, const struct fiel
     contract_field_call(contract, scene, 1, rows, results);
 }
 
-static double contract_field_log(uint64_t *seed, double low, double high)
-{
-    return pow(10.0, contract_random(seed, log10(low), log10(high)));
-}
-
 static void contract_field_draw(const struct contract *contract, const struct contract_call *call, uint64_t *seed,
                                 double *in)
 {
-    double a = contract_random(seed, -0.3, 1.3), steep = contract_field_log(seed, 1.0, 1e9);
+    double a = contract_random(seed, -0.3, 1.3), steep = contract_decades(seed, 1.0, 1e9);
     (void)contract, (void)call;
     in[FIELD_ALPHA] = a < 0.0 ? 0.0 : a > 1.0 ? 1.0 : a;
     in[FIELD_ALPHA + 1] = 1.0 - in[FIELD_ALPHA];
     for (int d = 0; d < FIELD_AXES; d++) in[FIELD_X + d] = contract_random(seed, 0.001, 1.0);
-    in[FIELD_VOLUME] = contract_field_log(seed, 1e-18, 1.0);
-    for (int l = 0; l < FIELD_MATERIALS; l++) in[FIELD_RHO + l] = contract_field_log(seed, 1e-3, 2e4);
+    in[FIELD_VOLUME] = contract_decades(seed, 1e-18, 1.0);
+    for (int l = 0; l < FIELD_MATERIALS; l++) in[FIELD_RHO + l] = contract_decades(seed, 1e-3, 2e4);
     for (int d = 0; d < FIELD_AXES; d++) in[FIELD_U + d] = contract_random(seed, -2e3, 2e3);
-    in[FIELD_P] = contract_field_log(seed, 1e2, 1e10);
-    in[FIELD_C] = contract_field_log(seed, 10.0, 1e4);
-    for (int l = 0; l < FIELD_MATERIALS; l++) in[FIELD_T + l] = contract_field_log(seed, 10.0, 1e5);
-    in[FIELD_E] = contract_field_log(seed, 1e3, 1e11);
+    in[FIELD_P] = contract_decades(seed, 1e2, 1e10);
+    in[FIELD_C] = contract_decades(seed, 10.0, 1e4);
+    for (int l = 0; l < FIELD_MATERIALS; l++) in[FIELD_T + l] = contract_decades(seed, 10.0, 1e5);
+    in[FIELD_E] = contract_decades(seed, 1e3, 1e11);
     for (int k = 0; k < FIELD_AXES * FIELD_AXES; k++) in[FIELD_DU + k] = contract_random(seed, -steep, steep);
     for (int d = 0; d < FIELD_AXES; d++) in[FIELD_DP + d] = steep * contract_random(seed, -1e6, 1e6);
     for (int d = 0; d < FIELD_AXES; d++) in[FIELD_DRHO + d] = steep * contract_random(seed, -1.0, 1.0);
