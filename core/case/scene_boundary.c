@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "bulla/boundary.h"
 #include "case/scene_draft.h"
+#include "plug/registry.h"
 
 #define AMPLITUDE                                                                                                      \
     {                                                                                                                  \
@@ -359,6 +360,9 @@ static void scene_boundary_read(struct draft *draft, struct scene_boundary *boun
     const struct keys_value *type = keys_at(map, "type");
     if (!type->given) return;
     bool module = map->chosen && map->chosen->module;
+    if (!module && registry_find("boundary", type->text))
+        diag_warn(draft->keys.diag, &type->node->mark,
+                  "%s: '%s' is that of the program; the module of the same name is not used", type->path, type->text);
     boundary->type = module ? SCENE_BOUNDARY_MODULE : (enum scene_boundary_type)type->integer;
     const struct scene_boundary_row *row = &scene_boundary_types[boundary->type];
     if (row->read) row->read(draft, boundary, map);

@@ -93,6 +93,45 @@ END
 ranked bubble 1 2 3
 resumed bubble 20 bubble-1
 
+# A piston that stands still (the skeleton) is a rigid wall to the bit: mirrored layers, stretches of a solid, levels.
+cat >rigid.yaml <<END
+bulla: 1
+title: A wave in a solid and a gas between mirrors
+modules: [$BULLA_BUILD/tests/skeleton/boundary-the-name.so]
+domain:
+  lower: [0, 0]
+  upper: [1, 1]
+  cells: [32, 32]
+  boundaries:
+    x-: reflecting
+    x+: reflecting
+    y-: reflecting
+    y+: outflow
+mesh: {tile: 8, levels: 1, refine: [{interface: block}, {jump: pressure, above: 20 kPa}]}
+materials:
+  air: {eos: {type: ideal-gas, gamma: 1.4}}
+  block:
+    eos: {type: stiffened-gas, gamma: 4.4, p-inf: 1 MPa}
+    constitutive: {type: neo-hookean, shear-modulus: 100 kPa, reference-density: 1000}
+initial:
+  - {everywhere: true, material: air, density: 1.2, pressure: 1e5}
+  - {sphere: {center: [0.3, 0.4], radius: 0.15}, material: air, density: 3, pressure: 4e5}
+  - {half-space: {point: [0.7, 0], normal: [1, 0.3]}, material: block, density: 1000, pressure: 1e5}
+run: {until: 1, max-steps: 40}
+output:
+  directory: out
+  history:
+    every: 1 step
+    columns:
+      E: {total: energy}
+      u: {integral: "= velocity_x * (1 + x) + velocity_y * (2 + y)"}
+      s: {integral: "= stress_xy * (1 + x * y) + pressure"}
+END
+sed 's/: reflecting/: {type: the-name, velocity: 0}/' rigid.yaml >piston.yaml
+ran as-rigid rigid
+ran as-piston piston -n 2
+cmp as-rigid/out/history.csv as-piston/out/history.csv || fail "a piston that stands still is no rigid wall"
+
 # Rest.
 sed 's/1 atm}/20 atm}/; s/^run:.*/run: {until: 2 us}/; s/max: pressure}/max: pressure}, least: {min: pressure}, u: {max: velocity_y}/; /viscosity/s/, viscosity: 1 mPa s//' bubble.yaml |
     sed '/^expect/d; s/V: {volume: air}, //; s/, m: {mass: air}//; /sphere/d; /air:/d; s/{interface: air}, //' >rest.yaml
@@ -120,3 +159,11 @@ wrong "domain.boundaries.x\+.impedance: -1 " '{type: impedance, impedance: -1}'
 wrong "domain.boundaries.x\+.type: .*impedanse" '{type: impedanse}'
 wrong "did you mean 'impedance'" '{type: impedanse}'
 wrong "pvc" '{type: impedance, preset: wood}'
+
+# A module with the name of a type of the program is told of, and not used.
+sed 's/"impedance",$/"outflow",/' "$BULLA_SOURCE/tests/plugin/impedance.c" >outflow.c
+${CC:-cc} -O2 -fPIC -shared -ffp-contract=off -fvisibility=hidden -fopenmp-simd -I"$BULLA_SOURCE/core/include" outflow.c -o boundary-outflow.so
+tube named outflow x +
+sed -i "s|plugin/boundary-impedance.so|boundary-outflow.so|" named.yaml
+"$BULLA" check named.yaml >out 2>&1 || fail "a name that is taken" out
+grep -qE "named.yaml:[0-9]+:[0-9]+: warning: domain.boundaries.x\+.type: 'outflow' is that of the program" out || fail "no warning" out
