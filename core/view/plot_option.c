@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "case/unit.h"
+#include "view/plot_film.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,6 +17,11 @@ static const struct cli_option plot_option_time = {"--time", NULL, "T",
                                                    "The snapshot nearest to this time; of profiles several."};
 static const struct cli_option plot_option_last = {"--last", NULL, NULL, "The last snapshot (default)."};
 static const struct cli_option plot_option_all = {"--all", NULL, NULL, "Every snapshot, all on one colour scale."};
+static const struct cli_option plot_option_movie = {
+    "--movie", NULL, "FILE.mp4", "A film of every snapshot (.webm, .gif); by ffmpeg, else its frames."};
+static const struct cli_option plot_option_fps = {"--fps", NULL, "N", "Frames per second of it (12)."};
+static const struct cli_option plot_option_beside = {"--beside", NULL, NULL,
+                                                     "Several runs beside each other, on one scale; also in a film."};
 static const struct cli_option plot_option_over = {
     "--over", NULL, "FILE.csv[:X,Y]", "History: this reference, too; columns t and those drawn, or X and Y."};
 static const struct cli_option plot_option_slice = {"--slice", NULL, "x=X",
@@ -40,10 +46,29 @@ static const struct cli_option plot_option_inside = {"--inside", NULL, "MATERIAL
                                                      "In this material, show this field instead."};
 
 const struct cli_option *const plot_option_table[] = {
-    &plot_option_output,  &plot_option_last,   &plot_option_step,  &plot_option_time,  &plot_option_all,
-    &plot_option_slice,   &plot_option_range,  &plot_option_log,   &plot_option_map,   &plot_option_xlim,
-    &plot_option_ylim,    &plot_option_mirror, &plot_option_left,  &plot_option_right, &plot_option_inside,
-    &plot_option_contour, &plot_option_tiles,  &plot_option_width, &plot_option_over,  NULL,
+    &plot_option_output,
+    &plot_option_last,
+    &plot_option_step,
+    &plot_option_time,
+    &plot_option_all,
+    &plot_option_slice,
+    &plot_option_range,
+    &plot_option_log,
+    &plot_option_map,
+    &plot_option_xlim,
+    &plot_option_ylim,
+    &plot_option_mirror,
+    &plot_option_left,
+    &plot_option_right,
+    &plot_option_inside,
+    &plot_option_contour,
+    &plot_option_tiles,
+    &plot_option_width,
+    &plot_option_over,
+    &plot_option_movie,
+    &plot_option_fps,
+    &plot_option_beside,
+    NULL,
 };
 
 /* What a number must be a quantity of: nothing in particular, a length, a time. */
@@ -154,9 +179,31 @@ static int plot_option_overs(const struct cli_given *given, struct plot_option *
     return STATUS_OK;
 }
 
+/* Films show all snapshots; what stands beside each other has times in common, no steps. */
+static int plot_option_film(const struct cli_given *given, struct plot_option *option)
+{
+    long pace = PLOT_FILM_PACE;
+    TRY(cli_count(given, "--fps", 1, &pace));
+    if (pace > PLOT_FILM_PACE_MOST)
+        return status_fail(STATUS_CASE, "--fps %ld: at most %d frames per second", pace, PLOT_FILM_PACE_MOST);
+    option->pace = (int)pace;
+    if (!option->movie && cli_value(given, "--fps"))
+        return status_fail(STATUS_CASE, "--fps is for a film: --movie FILE.mp4");
+    if (option->movie && option->output)
+        return status_fail(STATUS_CASE, "-o %s and --movie %s: a film has one name", option->output, option->movie);
+    bool one = cli_value(given, "--last") || option->when == PLOT_STEP || option->when == PLOT_TIME;
+    if (option->movie && one)
+        return status_fail(STATUS_CASE, "--movie shows every snapshot: without --last, --step and --time");
+    if (option->beside && (option->when == PLOT_STEP || (option->when == PLOT_ALL && !option->movie)))
+        return status_fail(STATUS_CASE, "--beside goes by time: --time T, or every snapshot with --movie FILE.mp4");
+    return STATUS_OK;
+}
+
 int plot_option_read(const struct cli_given *given, struct plot_option *ret_option)
 {
     struct plot_option option = {.output = cli_value(given, "--output"),
+                                 .movie = cli_value(given, "--movie"),
+                                 .beside = cli_value(given, "--beside"),
                                  .map = cli_value(given, "--map"),
                                  .contours = cli_value(given, "--contour"),
                                  .left = cli_value(given, "--left"),
@@ -169,6 +216,7 @@ int plot_option_read(const struct cli_given *given, struct plot_option *ret_opti
     if (width > 20000) return status_fail(STATUS_CASE, "--width %ld: at most 20000 pixels", width);
     option.width = (int)width;
     TRY(plot_option_when(given, &option));
+    TRY(plot_option_film(given, &option));
     TRY(plot_option_overs(given, &option));
     TRY(plot_option_slices(given, &option));
     TRY(plot_option_ranges(given, &option));

@@ -19,6 +19,9 @@ struct plot_option_span {
 
 struct plot_option {
     const char *output; /* -o, or NULL */
+    const char *movie;  /* --movie, or NULL */
+    int pace;           /* of it [frames/s] */
+    bool beside;        /* several runs in one picture */
     enum plot_option_when when;
     long step;
     unsigned n_time;
