@@ -15,7 +15,8 @@ static MPI_Comm comm_near = MPI_COMM_NULL; /* the ranks of this machine, once as
 
 void comm_init(int *argc, char ***argv)
 {
-    if (!launcher_here().is_rank) return;
+    struct launcher here = launcher_here();
+    if (!here.is_rank || here.is_mute) return;
     MPI_Init(argc, argv);
     comm_is_active = true;
 }
