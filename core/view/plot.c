@@ -79,7 +79,7 @@ static char *plot_path(const char *directory, const struct snapshot *snapshot, c
         mem_free(path);
         path = longer;
     }
-    char *complete = mem_print("%s.png", path);
+    char *complete = mem_print("%s%s.png", path, picture->option->n_iso ? "_iso" : "");
     mem_free(path);
     return complete;
 }
@@ -101,7 +101,7 @@ static int plot_write(const char *directory, const struct snapshot *snapshot, co
  * shows all in one file. */
 static int plot_fields(const char *directory, const struct snapshot *snapshot, const struct plot_picture *picture)
 {
-    if (picture->option->left || plot_picture_shape(snapshot, picture->option) != 2)
+    if (picture->option->left || !picture->n_field || plot_picture_shape(snapshot, picture->option) != 2)
         return plot_write(directory, snapshot, picture, false);
     unsigned inside = picture->option->inside_field ? 1 : 0, last = picture->n_field - 1;
     for (unsigned i = 0; i + inside < picture->n_field; i++) {
@@ -174,7 +174,7 @@ static int plot_snapshots(const char *const *directories, unsigned n, const char
                           const struct plot_option *option)
 {
     struct plot_picture picture = {.option = option};
-    char *list = option->left ? mem_print("%s,%s", option->left, option->right) : mem_text(fields);
+    char *list = option->left ? mem_print("%s,%s", option->left, option->right) : mem_text(fields ? fields : "");
     int code = plot_split(list, &picture);
     if (!code && option->inside_field) {
         if (picture.n_field == PLOT_PICTURE_FIELDS) picture.n_field--;
@@ -210,7 +210,8 @@ static const struct plot_shared *plot_find_shared(const struct cli_given *given,
                                                   unsigned *ret_runs)
 {
     if (option->beside && given->n_word > 0) {
-        *ret_runs = (unsigned)given->n_word - (option->left ? 0 : 1);
+        bool none = option->left || (option->n_iso && plot_is_directory(given->words[given->n_word - 1]));
+        *ret_runs = (unsigned)given->n_word - (none ? 0 : 1);
         return &plot_shared_panels;
     }
     for (int i = 1; i < given->n_word; i++) {
@@ -245,7 +246,7 @@ static int plot_run(const struct cli_given *given, const char *directory)
     const char *what = given->n_word > 1 ? given->words[1] : NULL;
     unsigned n_run = 0;
     const struct plot_shared *shared = plot_find_shared(given, &option, &n_run);
-    if (!what && !option.left)
+    if (!what && !option.left && !option.n_iso)
         return status_fail(
             STATUS_CASE, "which field? bulla plot %s pressure, or history, map, profile; `bulla info` lists the fields",
             directory);

@@ -144,7 +144,8 @@ static int plot_beside_picture(struct beside *beside)
     TRY(plot_beside_gather(paths, beside->n, &beside->picture));
     TRY(plot_beside_draw(beside, paths, &image));
     char *path = output ? mem_text(output)
-                        : mem_print("%s/plots/beside_%s.png", beside->directories[0], beside->picture.fields[0]);
+                        : mem_print("%s/plots/beside_%s.png", beside->directories[0],
+                                    beside->picture.n_field ? beside->picture.fields[0] : "iso");
     int code = picture_canvas_write(image, path);
     if (!code) printf("%s\n", path);
     cairo_surface_destroy(image);
