@@ -113,6 +113,7 @@ struct scene_phase {
     double time;                   /* of relaxation [s] */
     double accommodation, area;    /* of hertz-knudsen [1, 1/m] */
     double tension, superheat;     /* what liquid without vapour bears [Pa, K] */
+    double onset;                  /* liquid evaporates where vapour and gases fill this share of the cell */
     struct saturation_range curve; /* of liquid and vapour */
 };
 
