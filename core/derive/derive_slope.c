@@ -63,9 +63,10 @@ static void derive_slope_gradient(const struct derive_view *tile, int axis,
     mem_free(w);
 }
 
-static double derive_slope_combine_velocity(const struct model *model, const double *w, size_t pitch, int which)
+static double derive_slope_combine_one(const struct model *model, const double *w, size_t pitch, int which)
 {
-    return w[(model->i_u + (unsigned)which) * pitch];
+    (void)model;
+    return w[(unsigned)which * pitch];
 }
 
 static double derive_slope_combine_density(const struct model *model, const double *w, size_t pitch, int which)
@@ -75,6 +76,16 @@ static double derive_slope_combine_density(const struct model *model, const doub
     for (unsigned l = 0; l < model->n_material; l++)
         rho += (model->n_alpha ? w[(model->i_alpha + l) * pitch] : 1.0) * w[(model->i_m + l) * pitch];
     return rho;
+}
+
+void derive_slope_primitive(const struct derive_view *tile, int axis, unsigned q, double *grad)
+{
+    derive_slope_gradient(tile, axis, derive_slope_combine_one, (int)q, grad);
+}
+
+void derive_slope_rho(const struct derive_view *tile, int axis, double *grad)
+{
+    derive_slope_gradient(tile, axis, derive_slope_combine_density, 0, grad);
 }
 
 void derive_slope_vorticity(const struct derive_view *tile, double *out)
@@ -87,7 +98,7 @@ void derive_slope_vorticity(const struct derive_view *tile, double *out)
             if (of == axis) continue;
             int component = 3 - axis - of;
             double sign = (axis + 1) % 3 == of ? 1.0 : -1.0;
-            derive_slope_gradient(tile, axis, derive_slope_combine_velocity, of, slope);
+            derive_slope_primitive(tile, axis, tile->model->i_u + (unsigned)of, slope);
             for (size_t i = 0; i < tile->n; i++) out[(size_t)component * tile->n + i] += sign * slope[i];
         }
     mem_free(slope);
@@ -98,7 +109,7 @@ static void derive_slope_density(const struct derive_view *tile, double *out)
     double *slope = mem_new(tile->n, sizeof *slope);
     memset(out, 0, tile->n * sizeof *out);
     for (int axis = 0; axis < tile->mesh->dim; axis++) {
-        derive_slope_gradient(tile, axis, derive_slope_combine_density, 0, slope);
+        derive_slope_rho(tile, axis, slope);
         for (size_t i = 0; i < tile->n; i++) out[i] += slope[i] * slope[i];
     }
     for (size_t i = 0; i < tile->n; i++) out[i] = sqrt(out[i]);
@@ -112,19 +123,14 @@ void derive_slope_schlieren(const struct derive_view *tile, double *out)
         out[i] = tile->field->scale > 0.0 ? exp(-200.0 * out[i] / tile->field->scale) : 1.0;
 }
 
-static double derive_slope_combine_alpha(const struct model *model, const double *w, size_t pitch, int which)
-{
-    return w[(model->i_alpha + (unsigned)which) * pitch];
-}
-
 /* |alpha_b grad alpha_a - alpha_a grad alpha_b|^2 of a pair; a, b: work space [n]. */
 static void derive_slope_pair(const struct derive_view *tile, const struct model_pair *pair, double *a, double *b,
                               double *square)
 {
     memset(square, 0, tile->n * sizeof *square);
     for (int axis = 0; axis < tile->mesh->dim; axis++) {
-        derive_slope_gradient(tile, axis, derive_slope_combine_alpha, (int)pair->inside, a);
-        derive_slope_gradient(tile, axis, derive_slope_combine_alpha, (int)pair->outside, b);
+        derive_slope_primitive(tile, axis, tile->model->i_alpha + pair->inside, a);
+        derive_slope_primitive(tile, axis, tile->model->i_alpha + pair->outside, b);
         for (size_t i = 0; i < tile->n; i++) {
             double g =
                 derive_view_alpha(tile, pair->outside, i) * a[i] - derive_view_alpha(tile, pair->inside, i) * b[i];
