@@ -2,9 +2,9 @@
 # the verification cases from its own path: an installed folder may be moved as a whole. lib is lib on every system for
 # that reason, never lib64.
 if(NOT "${MPI_C_LIBRARIES};${HDF5_C_LIBRARIES}" MATCHES "^/usr/lib[^;]*(;/usr/lib[^;]*)*$") # a cluster's own, in its own place
-  set_target_properties(bulla bulla-view module-eos-table PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+  set_target_properties(${BULLA_PROGRAMS} module-eos-table PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
 endif()
-install(TARGETS bulla bulla-view RUNTIME DESTINATION bin)
+install(TARGETS ${BULLA_PROGRAMS} RUNTIME DESTINATION bin)
 
 # The SDK: headers and skeletons, for CMake and for pkg-config.
 install(DIRECTORY core/include/bulla/skeleton DESTINATION include/bulla)
@@ -25,7 +25,7 @@ endforeach()
 
 # Completions of the shells and the manual page, from the option tables by way of the program's help.
 set(words ${CMAKE_BINARY_DIR}/packaging/words)
-add_custom_command(OUTPUT ${words}/bulla.1 DEPENDS bulla bulla-view packaging/words.sh
+add_custom_command(OUTPUT ${words}/bulla.1 DEPENDS ${BULLA_PROGRAMS} packaging/words.sh
                    COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0
                            sh ${CMAKE_SOURCE_DIR}/packaging/words.sh $<TARGET_FILE:bulla> ${words})
 add_custom_target(words ALL DEPENDS ${words}/bulla.1)

@@ -19,6 +19,7 @@
 #include "suite/module_new.h"
 #include "suite/module_table.h"
 #include "view/view.h"
+#include "watch/watch.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -106,6 +107,7 @@ static const struct cli_command command_table[] = {
      1, -1, inspect_info},
     {VIEW_PLOT, NULL, 1, -1, NULL}, /* viewer.h */
     {VIEW_REPORT, NULL, 1, 1, NULL},
+    {WATCH_COMMAND, NULL, 1, -1, NULL},
     {"verify", "[ID...]",
      "Errors, orders and cost of the verification scenes (r09: r09a, r09b, ...; none: all; hard: cases/hard).",
      verify_option_table, 0, -1, verify_command},

@@ -57,6 +57,14 @@ static long long launcher_number(const char *text)
     return end && !*end ? number : -1;
 }
 
+/* Does a process manager speak to this process? All of them (PMI, PMI2, PMIx) set variables that begin so. */
+static bool launcher_speaks(char *const *environment)
+{
+    for (; *environment; environment++)
+        if (!strncmp(*environment, "PMI", 3)) return true;
+    return false;
+}
+
 static bool launcher_fits(const struct launcher_row *row, const char *value)
 {
     if (!value || row->value == LAUNCHER_ANY) return value != NULL;
@@ -70,7 +78,8 @@ struct launcher launcher_find(char *const *environment)
         const struct launcher_row *row = &launcher_rows[i];
         if (!launcher_fits(row, launcher_value(environment, row->mark))) continue;
         long long size = row->size ? launcher_number(launcher_value(environment, row->size)) : 0;
-        return (struct launcher){row->name, row->is_rank, size > 0 ? (long)size : 0};
+        bool is_mute = size > 0 && row->value == LAUNCHER_STEP && !launcher_speaks(environment);
+        return (struct launcher){row->name, row->is_rank, size > 0 ? (long)size : 0, is_mute};
     }
     return (struct launcher){0};
 }

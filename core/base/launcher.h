@@ -11,6 +11,7 @@ struct launcher {
     const char *name; /* of the launcher or the queue, to be read; NULL: none, as on a laptop */
     bool is_rank;     /* this process is a rank; else, where there is a name, it is in a batch job's shell */
     long size;        /* the ranks that were started; 0: not known, or no rank */
+    bool is_mute;     /* srun has started it and gives it no PMI: ranks cannot find each other, and MPI must not try */
 };
 
 /* What an environment (as `environ`: NAME=VALUE, NULL-terminated) says. */

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -161,6 +162,22 @@ size_t system_symbol_size(const void *symbol)
     (void)symbol;
 #endif
     return 0;
+}
+
+/* Lines of /proc/locks: "7: FLOCK  ADVISORY  WRITE 4711 fe:00:1234 0 EOF". Some file systems number their devices in two
+ * ways, so the file's own number decides. */
+int system_locked(const char *path)
+{
+    char line[256];
+    struct stat file;
+    FILE *stream = BULLA_HAS_PROC ? fopen("/proc/locks", "r") : NULL;
+    int locked = stream && !stat(path, &file) ? 0 : -1;
+    while (locked == 0 && fgets(line, sizeof line, stream)) {
+        unsigned long number = 0;
+        if (sscanf(line, "%*s FLOCK %*s WRITE %*s %*[^:]:%*[^:]:%lu", &number) == 1) locked = number == file.st_ino;
+    }
+    if (stream) fclose(stream);
+    return locked;
 }
 
 double system_cpu_of(pid_t process)

@@ -44,6 +44,10 @@ void system_processor(size_t room, char *ret_name);
 /* Bytes that the object file gives a symbol; 0: not known. */
 size_t system_symbol_size(const void *symbol);
 
+/* Does a process of this machine hold a file or folder for itself (flock)? 1, 0; -1: nobody knows. Looks only: takes no lock
+ * that could be in the way of another. Stand-in: -1. */
+int system_locked(const char *path);
+
 /* CPU time that a process of this user has taken so far [s]. Stand-in: the time on the wall. */
 double system_cpu_of(pid_t process);
 

@@ -4,6 +4,7 @@
  * The heat capacity of a law can be far from that of the fluid whose conductivity is given: then heat spreads wrongly. */
 #include "case/scene_draft.h"
 
+#include "bulla/conductivity.h"
 #include "bulla/eos.h"
 
 #include <math.h>
@@ -11,11 +12,12 @@
 
 static const double scene_heat_far = 1.1; /* a ratio of heat capacities that is worth a word */
 
-/* cp of water and air at 25 C and 1 atm [J/(kg K)] (IAPWS-95; Lemmon et al., J. Phys. Chem. Ref. Data 29 (2000) 331). */
+/* cp [J/(kg K)] and conductivity [W/(m K)] of water and air at 25 C and 1 atm (IAPWS-95; Lemmon et al., J. Phys. Chem. Ref.
+ * Data 29 (2000) 331). */
 static const struct scene_heat_fluid {
     const char *name;
-    double cp;
-} scene_heat_fluids[] = {{"water", 4181.0}, {"air", 1006.0}};
+    double cp, k;
+} scene_heat_fluids[] = {{"water", 4181.0, 0.607}, {"air", 1006.0, 0.0262}};
 
 /* cp of a law at 25 C and 1 atm, by differences of the enthalpy over 1e-4 of the density; NaN: it has none there. */
 static double scene_heat_cp(const struct instance *instance)
@@ -40,13 +42,31 @@ static const struct scene_heat_fluid *scene_heat_real(const struct keys_value *c
     return NULL;
 }
 
+/* Is a ratio above 0 far from 1? */
+static bool scene_heat_is_far(double ratio)
+{
+    return ratio > scene_heat_far || 1.0 / ratio > scene_heat_far;
+}
+
+/* The conductivity of a material at 25 C and 1 atm. */
+static double scene_heat_k(const struct scene_material *material)
+{
+    const struct bulla_eos *law = material->eos.module->table;
+    const struct bulla_conductivity *conductivity = material->conductivity.module->table;
+    double p = 101325.0, T = 298.15, rate = 0.0, rho, k;
+    law->density(material->eos.self, 1, &p, &T, &rho);
+    conductivity->k.value(material->conductivity.self, 1, &rate, &T, &p, &rho, &k);
+    return k;
+}
+
+/* A conductivity that is as many times smaller as the heat capacity is right: heat spreads by their ratio. */
 static void scene_heat_capacity(struct draft *draft, unsigned l, const struct keys_value *conductivity)
 {
     const struct scene_material *material = &draft->scene->material[l];
     const struct scene_heat_fluid *fluid = scene_heat_real(conductivity, material->name);
     if (!fluid || !material->eos.module || !material->conductivity.module) return;
     double cp = scene_heat_cp(&material->eos), ratio = fluid->cp / cp;
-    if (!(ratio > scene_heat_far || 1.0 / ratio > scene_heat_far)) return;
+    if (!scene_heat_is_far(ratio) || !scene_heat_is_far(scene_heat_k(material) * ratio / fluid->k)) return;
     diag_warn(draft->keys.diag, &conductivity->node->mark,
               "%s: cp of '%s' is %.4g J/kg/K in its law %s, that of %s is %.4g: heat spreads %.2g times as fast",
               conductivity->path, material->name, cp, material->eos.module->name, fluid->name, fluid->cp, ratio);

@@ -242,6 +242,15 @@ int read_snapshot(const char *path, const char *const *names, struct snapshot **
     return code;
 }
 
+int read_names(const char *path, unsigned *ret_n, char ***ret_names)
+{
+    struct h5 *file;
+    TRY(h5_open(path, &file));
+    int code = h5in_names(file, "/VTKHDF/CellData", ret_n, ret_names);
+    h5_abandon(file);
+    return code;
+}
+
 void read_free(struct snapshot *snapshot)
 {
     if (!snapshot) return;

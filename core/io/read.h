@@ -51,6 +51,9 @@ struct snapshot {
 int read_snapshot(const char *path, const char *const *names, struct snapshot **ret_snapshot);
 void read_free(struct snapshot *snapshot); /* NULL is fine */
 
+/* The names of the fields of a file alone, sorted; release each and the list with mem_free. */
+int read_names(const char *path, unsigned *ret_n, char ***ret_names);
+
 /* The field `name`; NULL if it was not read. */
 const struct snapshot_field *read_field(const struct snapshot *snapshot, const char *name);
 

@@ -153,7 +153,13 @@ long launch_most(void)
 int launch_check(long wanted)
 {
     struct launcher here = launcher_here();
-    if (!comm_active()) return STATUS_OK;
+    if (here.is_mute && here.size > 1)
+        return status_fail(
+            STATUS_CASE,
+            "%s has started %ld processes that cannot find each other: with srun --mpi=pmix they can, if "
+            "srun --mpi=list names it; else start them by the mpirun of Open MPI",
+            here.name, here.size);
+    if (!comm_active() && !here.is_mute) return STATUS_OK;
     if (here.size > 1 && comm_size() == 1)
         return status_fail(STATUS_CASE,
                            "%s has started %ld processes, but MPI makes each of them a run of its own: it cannot talk "

@@ -32,10 +32,11 @@ struct edges_limited {
 struct edges {
     size_t pitch;
     struct edges_limited plain, fraction;
-    bool steep;                    /* do fractions have edges of two sides? */
+    bool steep, sided;             /* do fractions, does all else have edges of two sides? */
     double *rows;                  /* all work space */
     double *mark, *spare;          /* where a row needs limited edges; these */
     double *sum;                   /* of fractions at edges */
+    double *three;                 /* three rows of cells, for limiters of two sides */
     const double *w[MODEL_FIELDS]; /* for schemes that take all rows */
     double *lower[MODEL_FIELDS], *upper[MODEL_FIELDS];
     const struct bulla_limited *limited[MODEL_FIELDS];
@@ -84,13 +85,14 @@ static void edges_limit(const struct bulla_limited *limited, size_t n, size_t st
 
 struct edges *edges_new(const struct model *model, size_t pitch)
 {
-    enum { ROWS = 8 };
+    enum { ROWS = 11 };
     struct edges *edges = mem_new(1, sizeof *edges);
     double *rows = edges->rows = mem_new(ROWS * pitch, sizeof *rows);
     edges->pitch = pitch;
     edges->mark = rows + 2 * pitch;
     edges->spare = rows + 3 * pitch;
     edges->sum = rows + 5 * pitch;
+    edges->three = rows + 8 * pitch;
     struct edges_limited plain = {.call = {.size = sizeof(struct bulla_limited), .edges = edges_limit},
                                   .limiter = model->limiter,
                                   .difference = rows,
@@ -98,6 +100,7 @@ struct edges *edges_new(const struct model *model, size_t pitch)
     edges->plain = edges->fraction = plain;
     edges->fraction.limiter = model->limiter_alpha;
     edges->steep = vet_two_sided(model->limiter_alpha.law);
+    edges->sided = vet_two_sided(model->limiter.law);
     return edges;
 }
 
@@ -285,16 +288,67 @@ static BULLA_KERNEL void edges_hold(size_t n, const double *restrict w, const do
     }
 }
 
+/* What a limiter of two sides, which knows cells alone, makes of given differences: edges of cells of value 0 between
+ * neighbours that differ by them. */
+static void edges_sides(const struct edges *edges, size_t n, const double *below, const double *above, double *lower,
+                        double *upper)
+{
+    const struct model_limiter *limiter = &edges->plain.limiter;
+    double *before = edges->three, *here = before + n, *behind = here + n;
+    for (size_t i = 0; i < n; i++) before[i] = -below[i];
+    memset(here, 0, n * sizeof *here);
+    memcpy(behind, above, n * sizeof *behind);
+    limiter->law->edges(limiter->self, n, n, here, lower, upper);
+}
+
+static BULLA_KERNEL void edges_lift(size_t n, const double *restrict w, double *restrict lower, double *restrict upper)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double here = w[i];
+        lower[i] = here + lower[i];
+        upper[i] = here + upper[i];
+    }
+}
+
+static BULLA_KERNEL void edges_lift_held(size_t n, const double *restrict w, const double *restrict below,
+                                         const double *restrict above, double *restrict lower, double *restrict upper)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double here = w[i], down = lower[i] - below[i], up = upper[i] + above[i];
+        lower[i] = here + down;
+        upper[i] = here + up;
+    }
+}
+
+/* Edges of pressure from its differences to the cells before and behind, less what forces hold. */
+static void edges_drawn(const struct edges *edges, const struct model *model, const struct edges_row *row,
+                        const double *below, const double *above)
+{
+    const struct edges_limited *own = &edges->plain;
+    const double *p = edges_inside(edges, row, model->i_E), *const *rise = row->rise;
+    double *upper = edges_upper(edges, row, model->i_E), *lower = upper + row->cells;
+    size_t n = row->cells;
+    if (edges->sided) {
+        edges_sides(edges, n, below, above, lower, upper);
+        if (rise[0]) edges_lift_held(n, p, rise[0], rise[1], lower, upper);
+        else edges_lift(n, p, lower, upper);
+        return;
+    }
+    own->limiter.law->slope(own->limiter.self, n, below, above, own->slope);
+    if (rise[0]) edges_hold(n, p, own->slope, rise[0], rise[1], lower, upper);
+    else edges_slope(n, p, own->slope, lower, upper);
+}
+
 /* Edges of pressure where forces act, by any scheme: with limited slopes. */
 static void edges_press(const struct edges *edges, const struct model *model, const struct edges_row *row)
 {
-    const struct edges_limited *own = &edges->plain;
     size_t n = row->cells, step = row->step;
     const double *p = edges_inside(edges, row, model->i_E);
-    double *upper = edges_upper(edges, row, model->i_E);
-    edges_differ_held(n + step, p - step, p, row->rise[1] - step, row->rise[0], own->difference);
-    own->limiter.law->slope(own->limiter.self, n, own->difference, own->difference + step, own->slope);
-    edges_hold(n, p, own->slope, row->rise[0], row->rise[1], upper + n, upper);
+    double *difference = edges->plain.difference;
+    edges_differ_held(n + step, p - step, p, row->rise[1] - step, row->rise[0], difference);
+    edges_drawn(edges, model, row, difference, difference + step);
 }
 
 /* Given differences, less what forces hold. */
@@ -308,19 +362,16 @@ static BULLA_KERNEL void edges_less(size_t n, const double *restrict lean, const
 /* Edges of pressure where each cell has its own view of the differences to the cells before and behind. */
 static void edges_lean(const struct edges *edges, const struct model *model, const struct edges_row *row)
 {
-    const struct edges_limited *own = &edges->plain;
     size_t n = row->cells, step = row->step;
-    const double *p = edges_inside(edges, row, model->i_E), *const *rise = row->rise;
-    double *upper = edges_upper(edges, row, model->i_E), *below = edges->spare, *above = edges->spare + edges->pitch;
+    const double *const *rise = row->rise;
+    double *below = edges->spare, *above = edges->spare + edges->pitch;
     if (!rise[0]) {
-        own->limiter.law->slope(own->limiter.self, n, row->lean[0], row->lean[1], own->slope);
-        edges_slope(n, p, own->slope, upper + n, upper);
+        edges_drawn(edges, model, row, row->lean[0], row->lean[1]);
         return;
     }
     edges_less(n, row->lean[0], rise[1] - step, rise[0], below);
     edges_less(n, row->lean[1], rise[1], rise[0] + step, above);
-    own->limiter.law->slope(own->limiter.self, n, below, above, own->slope);
-    edges_hold(n, p, own->slope, rise[0], rise[1], upper + n, upper);
+    edges_drawn(edges, model, row, below, above);
 }
 
 /* First-order states at the faces of troubled cells. */

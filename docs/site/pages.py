@@ -20,7 +20,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 MATHJAX = "/usr/share/javascript/mathjax"
 PARTS = [  # of the table of contents; pages that are named nowhere come last
-    ("Use", ["install", "running", "cluster", "editor", "repository"]),
+    ("Use", ["install", "running", "watch", "cluster", "editor", "repository"]),
     ("Cases", ["gallery/index", "cases", "keys", "lua"]),
     ("Results", ["output", "verification", "reliability", "scaling"]),
     ("Method", ["numerics", "thermodynamics"]),

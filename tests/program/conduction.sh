@@ -54,6 +54,8 @@ said() { # WORDS ARGS...
     grep -q "$words" err || { echo "not said: $words"; cat out err; exit 1; }
 }
 said "heat spreads 1.6 times as fast"
+"$BULLA" check hot.yaml --set materials.water.conductivity=0.377 >out 2>&1
+! grep -q "times as fast" out || { cat out; exit 1; }
 said "'water' conducts heat, but its law stiffened-gas has no temperatures" \
     --set 'materials.water.eos={type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}'
 said "with conduction volume must move with heat, which 'allaire' does not" --set scheme.closure=allaire

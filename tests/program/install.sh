@@ -14,6 +14,7 @@ for file in bin/bulla bin/bulla-view include/bulla/module.h include/bulla/skelet
     share/fish/vendor_completions.d/bulla.fish share/doc/bulla/LICENSE share/doc/bulla/cases/tour/tube.yaml; do
     [ -f "$place/$file" ] || fail "not installed: $file"
 done
+[ ! -e "$BULLA_BUILD/bin/bulla-watch" ] || [ -f "$place/bin/bulla-watch" ] || fail "not installed: bin/bulla-watch"
 find "$BULLA_BUILD/lib/bulla/modules" -name '*.so' -printf '%f\n' | sort >built
 find "$place/lib/bulla/modules" -name '*.so' -printf '%f\n' | sort >installed
 [ -s built ] && cmp built installed || fail "not all modules are installed"

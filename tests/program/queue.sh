@@ -60,10 +60,17 @@ launched() { mpirun --oversubscribe --allow-run-as-root --mca mpi_yield_when_idl
     refused "error: -n 3, but Open MPI's mpirun has started 2 ranks" \
         mpirun -n 2 --oversubscribe --allow-run-as-root --bind-to none "$BULLA" run bubble.yaml -n 3 -o out
 )
-# A step of srun with which MPI cannot talk: four runs would write one directory.
+# A step of srun without PMI, or with one that MPI cannot talk to: four runs would write one directory.
+# shellcheck disable=SC2086
+refused 'error: srun has started 4 processes that cannot find each other: with srun --mpi=pmix they can' \
+    env $script SLURM_STEP_ID=0 SLURM_STEP_NUM_TASKS=4 "$BULLA" run bubble.yaml -o out
 # shellcheck disable=SC2086
 refused 'error: srun has started 4 processes, but MPI makes each of them a run of its own' \
-    env $script SLURM_STEP_ID=0 SLURM_STEP_NUM_TASKS=4 "$BULLA" run bubble.yaml -o out
+    env $script SLURM_STEP_ID=0 SLURM_STEP_NUM_TASKS=4 PMI2_FD=99 "$BULLA" run bubble.yaml -o out
+# A step of one task is one run.
+# shellcheck disable=SC2086
+env $script SLURM_STEP_ID=0 SLURM_STEP_NUM_TASKS=1 "$BULLA" run bubble.yaml -o step --quiet
+cmp whole/history.csv step/history.csv
 # shellcheck disable=SC2086
 refused 'error: -n 4, but srun has started 1 rank:' \
     env $script SLURM_STEP_ID=0 SLURM_STEP_NUM_TASKS=1 "$BULLA" run bubble.yaml -o out -n 4

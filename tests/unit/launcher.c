@@ -74,10 +74,30 @@ static void environments_say_who_started_the_process(void **state)
     }
 }
 
+static void a_step_without_pmi_is_mute(void **state)
+{
+    (void)state;
+    static const struct {
+        bool is_mute;
+        const char *environment[6];
+    } steps[] = {
+        {true, {"SLURM_STEP_ID=0", "SLURM_STEP_NUM_TASKS=4", "SLURM_MPI_TYPE=none"}},
+        {true, {"SLURM_STEPID=2", "SLURM_STEP_NUM_TASKS=1"}},
+        {false, {"SLURM_STEP_ID=0", "SLURM_STEP_NUM_TASKS=4", "PMIX_RANK=1"}},
+        {false, {"SLURM_STEP_ID=0", "SLURM_STEP_NUM_TASKS=4", "PMI2_FD=5"}},
+        {false, {"SLURM_STEP_ID=0"}}, /* how many is not known: MPI must say */
+        {false, {"SLURM_STEP_ID=batch", "SLURM_STEP_NUM_TASKS=4"}},
+        {false, {"OMPI_COMM_WORLD_RANK=0", "OMPI_COMM_WORLD_SIZE=2"}},
+    };
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+        assert_int_equal(launcher_find((char *const *)(uintptr_t)steps[i].environment).is_mute, steps[i].is_mute);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(environments_say_who_started_the_process),
+        cmocka_unit_test(a_step_without_pmi_is_mute),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,8 @@
 /* system.c - the calls of this system. */
 #include "system.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 
@@ -41,6 +43,25 @@ static void shared_files(void **state)
     assert_true(WIFEXITED(code) && WEXITSTATUS(code) == 0);
     close(file);
     assert_int_equal(system_shared_open(owner, file), -1);
+}
+
+/* Who looks at a lock does not take it. */
+static void locks(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/bulla-lock-XXXXXX";
+    assert_non_null(mkdtemp(path));
+    assert_int_equal(system_locked(path), 0);
+    int file = open(path, O_RDONLY | O_DIRECTORY), other = open(path, O_RDONLY | O_DIRECTORY);
+    assert_int_equal(flock(file, LOCK_EX), 0);
+    assert_int_equal(system_locked(path), 1);
+    assert_int_equal(flock(file, LOCK_UN), 0);
+    assert_int_equal(system_locked(path), 0);
+    assert_int_equal(flock(other, LOCK_EX | LOCK_NB), 0);
+    close(file);
+    close(other);
+    assert_int_equal(rmdir(path), 0);
+    assert_int_equal(system_locked(path), -1); /* it is not there */
 }
 
 static volatile sig_atomic_t ticks;
@@ -92,7 +113,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(program), cmocka_unit_test(names),   cmocka_unit_test(shared_files),
-        cmocka_unit_test(timers),  cmocka_unit_test(parents),
+        cmocka_unit_test(timers),  cmocka_unit_test(parents), cmocka_unit_test(locks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

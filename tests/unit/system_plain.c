@@ -60,6 +60,12 @@ static void timers(void **state)
     assert_false(system_timer_new(SIGVTALRM));
 }
 
+static void locks(void **state)
+{
+    (void)state;
+    assert_int_equal(system_locked("."), -1);
+}
+
 /* The modules beside the program are found from where it lies. */
 static void modules(void **state)
 {
@@ -80,7 +86,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(program), cmocka_unit_test(names),   cmocka_unit_test(shared_files),
-        cmocka_unit_test(timers),  cmocka_unit_test(modules),
+        cmocka_unit_test(timers),  cmocka_unit_test(modules), cmocka_unit_test(locks),
     };
     if (argc < 1 || !realpath(argv[0], own)) return 1;
     return cmocka_run_group_tests(tests, NULL, NULL);

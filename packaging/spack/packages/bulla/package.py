@@ -23,6 +23,7 @@ class Bulla(CMakePackage):
     depends_on("zlib-api")
     depends_on("cairo+png")
     depends_on("libpng")
+    depends_on("libmicrohttpd@0.9.71:")
 
     generator("ninja")
 
