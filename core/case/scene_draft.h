@@ -51,6 +51,9 @@ void scene_expect(struct draft *draft);
 /* `balance: tension` of layer `index`: the pressure inside is made the given one and what surface tension adds. */
 void scene_tension_balance(struct draft *draft, const struct keys_value *balance, unsigned index);
 
+/* What is wrong about the velocity of the wall at a face of the domain, if it is one. */
+void scene_wall(struct draft *draft, int axis, int side, const struct keys_map *map);
+
 /* The table of times and pressures of a measured pulse. */
 void scene_pulse(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map);
 

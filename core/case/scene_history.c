@@ -253,6 +253,8 @@ static void scene_history_column(struct draft *draft, struct scene_column *colum
     if (scene_history_of_surface(column->measure) && !in->node)
         keys_error(&draft->keys, measure, "'in' is missing: the material whose surface it is");
     if (scene_history_between(column->measure)) scene_history_alone(draft, map, measure);
+    if (column->measure != SCENE_FORCE || (!in->node && !where->node)) return;
+    keys_error(&draft->keys, in->node ? in : where, "a force is that on a whole body");
 }
 
 void scene_history(struct draft *draft)
