@@ -42,7 +42,8 @@ static const struct key scene_rigid_rows[] = {
 const struct keys_section scene_rigid_keys = {.name = "body",
                                               .doc = "A rigid body that stands still or moves as prescribed.",
                                               .base = &scene_shape_keys,
-                                              .keys = scene_rigid_rows};
+                                              .keys = scene_rigid_rows,
+                                              .rules = "{'not': {'required': ['velocity', 'displacement']}}"};
 
 /* What is not computed beside bodies. */
 static void scene_rigid_beside(struct draft *draft, const struct keys_value *section)
