@@ -116,6 +116,7 @@ struct scene_phase {
     double time;                   /* of relaxation [s] */
     double accommodation, area;    /* of hertz-knudsen [1, 1/m] */
     double tension, superheat;     /* what liquid without vapour bears [Pa, K] */
+    double onset;                  /* liquid evaporates where vapour and gases fill this share of the cell */
     struct saturation_range curve; /* of liquid and vapour */
 };
 
@@ -339,6 +340,7 @@ struct scene_scheme {
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
     enum scene_guard guard;
+    bool wood;       /* faces of mixtures that expand have Wood's speed (scheme/wood.h) */
     double low_mach; /* least part of a jump of velocity that faces see (scheme/low_mach.h); 1: all of it */
     bool calm;       /* faces beside strong shocks resist shear (scheme/calm.h) */
 };
