@@ -325,7 +325,10 @@ static const struct keys_section *const scene_boundary_cases[] = {SCENE_BOUNDARY
 _Static_assert(sizeof scene_boundary_types / sizeof *scene_boundary_types == SCENE_BOUNDARY_TYPES, "a row per type");
 
 static const struct key scene_boundary_rows[] = {
-    {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "What lies behind this face."},
+    {.name = "type",
+     .type = KEYS_CHOICE,
+     .required = true,
+     .doc = "What lies behind this face; a module of kind `boundary` is a type, too."},
     {0},
 };
 

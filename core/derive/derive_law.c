@@ -9,6 +9,7 @@
 
 #include <string.h>
 
+enum { DERIVE_LAW_SLOPED = SCENE_AXES + 2 }; /* rows with slopes, at most: velocities, pressure, density */
 enum { DERIVE_LAW_SLOPES = BULLA_FIELD_VELOCITY_SLOPES | BULLA_FIELD_PRESSURE_SLOPES | BULLA_FIELD_DENSITY_SLOPES };
 
 static const struct bulla_field *derive_law_table(const struct scene *scene, int index)
@@ -36,7 +37,7 @@ bool derive_law_needs_layers(const struct scene *scene, const struct derive *fie
 
 /* Rows that are made for one call; those that nobody needs stay NULL. */
 struct derive_law_rows {
-    double *zero, *one, *place[SCENE_AXES], *volume, *c, *T, *rho_E, *slope[SCENE_AXES * (SCENE_AXES + 2)];
+    double *zero, *one, *place[SCENE_AXES], *volume, *c, *T, *rho_E, *slope[SCENE_AXES * DERIVE_LAW_SLOPED];
     const double *alpha[SCENE_MATERIALS], *rho[SCENE_MATERIALS], *u[SCENE_AXES], *temperatures[SCENE_MATERIALS];
     double *out[BULLA_FIELD_OUTPUTS];
     struct bulla_points cells;
@@ -109,31 +110,36 @@ static void derive_law_states(const struct derive_view *tile, uint32_t needs, st
     rows->cells.rho_E = rows->rho_E;
 }
 
-/* The slope along an axis of a primitive, or of the density (-1); zeros beyond the scene's axes and velocities. */
-static const double *derive_law_slope(const struct derive_view *tile, int axis, int q, struct derive_law_rows *rows,
-                                      unsigned *n_slope)
+/* What a module gets slopes of: the primitives, or the density. Returns how many. */
+static unsigned derive_law_sloped(const struct model *model, uint32_t needs, int q[static DERIVE_LAW_SLOPED])
 {
-    if (axis >= tile->mesh->dim) return rows->zero;
-    double *row = rows->slope[(*n_slope)++] = derive_law_row(tile->n, 0.0);
-    if (q < 0) derive_slope_rho(tile, axis, row);
-    else derive_slope_primitive(tile, axis, (unsigned)q, row);
-    return row;
+    unsigned n = 0;
+    for (unsigned d = 0; d < model->n_velocity && needs & BULLA_FIELD_VELOCITY_SLOPES; d++)
+        q[n++] = (int)(model->i_u + d);
+    if (needs & BULLA_FIELD_PRESSURE_SLOPES) q[n++] = (int)model->i_E;
+    if (needs & BULLA_FIELD_DENSITY_SLOPES) q[n++] = DERIVE_SLOPE_RHO;
+    return n;
 }
 
-static void derive_law_slopes(const struct derive_view *tile, uint32_t needs, struct derive_law_rows *rows)
+/* Slopes along an axis; zeros along those that the scene has not. */
+static void derive_law_slope(const struct derive_view *tile, int axis, uint32_t needs, struct derive_law_rows *rows)
 {
-    const struct model *model = tile->model;
-    unsigned n_slope = 0;
-    for (int axis = 0; axis < SCENE_AXES; axis++) {
-        for (unsigned of = 0; of < SCENE_AXES && needs & BULLA_FIELD_VELOCITY_SLOPES; of++)
-            rows->cells.du[of][axis] = of < model->n_velocity
-                                           ? derive_law_slope(tile, axis, (int)(model->i_u + of), rows, &n_slope)
-                                           : rows->zero;
-        if (needs & BULLA_FIELD_PRESSURE_SLOPES)
-            rows->cells.dp[axis] = derive_law_slope(tile, axis, (int)model->i_E, rows, &n_slope);
-        if (needs & BULLA_FIELD_DENSITY_SLOPES)
-            rows->cells.drho[axis] = derive_law_slope(tile, axis, -1, rows, &n_slope);
+    int q[DERIVE_LAW_SLOPED];
+    unsigned n = derive_law_sloped(tile->model, needs, q);
+    double *const *slope = rows->slope + axis * DERIVE_LAW_SLOPED;
+    const double *row = rows->zero;
+    bool varies = axis < tile->mesh->dim;
+    for (unsigned k = 0; k < n && varies; k++)
+        rows->slope[axis * DERIVE_LAW_SLOPED + (int)k] = derive_law_row(tile->n, 0.0);
+    if (varies && n) derive_slope_rows(tile, axis, n, q, slope);
+    for (unsigned k = 0; k < n; k++) {
+        if (varies) row = slope[k];
+        if (q[k] == DERIVE_SLOPE_RHO) rows->cells.drho[axis] = row;
+        else if (q[k] == (int)tile->model->i_E) rows->cells.dp[axis] = row;
+        else rows->cells.du[q[k] - (int)tile->model->i_u][axis] = row;
     }
+    for (unsigned of = tile->model->n_velocity; of < SCENE_AXES && needs & BULLA_FIELD_VELOCITY_SLOPES; of++)
+        rows->cells.du[of][axis] = rows->zero;
 }
 
 static void derive_law_free(struct derive_law_rows *rows)
@@ -162,7 +168,7 @@ void derive_law(const struct derive_view *tile, double *out)
     derive_law_places(tile, &rows);
     derive_law_primitives(tile, &rows);
     derive_law_states(tile, law->needs, &rows);
-    derive_law_slopes(tile, law->needs, &rows);
+    for (int axis = 0; axis < SCENE_AXES; axis++) derive_law_slope(tile, axis, law->needs, &rows);
     for (int k = 0; k < BULLA_FIELD_OUTPUTS && law->outputs[k].unit; k++) rows.out[k] = derive_law_row(tile->n, 0.0);
     law->compute(self, &rows.cells, rows.out);
     memcpy(out, rows.out[index % BULLA_FIELD_OUTPUTS], tile->n * sizeof *out);

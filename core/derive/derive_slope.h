@@ -9,9 +9,9 @@
  * start copy. */
 void derive_slope_gather(const struct derive_view *tile, const struct frame *frame, size_t pitch, double *w);
 
-/* d/dx along an axis [n] of a primitive, of the density of the mixture: central differences. */
-void derive_slope_primitive(const struct derive_view *tile, int axis, unsigned q, double *grad);
-void derive_slope_rho(const struct derive_view *tile, int axis, double *grad);
+/* d/dx along an axis of n rows [n_cell], each of a primitive or of the density of the mixture: central differences. */
+enum { DERIVE_SLOPE_RHO = -1 };
+void derive_slope_rows(const struct derive_view *tile, int axis, unsigned n, const int *q, double *const *grad);
 
 /* curl u [1/s], three components; in axisymmetric scenes the axes are (r, z) and the only component points along
  * theta, which is minus the third direction of the right-handed (r, z, -theta). */
