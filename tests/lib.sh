@@ -10,6 +10,15 @@ fail() { # MESSAGE [FILE...]: ends the test; shows the files
     [ $# -eq 0 ] || cat "$@"
     exit 1
 }
+refused() { # PATTERN COMMAND...: ends with exit code 2 and one line, which says PATTERN
+    refused_pattern=$1
+    shift
+    code=0
+    "$@" >out 2>err || code=$?
+    [ "$code" = 2 ] || fail "exit code $code: $*" err
+    grep -q -- "$refused_pattern" err || fail "no '$refused_pattern' in:" err
+    [ "$(wc -l <err)" = 1 ] || fail "more than a line:" err
+}
 lib_limit=600 # s; only what hangs takes so long
 limited() { timeout -k 5 "$lib_limit" "$@"; } # COMMAND...: 124 if it hangs
 

@@ -2,9 +2,8 @@
 # mpich.sh [PROGRAM] - builds bulla with MPICH and serial HDF5, warnings as errors, runs its tests, and compares the
 # histories of 1, 2 and 3 ranks with each other and with those of PROGRAM (bulla built with Open MPI), bit by bit: a plane
 # wave, and levels that move. Build and results are in build-mpich, or in $BULLA_MPICH_BUILD. Needs libmpich-dev, mpich
-# and libhdf5-dev beside what bulla needs, else it ends with 77. Ranks of MPICH wait without a pause: minutes, more where
-# cores are few. Nightly; .ci/mpich does it in a Debian that has nothing yet. BULLA_MPICH_TESTS: a regular expression for
-# ctest, if not all tests are wanted.
+# and libhdf5-dev beside what bulla needs, else it ends with 77. Nightly; .ci/mpich does it in a Debian that has nothing
+# yet. BULLA_MPICH_TESTS: a regular expression for ctest, if not all tests are wanted.
 set -eu
 command -v mpicc.mpich >/dev/null || { echo "there is no mpicc.mpich"; exit 77; }
 root=$(cd -- "$(dirname -- "$0")/.." && pwd)

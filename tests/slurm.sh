@@ -65,7 +65,7 @@ await "an idle queue" idle
 
 # The work.
 cd "$place/work"
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 printf '#!/bin/sh\nexec "%s" "$@"\n' "$program" >bin/bulla
 chmod +x bin/bulla
 PATH=$place/work/bin:$PATH

@@ -6,9 +6,12 @@
 #include "base/mem.h"
 #include "base/status.h"
 
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { COMM_LOOKS = 100 }; /* a message from a rank at work next door takes fewer */
 
 static bool comm_is_active;
 static MPI_Comm comm_near = MPI_COMM_NULL; /* the ranks of this machine, once asked for */
@@ -62,6 +65,31 @@ int comm_neighbours(void)
     return count;
 }
 
+void comm_wait(int count, MPI_Request *requests, MPI_Status *ret_statuses)
+{
+    int done = 0;
+    for (int looks = 0; !done; looks++) {
+        if (looks >= COMM_LOOKS) sched_yield();
+        MPI_Testall(count, requests, &done, ret_statuses);
+    }
+}
+
+static void comm_copy(void *data, size_t bytes, int source, MPI_Comm ranks)
+{
+    MPI_Request request;
+    if (!comm_is_active) return;
+    MPI_Ibcast(data, (int)bytes, MPI_BYTE, source, ranks, &request);
+    comm_wait(1, &request, MPI_STATUSES_IGNORE);
+}
+
+static void comm_meet(MPI_Comm ranks)
+{
+    MPI_Request request;
+    if (!comm_is_active) return;
+    MPI_Ibarrier(ranks, &request);
+    comm_wait(1, &request, MPI_STATUSES_IGNORE);
+}
+
 int comm_near_rank(void)
 {
     int rank = 0;
@@ -71,12 +99,12 @@ int comm_near_rank(void)
 
 void comm_near_bcast(void *data, size_t bytes)
 {
-    if (comm_is_active) MPI_Bcast(data, (int)bytes, MPI_BYTE, 0, comm_near);
+    comm_copy(data, bytes, 0, comm_near);
 }
 
 void comm_near_barrier(void)
 {
-    if (comm_is_active) MPI_Barrier(comm_near);
+    comm_meet(comm_near);
 }
 
 void comm_abort(int code)
@@ -87,7 +115,10 @@ void comm_abort(int code)
 
 static void comm_reduce(void *values, int count, MPI_Datatype type, MPI_Op op)
 {
-    if (comm_is_active) MPI_Allreduce(MPI_IN_PLACE, values, count, type, op, MPI_COMM_WORLD);
+    MPI_Request request;
+    if (!comm_is_active) return;
+    MPI_Iallreduce(MPI_IN_PLACE, values, count, type, op, MPI_COMM_WORLD, &request);
+    comm_wait(1, &request, MPI_STATUSES_IGNORE);
 }
 
 void comm_min(double *values, int count)
@@ -119,7 +150,7 @@ static void comm_share_message(bool has)
     int source = has ? comm_rank() : comm_size();
     comm_reduce(&source, 1, MPI_INT, MPI_MIN);
     snprintf(text, sizeof text, "%s", status_text());
-    if (comm_is_active) MPI_Bcast(text, (int)sizeof text, MPI_CHAR, source, MPI_COMM_WORLD);
+    comm_copy(text, sizeof text, source, MPI_COMM_WORLD);
     if (source != comm_rank()) status_fail(STATUS_OK, "%s", text);
 }
 
@@ -136,20 +167,31 @@ static int *comm_counts(int count)
 {
     int size = comm_size();
     int *counts = mem_new(2 * (size_t)size + 1, sizeof *counts), *starts = counts + size;
-    if (comm_is_active) MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, MPI_COMM_WORLD);
-    else counts[0] = count;
+    MPI_Request request;
+    counts[0] = count;
+    if (comm_is_active) {
+        MPI_Iallgather(&count, 1, MPI_INT, counts, 1, MPI_INT, MPI_COMM_WORLD, &request);
+        comm_wait(1, &request, MPI_STATUSES_IGNORE);
+    }
     for (int rank = 0; rank < size; rank++) starts[rank + 1] = starts[rank] + counts[rank];
     return counts;
 }
 
+/* The items of all ranks, in their order. */
+static void comm_collect(const void *values, const int *counts, MPI_Datatype type, size_t size, void *ret_all)
+{
+    MPI_Request request;
+    int own = counts[comm_rank()];
+    if (comm_is_active) {
+        MPI_Iallgatherv(values, own, type, ret_all, counts, counts + comm_size(), type, MPI_COMM_WORLD, &request);
+        comm_wait(1, &request, MPI_STATUSES_IGNORE);
+    } else if (own) memcpy(ret_all, values, (size_t)own * size);
+}
+
 void comm_join(const double *values, int count, double *ret_all)
 {
-    if (!comm_is_active) {
-        memcpy(ret_all, values, (size_t)count * sizeof *values);
-        return;
-    }
-    int *counts = comm_counts(count), *starts = counts + comm_size();
-    MPI_Allgatherv(values, count, MPI_DOUBLE, ret_all, counts, starts, MPI_DOUBLE, MPI_COMM_WORLD);
+    int *counts = comm_counts(count);
+    comm_collect(values, counts, MPI_DOUBLE, sizeof *values, ret_all);
     mem_free(counts);
 }
 
@@ -158,19 +200,17 @@ uint64_t *comm_join_keys(const uint64_t *keys, unsigned count, unsigned *ret_cou
     int *counts = comm_counts((int)count), *starts = counts + comm_size();
     *ret_count = (unsigned)starts[comm_size()];
     uint64_t *all = mem_new(*ret_count + 1u, sizeof *all);
-    if (comm_is_active)
-        MPI_Allgatherv(keys, (int)count, MPI_UINT64_T, all, counts, starts, MPI_UINT64_T, MPI_COMM_WORLD);
-    else if (count) memcpy(all, keys, count * sizeof *keys);
+    comm_collect(keys, counts, MPI_UINT64_T, sizeof *keys, all);
     mem_free(counts);
     return all;
 }
 
 void comm_bcast(void *data, size_t bytes)
 {
-    if (comm_is_active) MPI_Bcast(data, (int)bytes, MPI_BYTE, 0, MPI_COMM_WORLD);
+    comm_copy(data, bytes, 0, MPI_COMM_WORLD);
 }
 
 void comm_barrier(void)
 {
-    if (comm_is_active) MPI_Barrier(MPI_COMM_WORLD);
+    comm_meet(MPI_COMM_WORLD);
 }

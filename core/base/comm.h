@@ -2,6 +2,7 @@
  *
  * A process that was not started by an MPI launcher never initialises MPI (that alone costs
  * more than many 1D cases); it is then rank 0 of 1 and every call here is a no-op or a copy.
+ * A rank that waits lets others have the processor (comm_wait), whatever the MPI and whoever started it.
  * Reductions are minima, maxima and integer sums only, or collect per-item values: sums of
  * doubles in an order that depends on the ranks would break the bitwise contract. */
 #ifndef COMM_H
@@ -30,6 +31,11 @@ int comm_neighbours(void);
 int comm_near_rank(void);
 void comm_near_bcast(void *data, size_t bytes);
 void comm_near_barrier(void);
+
+/* Until these requests are done (persistent ones are ready for the next start); statuses as for MPI_Waitall. Between
+ * looks the processor is for whoever wants it: MPICH, and Open MPI under srun, would keep it, and where ranks or their
+ * neighbours are more than the processors, each wait would last until the system takes it away. */
+void comm_wait(int count, MPI_Request *requests, MPI_Status *ret_statuses);
 
 /* Ends all ranks now with this exit code. */
 void comm_abort(int code) __attribute__((noreturn));

@@ -65,29 +65,22 @@ static const struct keys_section *family_of_module(struct forest *forest, const 
 
 const struct keys_section *family_find(struct forest *forest, const struct keys_section *section, const char *name)
 {
-    if (section->kind) {
-        const struct registry_entry *entry = registry_find(section->kind, name);
-        return entry ? family_of_module(forest, entry->module) : NULL;
-    }
     for (const struct keys_section *const *at = section->cases; at && *at; at++)
         if (strcmp((*at)->name, name) == 0) return *at;
-    return NULL;
+    const struct registry_entry *entry = section->kind ? registry_find(section->kind, name) : NULL;
+    return entry ? family_of_module(forest, entry->module) : NULL;
 }
 
 const char *const *family_names(struct forest *forest, const struct keys_section *section)
 {
-    if (section->kind) {
-        const char *const *names = registry_names(section->kind);
-        unsigned count = 0;
-        while (names[count]) count++;
-        const char **copy = tree_take(forest, (count + 1) * sizeof *copy);
-        for (unsigned i = 0; i < count; i++) copy[i] = tree_print(forest, "%s", names[i]);
-        return copy;
-    }
-    unsigned count = 0;
-    while (section->cases[count]) count++;
-    const char **names = tree_take(forest, (count + 1) * sizeof *names);
-    for (unsigned i = 0; i < count; i++) names[i] = section->cases[i]->name;
+    static const char *const none[] = {NULL};
+    const char *const *modules = section->kind ? registry_names(section->kind) : none;
+    unsigned count = 0, own = 0;
+    while (section->cases && section->cases[own]) own++;
+    while (modules[count]) count++;
+    const char **names = tree_take(forest, (own + count + 1) * sizeof *names);
+    for (unsigned i = 0; i < own; i++) names[i] = section->cases[i]->name;
+    for (unsigned i = 0; i < count; i++) names[own + i] = tree_print(forest, "%s", modules[i]);
     return names;
 }
 

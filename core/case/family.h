@@ -1,6 +1,6 @@
 /* family.h - the cases of a section: `type: outflow`, `type: stiffened-gas`.
  *
- * Cases of core's own sections are tables in core; those of a module section are made from
+ * Cases of core's own sections are tables in core; those of a module kind, which may stand beside them, are made from
  * the parameter tables of the modules that are loaded, so a new module's keys are checked,
  * documented and part of the schema without a line in core. */
 #ifndef FAMILY_H

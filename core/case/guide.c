@@ -46,7 +46,9 @@ static const char *guide_kind(struct guide *guide, const struct key *key, const 
     struct forest *forest = guide->forest;
     bool selects = section->selector && strcmp(section->selector, key->name) == 0;
     const char *kind = scalar_wanted(forest, key);
-    if (selects) kind = tree_print(forest, "one of %s", guide_join(guide, family_names(forest, section)));
+    const char *const *names = selects ? family_names(forest, section) : NULL;
+    if (selects && !*names) kind = tree_print(forest, "the name of a module of kind `%s`", section->kind);
+    else if (selects) kind = tree_print(forest, "one of %s", guide_join(guide, names));
     else if (key->type == KEYS_CHOICE)
         kind = tree_print(forest, "one of %s", guide_join(guide, scalar_choices(forest, key->choices)));
     else if (key->type == KEYS_SECTION) kind = tree_print(forest, "[%s](#%s)", key->section->name, key->section->name);

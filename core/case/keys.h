@@ -64,7 +64,7 @@ struct keys_section {
     const struct keys_section *const *cases; /* ends with NULL */
     const char *rules;                       /* what else the reader sees to, for the schema: a list of JSON Schemas
                                                 without its brackets, ' instead of "; or NULL */
-    const char *kind;                        /* the cases are the modules of this kind */
+    const char *kind;                        /* the modules of this kind are cases, too */
     const char *amount, *amount_key;         /* a quantity stands for the map of this case with this key; or NULL */
     const struct bulla_module *module;       /* of a case that is a module */
 };

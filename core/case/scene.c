@@ -82,6 +82,7 @@ static void scene_fill(struct draft *draft)
     scene_scheme(draft);
     scene_heat(draft);
     scene_mesh(draft);
+    scene_derived(draft);
     scene_refine(draft);
     scene_boundary(draft);
     scene_tension(draft);
@@ -261,6 +262,26 @@ static void scene_free_output(struct scene *scene)
     mem_free(scene->expects);
 }
 
+struct instance *scene_instance(struct scene *scene, unsigned index)
+{
+    enum { LAWS = 5, SCHEMES = 4, FACES = 2 * SCENE_AXES };
+    if (index < LAWS * scene->n_material) {
+        struct scene_material *material = &scene->material[index / LAWS];
+        struct instance *const laws[LAWS] = {&material->eos, &material->constitutive, &material->plastic,
+                                             &material->viscosity, &material->conductivity};
+        return laws[index % LAWS];
+    }
+    index -= LAWS * scene->n_material;
+    struct scene_scheme *scheme = &scene->scheme;
+    struct instance *const schemes[SCHEMES] = {&scheme->reconstruction, &scheme->limiter, &scheme->interface_limiter,
+                                               &scheme->riemann};
+    if (index < SCHEMES) return schemes[index];
+    index -= SCHEMES;
+    if (index < FACES) return &scene->domain.boundary[index / 2][index % 2].law;
+    index -= FACES;
+    return index < scene->n_derived ? &scene->derived[index].law : NULL;
+}
+
 void scene_free(struct scene *scene)
 {
     if (!scene) return;
@@ -280,17 +301,9 @@ void scene_free(struct scene *scene)
         mem_free(scene->mesh.refines[i].uses);
     }
     mem_free(scene->mesh.refines);
-    for (unsigned i = 0; i < scene->n_material; i++) {
-        instance_done(&scene->material[i].eos);
-        instance_done(&scene->material[i].constitutive);
-        instance_done(&scene->material[i].plastic);
-        instance_done(&scene->material[i].viscosity);
-        instance_done(&scene->material[i].conductivity);
-    }
-    instance_done(&scene->scheme.riemann);
-    instance_done(&scene->scheme.reconstruction);
-    instance_done(&scene->scheme.limiter);
-    instance_done(&scene->scheme.interface_limiter);
+    struct instance *instance;
+    for (unsigned i = 0; (instance = scene_instance(scene, i)); i++) instance_done(instance);
+    mem_free(scene->derived);
     for (unsigned i = 0; i < scene->n_variant; i++) mem_free(scene->variants[i]);
     mem_free(scene->variants);
     for (unsigned i = 0; i < scene->n_setting; i++) mem_free(scene->settings[i]);

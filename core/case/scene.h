@@ -8,6 +8,7 @@
 #ifndef SCENE_H
 #define SCENE_H
 
+#include "bulla/field.h"
 #include "case/saturation.h"
 #include "case/scene_boundary.h"
 #include "case/script.h"
@@ -78,6 +79,8 @@ struct scene_boundary {
     bool moves;                              /* a no-slip wall with a velocity */
     /* walls: their temperature [K], or the heat that they give to what is inside [W/m2]; neither: none passes */
     struct scene_value temperature, heat_flux;
+    struct instance law; /* of a module, and its enum scene_boundary_trait; module NULL: none */
+    unsigned traits;
 };
 
 struct scene_material {
@@ -113,6 +116,7 @@ struct scene_phase {
     double time;                   /* of relaxation [s] */
     double accommodation, area;    /* of hertz-knudsen [1, 1/m] */
     double tension, superheat;     /* what liquid without vapour bears [Pa, K] */
+    double onset;                  /* liquid evaporates where vapour and gases fill this share of the cell */
     struct saturation_range curve; /* of liquid and vapour */
 };
 
@@ -217,6 +221,12 @@ struct scene_formula {
     const struct script *script;
     char (*uses)[SCENE_NAME]; /* its arguments, in order: x, y, z, t or fields of one component */
     unsigned n_use;
+};
+
+/* The fields that a module makes, one for each of its outputs: section `fields:`. */
+struct scene_derived {
+    struct instance law;
+    char names[BULLA_FIELD_OUTPUTS][SCENE_NAME];
 };
 
 /* What is kept of a field over the run, cell by cell: rows of what a cell keeps, or -1 where nobody asks. A row of a time
@@ -332,6 +342,7 @@ struct scene_scheme {
     enum scene_integrator integrator;
     enum scene_diffusion diffusion; /* how viscosity and conduction are stepped (solve/rkl.h) */
     enum scene_guard guard;
+    bool wood;       /* faces of mixtures that expand have Wood's speed (scheme/wood.h) */
     double low_mach; /* least part of a jump of velocity that faces see (scheme/low_mach.h); 1: all of it */
     bool calm;       /* faces beside strong shocks resist shear (scheme/calm.h) */
 };
@@ -381,6 +392,8 @@ struct scene {
     struct scene_layer *layers;    /* `initial:` */
     struct scene_sources *sources; /* NULL: none */
     struct scene_scheme scheme;
+    unsigned n_derived;
+    struct scene_derived *derived;
     struct scene_run run;
     struct scene_output output;
     unsigned n_expect;
@@ -414,6 +427,10 @@ int scene_value_at(const struct scene_value *value, const double x[SCENE_AXES], 
 int scene_mesh_tile(const struct scene *scene);
 
 void scene_free(struct scene *scene);
+
+/* The instances of a scene, one after the other from 0: of materials, scheme, boundaries, fields. Some have no module. NULL
+ * after the last. */
+struct instance *scene_instance(struct scene *scene, unsigned index);
 
 /* The pair whose vapour a material is, or NULL. */
 const struct scene_phase *scene_phase_of(const struct scene *scene, unsigned material);

@@ -3,7 +3,9 @@
 
 #include "base/mem.h"
 #include "base/text.h"
+#include "bulla/boundary.h"
 #include "case/scene_draft.h"
+#include "plug/registry.h"
 
 #define AMPLITUDE                                                                                                      \
     {                                                                                                                  \
@@ -273,6 +275,27 @@ static void scene_boundary_read_sticky(struct draft *draft, struct scene_boundar
     boundary->moves = true;
 }
 
+/* What a module says of itself, in our words. */
+static unsigned scene_boundary_traits(const struct bulla_boundary *law)
+{
+    static const unsigned words[][2] = {{BULLA_BEHIND_RESTS, SCENE_BOUNDARY_RESTS},
+                                        {BULLA_BEHIND_BRINGS, SCENE_BOUNDARY_BRINGS},
+                                        {BULLA_BEHIND_REFERS, SCENE_BOUNDARY_REFERS},
+                                        {BULLA_BEHIND_DRIVES, SCENE_BOUNDARY_DRIVES},
+                                        {BULLA_BEHIND_OPEN, SCENE_BOUNDARY_OPEN}};
+    unsigned traits = 0;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (law->traits & words[i][0]) traits |= words[i][1];
+    return traits;
+}
+
+static void scene_boundary_read_module(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+{
+    const struct keys_value here = {.node = map->node, .path = map->path, .map = (struct keys_map *)map};
+    scene_material_open(draft, &here, &boundary->law);
+    if (boundary->law.module) boundary->traits = scene_boundary_traits(boundary->law.module->table);
+}
+
 struct scene_boundary_row {
     struct keys_section section;
     void (*read)(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map); /* or NULL */
@@ -295,13 +318,17 @@ struct scene_boundary_row {
     [SCENE_##type] = {.section.name = word, .section.doc = what, .traits = (means), SCENE_BOUNDARY_##written},
 #define SCENE_BOUNDARY_CASE(type, ...) &scene_boundary_types[SCENE_##type].section,
 
-static const struct scene_boundary_row scene_boundary_types[] = {SCENE_BOUNDARY_TABLE(SCENE_BOUNDARY_ROW)};
+static const struct scene_boundary_row scene_boundary_types[] = {
+    SCENE_BOUNDARY_TABLE(SCENE_BOUNDARY_ROW)[SCENE_BOUNDARY_MODULE] = {.read = scene_boundary_read_module}};
 static const struct keys_section *const scene_boundary_cases[] = {SCENE_BOUNDARY_TABLE(SCENE_BOUNDARY_CASE) NULL};
 
 _Static_assert(sizeof scene_boundary_types / sizeof *scene_boundary_types == SCENE_BOUNDARY_TYPES, "a row per type");
 
 static const struct key scene_boundary_rows[] = {
-    {.name = "type", .type = KEYS_CHOICE, .required = true, .doc = "What lies behind this face."},
+    {.name = "type",
+     .type = KEYS_CHOICE,
+     .required = true,
+     .doc = "What lies behind this face; a module of kind `boundary` is a type, too."},
     {0},
 };
 
@@ -309,12 +336,13 @@ const struct keys_section scene_boundary_keys = {.name = "boundary",
                                                  .doc = "What lies behind a face of the domain.",
                                                  .keys = scene_boundary_rows,
                                                  .selector = "type",
-                                                 .cases = scene_boundary_cases};
+                                                 .cases = scene_boundary_cases,
+                                                 .kind = "boundary"};
 
 bool scene_boundary_is(const struct scene *scene, int face, unsigned traits)
 {
     const struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
-    unsigned has = scene_boundary_types[boundary->type].traits;
+    unsigned has = scene_boundary_types[boundary->type].traits | boundary->traits;
     if (boundary->moves) has &= ~(unsigned)SCENE_BOUNDARY_RESTS;
     return (has & traits) == traits;
 }
@@ -334,7 +362,11 @@ static void scene_boundary_read(struct draft *draft, struct scene_boundary *boun
 {
     const struct keys_value *type = keys_at(map, "type");
     if (!type->given) return;
-    boundary->type = (enum scene_boundary_type)type->integer;
+    bool module = map->chosen && map->chosen->module;
+    if (!module && registry_find("boundary", type->text))
+        diag_warn(draft->keys.diag, &type->node->mark,
+                  "%s: '%s' is that of the program; the module of the same name is not used", type->path, type->text);
+    boundary->type = module ? SCENE_BOUNDARY_MODULE : (enum scene_boundary_type)type->integer;
     const struct scene_boundary_row *row = &scene_boundary_types[boundary->type];
     if (row->read) row->read(draft, boundary, map);
 }

@@ -40,7 +40,8 @@ enum scene_boundary_trait {
         SCENE_BOUNDARY_REFERS | SCENE_BOUNDARY_DRIVES | SCENE_BOUNDARY_OPEN)
 
 #define SCENE_BOUNDARY_TYPE(type, ...) SCENE_##type,
-enum scene_boundary_type { SCENE_BOUNDARY_TABLE(SCENE_BOUNDARY_TYPE) SCENE_BOUNDARY_TYPES };
+/* The last one is that of all modules of kind "boundary", which say themselves what they mean. */
+enum scene_boundary_type { SCENE_BOUNDARY_TABLE(SCENE_BOUNDARY_TYPE) SCENE_BOUNDARY_MODULE, SCENE_BOUNDARY_TYPES };
 #undef SCENE_BOUNDARY_TYPE
 
 /* Has the boundary at face 2 * axis + side of a scene all these traits? */

@@ -22,7 +22,7 @@ extern const struct key scene_state_rows[]; /* material, density, pressure ...: 
 extern const struct keys_section scene_pulse_units;
 extern const struct keys_section *const scene_boundary_pulse_cases[]; /* ends with NULL */
 extern const struct keys_section scene_output_keys, scene_history_column_keys, scene_map_list_keys, scene_cloud_keys,
-    scene_expect_keys, scene_peak_keys;
+    scene_expect_keys, scene_peak_keys, scene_derived_keys;
 
 /* In the order in which they are called; each reads its section of draft->root. */
 void scene_domain(struct draft *draft);
@@ -30,6 +30,7 @@ void scene_material(struct draft *draft);
 void scene_scheme(struct draft *draft);
 void scene_heat(struct draft *draft);
 void scene_mesh(struct draft *draft);
+void scene_derived(struct draft *draft);
 void scene_refine(struct draft *draft);
 void scene_boundary(struct draft *draft);
 void scene_tension(struct draft *draft);

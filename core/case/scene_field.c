@@ -173,12 +173,33 @@ static const char *scene_field_of_symbol(const char *symbol)
     return NULL;
 }
 
+/* Appends the fields of modules; returns the end of the list. */
+static struct scene_field *scene_field_derived(struct draft *draft, struct scene_field *list)
+{
+    const struct scene *scene = draft->scene;
+    static const unsigned words[][2] = {{BULLA_FIELD_POSITIVE, SCENE_FIELD_POSITIVE},
+                                        {BULLA_FIELD_VANISHING, SCENE_FIELD_VANISHING},
+                                        {BULLA_FIELD_SIGNED, SCENE_FIELD_VANISHING | SCENE_FIELD_SIGNED},
+                                        {BULLA_FIELD_FRACTION, SCENE_FIELD_FRACTION}};
+    for (unsigned i = 0; i < scene->n_derived; i++) {
+        const struct bulla_field *law = scene->derived[i].law.module->table;
+        for (unsigned k = 0; law->outputs[k].unit; k++, list++) {
+            const char *name = tree_print(draft->keys.forest, "%s", scene->derived[i].names[k]);
+            *list = (struct scene_field){.name = name, .unit = law->outputs[k].unit};
+            for (size_t w = 0; w < sizeof words / sizeof *words; w++)
+                if (law->outputs[k].is & words[w][0]) list->is |= words[w][1];
+        }
+    }
+    return list;
+}
+
 const struct scene_field *scene_field_all(struct draft *draft)
 {
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
     unsigned count = SCENE_FIELD_PLAIN, most = count + SCENE_FIELD_SOLID + SCENE_FIELD_PLASTIC + SCENE_FIELD_VISCOUS +
                                                1 + (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR) * scene->n_material;
+    most += scene->n_derived * BULLA_FIELD_OUTPUTS;
     most += 4 * scene->output.n_peak;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
     memcpy(list, scene_field_plain, sizeof scene_field_plain);
@@ -201,6 +222,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
             list[count] = scene_field_vapour[k];
             list[count++].name = tree_print(forest, "%s_%s", scene_field_vapour[k].name, vapour);
         }
+    count = (unsigned)(scene_field_derived(draft, list + count) - list);
     scene_peak_list(draft, list, list + count);
     return list;
 }

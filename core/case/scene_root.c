@@ -97,6 +97,12 @@ static const struct key scene_root[] = {
      .section = &scene_scheme_keys,
      .fallback = "{}",
      .doc = "The numerical method."},
+    {.name = "fields",
+     .type = KEYS_SECTION,
+     .many = KEYS_NAMED,
+     .section = &scene_derived_keys,
+     .doc = "Fields that modules make (kind `field`): NAME is then a field like those of the program, or NAME_SUFFIX "
+            "for each of several outputs."},
     {.name = "run",
      .type = KEYS_SECTION,
      .section = &scene_root_run_keys,

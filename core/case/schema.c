@@ -11,6 +11,7 @@
 #include "case/family.h"
 #include "case/scalar.h"
 #include "case/scene_draft.h"
+#include "plug/registry.h"
 
 #include <jansson.h>
 #include <stdlib.h>
@@ -110,15 +111,17 @@ static json_t *schema_part(struct schema *schema, const struct keys_section *sec
     return ref;
 }
 
-/* A field of every case, or one of a material; a peak of either; an expression, with or without a name. */
+/* A field of every case, or one of a material; a peak of either; an expression, with or without a name. Where modules
+ * make fields their names are those that cases choose. */
 static json_t *schema_any_field(const struct schema *schema)
 {
     struct text text = {0};
+    bool free = *registry_names("field") != NULL;
     const char *const *each = scene_field_each(schema->forest), *const *always = scene_field_always(schema->forest);
     for (unsigned i = 0; each[i]; i++) text_add(&text, "%s%s", i ? "|" : "^(?:(?:when_)?(?:max|min)_)?(?:(?:", each[i]);
     text_add(&text, ")_[A-Za-z_][A-Za-z0-9_]*");
     for (unsigned i = 0; always[i]; i++) text_add(&text, "|%s", always[i]);
-    text_add(&text, ")$");
+    text_add(&text, "%s)$", free ? "|[A-Za-z_][A-Za-z0-9_]*" : "");
     json_t *own = json_pack("{s:s,s:s,s:s}", "type", "string", "pattern", text.at, "patternErrorMessage",
                             "There is no such field.");
     text_done(&text);
@@ -191,6 +194,7 @@ static const char *schema_doc(struct schema *schema, const struct key *key)
 /* What may stand at a key. */
 static json_t *schema_value(struct schema *schema, const struct key *key, const char *const *cases)
 {
+    if (cases && !*cases) return schema_types("string", NULL); /* of modules, and none is loaded */
     return cases ? json_pack("{s:o}", "enum", schema_words(cases)) : schema_many(schema, key);
 }
 

@@ -11,6 +11,7 @@
 #include "derive/derive_curvature.h"
 #include "derive/derive_formula.h"
 #include "derive/derive_heat.h"
+#include "derive/derive_law.h"
 #include "derive/derive_slope.h"
 #include "derive/derive_stress.h"
 #include "derive/derive_vapour.h"
@@ -55,6 +56,7 @@ enum {
     DERIVE_STEEPEST = 2,   /* the largest density gradient of all, in field->scale */
     DERIVE_AROUND = 8,     /* what lies around tiles, edges and corners too */
     DERIVE_ARGUMENTS = 16, /* what the arguments of an expression need */
+    DERIVE_DECLARED = 32,  /* what its module says */
     DERIVE_PRESENCE = 4,   /* the density from which on its material is felt (presence.h), in field->scale */
 };
 
@@ -263,12 +265,14 @@ static const struct derive_quantity derive_table[] = {
     {"plastic_strain", "1", DERIVE_STRAINED, derive_stress_plastic, 0, DERIVE_ALONE},
     {"invariant_1", "1", DERIVE_SOLID, derive_stress_invariant, 0, DERIVE_ALONE},
     {"invariant_2", "1", DERIVE_SOLID, derive_stress_invariant, 1, DERIVE_ALONE},
+    {"", "", DERIVE_OF_SCENE, derive_law, 0, DERIVE_DECLARED},
     {"", "", DERIVE_OF_SCENE, derive_kept, 0, DERIVE_ALONE},
     {"", "", DERIVE_OF_SCENE, derive_formula, 0, DERIVE_ARGUMENTS},
 };
 
 enum {
     DERIVE_ROWS = sizeof derive_table / sizeof *derive_table,
+    DERIVE_LAW = DERIVE_ROWS - 3,
     DERIVE_KEPT = DERIVE_ROWS - 2,
     DERIVE_FORMULA = DERIVE_ROWS - 1
 };
@@ -340,9 +344,21 @@ static bool derive_find_formula(const struct model *model, const char *name, str
     return false;
 }
 
+static bool derive_find_law(const struct model *model, const char *name, struct derive *ret_field)
+{
+    const char *unit = "";
+    int index = derive_law_find(model->scene, name, &unit);
+    if (index < 0) return false;
+    *ret_field = (struct derive){.unit = unit, .components = 1, .what = DERIVE_LAW, .index = index};
+    strncpy(ret_field->name, name, sizeof ret_field->name - 1);
+    return true;
+}
+
 int derive_find(const struct model *model, const char *name, struct derive *ret_field)
 {
-    if (derive_find_kept(model, name, ret_field) || derive_find_formula(model, name, ret_field)) return STATUS_OK;
+    if (derive_find_kept(model, name, ret_field) || derive_find_formula(model, name, ret_field) ||
+        derive_find_law(model, name, ret_field))
+        return STATUS_OK;
     for (int i = 0; i < DERIVE_ROWS; i++) {
         const struct derive_quantity *row = &derive_table[i];
         if (row->form == DERIVE_OF_SCENE) continue;
@@ -437,7 +453,8 @@ static double derive_presence(struct derive_moment *moment, unsigned material)
 void derive_prepare(struct derive_moment *moment, struct derive *field)
 {
     unsigned needs = derive_table[field->what].needs;
-    if (needs & DERIVE_LAYERS) derive_bring_layers(moment);
+    bool layers = needs & DERIVE_DECLARED && derive_law_needs_layers(moment->model->scene, field);
+    if (layers || needs & DERIVE_LAYERS) derive_bring_layers(moment);
     if (needs & DERIVE_AROUND) derive_bring_around(moment);
     if (needs & DERIVE_STEEPEST) field->scale = derive_steepest(moment);
     if (needs & DERIVE_ARGUMENTS) derive_formula_prepare(moment, field);

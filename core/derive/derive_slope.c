@@ -39,42 +39,39 @@ void derive_slope_gather(const struct derive_view *tile, const struct frame *fra
     frame_gather(&source, tile->local, frame, pitch, w);
 }
 
-/* Central differences along an axis of a combination of primitives: `combine` makes one value per
- * frame cell out of the gathered primitives. grad: [n]. */
-static void derive_slope_gradient(const struct derive_view *tile, int axis,
-                                  double (*combine)(const struct model *, const double *w, size_t pitch, int which),
-                                  int which, double *grad)
-{
-    const struct mesh *mesh = tile->mesh;
-    const struct model *model = tile->model;
-    double *w = mem_new((size_t)model->n_field * FRAME_CELLS, sizeof *w);
-    for (size_t piece = 0; piece < frame_pieces(mesh, axis); piece++) {
-        struct frame frame = frame_piece(mesh, axis, piece);
-        derive_slope_gather(tile, &frame, FRAME_CELLS, w);
-        for (size_t o = 0; o < frame.outer; o++)
-            for (size_t i = 0; i < frame.n; i++)
-                for (size_t j = 0; j < frame.inner; j++) {
-                    size_t at = frame_at(&frame, o, (int)i) + j;
-                    double up = combine(model, w + at + frame.inner, FRAME_CELLS, which);
-                    double down = combine(model, w + at - frame.inner, FRAME_CELLS, which);
-                    grad[frame_tile_at(&frame, o, i) + j] = (up - down) / (2.0 * tile->level->h[axis]);
-                }
-    }
-    mem_free(w);
-}
-
-static double derive_slope_combine_velocity(const struct model *model, const double *w, size_t pitch, int which)
-{
-    return w[(model->i_u + (unsigned)which) * pitch];
-}
-
-static double derive_slope_combine_density(const struct model *model, const double *w, size_t pitch, int which)
+/* A primitive at one place of a gathered piece, or the density (DERIVE_SLOPE_RHO). */
+static double derive_slope_at(const struct model *model, const double *w, int q)
 {
     double rho = 0.0;
-    (void)which;
+    if (q != DERIVE_SLOPE_RHO) return w[(size_t)q * FRAME_CELLS];
     for (unsigned l = 0; l < model->n_material; l++)
-        rho += (model->n_alpha ? w[(model->i_alpha + l) * pitch] : 1.0) * w[(model->i_m + l) * pitch];
+        rho += (model->n_alpha ? w[(model->i_alpha + l) * FRAME_CELLS] : 1.0) * w[(model->i_m + l) * FRAME_CELLS];
     return rho;
+}
+
+/* Of one of them, in the cells of the piece. */
+static void derive_slope_piece(const struct derive_view *tile, const struct frame *frame, const double *w, int q,
+                               double *grad)
+{
+    for (size_t o = 0; o < frame->outer; o++)
+        for (size_t i = 0; i < frame->n; i++)
+            for (size_t j = 0; j < frame->inner; j++) {
+                size_t at = frame_at(frame, o, (int)i) + j;
+                double up = derive_slope_at(tile->model, w + at + frame->inner, q);
+                double down = derive_slope_at(tile->model, w + at - frame->inner, q);
+                grad[frame_tile_at(frame, o, i) + j] = (up - down) / (2.0 * tile->level->h[frame->axis]);
+            }
+}
+
+void derive_slope_rows(const struct derive_view *tile, int axis, unsigned n, const int *q, double *const *grad)
+{
+    double *w = mem_new((size_t)tile->model->n_field * FRAME_CELLS, sizeof *w);
+    for (size_t piece = 0; piece < frame_pieces(tile->mesh, axis); piece++) {
+        struct frame frame = frame_piece(tile->mesh, axis, piece);
+        derive_slope_gather(tile, &frame, FRAME_CELLS, w);
+        for (unsigned k = 0; k < n; k++) derive_slope_piece(tile, &frame, w, q[k], grad[k]);
+    }
+    mem_free(w);
 }
 
 void derive_slope_vorticity(const struct derive_view *tile, double *out)
@@ -87,7 +84,7 @@ void derive_slope_vorticity(const struct derive_view *tile, double *out)
             if (of == axis) continue;
             int component = 3 - axis - of;
             double sign = (axis + 1) % 3 == of ? 1.0 : -1.0;
-            derive_slope_gradient(tile, axis, derive_slope_combine_velocity, of, slope);
+            derive_slope_rows(tile, axis, 1, (const int[]){(int)tile->model->i_u + of}, &slope);
             for (size_t i = 0; i < tile->n; i++) out[(size_t)component * tile->n + i] += sign * slope[i];
         }
     mem_free(slope);
@@ -98,7 +95,7 @@ static void derive_slope_density(const struct derive_view *tile, double *out)
     double *slope = mem_new(tile->n, sizeof *slope);
     memset(out, 0, tile->n * sizeof *out);
     for (int axis = 0; axis < tile->mesh->dim; axis++) {
-        derive_slope_gradient(tile, axis, derive_slope_combine_density, 0, slope);
+        derive_slope_rows(tile, axis, 1, (const int[]){DERIVE_SLOPE_RHO}, &slope);
         for (size_t i = 0; i < tile->n; i++) out[i] += slope[i] * slope[i];
     }
     for (size_t i = 0; i < tile->n; i++) out[i] = sqrt(out[i]);
@@ -112,19 +109,16 @@ void derive_slope_schlieren(const struct derive_view *tile, double *out)
         out[i] = tile->field->scale > 0.0 ? exp(-200.0 * out[i] / tile->field->scale) : 1.0;
 }
 
-static double derive_slope_combine_alpha(const struct model *model, const double *w, size_t pitch, int which)
-{
-    return w[(model->i_alpha + (unsigned)which) * pitch];
-}
-
 /* |alpha_b grad alpha_a - alpha_a grad alpha_b|^2 of a pair; a, b: work space [n]. */
 static void derive_slope_pair(const struct derive_view *tile, const struct model_pair *pair, double *a, double *b,
                               double *square)
 {
     memset(square, 0, tile->n * sizeof *square);
     for (int axis = 0; axis < tile->mesh->dim; axis++) {
-        derive_slope_gradient(tile, axis, derive_slope_combine_alpha, (int)pair->inside, a);
-        derive_slope_gradient(tile, axis, derive_slope_combine_alpha, (int)pair->outside, b);
+        derive_slope_rows(tile, axis, 2,
+                          (const int[]){(int)(tile->model->i_alpha + pair->inside),
+                                        (int)(tile->model->i_alpha + pair->outside)},
+                          (double *const[]){a, b});
         for (size_t i = 0; i < tile->n; i++) {
             double g =
                 derive_view_alpha(tile, pair->outside, i) * a[i] - derive_view_alpha(tile, pair->inside, i) * b[i];

@@ -9,6 +9,10 @@
  * start copy. */
 void derive_slope_gather(const struct derive_view *tile, const struct frame *frame, size_t pitch, double *w);
 
+/* d/dx along an axis of n rows [n_cell], each of a primitive or of the density of the mixture: central differences. */
+enum { DERIVE_SLOPE_RHO = -1 };
+void derive_slope_rows(const struct derive_view *tile, int axis, unsigned n, const int *q, double *const *grad);
+
 /* curl u [1/s], three components; in axisymmetric scenes the axes are (r, z) and the only component points along
  * theta, which is minus the third direction of the right-handed (r, z, -theta). */
 void derive_slope_vorticity(const struct derive_view *tile, double *out);

@@ -136,7 +136,7 @@ static void h5out_send(struct h5out *out)
             size_t size = whole ? h5out_pack(out, piece.count) : piece.count * out->row;
             h5out_post(&mail, whole ? out->packed : out->plain, size);
         }
-    MPI_Waitall((int)mail.n, mail.requests, MPI_STATUSES_IGNORE);
+    comm_wait((int)mail.n, mail.requests, MPI_STATUSES_IGNORE);
     for (unsigned i = 0; i < mail.n; i++) mem_free(mail.letters[i]);
     mem_free(mail.letters);
     mem_free(mail.requests);
@@ -146,8 +146,10 @@ static void h5out_send(struct h5out *out)
 static size_t h5out_receive(int rank, void *to, size_t room)
 {
     MPI_Status status;
+    MPI_Request request;
     int size = 0;
-    MPI_Recv(to, (int)room, MPI_BYTE, rank, H5OUT_TAG, comm_world(), &status);
+    MPI_Irecv(to, (int)room, MPI_BYTE, rank, H5OUT_TAG, comm_world(), &request);
+    comm_wait(1, &request, &status);
     MPI_Get_count(&status, MPI_BYTE, &size);
     return (size_t)size;
 }
@@ -189,7 +191,9 @@ static void h5out_send_plain(struct h5out *out)
             struct h5out_piece piece = h5out_piece(out, first, i);
             if (!piece.count || piece.rank != comm_rank()) continue;
             out->rows->fill(out->rows->context, piece.first, piece.count, out->plain);
-            MPI_Send(out->plain, (int)(piece.count * out->row), MPI_BYTE, 0, H5OUT_TAG, comm_world());
+            MPI_Request request;
+            MPI_Isend(out->plain, (int)(piece.count * out->row), MPI_BYTE, 0, H5OUT_TAG, comm_world(), &request);
+            comm_wait(1, &request, MPI_STATUSES_IGNORE);
         }
 }
 

@@ -144,19 +144,9 @@ static void provenance_add_module(json_t *modules, const struct bulla_module *mo
 static json_t *provenance_modules(const struct scene *scene)
 {
     json_t *modules = json_array();
-    for (unsigned l = 0; l < scene->n_material; l++) {
-        provenance_add_module(modules, scene->material[l].eos.module);
-        if (scene->material[l].constitutive.module)
-            provenance_add_module(modules, scene->material[l].constitutive.module);
-        if (scene->material[l].plastic.module) provenance_add_module(modules, scene->material[l].plastic.module);
-        if (scene->material[l].viscosity.module) provenance_add_module(modules, scene->material[l].viscosity.module);
-        if (scene->material[l].conductivity.module)
-            provenance_add_module(modules, scene->material[l].conductivity.module);
-    }
-    provenance_add_module(modules, scene->scheme.reconstruction.module);
-    provenance_add_module(modules, scene->scheme.limiter.module);
-    provenance_add_module(modules, scene->scheme.interface_limiter.module);
-    provenance_add_module(modules, scene->scheme.riemann.module);
+    const struct instance *instance;
+    for (unsigned i = 0; (instance = scene_instance((struct scene *)scene, i)); i++)
+        provenance_add_module(modules, instance->module);
     const struct registry_entry *robust = registry_find("riemann", "rusanov"); /* for troubled cells */
     if (robust) provenance_add_module(modules, robust->module);
     return modules;

@@ -107,7 +107,7 @@ void post_start(struct post *post)
 
 void post_finish(struct post *post)
 {
-    if (post->n_request) MPI_Waitall(post->n_request, post->requests, MPI_STATUSES_IGNORE);
+    if (post->n_request) comm_wait(post->n_request, post->requests, MPI_STATUSES_IGNORE);
 }
 
 size_t post_volume(const struct post *post)

@@ -78,8 +78,10 @@ static void model_name_derived(struct model *model)
                                           "plastic_strain"}; /* with a strength; one that knows strains */
     size_t n_solid = model->elastic ? sizeof solid / sizeof *solid : 0;
     size_t n_plastic = model->n_strain ? 2 : model->plastic ? 1 : 0, n_branched = model->n_branch > 0;
-    model->names = mem_new(n_plain + n_solid + n_plastic + n_branched + (n_each + 4) * model->n_material + 1,
-                           sizeof *model->names);
+    size_t n_derived = (size_t)model->scene->n_derived * BULLA_FIELD_OUTPUTS;
+    model->names =
+        mem_new(n_plain + n_solid + n_plastic + n_branched + (n_each + 4) * model->n_material + n_derived + 1,
+                sizeof *model->names);
     for (size_t i = 0; i < n_plain; i++) model->names[at++] = mem_text(plain[i]);
     for (size_t i = 0; i < n_solid; i++) model->names[at++] = mem_text(solid[i]);
     for (size_t i = 0; i < n_plastic; i++) model->names[at++] = mem_text(plastic[i]);
@@ -96,6 +98,11 @@ static void model_name_derived(struct model *model)
         model->names[at++] = mem_print("saturation_pressure_%s", name);
         model->names[at++] = mem_print("saturation_temperature_%s", name);
         model->names[at++] = mem_print("superheat_%s", name);
+    }
+    for (unsigned i = 0; i < model->scene->n_derived; i++) {
+        const struct bulla_field *law = model->scene->derived[i].law.module->table;
+        for (unsigned k = 0; law->outputs[k].unit; k++)
+            model->names[at++] = mem_text(model->scene->derived[i].names[k]);
     }
 }
 

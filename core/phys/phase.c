@@ -156,6 +156,7 @@ static bool phase_fits(struct phase_block *block, size_t i)
     block->alone[i] = !(phase_thin(block, i) > PHASE_FELT);
     if (block->alone[i])
         return block->thermal[i] || !(phase_drive_alone(block, i, scene->tension, scene->superheat) < 0.0);
+    if (phase_thin(block, i) < scene->onset && phase_drive(block, i) < 0.0) return true;
     block->warm[i] = phase_warm(block, i, near);
     if (!block->warm[i]) return false;
     if (block->thermal[i]) return true;

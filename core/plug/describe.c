@@ -3,8 +3,10 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "bulla/field.h"
 #include "plug/instance.h"
 #include "plug/registry.h"
+#include "plug/vet.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -118,20 +120,25 @@ static void describe_presets(const struct bulla_module *module, struct text *tex
     }
 }
 
-/* How a case names it: laws belong to a material, the rest to the scheme. */
 static void describe_use(const struct bulla_module *module, struct text *text)
 {
-    static const char *const of_materials[] = {"conductivity", "constitutive", "eos", "viscosity"};
-    bool law = false;
-    for (size_t i = 0; i < sizeof of_materials / sizeof *of_materials; i++)
-        law = law || strcmp(module->kind, of_materials[i]) == 0;
-    if (!law) {
-        text_add(text, "\n  in a case\n  scheme: {%s: %s}\n", module->kind, module->name);
-        return;
-    }
-    text_add(text, "\n  in a case\n  materials: {NAME: {%s: {type: %s", module->kind, module->name);
-    if (module->presets && module->presets->name) text_add(text, ", preset: %s}}}\n", module->presets->name);
-    else text_add(text, ", ...}}}\n");
+    struct text keys = {0};
+    bool named = module->presets && module->presets->name;
+    if (named) text_add(&keys, ", preset: %s", module->presets->name);
+    else text_add(&keys, ", ...");
+    text_add(text, "\n  in a case\n  ");
+    vet_use(module, keys.at, text);
+    text_add(text, "\n");
+    text_done(&keys);
+}
+
+/* What a module of fields makes of the NAME that a case gives them. */
+static void describe_outputs(const struct bulla_module *module, struct text *text)
+{
+    const struct bulla_field *law = module->table;
+    text_add(text, "\n  fields\n");
+    for (const struct bulla_field_output *output = law->outputs; output->unit; output++)
+        text_add(text, "  NAME%s%s  %s  %s\n", *output->suffix ? "_" : "", output->suffix, output->unit, output->doc);
 }
 
 static void describe_entry(const struct registry_entry *entry, struct text *text)
@@ -142,6 +149,7 @@ static void describe_entry(const struct registry_entry *entry, struct text *text
     if (instance_param_count(module)) describe_params(module, text);
     else text_add(text, "  no parameters\n");
     if (module->presets && module->presets->name) describe_presets(module, text);
+    if (strcmp(module->kind, "field") == 0) describe_outputs(module, text);
     describe_use(module, text);
 }
 

@@ -2,6 +2,7 @@
 #ifndef VET_H
 #define VET_H
 
+#include "base/text.h"
 #include "bulla/limiter.h"
 #include "bulla/module.h"
 
@@ -17,6 +18,9 @@ int vet_module(const struct bulla_module *module, size_t space);
 /* Calls an instance once with harmless numbers: laws that give NaN even there are refused, because core's guard
  * would quietly replace what they say. STATUS_CASE with a whole sentence. `self` is what `open` made. */
 int vet_instance(const struct bulla_module *module, const void *self);
+
+/* How a case names a vetted module, with keys (", preset: water", ", ...") where its kind has a map: "scheme: {riemann: hllc}". */
+void vet_use(const struct bulla_module *module, const char *keys, struct text *text);
 
 /* Has this limiter two sides? Tables from before there were flags have not. */
 bool vet_two_sided(const struct bulla_limiter *table);

@@ -119,6 +119,18 @@ static void check_print_strength(const struct model *model, unsigned l, double r
     printf("  %-12s its strength looks at temperatures: %.4g K at %g kg/m3 and 1 atm\n", "", T, rho);
 }
 
+/* Boundaries and fields that are modules. */
+static void check_print_modules(const struct scene *scene)
+{
+    static const char *const faces[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+    for (int face = 0; face < 2 * SCENE_AXES; face++) {
+        const struct instance *law = &scene->domain.boundary[face / 2][face % 2].law;
+        if (law->module) check_print_module(faces[face], law);
+    }
+    for (unsigned i = 0; i < scene->n_derived; i++)
+        check_print_module(scene->derived[i].names[0], &scene->derived[i].law);
+}
+
 /* The Maxwell branches of a solid: each with its viscosity, and what waves feel that are faster than all of them. */
 static void check_print_branches(const struct scene_material *material, double c2)
 {
@@ -318,6 +330,7 @@ static void check_print(const struct scene *scene, const struct model *model, co
     check_print_module("riemann", &scene->scheme.riemann);
     check_print_module("scheme", &scene->scheme.reconstruction);
     check_print_module("limiter", &scene->scheme.limiter);
+    check_print_modules(scene);
     check_print_sources(scene);
     check_print_tension(scene);
     check_phase_print(scene);

@@ -14,6 +14,7 @@
 #include "case/pulse.h"
 #include "phys/elastic.h"
 #include "phys/mix.h"
+#include "scheme/bound_law.h"
 #include "scheme/bound_layer.h"
 #include "scheme/source_weight.h"
 
@@ -75,14 +76,15 @@ struct bound_fill_row {
     double *w;
 };
 
-static void bound_fill_take(const struct bound_fill *fill, struct bound_fill_row *row)
+/* The cells that lie `depth` cells inside the outermost ones. */
+static void bound_fill_take(const struct bound_fill *fill, int depth, struct bound_fill_row *row)
 {
     const struct model *model = fill->bound->model;
     const struct frame *frame = fill->frame;
     for (unsigned a = 0; a < model->n_active; a++)
         for (size_t q = model->active[a], o = 0; o < frame->outer; o++)
             memcpy(row->w + q * row->stride + o * frame->inner,
-                   fill->w + q * fill->pitch + frame_at(frame, o, bound_layer_inside(frame, fill->side, 0)),
+                   fill->w + q * fill->pitch + frame_at(frame, o, bound_layer_inside(frame, fill->side, depth)),
                    frame->inner * sizeof *fill->w);
 }
 
@@ -105,24 +107,26 @@ static bool bound_fill_is_round(const struct bound_fill *fill)
     return model->beta == 2 && !model->elastic && fill->side == 1;
 }
 
-/* Fills the layers with the states that `compose` makes of the cells inside: one for all, but around a ball. */
+static const struct scene_boundary *bound_fill_boundary(const struct bound_fill *fill)
+{
+    return &fill->bound->model->scene->domain.boundary[fill->frame->axis][fill->side];
+}
+
+/* Fills the layers with the states that `compose` makes of the cells inside: one for all, but around a ball and where a
+ * module mirrors. */
 static void bound_fill_composed(const struct bound_fill *fill,
                                 void (*compose)(const struct bound_fill *fill, struct bound_fill_row *row))
 {
     double space[MODEL_FIELDS * (size_t)BOUND_FILL_ROW];
     struct bound_fill_row row = {.n = fill->frame->outer * fill->frame->inner, .stride = BOUND_FILL_ROW, .w = space};
     struct bound_fill each = *fill;
-    int layers = bound_fill_is_round(fill) ? (int)fill->frame->ghosts : 1;
+    bool mirrors = bound_law_mirrors(bound_fill_boundary(fill));
+    int layers = mirrors || bound_fill_is_round(fill) ? (int)fill->frame->ghosts : 1;
     for (each.layer = 0; each.layer < layers; each.layer++) {
-        bound_fill_take(fill, &row);
+        bound_fill_take(fill, mirrors ? each.layer : 0, &row);
         compose(&each, &row);
         bound_fill_put(&each, &row);
     }
-}
-
-static const struct scene_boundary *bound_fill_boundary(const struct bound_fill *fill)
-{
-    return &fill->bound->model->scene->domain.boundary[fill->frame->axis][fill->side];
 }
 
 /* Index of point c of a row among the cells of the tile's face. */
@@ -253,30 +257,55 @@ static double bound_fill_onward(const struct bound_fill *fill, double Z)
     return a * b <= 0.0 ? 0.0 : (fill->layer + 1) * (fabs(a) < fabs(b) ? a : b);
 }
 
+/* Density and speed of sound of the mixture in a row. */
+static void bound_fill_sound(const struct model *model, const struct bound_fill_row *row, double *rho, double *sound)
+{
+    double stiff[SCENE_MATERIALS * BOUND_FILL_ROW], c2[BOUND_FILL_ROW];
+    mix_stiffness(model, row->n, row->stride, row->w, stiff);
+    mix_speed2(model, row->n, row->stride, row->w, stiff, c2);
+    for (size_t c = 0; c < row->n; c++) {
+        rho[c] = 0.0;
+        sound[c] = sqrt(c2[c]);
+        for (unsigned l = 0; l < model->n_material; l++)
+            rho[c] += (model->n_alpha ? row->w[(model->i_alpha + l) * row->stride + c] : 1.0) *
+                      row->w[(model->i_m + l) * row->stride + c];
+    }
+}
+
+/* What stood at the boundary at the start: a row of p, one of the velocity outwards. */
+static const double *bound_fill_start(const struct bound_fill *fill)
+{
+    unsigned face = (unsigned)(2 * fill->frame->axis + fill->side);
+    return fill->bound->reference[fill->local * MESH_FACES + face];
+}
+
+/* Each material along its isentrope from the pressures `old` to those that the row has. */
+static void bound_fill_follow(const struct model *model, struct bound_fill_row *row, const double *old)
+{
+    double scratch[4 * BOUND_FILL_ROW];
+    const double *p = row->w + model->i_E * row->stride;
+    for (unsigned l = 0; l < model->n_material; l++)
+        bound_fill_isentrope(&model->eos[l], row->n, old, p, row->w + (model->i_m + l) * row->stride, scratch);
+}
+
 static void bound_fill_characteristic(const struct bound_fill *fill, struct bound_fill_row *row, bool wave)
 {
     const struct model *model = fill->bound->model;
     const struct frame *frame = fill->frame;
     size_t n = row->n, cells = frame->tile_outer * frame->tile_inner;
-    double far[BOUND_FILL_ROW], gauge[BOUND_FILL_ROW], old[BOUND_FILL_ROW], c2[BOUND_FILL_ROW];
-    double stiff[SCENE_MATERIALS * BOUND_FILL_ROW], scratch[4 * BOUND_FILL_ROW];
-    const double *reference =
-        fill->bound->reference[fill->local * MESH_FACES + (unsigned)(2 * frame->axis + fill->side)];
+    double far[BOUND_FILL_ROW], gauge[BOUND_FILL_ROW], old[BOUND_FILL_ROW], rho[BOUND_FILL_ROW], c_s[BOUND_FILL_ROW];
+    const double *reference = bound_fill_start(fill);
     double *p = row->w + model->i_E * row->stride, *u = row->w + (model->i_u + (unsigned)frame->axis) * row->stride;
     double outward = fill->side ? 1.0 : -1.0;
     bool round = !wave && bound_fill_is_round(fill);
     for (size_t c = 0; c < n; c++) far[c] = reference[bound_fill_face_cell(frame, c)];
     bound_fill_outside(fill, n, wave, far, gauge);
-    mix_stiffness(model, n, row->stride, row->w, stiff);
-    mix_speed2(model, n, row->stride, row->w, stiff, c2);
+    bound_fill_sound(model, row, rho, c_s);
     memcpy(old, p, n * sizeof *p);
     for (size_t c = 0; c < n; c++) {
-        double rho = 0.0, sound = sqrt(c2[c]), inside = outward * u[c];
-        for (unsigned l = 0; l < model->n_material; l++)
-            rho += (model->n_alpha ? row->w[(model->i_alpha + l) * row->stride + c] : 1.0) *
-                   row->w[(model->i_m + l) * row->stride + c];
-        if (inside >= sound) continue; /* supersonic outflow: nothing comes back */
-        double Z = rho * sound, leaving = old[c] + Z * inside;
+        double inside = outward * u[c];
+        if (inside >= c_s[c]) continue; /* supersonic outflow: nothing comes back */
+        double Z = rho[c] * c_s[c], leaving = old[c] + Z * inside;
         double u_far = reference[cells + bound_fill_face_cell(frame, c)];
         double entering = far[c] + 2.0 * gauge[c] - Z * u_far;
         if (round) leaving += bound_fill_onward(fill, Z);
@@ -284,8 +313,7 @@ static void bound_fill_characteristic(const struct bound_fill *fill, struct boun
         p[c] = 0.5 * (leaving + entering);
         u[c] = outward * (0.5 * (leaving - entering) / Z);
     }
-    for (unsigned l = 0; l < model->n_material; l++)
-        bound_fill_isentrope(&model->eos[l], n, old, p, row->w + (model->i_m + l) * row->stride, scratch);
+    bound_fill_follow(model, row, old);
 }
 
 static void bound_fill_compose_far(const struct bound_fill *fill, struct bound_fill_row *row)
@@ -306,6 +334,16 @@ static void bound_fill_compose_wave(const struct bound_fill *fill, struct bound_
 static void bound_fill_wave(const struct bound_fill *fill)
 {
     bound_fill_composed(fill, bound_fill_compose_wave);
+}
+
+/* What comes in has no stretch, no strain, and no surface yet. */
+static void bound_fill_fresh(const struct model *model, double *at, size_t stride)
+{
+    for (unsigned s = 0; s < model->n_strain; s++) at[(model->i_strain + s) * stride] = 0.0;
+    for (unsigned k = 0; k < model_stretches(model); k++)
+        elastic_identity(model, 1, stride, at + model_stretch(model, k) * stride);
+    for (unsigned d = 0; d < model->n_normal; d++) at[(model->i_normal + d) * stride] = 0.0;
+    for (unsigned k = 0; k < model->n_pair; k++) at[model->pairs[k].i_kappa * stride] = 0.0;
 }
 
 static void bound_fill_compose_state(const struct bound_fill *fill, struct bound_fill_row *row)
@@ -330,11 +368,7 @@ static void bound_fill_compose_state(const struct bound_fill *fill, struct bound
             if (boundary->velocity[d].given && good)
                 good = bound_fill_ask(fill, &boundary->velocity[d], velocity[d], x, u);
         }
-        for (unsigned s = 0; s < model->n_strain; s++) at[(model->i_strain + s) * row->stride] = 0.0;
-        for (unsigned k = 0; k < model_stretches(model); k++)
-            elastic_identity(model, 1, row->stride, at + model_stretch(model, k) * row->stride);
-        for (unsigned d = 0; d < model->n_normal; d++) at[(model->i_normal + d) * row->stride] = 0.0;
-        for (unsigned k = 0; k < model->n_pair; k++) at[model->pairs[k].i_kappa * row->stride] = 0.0;
+        bound_fill_fresh(model, at, row->stride);
     }
 }
 
@@ -343,8 +377,71 @@ static void bound_fill_state(const struct bound_fill *fill)
     bound_fill_composed(fill, bound_fill_compose_state);
 }
 
+/* Turns the components of a mirror image round, but for the velocity, which is the module's. */
+static void bound_fill_reverse(const struct bound_fill *fill, struct bound_fill_row *row)
+{
+    const struct model *model = fill->bound->model;
+    int axis = fill->frame->axis;
+    for (unsigned i = 0; i < model->n_active; i++) {
+        unsigned q = model->active[i];
+        bool normal = model->n_normal && q == model->i_normal + (unsigned)axis;
+        for (size_t c = 0; c < row->n && (normal || bound_fill_is_crossed(model, axis, q)); c++)
+            row->w[q * row->stride + c] *= -1.0;
+    }
+}
+
+/* What is not the module's: stretches and the like, and densities where it leaves them to us. */
+static void bound_fill_rest(const struct bound_fill *fill, struct bound_fill_row *row, const double *old)
+{
+    const struct model *model = fill->bound->model;
+    const struct scene_boundary *boundary = bound_fill_boundary(fill);
+    if (bound_law_is_isentropic(boundary)) bound_fill_follow(model, row, old);
+    if (bound_law_mirrors(boundary)) bound_fill_reverse(fill, row);
+    for (size_t c = 0; c < row->n && bound_law_brings(boundary); c++) bound_fill_fresh(model, row->w + c, row->stride);
+}
+
+static void bound_fill_compose_law(const struct bound_fill *fill, struct bound_fill_row *row)
+{
+    const struct model *model = fill->bound->model;
+    const struct frame *frame = fill->frame;
+    size_t cells = frame->tile_outer * frame->tile_inner;
+    double x[3][BOUND_FILL_ROW], Z[BOUND_FILL_ROW], rho[BOUND_FILL_ROW], start[2][BOUND_FILL_ROW];
+    double old[BOUND_FILL_ROW];
+    bool refers = scene_boundary_is(model->scene, 2 * frame->axis + fill->side, SCENE_BOUNDARY_REFERS);
+    bound_fill_sound(model, row, rho, Z);
+    for (size_t c = 0; c < row->n; c++) {
+        double at[3];
+        Z[c] *= rho[c];
+        bound_fill_position(fill, c, at);
+        for (int d = 0; d < 3; d++) x[d][c] = at[d];
+        for (size_t k = 0; k < 2 && refers; k++)
+            start[k][c] = bound_fill_start(fill)[k * cells + bound_fill_face_cell(frame, c)];
+    }
+    memcpy(old, row->w + model->i_E * row->stride, row->n * sizeof *old);
+    bound_law_fill(bound_fill_boundary(fill),
+                   &(struct bound_law_row){.model = model,
+                                           .axis = frame->axis,
+                                           .side = fill->side,
+                                           .t = fill->bound->t,
+                                           .depth = (fill->layer + 0.5) * fill->bound->level->h[frame->axis],
+                                           .n = row->n,
+                                           .stride = row->stride,
+                                           .x = {x[0], x[1], x[2]},
+                                           .Z = Z,
+                                           .p_start = refers ? start[0] : NULL,
+                                           .u_start = refers ? start[1] : NULL,
+                                           .w = row->w});
+    bound_fill_rest(fill, row, old);
+}
+
+static void bound_fill_law(const struct bound_fill *fill)
+{
+    bound_fill_composed(fill, bound_fill_compose_law);
+}
+
 #define BOUND_FILL_WAY(type, word, what, written, way, means) [SCENE_##type] = bound_fill_##way,
-static void (*const bound_fill_ways[])(const struct bound_fill *fill) = {SCENE_BOUNDARY_TABLE(BOUND_FILL_WAY)};
+static void (*const bound_fill_ways[])(const struct bound_fill *fill) = {
+    SCENE_BOUNDARY_TABLE(BOUND_FILL_WAY)[SCENE_BOUNDARY_MODULE] = bound_fill_law};
 _Static_assert(sizeof bound_fill_ways / sizeof *bound_fill_ways == SCENE_BOUNDARY_TYPES, "a way for each type");
 
 /* Pressure holds the forces behind a boundary, too. */

@@ -15,7 +15,8 @@
 
 void patch_state_rules(const struct scene *scene, bool given, enum patch_rule ret_rules[MESH_FACES])
 {
-    static const enum patch_rule rules[] = {SCENE_BOUNDARY_TABLE(PATCH_STATE_RULE)};
+    static const enum patch_rule rules[] = {SCENE_BOUNDARY_TABLE(PATCH_STATE_RULE)[SCENE_BOUNDARY_MODULE] =
+                                                PATCH_GIVEN};
     for (int face = 0; face < MESH_FACES; face++) {
         const struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
         enum patch_rule rule = boundary->moves && given ? PATCH_GIVEN : rules[boundary->type];

@@ -126,3 +126,8 @@ double contract_random(uint64_t *state, double low, double high)
     *state = *state * 6364136223846793005u + 1442695040888963407u;
     return low + (high - low) * (double)(*state >> 11) * 0x1p-53;
 }
+
+double contract_decades(uint64_t *state, double low, double high)
+{
+    return pow(10.0, contract_random(state, log10(low), log10(high)));
+}

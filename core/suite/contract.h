@@ -87,4 +87,7 @@ bool contract_same(double a, double b);
 /* Uniform in [low, high): a linear congruential stream, the same on every machine. */
 double contract_random(uint64_t *state, double low, double high);
 
+/* The same with as many in each decade; 0 < low. */
+double contract_decades(uint64_t *state, double low, double high);
+
 #endif

@@ -33,19 +33,14 @@ static double contract_coefficient_at(const struct contract *contract, const str
     return value;
 }
 
-static double contract_coefficient_log(uint64_t *seed, double low, double high)
-{
-    return pow(10.0, contract_random(seed, log10(low), log10(high)));
-}
-
 /* Rest among the rates, tension among the pressures. */
 static void contract_coefficient_draw(uint64_t *seed, double at[static COEFFICIENT_ROWS])
 {
     double rests = contract_random(seed, 0.0, 1.0), pulled = contract_random(seed, 0.0, 1.0);
-    at[0] = rests < 0.05 ? 0.0 : contract_coefficient_log(seed, 1e-12, 1e15);
-    at[1] = contract_coefficient_log(seed, 1.0, 1e6);
-    at[2] = (pulled < 0.2 ? -1.0 : 1.0) * contract_coefficient_log(seed, 1e-3, 1e12);
-    at[3] = contract_coefficient_log(seed, 1e-9, 1e5);
+    at[0] = rests < 0.05 ? 0.0 : contract_decades(seed, 1e-12, 1e15);
+    at[1] = contract_decades(seed, 1.0, 1e6);
+    at[2] = (pulled < 0.2 ? -1.0 : 1.0) * contract_decades(seed, 1e-3, 1e12);
+    at[3] = contract_decades(seed, 1e-9, 1e5);
 }
 
 static void contract_coefficient_say(const double at[static COEFFICIENT_ROWS], char where[static CONTRACT_WHERE])

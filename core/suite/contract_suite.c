@@ -1,9 +1,11 @@
 /* contract_suite.c - see contract_suite.h. */
 #include "suite/contract_suite.h"
 
+#include "suite/contract_boundary.h"
+#include "suite/contract_conductivity.h"
 #include "suite/contract_constitutive.h"
 #include "suite/contract_eos.h"
-#include "suite/contract_conductivity.h"
+#include "suite/contract_field.h"
 #include "suite/contract_inelastic.h"
 #include "suite/contract_limiter.h"
 #include "suite/contract_reconstruction.h"
@@ -17,9 +19,11 @@ static const struct {
     const char *kind;
     void (*run)(struct contract *contract);
     void (*probe)(const struct contract *contract, double out[static CONTRACT_PROBE]);
-} contract_suite_table[] = {{"conductivity", contract_conductivity_run, contract_conductivity_probe},
+} contract_suite_table[] = {{"boundary", contract_boundary_run, contract_boundary_probe},
+                            {"conductivity", contract_conductivity_run, contract_conductivity_probe},
                             {"constitutive", contract_constitutive_run, contract_constitutive_probe},
                             {"eos", contract_eos_run, contract_eos_probe},
+                            {"field", contract_field_run, contract_field_probe},
                             {"inelastic", contract_inelastic_run, contract_inelastic_probe},
                             {"limiter", contract_limiter_run, contract_limiter_probe},
                             {"reconstruction", contract_reconstruction_run, contract_reconstruction_probe},

@@ -8,6 +8,7 @@
 #include "io/read.h"
 #include "view/picture_canvas.h"
 #include "view/plot_along.h"
+#include "view/plot_beside.h"
 #include "view/plot_case.h"
 #include "view/plot_cost.h"
 #include "view/plot_history.h"
@@ -78,7 +79,7 @@ static char *plot_path(const char *directory, const struct snapshot *snapshot, c
         mem_free(path);
         path = longer;
     }
-    char *complete = mem_print("%s.png", path);
+    char *complete = mem_print("%s%s.png", path, picture->option->n_iso ? "_iso" : "");
     mem_free(path);
     return complete;
 }
@@ -100,7 +101,7 @@ static int plot_write(const char *directory, const struct snapshot *snapshot, co
  * shows all in one file. */
 static int plot_fields(const char *directory, const struct snapshot *snapshot, const struct plot_picture *picture)
 {
-    if (picture->option->left || plot_picture_shape(snapshot, picture->option) != 2)
+    if (picture->option->left || !picture->n_field || plot_picture_shape(snapshot, picture->option) != 2)
         return plot_write(directory, snapshot, picture, false);
     unsigned inside = picture->option->inside_field ? 1 : 0, last = picture->n_field - 1;
     for (unsigned i = 0; i + inside < picture->n_field; i++) {
@@ -111,23 +112,6 @@ static int plot_fields(const char *directory, const struct snapshot *snapshot, c
         memcpy(one.extremes[0], picture->extremes[i], sizeof one.extremes[0]);
         memcpy(one.extremes[inside], picture->extremes[inside ? last : i], sizeof one.extremes[0]);
         TRY(plot_write(directory, snapshot, &one, picture->n_field > 1 + inside));
-    }
-    return STATUS_OK;
-}
-
-static int plot_gather(const struct snapshot_series *series, struct plot_picture *picture)
-{
-    picture->common = true;
-    for (unsigned i = 0; i < picture->n_field; i++) {
-        picture->extremes[i][0] = INFINITY;
-        picture->extremes[i][1] = -INFINITY;
-    }
-    for (size_t i = 0; i < series->n; i++) {
-        struct snapshot *snapshot;
-        TRY(read_snapshot(series->paths[i], NULL, &snapshot));
-        int code = plot_picture_extremes(snapshot, picture);
-        read_free(snapshot);
-        if (code) return code;
     }
     return STATUS_OK;
 }
@@ -152,7 +136,7 @@ static int plot_series(const char *directory, const struct snapshot_series *seri
         return status_fail(STATUS_CASE, "-o %s: --all writes many files; name a directory that is there",
                            picture->option->output);
     picture->time_like = series->times[series->n - 1];
-    if (end - first > 1) TRY(plot_gather(series, picture));
+    if (end - first > 1) TRY(plot_beside_gather(series->paths, series->n, picture));
     for (size_t i = first; i < end; i++) {
         struct snapshot *snapshot;
         TRY(read_snapshot(series->paths[i], NULL, &snapshot));
@@ -175,34 +159,61 @@ static int plot_split(char *list, struct plot_picture *picture)
     return STATUS_OK;
 }
 
-static int plot_snapshots(const char *directory, const char *fields, const struct plot_option *option)
+static int plot_one(const char *directory, struct plot_picture *picture)
 {
-    struct plot_picture picture = {.option = option};
     struct snapshot_series series;
     if (read_series(directory, &series)) return status_fail(STATUS_CASE, "%s", status_text());
-    char *list = option->left ? mem_print("%s,%s", option->left, option->right) : mem_text(fields);
+    int code = series.n ? plot_series(directory, &series, picture)
+                        : status_fail(STATUS_CASE, "no snapshots in %s/fields", directory);
+    read_series_done(&series);
+    return code;
+}
+
+/* Of one run, or of several beside each other. */
+static int plot_snapshots(const char *const *directories, unsigned n, const char *fields,
+                          const struct plot_option *option)
+{
+    struct plot_picture picture = {.option = option};
+    char *list = option->left ? mem_print("%s,%s", option->left, option->right) : mem_text(fields ? fields : "");
     int code = plot_split(list, &picture);
     if (!code && option->inside_field) {
         if (picture.n_field == PLOT_PICTURE_FIELDS) picture.n_field--;
         picture.fields[picture.n_field++] = option->inside_field;
     }
-    if (!code && !series.n) code = status_fail(STATUS_CASE, "no snapshots in %s/fields", directory);
-    if (!code) code = plot_series(directory, &series, &picture);
+    if (!code)
+        code = n > 1 || option->movie ? plot_beside_write(directories, n, &picture) : plot_one(*directories, &picture);
     mem_free(list);
-    read_series_done(&series);
     return code;
+}
+
+/* Fields of runs beside each other; words: the field, none with --left. */
+static int plot_panels(const char *const *directories, unsigned n_directory, const char *const *words, unsigned n,
+                       const struct plot_option *option)
+{
+    for (unsigned i = 0; i < n_directory; i++)
+        if (!plot_is_directory(directories[i])) return plot_no_directory(directories[i]);
+    if (n_directory < 2)
+        return status_fail(STATUS_CASE, "--beside is for several runs: bulla plot DIR1 DIR2 FIELD --beside");
+    return plot_snapshots(directories, n_directory, n ? words[0] : NULL, option);
 }
 
 /* Pictures that several runs share: what draws them, by the word that asks for it. */
 static const struct plot_shared {
-    const char *word;
+    const char *word; /* NULL: an option asks for it */
     int (*write)(const char *const *directories, unsigned n_directory, const char *const *words, unsigned n,
                  const struct plot_option *option);
-} plot_shared[] = {{"history", plot_history_write}, {"profile", plot_along_write}, {0}};
+} plot_shared[] = {{"history", plot_history_write}, {"profile", plot_along_write}, {0}},
+  plot_shared_panels = {NULL, plot_panels};
 
 /* Which of them is asked for, and by how many runs: the directories that stand before the word; NULL: none. */
-static const struct plot_shared *plot_find_shared(const struct cli_given *given, unsigned *ret_runs)
+static const struct plot_shared *plot_find_shared(const struct cli_given *given, const struct plot_option *option,
+                                                  unsigned *ret_runs)
 {
+    if (option->beside && given->n_word > 0) {
+        bool none = option->left || (option->n_iso && plot_is_directory(given->words[given->n_word - 1]));
+        *ret_runs = (unsigned)given->n_word - (none ? 0 : 1);
+        return &plot_shared_panels;
+    }
     for (int i = 1; i < given->n_word; i++) {
         *ret_runs = (unsigned)i;
         for (const struct plot_shared *shared = plot_shared; shared->word; shared++)
@@ -219,9 +230,10 @@ static int plot_together(const struct cli_given *given, const struct plot_shared
     int code = STATUS_OK;
     for (unsigned i = 0; i < n_run; i++) directories[i] = plot_case_directory(given->words[i]);
     if (!plot_is_directory(directories[0])) code = plot_no_directory(directories[0]);
+    unsigned before = n_run + (shared->word ? 1 : 0);
     if (!code)
-        code = shared->write((const char *const *)directories, n_run, given->words + n_run + 1,
-                             (unsigned)given->n_word - n_run - 1, option);
+        code = shared->write((const char *const *)directories, n_run, given->words + before,
+                             (unsigned)given->n_word - before, option);
     for (unsigned i = 0; i < n_run; i++) mem_free(directories[i]);
     mem_free(directories);
     return code;
@@ -233,26 +245,30 @@ static int plot_run(const struct cli_given *given, const char *directory)
     TRY(plot_option_read(given, &option));
     const char *what = given->n_word > 1 ? given->words[1] : NULL;
     unsigned n_run = 0;
-    const struct plot_shared *shared = plot_find_shared(given, &n_run);
-    if (!what && !option.left)
+    const struct plot_shared *shared = plot_find_shared(given, &option, &n_run);
+    if (!what && !option.left && !option.n_iso)
         return status_fail(
             STATUS_CASE, "which field? bulla plot %s pressure, or history, map, profile; `bulla info` lists the fields",
             directory);
-    bool map = what && strcmp(what, "map") == 0;
+    bool map = !option.beside && what && strcmp(what, "map") == 0;
     if (!shared && !map && given->n_word > 2 && plot_is_directory(what))
-        return status_fail(STATUS_CASE,
-                           "several runs share pictures of histories and profiles only: bulla plot %s %s history "
-                           "COLUMN...",
-                           directory, what);
+        return status_fail(
+            STATUS_CASE,
+            "several runs share pictures of histories and profiles (bulla plot %s %s history COLUMN...), and "
+            "those of fields with --beside",
+            directory, what);
     if (!shared && !map && given->n_word > 2)
         return status_fail(STATUS_CASE, "plot does not know what to do with '%s'; several fields go by comma: %s,%s",
                            given->words[2], what, given->words[2]);
-    if (option.left && what)
+    if (option.left && what && !option.beside)
         return status_fail(STATUS_CASE, "--left and --right name the fields; '%s' is one too many", what);
-    if (option.n_over && !(shared && strcmp(shared->word, "history") == 0))
+    if (option.n_over && !(shared && shared->write == plot_history_write))
         return status_fail(STATUS_CASE,
                            "--over %s: references go over histories: bulla plot %s history COLUMN --over %s",
                            option.over[0], directory, option.over[0]);
+    if (option.movie && (map || (shared && !option.beside)))
+        return status_fail(STATUS_CASE, "--movie %s: films are of snapshots: bulla plot %s FIELD --movie %s",
+                           option.movie, directory, option.movie);
     if (shared) return plot_together(given, shared, n_run, &option);
     if (what && strcmp(what, "cost") == 0 && !plot_is_directory(directory))
         return plot_cost_write(given->words[0], &option);
@@ -261,7 +277,7 @@ static int plot_run(const struct cli_given *given, const char *directory)
         return status_fail(STATUS_CASE, "--time %g and %g: one time for a picture of a snapshot", option.times[0],
                            option.times[1]);
     if (map) return plot_map_write(directory, given->words + 2, (unsigned)(given->n_word - 2), &option);
-    return plot_snapshots(directory, what, &option);
+    return plot_snapshots(&directory, 1, what, &option);
 }
 
 int plot_command(const struct cli_given *given)

@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "case/unit.h"
+#include "view/plot_film.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,6 +17,14 @@ static const struct cli_option plot_option_time = {"--time", NULL, "T",
                                                    "The snapshot nearest to this time; of profiles several."};
 static const struct cli_option plot_option_last = {"--last", NULL, NULL, "The last snapshot (default)."};
 static const struct cli_option plot_option_all = {"--all", NULL, NULL, "Every snapshot, all on one colour scale."};
+static const struct cli_option plot_option_movie = {
+    "--movie", NULL, "FILE.mp4", "A film of every snapshot (.webm, .gif); by ffmpeg, else its frames."};
+static const struct cli_option plot_option_fps = {"--fps", NULL, "N", "Frames per second of it (12)."};
+static const struct cli_option plot_option_beside = {"--beside", NULL, NULL,
+                                                     "Several runs beside each other, on one scale; also in a film."};
+static const struct cli_option plot_option_iso = {
+    "--iso", NULL, "FIELD=VALUE", "In space: the surface of this value; with --slice cuts beside it; up to four."};
+static const struct cli_option plot_option_view = {"--view", NULL, "AZ,EL", "Where the viewer is, in degrees (30,25)."};
 static const struct cli_option plot_option_over = {
     "--over", NULL, "FILE.csv[:X,Y]", "History: this reference, too; columns t and those drawn, or X and Y."};
 static const struct cli_option plot_option_slice = {"--slice", NULL, "x=X",
@@ -32,6 +41,7 @@ static const struct cli_option plot_option_contour = {"--contour", NULL, "MATERI
                                                       "Interfaces to draw: names by comma, or none (default: all)."};
 static const struct cli_option plot_option_xlim = {"--xlim", NULL, "A,B", "Part of the horizontal axis."};
 static const struct cli_option plot_option_ylim = {"--ylim", NULL, "A,B", "Part of the vertical axis."};
+static const struct cli_option plot_option_zlim = {"--zlim", NULL, "A,B", "In space: part of z."};
 static const struct cli_option plot_option_tiles = {"--tiles", NULL, NULL, "Outlines of the mesh tiles."};
 static const struct cli_option plot_option_left = {"--left", NULL, "FIELD",
                                                    "Axisymmetric: this field left of the axis,"};
@@ -40,10 +50,19 @@ static const struct cli_option plot_option_inside = {"--inside", NULL, "MATERIAL
                                                      "In this material, show this field instead."};
 
 const struct cli_option *const plot_option_table[] = {
-    &plot_option_output,  &plot_option_last,   &plot_option_step,  &plot_option_time,  &plot_option_all,
-    &plot_option_slice,   &plot_option_range,  &plot_option_log,   &plot_option_map,   &plot_option_xlim,
-    &plot_option_ylim,    &plot_option_mirror, &plot_option_left,  &plot_option_right, &plot_option_inside,
-    &plot_option_contour, &plot_option_tiles,  &plot_option_width, &plot_option_over,  NULL,
+    &plot_option_output,  &plot_option_last,
+    &plot_option_step,    &plot_option_time,
+    &plot_option_all,     &plot_option_slice,
+    &plot_option_range,   &plot_option_log,
+    &plot_option_map,     &plot_option_xlim,
+    &plot_option_ylim,    &plot_option_zlim,
+    &plot_option_mirror,  &plot_option_left,
+    &plot_option_right,   &plot_option_inside,
+    &plot_option_contour, &plot_option_tiles,
+    &plot_option_width,   &plot_option_over,
+    &plot_option_movie,   &plot_option_fps,
+    &plot_option_beside,  &plot_option_iso,
+    &plot_option_view,    NULL,
 };
 
 /* What a number must be a quantity of: nothing in particular, a length, a time. */
@@ -108,6 +127,33 @@ static int plot_option_inside_read(const struct cli_given *given, struct plot_op
     return STATUS_OK;
 }
 
+/* --iso alpha_air=0.5 */
+static int plot_option_isos(const struct cli_given *given, struct plot_option *option)
+{
+    struct plot_option_span view = {.lo = 30.0, .hi = 25.0};
+    for (int i = 0; i < given->n_option; i++) {
+        const char *text = given->values[i], *equals = strchr(text, '=');
+        if (given->options[i] != &plot_option_iso) continue;
+        struct plot_option_iso *iso = &option->iso[option->n_iso];
+        if (option->n_iso == PLOT_ISOS) return status_fail(STATUS_CASE, "--iso is given more than %d times", PLOT_ISOS);
+        if (!equals || equals == text || (size_t)(equals - text) >= sizeof iso->field)
+            return status_fail(STATUS_CASE, "--iso %s: a field and a value are needed: --iso alpha_air=0.5", text);
+        snprintf(iso->field, sizeof iso->field, "%.*s", (int)(equals - text), text);
+        TRY(plot_option_number("--iso", equals + 1, strlen(equals + 1), OPTION_ANY, &iso->value));
+        option->n_iso++;
+    }
+    const char *text = cli_value(given, "--view"), *comma = text ? strchr(text, ',') : NULL;
+    if (text && !comma) return status_fail(STATUS_CASE, "--view %s: two angles are needed: --view 30,25", text);
+    if (text) TRY(plot_option_number("--view", text, (size_t)(comma - text), OPTION_ANY, &view.lo));
+    if (text) TRY(plot_option_number("--view", comma + 1, strlen(comma + 1), OPTION_ANY, &view.hi));
+    if (!(view.hi >= -90.0 && view.hi <= 90.0))
+        return status_fail(STATUS_CASE, "--view %s: the elevation lies between -90 and 90 degrees", text);
+    if (text && !option->n_iso) return status_fail(STATUS_CASE, "--view is for surfaces: --iso alpha_air=0.5");
+    option->view[0] = view.lo;
+    option->view[1] = view.hi;
+    return STATUS_OK;
+}
+
 static int plot_option_slices(const struct cli_given *given, struct plot_option *option)
 {
     for (int i = 0; i < given->n_option; i++) {
@@ -154,9 +200,31 @@ static int plot_option_overs(const struct cli_given *given, struct plot_option *
     return STATUS_OK;
 }
 
+/* Films show all snapshots; what stands beside each other has times in common, no steps. */
+static int plot_option_film(const struct cli_given *given, struct plot_option *option)
+{
+    long pace = PLOT_FILM_PACE;
+    TRY(cli_count(given, "--fps", 1, &pace));
+    if (pace > PLOT_FILM_PACE_MOST)
+        return status_fail(STATUS_CASE, "--fps %ld: at most %d frames per second", pace, PLOT_FILM_PACE_MOST);
+    option->pace = (int)pace;
+    if (!option->movie && cli_value(given, "--fps"))
+        return status_fail(STATUS_CASE, "--fps is for a film: --movie FILE.mp4");
+    if (option->movie && option->output)
+        return status_fail(STATUS_CASE, "-o %s and --movie %s: a film has one name", option->output, option->movie);
+    bool one = cli_value(given, "--last") || option->when == PLOT_STEP || option->when == PLOT_TIME;
+    if (option->movie && one)
+        return status_fail(STATUS_CASE, "--movie shows every snapshot: without --last, --step and --time");
+    if (option->beside && (option->when == PLOT_STEP || (option->when == PLOT_ALL && !option->movie)))
+        return status_fail(STATUS_CASE, "--beside goes by time: --time T, or every snapshot with --movie FILE.mp4");
+    return STATUS_OK;
+}
+
 int plot_option_read(const struct cli_given *given, struct plot_option *ret_option)
 {
     struct plot_option option = {.output = cli_value(given, "--output"),
+                                 .movie = cli_value(given, "--movie"),
+                                 .beside = cli_value(given, "--beside"),
                                  .map = cli_value(given, "--map"),
                                  .contours = cli_value(given, "--contour"),
                                  .left = cli_value(given, "--left"),
@@ -169,12 +237,17 @@ int plot_option_read(const struct cli_given *given, struct plot_option *ret_opti
     if (width > 20000) return status_fail(STATUS_CASE, "--width %ld: at most 20000 pixels", width);
     option.width = (int)width;
     TRY(plot_option_when(given, &option));
+    TRY(plot_option_film(given, &option));
     TRY(plot_option_overs(given, &option));
     TRY(plot_option_slices(given, &option));
+    TRY(plot_option_isos(given, &option));
     TRY(plot_option_ranges(given, &option));
     TRY(plot_option_inside_read(given, &option));
     TRY(plot_option_span("--xlim", cli_value(given, "--xlim"), &option.limit[0]));
     TRY(plot_option_span("--ylim", cli_value(given, "--ylim"), &option.limit[1]));
+    TRY(plot_option_span("--zlim", cli_value(given, "--zlim"), &option.limit[2]));
+    if (option.limit[2].given && !option.n_iso)
+        return status_fail(STATUS_CASE, "--zlim is for surfaces in space: --iso alpha_air=0.5");
     if (!option.left != !option.right)
         return status_fail(STATUS_CASE, "--left and --right go together: one field for each side of the axis");
     *ret_option = option;

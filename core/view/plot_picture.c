@@ -7,6 +7,7 @@
 #include "view/picture_text.h"
 #include "view/plot_interface.h"
 #include "view/plot_profile.h"
+#include "view/plot_space.h"
 #include "view/plot_view.h"
 
 #include <math.h>
@@ -15,6 +16,7 @@
 
 int plot_picture_shape(const struct snapshot *snapshot, const struct plot_option *option)
 {
+    if (option->n_iso) return 2;
     int left = snapshot->dim;
     for (int axis = 0; axis < snapshot->dim; axis++) left -= option->sliced[axis];
     return left == 3 ? 2 : left;
@@ -23,7 +25,7 @@ int plot_picture_shape(const struct snapshot *snapshot, const struct plot_option
 /* The part of the axes that is shown: all of the domain unless --xlim or --ylim say otherwise. */
 static int plot_picture_window(const struct plot_view *view, const struct plot_option *option, double ret_window[2][2])
 {
-    for (int k = 0; k < view->n_axis; k++) {
+    for (int k = 0; k < 2 && k < view->n_axis; k++) {
         memcpy(ret_window[k], view->domain[k], sizeof ret_window[k]);
         const struct plot_option_span *limit = &option->limit[k];
         if (!limit->given) continue;
@@ -165,6 +167,7 @@ int plot_picture_extremes(const struct snapshot *snapshot, struct plot_picture *
 {
     struct plot_view view;
     double window[2][2];
+    if (picture->option->n_iso) return plot_space_extremes(snapshot, picture);
     TRY(plot_view_make(snapshot, picture->option, &view));
     int code = plot_picture_window(&view, picture->option, window);
     for (unsigned i = 0; !code && i < picture->n_field; i++) {
@@ -185,6 +188,7 @@ int plot_picture_draw(const struct snapshot *snapshot, const struct plot_picture
     struct plot_view view;
     double window[2][2];
     char note[384];
+    if (picture->option->n_iso) return plot_space_draw(snapshot, picture, ret_image);
     TRY(plot_view_make(snapshot, picture->option, &view));
     int code = plot_picture_window(&view, picture->option, window);
     plot_picture_note(&view, picture, note, sizeof note);

@@ -20,7 +20,7 @@ struct plot_picture {
     double extremes[PLOT_PICTURE_FIELDS][2]; /* start from +inf, -inf */
 };
 
-/* Is what the options leave of this snapshot a plane (2) or a line (1)? */
+/* Is what the options leave of this snapshot a plane (2) or a line (1)? Surfaces in space are seen on a plane. */
 int plot_picture_shape(const struct snapshot *snapshot, const struct plot_option *option);
 
 /* Widens `extremes` by what the picture of this snapshot would show. */

@@ -7,8 +7,9 @@
 #define VIEW_H
 
 /* Name, words and one line of each command, for both tables of commands. */
-#define VIEW_PLOT \
-    "plot", "DIR... FIELD|history|map|profile", "PNG pictures of snapshots, histories, maps, and profiles out of maps."
+#define VIEW_PLOT                               \
+    "plot", "DIR... FIELD|history|map|profile", \
+        "PNG pictures and films of snapshots; histories, maps, and profiles out of maps."
 #define VIEW_REPORT "report", "DIR", "One HTML page about a run, pictures inside."
 
 #define VIEW_PROGRAM "bulla-view"

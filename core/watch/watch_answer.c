@@ -4,10 +4,10 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
-#include "watch/watch_curve.h"
 #include "watch/watch_look.h"
 #include "watch/watch_page.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -87,18 +87,40 @@ static void watch_answer_curve(struct watch_answer_world *world, const struct wa
     unsigned long run, column;
     if (!watch_answer_run_of(world, request, answer, &run)) return;
     bool named = request->number(request->data, "column", &column);
-    watch_answer_json(answer, named ? watch_curve_look(world->runs.paths[run], column) : NULL);
+    watch_answer_json(answer, named ? watch_curve_look(&world->curves, world->runs.paths[run], column) : NULL);
+}
+
+/* The others whose scale a picture shares: run1, snapshot1, run2, ... after the first of `places`. false: one of them is
+ * not there. */
+static bool watch_answer_like(const struct watch_answer_world *world, const struct watch_answer_request *request,
+                              struct watch_picture_place *places, unsigned *n)
+{
+    for (; *n < WATCH_PICTURE_LIKE; ++*n) {
+        char name[2][16];
+        unsigned long run;
+        snprintf(name[0], sizeof name[0], "run%u", *n);
+        snprintf(name[1], sizeof name[1], "snapshot%u", *n);
+        if (!request->number(request->data, name[0], &run)) return true;
+        if (run >= world->runs.n || !request->number(request->data, name[1], &places[*n].snapshot)) return false;
+        places[*n].directory = world->runs.paths[run];
+    }
+    return true;
 }
 
 static void watch_answer_picture(struct watch_answer_world *world, const struct watch_answer_request *request,
                                  struct watch_answer *answer)
 {
-    unsigned long run, snapshot, field;
+    struct watch_picture_place places[WATCH_PICTURE_LIKE];
+    unsigned long run, field;
+    unsigned n = 1;
     const struct watch_picture *picture;
     if (!watch_answer_run_of(world, request, answer, &run)) return;
     int code = STATUS_CASE;
-    if (request->number(request->data, "snapshot", &snapshot) && request->number(request->data, "field", &field))
-        code = watch_picture_take(&world->pictures, world->runs.paths[run], snapshot, field, &picture);
+    places[0].directory = world->runs.paths[run];
+    bool named = request->number(request->data, "snapshot", &places[0].snapshot) &&
+                 request->number(request->data, "field", &field);
+    if (named && watch_answer_like(world, request, places, &n))
+        code = watch_picture_take(&world->pictures, places, n, field, &picture);
     if (code == STATUS_CASE) watch_answer_json(answer, NULL);
     else if (code) watch_answer_text(answer, ANSWER_FAILED, "this picture cannot be drawn\n");
     else {

@@ -7,10 +7,10 @@
 
 #include "suite/contract_module.h"
 
-/* A copy of a built-in module with another table of functions fails exactly in a check that begins with `check`. */
-static inline void finds(const char *kind, const char *name, const void *table, const char *check)
+/* A copy of a module with another table of functions fails in a check that begins with `check`. */
+static inline void finds_in(const struct bulla_module *of, const void *table, const char *check)
 {
-    struct bulla_module module = *support_module(kind, name);
+    struct bulla_module module = *of;
     module.table = table;
     struct contract contract = {.module = &module};
     assert_int_equal(contract_module_run(&contract, NULL), 0);
@@ -22,6 +22,12 @@ static inline void finds(const char *kind, const char *name, const void *table, 
     struct text text = {0};
     contract_table(&contract, &text);
     fail_msg("nothing wrong found with '%s':\n%s", check, text.at);
+}
+
+/* The same of a built-in one. */
+static inline void finds(const char *kind, const char *name, const void *table, const char *check)
+{
+    finds_in(support_module(kind, name), table, check);
 }
 
 #define IN const double *BULLA_RESTRICT

@@ -16,7 +16,7 @@ refused() { # CODE PATTERN ARGS...
     grep -qE -- "$pattern" out || fail "new $*: does not say '$pattern'"
 }
 
-for kind in constitutive eos inelastic limiter reconstruction riemann viscosity; do
+for kind in boundary conductivity constitutive eos field inelastic limiter reconstruction riemann viscosity; do
     "$BULLA" new module $kind my-$kind >out 2>&1 || fail "no $kind was made"
     for file in Makefile README.md case.yaml my_$kind.c my_${kind}_test.c; do
         [ -s my-$kind/$file ] || fail "my-$kind/$file is not there"
@@ -56,7 +56,7 @@ for name in My-Law 3law a--b a- -a '' a/b a.b 'a b' ../up aaaaaaaaaabbbbbbbbbbcc
     refused 2 'is no name for a module|has no option' module eos "$name"
 done
 refused 2 "kind eos has a module 'nasg' already" module eos nasg
-refused 2 "did you mean 'limiter'\?.*eos, inelastic, limiter, reconstruction, riemann" module limitr my-law
+refused 2 "did you mean 'limiter'\?.*eos, field, inelastic, limiter, reconstruction, riemann" module limitr my-law
 refused 2 'bulla new module KIND NAME' thing eos my-law
 refused 2 'KIND NAME' module eos
 "$BULLA" new module eos under_score >out 2>&1 || fail "an identifier is a name too"

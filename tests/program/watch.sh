@@ -28,16 +28,24 @@ output:
 CASE
 
 # ask.py METHOD ADDRESS [NAME: VALUE]: prints the status, the headers, an empty line and the answer.
+# ask.py all ROOT STATUS METHOD PATH...: prints those of the paths that have another status.
 cat >ask.py <<'PY'
 import http.client, sys, urllib.parse
-address = urllib.parse.urlsplit(sys.argv[2])
-link = http.client.HTTPConnection(address.hostname, address.port, timeout=300)
-headers = dict(word.split(': ', 1) for word in sys.argv[3:])
-link.putrequest(sys.argv[1], address.path + ('?' + address.query if address.query else ''), skip_host='Host' in headers)
-for name, value in headers.items(): link.putheader(name, value)
-link.endheaders()
-answer = link.getresponse()
-sys.stdout.buffer.write(b'%d\n%s\n' % (answer.status, str(answer.headers).encode()) + answer.read())
+def ask(method, address, headers):
+    address = urllib.parse.urlsplit(address)
+    link = http.client.HTTPConnection(address.hostname, address.port, timeout=300)
+    link.putrequest(method, address.path + ('?' + address.query if address.query else ''), skip_host='Host' in headers)
+    for name, value in headers.items(): link.putheader(name, value)
+    link.endheaders()
+    return link.getresponse()
+if sys.argv[1] == 'all':
+    root, wanted, method, *paths = sys.argv[2:]
+    for path in paths:
+        answer = ask(method, root + path, {})
+        if answer.status != int(wanted): print(answer.status, method, path)
+else:
+    answer = ask(sys.argv[1], sys.argv[2], dict(word.split(': ', 1) for word in sys.argv[3:]))
+    sys.stdout.buffer.write(b'%d\n%s\n' % (answer.status, str(answer.headers).encode()) + answer.read())
 PY
 ask() { python3 ask.py "$@" >answer; }
 status() { # WANTED METHOD ADDRESS...
@@ -45,6 +53,12 @@ status() { # WANTED METHOD ADDRESS...
     shift
     ask "$@"
     [ "$(head -n 1 answer)" = "$wanted" ] || fail "not $wanted: $*" answer
+}
+every() { # STATUS PATH...: all of them have it
+    wanted=$1
+    shift
+    python3 ask.py all "$url" "$wanted" GET "$@" >answer
+    [ ! -s answer ] || fail "not $wanted:" answer
 }
 # What the page is told: a line of Python over `run`, the first of them, and `runs`.
 told() { # EXPRESSION [ADDRESS]
@@ -94,6 +108,14 @@ cp answer first
 status 200 GET "${url}picture?run=0&snapshot=1&field=1" # the same once more, from memory
 sed -i '/^Date/d' first answer
 cmp first answer
+status 200 GET "${url}picture?run=0&snapshot=0&field=1" # the start is one of two pressures, later there are more
+sed -i '/^Date/d' answer
+mv answer first
+status 200 GET "${url}picture?run=0&snapshot=0&field=1&run1=0&snapshot1=2"
+sed -i '/^Date/d' answer
+! cmp -s first answer || fail "two snapshots do not share a scale"
+first='picture?run=0&snapshot=0&field=1'
+every 404 "$first&run1=7" "$first&run1=0" "$first&run1=0&snapshot1=999999" "$first&run1=0&snapshot1=x"
 find out -printf '%p %T@ %s\n' | sort >after
 cmp before after || fail "the page has touched the directory"
 mv out/fields/tube_*.hdf . # what is not there, or is no snapshot, is no end of the page
@@ -118,11 +140,9 @@ status 403 GET "${url}state" 'Host: evil.example'
 status 403 GET "$url" "Host: 127.0.0.1.evil.example:80"
 status 200 GET "${url}state" 'Host: localhost:1234' # the other end of a tunnel
 for method in POST PUT DELETE HEAD OPTIONS PATCH; do status 405 "$method" "${url}state"; done
-for path in ../../etc/passwd %2e%2e/%2e%2e/etc/passwd case.yaml out/case.yaml .. // 'run?run=1' 'run?run=-1' 'run?run=' \
+every 404 ../../etc/passwd %2e%2e/%2e%2e/etc/passwd case.yaml out/case.yaml .. // 'run?run=1' 'run?run=-1' 'run?run=' \
     'run?run=0x0' 'run?run=99999999999' run 'curve?run=0' 'curve?run=0&column=99' 'picture?run=0&snapshot=9999999&field=0' \
-    'picture?run=0&snapshot=0&field=99' 'picture?run=../out&snapshot=0&field=0'; do
-    status 404 GET "$url$path"
-done
+    'picture?run=0&snapshot=0&field=99' 'picture?run=../out&snapshot=0&field=0'
 port=$(printf '%04X' "$(echo "$url" | cut -d: -f3 | cut -d/ -f1)")
 awk -v port=":$port" 'FNR > 1 && $4 == "0A" && index($2, port) { print $2 }' /proc/net/tcp /proc/net/tcp6 >listens
 [ "$(cat listens)" = "0100007F:$port" ] || fail "listens elsewhere" listens

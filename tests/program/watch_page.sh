@@ -46,6 +46,7 @@ lacks '<img src="x"'
 lacks '<i>what'
 lacks '<b onclick'
 lacks '<script>document'
+grep -o 'src="picture?run=1&amp;[^"]*"' page | grep -q '&amp;run1=0&amp;snapshot1=' || fail "no scale in common" page
 [ "$(grep -o '<img [^>]*>' page | grep -c 'alt="pressure')" = 2 ]
 
 # All that the page has asked for is its own; what the browser itself looks for is no part of it.

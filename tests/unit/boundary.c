@@ -194,7 +194,7 @@ static void check_traits(enum scene_boundary_type type)
 static void test_traits(void **state)
 {
     (void)state;
-    for (int type = 0; type < SCENE_BOUNDARY_TYPES; type++)
+    for (int type = 0; type < SCENE_BOUNDARY_MODULE; type++)
         if (type != SCENE_PERIODIC) check_traits((enum scene_boundary_type)type);
 }
 

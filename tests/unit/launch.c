@@ -38,9 +38,10 @@ static void every_machine_knows_that_a_parent_reports(void **state)
     (void)state;
     char *argv[] = {"bulla", "run", NULL};
     char **out = launch_arguments(2, false, "/x/bulla", argv);
-    int at = position(out, "-x");
-    assert_true(at > 0 && at < position(out, "/x/bulla"));
-    assert_string_equal(out[at + 1], "BULLA_STATUS_FILE");
+    int at = position(out, "-x"); /* Hydra of MPICH hands the whole environment on by itself */
+    if (!BULLA_OPEN_MPI) assert_int_equal(at, -1);
+    else assert_true(at > 0 && at < position(out, "/x/bulla"));
+    if (at > 0) assert_string_equal(out[at + 1], "BULLA_STATUS_FILE");
     launch_free_arguments(out);
 }
 

@@ -155,8 +155,8 @@ static const struct refusal refusals[] = {
     {"null_slot", "has no function 'slope', which kind limiter needs"},
     {"new_flags", "has the flags 0x4; this program knows 0x3"},
     {"null_edges", "has no function 'edges', which BULLA_TWO_SIDED needs"},
-    {"unknown_kind", "unknown kind 'weather'; kinds are conductivity, constitutive, eos, inelastic, limiter, "
-                     "reconstruction, riemann, viscosity"},
+    {"unknown_kind", "unknown kind 'weather'; kinds are boundary, conductivity, constitutive, eos, field, inelastic, "
+                     "limiter, reconstruction, riemann, viscosity"},
     {"bad_name", "'Bad_Name'; names are lower case with hyphens"},
     {"no_doc", "lacks its doc"},
     {"param_twice", "parameter 'strength' twice"},

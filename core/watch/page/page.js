@@ -336,17 +336,22 @@ function drawPictures() {
   slider.max = most;
   if (follow) slider.value = most;
   write(byId('which'), follow ? 'latest' : (Number(slider.value) + 1) + ' of ' + (most + 1));
-  for (const run of wanted) {
-    const figure = run.figure = run.figure || pictureOf(run), whole = run.whole, field = whole.fields.indexOf(select.value);
-    const at = follow ? whole.times.length - 1 : Math.min(Number(slider.value), whole.times.length - 1);
-    figure.root.hidden = field < 0;
+  byId('same').parentNode.hidden = wanted.length < 2;
+  const shows = wanted.filter((run) => run.whole.fields.includes(select.value)).map((run) => {
+    const last = run.whole.times.length - 1;
+    return {run, at: follow ? last : Math.min(Number(slider.value), last)};
+  });
+  for (const run of wanted) (run.figure = run.figure || pictureOf(run)).root.hidden = !shows.some((show) => show.run === run);
+  for (const {run, at} of shows) {
+    const whole = run.whole, figure = run.figure, others = byId('same').checked ? shows.filter((show) => show.run !== run) : [];
     // the last part is for the browser alone: another time is another picture
-    const source = 'picture?run=' + run.index + '&snapshot=' + at + '&field=' + field + '&t=' + whole.times[at];
-    if (field >= 0 && figure.image.getAttribute('src') !== source) {
-      figure.image.setAttribute('src', source);
-      figure.image.alt = select.value + ' of ' + whole.name;
-      write(figure.caption, (runs.length > 1 ? whole.name + ', ' : '') + select.value + ' at t = ' + quantity(whole.times[at], 's', whole.until));
-    }
+    const source = 'picture?run=' + run.index + '&snapshot=' + at + '&field=' + whole.fields.indexOf(select.value) +
+      others.map((show, i) => '&run' + (i + 1) + '=' + show.run.index + '&snapshot' + (i + 1) + '=' + show.at).join('') +
+      '&t=' + whole.times[at];
+    if (figure.image.getAttribute('src') === source) continue;
+    figure.image.setAttribute('src', source);
+    figure.image.alt = select.value + ' of ' + whole.name;
+    write(figure.caption, (runs.length > 1 ? whole.name + ', ' : '') + select.value + ' at t = ' + quantity(whole.times[at], 's', whole.until));
   }
   const figures = wanted.map((run) => run.figure.root), place = byId('images');
   place.className = figures.length > 1 ? 'images' : 'images one';
@@ -439,9 +444,10 @@ async function refresh() {
   busy = false;
   document.body.dataset.looked = Number(document.body.dataset.looked || 0) + 1;
   if (again) { again = false; refresh(); return; }
-  timer = setTimeout(refresh, Math.max(allOver || document.hidden ? SLOW : FAST, 4 * (performance.now() - begun)));
+  timer = setTimeout(refresh, Math.max(allOver || document.hidden ? SLOW : FAST, 9 * (performance.now() - begun)));
 }
 byId('field').addEventListener('change', draw);
+byId('same').addEventListener('change', drawPictures);
 byId('when').addEventListener('input', () => {
   follow = byId('when').value === byId('when').max;
   drawPictures();
