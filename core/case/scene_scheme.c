@@ -105,11 +105,11 @@ static const struct key scene_scheme_rows[] = {
      .type = KEYS_CHOICE,
      .choices = "explicit|rkl2",
      .fallback = "explicit",
-     .doc = "How viscosity and conduction are stepped. explicit: with all else, in steps of h^2 where they are the "
-            "shorter "
-            "ones. rkl2: in s stages of their own per stage of the integrator, whose number grows with the root of the "
-            "steps that "
-            "are saved; each level takes its own number, none where explicit steps do. Gels, gas at low pressure."},
+     .doc =
+         "How viscosity and conduction are stepped. explicit: with all else, in steps of h^2 where they are the "
+         "shorter ones. rkl2: in s stages of their own per stage of the integrator, whose number grows with the root "
+         "of the steps that are saved, and none where explicit steps do; for gels and gas at low pressure, on one "
+         "level and with one material, with three arrays more."},
     {.name = "cfl",
      .type = KEYS_NUMBER,
      .unit = "1",
