@@ -461,6 +461,13 @@ void face_begin(struct face_work *work, const struct frame *frame)
         if (work->rise[side]) memset(work->rise[side], 0, frame->count * sizeof(double));
 }
 
+void face_rest(struct face_work *work, const struct frame *frame)
+{
+    const struct face_own *own = work->own;
+    work->faces.n = frame_edged(frame) - frame->inner;
+    memset(work->alpha, 0, own->n_flux * (size_t)FACE_ROOM * sizeof *work->alpha);
+}
+
 void face_solve(struct face_work *work, const struct frame *frame, bool masked)
 {
     const struct model *model = work->model;
