@@ -34,6 +34,7 @@ void scene_derived(struct draft *draft);
 void scene_refine(struct draft *draft);
 void scene_boundary(struct draft *draft);
 void scene_tension(struct draft *draft);
+void scene_diffusion(struct draft *draft);
 void scene_phase(struct draft *draft);
 void scene_initial(struct draft *draft);
 void scene_rigid(struct draft *draft);

@@ -472,6 +472,13 @@ static const double *face_flat(const struct face_work *work, const struct frame 
     return work->flat;
 }
 
+void face_rest(struct face_work *work, const struct frame *frame)
+{
+    const struct face_own *own = work->own;
+    work->faces.n = frame_edged(frame) - frame->inner;
+    memset(work->alpha, 0, own->n_flux * (size_t)FACE_ROOM * sizeof *work->alpha);
+}
+
 void face_solve(struct face_work *work, const struct frame *frame, bool masked)
 {
     const struct model *model = work->model;

@@ -47,6 +47,9 @@ void face_free(struct face_work *work);
 /* Before terms look at a gathered frame: no forces yet. */
 void face_begin(struct face_work *work, const struct frame *frame);
 
+/* No fluxes of mass, momentum and energy: what terms that diffuse add to is 0. */
+void face_rest(struct face_work *work, const struct frame *frame);
+
 /* Fills the flux arrays for the frame in work->frame. Face index f of the row is the lower face of
  * frame cell f + ghosts inner. With `masked`, faces of cells marked in work->mask get first-order
  * states and the robust solver. */
