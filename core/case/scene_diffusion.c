@@ -25,6 +25,10 @@ void scene_diffusion(struct draft *draft)
                    "bear");
         diag_help(draft->keys.diag, "'levels: 0', or 'diffusion: explicit'");
     }
+    if (scene->n_rigid) {
+        keys_error(&draft->keys, diffusion, "'rkl2' does not go with bodies: what diffuses knows of no cut cells");
+        diag_help(draft->keys.diag, "'diffusion: explicit'");
+    }
     if (!diffuses) {
         diag_warn(draft->keys.diag, &diffusion->node->mark, "%s: no material is viscous or conducts heat",
                   diffusion->path);

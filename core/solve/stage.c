@@ -217,6 +217,7 @@ static void stage_tile_open(struct stage *stage, unsigned local, enum term_part 
                                    .n_cell = stage->mesh->n_cell,
                                    .t = stage->bound->t,
                                    .dt = dt,
+                                   .begun = row->previous ? stage->bound->t : stage->t,
                                    .part = part,
                                    .u = row->previous ? stage_previous(stage, local) : level->u_old[local],
                                    .w = level->w[local],

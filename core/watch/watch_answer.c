@@ -159,6 +159,6 @@ char *watch_answer_policy(const struct watch_answer *answer)
 {
     static const char closed[] = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
     if (!*answer->nonce) return mem_text(closed);
-    return mem_print("%s; img-src 'self'; connect-src 'self'; script-src 'nonce-%s'; style-src 'nonce-%s'", closed,
-                     answer->nonce, answer->nonce);
+    return mem_print("%s; img-src 'self' data:; connect-src 'self'; script-src 'nonce-%s'; style-src 'nonce-%s'",
+                     closed, answer->nonce, answer->nonce);
 }
