@@ -13,8 +13,9 @@ enum { FACE_ROOM = FRAME_CELLS + 32 }; /* doubles per component: the frame and v
 
 struct face_work {
     const struct model *model;
-    double *frame;                             /* [n_field] primitives of the gathered frame, pitch FACE_ROOM */
-    double *mask;                              /* troubled cells of the frame: 0 or 1; one component */
+    double *frame; /* [n_field] primitives of the gathered frame, pitch FACE_ROOM */
+    double *mask;  /* troubled cells of the frame: 0 or 1; one component */
+    double *flat;  /* cells of the frame whose faces get first-order states: 0 or 1; NULL without rigid bodies */
     struct bulla_faces faces;                  /* what the Riemann solver got and gave; n faces */
     double *alpha, *m, *momentum, *energy, *u; /* the fluxes: blocks with pitch FACE_ROOM; momentum[0] normal,
                                                   alpha: alpha* u*, u: u* */
