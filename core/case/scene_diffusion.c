@@ -25,7 +25,7 @@ void scene_diffusion(struct draft *draft)
         diag_help(draft->keys.diag, "'levels: 0', or 'diffusion: explicit'");
     }
     if (scene->n_rigid > 0) {
-        keys_error(&draft->keys, diffusion, "'rkl2' does not go with 'bodies'");
+        keys_error(&draft->keys, diffusion, "'rkl2' does not go with 'bodies': what diffuses knows of no cut cells");
         diag_help(draft->keys.diag, "'diffusion: explicit'");
     }
     if (!diffuses) {
