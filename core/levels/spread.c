@@ -33,8 +33,8 @@ double spread_volume(const struct spread *spread, size_t cell)
 
 /* Largest part of factor * change that leaves fractions in [0, 1] and masses, energy and strains positive, at most 1; of
  * the first n fields where the pressure has a say. */
-static double spread_room(const struct spread *spread, size_t cell, const double *change, double factor,
-                          unsigned n, const double *delta)
+static double spread_room(const struct spread *spread, size_t cell, const double *change, double factor, unsigned n,
+                          const double *delta)
 {
     const struct model *model = spread->model;
     double room = 1.0;
@@ -74,7 +74,8 @@ static void spread_collect(const struct spread *spread, const int at[3], int r, 
                 if (!on || spread->trouble[cell] != SPREAD_NONE || !spread_is_leaf(spread, cell)) continue;
                 double factor = load->volume / spread_volume(spread, cell);
                 ring->cells[ring->n] = cell;
-                ring->room[ring->n++] = SPREAD_PART * spread_room(spread, cell, load->change, factor, spread->model->i_V, delta);
+                ring->room[ring->n++] =
+                    SPREAD_PART * spread_room(spread, cell, load->change, factor, spread->model->i_V, delta);
             }
 }
 
