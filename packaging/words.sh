@@ -25,10 +25,10 @@ tab=$(printf '\t')
     }
     name != "" && /^   / { doc = $0; sub(/^ +/, "", doc); flush() }' >"$folder/commands"
 
-# command TAB letter TAB option TAB value TAB doc
+# command TAB letter TAB option TAB value TAB doc; none of a command whose program was not built
 : >"$folder/options"
 cut -f1 "$folder/commands" | while read -r command; do
-    "$program" "$command" -h | awk -v command="$command" '
+    "$program" "$command" -h 2>/dev/null | awk -v command="$command" '
         function flush() { if (name != "") print command "\t" letter "\t" name "\t" value "\t" doc; name = "" }
         /^  -/ {
             flush()

@@ -143,6 +143,13 @@ static const struct key scene_phase_rows[] = {
      .type = KEYS_SECTION,
      .section = &scene_phase_nucleation,
      .doc = "With everywhere: {tension: 1 MPa} or {superheat: 5 K}; not given: no tension is borne."},
+    {.name = "onset",
+     .type = KEYS_NUMBER,
+     .unit = "1",
+     .min = KEYS_POSITIVE,
+     .max = 0.9,
+     .doc = "Liquid evaporates only where vapour and gases fill this share of a cell; wherever they are felt, if not "
+            "given. 0.5 keeps the surface of superheated liquid sharp. Vapour condenses all the same."},
     {.name = "direction",
      .type = KEYS_CHOICE,
      .choices = "both|evaporation|condensation",
@@ -249,6 +256,10 @@ static void scene_phase_places(struct draft *draft, const struct keys_map *map, 
     pair->everywhere = keys_at(map, "where")->integer == 1;
     pair->direction = (enum scene_phase_direction)keys_at(map, "direction")->integer;
     pair->mixing = keys_at(map, "mixing")->integer == 0;
+    pair->onset = keys_at(map, "onset")->given ? keys_at(map, "onset")->number : 0.0;
+    if (pair->everywhere && keys_at(map, "onset")->given)
+        keys_error(&draft->keys, keys_at(map, "onset"),
+                   "with 'where: everywhere' liquid evaporates from nothing: 'onset' is for surfaces");
     if (!nucleation->map) return;
     const struct keys_value *tension = keys_at(nucleation->map, "tension"),
                             *superheat = keys_at(nucleation->map, "superheat");

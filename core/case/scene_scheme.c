@@ -70,6 +70,14 @@ static const struct key scene_scheme_rows[] = {
      .doc = "What solids and fluids of one cell share. common: the traction on their interface, so that each has the "
             "pressure that it needs for that; pressure: one pressure, which heats and shakes the surfaces of stretched "
             "solids. auto: common in one dimension, pressure in the plane and in space."},
+    {.name = "mixture-speed",
+     .type = KEYS_CHOICE,
+     .choices = "frozen|wood",
+     .fallback = "frozen",
+     .doc =
+         "Speed of sound that mixtures show to the Riemann solver at faces where cells move apart. frozen: the largest "
+         "there is, which nothing breaks and which smears slow waves of boiling mixtures; wood: that of one pressure. "
+         "Time steps have the frozen one."},
     {.name = "low-mach",
      .type = KEYS_NUMBER,
      .unit = "1",
@@ -247,6 +255,19 @@ static double scene_scheme_first(struct draft *draft, const struct keys_map *sch
     return first->given ? first->number : ramp ? SCENE_SCHEME_FIRST : 1.0;
 }
 
+/* Wood's speed knows no shear. */
+static bool scene_scheme_wood(struct draft *draft, const struct keys_map *scheme)
+{
+    const struct keys_value *speed = keys_at(scheme, "mixture-speed");
+    bool wood = speed->integer == 1;
+    if (wood && scene_material_solid(draft)) {
+        keys_error(&draft->keys, speed,
+                   "'wood' is for mixtures of fluids: with solids the speeds of shear would be lost");
+        diag_help(draft->keys.diag, "'mixture-speed: frozen', the default");
+    }
+    return wood;
+}
+
 void scene_scheme(struct draft *draft)
 {
     const struct keys_map *scheme = keys_at(draft->root, "scheme")->map, *run = keys_at(draft->root, "run")->map;
@@ -257,6 +278,7 @@ void scene_scheme(struct draft *draft)
     scene->scheme.integrator = (enum scene_integrator)keys_at(scheme, "integrator")->integer;
     scene->scheme.guard = (enum scene_guard)keys_at(scheme, "guard")->integer;
     scene->scheme.calm = keys_at(scheme, "shock-fronts")->integer == 1;
+    scene->scheme.wood = scene_scheme_wood(draft, scheme);
     scene->scheme.low_mach = keys_at(scheme, "low-mach")->number;
     scene->scheme.cfl = keys_at(scheme, "cfl")->number;
     scene->scheme.dt_fixed = keys_at(scheme, "dt")->number;

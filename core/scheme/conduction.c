@@ -22,6 +22,7 @@ struct conduction {
     double *T, *part, *c, *k;
     double *left, *right; /* what is left of the materials on both sides of the faces */
     double *rest, *width, *series, *q, *pair, *per_d;
+    double *wet[2]; /* on both sides of the faces */
     struct conduction_wall_fault fault;
     bool traces; /* some material of the piece is less than CONDUCTION_CHANNEL_FELT of its cell */
 };
@@ -53,8 +54,9 @@ static void *conduction_open(const struct term_room *room)
     struct conduction *own = mem_new(1, sizeof *own);
     size_t n = room->model->n_material, block = n * FACE_ROOM;
     double **blocks[] = {&own->T, &own->part, &own->c, &own->k, &own->left, &own->right};
-    double **single[] = {&own->rest, &own->width, &own->series, &own->q, &own->pair, &own->per_d};
-    double *at = own->rows = mem_new(6 * block + 6 * FACE_ROOM, sizeof *own->rows);
+    double **single[] = {&own->rest, &own->width, &own->series, &own->q,
+                         &own->pair, &own->per_d, &own->wet[0], &own->wet[1]};
+    double *at = own->rows = mem_new(6 * block + 8 * FACE_ROOM, sizeof *own->rows);
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++, at += block) *blocks[i] = at;
     for (size_t i = 0; i < sizeof single / sizeof *single; i++, at += FACE_ROOM) *single[i] = at;
     return own;
@@ -159,6 +161,7 @@ static double conduction_most(const struct term_tile *tile)
 
 /* One piece: what its channels need. */
 struct conduction_piece {
+    const struct model *path;
     struct conduction *own;
     size_t n, step; /* faces; from a cell to the next */
     double most;
@@ -171,13 +174,39 @@ static struct conduction_channel_side conduction_side(const struct conduction_pi
     return (struct conduction_channel_side){own->part + from, own->T + from, own->k + from, own->c + from};
 }
 
+/* Are l and m liquid and vapour (or gas) of one family? */
+static bool conduction_boils(const struct model *path, unsigned l, unsigned m)
+{
+    for (unsigned k = 0; k < path->n_phase; k++) {
+        const struct model_phase *phase = &path->phases[k];
+        bool liquid = phase->member[0] == l || phase->member[0] == m;
+        for (unsigned i = 1; i < phase->n && liquid && l != m; i++)
+            if (phase->member[i] == l || phase->member[i] == m) return true;
+    }
+    return false;
+}
+
+/* k_lm of a liquid and its vapour. */
+static void conduction_meet(const struct conduction_piece *at, unsigned l, unsigned m)
+{
+    struct conduction *own = at->own;
+    for (int side = 0; side < 2; side++) {
+        struct conduction_channel_side one = conduction_side(at, l, side), other = conduction_side(at, m, side);
+        conduction_channel_wet(at->n, &one, &other, own->wet[side]);
+    }
+    struct conduction_channel_side left = conduction_side(at, l, false), right = conduction_side(at, m, true);
+    conduction_channel_surface(at->n, &left, &right, own->wet[0], own->wet[1], own->series);
+}
+
 /* q_lm of a channel of the width own->width into q. */
 static void conduction_through(const struct conduction_piece *at, unsigned l, unsigned m, const double *width,
                                double *q)
 {
+    const struct model *path = at->path;
     struct conduction *own = at->own;
     struct conduction_channel_side left = conduction_side(at, l, false), right = conduction_side(at, m, true);
-    conduction_channel_series(at->n, &left, &right, own->series);
+    if (conduction_boils(path, l, m)) conduction_meet(at, l, m);
+    else conduction_channel_series(at->n, &left, &right, own->series);
     if (own->traces) conduction_channel_bound(at->n, at->most, &left, &right, own->series);
     conduction_channel_flow(at->n, width, own->series, own->per_d, left.T, right.T, q);
 }
@@ -259,7 +288,8 @@ static void conduction_walls(const struct term_piece *piece, const struct conduc
 static void conduction_faces(const struct term_piece *piece)
 {
     struct conduction *own = piece->own;
-    const struct conduction_piece at = {own, piece->faces->faces.n, piece->frame->inner, conduction_most(piece->tile)};
+    const struct conduction_piece at = {piece->model, own, piece->faces->faces.n, piece->frame->inner,
+                                        conduction_most(piece->tile)};
     conduction_distances(piece, own);
     for (int side = 0; side < 2; side++) conduction_bound(piece, &at, side);
     conduction_alike(piece, &at);

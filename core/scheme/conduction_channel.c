@@ -3,6 +3,9 @@
 
 #include "bulla/module.h"
 
+/* Temperatures in a cell that differ by this share are two. */
+#define CONDUCTION_CHANNEL_ONE 1e-3
+
 static BULLA_KERNEL void conduction_channel_split(size_t n, const double *restrict left, const double *restrict right,
                                                   double *restrict own, double *restrict left_rest,
                                                   double *restrict right_rest, double *restrict rest)
@@ -54,6 +57,45 @@ void conduction_channel_series(size_t n, const struct conduction_channel_side *l
                                const struct conduction_channel_side *right, double *k)
 {
     conduction_channel_mean(n, left->k, right->k, k);
+}
+
+static BULLA_KERNEL void conduction_channel_one(size_t n, const double *restrict part_l, const double *restrict T_l,
+                                                const double *restrict part_m, const double *restrict T_m,
+                                                double *restrict wet)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = part_l[i], b = part_m[i], T = T_l[i], apart = T > T_m[i] ? T - T_m[i] : T_m[i] - T;
+        double least = a < b ? a : b, room = CONDUCTION_CHANNEL_ONE * T, share = (room - apart) / room;
+        share = share > 0.0 ? share : 0.0;
+        wet[i] = least > 0.0 ? share : 0.0;
+    }
+}
+
+void conduction_channel_wet(size_t n, const struct conduction_channel_side *l, const struct conduction_channel_side *m,
+                            double *wet)
+{
+    conduction_channel_one(n, l->part, l->T, m->part, m->T, wet);
+}
+
+static BULLA_KERNEL void conduction_channel_half(size_t n, const double *restrict left, const double *restrict right,
+                                                 const double *restrict wet_left, const double *restrict wet_right,
+                                                 double *restrict k)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double here = 2.0 * right[i] * wet_left[i], there = 2.0 * left[i] * wet_right[i], series = k[i];
+        double surface = here > there ? here : there;
+        k[i] = surface > series ? surface : series;
+    }
+}
+
+void conduction_channel_surface(size_t n, const struct conduction_channel_side *left,
+                                const struct conduction_channel_side *right, const double *wet_left,
+                                const double *wet_right, double *k)
+{
+    conduction_channel_mean(n, left->k, right->k, k);
+    conduction_channel_half(n, left->k, right->k, wet_left, wet_right, k);
 }
 
 static BULLA_KERNEL void conduction_channel_limit(size_t n, double most, const double *restrict left,

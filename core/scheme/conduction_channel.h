@@ -38,6 +38,18 @@ void conduction_channel_cross(size_t n, const double *left_rest, const double *r
 void conduction_channel_series(size_t n, const struct conduction_channel_side *left,
                                const struct conduction_channel_side *right, double *k);
 
+/* How much a liquid and its vapour (or a gas of both), l and m, share one temperature in the cells on one side: 1 where they do, 0
+ * where they differ by a thousandth or one is not there. wet: n numbers. */
+void conduction_channel_wet(size_t n, const struct conduction_channel_side *l, const struct conduction_channel_side *m,
+                            double *wet);
+
+/* k_lm between liquid and vapour: a cell that holds both at one temperature is a surface at that temperature, so that only the
+ * half cell on the other side resists. The larger of both where both are; as
+ * conduction_channel_series where neither is. */
+void conduction_channel_surface(size_t n, const struct conduction_channel_side *left,
+                                const struct conduction_channel_side *right, const double *wet_left,
+                                const double *wet_right, double *k);
+
 /* k_lm where a side is less than CONDUCTION_CHANNEL_FELT of its cell: at most `most` c_l c_m/(c_l + c_m), most in m2/s.
  * Values at the face alone decide. */
 void conduction_channel_bound(size_t n, double most, const struct conduction_channel_side *left,

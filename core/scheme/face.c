@@ -11,6 +11,7 @@
 #include "scheme/face_stress.h"
 #include "scheme/low_mach.h"
 #include "scheme/tilt.h"
+#include "scheme/wood.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,6 +23,7 @@ struct face_own {
     double *state;                /* primitives at the edges: [n_field][2 FACE_ROOM] */
     double *m, *rho, *energy, *c; /* completed: [n_material], then one each, of 2 FACE_ROOM */
     double *term, *stiffness;     /* one material's rho e and rho c^2 */
+    double *give;                 /* of the mixture at the edges, where Wood's speed is asked for; else NULL */
     double *origin, *strain;      /* of the face state: pressure of the side it comes from, compression since */
     double *lagged;               /* one material's pressure at the edges, with surface tension */
     double *zero;                 /* stands in for the velocities of unused axes */
@@ -86,6 +88,7 @@ struct face_work *face_new(const struct model *model)
     own->c = face_row(2);
     own->term = face_row(2);
     own->stiffness = face_row(2);
+    if (model->scene->scheme.wood && model->n_alpha) own->give = face_row(2);
     own->origin = face_row(1);
     own->strain = face_row(1);
     own->zero = face_row(2);
@@ -127,6 +130,7 @@ void face_free(struct face_work *work)
                       own->c,
                       own->term,
                       own->stiffness,
+                      own->give,
                       own->zero,
                       own->robust,
                       work->alpha,
@@ -274,6 +278,17 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
     low_mach_draw(&faces, own->state + 2 * (model->i_u + (unsigned)frame->axis) * FACE_ROOM);
 }
 
+/* Speeds of mixtures that expand. */
+static void face_slow(struct face_work *work, const struct frame *frame)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    size_t cells = frame_edged(frame);
+    const double *u = work->frame + (model->i_u + (unsigned)frame->axis) * FACE_ROOM + frame_reach(frame);
+    const struct wood faces = {cells - frame->inner, cells + frame->inner, frame->inner, u, own->rho, own->give};
+    wood_slow(&faces, own->c);
+}
+
 /* Partial densities, total energy and fastest speed of n edges. */
 static void face_complete(struct face_work *work, const struct frame *frame, size_t n, bool masked)
 {
@@ -296,10 +311,12 @@ static void face_complete(struct face_work *work, const struct frame *frame, siz
         present_state(&model->eos[l], &present, own->term, stiffness);
         if (l == 0) face_first_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
         else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
+        if (own->give) wood_give(n, l, alpha, stiffness, own->give);
     }
     face_load(work, frame, n, rho);
     face_calm(work, frame, rho, masked);
     face_finish(n, rho, u[0], u[1], u[2], own->energy, own->c);
+    if (own->give) face_slow(work, frame);
 }
 
 static void face_point(struct face_work *work, const struct frame *frame, size_t cells)

@@ -173,7 +173,7 @@ static int plot_beside_frames(const struct beside *beside, struct plot_film *fil
 static int plot_beside_film(struct beside *beside)
 {
     struct plot_film film;
-    TRY(plot_film_begin(beside->option.movie, &film));
+    TRY(plot_film_begin(beside->option.movie, plot_beside_clock(beside)->n, &film));
     int code = STATUS_OK;
     for (unsigned i = 0; i < beside->n && !code; i++)
         code = plot_beside_gather(beside->series[i].paths, beside->series[i].n, &beside->picture);

@@ -38,10 +38,10 @@ static char *plot_film_frame(const struct plot_film *film, unsigned index)
     return mem_print("%s/frame_%06u.png", film->folder, index);
 }
 
-int plot_film_begin(const char *file, struct plot_film *ret_film)
+int plot_film_begin(const char *file, size_t total, struct plot_film *ret_film)
 {
     if (!plot_film_find(file)) return status_fail(STATUS_CASE, "--movie %s: a film ends in .mp4, .webm or .gif", file);
-    struct plot_film film = {.file = file};
+    struct plot_film film = {.file = file, .total = total};
     film.folder = mem_print("%.*s_frames_XXXXXX", (int)(strrchr(file, '.') - file), file);
     if (!mkdtemp(film.folder)) {
         int code = status_fail(STATUS_RUN, "cannot make a folder for the frames of %s: %s", file, strerror(errno));
@@ -63,6 +63,7 @@ int plot_film_add(struct plot_film *film, cairo_surface_t *image)
     int code = picture_canvas_write(image, path);
     if (!code) film->n++;
     mem_free(path);
+    if (isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[Kframe %u of %zu%s", film->n, film->total, code ? "\n" : "");
     return code;
 }
 
@@ -154,6 +155,7 @@ static int plot_film_make(const struct plot_film *film, int pace)
     snprintf(name, sizeof name, "film%s", kind->ending);
     snprintf(rate, sizeof rate, "%d", pace);
     plot_film_words(kind, rate, name, words);
+    if (isatty(STDERR_FILENO)) fputs("\r\033[K", stderr);
     TRY(plot_film_pad_all(film));
     int exit_code = plot_film_encode(film, words);
     if (exit_code == FILM_LACKS) {

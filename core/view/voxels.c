@@ -117,7 +117,8 @@ static void voxels_turn(const struct voxels *plane, const double domain[2][3], s
                 double x[3];
                 for (int k = 0; k < 3; k++) x[k] = voxels->domain[0][k] + ((double)i[k] + 0.5) * voxels->h[k];
                 double r = hypot(x[0], x[1]), at[3] = {r, x[2], 0.5};
-                voxels->values[voxels_index(voxels, i)] = r <= radius ? (float)voxels_at(plane, at) : NAN;
+                voxels->values[voxels_index(voxels, i)] =
+                    r >= plane->domain[0][0] && r <= radius ? (float)voxels_at(plane, at) : NAN;
             }
 }
 

@@ -4,7 +4,6 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
-#include "watch/watch_curve.h"
 #include "watch/watch_look.h"
 #include "watch/watch_page.h"
 
@@ -88,7 +87,7 @@ static void watch_answer_curve(struct watch_answer_world *world, const struct wa
     unsigned long run, column;
     if (!watch_answer_run_of(world, request, answer, &run)) return;
     bool named = request->number(request->data, "column", &column);
-    watch_answer_json(answer, named ? watch_curve_look(world->runs.paths[run], column) : NULL);
+    watch_answer_json(answer, named ? watch_curve_look(&world->curves, world->runs.paths[run], column) : NULL);
 }
 
 /* The others whose scale a picture shares: run1, snapshot1, run2, ... after the first of `places`. false: one of them is
@@ -160,6 +159,6 @@ char *watch_answer_policy(const struct watch_answer *answer)
 {
     static const char closed[] = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
     if (!*answer->nonce) return mem_text(closed);
-    return mem_print("%s; img-src 'self'; connect-src 'self'; script-src 'nonce-%s'; style-src 'nonce-%s'", closed,
-                     answer->nonce, answer->nonce);
+    return mem_print("%s; img-src 'self' data:; connect-src 'self'; script-src 'nonce-%s'; style-src 'nonce-%s'",
+                     closed, answer->nonce, answer->nonce);
 }

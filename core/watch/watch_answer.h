@@ -3,6 +3,7 @@
 #ifndef WATCH_ANSWER_H
 #define WATCH_ANSWER_H
 
+#include "watch/watch_curve.h"
 #include "watch/watch_gate.h"
 #include "watch/watch_picture.h"
 #include "watch/watch_runs.h"
@@ -11,6 +12,7 @@ struct watch_answer_world {
     char token[WATCH_GATE_TOKEN + 1];
     struct watch_runs runs;
     struct watch_pictures pictures;
+    struct watch_curve_kept curves;
 };
 
 /* A request. `number` finds a number in the query ("run", "column", ...); false: there is none, or it is no number. */

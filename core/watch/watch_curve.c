@@ -3,11 +3,11 @@
 
 #include "base/mem.h"
 #include "base/status.h"
-#include "case/table.h"
 #include "watch/watch_file.h"
 #include "watch/watch_row.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 enum { CURVE_MOST = 2 * WATCH_CURVE_STRETCHES + 2, CURVE_WORDS = 400 };
@@ -54,28 +54,53 @@ static void watch_curve_points(const struct table *table, unsigned column, json_
     json_object_set_new(curve, "v", v);
 }
 
-/* A table that a run is writing may lack its rows yet; one of somebody else may be anything. */
-static json_t *watch_curve_read(const char *directory, const char *file, unsigned column, const char *name)
+void watch_curve_done(struct watch_curve_kept *kept)
 {
-    struct table table = {0};
-    char *path = mem_print("%s/%s", directory, file);
+    mem_free(kept->path);
+    table_done(&kept->table);
+    *kept = (struct watch_curve_kept){0};
+}
+
+static bool watch_curve_is_kept(const struct watch_curve_kept *kept, const char *path, const struct stat *file)
+{
+    return kept->path && strcmp(kept->path, path) == 0 && kept->file.st_ino == file->st_ino &&
+           kept->file.st_size == file->st_size && kept->file.st_mtim.tv_sec == file->st_mtim.tv_sec &&
+           kept->file.st_mtim.tv_nsec == file->st_mtim.tv_nsec;
+}
+
+/* Makes `kept` that table; takes the path. */
+static int watch_curve_keep(struct watch_curve_kept *kept, char *path)
+{
+    struct stat file = {0};
+    if (!stat(path, &file) && watch_curve_is_kept(kept, path, &file)) {
+        mem_free(path);
+        return STATUS_OK;
+    }
+    watch_curve_done(kept);
+    int code = table_read(path, TABLE_OF_RUN, &kept->table);
+    if (code) mem_free(path);
+    else *kept = (struct watch_curve_kept){path, file, kept->table};
+    return code;
+}
+
+/* A table that a run is writing may lack its rows yet; one of somebody else may be anything. */
+static json_t *watch_curve_read(struct watch_curve_kept *kept, char *path, unsigned column, const char *name)
+{
     json_t *curve = json_pack("{s:o}", "name", watch_file_word(name, CURVE_WORDS));
-    if (table_read(path, TABLE_OF_RUN, &table))
-        json_object_set_new(curve, "fault", watch_file_word(status_text(), CURVE_WORDS));
-    else if (column < table.n_column) watch_curve_points(&table, column, curve);
-    table_done(&table);
-    mem_free(path);
+    if (watch_curve_keep(kept, path)) json_object_set_new(curve, "fault", watch_file_word(status_text(), CURVE_WORDS));
+    else if (column < kept->table.n_column) watch_curve_points(&kept->table, column, curve);
     return curve;
 }
 
-json_t *watch_curve_look(const char *directory, unsigned long index)
+json_t *watch_curve_look(struct watch_curve_kept *kept, const char *directory, unsigned long index)
 {
     static const char *const files[] = {"history.csv", "probes.csv"};
     json_t *curve = NULL;
     for (size_t f = 0; !curve && f < sizeof files / sizeof *files; f++) {
         struct watch_row row;
         watch_row_read(directory, files[f], &row);
-        if (index < row.n) curve = watch_curve_read(directory, files[f], (unsigned)index, row.names[index]);
+        if (index < row.n)
+            curve = watch_curve_read(kept, mem_print("%s/%s", directory, files[f]), (unsigned)index, row.names[index]);
         else index -= row.n;
         watch_row_done(&row);
     }

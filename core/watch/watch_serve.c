@@ -149,6 +149,7 @@ static int watch_serve_run(const struct cli_given *given, const char *const *dir
     if (!code) code = watch_serve_start(world, port);
     watch_runs_done(&world->runs);
     watch_picture_done(&world->pictures);
+    watch_curve_done(&world->curves);
     mem_free(world);
     return code;
 }

@@ -36,6 +36,13 @@ resumed bubble 12 bubble-1
 grep -q '^  phase .*water to steam, equilibrium, at interfaces.*core/scheme/phase_change.c' plan || fail "no operator" plan
 grep -q "rate: equilibrium' without conduction" said || fail "no warning" said
 
+# Heat flows, and liquid evaporates where vapour fills half a cell; faces of expanding mixtures have Wood's speed.
+sed -e 's/water-2016}}/water-2016}, conductivity: 0.6 W\/m\/K}/' -e 's/gases: \[air\]/&, onset: 0.5/' \
+    -e 's/^run:/scheme: {mixture-speed: wood, low-mach: 0.05}\nrun:/' bubble.yaml >heat.yaml
+ranked heat 1 3
+resumed heat 12 heat-1
+"$BULLA" plan heat.yaml 2>&1 | grep "without conduction" && fail "warned of what is there"
+
 # Liquid alone that a wave stretches beyond what it bears.
 sed -e 's/gases: \[air\]}/gases: [air], where: everywhere, nucleation: {tension: 1 MPa}}/' -e '/sphere:/d' \
     -e 's/pressure: 40 bar/pressure: 2 bar, velocity: [0, -20]/' -e '/last(v)\/first/d' -e '/last(M)\/first/d' -e '/last(w) + last/d' bubble.yaml >tension.yaml
@@ -56,6 +63,8 @@ refused "have no saturation curve" 's/ideal-gas, preset: water-2016/ideal-gas, p
 refused "needs the closure kapila" 's/^run:/scheme: {closure: allaire}\nrun:/'
 refused "does not give its entropy and enthalpy" 's/nasg, preset: water-2016/tait/'
 refused "only with 'where: everywhere'" 's/gases: \[air\]/nucleation: {tension: 1 MPa}/'
+refused "'onset' is for surfaces" 's/gases: \[air\]/where: everywhere, onset: 0.5/'
+refused "'wood' is for mixtures of fluids" 's/^run:/scheme: {mixture-speed: wood}\nrun:/; s/  air: .*/&\n  gel: {eos: {type: stiffened-gas, preset: begostone}, constitutive: {type: neo-hookean, shear-modulus: 1 MPa, reference-density: 1000}}/'
 refused "'steam' is a solid" 's/ideal-gas, preset: water-2016}/ideal-gas, preset: water-2016}, constitutive: {type: neo-hookean, shear-modulus: 1 MPa, reference-density: 1}/'
 
 # Zeros of energy and entropy from where it boils.

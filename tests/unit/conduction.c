@@ -44,6 +44,25 @@ static void test_channels_fill_the_face(void **state)
     }
 }
 
+/* Hot vapour (or superheated liquid) beside a cell that holds liquid and vapour at one temperature: only the half cell on this side
+ * resists; as in series where nothing is at one temperature; mirrors mirror to the bit. */
+static void test_surface(void **state)
+{
+    (void)state;
+    double there[4] = {1.0, 0.5, 0.5, 0.0}, missing[4] = {0.0, 0.5, 0.5, 1.0}, T_l[4] = {390.0, 373.0, 380.0, 0.0},
+           T_v[4] = {0.0, 373.0, 373.0, 373.0}, wet[4];
+    struct conduction_channel_side l = {.part = there, .T = T_l}, v = {.part = missing, .T = T_v};
+    conduction_channel_wet(4, &l, &v, wet);
+    assert_true(wet[0] == 0.0 && wet[1] == 1.0 && wet[2] == 0.0 && wet[3] == 0.0);
+    double a[4] = {0.6, 0.6, 0.6, 0.6}, b[4] = {0.025, 0.025, 0.025, 0.025}, no[4] = {0.0, 0.0, 1.0, 1.0},
+           yes[4] = {0.0, 1.0, 0.0, 1.0}, k[4], back[4];
+    struct conduction_channel_side left = {.k = a}, right = {.k = b};
+    conduction_channel_surface(4, &left, &right, no, yes, k);
+    conduction_channel_surface(4, &right, &left, yes, no, back);
+    const double answers[] = {2.0 * 0.6 * 0.025 / 0.625, 1.2, 0.05, 1.2};
+    for (int i = 0; i < 4; i++) assert_true(fabs(k[i] - answers[i]) < 1e-15 && k[i] == back[i]);
+}
+
 /* Water on the left, gas on the right, a linear fall of temperature in each: the resistance over a smear of any width is that
  * of one sharp interface. */
 static void test_resistance(void **state)
@@ -273,6 +292,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_channels_fill_the_face),
+        cmocka_unit_test(test_surface),
         cmocka_unit_test(test_resistance),
         cmocka_unit_test(test_series),
         cmocka_unit_test(test_mixed_cell),

@@ -53,7 +53,7 @@ static void sizes(void **state)
 {
     struct plot_film film;
     (void)state;
-    assert_int_equal(plot_film_begin("film.mp4", &film), 0);
+    assert_int_equal(plot_film_begin("film.mp4", 3, &film), 0);
     add(&film, 40, 40);
     add(&film, 60, 20);
     add(&film, 60, 40);
@@ -71,11 +71,11 @@ static void failures(void **state)
 {
     struct plot_film film;
     (void)state;
-    assert_int_equal(plot_film_begin("film.gif", &film), 0);
+    assert_int_equal(plot_film_begin("film.gif", 3, &film), 0);
     add(&film, 20, 20);
     assert_int_equal(plot_film_end(&film, 12, 3), 3);
-    assert_int_not_equal(plot_film_begin("film.png", &film), 0);
-    assert_int_not_equal(plot_film_begin("nowhere/film.gif", &film), 0);
+    assert_int_not_equal(plot_film_begin("film.png", 3, &film), 0);
+    assert_int_not_equal(plot_film_begin("nowhere/film.gif", 3, &film), 0);
 }
 
 static int begin(void **state)

@@ -444,7 +444,7 @@ async function refresh() {
   busy = false;
   document.body.dataset.looked = Number(document.body.dataset.looked || 0) + 1;
   if (again) { again = false; refresh(); return; }
-  timer = setTimeout(refresh, Math.max(allOver || document.hidden ? SLOW : FAST, 4 * (performance.now() - begun)));
+  timer = setTimeout(refresh, Math.max(allOver || document.hidden ? SLOW : FAST, 9 * (performance.now() - begun)));
 }
 byId('field').addEventListener('change', draw);
 byId('same').addEventListener('change', drawPictures);
