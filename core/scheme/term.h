@@ -34,10 +34,10 @@ struct term_tile {
     const struct tile *tile;
     const struct metric *metric; /* in curved geometry */
     size_t n_cell;
-    double t;        /* of the primitives [s] */
-    double dt;       /* from u to the new state [s] */
-    double begun;    /* time of u [s] */
-    bool masked;     /* troubled cells are marked: the attempt is a robust one */
+    double t;     /* of the primitives [s] */
+    double dt;    /* from u to the new state [s] */
+    double begun; /* time of u [s] */
+    bool masked;  /* troubled cells are marked: the attempt is a robust one */
     enum term_part part;
     const double *u; /* conserved fields that the step starts from */
     const double *w; /* primitives at which the rates are taken */
