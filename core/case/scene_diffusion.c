@@ -21,12 +21,11 @@ void scene_diffusion(struct draft *draft)
     if (scene->mesh.levels > 0) {
         keys_error(&draft->keys, diffusion,
                    "'rkl2' goes with one level: in steps this long fluxes are corrected by more than cells beside a "
-                   "finer level "
-                   "bear");
+                   "finer level bear");
         diag_help(draft->keys.diag, "'levels: 0', or 'diffusion: explicit'");
     }
     if (scene->n_rigid > 0) {
-        keys_error(&draft->keys, diffusion, "'rkl2' does not go with 'bodies'");
+        keys_error(&draft->keys, diffusion, "'rkl2' does not go with 'bodies': what diffuses knows of no cut cells");
         diag_help(draft->keys.diag, "'diffusion: explicit'");
     }
     if (!diffuses) {
