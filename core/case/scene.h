@@ -23,6 +23,7 @@ enum {
     SCENE_MATERIALS = 16,
     SCENE_PAIRS = 8,
     SCENE_BRANCHES = 6,
+    SCENE_RIGIDS = 16,
     SCENE_NAME = 64,
     SCENE_SETTINGS = 64
 };
@@ -189,12 +190,14 @@ enum scene_measure {
     SCENE_OUTSIDE,
     SCENE_MIN_BETWEEN,
     SCENE_MAX_BETWEEN,
+    SCENE_FORCE,
     SCENE_VALUE,
 };
 
 struct scene_column {
     char name[SCENE_NAME]; /* history.csv header; an identifier */
     enum scene_measure measure;
+    int rigid;              /* force: the body */
     int material;           /* volume, mass, centroid, penetration, equivalent-radius, ...: the material; else -1 */
     char field[SCENE_NAME]; /* min, max, mean, integrals, isosurface-*: a field; total: mass | momentum_x.. | energy */
     int in;                 /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
@@ -272,6 +275,17 @@ enum scene_reflux {
     SCENE_REFLUX_OFF,       /* nothing: mass is lost; for comparison */
 };
 
+/* A rigid body: an entry of `bodies:`. */
+struct scene_rigid {
+    char name[SCENE_NAME];
+    struct shape *shape; /* where it stands at t = 0 without displacement and angle */
+    bool moves;
+    struct scene_value displacement[SCENE_AXES], angle; /* of t [m, rad]; not given: `velocity` t, none */
+    double velocity[SCENE_AXES];
+    double pivot[SCENE_AXES]; /* the angle turns it about this point, which moves along; from x to y */
+    double fastest;           /* most that a point of it moves in a second, over the run [m/s] */
+};
+
 /* A criterion of refinement. All of them are limited by where, levels and time. */
 struct scene_refine {
     enum scene_refine_kind {
@@ -282,7 +296,8 @@ struct scene_refine {
         SCENE_REFINE_VALUE,     /* the field itself */
         SCENE_REFINE_INTERFACE, /* cells where a material and another are, and where its fraction jumps */
         SCENE_REFINE_SCRIPT,    /* a Lua function that is true or above 0 */
-        SCENE_REFINE_REGION     /* all cells of `where` */
+        SCENE_REFINE_REGION,    /* all cells of `where` */
+        SCENE_REFINE_BODIES     /* cells that rigid bodies cut: not written, always there with bodies */
     } kind;
     char field[SCENE_NAME]; /* of vectors: the largest component of a difference, the magnitude of a value */
     const char *unit;       /* of the field, "1" for pure numbers; NULL without one */
@@ -386,6 +401,8 @@ struct scene {
     struct scene_tension tension[SCENE_PAIRS];
     unsigned n_phase;
     struct scene_phase phases[SCENE_PHASES];
+    unsigned n_rigid;
+    struct scene_rigid rigids[SCENE_RIGIDS]; /* `bodies:` */
     unsigned n_layer;
     struct scene_layer *layers;    /* `initial:` */
     struct scene_sources *sources; /* NULL: none */

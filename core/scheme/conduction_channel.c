@@ -84,8 +84,8 @@ static BULLA_KERNEL void conduction_channel_half(size_t n, const double *restric
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = left[i], b = right[i], series = k[i];
-        double here = 2.0 * b * wet_left[i], there = 2.0 * a * wet_right[i], surface = here > there ? here : there;
+        double here = 2.0 * right[i] * wet_left[i], there = 2.0 * left[i] * wet_right[i], series = k[i];
+        double surface = here > there ? here : there;
         k[i] = surface > series ? surface : series;
     }
 }

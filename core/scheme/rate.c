@@ -59,6 +59,7 @@ static void rate_open(const struct term_tile *tile)
 void rate_take(struct term_tile *tile, void *const *own, const struct rate_watch *watch, bool masked)
 {
     const struct terms *terms = tile->terms;
+    tile->masked = masked;
     rate_clear(tile);
     terms->faces->model = tile->model;
     rate_open(tile);

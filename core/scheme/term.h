@@ -33,6 +33,8 @@ struct term_tile {
     size_t n_cell;
     double t;        /* of the primitives [s] */
     double dt;       /* from u to the new state [s] */
+    double begun;    /* time of u [s] */
+    bool masked;     /* troubled cells are marked: the attempt is a robust one */
     const double *u; /* conserved fields that the step starts from */
     const double *w; /* primitives at which the rates are taken */
     double *rates;

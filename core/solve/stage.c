@@ -217,6 +217,7 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
                              .n_cell = stage->mesh->n_cell,
                              .t = stage->bound->t,
                              .dt = row->step * stage->dt,
+                             .begun = row->previous ? stage->bound->t : stage->t,
                              .u = row->previous ? stage_previous(stage, local) : level->u_old[local],
                              .w = level->w[local],
                              .rates = work->rates,
