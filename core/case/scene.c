@@ -89,6 +89,7 @@ static void scene_fill(struct draft *draft)
     scene_phase(draft);
     scene_initial(draft);
     scene_rigid(draft);
+    scene_diffusion(draft);
     scene_source(draft);
     scene_output(draft);
     scene_history(draft);

@@ -163,6 +163,7 @@ enum scene_closure { SCENE_KAPILA, SCENE_ALLAIRE };
 enum scene_traction { SCENE_TRACTION_AUTO, SCENE_TRACTION_COMMON, SCENE_TRACTION_PRESSURE };
 enum scene_exchange { SCENE_EXCHANGE_AUTO, SCENE_EXCHANGE_FAST, SCENE_EXCHANGE_FULL };
 enum scene_integrator { SCENE_MIDPOINT, SCENE_SSPRK3 }; /* rows of solve/tableau.c */
+enum scene_diffusion { SCENE_DIFFUSION_EXPLICIT, SCENE_DIFFUSION_RKL2 };
 enum scene_guard { SCENE_GUARD_NORMAL, SCENE_GUARD_STRICT };
 
 /* `every:`: a time, or a number of steps; both 0: never. */
@@ -354,6 +355,7 @@ struct scene_scheme {
     enum scene_traction traction;      /* what the materials of a cell with a solid share */
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
+    enum scene_diffusion diffusion; /* how viscosity and conduction are stepped (solve/rkl.h) */
     enum scene_guard guard;
     bool wood;       /* faces of mixtures that expand have Wood's speed (scheme/wood.h) */
     double low_mach; /* least part of a jump of velocity that faces see (scheme/low_mach.h); 1: all of it */

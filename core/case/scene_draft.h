@@ -37,6 +37,7 @@ void scene_tension(struct draft *draft);
 void scene_phase(struct draft *draft);
 void scene_initial(struct draft *draft);
 void scene_rigid(struct draft *draft);
+void scene_diffusion(struct draft *draft);
 
 /* Index of a body, or -1 after a recorded error with a suggestion. */
 int scene_rigid_index(struct draft *draft, const struct keys_value *value);

@@ -384,10 +384,10 @@ const struct rigid_cells *rigid_at(const struct mesh *mesh, const struct level *
     struct rigid_entry key = {.l = (int)(level - mesh->levels), .at = {tile->at[0], tile->at[1], tile->at[2]}};
     if (rigid->moves && times.to == times.from) times.to += 1e-9 * rigid->scene->run.until; /* walls have a velocity */
     key.times = times;
-    key.cells.pad = mesh->ghosts;
+    key.cells.pad = mesh->ghosts + 1; /* frames know what lies behind what they see */
     key.cells.count = 1;
     for (int d = 0; d < 3; d++) {
-        key.cells.size[d] = d < mesh->dim ? (size_t)(mesh->n[d] + 2 * mesh->ghosts) : 1;
+        key.cells.size[d] = d < mesh->dim ? (size_t)(mesh->n[d] + 2 * key.cells.pad) : 1;
         key.cells.count *= key.cells.size[d];
     }
     bool made;

@@ -103,6 +103,19 @@ static void cut_begin(struct term_tile *tile)
     if (cut->fresh) memset(cut->fresh, 0, cut->n_fresh * sizeof *cut->fresh);
 }
 
+/* Is a cell open whose slope looks at a covered one that lies open on the other side, too, or farther than its neighbour? What that is filled
+ * with is not the same in all frames that see it. */
+static bool cut_looks_through(const struct cut_rows_line *line, const double *now, int i)
+{
+    bool far = line->ghosts > SCENE_GHOSTS;
+    if (!(now[cut_rows_place(line, i)] > 0.0)) return false;
+    for (int way = -1; way <= 1; way += 2) {
+        bool next = now[cut_rows_place(line, i + way)] > 0.0, behind = now[cut_rows_place(line, i + 2 * way)] > 0.0;
+        if (far ? !next || !behind : !next && behind) return true;
+    }
+    return false;
+}
+
 static void cut_frame(const struct term_piece *piece)
 {
     const struct cut *cut = piece->own;
@@ -111,6 +124,8 @@ static void cut_frame(const struct term_piece *piece)
     for (size_t o = 0; cells && o < frame->outer; o++)
         for (size_t c = 0; c < frame->inner; c++) {
             struct cut_rows_line line = cut_rows_line(frame, piece->tile->mesh, cells, o, c);
+            for (int i = -1; i <= line.n; i++)
+                if (cut_looks_through(&line, cells->now, i)) piece->faces->flat[cut_rows_cell(&line, i)] = 1.0;
             for (int i = -line.ghosts; i < line.n + line.ghosts; i++) {
                 size_t at = cut_rows_place(&line, i);
                 if (cells->now[at] > 0.0 || !cut_copy(piece, &line, cells->now, i)) continue;

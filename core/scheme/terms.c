@@ -119,6 +119,11 @@ int terms_failure(void *const *own, const char **ret_message, const char **ret_p
     return status;
 }
 
+bool terms_acts(const struct term *term, enum term_part part)
+{
+    return part == TERM_WHOLE || term->diffuses == (part == TERM_DIFFUSION);
+}
+
 bool terms_spread(const struct scene *scene)
 {
     bool spread = false;
@@ -130,7 +135,7 @@ void terms_pace(const struct terms *terms, const struct term_pace *pace, double 
 {
     memset(rate, 0, pace->n_cell * sizeof *rate);
     for (unsigned i = 0; i < terms->n; i++)
-        if (terms->at[i]->pace) terms->at[i]->pace(pace, rate);
+        if (terms->at[i]->pace && terms_acts(terms->at[i], pace->part)) terms->at[i]->pace(pace, rate);
 }
 
 void terms_say(const struct model *model, struct text *text)

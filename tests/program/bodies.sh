@@ -94,3 +94,21 @@ expect:
   - {value: "last(V) + 4/3 * math.pi * 0.27^3", equals: 1, tolerance: 1e-6}
 END
 ran alone alone
+
+# Thin parts of a body across tiles: what each tile fills them with is its own affair, what flows is not.
+cat >thin.yaml <<'END'
+bulla: 1
+domain: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [16, 16, 16], boundaries: {x-: reflecting, x+: reflecting, y-: reflecting, y+: reflecting, z-: reflecting, z+: reflecting}}
+mesh: {tile: 4}
+materials: {air: {eos: {type: ideal-gas, gamma: 1.4}}}
+bodies: {ball: {sphere: {center: [0.6, 0.52, 0.45], radius: 0.2}}}
+initial:
+  - {everywhere: true, material: air, density: 1.2, pressure: 1e5}
+  - {half-space: {point: [0.3, 0, 0], normal: [-1, 0, 0]}, material: air, density: 10, pressure: 3e6}
+run: {until: 1 ms, max-steps: 20}
+output: {directory: out, history: {columns: {m: {total: mass}, E: {total: energy}}}}
+expect:
+  - {value: "max(abs(m/first(m) - 1))", at-most: 1e-13}
+  - {value: "max(abs(E/first(E) - 1))", at-most: 1e-13}
+END
+ran thin thin

@@ -26,8 +26,9 @@ printf '#!/bin/sh\nexec /usr/bin/python3 "$@"\n' >bin/python3
 chmod +x bin/*
 PATH=$PWD/bin:$PATH
 export PYTHONDONTWRITEBYTECODE=1
-sed -n 's/^    \(\(bulla\|python3\|cp\|export\) .*\)/\1/p' "$page" | sed "s|[.][.][.]/packaging|$BULLA_SOURCE/packaging|; s/ --time [^ ]*//
-    /^bulla watch/d" >commands
+# What begins with a program, up to its last line.
+awk '/^    (bulla|python3|cp|export) / || more { print; more = /\\$/ }' "$page" |
+    sed "s|[.][.][.]/packaging|$BULLA_SOURCE/packaging|; s/ --time [^ ]*//; /bulla watch/d" >commands
 [ "$(wc -l <commands)" -ge 12 ] || fail "where are the commands of the page?" commands
 (. ./commands) >said 2>&1 || fail "a command of the page fails" said
 for picture in stone.png tension.png wall.png; do
