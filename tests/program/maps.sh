@@ -112,18 +112,18 @@ refused() { # LINE:COLUMN WORDS MAP: a map of the plane case; the line is that o
         exit 1
     fi
 }
-refused 19:52 'at 180 deg the circle is at x = -0.0001 m, outside of the domain, 0 to 0.0004 m' \
+refused 20:50 'at 180 deg the circle is at x = -0.0001 m, outside of the domain, 0 to 0.0004 m' \
     'circle: {center: [0, 0.3 mm], radius: 0.1 mm, from: 180 deg, to: 90 deg}'
-refused 19:83 'the arc has no length' 'circle: {center: [0, 0.3 mm], radius: 0.1 mm, from: 90 deg, to: 90 deg}'
-refused 19:66 '1.5 turns' 'circle: {center: [0, 0.3 mm], radius: 0.1 mm, to: 540 deg}'
-refused 19:68 'only in three dimensions' 'circle: {center: [0, 0.3 mm], radius: 0.1 mm, axis: z}'
-refused 19:30 '2 numbers are needed' 'circle: {center: [0.3 mm], radius: 0.1 mm}'
-refused 19:48 '0.0005 m is outside of the domain, 0 to 0.0004 m' 'polyline: {vertices: [[0, 0], [0.5 mm, 0]]}'
-refused 19:47 'this point is the one before it' 'polyline: {vertices: [[0, 0], [0, 0]]}'
-refused 19:34 'at least two points, [x, y], is needed' 'polyline: {vertices: [[0, 0]]}'
-refused 19:54 "only for a 'boundary' or an 'isosurface': the polyline has its own ends" \
+refused 20:76 'the arc has no length' 'circle: {center: [0, 0.3 mm], radius: 0.1 mm, from: 90 deg, to: 90 deg}'
+refused 20:62 '1.5 turns' 'circle: {center: [0, 0.3 mm], radius: 0.1 mm, to: 540 deg}'
+refused 20:64 'only in three dimensions' 'circle: {center: [0, 0.3 mm], radius: 0.1 mm, axis: z}'
+refused 20:29 '2 numbers are needed' 'circle: {center: [0.3 mm], radius: 0.1 mm}'
+refused 20:43 '0.0005 m is outside of the domain, 0 to 0.0004 m' 'polyline: {vertices: [[0, 0], [0.5 mm, 0]]}'
+refused 20:42 'this point is the one before it' 'polyline: {vertices: [[0, 0], [0, 0]]}'
+refused 20:33 'at least two points, [x, y], is needed' 'polyline: {vertices: [[0, 0]]}'
+refused 20:63 "only for a 'boundary' or an 'isosurface': the polyline has its own ends" \
     'polyline: {vertices: [[0, 0], [0.1 mm, 0]]}, from: 0'
-refused 19:11 'one too many is given' 'boundary: y-, circle: {center: [0, 0], radius: 1 mm}'
+refused 20:11 'one too many is given' 'boundary: y-, circle: {center: [0, 0], radius: 1 mm}'
 
 # Overwriting takes away the maps that were there, and what is the user's own stays.
 mkdir -p other/fields other/maps
