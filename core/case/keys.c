@@ -149,6 +149,16 @@ static const char *keys_other_case(struct keys *keys, const struct keys_rows *ro
     return NULL;
 }
 
+/* At the left margin: is it a key of one of the sections, to the letter? Then that is meant, not one that is spelled like it. */
+static bool keys_lies_below(const struct keys *keys, const struct keys_rows *rows, const char *name)
+{
+    struct text path = {0};
+    bool top = keys_rows_find(rows, keys->root->keys[0].name) >= 0,
+         below = top && keys_home(keys->root, name, 1, &path);
+    text_done(&path);
+    return below;
+}
+
 static void keys_unknown_help(struct keys *keys, const struct keys_rows *rows, const char *name, const char *nearest)
 {
     size_t colon = strcspn(name, ":");
@@ -162,7 +172,10 @@ static void keys_unknown_help(struct keys *keys, const struct keys_rows *rows, c
         diag_help(keys->diag, "inside { } a comma ends a value: quote the expression before it, \"= ...\"");
         return;
     }
-    if (nearest) {
+    size_t length = nearest ? strlen(nearest) : 0, given = strlen(name);
+    bool near =
+        length + 2 >= given && given + 2 >= length; /* else it may be a word of another section, at the wrong place */
+    if (nearest && (near || !keys_lies_below(keys, rows, name))) {
         diag_help(keys->diag, "did you mean '%s'?", nearest);
         return;
     }

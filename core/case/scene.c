@@ -88,6 +88,8 @@ static void scene_fill(struct draft *draft)
     scene_tension(draft);
     scene_phase(draft);
     scene_initial(draft);
+    scene_rigid(draft);
+    scene_diffusion(draft);
     scene_source(draft);
     scene_output(draft);
     scene_history(draft);
@@ -294,6 +296,7 @@ void scene_free(struct scene *scene)
         donor_free(scene->layers[i].donor);
     }
     mem_free(scene->layers);
+    for (unsigned i = 0; i < scene->n_rigid; i++) shape_free(scene->rigids[i].shape);
     mem_free(scene->sources);
     for (unsigned i = 0; i < scene->mesh.n_refine; i++) {
         shape_free(scene->mesh.refines[i].where);

@@ -23,6 +23,7 @@ enum {
     SCENE_MATERIALS = 16,
     SCENE_PAIRS = 8,
     SCENE_BRANCHES = 6,
+    SCENE_RIGIDS = 16,
     SCENE_NAME = 64,
     SCENE_SETTINGS = 64
 };
@@ -162,6 +163,7 @@ enum scene_closure { SCENE_KAPILA, SCENE_ALLAIRE };
 enum scene_traction { SCENE_TRACTION_AUTO, SCENE_TRACTION_COMMON, SCENE_TRACTION_PRESSURE };
 enum scene_exchange { SCENE_EXCHANGE_AUTO, SCENE_EXCHANGE_FAST, SCENE_EXCHANGE_FULL };
 enum scene_integrator { SCENE_MIDPOINT, SCENE_SSPRK3 }; /* rows of solve/tableau.c */
+enum scene_diffusion { SCENE_DIFFUSION_EXPLICIT, SCENE_DIFFUSION_RKL2 };
 enum scene_guard { SCENE_GUARD_NORMAL, SCENE_GUARD_STRICT };
 
 /* `every:`: a time, or a number of steps; both 0: never. */
@@ -189,12 +191,14 @@ enum scene_measure {
     SCENE_OUTSIDE,
     SCENE_MIN_BETWEEN,
     SCENE_MAX_BETWEEN,
+    SCENE_FORCE,
     SCENE_VALUE,
 };
 
 struct scene_column {
     char name[SCENE_NAME]; /* history.csv header; an identifier */
     enum scene_measure measure;
+    int rigid;              /* force: the body */
     int material;           /* volume, mass, centroid, penetration, equivalent-radius, ...: the material; else -1 */
     char field[SCENE_NAME]; /* min, max, mean, integrals, isosurface-*: a field; total: mass | momentum_x.. | energy */
     int in;                 /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
@@ -272,6 +276,17 @@ enum scene_reflux {
     SCENE_REFLUX_OFF,       /* nothing: mass is lost; for comparison */
 };
 
+/* A rigid body: an entry of `bodies:`. */
+struct scene_rigid {
+    char name[SCENE_NAME];
+    struct shape *shape; /* where it stands at t = 0 without displacement and angle */
+    bool moves;
+    struct scene_value displacement[SCENE_AXES], angle; /* of t [m, rad]; not given: `velocity` t, none */
+    double velocity[SCENE_AXES];
+    double pivot[SCENE_AXES]; /* the angle turns it about this point, which moves along; from x to y */
+    double fastest;           /* most that a point of it moves in a second, over the run [m/s] */
+};
+
 /* A criterion of refinement. All of them are limited by where, levels and time. */
 struct scene_refine {
     enum scene_refine_kind {
@@ -282,7 +297,8 @@ struct scene_refine {
         SCENE_REFINE_VALUE,     /* the field itself */
         SCENE_REFINE_INTERFACE, /* cells where a material and another are, and where its fraction jumps */
         SCENE_REFINE_SCRIPT,    /* a Lua function that is true or above 0 */
-        SCENE_REFINE_REGION     /* all cells of `where` */
+        SCENE_REFINE_REGION,    /* all cells of `where` */
+        SCENE_REFINE_BODIES     /* cells that rigid bodies cut: not written, always there with bodies */
     } kind;
     char field[SCENE_NAME]; /* of vectors: the largest component of a difference, the magnitude of a value */
     const char *unit;       /* of the field, "1" for pure numbers; NULL without one */
@@ -339,6 +355,7 @@ struct scene_scheme {
     enum scene_traction traction;      /* what the materials of a cell with a solid share */
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
+    enum scene_diffusion diffusion; /* how viscosity and conduction are stepped (solve/rkl.h) */
     enum scene_guard guard;
     bool wood;       /* faces of mixtures that expand have Wood's speed (scheme/wood.h) */
     double low_mach; /* least part of a jump of velocity that faces see (scheme/low_mach.h); 1: all of it */
@@ -386,6 +403,8 @@ struct scene {
     struct scene_tension tension[SCENE_PAIRS];
     unsigned n_phase;
     struct scene_phase phases[SCENE_PHASES];
+    unsigned n_rigid;
+    struct scene_rigid rigids[SCENE_RIGIDS]; /* `bodies:` */
     unsigned n_layer;
     struct scene_layer *layers;    /* `initial:` */
     struct scene_sources *sources; /* NULL: none */

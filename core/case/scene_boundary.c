@@ -254,19 +254,30 @@ static const char scene_boundary_state_rules[] =
     "{'required': ['density', 'pressure', 'velocity'], 'properties': {'temperature': false}, "
     "'anyOf': [{'required': ['material']}, {'required': ['fractions']}]}";
 
-/* One that fluids stick to may slide along itself. */
+/* Walls may move. */
+static const struct key scene_boundary_slippery[] = {
+    {.name = "velocity",
+     .type = KEYS_VALUE,
+     .many = KEYS_LIST,
+     .unit = "m/s",
+     .doc = "Velocity of the wall, of which the part across the face counts: a piston that pushes or pulls while the "
+            "face stays where it is, for ways that are short against the domain. It rests if not given."},
+    {0},
+};
+
 static const struct key scene_boundary_sticky[] = {
     {.name = "velocity",
      .type = KEYS_VALUE,
      .many = KEYS_LIST,
      .unit = "m/s",
-     .doc = "Velocity of the wall, along itself; it rests if not given. Viscous fluids are dragged along."},
+     .doc = "Velocity of the wall; it rests if not given. Viscous fluids are dragged along; across the face as for "
+            "`reflecting`."},
     {0},
 };
 
 static const struct keys_section scene_boundary_any_wall = {.name = "wall", .keys = scene_boundary_wall};
 
-static void scene_boundary_read_sticky(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
+static void scene_boundary_read_solid(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     const struct keys_value *velocity = keys_at(map, "velocity");
     scene_boundary_read_wall(draft, boundary, map);
@@ -304,10 +315,11 @@ struct scene_boundary_row {
 
 /* What may be written beside the type, and who reads it. */
 #define SCENE_BOUNDARY_NOTHING .read = NULL
-#define SCENE_BOUNDARY_WALL .section.keys = scene_boundary_wall, .read = scene_boundary_read_wall
+#define SCENE_BOUNDARY_WALL \
+    .section.keys = scene_boundary_slippery, .section.base = &scene_boundary_any_wall, .read = scene_boundary_read_solid
 #define SCENE_BOUNDARY_FAR .section.keys = scene_boundary_far, .read = scene_boundary_read_far
 #define SCENE_BOUNDARY_STICKY \
-    .section.keys = scene_boundary_sticky, .section.base = &scene_boundary_any_wall, .read = scene_boundary_read_sticky
+    .section.keys = scene_boundary_sticky, .section.base = &scene_boundary_any_wall, .read = scene_boundary_read_solid
 #define SCENE_BOUNDARY_STATE \
     .section.keys = scene_state_rows, .section.rules = scene_boundary_state_rules, .read = scene_boundary_read_state
 #define SCENE_BOUNDARY_WAVE                                                                                        \
@@ -343,7 +355,7 @@ bool scene_boundary_is(const struct scene *scene, int face, unsigned traits)
 {
     const struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
     unsigned has = scene_boundary_types[boundary->type].traits | boundary->traits;
-    if (boundary->moves) has &= ~(unsigned)SCENE_BOUNDARY_RESTS;
+    if (boundary->moves) has = (has & ~(unsigned)SCENE_BOUNDARY_RESTS) | SCENE_BOUNDARY_DRIVES;
     return (has & traits) == traits;
 }
 
@@ -371,22 +383,6 @@ static void scene_boundary_read(struct draft *draft, struct scene_boundary *boun
     if (row->read) row->read(draft, boundary, map);
 }
 
-/* A no-slip wall without viscosity: nothing sticks to it but what the scheme smears, or a solid. */
-static void scene_boundary_drags(struct draft *draft, const struct keys_map *map, const struct scene_boundary *boundary)
-{
-    const struct scene *scene = draft->scene;
-    if (boundary->type != SCENE_NO_SLIP || scene->domain.n_velocity < 2 || scene_material_viscous(draft)) return;
-    if (boundary->moves)
-        diag_warn(draft->keys.diag, &keys_at(map, "velocity")->node->mark,
-                  "%s: the wall drags nothing along, because no material has a viscosity",
-                  keys_at(map, "velocity")->path);
-    if (boundary->moves || scene_material_solid(draft)) return;
-    const struct keys_value *type = keys_at(map, "type");
-    diag_warn(draft->keys.diag, &type->node->mark,
-              "%s: without any viscosity a no-slip wall stops only what the faces of the scheme smear", type->path);
-    diag_help(draft->keys.diag, "'reflecting' lets fluids slip; or give a material a 'viscosity'");
-}
-
 /* Rules that concern the type and the place together. */
 static void scene_boundary_place(struct draft *draft, int axis, int side, const struct keys_map *map)
 {
@@ -406,13 +402,7 @@ static void scene_boundary_place(struct draft *draft, int axis, int side, const 
     }
     if (radial && scene_boundary_is(scene, face, SCENE_BOUNDARY_WRAPS))
         keys_error(&draft->keys, type, "the radius is not periodic");
-    const struct scene_boundary *boundary = &scene->domain.boundary[axis][side];
-    scene_boundary_drags(draft, map, boundary);
-    const struct scene_value *through = &boundary->velocity[axis];
-    if (!boundary->moves || (!through->script && through->number == 0.0)) return;
-    keys_error(&draft->keys, keys_at(map, "velocity"), "a wall moves along itself: its velocity along %c must be 0",
-               "xyz"[axis]);
-    diag_help(draft->keys.diag, "what flows through a face is an inflow");
+    scene_wall(draft, axis, side, map);
 }
 
 /* Both faces of an axis are periodic, or none. */

@@ -75,7 +75,8 @@ static int scene_coarse_level(const struct scene *scene, const struct scene_coar
     for (unsigned i = 0; i < scene->mesh.n_refine; i++) {
         const struct scene_refine *refine = &scene->mesh.refines[i];
         bool surface = refine->kind == SCENE_REFINE_INTERFACE;
-        if (refine->finest <= finest || refine->t_from >= scene->run.until) continue;
+        if (refine->kind == SCENE_REFINE_BODIES || refine->finest <= finest || refine->t_from >= scene->run.until)
+            continue;
         if (surface && !(surfaces && surfaces[refine->material])) continue;
         if (shape_reaches(refine->where, box->lower, box->upper, scene->domain.dim)) finest = refine->finest;
     }

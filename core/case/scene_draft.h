@@ -16,7 +16,7 @@ struct draft {
 
 extern const struct keys_section scene_root_keys;
 extern const struct keys_section scene_domain_keys, scene_mesh_keys, scene_refine_keys, scene_boundary_keys;
-extern const struct keys_section scene_material_keys, scene_scheme_keys, scene_phase_keys;
+extern const struct keys_section scene_material_keys, scene_scheme_keys, scene_phase_keys, scene_rigid_keys;
 extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_stretch_keys, scene_source_keys;
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
 extern const struct keys_section scene_pulse_units;
@@ -36,6 +36,12 @@ void scene_boundary(struct draft *draft);
 void scene_tension(struct draft *draft);
 void scene_phase(struct draft *draft);
 void scene_initial(struct draft *draft);
+void scene_rigid(struct draft *draft);
+void scene_diffusion(struct draft *draft);
+
+/* Index of a body, or -1 after a recorded error with a suggestion. */
+int scene_rigid_index(struct draft *draft, const struct keys_value *value);
+
 void scene_source(struct draft *draft);
 void scene_output(struct draft *draft);
 void scene_peak(struct draft *draft);
@@ -45,6 +51,9 @@ void scene_expect(struct draft *draft);
 
 /* `balance: tension` of layer `index`: the pressure inside is made the given one and what surface tension adds. */
 void scene_tension_balance(struct draft *draft, const struct keys_value *balance, unsigned index);
+
+/* What is wrong about the velocity of the wall at a face of the domain, if it is one. */
+void scene_wall(struct draft *draft, int axis, int side, const struct keys_map *map);
 
 /* The table of times and pressures of a measured pulse. */
 void scene_pulse(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map);

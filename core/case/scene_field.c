@@ -84,6 +84,9 @@ enum { SCENE_FIELD_PLASTIC = sizeof scene_field_plastic / sizeof *scene_field_pl
 /* In scenes where a solid has Maxwell branches. */
 static const struct scene_field scene_field_branched = {"overstress", "Pa", SCENE_FIELD_VANISHING};
 
+/* In scenes with rigid bodies. */
+static const struct scene_field scene_field_body = {"body", "1", SCENE_FIELD_FRACTION};
+
 /* In scenes where a material is viscous (derive_viscous.h). */
 static const struct scene_field scene_field_viscous[] = {
     {"stress_viscous_xx", "Pa", SCENE_FIELD_VANISHING | SCENE_FIELD_SIGNED},
@@ -198,7 +201,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
     unsigned count = SCENE_FIELD_PLAIN, most = count + SCENE_FIELD_SOLID + SCENE_FIELD_PLASTIC + SCENE_FIELD_VISCOUS +
-                                               1 + (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR) * scene->n_material;
+                                               2 + (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR) * scene->n_material;
     most += scene->n_derived * BULLA_FIELD_OUTPUTS;
     most += 4 * scene->output.n_peak;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
@@ -209,6 +212,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     }
     for (unsigned i = 0; i < scene_material_strength(draft); i++) list[count++] = scene_field_plastic[i];
     if (scene_material_branched(draft)) list[count++] = scene_field_branched;
+    if (keys_at(draft->root, "bodies")->count) list[count++] = scene_field_body;
     for (unsigned i = 0; scene_material_viscous(draft) && i < SCENE_FIELD_VISCOUS; i++)
         list[count++] = scene_field_viscous[i];
     for (unsigned i = 0; i < scene->n_material; i++)
@@ -230,12 +234,13 @@ const struct scene_field *scene_field_all(struct draft *draft)
 const char *const *scene_field_always(struct forest *forest)
 {
     enum { SOLID = SCENE_FIELD_PLAIN, PLASTIC = SOLID + SCENE_FIELD_SOLID };
-    enum { VISCOUS = PLASTIC + SCENE_FIELD_PLASTIC, ALL = VISCOUS + SCENE_FIELD_VISCOUS + 1 };
+    enum { VISCOUS = PLASTIC + SCENE_FIELD_PLASTIC, ALL = VISCOUS + SCENE_FIELD_VISCOUS + 2 };
     const char **names = tree_take(forest, (ALL + 1) * sizeof *names);
     for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++) names[i] = scene_field_plain[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++) names[SOLID + i] = scene_field_solid[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_PLASTIC; i++) names[PLASTIC + i] = scene_field_plastic[i].name;
-    names[ALL - 1] = scene_field_branched.name;
+    names[ALL - 2] = scene_field_branched.name;
+    names[ALL - 1] = scene_field_body.name;
     for (unsigned i = 0; i < SCENE_FIELD_VISCOUS; i++) names[VISCOUS + i] = scene_field_viscous[i].name;
     return names;
 }

@@ -120,7 +120,7 @@ static void scene_idle_regions(struct draft *draft)
         for (unsigned k = 0; maps && k < maps->count; k++)
             if (strcmp(maps->values[k].key->name, scene->output.maps[i].name) == 0)
                 scene_idle_region(draft, keys_at(maps->values[k].map, "where"), scene->output.maps[i].where);
-    for (unsigned i = 0; i < scene->mesh.n_refine; i++) {
+    for (unsigned i = 0; i < refine->count && i < scene->mesh.n_refine; i++) { /* bodies have none */
         bool region = scene->mesh.refines[i].kind == SCENE_REFINE_REGION;
         scene_idle_region(draft, keys_at(refine->list[i].map, region ? "region" : "where"),
                           scene->mesh.refines[i].where);

@@ -212,7 +212,7 @@ void scene_mesh(struct draft *draft)
     if (whole && scene->mesh.levels > 0) scene_mesh_finest(draft, levels);
     if (scene->mesh.levels > 0 && buffer->given && every->given && scene->scheme.cfl > 0)
         scene_mesh_buffer(draft, buffer);
-    if (scene->mesh.levels > 0 && keys_at(mesh, "refine")->count == 0) {
+    if (scene->mesh.levels > 0 && keys_at(mesh, "refine")->count == 0 && !keys_at(draft->root, "bodies")->count) {
         diag_warn(draft->keys.diag, &levels->node->mark, "%s: nothing asks for a finer level, so there will be none",
                   levels->path);
         diag_help(draft->keys.diag, "say where to refine: 'refine: [{gradient: density, above: 0.05}]'");

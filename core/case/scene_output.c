@@ -198,6 +198,16 @@ static void scene_output_probes_read(struct draft *draft, const struct keys_map 
             scene_output_probe_read(draft, &scene->output.probes[scene->output.n_probe++], &probes->values[i]);
 }
 
+/* Pictures leave bodies out: what snapshots say of them goes with all other fields. */
+static void scene_output_body(struct scene *scene)
+{
+    struct scene_output *output = &scene->output;
+    unsigned n = output->n_snapshot_field;
+    bool there = n == 0 || !scene->n_rigid;
+    for (unsigned i = 0; i < n; i++) there = there || strcmp(output->snapshot_fields[i], "body") == 0;
+    if (!there) snprintf(output->snapshot_fields[output->n_snapshot_field++], SCENE_NAME, "body");
+}
+
 void scene_output(struct draft *draft)
 {
     const struct keys_map *output = keys_at(draft->root, "output")->map;
@@ -208,6 +218,7 @@ void scene_output(struct draft *draft)
     scene->output.snapshots = scene_output_every(keys_at(snapshots, "every"));
     scene_field_list(draft, keys_at(snapshots, "fields"), &scene->output.snapshot_fields,
                      &scene->output.n_snapshot_field);
+    scene_output_body(scene);
     scene->output.snapshot_double = keys_at(snapshots, "precision")->integer == 1;
     scene->output.history = scene_output_every(keys_at(keys_at(output, "history")->map, "every"));
     scene->output.history_finest = keys_at(keys_at(output, "history")->map, "steps-of")->integer == 1;

@@ -101,6 +101,15 @@ static const struct key scene_scheme_rows[] = {
      .fallback = "midpoint",
      .doc = "The time integrator. midpoint: two stages, second order. ssprk3: the three stages of Shu and Osher, third "
             "order in time; half as dear again, and one array more."},
+    {.name = "diffusion",
+     .type = KEYS_CHOICE,
+     .choices = "explicit|rkl2",
+     .fallback = "explicit",
+     .doc =
+         "How viscosity and conduction are stepped. explicit: with all else, in steps of h^2 where they are the "
+         "shorter ones. rkl2: in s stages of their own per stage of the integrator, whose number grows with the root "
+         "of the steps that are saved, and none where explicit steps do; for gels and gas at low pressure, on one "
+         "level and with one material, with three arrays more."},
     {.name = "cfl",
      .type = KEYS_NUMBER,
      .unit = "1",
@@ -276,6 +285,7 @@ void scene_scheme(struct draft *draft)
     scene->scheme.traction = (enum scene_traction)keys_at(scheme, "traction")->integer;
     scene->scheme.exchange = (enum scene_exchange)keys_at(scheme, "exchange")->integer;
     scene->scheme.integrator = (enum scene_integrator)keys_at(scheme, "integrator")->integer;
+    scene->scheme.diffusion = (enum scene_diffusion)keys_at(scheme, "diffusion")->integer;
     scene->scheme.guard = (enum scene_guard)keys_at(scheme, "guard")->integer;
     scene->scheme.calm = keys_at(scheme, "shock-fronts")->integer == 1;
     scene->scheme.wood = scene_scheme_wood(draft, scheme);

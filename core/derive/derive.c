@@ -16,6 +16,7 @@
 #include "derive/derive_stress.h"
 #include "derive/derive_vapour.h"
 #include "derive/derive_viscous.h"
+#include "mesh/rigid.h"
 #include "phys/mix.h"
 #include "phys/presence.h"
 
@@ -34,6 +35,7 @@ enum derive_form {
     DERIVE_STRONG,
     DERIVE_STRAINED,
     DERIVE_BRANCHED,
+    DERIVE_RIGID,          /* of scenes with rigid bodies */
     DERIVE_VISCOUS,        /* of scenes with a viscous material */
     DERIVE_VISCOUS_TENSOR, /* by component */
     DERIVE_VAPOUR,         /* by material, of those that are the vapour of a liquid */
@@ -192,6 +194,15 @@ static void derive_partial_density(const struct derive_view *tile, double *out)
         out[i] = derive_view_alpha(tile, l, i) * derive_view_w(tile, tile->model->i_m + l)[i];
 }
 
+/* What rigid bodies cover of cells. */
+static void derive_body(const struct derive_view *tile, double *out)
+{
+    const struct level *level = tile->level;
+    for (size_t i = 0; i < tile->n; i++) out[i] = 1.0;
+    rigid_weigh(tile->mesh, level, &level->tiles[level->first + tile->local], tile->t, out);
+    for (size_t i = 0; i < tile->n; i++) out[i] = 1.0 - out[i];
+}
+
 static void derive_level(const struct derive_view *tile, double *out)
 {
     for (size_t i = 0; i < tile->n; i++) out[i] = tile->level_index;
@@ -254,6 +265,7 @@ static const struct derive_quantity derive_table[] = {
     {"principal_min_dev", "Pa", DERIVE_SOLID, derive_stress_principal, DERIVE_STRESS_MIN_DEV, DERIVE_ALONE},
     {"stress_viscous_", "Pa", DERIVE_VISCOUS_TENSOR, derive_viscous_stress, 0, DERIVE_LAYERS},
     {"dissipation", "W/m3", DERIVE_VISCOUS, derive_viscous_dissipation, 0, DERIVE_LAYERS},
+    {"body", "1", DERIVE_RIGID, derive_body, 0, DERIVE_ALONE},
     {"quality_", "1", DERIVE_VAPOUR, derive_vapour_quality, 0, DERIVE_ALONE},
     {"saturation_pressure_", "Pa", DERIVE_VAPOUR, derive_vapour_pressure, 0, DERIVE_ALONE},
     {"saturation_temperature_", "K", DERIVE_VAPOUR, derive_vapour_temperature, 0, DERIVE_ALONE},
@@ -301,6 +313,7 @@ static bool derive_has(const struct model *model, enum derive_form form)
     if (form == DERIVE_SOLID || form == DERIVE_TENSOR) return model->elastic;
     if (form == DERIVE_STRONG) return model->plastic;
     if (form == DERIVE_BRANCHED) return model->n_branch > 0;
+    if (form == DERIVE_RIGID) return model->scene->n_rigid > 0;
     if (form == DERIVE_VISCOUS || form == DERIVE_VISCOUS_TENSOR) return model->viscous;
     return form != DERIVE_STRAINED || model->n_strain > 0;
 }

@@ -3,6 +3,7 @@
 #include "io/ledger.h"
 
 #include "base/mem.h"
+#include "mesh/rigid.h"
 #include "mesh/tally.h"
 
 #include <stdio.h>
@@ -20,6 +21,7 @@ void ledger_take(const struct state *state, struct ledger *ret_ledger)
             const struct tile *here = &level->tiles[level->first + tile];
             if (tally_is_covered(mesh, here)) continue; /* its sums stay 0 */
             tally_volumes(mesh, level, here, volume);
+            rigid_weigh(mesh, level, here, state->t, volume);
             for (unsigned q = 0; q < n; q++)
                 at[q] = tally_row(mesh->n_cell, level->u_old[tile] + (model->i_m + q) * mesh->n_cell, volume);
         }

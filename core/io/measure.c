@@ -12,8 +12,10 @@
 #include "io/region.h"
 #include "io/surface.h"
 #include "mesh/metric.h"
+#include "mesh/rigid.h"
 #include "mesh/tally.h"
 #include "phys/outside.h"
+#include "scheme/cut.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,7 +43,7 @@ struct measures {
     int l;
     unsigned local;
     double *volume, *ones, *weight, *work; /* [n_cell] */
-    double *leaves;                        /* [n_cell] 1 in leaves, 0 in other cells */
+    double *leaves;                        /* [n_cell] 1 in leaves, 0 in other cells; beside bodies the fluid's part */
     bool partial;                          /* the tile has both */
     double **derived;                      /* [n_field][3 n_cell], the magnitude first */
     bool *is_derived;
@@ -266,6 +268,23 @@ static double measure_extent(const struct measures *measures)
     return product;
 }
 
+/* What presses on a rigid body in the leaves of the tile at hand. */
+static double measure_force(const struct measures *measures, const struct measure_column *column)
+{
+    const struct state *state = measures->state;
+    const struct mesh *mesh = state->mesh;
+    const struct tile *tile = &measures->level->tiles[measures->level->first + measures->local];
+    double *volume = mem_new(mesh->n_cell, sizeof *volume);
+    tally_volumes(mesh, measures->level, tile, volume);
+    struct cut_force force = {
+        .model = state->model, .mesh = mesh, .level = measures->level, .tile = tile, .t = state->t};
+    force.w = measures->level->w[measures->local];
+    force.volume = volume;
+    double sum = cut_force(&force, (unsigned)column->from->rigid, column->axis);
+    mem_free(volume);
+    return sum;
+}
+
 static void measure_sum(struct measures *measures, const struct measure_column *column, double *sums)
 {
     const struct scene_column *from = column->from;
@@ -300,6 +319,7 @@ static void measure_sum(struct measures *measures, const struct measure_column *
         sums[0] = (double)outside_count(measures->state->model, (unsigned)from->material, n, n,
                                         measures->level->w[measures->local], cover);
         break;
+    case SCENE_FORCE: sums[0] = measure_force(measures, column); break;
     default: break;
     }
 }
@@ -336,8 +356,9 @@ static void measure_tile(struct measures *measures, double *sums)
     if (tally_is_covered(mesh, tile)) return;
     memset(measures->is_derived, 0, measures->n_field * sizeof *measures->is_derived);
     metric_volumes(mesh, measures->level, tile, measures->volume);
-    measures->partial = tile->covered != 0;
+    measures->partial = tile->covered != 0 || mesh->rigid;
     if (measures->partial) mesh_leaves(mesh, tile, measures->leaves);
+    rigid_weigh(mesh, measures->level, tile, measures->state->t, measures->leaves);
     double *extremes = measure_level_extremes(measures, measures->l);
     for (unsigned i = 0; i < measures->n; i++) {
         if (!measures->columns[i].wanted) continue;

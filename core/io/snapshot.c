@@ -45,7 +45,7 @@ static int snapshot_choose_fields(struct snapshots *snapshots, const struct stat
 {
     static const char *const names[] = {"density", "velocity", "pressure"};
     const struct scene *scene = state->scene;
-    snapshots->fields = mem_new(3u + scene->n_material, sizeof *snapshots->fields);
+    snapshots->fields = mem_new(4u + scene->n_material, sizeof *snapshots->fields);
     for (; snapshots->n_field < 3; snapshots->n_field++)
         TRY(derive_find(state->model, names[snapshots->n_field], &snapshots->fields[snapshots->n_field]));
     for (unsigned l = 0; l < state->model->n_alpha; l++) {
@@ -54,7 +54,7 @@ static int snapshot_choose_fields(struct snapshots *snapshots, const struct stat
         mem_free(name);
         TRY(code);
     }
-    return STATUS_OK;
+    return scene->n_rigid ? derive_find(state->model, "body", &snapshots->fields[snapshots->n_field++]) : STATUS_OK;
 }
 
 /* Removes the last file of the list. */

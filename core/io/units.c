@@ -55,6 +55,7 @@ const char *units_of(const struct scene *scene, const struct scene_column *colum
     case SCENE_PLANE_INTEGRAL: return units_integral(of_field, plane);
     case SCENE_TOTAL: return units_total(column->field, extent);
     case SCENE_OUTSIDE: return "1";
+    case SCENE_FORCE: return units_integral("N/m3", extent);
     case SCENE_MIN_BETWEEN:
     case SCENE_MAX_BETWEEN:
     case SCENE_VALUE: return "";

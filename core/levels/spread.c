@@ -2,6 +2,7 @@
 #include "levels/spread.h"
 
 #include "base/mem.h"
+#include "levels/spread_bear.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -30,8 +31,9 @@ double spread_volume(const struct spread *spread, size_t cell)
     return spread->mesh->beta ? spread->metric->volume[cell % (size_t)spread->mesh->n[0]] : 1.0;
 }
 
-/* Largest part of factor * change that leaves fractions in [0, 1] and masses, energy and strains positive, at most 1. */
-static double spread_room(const struct spread *spread, size_t cell, const double *change, double factor,
+/* Largest part of factor * change that leaves fractions in [0, 1] and masses, energy and strains positive, at most 1; of
+ * the first n fields where the pressure has a say. */
+static double spread_room(const struct spread *spread, size_t cell, const double *change, double factor, unsigned n,
                           const double *delta)
 {
     const struct model *model = spread->model;
@@ -44,7 +46,8 @@ static double spread_room(const struct spread *spread, size_t cell, const double
         has = has > 0.0 ? has : 0.0;
         if (has < room * fabs(step)) room = has / fabs(step);
     }
-    return room;
+    if (!(room > 0.0)) return room;
+    return spread_bear(model, spread->mesh->n_cell, spread->u + cell, delta + cell, n, factor, change, room);
 }
 
 static bool spread_is_leaf(const struct spread *spread, size_t cell)
@@ -71,7 +74,8 @@ static void spread_collect(const struct spread *spread, const int at[3], int r, 
                 if (!on || spread->trouble[cell] != SPREAD_NONE || !spread_is_leaf(spread, cell)) continue;
                 double factor = load->volume / spread_volume(spread, cell);
                 ring->cells[ring->n] = cell;
-                ring->room[ring->n++] = SPREAD_PART * spread_room(spread, cell, load->change, factor, delta);
+                ring->room[ring->n++] =
+                    SPREAD_PART * spread_room(spread, cell, load->change, factor, spread->model->i_V, delta);
             }
 }
 
@@ -127,7 +131,7 @@ static void spread_around(const struct spread *spread, size_t cell, int first, s
 /* Gives a cell with trouble `part` of the room it has. */
 static void spread_keep(const struct spread *spread, size_t cell, double part, struct spread_load *load, double *delta)
 {
-    double keep = part * spread_room(spread, cell, load->change, 1.0, delta);
+    double keep = part * spread_room(spread, cell, load->change, 1.0, spread->model->n_field, delta);
     if (spread->trouble[cell] != SPREAD_HALF) return;
     keep = keep < load->left ? keep : load->left;
     spread_add(spread, cell, spread->model->n_field, keep, load->change, delta);

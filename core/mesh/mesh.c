@@ -17,6 +17,7 @@
 #include "mesh/morton.h"
 #include "mesh/move.h"
 #include "mesh/pool.h"
+#include "mesh/rigid.h"
 #include "mesh/rim.h"
 
 #include <math.h>
@@ -148,6 +149,7 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
     mesh->n_kept = scene->output.n_kept;
     if (mesh->n_kept) mesh->kept_pool = pool_new(mesh->n_kept * mesh->n_cell);
     mesh->rims = rim_shelf_new();
+    mesh->rigid = rigid_new(scene);
     unsigned n_tile;
     struct tile *tiles = mesh_fill(mesh->levels[0].extent, &n_tile);
     struct mesh_change change;
@@ -177,6 +179,7 @@ void mesh_free(struct mesh *mesh)
     if (!mesh) return;
     for (int l = 0; l < mesh->n_level; l++) mesh_drop(&mesh->levels[l]);
     rim_shelf_free(mesh->rims);
+    rigid_free(mesh->rigid);
     pool_free(mesh->pool);
     pool_free(mesh->kept_pool);
     mem_free(mesh);

@@ -44,6 +44,7 @@ struct neighbour {
 struct halo;
 struct link;
 struct pool;
+struct rigid;
 struct rim;
 
 struct level {
@@ -83,6 +84,7 @@ struct mesh {
     struct pool *kept_pool; /* where those of `kept` come from; NULL without */
     struct rim **rims;      /* by level: what terms that need edges and corners have asked for (mesh/rim.h) */
     bool periodic[3];
+    struct rigid *rigid; /* what bodies leave of the cells (mesh/rigid.h); NULL without bodies */
 };
 
 /* Builds level 0 for a scene with `n_field` evolved fields (as many primitives), `n_alpha` of them volume

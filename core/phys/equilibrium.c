@@ -214,9 +214,8 @@ static void equilibrium_volumes(const struct equilibrium_family *family, struct 
 {
     size_t n = cells->n;
     for (unsigned k = 0; k < family->n; k++) {
-        for (size_t i = 0; i < n; i++) at->rho[i] = cells->v[k][i] > 0.0 ? 1.0 / cells->v[k][i] : 0.0;
-        family->eos[k].law->thermal(family->eos[k].self, n, cells->p, cells->T, at->rho, cells->v[k], at->h[0],
-                                    at->s[0], at->v_T, at->v_p, at->c_p);
+        family->eos[k].law->density(family->eos[k].self, n, cells->p, cells->T, at->rho);
+        for (size_t i = 0; i < n; i++) cells->v[k][i] = 1.0 / at->rho[i];
     }
     for (unsigned k = 0; k < cells->n_other; k++)
         for (size_t i = 0; i < n; i++)

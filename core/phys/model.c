@@ -78,14 +78,15 @@ static void model_name_derived(struct model *model)
                                           "plastic_strain"}; /* with a strength; one that knows strains */
     size_t n_solid = model->elastic ? sizeof solid / sizeof *solid : 0;
     size_t n_plastic = model->n_strain ? 2 : model->plastic ? 1 : 0, n_branched = model->n_branch > 0;
-    size_t n_derived = (size_t)model->scene->n_derived * BULLA_FIELD_OUTPUTS;
+    size_t n_derived = (size_t)model->scene->n_derived * BULLA_FIELD_OUTPUTS, n_rigid = model->scene->n_rigid > 0;
     model->names =
-        mem_new(n_plain + n_solid + n_plastic + n_branched + (n_each + 4) * model->n_material + n_derived + 1,
+        mem_new(n_plain + n_solid + n_plastic + n_branched + n_rigid + (n_each + 4) * model->n_material + n_derived + 1,
                 sizeof *model->names);
     for (size_t i = 0; i < n_plain; i++) model->names[at++] = mem_text(plain[i]);
     for (size_t i = 0; i < n_solid; i++) model->names[at++] = mem_text(solid[i]);
     for (size_t i = 0; i < n_plastic; i++) model->names[at++] = mem_text(plastic[i]);
     if (n_branched) model->names[at++] = mem_text("overstress");
+    if (n_rigid) model->names[at++] = mem_text("body");
     for (unsigned l = 0; l < model->n_material; l++) {
         const char *name = model->scene->material[l].name;
         model->names[at++] = mem_print("alpha_%s", name);

@@ -70,6 +70,20 @@ static unsigned phase_place(const struct model_phase *phase, unsigned l)
     return k;
 }
 
+/* Two stages may take more of a phase out of a cell than there was, vapour that the midpoint has made: what is missing is of one
+ * substance with the other phase. */
+static void phase_owe(struct equilibrium_cells *cells)
+{
+    double *liquid = cells->m[EQUILIBRIUM_LIQUID], *vapour = cells->m[EQUILIBRIUM_VAPOUR];
+    for (size_t i = 0; i < cells->n; i++) {
+        double all = liquid[i] + vapour[i];
+        if (liquid[i] < 0.0 || vapour[i] < 0.0) {
+            liquid[i] = liquid[i] < 0.0 ? 0.0 : all;
+            vapour[i] = all - liquid[i];
+        }
+    }
+}
+
 /* Masses, temperatures and energy of the family and the others. Traces that fluxes do not see are left out of both. */
 static void phase_fill(struct phase_block *block)
 {
@@ -92,7 +106,7 @@ static void phase_fill(struct phase_block *block)
             double there = alpha[i] > 0.0 ? 1.0 : 0.0, m = there * block->u[model->i_m + l][i];
             cells->energy[i] += there > 0.0 ? alpha[i] * rho_e[i] : 0.0;
             if (there > 0.0 && rho_c2[i] > block->blur[i]) block->blur[i] = rho_c2[i];
-            if (k < 2) cells->m[k][i] = block->u[model->i_m + l][i] > 0.0 ? block->u[model->i_m + l][i] : 0.0;
+            if (k < 2) cells->m[k][i] = block->u[model->i_m + l][i];
             else if (k < block->phase->n) cells->m[k][i] = m;
             if (k < block->phase->n) continue;
             cells->m_other[o][i] = m;
@@ -100,6 +114,7 @@ static void phase_fill(struct phase_block *block)
             cells->e0[o][i] = rho_e[i] / rho[i];
         }
     }
+    phase_owe(cells);
     memcpy(cells->p, block->w[model->i_E], n * sizeof(double));
     memcpy(cells->T, block->T[EQUILIBRIUM_LIQUID], n * sizeof(double));
 }
@@ -151,7 +166,8 @@ static bool phase_fits(struct phase_block *block, size_t i)
 {
     const struct scene_phase *scene = block->phase->scene;
     double p = block->cells.p[i], near = PHASE_NEAR + 4.0 * DBL_EPSILON * block->blur[i] / fabs(p);
-    if (!isfinite(p) || !(block->cells.T[i] > 0.0)) return true; /* guard's */
+    double all = block->cells.m[EQUILIBRIUM_LIQUID][i] + block->cells.m[EQUILIBRIUM_VAPOUR][i];
+    if (!isfinite(p) || !(block->cells.T[i] > 0.0) || !(all > 0.0)) return true; /* guard's */
     block->thermal[i] = scene->rate == SCENE_PHASE_NONE || p > scene->curve.p_max;
     block->alone[i] = !(phase_thin(block, i) > PHASE_FELT);
     if (block->alone[i])

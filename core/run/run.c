@@ -173,6 +173,16 @@ static void run_say_what_is_left(const struct run *run, const char *time)
                   step + 1);
 }
 
+/* Refluxing that a coarse cell could not bear: what the mesh refines does not hold the shocks. Collective. */
+static void run_say_spread(const struct state *state)
+{
+    long long tiles = state_counts_total(state).spread;
+    if (tiles > 0)
+        log_note("refluxing: %lld times a tile had cells that could not bear what the finer level asks of them; cells "
+                 "around took it, or the finer level",
+                 tiles);
+}
+
 static void run_say_end(const struct run *run, int code)
 {
     char time[HUMAN_ROOM], wall[HUMAN_ROOM], rate[HUMAN_ROOM];
@@ -187,6 +197,7 @@ static void run_say_end(const struct run *run, int code)
     else if (code == STATUS_STOPPED) run_say_how_to_go_on(run, time);
     else run_say_what_is_left(run, time);
     laws_say(state);
+    run_say_spread(state);
 }
 
 /* A run leaves a checkpoint if it could go on: it did not come to the end of its case, or the case asks for them. */

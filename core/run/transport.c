@@ -4,6 +4,7 @@
 #include "cli/human.h"
 #include "phys/coefficient.h"
 #include "scheme/conduction.h"
+#include "solve/rkl.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -54,6 +55,7 @@ static void transport_print_limits(const struct scene *scene, double rate, doubl
         printf("%s %s", level ? "," : "", human_si(own, "s", step));
         if (scene->mesh.levels) printf(" on level %d", level);
         printf(" (sound allows %.3g of that)", sound / own);
+        if (scene->scheme.diffusion == SCENE_DIFFUSION_RKL2) printf(", rkl2 takes %d stages", rkl_stages(sound / own));
     }
     putchar('\n');
 }

@@ -65,11 +65,6 @@ static void bound_fill_mirror(const struct bound_fill *fill, bool no_slip)
     }
 }
 
-static void bound_fill_slip(const struct bound_fill *fill)
-{
-    bound_fill_mirror(fill, false);
-}
-
 /* One row of boundary cells taken out of the frame: [n_field] components of `stride` points. */
 struct bound_fill_row {
     size_t n, stride;
@@ -190,11 +185,23 @@ static void bound_fill_drag(const struct bound_fill *fill, unsigned d)
     }
 }
 
+/* Fluids slip along a wall that moves, or stick to it. What it has along its normal flows through the face, which stays:
+ * the state between the wall and the wave that it sends. */
+static void bound_fill_wall(const struct bound_fill *fill, bool no_slip)
+{
+    bound_fill_mirror(fill, no_slip);
+    for (unsigned d = 0; bound_fill_boundary(fill)->moves && d < fill->bound->model->n_velocity; d++)
+        if (no_slip || d == (unsigned)fill->frame->axis) bound_fill_drag(fill, d);
+}
+
+static void bound_fill_slip(const struct bound_fill *fill)
+{
+    bound_fill_wall(fill, false);
+}
+
 static void bound_fill_no_slip(const struct bound_fill *fill)
 {
-    bound_fill_mirror(fill, true);
-    for (unsigned d = 0; bound_fill_boundary(fill)->moves && d < fill->bound->model->n_velocity; d++)
-        if (d != (unsigned)fill->frame->axis) bound_fill_drag(fill, d);
+    bound_fill_wall(fill, true);
 }
 
 /* rho_l moved along its isentrope by dp: midpoint rule on d rho / dp = 1/c^2. */

@@ -425,6 +425,7 @@ const struct term conduction_term = {
     .owner = "core/scheme/conduction.c",
     .equation = "d(rho E)/dt -= div q, q = sum over channels A_lm k_lm (T_lL - T_mR)/d; volume moves with Q_l",
     .wanted = conduction_wanted,
+    .diffuses = true,
     .rows = conduction_rows,
     .list = conduction_list,
     .open = conduction_open,

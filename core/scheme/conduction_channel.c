@@ -84,9 +84,9 @@ static BULLA_KERNEL void conduction_channel_half(size_t n, const double *restric
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = left[i], b = right[i], sum = a + b, series = 2.0 * (a * b) / sum;
-        double here = 2.0 * b * wet_left[i], there = 2.0 * a * wet_right[i], surface = here > there ? here : there;
-        k[i] = !(sum > 0.0) ? 0.0 : surface > series ? surface : series;
+        double here = 2.0 * right[i] * wet_left[i], there = 2.0 * left[i] * wet_right[i], series = k[i];
+        double surface = here > there ? here : there;
+        k[i] = surface > series ? surface : series;
     }
 }
 
@@ -94,6 +94,7 @@ void conduction_channel_surface(size_t n, const struct conduction_channel_side *
                                 const struct conduction_channel_side *right, const double *wet_left,
                                 const double *wet_right, double *k)
 {
+    conduction_channel_mean(n, left->k, right->k, k);
     conduction_channel_half(n, left->k, right->k, wet_left, wet_right, k);
 }
 

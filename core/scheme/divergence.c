@@ -102,7 +102,7 @@ static void divergence_flux(const struct term_tile *tile, const struct divergenc
 {
     double *rate = tile->rates + flux->rate * tile->n_cell + span->cell;
     const double *below = flux->below + span->face, *above = flux->above + span->face + span->next;
-    bool balanced = flux->kind == TERM_BALANCED;
+    bool balanced = flux->kind == TERM_BALANCED && tile->hoop;
     if (span->curved && flux->kind != TERM_DIFFERENCE)
         divergence_curved(span->lines, tile->metric, below, above, balanced ? tile->hoop + span->cell : divergence_zero,
                           balanced ? span->lines->cell : 0, rate);

@@ -80,6 +80,7 @@ struct face_work *face_new(const struct model *model)
     own->stress = face_stress_new(model);
     work->frame = face_row(model->n_field);
     work->mask = face_row(1);
+    if (model->scene->n_rigid) work->flat = face_row(1);
     own->edges = edges_new(model, FACE_ROOM);
     own->state = face_row(2 * model->n_field);
     own->m = face_row(2 * n);
@@ -136,6 +137,7 @@ void face_free(struct face_work *work)
                       work->alpha,
                       work->frame,
                       work->mask,
+                      work->flat,
                       work->faces.work[0],
                       work->faces.work[1],
                       work->faces.work[2],
@@ -459,6 +461,22 @@ void face_begin(struct face_work *work, const struct frame *frame)
 {
     for (int side = 0; side < 2; side++)
         if (work->rise[side]) memset(work->rise[side], 0, frame->count * sizeof(double));
+    if (work->flat) memset(work->flat, 0, frame->count * sizeof *work->flat);
+}
+
+/* Cells whose faces get first-order states: troubled ones, and those that terms have marked. */
+static const double *face_flat(const struct face_work *work, const struct frame *frame, bool masked)
+{
+    if (!work->flat) return masked ? work->mask : NULL;
+    if (masked) row_add(frame->count, work->mask, work->flat);
+    return work->flat;
+}
+
+void face_rest(struct face_work *work, const struct frame *frame)
+{
+    const struct face_own *own = work->own;
+    work->faces.n = frame_edged(frame) - frame->inner;
+    memset(work->alpha, 0, own->n_flux * (size_t)FACE_ROOM * sizeof *work->alpha);
 }
 
 void face_solve(struct face_work *work, const struct frame *frame, bool masked)
@@ -466,7 +484,7 @@ void face_solve(struct face_work *work, const struct frame *frame, bool masked)
     const struct model *model = work->model;
     struct face_own *own = work->own;
     size_t cells = frame_edged(frame);
-    struct edges_cells in = {work->frame, masked ? work->mask : NULL, {work->rise[0], work->rise[1]}, {NULL, NULL}};
+    struct edges_cells in = {work->frame, face_flat(work, frame, masked), {work->rise[0], work->rise[1]}, {NULL, NULL}};
     if (model->n_normal) in.lean[0] = work->lean[0], in.lean[1] = work->lean[1];
     edges_fill(own->edges, model, frame, &in, own->state);
     if (model->n_normal) tilt_aim(model, frame, work->frame, own->state);

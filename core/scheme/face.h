@@ -13,8 +13,9 @@ enum { FACE_ROOM = FRAME_CELLS + 32 }; /* doubles per component: the frame and v
 
 struct face_work {
     const struct model *model;
-    double *frame;                             /* [n_field] primitives of the gathered frame, pitch FACE_ROOM */
-    double *mask;                              /* troubled cells of the frame: 0 or 1; one component */
+    double *frame; /* [n_field] primitives of the gathered frame, pitch FACE_ROOM */
+    double *mask;  /* troubled cells of the frame: 0 or 1; one component */
+    double *flat;  /* cells of the frame whose faces get first-order states: 0 or 1; NULL without rigid bodies */
     struct bulla_faces faces;                  /* what the Riemann solver got and gave; n faces */
     double *alpha, *m, *momentum, *energy, *u; /* the fluxes: blocks with pitch FACE_ROOM; momentum[0] normal,
                                                   alpha: alpha* u*, u: u* */
@@ -45,6 +46,9 @@ void face_free(struct face_work *work);
 
 /* Before terms look at a gathered frame: no forces yet. */
 void face_begin(struct face_work *work, const struct frame *frame);
+
+/* No fluxes of mass, momentum and energy: what terms that diffuse add to is 0. */
+void face_rest(struct face_work *work, const struct frame *frame);
 
 /* Fills the flux arrays for the frame in work->frame. Face index f of the row is the lower face of
  * frame cell f + ghosts inner. With `masked`, faces of cells marked in work->mask get first-order

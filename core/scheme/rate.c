@@ -23,7 +23,7 @@ static void rate_each(struct term_piece *piece, void *const *own, bool faces)
     for (unsigned i = 0; i < terms->n; i++) {
         void (*slot)(const struct term_piece *) = faces ? terms->at[i]->faces : terms->at[i]->frame;
         piece->own = own[terms->number[i]];
-        if (slot) slot(piece);
+        if (slot && terms_acts(terms->at[i], piece->tile->part)) slot(piece);
     }
 }
 
@@ -38,7 +38,8 @@ static void rate_sweep(const struct term_tile *tile, void *const *own, int axis,
         watch->gather(watch->data, &frame, faces);
         face_begin(faces, &frame);
         rate_each(&piece, own, false);
-        face_solve(faces, &frame, masked);
+        if (tile->part == TERM_DIFFUSION) face_rest(faces, &frame);
+        else face_solve(faces, &frame, masked);
         rate_each(&piece, own, true);
         watch->seen(watch->data, &frame, faces);
         divergence_add(tile, &frame);
@@ -59,17 +60,19 @@ static void rate_open(const struct term_tile *tile)
 void rate_take(struct term_tile *tile, void *const *own, const struct rate_watch *watch, bool masked)
 {
     const struct terms *terms = tile->terms;
+    tile->masked = masked;
     rate_clear(tile);
     terms->faces->model = tile->model;
     rate_open(tile);
     for (unsigned i = 0; i < terms->n; i++) {
+        const struct term *term = terms->at[i];
         tile->own = own[terms->number[i]];
-        if (terms->at[i]->begin) terms->at[i]->begin(tile);
+        if (term->begin && terms_acts(term, tile->part)) term->begin(tile);
     }
     for (int axis = 0; axis < tile->mesh->dim; axis++) rate_sweep(tile, own, axis, watch, masked);
     for (unsigned i = 0; i < terms->n; i++) {
         tile->own = own[terms->number[i]];
-        if (terms->at[i]->cells) terms->at[i]->cells(tile);
+        if (terms->at[i]->cells && terms_acts(terms->at[i], tile->part)) terms->at[i]->cells(tile);
     }
 }
 

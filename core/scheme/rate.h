@@ -17,7 +17,8 @@ struct rate_watch {
     void (*swept)(void *data, int axis); /* all pieces of an axis are done; or NULL */
 };
 
-/* tile->rates from tile->w. own: [TERMS_MOST] memory of the terms (terms_open). masked: some cells are marked; their faces are first order. */
+/* tile->rates from tile->w, of the terms of tile->part; without those that move there are no Riemann problems. own: [TERMS_MOST]
+ * memory of the terms (terms_open). masked: some cells are marked; their faces are first order. */
 void rate_take(struct term_tile *tile, void *const *own, const struct rate_watch *watch, bool masked);
 
 /* u_new = tile->u + dt rates, of the active fields; the other terms' forms included. u_new and tile->u may not overlap.

@@ -21,6 +21,9 @@
 struct term;
 struct terms;
 
+/* Which terms act: all, those that diffuse (solve/rkl.h takes them by themselves), or the others. */
+enum term_part { TERM_WHOLE, TERM_SLOW, TERM_DIFFUSION };
+
 /* One tile in one stage. Blocks are [rows][n_cell]; only `rates` and what `apply` is given are written, and in `begin` and
  * `cells` the rows of the work space. */
 struct term_tile {
@@ -31,14 +34,17 @@ struct term_tile {
     const struct tile *tile;
     const struct metric *metric; /* in curved geometry */
     size_t n_cell;
-    double t;        /* of the primitives [s] */
-    double dt;       /* from u to the new state [s] */
+    double t;     /* of the primitives [s] */
+    double dt;    /* from u to the new state [s] */
+    double begun; /* time of u [s] */
+    bool masked;  /* troubled cells are marked: the attempt is a robust one */
+    enum term_part part;
     const double *u; /* conserved fields that the step starts from */
     const double *w; /* primitives at which the rates are taken */
     double *rates;
     const double *around; /* model->around of the tile and one layer of cells around it (scheme/patch.h); NULL: no term
                              of the scene looks there */
-    const double *hoop;   /* what the radial momentum is taken relative to in curved geometry (hoop.h): a row */
+    const double *hoop; /* what the radial momentum is taken relative to in curved geometry (hoop.h): a row; NULL: 0 */
     double *K,
         *rho_c2; /* Kapila closure: K_l of mix_closure, rho_l c_l^2 of mix_stiffness_everywhere; [n_material] rows */
     void *own;   /* of the term that is called: what its `open` gave */
@@ -92,6 +98,7 @@ struct term_pace {
     const struct level *level;
     size_t n_cell;
     const double *w, *c2; /* primitives; squares of the fastest signal */
+    enum term_part part;
 };
 
 struct term {
@@ -100,6 +107,7 @@ struct term {
     const char *equation; /* one line for people */
 
     bool (*wanted)(const struct model *path); /* has a path of a scene this term? */
+    bool diffuses;                            /* parabolic: may be taken in super steps (solve/rkl.h) */
     bool moves;                               /* may it move what is uniform and at rest? Then no tile is skipped */
     bool (*spreads)(
         const struct scene *scene); /* can it bring a material to where there is none? Then no path is narrowed */

@@ -7,6 +7,7 @@
 #include "scheme/closure.h"
 #include "scheme/conduction.h"
 #include "scheme/convection.h"
+#include "scheme/cut.h"
 #include "scheme/drag.h"
 #include "scheme/exchange.h"
 #include "scheme/face_stress.h"
@@ -26,6 +27,7 @@
 
 const struct term *const terms_all[] = {
     &convection_term,   /* conserved fields through the faces */
+    &cut_term,          /* rigid bodies: what they leave of cells */
     &hardening_term,    /* plastic strains travel with their solids */
     &hoop_term,         /* what stands against p / r and the hoop stress in curved geometry */
     &conduction_term,   /* heat from cell to cell and from material to material */
@@ -42,6 +44,7 @@ const struct term *const terms_all[] = {
     &normal_term,       /* how the surfaces of solids lie */
     &strain_term,       /* the stretch of solids */
     &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */
+    &cut_flux_term,     /* rigid bodies: what they leave of fluxes */
     NULL,
 };
 _Static_assert(sizeof terms_all / sizeof *terms_all - 1 <= TERMS_MOST, "terms.h has room for fewer");
@@ -116,6 +119,11 @@ int terms_failure(void *const *own, const char **ret_message, const char **ret_p
     return status;
 }
 
+bool terms_acts(const struct term *term, enum term_part part)
+{
+    return part == TERM_WHOLE || term->diffuses == (part == TERM_DIFFUSION);
+}
+
 bool terms_spread(const struct scene *scene)
 {
     bool spread = false;
@@ -127,7 +135,7 @@ void terms_pace(const struct terms *terms, const struct term_pace *pace, double 
 {
     memset(rate, 0, pace->n_cell * sizeof *rate);
     for (unsigned i = 0; i < terms->n; i++)
-        if (terms->at[i]->pace) terms->at[i]->pace(pace, rate);
+        if (terms->at[i]->pace && terms_acts(terms->at[i], pace->part)) terms->at[i]->pace(pace, rate);
 }
 
 void terms_say(const struct model *model, struct text *text)

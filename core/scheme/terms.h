@@ -49,7 +49,10 @@ int terms_failure(void *const *own, const char **ret_message, const char **ret_p
 /* Can some term bring a material to where there is none? */
 bool terms_spread(const struct scene *scene);
 
-/* Rates of signals of all terms in the cells of a tile: rate[n_cell] [1/s]. */
+/* Does a term act in this part? */
+bool terms_acts(const struct term *term, enum term_part part);
+
+/* Rates of signals of all terms of pace->part in the cells of a tile: rate[n_cell] [1/s]. */
 void terms_pace(const struct terms *terms, const struct term_pace *pace, double *rate);
 
 /* The list for people, a line each: name, equation, owner. */

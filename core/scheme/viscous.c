@@ -221,6 +221,7 @@ const struct term viscous_term = {
     .owner = "core/scheme/viscous.c",
     .equation = "d(rho u)/dt += div tau, d(rho E)/dt += div(tau u); tau of each material's own strain",
     .wanted = viscous_wanted,
+    .diffuses = true,
     .open = viscous_open,
     .close = viscous_close,
     .begin = viscous_begin,

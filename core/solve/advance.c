@@ -17,6 +17,7 @@
 #include "solve/peak.h"
 #include "solve/plan.h"
 #include "solve/regrid.h"
+#include "solve/rkl.h"
 #include "solve/sync.h"
 #include "solve/verdict.h"
 
@@ -37,8 +38,10 @@ double advance_dt(const struct state *state)
 static void advance_run(struct stage *stage)
 {
     const struct plan *plan = plan_of(stage->tableau);
+    rkl_plan(stage);
     for (int i = 0; i < plan->n; i++) {
         stage->turn = plan->step[i].turn;
+        stage->at = stage->tableau->stage[stage->turn].at;
         plan->step[i].run(stage);
     }
 }
@@ -114,6 +117,7 @@ static void advance_watch(const struct state *state, struct stage *stage)
 {
     struct guard_place was = stage->guard->found;
     bool mine = comm_first(stage->guard->cause[0]) == comm_rank();
+    if (rkl_acts(stage)) return; /* a dump has the stages of the integrator alone */
     if (mine) {
         stage->blame = blame_new(stage->model, stage->guard);
         advance_stamp(state, stage, stage->blame);

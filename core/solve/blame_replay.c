@@ -3,6 +3,7 @@
 #include "solve/blame_replay.h"
 
 #include "base/mem.h"
+#include "mesh/rigid.h"
 #include "phys/mix.h"
 #include "scheme/operators.h"
 #include "scheme/rate.h"
@@ -48,7 +49,9 @@ static void blame_replay_mesh(struct replay *replay)
         replay->tile.at[d] = facts->tile[d];
         replay->level->h[d] = facts->h[d];
         replay->level->extent[d] = facts->extent[d];
+        mesh->periodic[d] = d < scene->domain.dim && scene_boundary_is(scene, 2 * d, SCENE_BOUNDARY_WRAPS);
     }
+    mesh->rigid = rigid_new(scene);
 }
 
 static struct replay *blame_replay_new(const struct model *model, const struct blame *blame)
@@ -79,6 +82,7 @@ static void blame_replay_free(struct replay *replay)
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) mem_free(blocks[i]);
     terms_free(replay->terms);
     terms_close(replay->own);
+    rigid_free(replay->mesh.rigid);
     face_free(replay->faces);
     blame_free(replay->again);
     mem_free(replay);
@@ -116,6 +120,7 @@ static void blame_replay_update(struct replay *replay)
                              .n_cell = facts->n_cell,
                              .t = facts->t + row->at * facts->dt,
                              .dt = row->step * facts->dt,
+                             .begun = facts->t + (row->previous ? row->at : 0.0) * facts->dt,
                              .u = row->previous ? blame->block[BLAME_BASE] : u_old,
                              .w = blame->block[BLAME_W],
                              .rates = replay->rates,

@@ -97,6 +97,18 @@ static BULLA_KERNEL void guard_material(size_t n, const double *restrict m, cons
     }
 }
 
+/* A fraction that its mass has left: fluxes take it for none (phys/mix.h), so it can only grow, and the energy with it. */
+static BULLA_KERNEL void guard_void(size_t n, const double *restrict m, const double *restrict alpha,
+                                    double *restrict bad)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double mass = m[i], a = alpha[i], b = bad[i];
+        double empty = mass > 0.0 ? 0.0 : 1.0;
+        bad[i] = b + (a > GUARD_PRESENT ? empty : 0.0);
+    }
+}
+
 static BULLA_KERNEL void guard_single(size_t n, const double *restrict rho, double *restrict bad)
 {
 #pragma omp simd
@@ -188,6 +200,7 @@ static double guard_judge(const struct guard *guard, const struct guard_tile *ti
         if (model->split) alpha = guard_borne(model, n, n_cell, tile->w + from, l, borne);
         guard_material(n, tile->u + (model->i_m + l) * n_cell + from, alpha, tile->rho_c2 + l * n_cell + from, rho,
                        model->eos[l].rho_fill, bad);
+        guard_void(n, tile->u + (model->i_m + l) * n_cell + from, tile->u + (model->i_alpha + l) * n_cell + from, bad);
     }
     for (size_t i = 0; i < n; i++) count += bad[i];
     return count;

@@ -148,6 +148,19 @@ static void guard_name_suspect(const struct guard_cell *cell, double p, struct t
     }
 }
 
+/* A fraction that its mass has left. */
+static bool guard_name_void(const struct guard_cell *cell, unsigned l, double m, struct guard_name *name)
+{
+    const struct model *model = cell->model;
+    struct text text = {0};
+    double alpha = model->n_alpha ? cell->tile->u[(model->i_alpha + l) * cell->n_cell + cell->at] : 0.0;
+    if (m > 0.0 || !(alpha > GUARD_PRESENT)) return false;
+    text_add(&text, " kg/m3 in a volume fraction of %.3g", alpha);
+    guard_name_say(name, model->field_names[model->i_m + l], m, text.at);
+    text_done(&text);
+    return true;
+}
+
 /* One material: its mass, its stiffness. */
 static bool guard_name_material(const struct guard_cell *cell, unsigned l, struct guard_name *name)
 {
@@ -157,6 +170,7 @@ static bool guard_name_material(const struct guard_cell *cell, unsigned l, struc
     double p = cell->tile->w[model->i_E * cell->n_cell + cell->at],
            rho_c2 = cell->tile->rho_c2[l * cell->n_cell + cell->at];
     struct text text = {0};
+    if (guard_name_void(cell, l, m, name)) return true;
     if (!(m >= 0.0) || (!model->n_alpha && !(m > 0.0))) {
         guard_name_say(name, model->field_names[model->i_m + l], m, " kg/m3");
         return true;

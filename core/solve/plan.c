@@ -1,6 +1,8 @@
 /* plan.c - see plan.h. */
 #include "solve/plan.h"
 
+#include "solve/rkl.h"
+
 static void plan_add(struct plan *plan, struct plan_step step)
 {
     plan->step[plan->n++] = step;
@@ -88,6 +90,13 @@ void plan_text(const struct model *model, struct text *ret_text)
         const struct plan_step *step = &plan->step[i];
         text_add(ret_text, "  %d  %-8s  %s%s\n", i + 1, step->name, step->formula, step->doc);
     }
+    if (scene->scheme.diffusion == SCENE_DIFFUSION_RKL2)
+        text_add(ret_text,
+                 "where they bind, viscosity and conduction take part of each stage of their own: u' = u + tau L(w) of "
+                 "the others "
+                 "as a\n  constant source of a flow through tau, in 3 to %d stages of RKL2 with an exchange each  "
+                 "[core/solve/rkl.c]\n",
+                 RKL_MOST);
     plan_faces(scene, ret_text);
     terms_say(model, ret_text);
     plan_operators(model, OPERATOR_STAGE, "after every stage, before its primitives:\n", ret_text);

@@ -9,6 +9,7 @@
 #include "mesh/halo.h"
 #include "phys/elastic.h"
 #include "solve/operate.h"
+#include "solve/rkl.h"
 #include "solve/verdict.h"
 
 #include <string.h>
@@ -26,6 +27,7 @@ void stage_free(struct stage *stage)
 {
     if (!stage) return;
     guard_free(stage->guard);
+    rkl_free(stage->rkl);
     blame_free(stage->blame);
     bound_free(stage->bound);
     reflux_free(stage->reflux);
@@ -37,9 +39,8 @@ void stage_free(struct stage *stage)
 
 void stage_exchange(struct stage *stage)
 {
-    double at = stage->tableau->stage[stage->turn].at;
-    stage->bound->t = stage->t + at * stage->dt;
-    if (stage->level->link) stage->level->link->theta = stage->from + at * stage->part;
+    stage->bound->t = stage->t + stage->at * stage->dt;
+    if (stage->level->link) stage->level->link->theta = stage->from + stage->at * stage->part;
     curve_take(stage->work->curve, stage->l, stage->level->w);
     halo_start(stage->level->halo, stage->level->w);
     around_start(stage->work->around, stage->l, stage->bound);
@@ -199,40 +200,60 @@ static void stage_remember(const struct stage *stage, unsigned local, const doub
         memcpy(previous + path->active[i] * n_cell, made + path->active[i] * n_cell, n_cell * sizeof *previous);
 }
 
-/* u = the state of this stage of one tile; of a narrowed path the active components only. */
-static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
+/* One tile in the stage under way, before its rates are taken. */
+static void stage_tile_open(struct stage *stage, unsigned local, enum term_part part, double dt,
+                            struct stage_tile_work *ret)
 {
-    const struct model *path = stage->census.tiles[local].path = census_choose(&stage->census, local);
+    const struct model *path = stage->census.tiles[local].path;
     const struct tableau_stage *row = &stage->tableau->stage[stage->turn];
     struct work *work = stage->work;
     struct level *level = stage->level;
-    const struct terms *terms = work_terms(work, path);
-    struct metric metric;
-    struct term_tile tile = {.terms = terms,
-                             .model = path,
-                             .mesh = stage->mesh,
-                             .level = level,
-                             .tile = stage_tile(stage, local),
-                             .metric = &metric,
-                             .n_cell = stage->mesh->n_cell,
-                             .t = stage->bound->t,
-                             .dt = row->step * stage->dt,
-                             .u = row->previous ? stage_previous(stage, local) : level->u_old[local],
-                             .w = level->w[local],
-                             .rates = work->rates,
-                             .K = work->K,
-                             .rho_c2 = work->rho_c2};
-    struct stage_sweep sweep = {stage, terms, local, row->weight > 0.0 && reflux_concerns(stage->reflux, local)};
-    const struct rate_watch watch = {&sweep, stage_gather, stage_seen, stage_swept};
-    if (stage->mesh->beta) metric_of_tile(stage->mesh, level, tile.tile, &metric);
-    tile.around = model_looks_around(path) ? around_gather(work->around, stage->l, stage->bound, local) : NULL;
+    ret->tile = (struct term_tile){.terms = work_terms(work, path),
+                                   .model = path,
+                                   .mesh = stage->mesh,
+                                   .level = level,
+                                   .tile = stage_tile(stage, local),
+                                   .metric = &ret->metric,
+                                   .n_cell = stage->mesh->n_cell,
+                                   .t = stage->bound->t,
+                                   .dt = dt,
+                                   .begun = row->previous ? stage->bound->t : stage->t,
+                                   .part = part,
+                                   .u = row->previous ? stage_previous(stage, local) : level->u_old[local],
+                                   .w = level->w[local],
+                                   .rates = work->rates,
+                                   .K = work->K,
+                                   .rho_c2 = work->rho_c2};
+    if (stage->mesh->beta) metric_of_tile(stage->mesh, level, ret->tile.tile, &ret->metric);
+    ret->tile.around = model_looks_around(path) ? around_gather(work->around, stage->l, stage->bound, local) : NULL;
     stage->bound->model = path;
-    rate_take(&tile, work->own, &watch, stage->guard->masked);
-    if (sweep.concerned) reflux_keep(stage->reflux, path, local, tile.w, path->kapila ? tile.K : NULL);
-    stage->clipped += (long long)rate_apply(&tile, work->own, u);
-    rate_mix(&tile, level->u_old[local], row->mix, u);
+}
+
+void stage_rates(struct stage *stage, unsigned local, enum term_part part, double dt, bool counts,
+                 struct stage_tile_work *ret)
+{
+    struct stage_sweep sweep = {stage, NULL, local, counts && reflux_concerns(stage->reflux, local)};
+    const struct rate_watch watch = {&sweep, stage_gather, stage_seen, stage_swept};
+    stage_tile_open(stage, local, part, dt, ret);
+    sweep.terms = ret->tile.terms;
+    rate_take(&ret->tile, stage->work->own, &watch, stage->guard->masked);
+    const struct model *path = ret->tile.model;
+    if (sweep.concerned) reflux_keep(stage->reflux, path, local, ret->tile.w, path->kapila ? ret->tile.K : NULL);
+}
+
+/* u = the state of this stage of one tile; of a narrowed path the active components only. */
+static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
+{
+    const struct tableau_stage *row = &stage->tableau->stage[stage->turn];
+    const double *u_old = stage->level->u_old[local];
+    struct work *work = stage->work;
+    struct stage_tile_work own;
+    stage->census.tiles[local].path = census_choose(&stage->census, local);
+    stage_rates(stage, local, TERM_WHOLE, row->step * stage->dt, row->weight > 0.0, &own);
+    stage->clipped += (long long)rate_apply(&own.tile, work->own, u);
+    rate_mix(&own.tile, u_old, row->mix, u);
     stage->cells += (long long)stage->mesh->n_cell;
-    if (blame_concerns(stage->blame, local)) blame_rates(stage->blame, stage->model, &tile, level->u_old[local]);
+    if (blame_concerns(stage->blame, local)) blame_rates(stage->blame, stage->model, &own.tile, u_old);
     cost_lap(&work->cost, COST_UPDATE);
 }
 
@@ -277,14 +298,13 @@ static bool stage_waits(const struct stage *stage, unsigned local)
     return halo_is_remote(stage->level, local) || around_is_remote(stage->work->around, stage->l, stage->bound, local);
 }
 
-/* All tiles, those without remote neighbours while the exchange is under way. */
-static void stage_tiles(struct stage *stage, void (*work)(struct stage *stage, unsigned local))
+/* Those without remote neighbours while the exchange is under way. */
+void stage_tiles(struct stage *stage, void (*work)(struct stage *stage, unsigned local))
 {
     const struct level *level = stage->level;
-    double at = stage->tableau->stage[stage->turn].at;
-    stage->bound->t = stage->t + at * stage->dt;
+    stage->bound->t = stage->t + stage->at * stage->dt;
     if (stage->blame) stage->blame->turn = stage->turn;
-    if (level->link) level->link->theta = stage->from + at * stage->part;
+    if (level->link) level->link->theta = stage->from + stage->at * stage->part;
     for (unsigned tile = 0; tile < level->n_local; tile++)
         if (!stage_waits(stage, tile)) work(stage, tile);
     stage_finish_exchange(stage);
@@ -297,6 +317,10 @@ void stage_take(struct stage *stage)
 {
     struct level *level = stage->level;
     int turn = stage->turn;
+    if (rkl_acts(stage)) {
+        rkl_take(stage);
+        return;
+    }
     reflux_weigh(stage->reflux, stage->tableau->stage[turn].weight, tableau_is_first_weight(stage->tableau, turn));
     if (turn + 1 == stage->tableau->n) {
         stage_tiles(stage, stage_last_tile);

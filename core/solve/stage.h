@@ -19,6 +19,8 @@
 #include "solve/tableau.h"
 #include "solve/work.h"
 
+struct rkl;
+
 struct stage {
     const struct model *model;
     const struct tableau *tableau;
@@ -30,9 +32,11 @@ struct stage {
     struct guard *guard;
     struct reflux *reflux;
     struct census census;
-    double *previous;    /* [n_local][n_field][n_cell]: conserved fields of the stage before (tableau_keeps), or NULL */
-    int turn;            /* stage under way: its row of the tableau, set by who runs the plan */
-    int blind;           /* tile whose boundary values a script could not give, times 3 plus the axis; -1: none */
+    double *previous; /* [n_local][n_field][n_cell]: conserved fields of the stage before (tableau_keeps), or NULL */
+    double at;        /* when its rates are taken, in dt: set by who runs the plan, and by stages within it (rkl.h) */
+    int turn;         /* stage under way: its row of the tableau, set by who runs the plan */
+    int blind;        /* tile whose boundary values a script could not give, times 3 plus the axis; -1: none */
+    struct rkl *rkl;  /* what diffuses takes super steps, or NULL */
     struct blame *blame; /* a tile being watched while a failed attempt is repeated, and what was seen; or NULL */
     double t, dt;        /* of the step under way */
     double from, part;   /* where it begins in the step of the coarser level, and how much of that it takes */
@@ -56,6 +60,20 @@ void stage_take(struct stage *stage);
 
 /* w = primitives of u_new; judged as the last stage, measures the signal speed. */
 void stage_close(struct stage *stage);
+
+/* One tile while its rates are taken. */
+struct stage_tile_work {
+    struct term_tile tile;
+    struct metric metric;
+};
+
+/* Rates of the terms of `part` of a tile on its path, into work->rates; dt: what ret->tile says of it; counts: its fluxes count in
+ * registers. ret stays valid until the next call. */
+void stage_rates(struct stage *stage, unsigned local, enum term_part part, double dt, bool counts,
+                 struct stage_tile_work *ret);
+
+/* `work` for all tiles, at stage->at; those that need the exchange under way when it is finished. */
+void stage_tiles(struct stage *stage, void (*work)(struct stage *stage, unsigned local));
 
 static inline const struct tile *stage_tile(const struct stage *stage, unsigned local)
 {

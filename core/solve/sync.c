@@ -144,12 +144,15 @@ static void sync_blame(const struct stage *stage, unsigned local, unsigned char 
         if (mask[i] != 0.0 && trouble[i] != SPREAD_ALL) trouble[i]++;
 }
 
-/* How much a face has to do with the rest of a cell beside it: the masses that it took and that are wanting. */
+/* How much a face has to do with the rest of a cell beside it: the masses that it took and that are wanting; if none is,
+ * the energy. */
 static double sync_share(const struct stage *stage, const double *change, const double *rest)
 {
     const struct model *model = stage->model;
     double share = 1e-30; /* where none did, all are alike */
-    for (unsigned q = model->i_m; q < model->i_u; q++) {
+    bool masses = false;
+    for (unsigned q = model->i_m; q < model->i_u; q++) masses = masses || rest[q * stage->mesh->n_cell] < 0.0;
+    for (unsigned q = masses ? model->i_m : model->i_E; q < (masses ? model->i_u : model->i_E + 1); q++) {
         double wanting = rest[q * stage->mesh->n_cell];
         if (wanting < 0.0 && change[q] < 0.0) share += change[q] / wanting;
     }

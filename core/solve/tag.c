@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "mesh/rigid.h"
 #include "solve/tag_pair.h"
 
 #include <math.h>
@@ -338,6 +339,22 @@ static int tag_script(struct tag *tag)
     return comm_agree(status);
 }
 
+/* Cells that a wall closes a part of. */
+static int tag_bodies(struct tag *tag)
+{
+    const struct mesh *mesh = tag->mesh;
+    double t = tag->moment->t, *found = mem_new(mesh->n_cell, sizeof *found);
+    for (unsigned local = 0; local < tag->level->n_local; local++) {
+        const struct tile *tile = &tag->level->tiles[tag->level->first + local];
+        const struct rigid_cells *cells = rigid_at(mesh, tag->level, tile, (struct rigid_times){t, t, t});
+        if (!cells) continue;
+        for (size_t i = 0; i < mesh->n_cell; i++) found[i] = rigid_is_wall(cells, mesh, i) ? 1.0 : 0.0;
+        tag_keep(tag, local, found);
+    }
+    mem_free(found);
+    return STATUS_OK;
+}
+
 static int tag_criterion(struct tag *tag)
 {
     switch (tag->refine->kind) {
@@ -346,6 +363,7 @@ static int tag_criterion(struct tag *tag)
     case SCENE_REFINE_VALUE: return tag_value(tag);
     case SCENE_REFINE_INTERFACE: return tag_interface(tag);
     case SCENE_REFINE_SCRIPT: return tag_script(tag);
+    case SCENE_REFINE_BODIES: return tag_bodies(tag);
     default: return tag_region(tag);
     }
 }
@@ -394,7 +412,7 @@ char *tag_describe(const struct scene *scene, unsigned criterion)
 {
     const struct scene_refine *refine = &scene->mesh.refines[criterion];
     struct text text = {0};
-    text_add(&text, "mesh.refine[%u] (line %d): ", criterion, refine->line);
+    if (refine->kind != SCENE_REFINE_BODIES) text_add(&text, "mesh.refine[%u] (line %d): ", criterion, refine->line);
     switch (refine->kind) {
     case SCENE_REFINE_GRADIENT:
     case SCENE_REFINE_JUMP:
@@ -408,6 +426,7 @@ char *tag_describe(const struct scene *scene, unsigned criterion)
     case SCENE_REFINE_INTERFACE: text_add(&text, "interface of %s", scene->material[refine->material].name); break;
     case SCENE_REFINE_SCRIPT: text_add(&text, "lua"); break;
     case SCENE_REFINE_REGION: text_add(&text, "region"); break;
+    case SCENE_REFINE_BODIES: text_add(&text, "walls of bodies"); break;
     }
     if (refine->where && refine->kind != SCENE_REFINE_REGION) text_add(&text, ", in a region");
     if (refine->finest < scene->mesh.levels) text_add(&text, ", to level %d", refine->finest);

@@ -5,6 +5,7 @@
 #include "phys/mix.h"
 #include "phys/row.h"
 #include "scheme/bound_ahead.h"
+#include "solve/rkl.h"
 
 #include <string.h>
 
@@ -35,13 +36,28 @@ void verdict_judge(struct stage *stage, unsigned local, int judged, const double
     cost_lap(&work->cost, COST_PRIMITIVES);
 }
 
+/* The fastest cell; with super steps what diffuses only counts beyond the most stages. Rates are free between stages. */
+static double verdict_pace(const struct stage *stage, struct term_pace pace)
+{
+    const struct terms *terms = stage->work->terms[0];
+    double *rates = stage->work->rates, slow, diffusion;
+    bool super = stage->model->scene->scheme.diffusion == SCENE_DIFFUSION_RKL2;
+    pace.part = super ? TERM_SLOW : TERM_WHOLE;
+    terms_pace(terms, &pace, rates);
+    slow = row_most(pace.n_cell, rates);
+    if (!super) return slow;
+    pace.part = TERM_DIFFUSION;
+    terms_pace(terms, &pace, rates);
+    diffusion = rkl_relief() * row_most(pace.n_cell, rates);
+    return slow > diffusion ? slow : diffusion;
+}
+
 void verdict_measure(struct stage *stage, unsigned local, const double *w)
 {
     size_t n_cell = stage->mesh->n_cell;
     const struct term_pace pace = {
         .model = stage->model, .level = stage->level, .n_cell = n_cell, .w = w, .c2 = stage->work->c2};
-    terms_pace(stage->work->terms[0], &pace, stage->work->rates); /* rates are free between stages */
-    stage->census.tiles[local].signal = row_most(n_cell, stage->work->rates);
+    stage->census.tiles[local].signal = verdict_pace(stage, pace);
 }
 
 void verdict_survey(struct stage *stage)
@@ -62,8 +78,7 @@ static double verdict_layer(struct stage *stage, unsigned local, const struct fr
     mix_stiffness(model, n, n, row, work->rho_c2);
     mix_speed2(model, n, n, row, work->rho_c2, work->c2);
     const struct term_pace pace = {.model = model, .level = stage->level, .n_cell = n, .w = row, .c2 = work->c2};
-    terms_pace(work->terms[0], &pace, work->rates);
-    return row_most(n, work->rates);
+    return verdict_pace(stage, pace);
 }
 
 double verdict_ahead(struct stage *stage, double t)

@@ -121,6 +121,7 @@ int plot_field_find(const struct snapshot *snapshot, const char *name, struct pl
     ret_field->component = component;
     plot_field_label(snapshot, field, component, ret_field->label);
     ret_field->blank = plot_field_is_blank(snapshot, field->name);
+    ret_field->body = strcmp(field->name, "body") ? read_field(snapshot, "body") : NULL;
     return STATUS_OK;
 }
 
@@ -128,6 +129,7 @@ double plot_field_value(const struct plot_field *field, size_t cell)
 {
     const double *at = &field->field->data[cell * field->field->components];
     if (field->blank && *at == 0.0) return (double)NAN;
+    if (field->body && field->body->data[cell] > 0.5) return (double)NAN;
     if (field->component != PLOT_FIELD_MAGNITUDE) return at[field->component];
     double square = 0.0;
     for (unsigned i = 0; i < field->field->components; i++) square += at[i] * at[i];

@@ -11,6 +11,7 @@ enum { PLOT_FIELD_MAGNITUDE = -1, PLOT_FIELD_LABEL = 160 };
 struct plot_field {
     const struct snapshot_field *field; /* of the snapshot */
     int component;                      /* 0..2, or PLOT_FIELD_MAGNITUDE of a vector; 0 of a scalar */
+    const struct snapshot_field *body;  /* where it is above 1/2 there is no fluid; NULL: nowhere */
     bool blank;                         /* 0 says that the material is absent: temperature_M, density_M */
     char label[PLOT_FIELD_LABEL];       /* "density of air", "axial velocity" */
 };

@@ -21,7 +21,7 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 MATHJAX = "/usr/share/javascript/mathjax"
 PARTS = [  # of the table of contents; pages that are named nowhere come last
     ("Use", ["install", "running", "watch", "cluster", "editor", "repository"]),
-    ("Cases", ["gallery/index", "cases", "keys", "lua"]),
+    ("Cases", ["gallery/index", "tutorial", "cases", "keys", "lua"]),
     ("Results", ["output", "verification", "reliability", "scaling"]),
     ("Method", ["numerics", "thermodynamics"]),
     ("Modules and code", ["modules", "api/index", "extending", "walk", "decisions/index"]),

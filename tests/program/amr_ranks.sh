@@ -1,6 +1,7 @@
 # Levels that move give the same bits on 1, 2, 3, 4 and 7 ranks: histories, probes and snapshots of runs in 2D with three
 # materials, in 3D, axisymmetric with an interface that leaves the levels at an angle (refluxing is spread), with steps that the
-# guard repairs, and without subcycling.
+# guard repairs, with cold gas that cannot bear what refluxing asks for (stopped and gone on with, too), and without
+# subcycling.
 set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
 
@@ -81,6 +82,20 @@ run: {until: 1, max-steps: 10}
 $output
   probes: {every: 1 steps, in: {at: [0.1, 0], fields: [pressure, velocity]}}
 END2
+
+cat >cold.yaml <<END2
+bulla: 1
+title: Two gases collide at Mach 50, and the shocks leave the fine level
+domain: {lower: [0, 0], upper: [1, 0.25], cells: [64, 16], boundaries: {x-: outflow, x+: outflow, y-: periodic, y+: periodic}}
+mesh: {levels: 2, tile: 4, refine: [{interface: air}]}
+$materials
+initial:
+  - {everywhere: true, material: helium, density: 0.1694, pressure: 1 bar, velocity: [-20000, 500]}
+  - {half-space: {normal: [-1, 0.2], point: [0.5, 0]}, material: air, density: 1.2, pressure: 1 bar, velocity: [15000, 0]}
+run: {until: 1, max-steps: 60}
+$output
+  probes: {every: 1 steps, in: {at: [0.6, 0.1], fields: [pressure, velocity]}}
+END2
 sed 's/patience: 1/patience: 1, subcycle: false/; s/max-steps: 24/max-steps: 20/' plane.yaml >whole.yaml
 
 while read -r name all; do
@@ -92,9 +107,12 @@ plane 1 2 3 4 7
 round 1 2 3 4 7
 space 1 3 7
 parting 1 2 4
+cold 1 2 3
 whole 1 3
 END2
 # what two of them are about has happened
 grep -q '"spread_refluxes": *[1-9]' round-1/refinement
+grep -q '"spread_refluxes": *[1-9]' cold-1/refinement
+resumed cold 40 cold-1
 grep -q '"relaxed": *[1-9]' parting-1/guard
 grep -q '"fallback": *[1-9]' parting-1/guard

@@ -1,4 +1,5 @@
-/* What the guard calls inadmissible, one cell at a time: no number, no stiffness, less than no mass; and whose marks stay when
+/* What the guard calls inadmissible, one cell at a time: no number, no stiffness, less than no mass, a
+ * fraction without mass; and whose marks stay when
  * the first stage of an attempt was bad. */
 #include "flow.h"
 
@@ -80,7 +81,12 @@ static void test_values(void **state)
     assert_int_equal(bad_with(&judged, m, -1.0), 1);
     assert_int_equal(bad_with(&judged, m, (double)NAN), 1);
     assert_int_equal(bad_with(&judged, m + judged.n, -1e-2), 1);
+    assert_int_equal(bad_with(&judged, m + judged.n, 1e-9), 0);
+    assert_int_equal(bad_with(&judged, m + judged.n, 0.0), 1); /* 0.4 of the cell, and nothing in it */
+    assert_int_equal(bad_with(&judged, m + judged.n, -1e-9), 1);
+    judged.u[judged.n + 5] = judged.w[judged.n + 5] = 1e-7;
     assert_int_equal(bad_with(&judged, m + judged.n, -1e-9), 0); /* round-off of 600 kg/m3 */
+    assert_int_equal(bad_with(&judged, m + judged.n, -1e-2), 1);
     stop(&judged);
 }
 

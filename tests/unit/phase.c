@@ -298,6 +298,30 @@ static void test_kinds(void **state)
     assert_true(vapour_after(hot, 385.0, 101325.0, 0.0) > 0.0);
 }
 
+/* More vapour has gone than there was (two stages): the liquid pays for it, and nothing is made. */
+static void test_owed(void **state)
+{
+    (void)state;
+    struct flow flow;
+    open_scene(&flow, NASG, "{liquid: water, vapour: steam}", 8, "");
+    const struct model *model = flow.state->model;
+    for (unsigned owes = 0; owes < 2; owes++) {
+        double u[FLOW_FIELDS] = {0}, w[FLOW_FIELDS] = {0}, p = 1e5, T = 400.0;
+        for (unsigned l = 0; l < 2; l++) {
+            w[model->i_alpha + l] = l == owes ? 1e-3 : 0.999;
+            model->eos[l].law->density(model->eos[l].self, 1, &p, &T, &w[model->i_m + l]);
+        }
+        w[model->i_E] = p;
+        mix_conserved(model, 1, 1, w, u);
+        u[model->i_m + owes] *= -1e-3;
+        double all = u[model->i_m] + u[model->i_m + 1];
+        phase_act(model, 0, 1, 1, 1e-6, w, u, &(struct equilibrium_effort){0});
+        assert_true(u[model->i_m] >= 0.0 && u[model->i_m + 1] >= 0.0);
+        assert_true(fabs((u[model->i_m] + u[model->i_m + 1]) / all - 1.0) < 1e-15);
+    }
+    flow_stop(&flow);
+}
+
 /* A wave through a mixture in a closed box: masses, momentum and energy to round-off; entropy does not fall. */
 static void wave(const struct model *model, const double x[3], double *w)
 {
@@ -336,7 +360,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_call),  cmocka_unit_test(test_direction), cmocka_unit_test(test_rate),
-        cmocka_unit_test(test_kinds), cmocka_unit_test(test_box),
+        cmocka_unit_test(test_kinds), cmocka_unit_test(test_owed),      cmocka_unit_test(test_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* Changes that some cells of a tile cannot bear, handed to those around them: sums over volumes stay, in plane and curved
- * geometry, and no cell is left with less than nothing. */
+ * geometry, and no cell is left with less than nothing, nor with less energy than that of its motion. */
 #include "flow.h"
 
 #include "levels/spread.h"
@@ -136,8 +136,73 @@ static void test_amount(void **state)
         }
 }
 
+/* Cold gas that flies at Mach 1500: all but a millionth of its energy is that of motion. */
+static void start_cold(struct tile_world *world, const char *geometry)
+{
+    start(world, geometry);
+    const struct model *model = world->flow.state->model;
+    size_t n = world->flow.state->mesh->n_cell;
+    for (size_t c = 0; c < n; c++) {
+        double w[FLOW_FIELDS] = {0}, u[FLOW_FIELDS];
+        w[0] = 0.0, w[1] = 1.0;
+        w[model->i_m] = 1000.0, w[model->i_m + 1] = 1.2;
+        w[model->i_u] = 4e5, w[model->i_u + 1] = 3e5;
+        w[model->i_E] = 1e5;
+        mix_conserved(model, 1, 1, w, u);
+        for (unsigned q = 0; q < model->n_field; q++) world->u[q * n + c] = u[q];
+    }
+}
+
+/* Pressures of all cells stand: none is left with less energy than that of its motion. */
+static void check_pressures(const struct tile_world *world)
+{
+    const struct model *model = world->flow.state->model;
+    size_t n = world->flow.state->mesh->n_cell;
+    for (size_t c = 0; c < n; c++) {
+        double u[FLOW_FIELDS], w[FLOW_FIELDS] = {0};
+        for (unsigned q = 0; q < model->n_field; q++) u[q] = world->u[q * n + c] + world->delta[q * n + c];
+        mix_primitives(model, 1, 1, u, w);
+        if (!(w[model->i_E] > 0.0)) fail_msg("cell %zu: pressure %g", c, w[model->i_E]);
+    }
+}
+
+/* Energy alone is taken, `part` of the thermal one of a cell; a tile of 64 cells holds 64 of it. */
+static void check_cold(const char *geometry, double part, bool rests)
+{
+    struct tile_world world;
+    start_cold(&world, geometry);
+    unsigned E = world.flow.state->model->i_E;
+    size_t n = world.flow.state->mesh->n_cell;
+    static const size_t cells[] = {0, 18, 36, 63};
+    for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) {
+        world.delta[E * n + cells[i]] = -part * 2.5e5;
+        world.trouble[cells[i]] = SPREAD_HALF;
+    }
+    double before = total(&world, world.delta, E), size = total(&world, world.u, E);
+    assert_true(spread_change(&world.spread, world.delta, world.rest) == rests);
+    assert_true(fabs(total(&world, world.delta, E) + total(&world, world.rest, E) - before) <= 1e-14 * size);
+    check_pressures(&world);
+    memset(world.delta, 0, world.flow.state->model->n_field * n * sizeof *world.delta);
+    double amount[FLOW_FIELDS] = {0};
+    amount[E] = -2.0 * 2.5e5 * spread_volume(&world.spread, 21);
+    spread_amount(&world.spread, 21, amount, world.delta);
+    assert_true(fabs(total(&world, world.delta, E) - amount[E]) <= 1e-14 * size);
+    check_pressures(&world);
+    stop(&world);
+}
+
+static void test_cold(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        check_cold(GEOMETRIES[i], 2.0, false);
+        check_cold(GEOMETRIES[i], 40.0, true);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_change), cmocka_unit_test(test_amount)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_change), cmocka_unit_test(test_amount),
+                                       cmocka_unit_test(test_cold)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

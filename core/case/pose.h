@@ -1,0 +1,23 @@
+/* pose.h - where a rigid body is at a time: it is turned about a point of it, then moved. */
+#ifndef POSE_H
+#define POSE_H
+
+#include "case/scene.h"
+
+struct pose {
+    double shift[3];   /* [m] */
+    double turn[3][3]; /* about `pivot`; the identity unless `turned` */
+    double pivot[3];   /* before it is moved */
+    bool turned;
+};
+
+/* The pose of a body at time t [s]. A script's failure is STATUS_CASE. */
+int pose_at(const struct scene_rigid *rigid, double t, struct pose *ret);
+
+/* Where a point of space is on the body at rest: the inverse of the motion. */
+void pose_back(const struct pose *pose, const double x[3], double ret[3]);
+
+/* How far a point of space that moves with the body goes from one pose to the other [m]. */
+void pose_way(const struct pose *from, const struct pose *to, const double x[3], double ret[3]);
+
+#endif
