@@ -64,6 +64,20 @@ bool scene_pulse_owns(const char *key);
 /* Axis 0..2 that an `along:` names, or -1, perhaps after a recorded error. */
 int scene_history_axis(struct draft *draft, const struct keys_value *along);
 
+/* Of space-time maps: the width of the cells of the finest level; how many places there are if there could be `fine`, one
+ * per such cell; whether a point, a list of numbers, is in the domain, else an error is recorded. */
+double scene_map_width(const struct scene *scene, int axis);
+unsigned scene_map_count(const struct keys_value *points, double fine);
+bool scene_map_inside(struct draft *draft, const struct keys_value *value, const double *x);
+
+/* The places of a map along a circle, or straight pieces; none after a recorded error. `rows`: of the map. */
+extern const struct keys_section scene_curve_circle_keys, scene_curve_polyline_keys;
+void scene_curve_read_circle(struct draft *draft, struct scene_map *map, const struct keys_map *rows);
+void scene_curve_read_polyline(struct draft *draft, struct scene_map *map, const struct keys_map *rows);
+
+/* One point of a list of points: its numbers, not given after a recorded error. */
+const struct keys_value *scene_shape_vertex(struct draft *draft, struct node *node, const char *path);
+
 /* Releases the maps of a scene. */
 void scene_map_done(struct scene *scene);
 

@@ -1,4 +1,5 @@
-/* scene_map.c - space-time maps: fields along a line, a face of the domain or a surface, over time. */
+/* scene_map.c - space-time maps: fields along a line, a curve (scene_curve.c), a face of the domain or a
+ * surface, over time. */
 #include "case/scene_draft.h"
 
 #include "base/mem.h"
@@ -7,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SCENE_MAP_WAYS = 3, SCENE_MAP_FINE = 1024, SCENE_MAP_MOST = 100000 };
+enum { SCENE_MAP_WAYS = 5, SCENE_MAP_FINE = 1024, SCENE_MAP_MOST = 100000 };
 
 static const struct key scene_map_line_rows[] = {
     {.name = "from", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = true, .doc = "First point."},
@@ -28,6 +29,14 @@ static const struct key scene_map_rows[] = {
     {.name = "isosurface",
      .type = KEYS_TEXT,
      .doc = "On the surface of this material (volume fraction 0.5), against the coordinate `along`."},
+    {.name = "circle",
+     .type = KEYS_SECTION,
+     .section = &scene_curve_circle_keys,
+     .doc = "Along a circle or an arc of it, against the distance s along it."},
+    {.name = "polyline",
+     .type = KEYS_SECTION,
+     .section = &scene_curve_polyline_keys,
+     .doc = "Along straight pieces from point to point, against the distance s along them."},
     {.name = "along",
      .type = KEYS_CHOICE,
      .choices = "x|y|z|r|axis",
@@ -54,7 +63,7 @@ static const struct key scene_map_rows[] = {
 };
 
 static const struct keys_section scene_map_keys = {.name = "map",
-                                                   .doc = "Fields along a line or a surface, over time.",
+                                                   .doc = "Fields along a line, a curve or a surface, over time.",
                                                    .keys = scene_map_rows,
                                                    .choose = SCENE_MAP_WAYS};
 
@@ -83,20 +92,19 @@ const struct keys_section scene_map_list_keys = {.name = "maps",
                                                           "{0,62}$', 'patternErrorMessage': 'The name of a map "
                                                           "is an identifier (letters, digits and _).'}}"};
 
-/* Width of the cells of the finest level. */
-static double scene_map_width(const struct scene *scene, int axis)
+double scene_map_width(const struct scene *scene, int axis)
 {
     return ldexp((scene->domain.upper[axis] - scene->domain.lower[axis]) / scene->domain.cells[axis],
                  -scene->mesh.levels);
 }
 
-static unsigned scene_map_count(const struct keys_value *points, double fine)
+unsigned scene_map_count(const struct keys_value *points, double fine)
 {
     if (points->given) return (unsigned)points->integer;
     return !(fine >= 2.0) ? 2 : fine > SCENE_MAP_FINE ? SCENE_MAP_FINE : (unsigned)lround(fine);
 }
 
-static bool scene_map_inside(struct draft *draft, const struct keys_value *value, const double *x)
+bool scene_map_inside(struct draft *draft, const struct keys_value *value, const double *x)
 {
     const struct scene *scene = draft->scene;
     for (int axis = 0; axis < scene->domain.dim; axis++)
@@ -205,21 +213,22 @@ static void scene_map_read_surface(struct draft *draft, struct scene_map *map, c
 static void scene_map_refuse(struct draft *draft, const struct keys_map *rows, const char *way)
 {
     static const char *const of_surfaces[] = {"along", "where"}, *const of_spans[] = {"from", "to"};
-    bool line = strcmp(way, "line") == 0;
+    bool spans = strcmp(way, "boundary") == 0 || strcmp(way, "isosurface") == 0;
     for (int i = 0; i < 2 && strcmp(way, "isosurface") != 0; i++)
         if (keys_at(rows, of_surfaces[i])->node)
             keys_error(&draft->keys, keys_at(rows, of_surfaces[i]), "only for an 'isosurface'");
-    for (int i = 0; i < 2 && line; i++)
+    for (int i = 0; i < 2 && !spans; i++)
         if (keys_at(rows, of_spans[i])->node)
             keys_error(&draft->keys, keys_at(rows, of_spans[i]),
-                       "the line has its own ends: {line: {from: .., to: ..}}");
+                       "only for a 'boundary' or an 'isosurface': the %s has its own ends", way);
 }
 
 static void scene_map_read(struct draft *draft, struct scene_map *map, const struct keys_value *value)
 {
-    static void (*const read[])(struct draft *, struct scene_map *, const struct keys_map *) = {scene_map_read_line,
-                                                                                                scene_map_read_boundary,
-                                                                                                scene_map_read_surface};
+    static void (*const read[])(struct draft *, struct scene_map *,
+                                const struct keys_map *) = {scene_map_read_line, scene_map_read_boundary,
+                                                            scene_map_read_surface, scene_curve_read_circle,
+                                                            scene_curve_read_polyline};
     int way = -1, ways = 0;
     map->material = map->axis = -1;
     snprintf(map->name, SCENE_NAME, "%s", value->key->name);
@@ -232,7 +241,8 @@ static void scene_map_read(struct draft *draft, struct scene_map *map, const str
             ways++;
         }
     if (ways != 1 && value->map) {
-        keys_error(&draft->keys, value, "a map runs along one of 'line', 'boundary' and 'isosurface'%s",
+        keys_error(&draft->keys, value,
+                   "a map runs along one of 'line', 'boundary', 'isosurface', 'circle' and 'polyline'%s",
                    ways ? ": one too many is given" : "");
         return;
     }

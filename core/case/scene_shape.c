@@ -194,14 +194,20 @@ static bool scene_shape_rod(struct draft *draft, struct shape *shape, const stru
     return good;
 }
 
-/* One [x, y] of a polygon: a list of two numbers, read with a row of its own. */
-static bool scene_shape_vertex(struct draft *draft, struct node *node, const char *path, double ret[2])
+/* A list of numbers, read with a row of its own. */
+const struct keys_value *scene_shape_vertex(struct draft *draft, struct node *node, const char *path)
 {
     static const struct key vertex[] = {{.name = "vertex", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m"}, {0}};
     static const struct keys_section section = {.name = "vertex", .keys = vertex};
     struct node *map = tree_map(draft->keys.forest, &node->mark);
     tree_set(draft->keys.forest, map, "vertex", node);
-    const struct keys_value *value = keys_at(keys_read(&draft->keys, map, &section, path), "vertex");
+    return keys_at(keys_read(&draft->keys, map, &section, path), "vertex");
+}
+
+/* One [x, y] of a polygon. */
+static bool scene_shape_corner(struct draft *draft, struct node *node, const char *path, double ret[2])
+{
+    const struct keys_value *value = scene_shape_vertex(draft, node, path);
     if (value->given && value->count != 2)
         keys_error(&draft->keys, value, "two numbers are needed, not %u", value->count);
     if (!value->given || value->count != 2) return false;
@@ -225,7 +231,7 @@ static bool scene_shape_outline(struct draft *draft, struct shape *shape, const 
     shape->vertex = mem_new(shape->n, sizeof *shape->vertex);
     for (unsigned i = 0; i < shape->n; i++) {
         const char *path = tree_print(draft->keys.forest, "%s[%u]", vertices->path, i);
-        good &= scene_shape_vertex(draft, vertices->node->items[i], path, shape->vertex[i]);
+        good &= scene_shape_corner(draft, vertices->node->items[i], path, shape->vertex[i]);
     }
     return good;
 }

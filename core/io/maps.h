@@ -2,7 +2,7 @@
  * same numbers become arrays in maps/NAME.hdf.
  *
  * The table has a line for each time and place: `t,x,<field>...`, the second column named for the axis of the places
- * (`s`: distance along an oblique line), vectors as <field>_x, ... Places on lines are seen as probes see them
+ * (`s`: distance along an oblique line or a curve), vectors as <field>_x, ... Places on lines and curves are seen as probes see them
  * (sample.h). On a surface a place is the mean over those of its pieces that lie within half the distance of places,
  * a piece as wide as a cell; NaN where there is none. Times are those of steps: the first one at or after each
  * multiple of `every` (so maps never cut a step), the start and the end.

@@ -25,6 +25,8 @@ output:
     axis: {line: {from: [0, 0], to: [0, 0.8 mm]}, points: 65, fields: [pressure, velocity, alpha_air]}
     slant: {line: {from: [0, 0], to: [0.3 mm, 0.4 mm]}, points: 26, fields: [alpha_air]}
     skin: {isosurface: air, along: axis, from: 0.15 mm, to: 0.45 mm, points: 30, fields: [temperature_air]}
+    arc: {circle: {center: [0, 0.3 mm], radius: 0.2 mm, from: -90 deg, to: 90 deg}, points: 37, fields: [pressure, velocity]}
+    chain: {polyline: {vertices: [[0.1 mm, 0.6 mm], [0.3 mm, 0.6 mm], [0.3 mm, 0.2 mm]]}, points: 61, fields: [pressure]}
   checkpoints: {every: 30 steps, keep: 100}
 END
 go() # DIRECTORY OPTIONS...
@@ -35,7 +37,7 @@ go() # DIRECTORY OPTIONS...
 }
 same() # DIRECTORY: its tables are those of `alone`
 {
-    for map in wall axis slant skin; do
+    for map in wall axis slant skin arc chain; do
         cmp "alone/maps/$map.csv" "$1/maps/$map.csv" || { echo "$1: maps/$map.csv is another"; exit 1; }
         [ -s "$1/maps/$map.hdf" ] || { echo "$1: there is no maps/$map.hdf"; exit 1; }
     done
@@ -63,6 +65,65 @@ awk -F, 'NR > 1 && $1 == 0 { inside = $2 > 0.2e-3 + 20e-6 && $2 < 0.4e-3 - 20e-6
 awk -F, 'NR > 1 && $1 == 0 && $3 != "nan" { n++; if ($2 < 0.19e-3 || $2 > 0.41e-3 || $3 < 280 || $3 > 320) bad = 1 }
          END { if (n < 20 || n > 24 || bad) { print "skin: " n " places"; exit 1 } }' alone/maps/skin.csv
 head -n 1 alone/maps/slant.csv | grep -qx 't,s,alpha_air'
+# Around the bubble, from its lower pole to its upper one: r = R sin(s / R). Then right and down: r = 0.1 mm + s as far as 0.3 mm.
+awk -F, 'NR == 1 && $0 !~ /^t,s,pressure,velocity_x,velocity_y/ { bad = 1 }
+         NR > 1 && $1 == 0 { n++; s = $2; r = 0.2e-3 * sin(s / 0.2e-3); d = $3 - 1e5 - 1e9 * r; if (r > 0.03e-3 && d * d > 4e6) bad = 1 }
+         END { if (bad || n != 37 || (NR - 1) % 37 || s < 6.2831e-4 || s > 6.2832e-4) { print "arc: " n " places"; exit 1 } }' alone/maps/arc.csv
+awk -F, 'NR > 1 && $1 == 0 { n++; s = $2; r = s < 0.2e-3 ? 0.1e-3 + s : 0.3e-3; d = $3 - 1e5 - 1e9 * r; if (d * d > 4e6) bad = 1 }
+         END { if (bad || n != 61 || s < 5.9999e-4 || s > 6.0001e-4) { print "chain: " n " places"; exit 1 } }' alone/maps/chain.csv
+
+# In space a linear field is what it is, around each axis and along a chain; a whole circle ends where it began.
+cat >space.yaml <<'END'
+bulla: 1
+domain: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [8, 8, 8], boundaries: {x-: outflow, x+: outflow, y-: outflow, y+: outflow, z-: outflow, z+: outflow}}
+mesh: {tile: 8}
+materials: {air: {eos: {type: ideal-gas, gamma: 1.4}}}
+initial: [{everywhere: true, material: air, density: 1.2, pressure: = 1e5 + 1e3 * x + 2e3 * y + 4e3 * z}]
+run: {until: 1 us}
+output:
+  maps:
+    every: 1 us
+    x: {circle: {center: [0.5, 0.5, 0.5], radius: 0.3, axis: x, from: 0, to: -90 deg}, points: 10, fields: [pressure]}
+    y: {circle: {center: [0.5, 0.5, 0.5], radius: 0.3, axis: y, from: 30 deg}, fields: [pressure]}
+    z: {circle: {center: [0.5, 0.5, 0.5], radius: 0.3}, points: 9, fields: [pressure]}
+    chain: {polyline: {vertices: [[0.2, 0.2, 0.2], [0.2, 0.8, 0.2], [0.2, 0.8, 0.8], [0.8, 0.8, 0.8]]}, fields: [pressure]}
+END
+"$BULLA" run space.yaml -o space --quiet
+linear() # MAP PLACES EXPRESSION of s and a = s / 0.3: the pressure beyond 1e5 Pa
+{
+    awk -F, -v map="$1" 'NR > 1 && $1 == 0 { n++; s = $2; a = s / 0.3; d = $3 - 1e5 - ('"$3"'); if (n == 1) first = $3; last = $3
+                                             if (d * d > 1e-10) { print map ": " $3 " at s = " s; bad = 1 } }
+             END { if (bad || n != '"$2"' || (map ~ /[yz]/ && first != last)) {
+                       print map ": " n " places, from " first " to " last; exit 1 } }' "space/maps/$1.csv"
+}
+linear x 10 '3500 + 300 * (2 * cos(a) - 4 * sin(a))'
+linear y 16 '3500 + 300 * (4 * cos(a + 0.523598775598298873) + sin(a + 0.523598775598298873))'
+linear z 9 '3500 + 300 * (cos(a) + 2 * sin(a))'
+linear chain 15 's < 0.6 ? 1400 + 2000 * s : s < 1.2 ? 2600 + 4000 * (s - 0.6) : 5000 + 1000 * (s - 1.2)'
+
+# What cannot be, at its place.
+refused() { # LINE:COLUMN WORDS MAP: a map of the plane case; the line is that of `wall`
+    sed "s|^    wall: .*|    wall: {$3, fields: [pressure]}|" map.yaml >wrong.yaml
+    code=0
+    "$BULLA" check wrong.yaml >/dev/null 2>said || code=$?
+    if [ "$code" -ne 2 ] || ! grep -F "wrong.yaml:$1: error: " said | grep -qF -- "$2"; then
+        echo "$3: exit $code, not '$2' at $1"
+        cat said
+        exit 1
+    fi
+}
+refused 20:50 'at 180 deg the circle is at x = -0.0001 m, outside of the domain, 0 to 0.0004 m' \
+    'circle: {center: [0, 0.3 mm], radius: 0.1 mm, from: 180 deg, to: 90 deg}'
+refused 20:76 'the arc has no length' 'circle: {center: [0, 0.3 mm], radius: 0.1 mm, from: 90 deg, to: 90 deg}'
+refused 20:62 '1.5 turns' 'circle: {center: [0, 0.3 mm], radius: 0.1 mm, to: 540 deg}'
+refused 20:64 'only in three dimensions' 'circle: {center: [0, 0.3 mm], radius: 0.1 mm, axis: z}'
+refused 20:29 '2 numbers are needed' 'circle: {center: [0.3 mm], radius: 0.1 mm}'
+refused 20:43 '0.0005 m is outside of the domain, 0 to 0.0004 m' 'polyline: {vertices: [[0, 0], [0.5 mm, 0]]}'
+refused 20:42 'this point is the one before it' 'polyline: {vertices: [[0, 0], [0, 0]]}'
+refused 20:33 'at least two points, [x, y], is needed' 'polyline: {vertices: [[0, 0]]}'
+refused 20:63 "only for a 'boundary' or an 'isosurface': the polyline has its own ends" \
+    'polyline: {vertices: [[0, 0], [0.1 mm, 0]]}, from: 0'
+refused 20:11 'one too many is given' 'boundary: y-, circle: {center: [0, 0], radius: 1 mm}'
 
 # Overwriting takes away the maps that were there, and what is the user's own stays.
 mkdir -p other/fields other/maps
@@ -75,6 +136,8 @@ if [ -e other/maps/old.csv ] || [ -e other/maps/old.hdf ]; then echo "old maps a
 # Pictures of them.
 "$BULLA" plot alone map axis pressure >said
 [ -s "$(cat said)" ] && grep -q 'plots/map_axis_pressure.png' said
+"$BULLA" plot alone map arc pressure >said
+[ -s "$(cat said)" ]
 "$BULLA" plot alone map skin temperature_air -o skin.png --range 250,400 --width 400 >said
 [ -s skin.png ]
 
