@@ -25,6 +25,7 @@ struct phase_block {
     bool warm[PHASE_BLOCK];    /* temperatures fit */
     bool thermal[PHASE_BLOCK]; /* no exchange: beyond the end of the curve */
     bool alone[PHASE_BLOCK];   /* liquid without vapour, which has to nucleate */
+    bool left[PHASE_BLOCK];    /* the liquid has taken volume that had no vapour left */
     struct equilibrium_cells cells, start;
 };
 
@@ -51,6 +52,31 @@ static bool phase_meets(const struct model *model, const struct model_phase *pha
     return thin > PHASE_FELT || phase->scene->everywhere;
 }
 
+/* Volume that the vapour has left (its mass is gone, by flow or to the midpoint's account) is the liquid's: with it nobody
+ * would know what the liquid bears, and the guard would say so (solve/guard.c) when this step is over. */
+static bool phase_leave(struct phase_block *block, size_t i)
+{
+    const struct model *model = block->model;
+    unsigned liquid = block->phase->member[EQUILIBRIUM_LIQUID], vapour = block->phase->member[EQUILIBRIUM_VAPOUR];
+    double *alpha = &block->u[model->i_alpha + vapour][i];
+    if (!(*alpha > PHASE_FELT) || block->u[model->i_m + vapour][i] > 0.0) return false;
+    block->u[model->i_alpha + liquid][i] += *alpha;
+    *alpha = 0.0;
+    return true;
+}
+
+/* That into the tile, with the masses that phase_owe has made. */
+static void phase_settle(const struct phase_block *block, size_t i, size_t stride, double *w, double *u)
+{
+    const struct model *model = block->model;
+    for (unsigned k = 0; k <= EQUILIBRIUM_VAPOUR; k++) {
+        unsigned l = block->phase->member[k];
+        u[(model->i_alpha + l) * stride + block->at[i]] = block->u[model->i_alpha + l][i];
+        u[(model->i_m + l) * stride + block->at[i]] = block->cells.m[k][i];
+    }
+    w[model->i_E * stride + block->at[i]] = block->cells.p[i];
+}
+
 static void phase_gather(struct phase_block *block, size_t stride, const double *u, const double *w)
 {
     const struct model *model = block->model;
@@ -58,7 +84,10 @@ static void phase_gather(struct phase_block *block, size_t stride, const double 
         unsigned q = model->active[a];
         for (size_t i = 0; i < block->n; i++) block->u[q][i] = u[q * stride + block->at[i]];
     }
-    for (size_t i = 0; i < block->n; i++) block->w[model->i_E][i] = w[model->i_E * stride + block->at[i]];
+    for (size_t i = 0; i < block->n; i++) {
+        block->w[model->i_E][i] = w[model->i_E * stride + block->at[i]];
+        block->left[i] = phase_leave(block, i);
+    }
     mix_primitives(model, block->n, PHASE_BLOCK, block->u[0], block->w[0]);
 }
 
@@ -283,8 +312,10 @@ static void phase_run(struct phase_block *block, size_t stride, double dt, doubl
     phase_fill(block);
     memset(block->warm, 0, sizeof block->warm);
     memset(block->alone, 0, sizeof block->alone);
-    for (size_t i = 0; i < block->n; i++)
+    for (size_t i = 0; i < block->n; i++) {
+        if (block->left[i]) phase_settle(block, i, stride, w, u);
         if (!phase_fits(block, i)) phase_move(block, i, left++);
+    }
     block->cells.n = left;
     if (left == 0) return;
     memcpy(block->start.m[0], block->cells.m[0], sizeof(phase_row));

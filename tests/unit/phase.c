@@ -322,6 +322,30 @@ static void test_owed(void **state)
     flow_stop(&flow);
 }
 
+/* Volume that vapour has left is the liquid's, which then has the pressure that its mass means, and bears it. */
+static void test_left(void **state)
+{
+    (void)state;
+    struct flow flow;
+    open_scene(&flow, NASG, "{liquid: water, vapour: steam, where: everywhere, nucleation: {tension: 8 MPa}}", 8, "");
+    const struct model *model = flow.state->model;
+    double u[FLOW_FIELDS] = {0}, w[FLOW_FIELDS] = {0}, p = -1e6, T = 300.0, mass;
+    w[model->i_alpha] = 1.0;
+    model->eos[0].law->density(model->eos[0].self, 1, &p, &T, &w[model->i_m]);
+    w[model->i_E] = p;
+    mix_conserved(model, 1, 1, w, u);
+    mass = u[model->i_m];
+    u[model->i_alpha] = 1.0 - 1e-4;
+    u[model->i_alpha + 1] = 1e-4;
+    u[model->i_m + 1] = -1e-9;
+    mix_primitives(model, 1, 1, u, w);
+    phase_act(model, 0, 1, 1, 1e-6, w, u, &(struct equilibrium_effort){0});
+    assert_true(u[model->i_alpha + 1] == 0.0 && fabs(u[model->i_alpha] - 1.0) < 1e-15);
+    assert_true(u[model->i_m + 1] == 0.0 && fabs(u[model->i_m] - (mass - 1e-9)) < 1e-12);
+    assert_true(fabs(w[model->i_E] / p - 1.0) < 1e-3);
+    flow_stop(&flow);
+}
+
 /* A wave through a mixture in a closed box: masses, momentum and energy to round-off; entropy does not fall. */
 static void wave(const struct model *model, const double x[3], double *w)
 {
@@ -360,7 +384,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_call),  cmocka_unit_test(test_direction), cmocka_unit_test(test_rate),
-        cmocka_unit_test(test_kinds), cmocka_unit_test(test_owed),      cmocka_unit_test(test_box),
+        cmocka_unit_test(test_kinds), cmocka_unit_test(test_owed),      cmocka_unit_test(test_left),
+        cmocka_unit_test(test_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
