@@ -1,8 +1,8 @@
 #!/bin/sh
 # package.sh [FILE.deb] - installs the Debian package (of build-deb, which is made if none is named) into a fresh Debian and
-# uses it there as an ordinary user: a run, two ranks with the same bits, pictures, a report, the list of verification
-# scenes, the skeleton of a module. Nothing of this tree is seen there. For root, with mmdebstrap and a mirror of Debian
-# ($BULLA_MIRROR), else it ends with 77; some minutes, most of them downloads. Nightly.
+# uses it there as an ordinary user: a run, two ranks with the same bits, pictures, a report, the page of a run, the list
+# of verification scenes, the skeleton of a module. Nothing of this tree is seen there. For root, with mmdebstrap and a
+# mirror of Debian ($BULLA_MIRROR), else it ends with 77; some minutes, most of them downloads. Nightly.
 set -eu
 [ "$(id -u)" = 0 ] && command -v mmdebstrap >/dev/null || { echo "needs root and mmdebstrap"; exit 77; }
 root=$(cd -- "$(dirname -- "$0")/.." && pwd)
@@ -37,7 +37,8 @@ bulla report run1
 bulla modules | grep -q stiffened-gas
 bulla new module eos my-water >said
 test -f my-water/Makefile
-test -s run1/report.html'
+test -s run1/report.html
+(timeout 3 bulla watch run1 || true) | grep -q "^http://127.0.0.1"'
 echo 'the package installs and runs'
 END
 # What is known of the machine is mounted: Open MPI looks for its network and its processors there.
