@@ -1,7 +1,7 @@
 /* verify_beside.h - `bulla verify --beside PATH=VALUE`: every scene twice, as it is and with other settings.
  *
- * What a change of a default does is a table over all scenes: of each the error that changes most, what both runs cost, and
- * whether what it expects still holds. Coarse variants run where there are any. */
+ * What a change of a default does is a table over all scenes: of each the error that changes most, what both runs cost,
+ * and whether what it expects still holds. Coarse variants run where there are any. */
 #ifndef VERIFY_BESIDE_H
 #define VERIFY_BESIDE_H
 
