@@ -126,6 +126,7 @@ static void scene_build(struct draft *draft, struct node *root)
     if (diag_errors(draft->keys.diag)) return;
     scene_idle(draft, root);
     scene_coarse(draft);
+    scene_boil(draft);
     scene_branch_times(draft);
     scene_spare(draft, root);
     scene_resolve(draft, root);
