@@ -207,7 +207,7 @@ static void scene_history_measure(struct draft *draft, struct scene_column *colu
     else if (column->measure == SCENE_EVAPORATED) scene_history_vapour(draft, column, value);
     else if (column->measure == SCENE_FORCE) column->rigid = scene_rigid_index(draft, value);
     else if (value->given && scene_formula_is(value)) scene_formula(draft, value, column->name, column->field);
-    else scene_field(draft, value, column->field);
+    else scene_field_name(draft, value, column->field);
 }
 
 /* The one measure of a column; NULL after a recorded error. */
