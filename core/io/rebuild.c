@@ -9,6 +9,7 @@
 #include "mesh/nest.h"
 
 #include <math.h>
+#include <stdio.h>
 
 struct rebuild {
     const struct resume *from;
