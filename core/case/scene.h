@@ -284,7 +284,9 @@ struct scene_rigid {
     struct scene_value displacement[SCENE_AXES], angle; /* of t [m, rad]; not given: `velocity` t, none */
     double velocity[SCENE_AXES];
     double pivot[SCENE_AXES]; /* the angle turns it about this point, which moves along; from x to y */
-    double fastest;           /* most that a point of it moves in a second, over the run [m/s] */
+    double reach;             /* farthest that the domain goes from the pivot [m] */
+    double
+        brief; /* so little of time that no run follows what changes in it, a power of two [s]: speeds of what a script moves */
 };
 
 /* A criterion of refinement. All of them are limited by where, levels and time. */
