@@ -242,8 +242,12 @@ struct scene_peak {
 struct scene_map {
     char name[SCENE_NAME];
     unsigned n_point;
-    int axis;                 /* the coordinate that tells places apart, 0..2; -1: the distance from the first */
-    double *place;            /* [n_point] m, ascending along an axis or not */
+    int axis;      /* the coordinate that tells places apart, 0..2; -1: the distance from the first */
+    double *place; /* [n_point] m, ascending along an axis or not */
+    double
+        *second; /* [n_point] m: on a rectangle, the distance along its second side, which varies faster; else NULL */
+    unsigned n_side[2]; /* of a rectangle: places along its sides */
+    double corner[SCENE_AXES], side[2][SCENE_AXES];
     double (*at)[SCENE_AXES]; /* [n_point] points; NULL: of a surface */
     int material;             /* its surface; else -1 */
     double width;             /* of a surface: that part of it counts at a place which lies within half of this */
@@ -283,7 +287,9 @@ struct scene_rigid {
     struct scene_value displacement[SCENE_AXES], angle; /* of t [m, rad]; not given: `velocity` t, none */
     double velocity[SCENE_AXES];
     double pivot[SCENE_AXES]; /* the angle turns it about this point, which moves along; from x to y */
-    double fastest;           /* most that a point of it moves in a second, over the run [m/s] */
+    double reach;             /* farthest that the domain goes from the pivot [m] */
+    double
+        brief; /* so little of time that no run follows what changes in it, a power of two [s]: speeds of what a script moves */
 };
 
 /* A criterion of refinement. All of them are limited by where, levels and time. */
