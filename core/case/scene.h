@@ -117,6 +117,7 @@ struct scene_phase {
     double accommodation, area;    /* of hertz-knudsen [1, 1/m] */
     double tension, superheat;     /* what liquid without vapour bears [Pa, K] */
     double onset;                  /* liquid evaporates where vapour and gases fill this share of the cell */
+    double wet;                    /* vapour condenses where the liquid fills this share of the cell */
     struct saturation_range curve; /* of liquid and vapour */
 };
 
@@ -191,6 +192,7 @@ enum scene_measure {
     SCENE_MIN_BETWEEN,
     SCENE_MAX_BETWEEN,
     SCENE_FORCE,
+    SCENE_EVAPORATED,
     SCENE_VALUE,
 };
 

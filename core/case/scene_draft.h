@@ -99,6 +99,7 @@ void scene_spare(struct draft *draft, const struct node *root);
  * outside), and about what its cells are too coarse for (waves, bubbles). */
 void scene_idle(struct draft *draft, const struct node *root);
 void scene_coarse(struct draft *draft);
+void scene_boil(struct draft *draft);
 
 /* A list of `dim` numbers into ret[3] (rest 0); false after a recorded error. */
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES]);

@@ -127,6 +127,7 @@ static void scene_read_tree(struct draft *draft, struct node *root)
     if (diag_errors(draft->keys.diag)) return;
     scene_idle(draft, root);
     scene_coarse(draft);
+    scene_boil(draft);
     scene_branch_times(draft);
     scene_spare(draft, root);
     scene_read_resolve(draft, root);
