@@ -1,5 +1,5 @@
-/* comm.c - see comm.h. Outside this file MPI is called by mesh/post.c (exchange) and the
- * writer of data sets (io/h5out.c) only. */
+/* comm.c - see comm.h. Outside this file MPI is called by abort.c, mesh/post.c (exchange) and
+ * the writer of data sets (io/h5out.c) only. */
 #include "base/comm.h"
 
 #include "base/launcher.h"
@@ -105,12 +105,6 @@ void comm_near_bcast(void *data, size_t bytes)
 void comm_near_barrier(void)
 {
     comm_meet(comm_near);
-}
-
-void comm_abort(int code)
-{
-    if (comm_is_active && comm_size() > 1) MPI_Abort(MPI_COMM_WORLD, code);
-    exit(code);
 }
 
 static void comm_reduce(void *values, int count, MPI_Datatype type, MPI_Op op)

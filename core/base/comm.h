@@ -37,9 +37,6 @@ void comm_near_barrier(void);
  * neighbours are more than the processors, each wait would last until the system takes it away. */
 void comm_wait(int count, MPI_Request *requests, MPI_Status *ret_statuses);
 
-/* Ends all ranks now with this exit code. */
-void comm_abort(int code) __attribute__((noreturn));
-
 /* In place, over all ranks. */
 void comm_min(double *values, int count);
 void comm_max(double *values, int count);

@@ -192,7 +192,7 @@ static void scene_history_measure(struct draft *draft, struct scene_column *colu
     else if (scene_history_between(column->measure)) scene_history_of(draft, column, value);
     else if (column->measure == SCENE_FORCE) column->rigid = scene_rigid_index(draft, value);
     else if (value->given && scene_formula_is(value)) scene_formula(draft, value, column->name, column->field);
-    else scene_field(draft, value, column->field);
+    else scene_field_name(draft, value, column->field);
 }
 
 /* The one measure of a column; NULL after a recorded error. */

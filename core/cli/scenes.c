@@ -4,6 +4,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "case/scene_read.h"
 #include "cli/human.h"
 #include "io/start.h"
 #include "judge/norm.h"

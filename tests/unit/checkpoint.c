@@ -2,6 +2,7 @@
  * kept until a newer one is whole. With two files as arguments: do they hold the same tiles, fields, time and counts? */
 #include "io/checkpoint.h"
 
+#include "case/scene_read.h"
 #include "io/rebuild.h"
 #include "io/seal.h"
 #include "small.h"
