@@ -383,6 +383,7 @@ struct scene_output {
     bool history_finest;     /* steps of the history are those of the finest level */
     double checkpoints_wall; /* s of wall time between two checkpoints; 0: they do not count */
     int checkpoints_keep;
+    int writers; /* of snapshots and checkpoints; 0: one per machine */
     char (*snapshot_fields)[SCENE_NAME];
     unsigned n_snapshot_field;
     bool snapshot_double; /* float64 instead of float32 */
