@@ -127,6 +127,7 @@ static void scene_build(struct draft *draft, struct node *root)
     scene_idle(draft, root);
     scene_coarse(draft);
     scene_branch_times(draft);
+    scene_damage_bounds(draft);
     scene_spare(draft, root);
     scene_resolve(draft, root);
 }
@@ -265,11 +266,11 @@ static void scene_free_output(struct scene *scene)
 
 struct instance *scene_instance(struct scene *scene, unsigned index)
 {
-    enum { LAWS = 5, SCHEMES = 4, FACES = 2 * SCENE_AXES };
+    enum { LAWS = 6, SCHEMES = 4, FACES = 2 * SCENE_AXES };
     if (index < LAWS * scene->n_material) {
         struct scene_material *material = &scene->material[index / LAWS];
         struct instance *const laws[LAWS] = {&material->eos, &material->constitutive, &material->plastic,
-                                             &material->viscosity, &material->conductivity};
+                                             &material->viscosity, &material->conductivity, &material->damage.law};
         return laws[index % LAWS];
     }
     index -= LAWS * scene->n_material;

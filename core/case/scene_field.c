@@ -84,6 +84,9 @@ enum { SCENE_FIELD_PLASTIC = sizeof scene_field_plastic / sizeof *scene_field_pl
 /* In scenes where a solid has Maxwell branches. */
 static const struct scene_field scene_field_branched = {"overstress", "Pa", SCENE_FIELD_VANISHING};
 
+/* In scenes where a solid can break. */
+static const struct scene_field scene_field_breaking = {"damage", "1", SCENE_FIELD_FRACTION};
+
 /* In scenes with rigid bodies. */
 static const struct scene_field scene_field_body = {"body", "1", SCENE_FIELD_FRACTION};
 
@@ -201,7 +204,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
     unsigned count = SCENE_FIELD_PLAIN, most = count + SCENE_FIELD_SOLID + SCENE_FIELD_PLASTIC + SCENE_FIELD_VISCOUS +
-                                               2 + (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR) * scene->n_material;
+                                               3 + (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR) * scene->n_material;
     most += scene->n_derived * BULLA_FIELD_OUTPUTS;
     most += 4 * scene->output.n_peak;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
@@ -212,6 +215,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     }
     for (unsigned i = 0; i < scene_material_strength(draft); i++) list[count++] = scene_field_plastic[i];
     if (scene_material_branched(draft)) list[count++] = scene_field_branched;
+    if (scene_material_breaks(draft)) list[count++] = scene_field_breaking;
     if (keys_at(draft->root, "bodies")->count) list[count++] = scene_field_body;
     for (unsigned i = 0; scene_material_viscous(draft) && i < SCENE_FIELD_VISCOUS; i++)
         list[count++] = scene_field_viscous[i];

@@ -30,6 +30,7 @@ struct operator_tile {
     double dt; /* that it has gone through since the step began [s] */
     double *u; /* conserved fields, which it may change */
     double *w; /* primitives of u, for operators that ask for them; core makes them anew afterwards */
+    double *grown; /* [n_cell] what plastic strains have grown by in this step: from plastic.c to rupture.c; or NULL */
 };
 
 struct operator
