@@ -87,6 +87,7 @@ static void scene_fill(struct draft *draft)
     scene_boundary(draft);
     scene_tension(draft);
     scene_phase(draft);
+    scene_damage_voids(draft);
     scene_initial(draft);
     scene_rigid(draft);
     scene_diffusion(draft);
@@ -127,7 +128,7 @@ static void scene_build(struct draft *draft, struct node *root)
     scene_idle(draft, root);
     scene_coarse(draft);
     scene_branch_times(draft);
-    scene_damage_bounds(draft);
+    scene_damage_times(draft);
     scene_spare(draft, root);
     scene_resolve(draft, root);
 }

@@ -160,15 +160,28 @@ static void scene_damage_time(struct draft *draft, struct scene_material *materi
                   time->path, time->number / crossing, crossing);
 }
 
-void scene_damage_bounds(struct draft *draft)
+/* The damage section of material l, if it has a good one. */
+static const struct keys_map *scene_damage_map(const struct draft *draft, unsigned l)
 {
-    const struct keys_value *materials = keys_at(draft->root, "materials");
+    const struct keys_value *entry = &keys_at(draft->root, "materials")->list[l];
+    return draft->scene->material[l].damage.law.module ? keys_at(entry->map, "damage")->map : NULL;
+}
+
+void scene_damage_voids(struct draft *draft)
+{
     for (unsigned l = 0; l < draft->scene->n_material; l++) {
-        struct scene_material *material = &draft->scene->material[l];
-        const struct keys_map *map = keys_at(materials->list[l].map, "damage")->map;
-        if (!map || !material->damage.law.module) continue;
+        const struct keys_map *map = scene_damage_map(draft, l);
+        if (!map) continue;
         scene_damage_opens(draft, l, map);
         scene_damage_idle(draft, map);
-        if (material->eos.module && material->constitutive.module) scene_damage_time(draft, material, map);
+    }
+}
+
+void scene_damage_times(struct draft *draft)
+{
+    for (unsigned l = 0; l < draft->scene->n_material; l++) {
+        struct scene_material *material = &draft->scene->material[l];
+        const struct keys_map *map = scene_damage_map(draft, l);
+        if (map && material->eos.module && material->constitutive.module) scene_damage_time(draft, material, map);
     }
 }

@@ -116,8 +116,9 @@ bool scene_material_breaks(const struct draft *draft);
 void scene_damage(struct draft *draft, const struct keys_map *entry, struct scene_material *material);
 extern const struct keys_section scene_damage_keys;
 
-/* How fast solids may break and what fills their voids: once all materials, mesh and scheme are known. */
-void scene_damage_bounds(struct draft *draft);
+/* What fills the voids of solids, once all materials are known; how fast they may break, once the mesh is. */
+void scene_damage_voids(struct draft *draft);
+void scene_damage_times(struct draft *draft);
 
 /* Has any material a Maxwell branch? */
 bool scene_material_branched(const struct draft *draft);

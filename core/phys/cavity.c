@@ -94,6 +94,7 @@ static void cavity_give(const struct cavity *cavity, double a)
     for (unsigned k = 0; k < model->n_memory; k++)
         if (&model->solids[model->memories[k].solid] == cavity->solid)
             cavity->u[model->memories[k].field * stride] *= kept;
+    cavity->u[damage->field * stride] = cavity->u[(model->i_m + l) * stride];
 }
 
 /* Is solid s of a cell broken, and in tension? */
@@ -102,7 +103,7 @@ static bool cavity_wants(const struct model *model, const struct model_solid *so
 {
     double m = u[(model->i_m + solid->material) * stride];
     if (!(w[model->i_E * stride] < 0.0) || !(u[(model->i_alpha + solid->material) * stride] > CAVITY_FELT)) return false;
-    return m > ELASTIC_NOTHING && u[solid->damage.field * stride] >= m * (1.0 - 1e-12);
+    return m > ELASTIC_NOTHING && u[solid->damage.field * stride] >= m;
 }
 
 static void cavity_cell(const struct model *model, const struct model_solid *solid, size_t stride, double *u)

@@ -96,9 +96,8 @@ static BULLA_KERNEL void damage_step(size_t n, double dt, double fastest, const 
         double mass = m[i], was = amount[i], here = D[i], to = aim[i], r = rate[i];
         r = r < fastest ? r : fastest;
         double most = here + dt * r, then = to < most ? to : most;
-        then = then > 1.0 - DAMAGE_WHOLE ? 1.0 : then;
         double now = then > here ? then * mass : was;
-        now = now < mass ? now : mass;
+        now = now < (1.0 - DAMAGE_NEARLY) * mass ? now : mass;
         amount[i] = mass > ELASTIC_NOTHING ? now : was;
     }
 }
@@ -128,41 +127,19 @@ static void damage_batch(const struct model *model, unsigned s, size_t n, size_t
                 u + damage->field * stride);
 }
 
-/* The part of a cell that bears stretch k, of solids that carry it. */
-static double damage_bears(const struct model *model, unsigned k, size_t stride, const double *u)
+/* Does no solid of a cell bear stretch k any more, though one has? */
+static bool damage_gone(const struct model *model, unsigned k, size_t stride, const double *u)
 {
-    double sum = 0.0;
-    for (unsigned s = 0; s < model->n_solid; s++) {
-        const struct model_solid *solid = &model->solids[s];
-        double m = u[(model->i_m + solid->material) * stride], part = 1.0;
-        if (!model_carries(model, k, s)) continue;
-        if (solid->damage.law && m > ELASTIC_NOTHING) part = bearing_part(u[solid->damage.field * stride] / m);
-        sum += part * (model->n_alpha ? u[(model->i_alpha + solid->material) * stride] : 1.0);
-    }
-    return sum;
-}
-
-/* Is a cell so broken that its stretches may fade? */
-static bool damage_gone(const struct model *model, size_t stride, const double *u)
-{
-    bool gone = false;
+    bool broken = false, bears = false;
     for (unsigned s = 0; s < model->n_solid; s++) {
         const struct model_solid *solid = &model->solids[s];
         double m = u[(model->i_m + solid->material) * stride];
-        if (solid->damage.law && m > ELASTIC_NOTHING)
-            gone = gone || bearing_part(u[solid->damage.field * stride] / m) < ELASTIC_FADE;
+        if (!model_carries(model, k, s) || !(m > ELASTIC_NOTHING)) continue;
+        bool gone = solid->damage.law && u[solid->damage.field * stride] >= m;
+        broken = broken || gone;
+        bears = bears || !gone;
     }
-    return gone;
-}
-
-static void damage_fade(const struct model *model, size_t stride, double *u)
-{
-    for (unsigned k = 0; k < model_stretches(model); k++) {
-        double part = damage_bears(model, k, stride, u), *V = u + model_stretch(model, k) * stride;
-        if (!(part < ELASTIC_FADE)) continue;
-        elastic_fade(model, 1, stride, &part, V);
-        elastic_unimodular(model, 1, stride, V);
-    }
+    return broken && !bears;
 }
 
 void damage_grow(const struct model *model, size_t n, size_t stride, double dt, const double *w, const double *grown,
@@ -173,6 +150,8 @@ void damage_grow(const struct model *model, size_t n, size_t stride, double dt, 
             if (model->solids[s].damage.law)
                 damage_batch(model, s, n - from < DAMAGE_BATCH ? n - from : DAMAGE_BATCH, stride, dt, w + from,
                              grown ? grown + from : NULL, u + from);
-    for (size_t i = 0; i < n; i++)
-        if (damage_gone(model, stride, u + i)) damage_fade(model, stride, u + i);
+    for (unsigned k = 0; k < model_stretches(model); k++)
+        for (size_t i = 0; i < n; i++)
+            if (damage_gone(model, k, stride, u + i))
+                elastic_identity(model, 1, stride, u + i + model_stretch(model, k) * stride);
 }

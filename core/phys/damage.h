@@ -3,7 +3,7 @@
  * D goes towards the aim of the law (bulla/damage.h) at its rate, at most 1/time: D <- D + min(aim - D, dt min(rate, 1/time)), and
  * never back. The elastic energy of the solid is (1 - D)^2 of what it would be (bearing.h); what D frees of it is heat, as
  * total energy stays. A broken solid, D = 1, bears no shear: it is a fluid of its equation of state, which still bears
- * tension, and its stretch means nothing: where (1 - D)^2 of a cell is less than ELASTIC_FADE the stretch fades to 1. */
+ * tension, and its stretch means nothing: where nothing else carries it, it is 1. */
 #ifndef DAMAGE_H
 #define DAMAGE_H
 
@@ -11,8 +11,8 @@
 
 #include <stddef.h>
 
-/* Damage nearer to 1 than this is 1. */
-#define DAMAGE_WHOLE 1e-9
+/* Damage nearer to 1 than this is 1: a millionth of the stress does not matter. */
+#define DAMAGE_NEARLY 1e-3
 
 /* n points after dt. w: their primitives, u: conserved fields; grown: what the plastic strain has grown by in dt, NULL where
  * no solid of the path flows. Points at which nothing breaks keep their bits. */

@@ -50,9 +50,8 @@ BULLA_KERNEL static inline void criterion_ramp_grow(const struct criterion_ramp 
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double part = (load[i] - begins) * per_range;
-        part = part < 1.0 ? part : 1.0;
-        part = part > 0.0 ? part : 0.0;
-        aim[i] = part;
+        part = part > 0.0 ? part : 0.0; /* 0 for a NaN, too */
+        aim[i] = part < 1.0 ? part : 1.0;
         rate[i] = BULLA_DAMAGE_AT_ONCE;
     }
 }

@@ -214,7 +214,7 @@ static void advance(const struct model *model, void (*motion)(double, double[3][
     u[model->i_inner] *= scale;
     w[0] = RHO0; /* at which heat is counted */
     double before = energy_of(model, u);
-    flow_return(model, 1, 1, dt, w, u);
+    flow_return(model, 1, 1, dt, w, u, NULL);
     w[model->i_E] += before - energy_of(model, u);
 }
 
@@ -341,10 +341,10 @@ static void test_overshoot(void **state)
                 memcpy(before, u, sizeof before);
                 double q = equivalent(&model, u), W = energy_of(&model, u);
                 yield = 1.01 * q;
-                flow_return(&model, 1, 1, 1e-6, w, u);
+                flow_return(&model, 1, 1, 1e-6, w, u, NULL);
                 assert_memory_equal(u, before, sizeof u);
                 yield = q / over;
-                flow_return(&model, 1, 1, 1e-6, w, u);
+                flow_return(&model, 1, 1, 1e-6, w, u, NULL);
                 assert_true(fabs(equivalent(&model, u) / yield - 1.0) < 2e-10);
                 double C[6] = {0}, A[6] = {0};
                 square(&model, before + model.i_V, A);
@@ -359,7 +359,7 @@ static void test_overshoot(void **state)
                 double part = work / (0.5 * (q + yield) * grown), far = (over - 1.0) / over;
                 assert_true(fabs(part - 1.0) < 0.5 * far * far + 1e-6);
                 memcpy(before, u, sizeof before);
-                flow_return(&model, 1, 1, 1e-6, w, u); /* once is enough */
+                flow_return(&model, 1, 1, 1e-6, w, u, NULL); /* once is enough */
                 assert_memory_equal(u, before, sizeof u);
             }
 }
@@ -389,7 +389,7 @@ static void test_beside_elastic(void **state)
         u[6] = 1.5;
         u[7] = u[8] = 1.0 / sqrt(1.5);
         q0 = 1e6 * (u[6] * u[6] - u[7] * u[7]);
-        flow_return(&model, 1, 1, 1e-6, w, u);
+        flow_return(&model, 1, 1, 1e-6, w, u, NULL);
         q = 1e6 * (u[6] * u[6] - u[7] * u[7]);
         assert_true(fabs(q - (share * yield + (1.0 - share) * q0)) < 1e-9 * q0);
     }
@@ -407,10 +407,10 @@ static void test_ends(void **state)
     u[model.i_V + 3] = 0.001;
     elastic_unimodular(&model, 1, 1, u + model.i_V);
     double q = equivalent(&model, u);
-    flow_return(&model, 1, 1, 1e-6, w, u);
+    flow_return(&model, 1, 1, 1e-6, w, u, NULL);
     assert_true(equivalent(&model, u) < 2e-6 * q);
     u[model.i_V] = NAN;
-    flow_return(&model, 1, 1, 1e-6, w, u);
+    flow_return(&model, 1, 1, 1e-6, w, u, NULL);
     assert_true(isnan(u[model.i_V]));
 }
 

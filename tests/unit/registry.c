@@ -48,6 +48,12 @@ static const char *const builtin[][2] = {
     {"constitutive", "gent"},
     {"constitutive", "mooney-rivlin"},
     {"constitutive", "neo-hookean"},
+    {"damage", "energy"},
+    {"damage", "johnson-cook"},
+    {"damage", "strain"},
+    {"damage", "stretch"},
+    {"damage", "tension"},
+    {"damage", "tuler-butcher"},
     {"eos", "cochran-chan"},
     {"eos", "helmholtz-air"},
     {"eos", "iapws95"},
@@ -155,8 +161,8 @@ static const struct refusal refusals[] = {
     {"null_slot", "has no function 'slope', which kind limiter needs"},
     {"new_flags", "has the flags 0x4; this program knows 0x3"},
     {"null_edges", "has no function 'edges', which BULLA_TWO_SIDED needs"},
-    {"unknown_kind", "unknown kind 'weather'; kinds are boundary, conductivity, constitutive, eos, field, inelastic, "
-                     "limiter, reconstruction, riemann, viscosity"},
+    {"unknown_kind", "unknown kind 'weather'; kinds are boundary, conductivity, constitutive, damage, eos, field, "
+                     "inelastic, limiter, reconstruction, riemann, viscosity"},
     {"bad_name", "'Bad_Name'; names are lower case with hyphens"},
     {"no_doc", "lacks its doc"},
     {"param_twice", "parameter 'strength' twice"},
