@@ -22,12 +22,14 @@ static const struct key scene_damage_rows[] = {
      .type = KEYS_NUMBER,
      .unit = "s",
      .max = KEYS_MOST,
-     .doc = "Time in which it breaks at the fastest; that in which a wave crosses 5 cells of the finest level if not given. 0: "
+     .doc = "Time in which it breaks at the fastest; that in which a wave crosses 5 cells of the finest level if not "
+            "given. 0: "
             "at once, at the mesh's whim."},
     {.name = "opens",
      .type = KEYS_TEXT,
-     .doc = "A gas of the scene that fills the void which opens where the broken solid is in tension; without it a broken "
-            "solid is a fluid that still bears tension."},
+     .doc =
+         "A gas of the scene that fills the void which opens where the broken solid is in tension; without it a broken "
+         "solid is a fluid that still bears tension."},
     {.name = "void-pressure",
      .type = KEYS_NUMBER,
      .unit = "Pa",
@@ -55,11 +57,13 @@ static void scene_damage_fits(struct draft *draft, const struct keys_value *valu
 {
     const struct instance *law = &material->damage.law, *plastic = &material->plastic;
     unsigned needs = ((const struct bulla_damage *)law->module->table)->needs(law->self);
-    unsigned strong = plastic->module ? ((const struct bulla_inelastic *)plastic->module->table)->needs(plastic->self) : 0;
+    unsigned strong =
+        plastic->module ? ((const struct bulla_inelastic *)plastic->module->table)->needs(plastic->self) : 0;
     if (needs & (BULLA_DAMAGE_STRAIN | BULLA_DAMAGE_RATE) && !plastic->module) {
-        keys_error(&draft->keys, value, "'%s' looks at plastic strain, and '%s' has no 'plastic' law", law->module->name,
-                   material->name);
-        diag_help(draft->keys.diag, "plastic: {type: von-mises, yield: ..., strain: always}, or a criterion of stress or stretch");
+        keys_error(&draft->keys, value, "'%s' looks at plastic strain, and '%s' has no 'plastic' law",
+                   law->module->name, material->name);
+        diag_help(draft->keys.diag,
+                  "plastic: {type: von-mises, yield: ..., strain: always}, or a criterion of stress or stretch");
     } else if (needs & BULLA_DAMAGE_STRAIN && !(strong & BULLA_INELASTIC_STRAIN)) {
         keys_error(&draft->keys, value, "'%s' looks at plastic strain, which the strength of '%s' does not keep",
                    law->module->name, material->name);
@@ -74,8 +78,9 @@ void scene_damage(struct draft *draft, const struct keys_map *entry, struct scen
     if (!value->node) return;
     if (!keys_at(entry, "constitutive")->node) {
         keys_error(&draft->keys, value, "'%s' is a fluid: what breaks has an elastic law", material->name);
-        diag_help(draft->keys.diag, "constitutive: {type: neo-hookean, shear-modulus: ..., reference-density: ...}; for a "
-                                    "liquid that cavitates, 'phase-change'");
+        diag_help(draft->keys.diag,
+                  "constitutive: {type: neo-hookean, shear-modulus: ..., reference-density: ...}; for a "
+                  "liquid that cavitates, 'phase-change'");
         return;
     }
     scene_material_open(draft, value, &material->damage.law);
@@ -92,8 +97,8 @@ static bool scene_damage_gas(struct draft *draft, const struct keys_value *opens
     law->density(gas->eos.self, 1, &p, &T, &damage->density);
     law->state(gas->eos.self, 1, &damage->density, &p, &rho_e, &rho_c2);
     if (damage->density > 0.0 && rho_c2 > 0.0 && rho_c2 < SCENE_DAMAGE_GAS * p) return true;
-    keys_error(&draft->keys, opens, "'%s' is no gas: at %g Pa and %g K it has %.4g kg/m3 and rho c^2 = %.4g Pa", gas->name,
-               p, T, damage->density, rho_c2);
+    keys_error(&draft->keys, opens, "'%s' is no gas: at %g Pa and %g K it has %.4g kg/m3 and rho c^2 = %.4g Pa",
+               gas->name, p, T, damage->density, rho_c2);
     diag_help(draft->keys.diag, "a material such as vapour: {eos: {type: ideal-gas, gamma: 1.33, cv: 1400 J/kg/K}}");
     return false;
 }
@@ -113,8 +118,7 @@ static void scene_damage_opens(struct draft *draft, unsigned l, const struct key
     const struct keys_value *p = keys_at(map, "void-pressure"), *T = keys_at(map, "void-temperature");
     damage->pressure = p->given ? p->number : SCENE_DAMAGE_PRESSURE;
     damage->gas = (unsigned)gas;
-    damage->opens =
-        scene_damage_gas(draft, opens, filling, damage, T->given ? T->number : SCENE_DAMAGE_TEMPERATURE);
+    damage->opens = scene_damage_gas(draft, opens, filling, damage, T->given ? T->number : SCENE_DAMAGE_TEMPERATURE);
 }
 
 /* Keys of a void that never opens. */
@@ -155,9 +159,10 @@ static void scene_damage_time(struct draft *draft, struct scene_material *materi
     double crossing = scene_damage_crossing(draft->scene, material), least = SCENE_DAMAGE_CELLS * crossing;
     material->damage.time = time->given ? time->number : least;
     if (time->given && time->number < 0.99 * least)
-        diag_warn(draft->keys.diag, &time->node->mark,
-                  "%s: a wave crosses %.2g cells meanwhile (%.3g s each): where and how much breaks depends on the mesh",
-                  time->path, time->number / crossing, crossing);
+        diag_warn(
+            draft->keys.diag, &time->node->mark,
+            "%s: a wave crosses %.2g cells meanwhile (%.3g s each): where and how much breaks depends on the mesh",
+            time->path, time->number / crossing, crossing);
 }
 
 /* The damage section of material l, if it has a good one. */

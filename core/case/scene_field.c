@@ -161,6 +161,15 @@ static bool scene_field_miss_strength(struct draft *draft, const struct keys_val
     return true;
 }
 
+/* A field of damage in a scene where nothing can break. */
+static bool scene_field_miss_damage(struct draft *draft, const struct keys_value *value)
+{
+    if (strcmp(value->text, scene_field_breaking.name) != 0) return false;
+    keys_error(&draft->keys, value, "'%s' is a field of solids that can break, and no material has a 'damage' law",
+               value->text);
+    return true;
+}
+
 bool scene_field_is_vector(const char *name)
 {
     for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++)
@@ -238,11 +247,12 @@ const struct scene_field *scene_field_all(struct draft *draft)
 const char *const *scene_field_always(struct forest *forest)
 {
     enum { SOLID = SCENE_FIELD_PLAIN, PLASTIC = SOLID + SCENE_FIELD_SOLID };
-    enum { VISCOUS = PLASTIC + SCENE_FIELD_PLASTIC, ALL = VISCOUS + SCENE_FIELD_VISCOUS + 2 };
+    enum { VISCOUS = PLASTIC + SCENE_FIELD_PLASTIC, ALL = VISCOUS + SCENE_FIELD_VISCOUS + 3 };
     const char **names = tree_take(forest, (ALL + 1) * sizeof *names);
     for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++) names[i] = scene_field_plain[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++) names[SOLID + i] = scene_field_solid[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_PLASTIC; i++) names[PLASTIC + i] = scene_field_plastic[i].name;
+    names[ALL - 3] = scene_field_breaking.name;
     names[ALL - 2] = scene_field_branched.name;
     names[ALL - 1] = scene_field_body.name;
     for (unsigned i = 0; i < SCENE_FIELD_VISCOUS; i++) names[VISCOUS + i] = scene_field_viscous[i].name;
@@ -318,6 +328,7 @@ bool scene_field(struct draft *draft, const struct keys_value *value, char ret_n
         return true;
     }
     if (scene_field_miss_strength(draft, value) || scene_field_miss_viscosity(draft, value)) return false;
+    if (scene_field_miss_damage(draft, value)) return false;
     if (scene_field_is_solid(value->text)) {
         keys_error(&draft->keys, value, "'%s' is a field of solids, and no material has a 'constitutive' law",
                    value->text);

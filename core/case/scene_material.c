@@ -86,7 +86,8 @@ static const struct key scene_material_rows[] = {
     {.name = "damage",
      .type = KEYS_SECTION,
      .section = &scene_damage_keys,
-     .doc = "How a solid breaks: its elastic energy falls to (1 - D)^2 as its damage D goes from 0 to 1. Without it the solid "
+     .doc = "How a solid breaks: its elastic energy falls to (1 - D)^2 as its damage D goes from 0 to 1. Without it "
+            "the solid "
             "never does."},
     {.name = "viscosity",
      .type = KEYS_SECTION,
@@ -265,8 +266,8 @@ void scene_material_warm(struct draft *draft, const struct keys_value *asking, c
     if (!material->eos.module || !eos->map) return;
     int row = instance_param_find(material->eos.module, "cv");
     if (row < 0 || isnan(material->eos.module->params[row].fallback) || scene_material_says(eos, "cv")) return;
-    keys_error(&draft->keys, asking, "'%s' looks at temperatures, and nothing is said of the specific heat of '%s'", what,
-               material->name);
+    keys_error(&draft->keys, asking, "'%s' looks at temperatures, and nothing is said of the specific heat of '%s'",
+               what, material->name);
     diag_help(draft->keys.diag, "give 'cv' in its 'eos', or set 'melting-temperature: 0' where the law has that key");
 }
 

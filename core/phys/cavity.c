@@ -102,7 +102,8 @@ static bool cavity_wants(const struct model *model, const struct model_solid *so
                          const double *u)
 {
     double m = u[(model->i_m + solid->material) * stride];
-    if (!(w[model->i_E * stride] < 0.0) || !(u[(model->i_alpha + solid->material) * stride] > CAVITY_FELT)) return false;
+    if (!(w[model->i_E * stride] < 0.0) || !(u[(model->i_alpha + solid->material) * stride] > CAVITY_FELT))
+        return false;
     return m > ELASTIC_NOTHING && u[solid->damage.field * stride] >= m;
 }
 

@@ -10,7 +10,17 @@
 #include <math.h>
 #include <string.h>
 
-enum damage_row { ROW_DAMAGE, ROW_TENSION, ROW_PRINCIPAL, ROW_STRETCH, ROW_ENERGY, ROW_MISES, ROW_STRAIN, ROW_RATE, ROW_WARM };
+enum damage_row {
+    ROW_DAMAGE,
+    ROW_TENSION,
+    ROW_PRINCIPAL,
+    ROW_STRETCH,
+    ROW_ENERGY,
+    ROW_MISES,
+    ROW_STRAIN,
+    ROW_RATE,
+    ROW_WARM
+};
 
 static const double damage_zero[DAMAGE_BATCH];
 
@@ -116,7 +126,7 @@ static void damage_batch(const struct model *model, unsigned s, size_t n, size_t
     const struct model_damage *damage = &model->solids[s].damage;
     const double *m = u + (model->i_m + model->solids[s].material) * stride;
     double rows[DAMAGE_ROWS][DAMAGE_BATCH], aim[DAMAGE_BATCH], rate[DAMAGE_BATCH];
-    const struct bulla_damage_state state = {sizeof state,       rows[ROW_DAMAGE], rows[ROW_TENSION],
+    const struct bulla_damage_state state = {sizeof state,        rows[ROW_DAMAGE],  rows[ROW_TENSION],
                                              rows[ROW_PRINCIPAL], rows[ROW_STRETCH], rows[ROW_ENERGY],
                                              rows[ROW_MISES],     rows[ROW_STRAIN],  rows[ROW_RATE],
                                              rows[ROW_WARM]};

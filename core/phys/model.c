@@ -80,10 +80,9 @@ static void model_name_derived(struct model *model)
     size_t n_solid = model->elastic ? sizeof solid / sizeof *solid : 0;
     size_t n_plastic = model->aged ? 2 : model->plastic ? 1 : 0, n_branched = model->n_branch > 0;
     size_t n_derived = (size_t)model->scene->n_derived * BULLA_FIELD_OUTPUTS, n_rigid = model->scene->n_rigid > 0;
-    model->names =
-        mem_new(n_plain + n_solid + n_plastic + model->damaged + n_branched + n_rigid +
-                    (n_each + 4) * model->n_material + n_derived + 1,
-                sizeof *model->names);
+    model->names = mem_new(n_plain + n_solid + n_plastic + model->damaged + n_branched + n_rigid +
+                               (n_each + 4) * model->n_material + n_derived + 1,
+                           sizeof *model->names);
     for (size_t i = 0; i < n_plain; i++) model->names[at++] = mem_text(plain[i]);
     for (size_t i = 0; i < n_solid; i++) model->names[at++] = mem_text(solid[i]);
     for (size_t i = 0; i < n_plastic; i++) model->names[at++] = mem_text(plastic[i]);

@@ -47,12 +47,12 @@ struct model_solid {
     struct model_damage {
         const struct bulla_damage *law; /* NULL: it never breaks */
         const void *self;
-        unsigned field;  /* of m D */
-        unsigned needs;  /* enum bulla_damage_needs */
-        double time;     /* in which it breaks at the fastest [s]; 0: at once */
-        bool opens;      /* where it breaks in tension, a void opens */
-        unsigned gas;    /* that fills it: a material of the same model */
-        double p, rho;   /* pressure and density of the gas in a new void [Pa, kg/m3] */
+        unsigned field; /* of m D */
+        unsigned needs; /* enum bulla_damage_needs */
+        double time;    /* in which it breaks at the fastest [s]; 0: at once */
+        bool opens;     /* where it breaks in tension, a void opens */
+        unsigned gas;   /* that fills it: a material of the same model */
+        double p, rho;  /* pressure and density of the gas in a new void [Pa, kg/m3] */
     } damage;
 };
 

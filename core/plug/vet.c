@@ -303,7 +303,8 @@ static const struct vet_kind vet_kinds[] = {
      {VET_SLOT(bulla_damage, grow), VET_SLOT(bulla_damage, needs)},
      NULL,
      vet_try_damage,
-     "gives no aims from 0 to 1 and rates from 0 of a solid at rest and of one that is pulled, or needs what core does not know",
+     "gives no aims from 0 to 1 and rates from 0 of a solid at rest and of one that is pulled, or needs what core does "
+     "not know",
      VET_OF_MATERIAL("damage")},
     {"eos",
      offsetof(struct bulla_eos, energy), /* what came later is optional */

@@ -130,7 +130,8 @@ bool vet_try_damage(const void *table, const void *self)
     enum { N = 3 };
     const double damage[N] = {0.0, 0.1, 1.0}, stress[N] = {-1e5, 1e9, 0.0}, stretch[N] = {1.0, 2.0, 1.0};
     const double rows[N] = {0.0, 1e6, 0.0}, strain[N] = {0.0, 1.0, 2.0}, T[N] = {300.0, 600.0, 300.0};
-    const struct bulla_damage_state state = {sizeof state, damage, stress, stress, stretch, rows, rows, strain, rows, T};
+    const struct bulla_damage_state state = {sizeof state, damage, stress, stress, stretch,
+                                             rows,         rows,   strain, rows,   T};
     double aim[N] = {(double)NAN, (double)NAN, (double)NAN}, rate[N] = {(double)NAN, (double)NAN, (double)NAN};
     bool good = true;
     if (law->needs(self) & ~(uint32_t)BULLA_DAMAGE_ALL) return false;

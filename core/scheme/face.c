@@ -27,9 +27,9 @@ struct face_own {
     double *give;                 /* of the mixture at the edges, where Wood's speed is asked for; else NULL */
     double *origin, *strain;      /* of the face state: pressure of the side it comes from, compression since */
     double *lagged;               /* one material's pressure at the edges, with surface tension */
-    double *bears;                /* [n_material] m of the solids that can break, as far as it bears; NULL without any */
-    double *zero;                 /* stands in for the velocities of unused axes */
-    double *robust;               /* fluxes of the robust solver, same order as the block behind face_work.alpha */
+    double *bears;  /* [n_material] m of the solids that can break, as far as it bears; NULL without any */
+    double *zero;   /* stands in for the velocities of unused axes */
+    double *robust; /* fluxes of the robust solver, same order as the block behind face_work.alpha */
     const double *side_u[2][3], *side_m[2][SCENE_MATERIALS], *side_alpha[2][SCENE_MATERIALS];
     double *flux_m[SCENE_MATERIALS], *flux_u[3], *flux_alpha[SCENE_MATERIALS];
     double *robust_m[SCENE_MATERIALS], *robust_u[3], *robust_alpha[SCENE_MATERIALS];

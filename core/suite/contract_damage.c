@@ -15,13 +15,13 @@
 enum { DAMAGE_STATES = 4000, DAMAGE_INPUTS = 9, DAMAGE_LOADS = 6 };
 
 /* In the order of bulla_damage_state. */
-static const char *const contract_damage_names[DAMAGE_INPUTS] = {
-    "D", "tension", "principal", "stretch", "energy", "mises", "strain", "rate", "T"};
+static const char *const contract_damage_names[DAMAGE_INPUTS] = {"D",     "tension", "principal", "stretch", "energy",
+                                                                 "mises", "strain",  "rate",      "T"};
 
 static struct bulla_damage_state contract_damage_rows(const double *const in[DAMAGE_INPUTS])
 {
-    return (struct bulla_damage_state){sizeof(struct bulla_damage_state),
-                                       in[0], in[1], in[2], in[3], in[4], in[5], in[6], in[7], in[8]};
+    return (struct bulla_damage_state){
+        sizeof(struct bulla_damage_state), in[0], in[1], in[2], in[3], in[4], in[5], in[6], in[7], in[8]};
 }
 
 struct contract_damage_answer {

@@ -14,7 +14,7 @@ static int energy_open(const struct bulla_host *host, const struct bulla_value *
 }
 
 static void energy_grow(const void *self, size_t n, const struct bulla_damage_state *state, double *BULLA_RESTRICT aim,
-                     double *BULLA_RESTRICT rate)
+                        double *BULLA_RESTRICT rate)
 {
     criterion_ramp_grow(self, n, state->energy, aim, rate);
 }
@@ -26,8 +26,8 @@ static uint32_t energy_needs(const void *self)
 }
 
 static const struct bulla_damage energy_table = {.size = sizeof(struct bulla_damage),
-                                               .grow = energy_grow,
-                                               .needs = energy_needs};
+                                                 .grow = energy_grow,
+                                                 .needs = energy_needs};
 
 BULLA_EXPORT const struct bulla_module bulla_module = {
     .magic = BULLA_MAGIC,
@@ -36,7 +36,8 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .kind = "damage",
     .name = "energy",
     .version = "1.0",
-    .doc = "Breaks with the elastic energy per volume, tension or not. A fracture energy per area, as Griffith asks for, needs a length: what breaks then depends on the mesh.",
+    .doc = "Breaks with the elastic energy per volume, tension or not. A fracture energy per area, as Griffith asks "
+           "for, needs a length: what breaks then depends on the mesh.",
     .cite = "Griffith, Phil. Trans. R. Soc. A 221 (1921) 163-198; Volokh, J. Mech. Phys. Solids 55 (2007) 2237-2264",
     .params = energy_params,
     .open = energy_open,

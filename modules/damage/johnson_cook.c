@@ -39,8 +39,8 @@ static double johnson_cook_strain(const double *par, double tension, double mise
     double s = mises > 0.0 ? mean / mises : 0.0, warm = 0.0;
     if (par[MELT] > 0.0) warm = (T - par[ROOM]) / (par[MELT] - par[ROOM]);
     warm = warm < 0.0 ? 0.0 : warm > 1.0 ? 1.0 : warm;
-    double eps = (par[D1] + par[D2] * exp(par[D3] * s)) * (1.0 + par[D4] * log1p(rate / par[RATE])) *
-                 (1.0 + par[D5] * warm);
+    double eps =
+        (par[D1] + par[D2] * exp(par[D3] * s)) * (1.0 + par[D4] * log1p(rate / par[RATE])) * (1.0 + par[D5] * warm);
     return eps < par[LEAST] ? par[LEAST] : eps;
 }
 
@@ -49,8 +49,8 @@ static void johnson_cook_grow(const void *self, size_t n, const struct bulla_dam
 {
     const double *par = self;
     for (size_t i = 0; i < n; i++) {
-        double r = state->rate[i] / johnson_cook_strain(par, state->tension[i], state->mises[i], state->rate[i],
-                                                        state->temperature[i]);
+        double r = state->rate[i] /
+                   johnson_cook_strain(par, state->tension[i], state->mises[i], state->rate[i], state->temperature[i]);
         aim[i] = 1.0;
         rate[i] = !(r > 0.0) ? 0.0 : r < BULLA_DAMAGE_AT_ONCE ? r : BULLA_DAMAGE_AT_ONCE;
     }
@@ -79,7 +79,8 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .kind = "damage",
     .name = "johnson-cook",
     .version = "1.0",
-    .doc = "Breaks by plastic strain, the sooner the more tension, the colder and the slower. For ductile metals with a strength "
+    .doc = "Breaks by plastic strain, the sooner the more tension, the colder and the slower. For ductile metals with "
+           "a strength "
            "that is one of the same deck.",
     .cite = "Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31-48, eq. 3 and table 1",
     .params = johnson_cook_params,

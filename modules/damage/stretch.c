@@ -9,12 +9,13 @@ static const struct bulla_param stretch_params[] = {
     {0}};
 
 /* exp of the true strain at rupture; slow tests, up to 1 1/s. */
-static const struct bulla_preset stretch_presets[] = {
-    {"liver", "liver, 0.38", (const double[]){1.46, 0.0}},
-    {"gall-bladder", "gall bladder, 0.43", (const double[]){1.54, 0.0}},
-    {"hepatic-artery", "hepatic artery, 0.63", (const double[]){1.88, 0.0}},
-    {"stomach", "stomach, 0.66", (const double[]){1.93, 0.0}},
-    {0}};
+static const struct bulla_preset stretch_presets[] = {{"liver", "liver, 0.38", (const double[]){1.46, 0.0}},
+                                                      {"gall-bladder", "gall bladder, 0.43",
+                                                       (const double[]){1.54, 0.0}},
+                                                      {"hepatic-artery", "hepatic artery, 0.63",
+                                                       (const double[]){1.88, 0.0}},
+                                                      {"stomach", "stomach, 0.66", (const double[]){1.93, 0.0}},
+                                                      {0}};
 
 static int stretch_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
 {
@@ -22,7 +23,7 @@ static int stretch_open(const struct bulla_host *host, const struct bulla_value 
 }
 
 static void stretch_grow(const void *self, size_t n, const struct bulla_damage_state *state, double *BULLA_RESTRICT aim,
-                     double *BULLA_RESTRICT rate)
+                         double *BULLA_RESTRICT rate)
 {
     criterion_ramp_grow(self, n, state->stretch, aim, rate);
 }
@@ -34,8 +35,8 @@ static uint32_t stretch_needs(const void *self)
 }
 
 static const struct bulla_damage stretch_table = {.size = sizeof(struct bulla_damage),
-                                               .grow = stretch_grow,
-                                               .needs = stretch_needs};
+                                                  .grow = stretch_grow,
+                                                  .needs = stretch_needs};
 
 BULLA_EXPORT const struct bulla_module bulla_module = {
     .magic = BULLA_MAGIC,
@@ -45,7 +46,8 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .name = "stretch",
     .version = "1.0",
     .doc = "Breaks with the largest principal stretch. For tissue and gels, whose rupture is measured as one.",
-    .cite = "Mancia, Vlaisavljevich, Yousefi, Rodriguez, Ziemlewicz, Lee, Henann, Franck, Xu & Johnsen, Phys. Med. Biol. 64 (2019) 225001, table 1",
+    .cite = "Mancia, Vlaisavljevich, Yousefi, Rodriguez, Ziemlewicz, Lee, Henann, Franck, Xu & Johnsen, Phys. Med. "
+            "Biol. 64 (2019) 225001, table 1",
     .params = stretch_params,
     .presets = stretch_presets,
     .open = stretch_open,

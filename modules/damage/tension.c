@@ -31,8 +31,8 @@ BULLA_KERNEL static void tension_pull(double stress, size_t n, const double *BUL
     }
 }
 
-static void tension_grow(const void *self, size_t n, const struct bulla_damage_state *state,
-                         double *BULLA_RESTRICT aim, double *BULLA_RESTRICT rate)
+static void tension_grow(const void *self, size_t n, const struct bulla_damage_state *state, double *BULLA_RESTRICT aim,
+                         double *BULLA_RESTRICT rate)
 {
     const struct tension *par = self;
     tension_pull(par->stress, n, par->principal ? state->principal : state->tension, aim, rate);
@@ -54,7 +54,8 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .kind = "damage",
     .name = "tension",
     .version = "1.0",
-    .doc = "Breaks where the tension reaches a stress. For metals and stones under plane waves: the strength of spall depends "
+    .doc = "Breaks where the tension reaches a stress. For metals and stones under plane waves: the strength of spall "
+           "depends "
            "on the rate, so take one of that rate.",
     .cite = "Rinehart, J. Appl. Phys. 22 (1951) 555-560; Antoun et al., Spall Fracture, Springer (2003)",
     .params = tension_params,

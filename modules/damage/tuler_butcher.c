@@ -10,7 +10,8 @@ struct tuler_butcher {
 };
 
 static const struct bulla_param tuler_butcher_params[] = {
-    {"threshold", "Pa", 0.0, 1e13, NAN, "tension below which nothing breaks, however long it lasts", BULLA_NUMBER, NULL},
+    {"threshold", "Pa", 0.0, 1e13, NAN, "tension below which nothing breaks, however long it lasts", BULLA_NUMBER,
+     NULL},
     {"stress", "Pa", 1e-3, 1e13, NAN, "tension beyond the threshold that breaks it in `duration`", BULLA_NUMBER, NULL},
     {"exponent", "1", 0.1, 20.0, 2.0, "how much more a higher tension does", BULLA_NUMBER, NULL},
     {"duration", "s", 1e-15, 1e15, NAN, "how long the threshold plus `stress` is borne", BULLA_NUMBER, NULL},
@@ -32,7 +33,8 @@ static void tuler_butcher_grow(const void *self, size_t n, const struct bulla_da
     const struct tuler_butcher *par = self;
     const double *load = par->principal ? state->principal : state->tension;
     for (size_t i = 0; i < n; i++) {
-        double over = (load[i] - par->threshold) / par->stress, r = over > 0.0 ? pow(over, par->exponent) / par->time : 0.0;
+        double over = (load[i] - par->threshold) / par->stress,
+               r = over > 0.0 ? pow(over, par->exponent) / par->time : 0.0;
         aim[i] = 1.0;
         rate[i] = r < BULLA_DAMAGE_AT_ONCE ? r : BULLA_DAMAGE_AT_ONCE;
     }
@@ -54,7 +56,8 @@ BULLA_EXPORT const struct bulla_module bulla_module = {
     .kind = "damage",
     .name = "tuler-butcher",
     .version = "1.0",
-    .doc = "Breaks by the integral of the tension beyond a threshold to a power. For spall by pulses of different lengths, and "
+    .doc = "Breaks by the integral of the tension beyond a threshold to a power. For spall by pulses of different "
+           "lengths, and "
            "for stones under many of them.",
     .cite = "Tuler & Butcher, Int. J. Fract. Mech. 4 (1968) 431-437",
     .params = tuler_butcher_params,

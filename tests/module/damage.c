@@ -85,14 +85,16 @@ static void test_johnson_cook(void **state)
 static void test_contract(void **state)
 {
     (void)state;
-    static const char *const stress[] = {"stress=1 GPa", NULL}, *const principal[] = {"stress=1 GPa", "of=principal", NULL};
+    static const char *const stress[] = {"stress=1 GPa", NULL}, *const principal[] = {"stress=1 GPa", "of=principal",
+                                                                                      NULL};
     static const char *const stretch[] = {"begins=1.46", "ends=1.9", NULL};
-    static const char *const strain[] = {"begins=0.3", NULL}, *const energy[] = {"begins=1 MJ/m3", "ends=2 MJ/m3", NULL};
+    static const char *const strain[] = {"begins=0.3", NULL}, *const energy[] = {"begins=1 MJ/m3", "ends=2 MJ/m3",
+                                                                                 NULL};
     static const char *const integral[] = {"threshold=100 MPa", "stress=1 GPa", "exponent=2.5", "duration=1 us", NULL};
     static const struct {
         const char *name;
         const char *const *sets;
-    } laws[] = {{"tension", stress}, {"tension", principal}, {"stretch", stretch},         {"stretch", NULL},
+    } laws[] = {{"tension", stress}, {"tension", principal}, {"stretch", stretch},        {"stretch", NULL},
                 {"strain", strain},  {"energy", energy},     {"tuler-butcher", integral}, {"johnson-cook", NULL}};
     for (size_t l = 0; l < sizeof laws / sizeof *laws; l++) {
         struct contract contract = {.module = support_module("damage", laws[l].name), .strict = true};

@@ -14,18 +14,19 @@ static const double RHO = 1060.0, MU = 2e6, GAMMA = 4.4, P_INF = 6e8;
 /* A gel that can break, air, and a metal that cannot, in one dimension. */
 static void start(struct flow *flow, const char *damage)
 {
-    flow_start(flow, mem_print("bulla: 1\n"
-                               "domain: {lower: [0], upper: [1], cells: [16], boundaries: {x-: periodic, x+: periodic}}\n"
-                               "materials:\n"
-                               "  air: {eos: {type: ideal-gas, gamma: 1.4, cv: 718 J/kg/K}}\n"
-                               "  gel:\n"
-                               "    eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}\n"
-                               "    constitutive: {type: neo-hookean, shear-modulus: 2 MPa, reference-density: 1060}\n"
-                               "    damage: %s\n"
-                               "initial: [{everywhere: true, material: gel, density: 1060, pressure: 1e5}]\n"
-                               "run: {until: 1}\n"
-                               "output: {directory: out}\n",
-                               damage));
+    flow_start(flow,
+               mem_print("bulla: 1\n"
+                         "domain: {lower: [0], upper: [1], cells: [16], boundaries: {x-: periodic, x+: periodic}}\n"
+                         "materials:\n"
+                         "  air: {eos: {type: ideal-gas, gamma: 1.4, cv: 718 J/kg/K}}\n"
+                         "  gel:\n"
+                         "    eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}\n"
+                         "    constitutive: {type: neo-hookean, shear-modulus: 2 MPa, reference-density: 1060}\n"
+                         "    damage: %s\n"
+                         "initial: [{everywhere: true, material: gel, density: 1060, pressure: 1e5}]\n"
+                         "run: {until: 1}\n"
+                         "output: {directory: out}\n",
+                         damage));
 }
 
 /* A cell of a fraction of gel, pulled to a stretch along x, at a pressure, with some damage: primitives and conserved fields. */

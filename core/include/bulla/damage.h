@@ -30,28 +30,28 @@ extern "C" {
 
 /* What a law looks at. */
 enum bulla_damage_needs {
-    BULLA_DAMAGE_TENSION = 1,     /* minus the pressure */
-    BULLA_DAMAGE_PRINCIPAL = 2,   /* the largest principal stress */
-    BULLA_DAMAGE_STRETCH = 4,     /* the largest principal elastic stretch */
-    BULLA_DAMAGE_ENERGY = 8,      /* elastic energy */
-    BULLA_DAMAGE_MISES = 16,      /* equivalent stress */
-    BULLA_DAMAGE_STRAIN = 32,     /* plastic strain: of a solid with a strength that knows it */
-    BULLA_DAMAGE_RATE = 64,       /* its rate: of a solid with a strength */
+    BULLA_DAMAGE_TENSION = 1,       /* minus the pressure */
+    BULLA_DAMAGE_PRINCIPAL = 2,     /* the largest principal stress */
+    BULLA_DAMAGE_STRETCH = 4,       /* the largest principal elastic stretch */
+    BULLA_DAMAGE_ENERGY = 8,        /* elastic energy */
+    BULLA_DAMAGE_MISES = 16,        /* equivalent stress */
+    BULLA_DAMAGE_STRAIN = 32,       /* plastic strain: of a solid with a strength that knows it */
+    BULLA_DAMAGE_RATE = 64,         /* its rate: of a solid with a strength */
     BULLA_DAMAGE_TEMPERATURE = 128, /* which the equation of state must be able to give */
     BULLA_DAMAGE_ALL = 255
 };
 
 /* Rows of n. */
 struct bulla_damage_state {
-    uint32_t size;           /* sizeof(struct bulla_damage_state) */
-    const double *damage;    /* D, from 0 to 1 */
-    const double *tension;   /* -p [Pa] */
-    const double *principal; /* the largest eigenvalue of -p 1 + s' [Pa] */
-    const double *stretch;   /* the largest eigenvalue of V, at constant volume; 1: unstretched */
-    const double *energy;    /* elastic energy per volume [J/m3] */
-    const double *mises;     /* sqrt(3/2 s':s') [Pa] */
-    const double *strain;    /* accumulated plastic strain, >= 0 */
-    const double *rate;      /* of plastic strain in the step [1/s] */
+    uint32_t size;             /* sizeof(struct bulla_damage_state) */
+    const double *damage;      /* D, from 0 to 1 */
+    const double *tension;     /* -p [Pa] */
+    const double *principal;   /* the largest eigenvalue of -p 1 + s' [Pa] */
+    const double *stretch;     /* the largest eigenvalue of V, at constant volume; 1: unstretched */
+    const double *energy;      /* elastic energy per volume [J/m3] */
+    const double *mises;       /* sqrt(3/2 s':s') [Pa] */
+    const double *strain;      /* accumulated plastic strain, >= 0 */
+    const double *rate;        /* of plastic strain in the step [1/s] */
     const double *temperature; /* [K] */
 };
 
