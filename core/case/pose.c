@@ -52,3 +52,39 @@ void pose_way(const struct pose *from, const struct pose *to, const double x[3],
         for (int e = 0; e < 3; e++) ret[d] += to->turn[d][e] * (rest[e] - to->pivot[e]);
     }
 }
+
+int pose_rate_at(const struct scene_rigid *rigid, double t, struct pose_rate *ret)
+{
+    TRY(pose_at(rigid, t, &ret->now));
+    TRY(pose_at(rigid, t + rigid->brief, &ret->soon));
+    return pose_at(rigid, t + 2.0 * rigid->brief, &ret->later);
+}
+
+/* Does a script move it? */
+static bool pose_is_driven(const struct scene_rigid *rigid)
+{
+    bool driven = rigid->angle.given;
+    for (int d = 0; d < SCENE_AXES; d++) driven = driven || rigid->displacement[d].given;
+    return driven;
+}
+
+void pose_rate_way(const struct scene_rigid *rigid, const struct pose_rate *rate, const double x[3], double ret[3])
+{
+    double once[3], twice[3];
+    memcpy(ret, rigid->velocity, 3 * sizeof *ret);
+    if (!pose_is_driven(rigid)) return;
+    pose_way(&rate->now, &rate->soon, x, once);
+    pose_way(&rate->now, &rate->later, x, twice);
+    for (int d = 0; d < 3; d++) ret[d] = (4.0 * once[d] - twice[d]) / (2.0 * rigid->brief);
+}
+
+double pose_rate_most(const struct scene_rigid *rigid, const struct pose_rate *rate)
+{
+    double pivot[3], u[3], spin = 0.0;
+    for (int d = 0; d < 3; d++) pivot[d] = rate->now.pivot[d] + rate->now.shift[d];
+    pose_rate_way(rigid, rate, pivot, u);
+    for (int d = 0; d < 2; d++)
+        spin = hypot(spin, 4.0 * (rate->soon.turn[d][0] - rate->now.turn[d][0]) -
+                               (rate->later.turn[d][0] - rate->now.turn[d][0]));
+    return sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) + spin / (2.0 * rigid->brief) * rigid->reach;
+}

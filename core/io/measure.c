@@ -16,6 +16,7 @@
 #include "mesh/tally.h"
 #include "phys/outside.h"
 #include "scheme/cut.h"
+#include "solve/evaporate.h"
 
 #include <math.h>
 #include <string.h>
@@ -398,6 +399,7 @@ static double measure_result(struct measures *measures, const struct measure_col
     case SCENE_MAX: return empty ? NAN : extremes[0];
     case SCENE_JET_SPEED: return empty ? NAN : extremes[0] >= extremes[1] ? extremes[0] : -extremes[1];
     case SCENE_PENETRATION: return measure_penetration(state, column);
+    case SCENE_EVAPORATED: return evaporate_total(state, (unsigned)from->material);
     case SCENE_ISOSURFACE_MEAN: return surface_mean(state, (unsigned)from->in, field, column->where);
     case SCENE_ISOSURFACE_MIN:
     case SCENE_ISOSURFACE_MAX:

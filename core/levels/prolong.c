@@ -13,7 +13,6 @@
 #include "mesh/metric.h"
 #include "mesh/post.h"
 #include "phys/bearing.h"
-#include "phys/elastic.h"
 #include "phys/mix.h"
 
 #include <string.h>
@@ -29,8 +28,7 @@ struct prolong {
     double *frame;                   /* [n_field][pitch]: a line of cells with all beside it along an axis */
     size_t pitch;
     double *w, *u, *rho_c2, *stiffness; /* blocks: primitives, conserved, rho c_f^2 and that of each material */
-    double *elastic;                    /* elastic energy per volume; NULL without a solid */
-    double *bears;                      /* [n_solid] partial densities of solids that can break, as far as they bear */
+    double *elastic;                    /* energy per volume, then [n_solid] masses that bear; NULL without a solid */
     struct prolong_held *held;          /* what forces make of pressure; NULL without */
 };
 
@@ -66,8 +64,8 @@ struct prolong *prolong_new(const struct model *model, const struct mesh *mesh)
     prolong->u = mem_new(model->n_field * prolong->cells, sizeof(double));
     prolong->stiffness = mem_new(model->n_material * prolong->cells, sizeof(double));
     prolong->rho_c2 = mem_new(prolong->cells, sizeof(double));
-    if (model->n_stretch) prolong->elastic = mem_new(prolong->cells, sizeof(double));
-    if (model->damaged) prolong->bears = mem_new(model->n_solid * prolong->cells, sizeof(double));
+    size_t bearing = model->damaged ? model->n_solid : 0;
+    if (model->n_stretch) prolong->elastic = mem_new((1 + bearing) * prolong->cells, sizeof(double));
     prolong->held = prolong_held_new(model, mesh, prolong->cells);
     return prolong;
 }
@@ -82,7 +80,6 @@ void prolong_free(struct prolong *prolong)
     mem_free(prolong->stiffness);
     mem_free(prolong->rho_c2);
     mem_free(prolong->elastic);
-    mem_free(prolong->bears);
     prolong_held_free(prolong->held);
     mem_free(prolong);
 }
@@ -363,7 +360,8 @@ static void prolong_strain(struct prolong *prolong)
     if (!prolong->elastic) return;
     for (unsigned s = 0; s < model->n_solid; s++)
         m[s] = prolong->u + (model->i_m + model->solids[s].material) * prolong->cells;
-    bearing_of_conserved(model, prolong->cells, prolong->cells, prolong->u, prolong->cells, prolong->bears, m);
+    double *left = prolong->elastic + prolong->cells;
+    bearing_of_conserved(model, prolong->cells, prolong->cells, prolong->u, prolong->cells, left, m);
     elastic_energy(model, prolong->cells, prolong->cells, prolong->u + model->i_V * prolong->cells, m,
                    prolong->elastic);
 }

@@ -265,15 +265,6 @@ double cut_force(const struct cut_force *force, unsigned rigid, int axis)
     return sum;
 }
 
-static void cut_pace(const struct term_pace *pace, double *rate)
-{
-    double most = 0.0, add = 0.0;
-    for (unsigned k = 0; k < pace->model->scene->n_rigid; k++)
-        most = pace->model->scene->rigids[k].fastest > most ? pace->model->scene->rigids[k].fastest : most;
-    for (int d = 0; d < pace->model->dim; d++) add += most / pace->level->h[d];
-    for (size_t i = 0; add > 0.0 && i < pace->n_cell; i++) rate[i] += add;
-}
-
 static void cut_say(const struct scene *scene, struct text *text)
 {
     for (unsigned k = 0; k < scene->n_rigid; k++)
@@ -292,6 +283,5 @@ const struct term cut_term = {
     .begin = cut_begin,
     .frame = cut_frame,
     .cells = cut_rates,
-    .pace = cut_pace,
     .say = cut_say,
 };

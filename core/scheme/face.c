@@ -27,9 +27,8 @@ struct face_own {
     double *give;                 /* of the mixture at the edges, where Wood's speed is asked for; else NULL */
     double *origin, *strain;      /* of the face state: pressure of the side it comes from, compression since */
     double *lagged;               /* one material's pressure at the edges, with surface tension */
-    double *bears;  /* [n_material] m of the solids that can break, as far as it bears; NULL without any */
-    double *zero;   /* stands in for the velocities of unused axes */
-    double *robust; /* fluxes of the robust solver, same order as the block behind face_work.alpha */
+    double *zero;                 /* stands in for the velocities of unused axes */
+    double *robust;               /* fluxes of the robust solver, same order as the block behind face_work.alpha */
     const double *side_u[2][3], *side_m[2][SCENE_MATERIALS], *side_alpha[2][SCENE_MATERIALS];
     double *flux_m[SCENE_MATERIALS], *flux_u[3], *flux_alpha[SCENE_MATERIALS];
     double *robust_m[SCENE_MATERIALS], *robust_u[3], *robust_alpha[SCENE_MATERIALS];
@@ -85,7 +84,7 @@ struct face_work *face_new(const struct model *model)
     if (model->scene->n_rigid) work->flat = face_row(1);
     own->edges = edges_new(model, FACE_ROOM);
     own->state = face_row(2 * model->n_field);
-    own->m = face_row(2 * n);
+    own->m = face_row(model->n_inner ? 4 * n : 2 * n); /* behind them those that bear */
     own->rho = face_row(2);
     own->energy = face_row(2);
     own->c = face_row(2);
@@ -103,7 +102,6 @@ struct face_work *face_new(const struct model *model)
     work->u = work->energy + FACE_ROOM;
     work->stretch = model->n_stretch ? face_row(model->n_stretched) : NULL;
     work->strains = model->n_inner ? face_row(model->n_inner) : NULL;
-    own->bears = model->n_inner ? face_row(2 * n) : NULL;
     work->solid = model->n_stretch && model->n_alpha ? face_row(1) : NULL;
     work->heat_below = model->conducts && model->n_alpha ? face_row(2 * model->n_alpha) : NULL;
     work->heat_above = work->heat_below ? work->heat_below + model->n_alpha * FACE_ROOM : NULL;
@@ -151,7 +149,6 @@ void face_free(struct face_work *work)
                       own->strain,
                       work->stretch,
                       work->strains,
-                      own->bears,
                       work->solid,
                       work->lag,
                       own->lagged,
@@ -220,7 +217,7 @@ static void face_load(struct face_work *work, const struct frame *frame, size_t 
     if (!model->n_stretch) return;
     for (unsigned s = 0; s < model->n_solid; s++)
         m[s] = model->n_alpha ? own->m + 2 * model->solids[s].material * FACE_ROOM : rho;
-    bearing_of(model, n, 2 * FACE_ROOM, own->state, 2 * FACE_ROOM, own->bears, m);
+    bearing_of(model, n, 2 * FACE_ROOM, own->state, 2 * FACE_ROOM, own->m + 2 * model->n_material * FACE_ROOM, m);
     struct face_stress_edges edges = {
         .frame = frame, .n = n, .state = own->state, .m = m, .rho = rho, .energy = own->energy, .rho_c2 = own->c};
     face_stress_complete(own->stress, model, &edges);

@@ -64,6 +64,32 @@ END
 ranked swing 1 2 3
 resumed swing 20 swing-1
 
+# When a run is to end is nothing that bodies know: it goes on beyond its end as one that was to go there at once, to the bit.
+cat >later.yaml <<'END'
+bulla: 1
+domain: {lower: [-1, 0], upper: [1, 0.5], cells: [64, 16], boundaries: {x-: reflecting, x+: reflecting, y-: reflecting, y+: reflecting}}
+mesh: {tile: 8, levels: 1}
+materials: {air: {eos: {type: ideal-gas, gamma: 1.4}}}
+bodies:
+  goes: {sphere: {center: [-0.53, 0.25], radius: 0.1}, velocity: [37, 3]}
+  swings: {box: {lower: [0.31, 0.2], upper: [0.5, 0.31]}, displacement: ['= 0.03 * math.sin(3100 * t)', 0], angle: '= 90 * t', pivot: [0.4, 0.25]}
+initial: [{everywhere: true, material: air, density: 1.2, pressure: 1e5}]
+run: {until: 0.3 ms}
+output:
+  directory: out
+  checkpoints: {every: 0.1 ms}
+  snapshots: {every: 0.1 ms, fields: [pressure, body]}
+  history: {columns: {m: {total: mass}, g: {force: goes, along: x}, s: {force: swings, along: x}}}
+END
+ran later-straight later
+ran later-first later --until 0.1ms
+mkdir later-on
+cp -r later-first/out later-on/out
+ran later-on later --restart
+cmp later-straight/out/history.csv later-on/out/history.csv
+last=$(ls later-straight/out/fields/later_*.hdf | tail -1)
+"$BULLA_BUILD/tests/test-unit-snapshot" "$last" "later-on/out/fields/${last##*/}"
+
 # Still: rest stays rest; what goes along a wall goes on.
 cat >still.yaml <<'END'
 bulla: 1
