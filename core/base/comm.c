@@ -201,7 +201,12 @@ uint64_t *comm_join_keys(const uint64_t *keys, unsigned count, unsigned *ret_cou
 
 void comm_bcast(void *data, size_t bytes)
 {
-    comm_copy(data, bytes, 0, MPI_COMM_WORLD);
+    comm_bcast_from(data, bytes, 0);
+}
+
+void comm_bcast_from(void *data, size_t bytes, int rank)
+{
+    comm_copy(data, bytes, rank, MPI_COMM_WORLD);
 }
 
 void comm_barrier(void)

@@ -148,6 +148,12 @@ static const struct key scene_output_rows[] = {
      .section = &scene_output_checkpoints,
      .fallback = "{}",
      .doc = "Exact states to go on from."},
+    {.name = "writers",
+     .type = KEYS_INTEGER,
+     .min = 1,
+     .max = 100000,
+     .doc = "Ranks that write snapshots and checkpoints, each a file for itself and its neighbours; one per machine if "
+            "not given. --writers is short for it."},
     {0},
 };
 
@@ -226,4 +232,5 @@ void scene_output(struct draft *draft)
     scene->output.checkpoints = scene_output_every(keys_at(checkpoints, "every"));
     scene->output.checkpoints_wall = keys_at(checkpoints, "wall")->number;
     scene->output.checkpoints_keep = (int)keys_at(checkpoints, "keep")->integer;
+    scene->output.writers = (int)keys_at(output, "writers")->integer;
 }

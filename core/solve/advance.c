@@ -10,6 +10,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "mesh/rigid.h"
 #include "phys/mix.h"
 #include "solve/beyond.h"
 #include "solve/blame.h"
@@ -92,7 +93,7 @@ static void advance_accept(struct state *state, struct stage *stage, double sign
 {
     mesh_swap(stage->level);
     reflux_commit(stage->reflux, stage->dt);
-    state->signals[stage->l] = signal;
+    state->signals[stage->l] = signal + rigid_pace(state->mesh, stage->level, stage->t + stage->dt);
     state->level_steps[stage->l]++;
     state->dt_last = stage->dt;
     state->counts.cells += stage->cells;
