@@ -84,6 +84,9 @@ enum { SCENE_FIELD_PLASTIC = sizeof scene_field_plastic / sizeof *scene_field_pl
 /* In scenes where a solid has Maxwell branches. */
 static const struct scene_field scene_field_branched = {"overstress", "Pa", SCENE_FIELD_VANISHING};
 
+/* In scenes where a solid can break. */
+static const struct scene_field scene_field_breaking = {"damage", "1", SCENE_FIELD_FRACTION};
+
 /* In scenes with rigid bodies. */
 static const struct scene_field scene_field_body = {"body", "1", SCENE_FIELD_FRACTION};
 
@@ -109,13 +112,6 @@ static const struct scene_field scene_field_vapour[] = {
 };
 
 enum { SCENE_FIELD_VAPOUR = sizeof scene_field_vapour / sizeof *scene_field_vapour };
-
-static bool scene_field_in(const char *name, const char *const *names)
-{
-    for (; *names; names++)
-        if (strcmp(*names, name) == 0) return true;
-    return false;
-}
 
 static bool scene_field_is_solid(const char *name)
 {
@@ -158,22 +154,34 @@ static bool scene_field_miss_strength(struct draft *draft, const struct keys_val
     return true;
 }
 
+/* A field of damage in a scene where nothing can break. */
+static bool scene_field_miss_damage(struct draft *draft, const struct keys_value *value)
+{
+    if (strcmp(value->text, scene_field_breaking.name) != 0) return false;
+    keys_error(&draft->keys, value, "'%s' is a field of solids that can break, and no material has a 'damage' law",
+               value->text);
+    return true;
+}
+
+/* A field of solids in a scene of fluids. */
+static bool scene_field_miss_solid(struct draft *draft, const struct keys_value *value)
+{
+    if (!scene_field_is_solid(value->text)) return false;
+    keys_error(&draft->keys, value, "'%s' is a field of solids, and no material has a 'constitutive' law", value->text);
+    return true;
+}
+
+bool scene_field_miss(struct draft *draft, const struct keys_value *value)
+{
+    return scene_field_miss_strength(draft, value) || scene_field_miss_viscosity(draft, value) ||
+           scene_field_miss_damage(draft, value) || scene_field_miss_solid(draft, value);
+}
+
 bool scene_field_is_vector(const char *name)
 {
     for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++)
         if (strcmp(scene_field_plain[i].name, name) == 0) return scene_field_plain[i].is & SCENE_FIELD_VECTOR;
     return false;
-}
-
-/* What people write on paper. */
-static const char *scene_field_of_symbol(const char *symbol)
-{
-    static const char *const symbols[][2] = {{"p", "pressure"},    {"P", "pressure"}, {"rho", "density"},
-                                             {"u", "velocity"},    {"v", "velocity"}, {"T", "temperature"},
-                                             {"c", "sound_speed"}, {"M", "mach"},     {"omega", "vorticity"}};
-    for (size_t i = 0; i < sizeof symbols / sizeof *symbols; i++)
-        if (strcmp(symbol, symbols[i][0]) == 0) return symbols[i][1];
-    return NULL;
 }
 
 /* Appends the fields of modules; returns the end of the list. */
@@ -201,7 +209,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
     unsigned count = SCENE_FIELD_PLAIN, most = count + SCENE_FIELD_SOLID + SCENE_FIELD_PLASTIC + SCENE_FIELD_VISCOUS +
-                                               2 + (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR) * scene->n_material;
+                                               3 + (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR) * scene->n_material;
     most += scene->n_derived * BULLA_FIELD_OUTPUTS;
     most += 4 * scene->output.n_peak;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
@@ -212,6 +220,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     }
     for (unsigned i = 0; i < scene_material_strength(draft); i++) list[count++] = scene_field_plastic[i];
     if (scene_material_branched(draft)) list[count++] = scene_field_branched;
+    if (scene_material_breaks(draft)) list[count++] = scene_field_breaking;
     if (keys_at(draft->root, "bodies")->count) list[count++] = scene_field_body;
     for (unsigned i = 0; scene_material_viscous(draft) && i < SCENE_FIELD_VISCOUS; i++)
         list[count++] = scene_field_viscous[i];
@@ -234,11 +243,12 @@ const struct scene_field *scene_field_all(struct draft *draft)
 const char *const *scene_field_always(struct forest *forest)
 {
     enum { SOLID = SCENE_FIELD_PLAIN, PLASTIC = SOLID + SCENE_FIELD_SOLID };
-    enum { VISCOUS = PLASTIC + SCENE_FIELD_PLASTIC, ALL = VISCOUS + SCENE_FIELD_VISCOUS + 2 };
+    enum { VISCOUS = PLASTIC + SCENE_FIELD_PLASTIC, ALL = VISCOUS + SCENE_FIELD_VISCOUS + 3 };
     const char **names = tree_take(forest, (ALL + 1) * sizeof *names);
     for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++) names[i] = scene_field_plain[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++) names[SOLID + i] = scene_field_solid[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_PLASTIC; i++) names[PLASTIC + i] = scene_field_plastic[i].name;
+    names[ALL - 3] = scene_field_breaking.name;
     names[ALL - 2] = scene_field_branched.name;
     names[ALL - 1] = scene_field_body.name;
     for (unsigned i = 0; i < SCENE_FIELD_VISCOUS; i++) names[VISCOUS + i] = scene_field_viscous[i].name;
@@ -250,17 +260,6 @@ const char *const *scene_field_each(struct forest *forest)
     const char **names = tree_take(forest, (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR + 1) * sizeof *names);
     for (unsigned i = 0; i < SCENE_FIELD_EACH; i++) names[i] = scene_field_by_material[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_VAPOUR; i++) names[SCENE_FIELD_EACH + i] = scene_field_vapour[i].name;
-    return names;
-}
-
-/* All names this scene has; NULL-terminated, in the forest. */
-static const char *const *scene_field_names(struct draft *draft)
-{
-    const struct scene_field *all = scene_field_all(draft);
-    unsigned count = 0;
-    while (all[count].name) count++;
-    const char **names = tree_take(draft->keys.forest, (count + 1) * sizeof *names);
-    for (unsigned i = 0; i < count; i++) names[i] = all[i].name;
     return names;
 }
 
@@ -301,44 +300,4 @@ const char *scene_field_constant(struct draft *draft, const char *name)
             return "0 everywhere: surfaces are planes";
     }
     return NULL;
-}
-
-bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME])
-{
-    if (!value->given) return false;
-    if (scene_formula_is(value)) return scene_formula(draft, value, NULL, ret_name);
-    const char *const *names = scene_field_names(draft);
-    bool known = scene_field_in(value->text, names) || scene_peak_find(draft, value->text, names);
-    if (known && strlen(value->text) < SCENE_NAME) {
-        snprintf(ret_name, SCENE_NAME, "%s", value->text);
-        return true;
-    }
-    if (scene_field_miss_strength(draft, value) || scene_field_miss_viscosity(draft, value)) return false;
-    if (scene_field_is_solid(value->text)) {
-        keys_error(&draft->keys, value, "'%s' is a field of solids, and no material has a 'constitutive' law",
-                   value->text);
-        return false;
-    }
-    keys_error(&draft->keys, value, "there is no field '%s'", value->text);
-    const char *name = scene_field_of_symbol(value->text);
-    if (name) diag_help(draft->keys.diag, "did you mean '%s'?", name);
-    else diag_suggest(draft->keys.diag, value->text, names);
-    return false;
-}
-
-bool scene_field_list(struct draft *draft, const struct keys_value *list, char (**ret_names)[SCENE_NAME],
-                      unsigned *ret_count)
-{
-    char(*names)[SCENE_NAME] = mem_new(list->count + 1, sizeof *names);
-    bool good = list->given;
-    for (unsigned i = 0; i < list->count; i++) {
-        bool known = scene_field(draft, &list->list[i], names[i]); /* else it has no name to compare */
-        for (unsigned k = 0; known && k < i; k++)
-            if (strcmp(names[i], names[k]) == 0)
-                keys_error(&draft->keys, &list->list[i], "'%s' is listed twice", names[i]);
-        good &= known;
-    }
-    *ret_names = names;
-    *ret_count = list->count;
-    return good;
 }

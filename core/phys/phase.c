@@ -23,7 +23,7 @@ struct phase_block {
     size_t at[PHASE_BLOCK]; /* place in the tile */
     phase_row u[MODEL_FIELDS], w[MODEL_FIELDS], T[SCENE_MATERIALS], blur;
     bool warm[PHASE_BLOCK];    /* temperatures fit */
-    bool thermal[PHASE_BLOCK]; /* no exchange: beyond the end of the curve */
+    bool thermal[PHASE_BLOCK]; /* no exchange: beyond the end of the curve, or too dry to condense */
     bool alone[PHASE_BLOCK];   /* liquid without vapour, which has to nucleate */
     bool left[PHASE_BLOCK];    /* the liquid has taken volume that had no vapour left */
     struct equilibrium_cells cells, start;
@@ -137,6 +137,7 @@ static void phase_fill(struct phase_block *block)
             if (there > 0.0 && rho_c2[i] > block->blur[i]) block->blur[i] = rho_c2[i];
             if (k < 2) cells->m[k][i] = block->u[model->i_m + l][i];
             else if (k < block->phase->n) cells->m[k][i] = m;
+            if (k < block->phase->n) cells->v[k][i] = there > 0.0 ? 1.0 / rho[i] : 0.0;
             if (k < block->phase->n) continue;
             cells->m_other[o][i] = m;
             cells->v0[o][i] = 1.0 / rho[i];
@@ -152,8 +153,10 @@ static void phase_fill(struct phase_block *block)
 static double phase_drive_alone(const struct phase_block *block, size_t i, double tension, double superheat)
 {
     const struct equilibrium_family *family = &block->family;
+    const double v_l = block->cells.v[0][i], v_v = block->cells.v[1][i];
     const struct saturation pair = {{family->eos[0].law, family->eos[1].law},
-                                    {family->eos[0].self, family->eos[1].self}};
+                                    {family->eos[0].self, family->eos[1].self},
+                                    {v_l > 0.0 ? 1.0 / v_l : 0.0, v_v > 0.0 ? 1.0 / v_v : 0.0}};
     double p = block->cells.p[i] + tension, T = block->cells.T[i] - superheat;
     if (!(p > 0.0)) return -HUGE_VAL;
     return saturation_at(&pair, p, T).drive / (family->R[EQUILIBRIUM_VAPOUR] * T);
@@ -179,6 +182,12 @@ static double phase_thin(const struct phase_block *block, size_t i)
     return thin;
 }
 
+/* Volume fraction of the liquid. */
+static double phase_wet(const struct phase_block *block, size_t i)
+{
+    return block->w[block->model->i_alpha + block->phase->member[EQUILIBRIUM_LIQUID]][i];
+}
+
 /* Temperatures of all that is there, to what the closure resolves of p. */
 static bool phase_warm(const struct phase_block *block, size_t i, double near)
 {
@@ -202,6 +211,7 @@ static bool phase_fits(struct phase_block *block, size_t i)
     if (block->alone[i])
         return block->thermal[i] || !(phase_drive_alone(block, i, scene->tension, scene->superheat) < 0.0);
     if (phase_thin(block, i) < scene->onset && phase_drive(block, i) < 0.0) return true;
+    if (phase_wet(block, i) < scene->wet && phase_drive(block, i) > 0.0) block->thermal[i] = true;
     block->warm[i] = phase_warm(block, i, near);
     if (!block->warm[i]) return false;
     if (block->thermal[i]) return true;
@@ -223,7 +233,10 @@ static void phase_move(struct phase_block *block, size_t i, size_t to)
     block->alone[to] = block->alone[i];
     for (unsigned l = 0; l < block->model->n_material; l++)
         block->u[block->model->i_alpha + l][to] = block->u[block->model->i_alpha + l][i];
-    for (unsigned k = 0; k < block->phase->n; k++) cells->m[k][to] = cells->m[k][i];
+    for (unsigned k = 0; k < block->phase->n; k++) {
+        cells->m[k][to] = cells->m[k][i];
+        cells->v[k][to] = cells->v[k][i];
+    }
     for (unsigned k = 0; k < cells->n_other; k++) {
         cells->m_other[k][to] = cells->m_other[k][i];
         cells->v0[k][to] = cells->v0[k][i];

@@ -67,6 +67,21 @@ def _text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
+def _check_parts(path, text):
+    """With several writers the cells lie in parts beside a snapshot. HDF5 reads nothing where one is missing, and whatever
+    there is where it is of another file: neither must go unseen."""
+    for line in text.splitlines():
+        name, size, seal = line.split()
+        part = os.path.join(os.path.dirname(path), name)
+        if not os.path.exists(part):
+            raise FileNotFoundError("%s: its part %s is lost" % (path, name))
+        with open(part, "rb") as file:
+            head = file.read(4096)
+        found = "%016x" % int.from_bytes(head[4088:4096], "little")
+        if os.path.getsize(part) != int(size) or found != seal:
+            raise ValueError("%s: its part %s is broken, or of another run or moment" % (path, name))
+
+
 class Snapshot:
     """One file of fields/. snapshot["pressure"] is an array over the cells (leaves: the finest there are, which fill the
     domain without overlap), [n] or [n, 3]; "velocity_x" is a component. lower, upper, centre [n, dim] and volume [n] are
@@ -79,6 +94,8 @@ class Snapshot:
         with h5py.File(path, "r") as file:
             if "VTKHDF" not in file or "bulla" not in file:
                 raise ValueError("%s is no snapshot of bulla" % path)
+            if "bulla/parts" in file:
+                _check_parts(path, _text(file["bulla/parts"]))
             about = file["bulla"].attrs
             self.t = float(file.attrs["time"])
             self.step = int(file.attrs["iteration"])
@@ -263,18 +280,29 @@ class Snapshot:
 
 
 class Map:
-    """A space-time map: t [n], place [m] (coordinate `axis`), and map["pressure"] [n, m]."""
+    """A space-time map: t [n], place [m] (coordinate `axis`), and map["pressure"] [n, m]. Of a rectangle place is (s1, s2),
+    the distances along its sides, axis "s1,s2", map["pressure"] [n, m1, m2], and points() says where they are."""
 
     def __init__(self, path):
         import h5py
 
         self.path = path
         with h5py.File(path, "r") as file:
-            self.axis = next(name for name in ("x", "y", "z", "s") if name in file)
-            self.t, self.place = file["t"][()], file[self.axis][()]
-            self.fields = [name for name in file if name not in ("t", self.axis)]
-            self._data = {name: file[name][()] for name in self.fields}
+            names = [name for name in ("x", "y", "z", "s", "s1", "s2") if name in file]
+            places = tuple(file[name][()] for name in names)
+            self.axis, self.place = ",".join(names), places if len(places) > 1 else places[0]
+            self.t = file["t"][()]
+            self.fields = [name for name in file if name not in ["t"] + names]
+            shape = tuple(len(place) for place in places)
+            self._data = {name: file[name][()].reshape((-1,) + shape) for name in self.fields}
             self.units = {name: _text(file[name].attrs["units"]) for name in self.fields}
+            self._sides = [file.attrs[name] for name in ("corner", "first", "second") if name in file.attrs]
+
+    def points(self):
+        """Of a rectangle: the places in space, [m1, m2, 3] m."""
+        corner, first, second = self._sides
+        s1, s2 = (s / np.linalg.norm(side) for s, side in zip(self.place, (first, second)))
+        return corner + s1[:, None, None] * first + s2[None, :, None] * second
 
     def __getitem__(self, name):
         return self._data[name]
