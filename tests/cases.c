@@ -10,8 +10,9 @@
 #include "base/text.h"
 #include "batch/matrix.h"
 #include "batch/sweep_name.h"
-#include "case/keys.h"
+#include "case/keys_read.h"
 #include "case/parse.h"
+#include "case/script_host.h"
 
 #include <fnmatch.h>
 #include <stdio.h>

@@ -37,6 +37,7 @@ static const struct cli_option
     command_steps = {"--max-steps", NULL, "N", "Ends after so many steps."},
     command_memory = {"--max-memory", NULL, "SIZE", "Most that all ranks' blocks of cells may take, e.g. '8 GiB'."},
     command_walltime = {"--walltime", NULL, "HH:MM:SS", "Saves and stops when this much time has passed."},
+    command_writers = {"--writers", NULL, "N", "Ranks that write files (one per machine, if the case says nothing)."},
     command_quiet = {"--quiet", NULL, NULL, "Says nothing but warnings and errors."},
     command_json = {"--json", NULL, NULL, "Progress and errors on stdout, one JSON object per line."},
     command_overwrite = {"--overwrite", NULL, NULL, "Replaces the run that is in the output directory."},
@@ -45,13 +46,11 @@ static const struct cli_option
     command_restart = {"--restart", NULL, "[FILE]",
                        "Goes on from a checkpoint: FILE, or the newest in the output directory."};
 
-static const struct cli_option *const command_run_options[] = {&command_output,   &command_ranks,
-                                                               &command_set,      &command_variant,
-                                                               &command_until,    &command_steps,
-                                                               &command_walltime, &command_quiet,
-                                                               &command_json,     &command_overwrite,
-                                                               &command_restart,  &command_memory,
-                                                               &command_dry,      NULL};
+static const struct cli_option *const command_run_options[] = {&command_output,    &command_ranks,   &command_set,
+                                                               &command_variant,   &command_until,   &command_steps,
+                                                               &command_walltime,  &command_quiet,   &command_json,
+                                                               &command_overwrite, &command_restart, &command_memory,
+                                                               &command_dry,       &command_writers, NULL};
 static const struct cli_option command_jobs = {"--jobs", "-j", "JOBS", "Runs at a time (1)."};
 static const struct cli_option command_value = {"--value", NULL, "[NAME=]EXPRESSION",
                                                 "A column of the table, as in 'min(V)/first(V)'; may be repeated."};
@@ -105,6 +104,8 @@ static const struct cli_command command_table[] = {
      command_module_options, 2, -1, command_module},
     {"info", "FILE...", "What is inside a snapshot, a checkpoint or the dump of a failed step.", command_info_options,
      1, -1, inspect_info},
+    {"join", "DIR|FILE...", "Makes one file of a snapshot or checkpoint and its parts, of several writers.", NULL, 1,
+     -1, inspect_join},
     {VIEW_PLOT, NULL, 1, -1, NULL}, /* viewer.h */
     {VIEW_REPORT, NULL, 1, 1, NULL},
     {WATCH_COMMAND, NULL, 1, -1, NULL},

@@ -1,5 +1,5 @@
-/* comm.c - see comm.h. Outside this file MPI is called by mesh/post.c (exchange) and the
- * writer of data sets (io/h5out.c) only. */
+/* comm.c - see comm.h. Outside this file MPI is called by abort.c, mesh/post.c (exchange) and
+ * the writer of data sets (io/h5out.c) only. */
 #include "base/comm.h"
 
 #include "base/launcher.h"
@@ -107,12 +107,6 @@ void comm_near_barrier(void)
     comm_meet(comm_near);
 }
 
-void comm_abort(int code)
-{
-    if (comm_is_active && comm_size() > 1) MPI_Abort(MPI_COMM_WORLD, code);
-    exit(code);
-}
-
 static void comm_reduce(void *values, int count, MPI_Datatype type, MPI_Op op)
 {
     MPI_Request request;
@@ -207,7 +201,12 @@ uint64_t *comm_join_keys(const uint64_t *keys, unsigned count, unsigned *ret_cou
 
 void comm_bcast(void *data, size_t bytes)
 {
-    comm_copy(data, bytes, 0, MPI_COMM_WORLD);
+    comm_bcast_from(data, bytes, 0);
+}
+
+void comm_bcast_from(void *data, size_t bytes, int rank)
+{
+    comm_copy(data, bytes, rank, MPI_COMM_WORLD);
 }
 
 void comm_barrier(void)

@@ -37,9 +37,6 @@ void comm_near_barrier(void);
  * neighbours are more than the processors, each wait would last until the system takes it away. */
 void comm_wait(int count, MPI_Request *requests, MPI_Status *ret_statuses);
 
-/* Ends all ranks now with this exit code. */
-void comm_abort(int code) __attribute__((noreturn));
-
 /* In place, over all ranks. */
 void comm_min(double *values, int count);
 void comm_max(double *values, int count);
@@ -59,8 +56,9 @@ void comm_join(const double *values, int count, double *ret_all);
  * *ret_count keys, in rank order. */
 uint64_t *comm_join_keys(const uint64_t *keys, unsigned count, unsigned *ret_count);
 
-/* From rank 0 to all. */
+/* From rank 0, or another one, to all. */
 void comm_bcast(void *data, size_t bytes);
+void comm_bcast_from(void *data, size_t bytes, int rank);
 
 void comm_barrier(void);
 

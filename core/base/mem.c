@@ -1,7 +1,7 @@
 /* mem.c - see mem.h. malloc is called in this file only. */
 #include "base/mem.h"
 
-#include "base/comm.h"
+#include "base/abort.h"
 #include "base/status.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ enum { MEM_ALIGN = 64, MEM_LARGE = 2 << 20 };
 static void mem_give_up(size_t count, size_t size)
 {
     fprintf(stderr, "bulla: error: out of memory: could not get %zu x %zu bytes\n", count, size);
-    comm_abort(STATUS_RUN);
+    abort_all(STATUS_RUN);
 }
 
 static void *mem_new_aligned(size_t count, size_t size, size_t align)

@@ -3,7 +3,7 @@
 
 #include "base/mem.h"
 #include "base/status.h"
-#include "case/scene.h"
+#include "case/scene_read.h"
 
 #include <errno.h>
 #include <math.h>

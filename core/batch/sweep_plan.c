@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "batch/sweep_name.h"
+#include "case/scene_read.h"
 
 #include <stdlib.h>
 #include <string.h>

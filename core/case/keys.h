@@ -3,7 +3,7 @@
  * A table drives reading, units, ranges, defaults, messages, `bulla show` and the schema. A
  * section may have cases, chosen by one of its keys (`type: incoming-wave`), which add keys;
  * the cases of a module section are the loaded modules, their keys the modules' parameters.
- * Reading normalises the tree in place: numbers in SI, defaults written out, keys in the order
+ * Reading (keys_read.h) normalises the tree in place: numbers in SI, defaults written out, keys in the order
  * of the table, so that the tree can be printed as the resolved case. */
 #ifndef KEYS_H
 #define KEYS_H
@@ -102,12 +102,6 @@ struct keys {
     struct params *params;
     const struct keys_section *root; /* to tell where a misplaced key belongs */
 };
-
-/* Reads a map by its table. Mistakes are recorded; what is wrong is simply not `given`. */
-struct keys_map *keys_read(struct keys *keys, struct node *node, const struct keys_section *section, const char *path);
-
-/* Reads a list again, whose node has been given other items. */
-void keys_again(struct keys *keys, const struct keys_map *map, const char *name);
 
 /* The value of a key. The key must be in the table; `map` may be NULL (then nothing is given). */
 const struct keys_value *keys_at(const struct keys_map *map, const char *name);

@@ -16,7 +16,6 @@
 #include "plug/instance.h"
 
 #include <stdbool.h>
-#include <stdio.h>
 
 enum {
     SCENE_AXES = 3,
@@ -118,6 +117,7 @@ struct scene_phase {
     double accommodation, area;    /* of hertz-knudsen [1, 1/m] */
     double tension, superheat;     /* what liquid without vapour bears [Pa, K] */
     double onset;                  /* liquid evaporates where vapour and gases fill this share of the cell */
+    double wet;                    /* vapour condenses where the liquid fills this share of the cell */
     struct saturation_range curve; /* of liquid and vapour */
 };
 
@@ -196,6 +196,7 @@ enum scene_measure {
     SCENE_BODY_DISPLACEMENT,
     SCENE_BODY_VELOCITY,
     SCENE_BODY_ANGLE,
+    SCENE_EVAPORATED,
     SCENE_VALUE,
 };
 
@@ -386,6 +387,7 @@ struct scene_output {
     bool history_finest;     /* steps of the history are those of the finest level */
     double checkpoints_wall; /* s of wall time between two checkpoints; 0: they do not count */
     int checkpoints_keep;
+    int writers; /* of snapshots and checkpoints; 0: one per machine */
     char (*snapshot_fields)[SCENE_NAME];
     unsigned n_snapshot_field;
     bool snapshot_double; /* float64 instead of float32 */
@@ -430,20 +432,6 @@ struct scene {
     char **variants; /* names that --variant takes, "quick" among them if the case has it */
     char **settings; /* of `matrix:`, "path=value", one by one; at most SCENE_SETTINGS */
 };
-
-/* What the command line adds to a case. */
-struct scene_options {
-    const char *const *sets; /* NULL-terminated "path=value" list, or NULL */
-    const char *variant;     /* or NULL */
-    const char *directory;   /* -o, or NULL */
-    bool json;               /* messages as one JSON object per line */
-    FILE *messages;          /* where they go; NULL: stderr, on rank 0 */
-};
-
-/* Reads, checks and resolves a case file. All errors of the file are printed (to stderr, or
- * `messages`; as JSON lines with `json`) in one pass; returns STATUS_CASE then, with a one-line
- * summary as its text. Loads the modules that the case names. `options` may be NULL. */
-int scene_read(const char *path, const struct scene_options *options, struct scene **ret_scene);
 
 /* Value at a point; `t` in s. A script error returns STATUS_CASE with the line of the case file. */
 int scene_value_at(const struct scene_value *value, const double x[SCENE_AXES], double r, double t, double *ret);

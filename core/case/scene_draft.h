@@ -99,6 +99,7 @@ void scene_spare(struct draft *draft, const struct node *root);
  * outside), and about what its cells are too coarse for (waves, bubbles). */
 void scene_idle(struct draft *draft, const struct node *root);
 void scene_coarse(struct draft *draft);
+void scene_boil(struct draft *draft);
 
 /* A list of `dim` numbers into ret[3] (rest 0); false after a recorded error. */
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES]);
@@ -253,9 +254,12 @@ void scene_formula_help(struct draft *draft);
 bool scene_formula_is(const struct keys_value *value);
 bool scene_formula(struct draft *draft, const struct keys_value *value, const char *name, char ret_name[SCENE_NAME]);
 
+/* Records why a field that other scenes have is none of this one; false: no scene has it. */
+bool scene_field_miss(struct draft *draft, const struct keys_value *value);
+
 /* Checks a field name and copies it; false after a recorded error. */
-bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME]);
-bool scene_field_list(struct draft *draft, const struct keys_value *list, char (**ret_names)[SCENE_NAME],
-                      unsigned *ret_count);
+bool scene_field_name(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME]);
+bool scene_field_name_list(struct draft *draft, const struct keys_value *list, char (**ret_names)[SCENE_NAME],
+                           unsigned *ret_count);
 
 #endif

@@ -164,7 +164,7 @@ static void scene_expect_norm(struct draft *draft, const struct formula *plan, s
     char name[SCENE_NAME];
     struct trace trace;
     bool over_time = formula_column(plan, field->text, &trace);
-    if (!over_time) scene_field(draft, field, name);
+    if (!over_time) scene_field_name(draft, field, name);
     if (!over_time && !scene_expect_is_written(draft->scene, field->text)) {
         keys_error(&draft->keys, field, "'%s' is not among the fields of the snapshots", field->text);
         diag_help(draft->keys.diag, "add it to output.snapshots.fields");

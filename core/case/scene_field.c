@@ -110,13 +110,6 @@ static const struct scene_field scene_field_vapour[] = {
 
 enum { SCENE_FIELD_VAPOUR = sizeof scene_field_vapour / sizeof *scene_field_vapour };
 
-static bool scene_field_in(const char *name, const char *const *names)
-{
-    for (; *names; names++)
-        if (strcmp(*names, name) == 0) return true;
-    return false;
-}
-
 static bool scene_field_is_solid(const char *name)
 {
     for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++)
@@ -158,22 +151,25 @@ static bool scene_field_miss_strength(struct draft *draft, const struct keys_val
     return true;
 }
 
+/* A field of solids in a scene of fluids. */
+static bool scene_field_miss_solid(struct draft *draft, const struct keys_value *value)
+{
+    if (!scene_field_is_solid(value->text)) return false;
+    keys_error(&draft->keys, value, "'%s' is a field of solids, and no material has a 'constitutive' law", value->text);
+    return true;
+}
+
+bool scene_field_miss(struct draft *draft, const struct keys_value *value)
+{
+    return scene_field_miss_strength(draft, value) || scene_field_miss_viscosity(draft, value) ||
+           scene_field_miss_solid(draft, value);
+}
+
 bool scene_field_is_vector(const char *name)
 {
     for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++)
         if (strcmp(scene_field_plain[i].name, name) == 0) return scene_field_plain[i].is & SCENE_FIELD_VECTOR;
     return false;
-}
-
-/* What people write on paper. */
-static const char *scene_field_of_symbol(const char *symbol)
-{
-    static const char *const symbols[][2] = {{"p", "pressure"},    {"P", "pressure"}, {"rho", "density"},
-                                             {"u", "velocity"},    {"v", "velocity"}, {"T", "temperature"},
-                                             {"c", "sound_speed"}, {"M", "mach"},     {"omega", "vorticity"}};
-    for (size_t i = 0; i < sizeof symbols / sizeof *symbols; i++)
-        if (strcmp(symbol, symbols[i][0]) == 0) return symbols[i][1];
-    return NULL;
 }
 
 /* Appends the fields of modules; returns the end of the list. */
@@ -253,17 +249,6 @@ const char *const *scene_field_each(struct forest *forest)
     return names;
 }
 
-/* All names this scene has; NULL-terminated, in the forest. */
-static const char *const *scene_field_names(struct draft *draft)
-{
-    const struct scene_field *all = scene_field_all(draft);
-    unsigned count = 0;
-    while (all[count].name) count++;
-    const char **names = tree_take(draft->keys.forest, (count + 1) * sizeof *names);
-    for (unsigned i = 0; i < count; i++) names[i] = all[i].name;
-    return names;
-}
-
 const struct scene_field *scene_field_find(struct draft *draft, const char *name)
 {
     for (const struct scene_field *field = scene_field_all(draft); field->name; field++)
@@ -301,44 +286,4 @@ const char *scene_field_constant(struct draft *draft, const char *name)
             return "0 everywhere: surfaces are planes";
     }
     return NULL;
-}
-
-bool scene_field(struct draft *draft, const struct keys_value *value, char ret_name[SCENE_NAME])
-{
-    if (!value->given) return false;
-    if (scene_formula_is(value)) return scene_formula(draft, value, NULL, ret_name);
-    const char *const *names = scene_field_names(draft);
-    bool known = scene_field_in(value->text, names) || scene_peak_find(draft, value->text, names);
-    if (known && strlen(value->text) < SCENE_NAME) {
-        snprintf(ret_name, SCENE_NAME, "%s", value->text);
-        return true;
-    }
-    if (scene_field_miss_strength(draft, value) || scene_field_miss_viscosity(draft, value)) return false;
-    if (scene_field_is_solid(value->text)) {
-        keys_error(&draft->keys, value, "'%s' is a field of solids, and no material has a 'constitutive' law",
-                   value->text);
-        return false;
-    }
-    keys_error(&draft->keys, value, "there is no field '%s'", value->text);
-    const char *name = scene_field_of_symbol(value->text);
-    if (name) diag_help(draft->keys.diag, "did you mean '%s'?", name);
-    else diag_suggest(draft->keys.diag, value->text, names);
-    return false;
-}
-
-bool scene_field_list(struct draft *draft, const struct keys_value *list, char (**ret_names)[SCENE_NAME],
-                      unsigned *ret_count)
-{
-    char(*names)[SCENE_NAME] = mem_new(list->count + 1, sizeof *names);
-    bool good = list->given;
-    for (unsigned i = 0; i < list->count; i++) {
-        bool known = scene_field(draft, &list->list[i], names[i]); /* else it has no name to compare */
-        for (unsigned k = 0; known && k < i; k++)
-            if (strcmp(names[i], names[k]) == 0)
-                keys_error(&draft->keys, &list->list[i], "'%s' is listed twice", names[i]);
-        good &= known;
-    }
-    *ret_names = names;
-    *ret_count = list->count;
-    return good;
 }

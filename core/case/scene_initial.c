@@ -2,6 +2,7 @@
 #include "case/scene_draft.h"
 
 #include "base/mem.h"
+#include "case/keys_read.h"
 
 #include <errno.h>
 #include <string.h>
@@ -239,7 +240,7 @@ static void scene_initial_clouds(struct draft *draft)
     if (!any || diag_errors(draft->keys.diag)) return;
     initial->node->items = layers->items;
     initial->node->count = layers->count;
-    keys_again(&draft->keys, draft->root, "initial");
+    keys_read_again(&draft->keys, draft->root, "initial");
 }
 
 void scene_initial(struct draft *draft)

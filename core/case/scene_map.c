@@ -239,7 +239,7 @@ static void scene_map_read(struct draft *draft, struct scene_map *map, const str
     snprintf(map->name, SCENE_NAME, "%s", value->key->name);
     if (!text_is_identifier(value->key->name) || strlen(value->key->name) >= SCENE_NAME)
         keys_error(&draft->keys, value, "the name of a map is an identifier (letters, digits and _)");
-    scene_field_list(draft, keys_at(value->map, "fields"), &map->fields, &map->n_field);
+    scene_field_name_list(draft, keys_at(value->map, "fields"), &map->fields, &map->n_field);
     for (int i = 0; value->map && i < SCENE_MAP_WAYS; i++)
         if (keys_at(value->map, scene_map_rows[i].name)->node) {
             way = i;

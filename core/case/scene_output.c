@@ -148,6 +148,12 @@ static const struct key scene_output_rows[] = {
      .section = &scene_output_checkpoints,
      .fallback = "{}",
      .doc = "Exact states to go on from."},
+    {.name = "writers",
+     .type = KEYS_INTEGER,
+     .min = 1,
+     .max = 100000,
+     .doc = "Ranks that write snapshots and checkpoints, each a file for itself and its neighbours; one per machine if "
+            "not given. --writers is short for it."},
     {0},
 };
 
@@ -180,7 +186,7 @@ static void scene_output_probe_read(struct draft *draft, struct scene_probe *pro
     snprintf(probe->name, SCENE_NAME, "%s", value->key->name);
     if (!text_is_identifier(value->key->name) || strlen(value->key->name) >= SCENE_NAME)
         keys_error(&draft->keys, value, "the name of a probe is an identifier (letters, digits and _)");
-    scene_field_list(draft, keys_at(value->map, "fields"), &probe->fields, &probe->n_field);
+    scene_field_name_list(draft, keys_at(value->map, "fields"), &probe->fields, &probe->n_field);
     if (!scene_domain_vector(draft, at, probe->at)) return;
     for (int axis = 0; axis < scene->domain.dim; axis++)
         if (probe->at[axis] < scene->domain.lower[axis] || probe->at[axis] > scene->domain.upper[axis])
@@ -216,8 +222,8 @@ void scene_output(struct draft *draft)
     struct scene *scene = draft->scene;
     scene_output_folder(draft, output);
     scene->output.snapshots = scene_output_every(keys_at(snapshots, "every"));
-    scene_field_list(draft, keys_at(snapshots, "fields"), &scene->output.snapshot_fields,
-                     &scene->output.n_snapshot_field);
+    scene_field_name_list(draft, keys_at(snapshots, "fields"), &scene->output.snapshot_fields,
+                          &scene->output.n_snapshot_field);
     scene_output_body(scene);
     scene->output.snapshot_double = keys_at(snapshots, "precision")->integer == 1;
     scene->output.history = scene_output_every(keys_at(keys_at(output, "history")->map, "every"));
@@ -226,4 +232,5 @@ void scene_output(struct draft *draft)
     scene->output.checkpoints = scene_output_every(keys_at(checkpoints, "every"));
     scene->output.checkpoints_wall = keys_at(checkpoints, "wall")->number;
     scene->output.checkpoints_keep = (int)keys_at(checkpoints, "keep")->integer;
+    scene->output.writers = (int)keys_at(output, "writers")->integer;
 }

@@ -114,7 +114,7 @@ static const struct scene_field *scene_refine_field(struct draft *draft, const s
         diag_help(draft->keys.diag, "'lua: = pressure > 1e6' refines by an expression");
         return NULL;
     }
-    if (!scene_field(draft, value, ret_name)) return NULL;
+    if (!scene_field_name(draft, value, ret_name)) return NULL;
     const char *constant = scene_field_constant(draft, ret_name);
     if (!constant) return scene_field_find(draft, ret_name);
     keys_error(&draft->keys, value, "'%s' cannot tell where to refine: it is %s", ret_name, constant);

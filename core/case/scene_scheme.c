@@ -3,6 +3,8 @@
 
 #include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
+#include "case/keys_read.h"
+#include "case/script_host.h"
 #include "plug/vet.h"
 
 #include <stddef.h>
@@ -299,5 +301,5 @@ void scene_scheme(struct draft *draft)
     scene->run.until = keys_at(run, "until")->number;
     scene->run.max_steps = keys_at(run, "max-steps")->integer;
     scene->run.dt_least = keys_at(run, "smallest-step")->given ? keys_at(run, "smallest-step")->number : -1.0;
-    script_limit(scene->host, keys_at(run, "script-time")->number);
+    script_host_limit(scene->host, keys_at(run, "script-time")->number);
 }

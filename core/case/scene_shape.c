@@ -2,6 +2,7 @@
 #include "case/scene_draft.h"
 
 #include "base/mem.h"
+#include "case/keys_read.h"
 
 #include <math.h>
 #include <string.h>

@@ -7,14 +7,11 @@
  * Lua's own messages then carry the right line, and the full file name is put in afterwards. */
 #include "case/script.h"
 
-#include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
 #include "case/script_guard.h"
-#include "case/script_sandbox.h"
 #include "case/script_state.h"
-#include "case/script_table.h"
 
 #include <ctype.h>
 #include <lauxlib.h>
@@ -24,72 +21,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SCRIPT_MEMORY = 64 << 20, SCRIPT_TICK = 1000000000 };
+enum { SCRIPT_TICK = 1000000000 };
 #define SCRIPT_CHUNK "=\1"
-
-static void *script_allocate(void *user, void *block, size_t old, size_t size)
-{
-    struct script_host *host = user;
-    size_t held = block ? old : 0;
-    if (size > held && host->used - held + size > SCRIPT_MEMORY + host->room) return NULL;
-    void *moved = mem_try(block, size);
-    if (moved || !size) host->used = host->used - held + size;
-    return moved;
-}
-
-static int script_open(lua_State *lua)
-{
-    struct script_host *host = lua_touserdata(lua, 1);
-    script_sandbox_open(lua);
-    lua_pushvalue(lua, -1);
-    host->globals = luaL_ref(lua, LUA_REGISTRYINDEX);
-    script_sandbox_freeze(lua, "a global");
-    host->frozen = luaL_ref(lua, LUA_REGISTRYINDEX);
-    return 0;
-}
-
-struct script_host *script_host_new(void)
-{
-    struct script_host *host = mem_new(1, sizeof *host);
-    host->lua = lua_newstate(script_allocate, host);
-    if (host->lua) {
-        lua_pushcfunction(host->lua, script_open);
-        lua_pushlightuserdata(host->lua, host);
-    }
-    if (!host->lua || lua_pcall(host->lua, 1, 0, 0)) {
-        fprintf(stderr, "bulla: error: out of memory: cannot start Lua\n");
-        comm_abort(STATUS_RUN);
-    }
-    host->limit = SCRIPT_TIME;
-    script_guard_new();
-    return host;
-}
-
-void script_limit(struct script_host *host, double seconds)
-{
-    host->limit = seconds;
-}
 
 /* Of the guard, in microseconds: a call ends after one to two of them. */
 static int script_tick(const struct script_host *host, double extra)
 {
     double tick = 0.5e6 * (host->limit + extra);
     return tick < SCRIPT_TICK ? (int)tick : SCRIPT_TICK;
-}
-
-void script_host_free(struct script_host *host)
-{
-    if (!host) return;
-    script_guard_free();
-    lua_close(host->lua);
-    for (struct script *script = host->scripts, *next; script; script = next) {
-        next = script->next;
-        mem_free(script->file);
-        mem_free(script->arguments);
-        mem_free(script);
-    }
-    script_table_free(host->tables);
-    mem_free(host);
 }
 
 /* Messages */

@@ -1,6 +1,6 @@
 /* script.h - Lua 5.4, fenced in: expressions, initial conditions, boundary values.
  *
- * One host (Lua state) per case. Scripts see math, a few base functions and the case's
+ * One host (Lua state, script_host.h) per case. Scripts see math, a few base functions and the case's
  * parameters; no files, no processes, no loading of code, no random numbers, and an order of
  * `pairs` that is always the same, so that results never depend on run or rank. Memory is
  * capped, endless loops are ended; every error carries the line of the case file.
@@ -15,14 +15,6 @@ struct script_host; /* the Lua state and all that lives in it */
 struct script;      /* a compiled expression or function; owned by its host */
 
 enum { SCRIPT_ARGUMENTS = 16 }; /* most numbers in and out of a call */
-#define SCRIPT_TIME 0.2         /* seconds of CPU time for a call, if the case says nothing */
-
-struct script_host *script_host_new(void);       /* ends the program if there is no memory for it */
-void script_host_free(struct script_host *host); /* frees its scripts too; NULL is fine */
-
-/* Seconds of CPU time that a call may take from now on (SCRIPT_TIME at first; below 2000); many calls, one after the
- * other, may take a 200th of it in the mean, and twice as much in sum whatever they are. */
-void script_limit(struct script_host *host, double seconds);
 
 /* Makes a number visible to all scripts as a global (a case parameter). */
 void script_set_number(struct script_host *host, const char *name, double value);

@@ -4,6 +4,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "case/scene_read.h"
 #include "cli/human.h"
 #include "io/start.h"
 #include "judge/norm.h"
@@ -14,7 +15,7 @@
 /* Options that are short for a setting. */
 static const struct {
     const char *option, *path;
-} scenes_short[] = {{"--until", "run.until"}, {"--max-steps", "run.max-steps"}};
+} scenes_short[] = {{"--until", "run.until"}, {"--max-steps", "run.max-steps"}, {"--writers", "output.writers"}};
 
 static char *scenes_setting(const char *option, const char *value)
 {

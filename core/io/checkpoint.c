@@ -1,6 +1,6 @@
 /* checkpoint.c - see checkpoint.h. The order of events for one file: draft written by rank 0 with the rows of
  * all ranks, closed, made lasting, read back and compared, sealed, renamed, folder made lasting; then older
- * files removed. A crash anywhere leaves the older files and at most a draft. */
+ * files removed. Where there are parts, each writer does all this with its own first, up to the renaming. A crash anywhere leaves the older files and at most a draft. */
 #include "io/checkpoint.h"
 
 #include "base/comm.h"
@@ -9,12 +9,16 @@
 #include "base/version.h"
 #include "io/facts.h"
 #include "io/h5out.h"
+#include "io/parts.h"
 #include "io/place.h"
 #include "io/room.h"
 #include "io/seal.h"
+#include "io/writers.h"
+#include "solve/evaporate.h"
 #include "solve/peak.h"
 
 #include <dirent.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -25,7 +29,7 @@ enum { CHECKPOINT_MESSAGE = 4 << 20, CHECKPOINT_KEEP = 2 }; /* bytes of rows tha
 struct checkpoints {
     const struct scene *scene;
     char *folder, *last;
-    int keep;
+    int keep, writers;
     long step; /* of the last file, or -1 */
 };
 
@@ -36,6 +40,7 @@ struct checkpoint {
     struct h5out_range tiles[MESH_LEVELS]; /* that this rank holds */
     size_t n_tile;
     struct seal seal; /* rank 0 */
+    struct seal part; /* of this rank's writer, if there are several */
 };
 
 struct checkpoints *checkpoint_new(const struct scene *scene)
@@ -43,6 +48,7 @@ struct checkpoints *checkpoint_new(const struct scene *scene)
     struct checkpoints *checkpoints = mem_new(1, sizeof *checkpoints);
     checkpoints->scene = scene;
     checkpoints->folder = mem_print("%s/checkpoints", scene->output.directory);
+    checkpoints->writers = writers_count(scene);
     checkpoints->keep = scene->output.checkpoints_keep > 0 ? scene->output.checkpoints_keep : CHECKPOINT_KEEP;
     checkpoints->step = -1;
     return checkpoints;
@@ -116,6 +122,23 @@ static void checkpoint_note_tagged(const struct state *state, struct notes *note
     mem_free(counts);
 }
 
+/* Accounts of what has evaporated, where some column asks for it. */
+static void checkpoint_note_evaporated(const struct state *state, struct notes *notes)
+{
+    for (unsigned k = 0; k < state->scene->n_phase; k++) {
+        const struct account all = evaporate_account(state, k);
+        double digits[ACCOUNT_DIGITS];
+        bool any = false;
+        char name[32];
+        snprintf(name, sizeof name, "evaporated.%u", k);
+        for (int i = 0; i < ACCOUNT_DIGITS; i++) {
+            digits[i] = (double)all.digit[i];
+            any = any || all.digit[i];
+        }
+        if (any) notes_put(notes, name, ACCOUNT_DIGITS, digits);
+    }
+}
+
 /* Counts about laws. */
 static void checkpoint_note_laws(const struct state_counts *counts, unsigned n_material, struct notes *notes)
 {
@@ -149,6 +172,7 @@ static void checkpoint_note(const struct state *state, struct notes *notes)
     notes_put_one(notes, "cells.carried", (double)counts.carried);
     checkpoint_note_laws(&counts, state->model->n_material, notes);
     checkpoint_note_tagged(state, notes);
+    checkpoint_note_evaporated(state, notes);
     notes_put(notes, "counts.of_each_rank", 2, (double[]){(double)counts.retries, (double)counts.regrids});
 }
 
@@ -210,13 +234,21 @@ static void checkpoint_fill_kept(void *context, size_t first, size_t count, void
     }
 }
 
-/* Adds a data set that has been written to the list of the seal. */
-static void checkpoint_list_part(struct checkpoint *point, const char *path, uint64_t hash)
+/* Adds a data set that has been written to the list of a seal. */
+static void checkpoint_list_part(struct h5 *file, struct seal *seal, const char *path, uint64_t hash)
 {
-    if (point->file->idle || point->file->code) return;
+    if (file->idle || file->code) return;
     uint64_t offset, length;
-    h5out_place(point->file, path, &offset, &length);
-    if (!point->file->code) seal_add(&point->seal, path, offset, length, hash);
+    h5out_place(file, path, &offset, &length);
+    if (!file->code) seal_add(seal, path, offset, length, hash);
+}
+
+/* Rows lie in the file itself, or in that of a writer, if it has any. */
+static void checkpoint_list_rows(struct checkpoint *point, const char *path, uint64_t hash)
+{
+    struct h5 *part = point->file->part;
+    if (!part) checkpoint_list_part(point->file, &point->seal, path, hash);
+    else if (!part->idle && h5out_has(part, path)) checkpoint_list_part(part, &point->part, path, hash);
 }
 
 static int checkpoint_put_rows(struct checkpoint *point, const char *path, size_t columns,
@@ -234,7 +266,7 @@ static int checkpoint_put_rows(struct checkpoint *point, const char *path, size_
                                    .fill = fill,
                                    .context = point};
     TRY(h5out_write(point->file, path, &all));
-    checkpoint_list_part(point, path, hash);
+    checkpoint_list_rows(point, path, hash);
     return STATUS_OK;
 }
 
@@ -258,14 +290,34 @@ static void checkpoint_put_tiles(struct checkpoint *point)
             memcpy(row, values, sizeof values);
         }
     h5out_array(point->file, "/tiles", H5_I32, point->n_tile, CHECKPOINT_TILE, rows);
-    checkpoint_list_part(point, "/tiles", seal_hash(rows, point->n_tile * CHECKPOINT_TILE * sizeof *rows));
+    checkpoint_list_part(point->file, &point->seal, "/tiles",
+                         seal_hash(rows, point->n_tile * CHECKPOINT_TILE * sizeof *rows));
     mem_free(rows);
+}
+
+/* Which tiles a part holds: runs of [part, tiles], in the order of all tiles. */
+static void checkpoint_put_runs(struct checkpoint *point)
+{
+    const struct mesh *mesh = point->state->mesh;
+    const int writers = point->file->writers;
+    if (writers == 1) return;
+    int32_t *runs = mem_new(point->n_tile * CHECKPOINT_RUN, sizeof *runs);
+    size_t n = 0;
+    for (int l = 0; l < mesh->n_level; l++)
+        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++) {
+            int32_t writer = writers_of(writers, mesh->levels[l].tiles[i].rank);
+            if (n == 0 || runs[(n - 1) * CHECKPOINT_RUN] != writer) runs[n++ * CHECKPOINT_RUN] = writer;
+            runs[(n - 1) * CHECKPOINT_RUN + 1]++;
+        }
+    h5out_array(point->file, "/runs", H5_I32, n, CHECKPOINT_RUN, runs);
+    checkpoint_list_part(point->file, &point->seal, "/runs", seal_hash(runs, n * CHECKPOINT_RUN * sizeof *runs));
+    mem_free(runs);
 }
 
 static void checkpoint_put_text(struct checkpoint *point, const char *path, const char *text)
 {
     h5out_text(point->file, path, text);
-    checkpoint_list_part(point, path, seal_hash(text, strlen(text)));
+    checkpoint_list_part(point->file, &point->seal, path, seal_hash(text, strlen(text)));
 }
 
 static int checkpoint_fill(struct checkpoint *point, const struct notes *outputs)
@@ -282,13 +334,26 @@ static int checkpoint_fill(struct checkpoint *point, const struct notes *outputs
     checkpoint_put_text(point, "/notes", notes.text.at);
     text_done(&notes.text);
     checkpoint_put_tiles(point);
+    checkpoint_put_runs(point);
     TRY(checkpoint_put_rows(point, "/u", mesh->n_field * mesh->n_cell, checkpoint_fill_u));
     if (!state->model->linear) TRY(checkpoint_put_rows(point, "/p", mesh->n_cell, checkpoint_fill_p));
     return checkpoint_put_kept(point);
 }
 
+/* Seals the parts, if there are any, and lists them. */
+static int checkpoint_seal_parts(struct checkpoint *point, const struct parts *parts)
+{
+    uint64_t hash;
+    TRY(parts_seal(parts, point->file, "/parts", seal_close, &point->part, &hash));
+    if (point->file->part) {
+        point->seal.kind = SEAL_HEAD;
+        checkpoint_list_part(point->file, &point->seal, "/parts", hash);
+    }
+    return STATUS_OK;
+}
+
 /* Writes the data; the header stays empty. */
-static int checkpoint_draft(struct checkpoint *point, const char *draft, const struct notes *outputs)
+static int checkpoint_draft(struct checkpoint *point, const struct parts *parts, const struct notes *outputs)
 {
     const struct mesh *mesh = point->state->mesh;
     for (int l = 0; l < mesh->n_level; l++) {
@@ -296,11 +361,19 @@ static int checkpoint_draft(struct checkpoint *point, const char *draft, const s
         point->tiles[l] = (struct h5out_range){point->n_tile + level->first, level->n_local};
         point->n_tile += level->n_tile;
     }
-    TRY(h5_create_behind(draft, SEAL_BYTES, &point->file));
+    TRY(parts_create(parts, SEAL_BYTES, &point->file));
     int code = checkpoint_fill(point, outputs);
+    if (!code) code = checkpoint_seal_parts(point, parts);
     if (!code) return h5_close(point->file);
     h5_abandon(point->file);
     return code;
+}
+
+/* The parts of a file go after it: without it they mean nothing. */
+static void checkpoint_remove(const char *path)
+{
+    unlink(path);
+    parts_remove(path);
 }
 
 /* Seals the draft, gives it its name and removes what is too old. Rank 0. */
@@ -318,10 +391,28 @@ static int checkpoint_accept(const struct checkpoints *checkpoints, struct seal 
     if (!code) code = seal_sync_folder(checkpoints->scene->output.directory); /* in which the folder may be new */
     for (unsigned i = 0, kept = 1; i < n; i++) {
         bool counts = entries[i].number && strcmp(entries[i].path, path) != 0;
-        if (!code && counts && kept++ >= (unsigned)checkpoints->keep) unlink(entries[i].path);
+        if (!code && counts && kept++ >= (unsigned)checkpoints->keep) checkpoint_remove(entries[i].path);
         mem_free(entries[i].path);
     }
     mem_free(entries);
+    return code;
+}
+
+/* Writes the file `path`. */
+static int checkpoint_put(struct checkpoints *checkpoints, const struct state *state, const struct notes *outputs,
+                          const char *path)
+{
+    char *draft = place_draft(path);
+    struct parts *parts = parts_new(path, checkpoints->writers);
+    struct checkpoint point = {.state = state};
+    int code = checkpoint_draft(&point, parts, outputs);
+    if (!code) code = parts_accept(parts);
+    if (!code) code = comm_agree(comm_rank() == 0 ? checkpoint_accept(checkpoints, &point.seal, draft, path) : 0);
+    if (code) place_reject(path);
+    if (code) parts_reject(parts);
+    else parts_clean(parts);
+    parts_free(parts);
+    mem_free(draft);
     return code;
 }
 
@@ -330,12 +421,7 @@ int checkpoint_write(struct checkpoints *checkpoints, const struct state *state,
     if (checkpoints->step == state->step) return STATUS_OK;
     TRY(place_folder(checkpoints->folder));
     char *path = mem_print("%s/%s_%06ld.chk", checkpoints->folder, state->scene->name, state->step);
-    char *draft = place_draft(path);
-    struct checkpoint point = {.state = state};
-    int code = checkpoint_draft(&point, draft, outputs);
-    if (!code) code = comm_agree(comm_rank() == 0 ? checkpoint_accept(checkpoints, &point.seal, draft, path) : 0);
-    if (code) place_reject(path);
-    mem_free(draft);
+    int code = checkpoint_put(checkpoints, state, outputs, path);
     if (code) {
         mem_free(path);
         return status_wrap(code, "no checkpoint of step %ld: ", state->step);

@@ -9,6 +9,10 @@
  *   /u          f64 [n_tile, n_field * n_cell]  conserved fields, as in memory
  *   /p          f64 [n_tile, n_cell]   pressures; only where a closure is iterated
  *   /kept       f64 [n_tile, n_kept * n_cell]   peaks over time (solve/peak.h); only where a scene has them
+ * With several writers (writers.h) /u, /p and /kept lie in parts beside the file (parts.h), tile by tile in the same
+ * order; in the file they are views, and there are besides:
+ *   /parts      text      the list of the parts
+ *   /runs       i32 [n, 2]             which part has how many tiles, run by run in the order of /tiles
  * A file gets its name when it is whole, lasting and verified; only then do older ones go. */
 #ifndef CHECKPOINT_H
 #define CHECKPOINT_H
@@ -16,11 +20,11 @@
 #include "io/notes.h"
 #include "solve/state.h"
 
-enum { CHECKPOINT_TILE = 5 }; /* columns of /tiles */
+enum { CHECKPOINT_TILE = 5, CHECKPOINT_RUN = 2 }; /* columns of /tiles and /runs */
 
 struct checkpoints;
 
-/* Where the checkpoints of a scene go, and how many are kept. Nothing is written yet. */
+/* Where the checkpoints of a scene go, and how many are kept. Nothing is written yet. Collective. */
 struct checkpoints *checkpoint_new(const struct scene *scene);
 void checkpoint_free(struct checkpoints *checkpoints); /* NULL is fine */
 

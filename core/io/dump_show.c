@@ -4,7 +4,7 @@
 
 #include "base/mem.h"
 #include "base/status.h"
-#include "case/scene.h"
+#include "case/scene_read.h"
 #include "io/dump_read.h"
 #include "io/start.h"
 #include "plug/registry.h"

@@ -1,6 +1,6 @@
 /* h5.c - see h5.h.
  *
- * One rank writes: under MPI-IO a full disk shows on some ranks in the middle of a collective
+ * One rank writes a file: under MPI-IO a full disk shows on some ranks in the middle of a collective
  * call, and the others wait for ever (seen with HDF5 1.10.8 on Open MPI 4.1.4 and 3 ranks).
  * HDF5 drops its error stack at the next call, therefore h5_check reads it on the spot and
  * keeps the first; calls on handles that came of a failure are refused by HDF5 at once. */
@@ -11,6 +11,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/room.h"
+#include "io/writers.h"
 
 #include <hdf5.h>
 #include <stdio.h>
@@ -89,6 +90,7 @@ static struct h5 *h5_handle(const char *path)
     struct h5 *file = mem_new(1, sizeof *file);
     file->path = mem_text(path);
     file->id = -1;
+    file->writers = 1;
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* reasons travel in the status, not to the terminal */
     return file;
 }
@@ -96,7 +98,9 @@ static struct h5 *h5_handle(const char *path)
 void h5_abandon(struct h5 *file)
 {
     if (!file) return;
+    h5_abandon(file->part);
     if (file->id >= 0) H5Fclose(file->id);
+    mem_free(file->stem);
     mem_free(file->path);
     mem_free(file);
 }
@@ -111,6 +115,17 @@ static hid_t h5_access(struct h5 *file)
     return access;
 }
 
+/* Makes the file of a handle, unless another rank does. */
+static void h5_make(struct h5 *file, size_t head)
+{
+    if (file->idle) return;
+    hid_t access = h5_access(file), start = h5_check(file, H5Pcreate(H5P_FILE_CREATE), "prepare");
+    h5_check(file, H5Pset_userblock(start, head), "leave room for a header");
+    file->id = h5_check(file, H5Fcreate(file->path, H5F_ACC_TRUNC, start, access), "create it");
+    H5Pclose(access);
+    H5Pclose(start);
+}
+
 int h5_create(const char *path, struct h5 **ret_file)
 {
     return h5_create_behind(path, 0, ret_file);
@@ -118,16 +133,28 @@ int h5_create(const char *path, struct h5 **ret_file)
 
 int h5_create_behind(const char *path, size_t head, struct h5 **ret_file)
 {
+    return h5_create_parts(path, head, &(struct h5_parts){.writers = 1}, ret_file);
+}
+
+/* What has failed so far, in the file or in the part of this rank's writer. */
+static int h5_code(const struct h5 *file)
+{
+    return file->code || !file->part ? file->code : file->part->code;
+}
+
+int h5_create_parts(const char *path, size_t head, const struct h5_parts *parts, struct h5 **ret_file)
+{
     struct h5 *file = h5_handle(path);
     file->idle = comm_rank() != 0;
-    if (!file->idle) {
-        hid_t access = h5_access(file), start = h5_check(file, H5Pcreate(H5P_FILE_CREATE), "prepare");
-        h5_check(file, H5Pset_userblock(start, head), "leave room for a header");
-        file->id = h5_check(file, H5Fcreate(path, H5F_ACC_TRUNC, start, access), "create it");
-        H5Pclose(access);
-        H5Pclose(start);
+    h5_make(file, head);
+    if (parts->writers > 1) {
+        file->writers = parts->writers;
+        file->stem = mem_text(parts->stem);
+        file->part = h5_handle(parts->path);
+        file->part->idle = !writers_here(parts->writers);
+        h5_make(file->part, parts->head);
     }
-    int code = comm_agree(file->code);
+    int code = comm_agree(h5_code(file));
     if (code) h5_abandon(file);
     else *ret_file = file;
     return code;
@@ -151,6 +178,15 @@ int h5_open(const char *path, struct h5 **ret_file)
     return code;
 }
 
+int h5_close_part(struct h5 *file)
+{
+    struct h5 *part = file->part;
+    if (!part) return STATUS_OK;
+    if (!part->idle) h5_check(part, H5Fclose(part->id), "finish it");
+    part->id = -1;
+    return comm_agree(h5_code(file));
+}
+
 int h5_close(struct h5 *file)
 {
     if (!file->idle) h5_check(file, H5Fclose(file->id), "finish it");
@@ -168,6 +204,16 @@ void h5_group(struct h5 *file, const char *path)
     hid_t group = h5_check(file, H5Gcreate2(file->id, path, H5P_DEFAULT, options, H5P_DEFAULT), "make a group");
     if (group >= 0) H5Gclose(group);
     if (options >= 0) H5Pclose(options);
+}
+
+void h5_parents(struct h5 *file, const char *path)
+{
+    char *part = mem_text(path);
+    for (char *end = part + 1; (end = strchr(end, '/')); *end++ = '/') {
+        *end = '\0';
+        if (H5Lexists(file->id, part, H5P_DEFAULT) <= 0) h5_group(file, part);
+    }
+    mem_free(part);
 }
 
 /* Makes and writes one attribute of type id[0] and space id[1]; closes the space. */

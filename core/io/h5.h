@@ -1,10 +1,10 @@
 /* h5.h - HDF5 files, checked: opening, closing, groups and attributes.
  *
- * HDF5 is called by h5.c, h5out.c (data sets out) and h5in.c (back in) only. Every call is
+ * HDF5 is called by h5.c, h5out.c (data sets out), h5in.c (back in) and h5join.c only. Every call is
  * checked; a failure becomes one status message (STATUS_RUN) with the file, what was being
  * done, the innermost reason that HDF5 gives and, when the disk is full, the free space.
- * A file being written is written by rank 0; all ranks make the same calls in the same order,
- * the others taking part where their data are needed (h5out.h). What fails is known to rank 0
+ * A file being written is written by rank 0, and each of its parts by a writer; all ranks make the same calls in the
+ * same order, the others taking part where their data are needed (h5out.h). What fails is known to its writer
  * alone until h5out_write or h5_close tell all, so the other calls return nothing. Files being read
  * are read by this process alone. */
 #ifndef H5_H
@@ -22,6 +22,10 @@ struct h5 {
     char *path;
     bool idle; /* being written by another rank */
     int code;  /* the first failure; later calls keep its message */
+    /* Of a file whose rows lie in other files, its parts, one per writer (writers.h); else 1, NULL, NULL. */
+    int writers;
+    char *stem;      /* parts are STEM1, STEM2, ... beside the file */
+    struct h5 *part; /* that of this rank's writer */
 };
 
 /* Before MPI is started and before all other calls: HDF5 must not clean up by itself at the end, neither at exit nor when
@@ -34,17 +38,32 @@ int h5_create(const char *path, struct h5 **ret_file);
 /* The same behind `head` bytes that are left to others (0, or a power of two from 512 on). */
 int h5_create_behind(const char *path, size_t head, struct h5 **ret_file);
 
+/* The same for a file with parts (parts.h): their number, the stem of their names, the path that the part of this
+ * rank's writer is written under, and the bytes before it that are left to others. */
+struct h5_parts {
+    int writers;
+    const char *stem, *path;
+    size_t head;
+};
+int h5_create_parts(const char *path, size_t head, const struct h5_parts *parts, struct h5 **ret_file);
+
 /* Opens a file for reading. */
 int h5_open(const char *path, struct h5 **ret_file);
 
 /* Closes; what could not be written until then fails here. Collective for created files. */
 int h5_close(struct h5 *file);
 
+/* Closes the parts before the file that they belong to. Collective. */
+int h5_close_part(struct h5 *file);
+
 /* Closes after a failure, without looking; NULL is fine. */
 void h5_abandon(struct h5 *file);
 
 /* Makes a group. Collective. */
 void h5_group(struct h5 *file, const char *path);
+
+/* Makes the groups above an object that are not there yet. Of the rank that writes. */
+void h5_parents(struct h5 *file, const char *path);
 
 /* Attributes of the object `object` ("/": the file). Numbers: n values, n = 0: one scalar. Text: a
  * null-padded string of exactly its length, ASCII where it is. Record: one compound of n named i32.

@@ -1,10 +1,11 @@
 /* h5out.c - see h5out.h.
  *
  * The compressed path: a data set is cut into chunks; whoever holds all rows of a chunk packs it and
- * sends it to rank 0, which files it as it is; pieces of a chunk that several ranks hold travel as
- * plain rows, and rank 0 packs it. So packing runs on all ranks at once, nobody holds more than his
+ * sends it to its writer, which files it as it is; pieces of a chunk that several ranks hold travel as
+ * plain rows, and the writer packs it. So packing runs on all ranks at once, nobody holds more than his
  * own data set packed, and the bytes in the file do not depend on the ranks. All ranks know all
- * ranges, therefore who sends what, and rank 0 takes every message even after a failure.
+ * ranges, therefore who sends what, and a writer takes every message even after a failure. With several writers each
+ * has a file with its rows alone, in their order, and rank 0 makes the view that unites them.
  * The plain path (`hash`): for what will be read back at its place in the file. */
 #include "io/h5out.h"
 
@@ -12,36 +13,51 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/chunk.h"
+#include "io/writers.h"
 
 #include <hdf5.h>
+#include <math.h>
 #include <mpi.h>
+#include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
 enum { H5OUT_TAG = 77, H5OUT_HEAD = 8 }; /* bytes before a packed chunk: which filters were left out */
 
-/* A data set while it is written. */
+/* A data set while it is written; rows are numbered as in the file of their writer. */
 struct h5out {
     const struct h5out_rows *rows;
-    size_t row, chunk;    /* bytes of a row, rows of a chunk */
-    unsigned n_range;     /* of all ranks */
-    double (*ranges)[2];  /* first, count; the ranges of rank r are r * rows->n_range ... */
+    size_t row, chunk;   /* bytes of a row, rows of a chunk */
+    size_t total;        /* rows of this writer */
+    int leader;          /* the rank that writes */
+    unsigned n_range;    /* of the ranks that hand their rows to it */
+    unsigned n_all;      /* of all ranks */
+    double (*ranges)[2]; /* first, count, in the whole data set; the ranges of rank r are r * rows->n_range ... */
+    const double (*own)[2];
+    size_t *places;       /* [n_range] where the ranges of this writer begin in its file */
     char *plain, *packed; /* one chunk; packed: with its head */
 };
 
 /* What one rank holds of a chunk. */
 struct h5out_piece {
     int rank;
-    size_t first, count;
+    size_t first, count, source; /* source: number of the first row in the whole data set */
 };
 
-static hid_t h5out_layout(struct h5 *file, const struct h5out_rows *rows)
+static hid_t h5out_plain_layout(struct h5 *file)
 {
     hid_t layout = h5_check(file, H5Pcreate(H5P_DATASET_CREATE), "prepare a data set");
     h5_check(file, H5Pset_obj_track_times(layout, false), "prepare a data set");
     h5_check(file, H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER), "prepare a data set");
+    return layout;
+}
+
+static hid_t h5out_layout(struct h5 *file, const struct h5out *out)
+{
+    hid_t layout = h5out_plain_layout(file);
+    const struct h5out_rows *rows = out->rows;
     if (!rows->chunk || rows->hash) return layout;
-    hsize_t chunk[2] = {rows->chunk < rows->total ? rows->chunk : rows->total, rows->columns};
+    hsize_t chunk[2] = {out->chunk, rows->columns};
     h5_check(file, H5Pset_chunk(layout, rows->columns ? 2 : 1, chunk), "set the chunks of a data set");
     h5_check(file, H5Pset_shuffle(layout), "set the compression of a data set");
     h5_check(file, H5Pset_deflate(layout, 1), "set the compression of a data set");
@@ -54,14 +70,11 @@ static hid_t h5out_space(struct h5 *file, size_t rows, unsigned columns)
     return h5_check(file, H5Screate_simple(columns ? 2 : 1, extent, NULL), "shape a data set");
 }
 
-static void h5out_begin(struct h5out *out, const struct h5out_rows *rows)
+/* The ranges of all ranks. */
+static void h5out_collect(struct h5out *out, const struct h5out_rows *rows)
 {
-    *out = (struct h5out){.rows = rows, .row = h5_type_size(rows->type) * (rows->columns ? rows->columns : 1)};
-    out->chunk = rows->chunk < rows->total ? rows->chunk : rows->total;
-    out->n_range = rows->n_range * (unsigned)comm_size();
-    out->ranges = mem_new(out->n_range, sizeof *out->ranges);
-    out->plain = mem_new(out->chunk, out->row);
-    out->packed = mem_new(out->chunk * out->row + H5OUT_HEAD, 1);
+    out->n_all = rows->n_range * (unsigned)comm_size();
+    out->ranges = mem_new(out->n_all, sizeof *out->ranges);
     double(*own)[2] = mem_new(rows->n_range, sizeof *own);
     for (unsigned i = 0; i < rows->n_range; i++) {
         own[i][0] = (double)rows->ranges[i].first;
@@ -71,9 +84,62 @@ static void h5out_begin(struct h5out *out, const struct h5out_rows *rows)
     mem_free(own);
 }
 
+/* A range of a writer, while they are put in order. */
+struct h5out_part {
+    size_t first, count;
+    unsigned at;
+};
+
+static int h5out_compare(const void *a, const void *b)
+{
+    size_t x = ((const struct h5out_part *)a)->first, y = ((const struct h5out_part *)b)->first;
+    return (x > y) - (x < y);
+}
+
+/* The ranges of n ranges that have rows, in the order of the whole data set: that of a writer's file; their number. */
+static unsigned h5out_order(const double (*ranges)[2], unsigned n, struct h5out_part **ret_parts)
+{
+    struct h5out_part *parts = mem_new(n + 1u, sizeof *parts);
+    unsigned found = 0;
+    for (unsigned i = 0; i < n; i++)
+        if (ranges[i][1] > 0.0) parts[found++] = (struct h5out_part){(size_t)ranges[i][0], (size_t)ranges[i][1], i};
+    qsort(parts, found, sizeof *parts, h5out_compare);
+    *ret_parts = parts;
+    return found;
+}
+
+/* The ranges of a writer's ranks. */
+static const double (*h5out_ranges(const struct h5out *out, int writers, int writer, unsigned *ret_n))[2]
+{
+    unsigned first = (unsigned)writers_first(writers, writer), end = (unsigned)writers_first(writers, writer + 1);
+    *ret_n = (end - first) * out->rows->n_range;
+    return (const double(*)[2])out->ranges + (size_t)first * out->rows->n_range;
+}
+
+static void h5out_begin(struct h5out *out, const struct h5out_rows *rows, int writers)
+{
+    struct h5out_part *parts;
+    int writer = writers_of(writers, comm_rank());
+    *out = (struct h5out){.rows = rows, .row = h5_type_size(rows->type) * (rows->columns ? rows->columns : 1)};
+    h5out_collect(out, rows);
+    out->leader = writers_first(writers, writer);
+    out->own = h5out_ranges(out, writers, writer, &out->n_range);
+    out->places = mem_new(out->n_range + 1u, sizeof *out->places);
+    unsigned n = h5out_order(out->own, out->n_range, &parts);
+    for (unsigned i = 0; i < n; i++) {
+        out->places[parts[i].at] = out->total;
+        out->total += parts[i].count;
+    }
+    mem_free(parts);
+    out->chunk = rows->chunk < out->total ? rows->chunk : out->total;
+    out->plain = mem_new(out->chunk, out->row);
+    out->packed = mem_new(out->chunk * out->row + H5OUT_HEAD, 1);
+}
+
 static void h5out_end(struct h5out *out)
 {
     mem_free(out->ranges);
+    mem_free(out->places);
     mem_free(out->plain);
     mem_free(out->packed);
 }
@@ -81,17 +147,26 @@ static void h5out_end(struct h5out *out)
 /* Rows of a chunk; fewer in the last one. */
 static size_t h5out_count(const struct h5out *out, size_t first)
 {
-    return out->rows->total - first < out->chunk ? out->rows->total - first : out->chunk;
+    return out->total - first < out->chunk ? out->total - first : out->chunk;
 }
 
 /* The part of range `i` that lies in the chunk from row `first` on; count 0: none. */
 static struct h5out_piece h5out_piece(const struct h5out *out, size_t first, unsigned i)
 {
-    size_t from = (size_t)out->ranges[i][0], to = from + (size_t)out->ranges[i][1];
+    size_t begin = out->places[i], from = begin, to = from + (size_t)out->own[i][1];
     size_t end = first + h5out_count(out, first);
     from = from > first ? from : first;
     to = to < end ? to : end;
-    return (struct h5out_piece){(int)(i / out->rows->n_range), from, to > from ? to - from : 0};
+    return (struct h5out_piece){.rank = out->leader + (int)(i / out->rows->n_range),
+                                .first = from,
+                                .count = to > from ? to - from : 0,
+                                .source = (size_t)out->own[i][0] + (from - begin)};
+}
+
+/* Asks for the rows of a piece. */
+static void h5out_fill(const struct h5out *out, const struct h5out_piece *piece, char *to)
+{
+    out->rows->fill(out->rows->context, piece->source, piece->count, to);
 }
 
 /* Packs the chunk in `plain`, with rows [0, count) in use, behind a head; returns the size of both. */
@@ -106,35 +181,35 @@ static size_t h5out_pack(struct h5out *out, size_t count)
     return size + H5OUT_HEAD;
 }
 
-/* Messages on their way to rank 0. */
+/* Messages on their way to the writer. */
 struct h5out_mail {
     unsigned n;
     MPI_Request *requests;
     char **letters;
 };
 
-static void h5out_post(struct h5out_mail *mail, const char *bytes, size_t size)
+static void h5out_post(struct h5out_mail *mail, int leader, const char *bytes, size_t size)
 {
     mail->requests = mem_grow(mail->requests, mail->n, mail->n + 1u, sizeof *mail->requests);
     mail->letters = mem_grow(mail->letters, mail->n, mail->n + 1u, sizeof *mail->letters);
     mail->letters[mail->n] = mem_new(size, 1);
     memcpy(mail->letters[mail->n], bytes, size);
-    MPI_Isend(mail->letters[mail->n], (int)size, MPI_BYTE, 0, H5OUT_TAG, comm_world(), &mail->requests[mail->n]);
+    MPI_Isend(mail->letters[mail->n], (int)size, MPI_BYTE, leader, H5OUT_TAG, comm_world(), &mail->requests[mail->n]);
     mail->n++;
 }
 
-/* The part of a rank other than 0. */
+/* The part of a rank that is no writer. */
 static void h5out_send(struct h5out *out)
 {
     struct h5out_mail mail = {0};
-    for (size_t first = 0; first < out->rows->total; first += out->chunk)
+    for (size_t first = 0; first < out->total; first += out->chunk)
         for (unsigned i = 0; i < out->n_range; i++) {
             struct h5out_piece piece = h5out_piece(out, first, i);
             if (!piece.count || piece.rank != comm_rank()) continue;
-            out->rows->fill(out->rows->context, piece.first, piece.count, out->plain);
+            h5out_fill(out, &piece, out->plain);
             bool whole = piece.count == h5out_count(out, first);
             size_t size = whole ? h5out_pack(out, piece.count) : piece.count * out->row;
-            h5out_post(&mail, whole ? out->packed : out->plain, size);
+            h5out_post(&mail, out->leader, whole ? out->packed : out->plain, size);
         }
     comm_wait((int)mail.n, mail.requests, MPI_STATUSES_IGNORE);
     for (unsigned i = 0; i < mail.n; i++) mem_free(mail.letters[i]);
@@ -154,7 +229,7 @@ static size_t h5out_receive(int rank, void *to, size_t room)
     return (size_t)size;
 }
 
-/* Brings a chunk together on rank 0, packed; returns its size with head. */
+/* Brings a chunk together at its writer, packed; returns its size with head. */
 static size_t h5out_gather(struct h5out *out, size_t first)
 {
     size_t count = h5out_count(out, first);
@@ -162,17 +237,17 @@ static size_t h5out_gather(struct h5out *out, size_t first)
         struct h5out_piece piece = h5out_piece(out, first, i);
         if (!piece.count) continue;
         char *to = out->plain + (piece.first - first) * out->row;
-        if (piece.rank == 0) out->rows->fill(out->rows->context, piece.first, piece.count, to);
+        if (piece.rank == comm_rank()) h5out_fill(out, &piece, to);
         else if (piece.count < count) h5out_receive(piece.rank, to, piece.count * out->row);
         else return h5out_receive(piece.rank, out->packed, out->chunk * out->row + H5OUT_HEAD);
     }
     return h5out_pack(out, count);
 }
 
-/* The part of rank 0. */
+/* The part of a writer. */
 static void h5out_store(struct h5 *file, hid_t set, struct h5out *out, const char *path)
 {
-    for (size_t first = 0; first < out->rows->total; first += out->chunk) {
+    for (size_t first = 0; first < out->total; first += out->chunk) {
         uint32_t skipped;
         hsize_t at[2] = {first, 0};
         size_t size = h5out_gather(out, first) - H5OUT_HEAD;
@@ -183,44 +258,51 @@ static void h5out_store(struct h5 *file, hid_t set, struct h5out *out, const cha
 }
 
 /* Rows that are stored as they are go chunk by chunk in the order of the file, and nobody copies his part of
- * them whole: rank 0 takes one message after the other, and the others wait for it. */
+ * them whole: a writer takes one message after the other, and the others wait for it. */
 static void h5out_send_plain(struct h5out *out)
 {
-    for (size_t first = 0; first < out->rows->total; first += out->chunk)
+    for (size_t first = 0; first < out->total; first += out->chunk)
         for (unsigned i = 0; i < out->n_range; i++) {
             struct h5out_piece piece = h5out_piece(out, first, i);
             if (!piece.count || piece.rank != comm_rank()) continue;
-            out->rows->fill(out->rows->context, piece.first, piece.count, out->plain);
+            h5out_fill(out, &piece, out->plain);
             MPI_Request request;
-            MPI_Isend(out->plain, (int)(piece.count * out->row), MPI_BYTE, 0, H5OUT_TAG, comm_world(), &request);
+            MPI_Isend(out->plain, (int)(piece.count * out->row), MPI_BYTE, out->leader, H5OUT_TAG, comm_world(),
+                      &request);
             comm_wait(1, &request, MPI_STATUSES_IGNORE);
         }
 }
 
-/* Brings a chunk together on rank 0 as it is. */
+/* Brings a chunk together at its writer as it is. */
 static void h5out_gather_plain(struct h5out *out, size_t first)
 {
     for (unsigned i = 0; i < out->n_range; i++) {
         struct h5out_piece piece = h5out_piece(out, first, i);
         char *to = out->plain + (piece.first - first) * out->row;
         if (!piece.count) continue;
-        if (piece.rank == 0) out->rows->fill(out->rows->context, piece.first, piece.count, to);
+        if (piece.rank == comm_rank()) h5out_fill(out, &piece, to);
         else h5out_receive(piece.rank, to, piece.count * out->row);
     }
+}
+
+/* Selects `count` whole rows from `first` on. */
+static void h5out_select(struct h5 *file, hid_t space, size_t first, size_t count, unsigned columns)
+{
+    hsize_t start[2] = {first, 0}, extent[2] = {count, columns};
+    h5_check(file, H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, extent, NULL), "select rows");
 }
 
 static void h5out_store_plain(struct h5 *file, hid_t set, struct h5out *out, const char *path)
 {
     XXH64_state_t *sum = XXH64_createState();
     XXH64_reset(sum, 0);
-    for (size_t first = 0; first < out->rows->total; first += out->chunk) {
+    for (size_t first = 0; first < out->total; first += out->chunk) {
         size_t count = h5out_count(out, first);
         h5out_gather_plain(out, first);
         if (file->code) continue; /* the others go on sending */
         XXH64_update(sum, out->plain, count * out->row);
         hid_t memory = h5out_space(file, count, out->rows->columns), space = h5_check(file, H5Dget_space(set), path);
-        hsize_t start[2] = {first, 0}, extent[2] = {count, out->rows->columns};
-        h5_check(file, H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, extent, NULL), path);
+        h5out_select(file, space, first, count, out->rows->columns);
         h5_check(file, H5Dwrite(set, h5_type_id(out->rows->type), memory, space, H5P_DEFAULT, out->plain), path);
         if (memory >= 0) H5Sclose(memory);
         if (space >= 0) H5Sclose(space);
@@ -229,23 +311,74 @@ static void h5out_store_plain(struct h5 *file, hid_t set, struct h5out *out, con
     XXH64_freeState(sum);
 }
 
+/* Writes the rows of a writer into its file. */
+static void h5out_put(struct h5 *file, const char *path, struct h5out *out)
+{
+    const struct h5out_rows *rows = out->rows;
+    hid_t layout = h5out_layout(file, out), space = h5out_space(file, out->total, rows->columns);
+    hid_t set =
+        h5_check(file, H5Dcreate2(file->id, path, h5_type_id(rows->type), space, H5P_DEFAULT, layout, H5P_DEFAULT),
+                 path);
+    (rows->hash ? h5out_store_plain : h5out_store)(file, set, out, path);
+    if (set >= 0) h5_check(file, H5Dclose(set), path);
+    if (space >= 0) H5Sclose(space);
+    if (layout >= 0) H5Pclose(layout);
+}
+
+/* Rows of the whole data set <- rows of a writer's part; neighbours become one. */
+static void h5out_map_part(struct h5 *file, const char *path, const struct h5out *out, const hid_t id[2], int writer)
+{
+    struct h5out_part *parts;
+    unsigned n_range, columns = out->rows->columns;
+    const double(*ranges)[2] = h5out_ranges(out, file->writers, writer, &n_range);
+    unsigned n = h5out_order(ranges, n_range, &parts);
+    size_t total = 0, at = 0;
+    char *name = mem_print("%s%d", file->stem, writer + 1);
+    for (unsigned i = 0; i < n; i++) total += parts[i].count;
+    hid_t source = h5out_space(file, total, columns);
+    for (unsigned i = 0, next; i < n; i = next) {
+        size_t count = parts[i].count;
+        for (next = i + 1; next < n && parts[next].first == parts[i].first + count; next++) count += parts[next].count;
+        h5out_select(file, id[1], parts[i].first, count, columns);
+        h5out_select(file, source, at, count, columns);
+        h5_check(file, H5Pset_virtual(id[0], id[1], name, path, source), "map a part");
+        at += count;
+    }
+    if (source >= 0) H5Sclose(source);
+    mem_free(name);
+    mem_free(parts);
+}
+
+/* The whole data set, as a view of those of the parts. What a part should have said and does not, because it is lost,
+ * is no number. */
+static void h5out_unite(struct h5 *file, const char *path, const struct h5out *out)
+{
+    const struct h5out_rows *rows = out->rows;
+    hid_t layout = h5_check(file, H5Pcreate(H5P_DATASET_CREATE), "prepare a view");
+    hid_t space = h5out_space(file, rows->total, rows->columns), type = h5_type_id(rows->type);
+    if (rows->type == H5_F32 || rows->type == H5_F64)
+        h5_check(file, H5Pset_fill_value(layout, H5T_NATIVE_DOUBLE, &(double){NAN}), "prepare a view");
+    for (int writer = 0; writer < file->writers; writer++)
+        h5out_map_part(file, path, out, (const hid_t[2]){layout, space}, writer);
+    hid_t set = h5_check(file, H5Dcreate2(file->id, path, type, space, H5P_DEFAULT, layout, H5P_DEFAULT), path);
+    if (set >= 0) H5Dclose(set);
+    if (space >= 0) H5Sclose(space);
+    if (layout >= 0) H5Pclose(layout);
+}
+
 int h5out_write(struct h5 *file, const char *path, const struct h5out_rows *rows)
 {
     struct h5out out;
-    TRY(comm_agree(file->code));
-    h5out_begin(&out, rows);
-    if (file->idle) {
-        (rows->hash ? h5out_send_plain : h5out_send)(&out);
-    } else {
-        hid_t layout = h5out_layout(file, rows), space = h5out_space(file, rows->total, rows->columns);
-        hid_t set =
-            h5_check(file, H5Dcreate2(file->id, path, h5_type_id(rows->type), space, H5P_DEFAULT, layout, H5P_DEFAULT),
-                     path);
-        (rows->hash ? h5out_store_plain : h5out_store)(file, set, &out, path);
-        if (set >= 0) h5_check(file, H5Dclose(set), path);
-        if (space >= 0) H5Sclose(space);
-        if (layout >= 0) H5Pclose(layout);
+    struct h5 *holder = file->part ? file->part : file;
+    TRY(comm_agree(file->code ? file->code : holder->code));
+    h5out_begin(&out, rows, file->writers);
+    if (holder->idle) (rows->hash ? h5out_send_plain : h5out_send)(&out);
+    else if (!file->part) h5out_put(holder, path, &out);
+    else if (out.total) {
+        h5_parents(holder, path);
+        h5out_put(holder, path, &out);
     }
+    if (file->part && !file->idle) h5out_unite(file, path, &out);
     h5out_end(&out);
     return STATUS_OK;
 }
@@ -253,7 +386,7 @@ int h5out_write(struct h5 *file, const char *path, const struct h5out_rows *rows
 /* Writes a whole data set of type id[0] and space id[1]; closes the space. */
 static void h5out_whole(struct h5 *file, const char *path, const hid_t id[2], const void *values)
 {
-    hid_t layout = h5out_layout(file, &(struct h5out_rows){0});
+    hid_t layout = h5out_plain_layout(file);
     hid_t set = h5_check(file, H5Dcreate2(file->id, path, id[0], id[1], H5P_DEFAULT, layout, H5P_DEFAULT), path);
     h5_check(file, H5Dwrite(set, id[0], H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
     if (set >= 0) h5_check(file, H5Dclose(set), path);
@@ -293,6 +426,11 @@ void h5out_place(struct h5 *file, const char *path, uint64_t *ret_offset, uint64
     *ret_offset = (uint64_t)offset;
     *ret_length = set >= 0 ? (uint64_t)H5Dget_storage_size(set) : 0;
     if (set >= 0) H5Dclose(set);
+}
+
+bool h5out_has(struct h5 *file, const char *path)
+{
+    return H5Lexists(file->id, path, H5P_DEFAULT) > 0;
 }
 
 void h5out_unit(struct h5 *file, const char *path, const char *unit)

@@ -1,5 +1,6 @@
 /* h5out.h - data sets of a file being written: rows that the ranks hold, small tables, texts, and
- * views that interleave other data sets. All calls are collective. */
+ * views that interleave other data sets. Rows of a file with parts go into these, and the file itself gets a view of
+ * them; all else goes into the file. All calls are collective. */
 #ifndef H5OUT_H
 #define H5OUT_H
 
@@ -17,7 +18,7 @@ struct h5out_rows {
     unsigned columns; /* 0: shape [total], else [total, columns] */
     size_t total;
     size_t chunk;   /* rows that are compressed together (shuffle + deflate 1), or travel together if they are not */
-    uint64_t *hash; /* not NULL: the rows are stored as they are, in one piece; rank 0 gets their XXH64 */
+    uint64_t *hash; /* not NULL: the rows are stored as they are, in one piece; a writer gets the XXH64 of its rows */
     unsigned n_range;
     const struct h5out_range *ranges;
     void (*fill)(void *context, size_t first, size_t count, void *out);
@@ -37,8 +38,11 @@ void h5out_records(struct h5 *file, const char *path, const char *const *members
 /* One text that every rank knows. */
 void h5out_text(struct h5 *file, const char *path, const char *text);
 
-/* Where in the file the numbers of a data set lie that was not compressed [bytes]; rank 0 gets it. */
+/* Where in the file (a part, too) the numbers of a data set lie that was not compressed [bytes]; its writer gets it. */
 void h5out_place(struct h5 *file, const char *path, uint64_t *ret_offset, uint64_t *ret_length);
+
+/* Has a data set been written to this file? Of the rank that writes it. */
+bool h5out_has(struct h5 *file, const char *path);
 
 /* Names the unit of a data set (attribute `units`). */
 void h5out_unit(struct h5 *file, const char *path, const char *unit);

@@ -100,7 +100,11 @@ static void info_print_resume(FILE *out, const struct resume *resume)
     fprintf(out, "checkpoint %s\n", resume->path);
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) info_print_line(out, resume, lines[i]);
     info_print_tiles(out, resume);
-    fprintf(out, "size       %.3f MB, all checksums hold\n", (double)resume->seal.bytes / 1e6);
+    double bytes = (double)resume->seal.bytes;
+    for (unsigned i = 0; resume->seal.kind == SEAL_HEAD && i < resume->n_part; i++)
+        bytes += (double)resume->parts[i].seal.bytes;
+    if (resume->seal.kind == SEAL_HEAD) fprintf(out, "parts      %u\n", resume->n_part);
+    fprintf(out, "size       %.3f MB, all checksums hold\n", bytes / 1e6);
 }
 
 static int info_print_checkpoint(FILE *out, const char *path)
@@ -116,6 +120,11 @@ int info_print(FILE *out, const char *path)
 {
     struct snapshot *snapshot;
     if (seal_is(path)) return info_print_checkpoint(out, path);
+    if (seal_is_piece(path))
+        return status_fail(STATUS_RUN,
+                           "%s: a part of a snapshot or checkpoint: its name without what follows .hdf or .chk "
+                           "opens all of it",
+                           path);
     if (dump_read_is(path)) return dump_show(out, path);
     TRY(read_snapshot(path, NULL, &snapshot));
     fprintf(out, "snapshot  %s\ncase      %s", path, snapshot->name);

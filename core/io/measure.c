@@ -16,6 +16,7 @@
 #include "mesh/rigid.h"
 #include "mesh/tally.h"
 #include "phys/outside.h"
+#include "solve/evaporate.h"
 
 #include <math.h>
 #include <string.h>
@@ -385,6 +386,7 @@ static double measure_result(struct measures *measures, const struct measure_col
     case SCENE_BODY_DISPLACEMENT:
     case SCENE_BODY_VELOCITY:
     case SCENE_BODY_ANGLE: return bodies_motion(state, from, column->axis);
+    case SCENE_EVAPORATED: return evaporate_total(state, (unsigned)from->material);
     case SCENE_ISOSURFACE_MEAN: return surface_mean(state, (unsigned)from->in, field, column->where);
     case SCENE_ISOSURFACE_MIN:
     case SCENE_ISOSURFACE_MAX:

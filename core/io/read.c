@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "io/filelist.h"
 #include "io/h5in.h"
+#include "io/parts.h"
 
 #include <glob.h>
 #include <math.h>
@@ -227,6 +228,22 @@ static int read_fields(struct h5 *file, struct snapshot *snapshot, const char *c
     return code;
 }
 
+/* Without its parts a file would read as if its fields were empty. */
+static int read_check_parts(struct h5 *file)
+{
+    struct parts_list list;
+    struct seal seal;
+    char *text = NULL;
+    if (!h5in_has(file, "/bulla/parts")) return STATUS_OK;
+    TRY(h5in_text(file, "/bulla/parts", &text));
+    int code = parts_read(file->path, text, &list);
+    mem_free(text);
+    TRY(code);
+    for (unsigned i = 0; !code && i < list.n; i++) code = parts_check(file->path, &list, i, seal_read, &seal);
+    parts_done(&list);
+    return code;
+}
+
 int read_snapshot(const char *path, const char *const *names, struct snapshot **ret_snapshot)
 {
     struct h5 *file;
@@ -234,6 +251,7 @@ int read_snapshot(const char *path, const char *const *names, struct snapshot **
     struct snapshot *snapshot = mem_new(1, sizeof *snapshot);
     int code = h5in_has(file, "/bulla") ? STATUS_OK : read_broken(file, "no group /bulla");
     if (!code) code = read_head(file, snapshot);
+    if (!code) code = read_check_parts(file);
     if (!code) code = read_cells(file, snapshot);
     if (!code) code = read_fields(file, snapshot, names);
     h5_abandon(file);

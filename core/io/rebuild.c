@@ -9,6 +9,7 @@
 #include "mesh/nest.h"
 
 #include <math.h>
+#include <stdio.h>
 
 struct rebuild {
     const struct resume *from;
@@ -24,37 +25,27 @@ static int rebuild_fill(void *data, int level, unsigned tile, double *u, double 
 {
     const struct rebuild *rebuild = data;
     const struct resume *resume = rebuild->from;
-    const struct seal_part *part;
     size_t index = tile, n = rebuild->n_field * rebuild->n_cell;
-    uint64_t block = n * sizeof(double), row = rebuild->n_cell * sizeof(double);
+    uint64_t row = rebuild->n_cell * sizeof(double);
     for (int l = 0; l < level; l++) index += resume->n_tile[l];
-    TRY(resume_part(resume, "/u", &part));
-    TRY(seal_bytes(resume->file, resume->path, part->offset + index * block, block, u));
+    TRY(resume_row(resume, "/u", index, n * sizeof(double), u));
     for (size_t i = 0; i < n; i++)
         if (!isfinite(u[i])) return resume_damaged(resume, "a value that is not finite");
-    if (kept && rebuild->n_kept) {
-        TRY(resume_part(resume, "/kept", &part));
-        TRY(seal_bytes(resume->file, resume->path, part->offset + index * rebuild->n_kept * row, rebuild->n_kept * row,
-                       kept));
-    }
-    if (!rebuild->iterated) return STATUS_OK;
-    TRY(resume_part(resume, "/p", &part));
-    return seal_bytes(resume->file, resume->path, part->offset + index * row, row, p);
+    if (kept && rebuild->n_kept) TRY(resume_row(resume, "/kept", index, rebuild->n_kept * row, kept));
+    return rebuild->iterated ? resume_row(resume, "/p", index, row, p) : STATUS_OK;
 }
 
 /* Peaks go on if the file has the same ones; else they begin anew. */
 static int rebuild_kept(struct rebuild *rebuild)
 {
     const struct resume *resume = rebuild->from;
-    const struct seal_part *part;
     size_t row = rebuild->n_cell * sizeof(double), n_kept = rebuild->scene->output.n_kept;
     if (!n_kept) return STATUS_OK;
     if (!facts_same_kept(rebuild->scene, &resume->notes)) {
         log_warn("%s has not the same peaks (max_..., min_..., when_...): they begin anew", resume->path);
         return STATUS_OK;
     }
-    TRY(resume_part(resume, "/kept", &part));
-    if (part->length != resume->n_all * n_kept * row) return resume_damaged(resume, "/kept has not one block per tile");
+    TRY(resume_has_rows(resume, "/kept", n_kept * row));
     rebuild->n_kept = n_kept;
     return STATUS_OK;
 }
@@ -142,18 +133,25 @@ static void rebuild_tagged(const struct resume *resume, struct state *state)
     mem_free(tagged);
 }
 
+/* What has evaporated goes on with rank 0; a file of a run without such a column does not say it: then from here. */
+static void rebuild_evaporated(const struct resume *resume, struct state *state)
+{
+    for (unsigned k = 0; comm_rank() == 0 && k < state->scene->n_phase; k++) {
+        double digits[ACCOUNT_DIGITS];
+        char name[32];
+        snprintf(name, sizeof name, "evaporated.%u", k);
+        if (!notes_get(&resume->notes, name, ACCOUNT_DIGITS, digits)) continue;
+        for (int i = 0; i < ACCOUNT_DIGITS; i++)
+            if (fabs(digits[i]) <= 0x1p53) state->evaporated[k].digit[i] = (long long)digits[i];
+    }
+}
+
 /* Has the file as many blocks, and rows of pressures where they are needed, as tiles? */
 static int rebuild_measure(const struct rebuild *rebuild)
 {
-    const struct resume *resume = rebuild->from;
-    const struct seal_part *part;
     size_t row = rebuild->n_cell * sizeof(double);
-    TRY(resume_part(resume, "/u", &part));
-    if (part->length != resume->n_all * rebuild->n_field * row)
-        return resume_damaged(resume, "/u has not one block per tile");
-    if (!rebuild->iterated) return STATUS_OK;
-    TRY(resume_part(resume, "/p", &part));
-    return part->length == resume->n_all * row ? STATUS_OK : resume_damaged(resume, "/p has not one row per tile");
+    TRY(resume_has_rows(rebuild->from, "/u", rebuild->n_field * row));
+    return rebuild->iterated ? resume_has_rows(rebuild->from, "/p", row) : STATUS_OK;
 }
 
 /* Does the scene fit? Notes what a tile is made of. */
@@ -236,6 +234,7 @@ static int rebuild_source(struct rebuild *rebuild, struct state **ret_state)
     TRY(state_resume(rebuild->scene, &source, ret_state));
     (*ret_state)->counts = counts;
     rebuild_tagged(resume, *ret_state);
+    rebuild_evaporated(resume, *ret_state);
     return STATUS_OK;
 }
 

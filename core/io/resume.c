@@ -6,6 +6,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/checkpoint.h"
+#include "io/parts.h"
 #include "mesh/morton.h"
 
 #include <errno.h>
@@ -18,10 +19,58 @@ int resume_damaged(const struct resume *resume, const char *what)
     return status_fail(STATUS_RUN, "%s: impossible checkpoint: %s", resume->path, what);
 }
 
-int resume_part(const struct resume *resume, const char *name, const struct seal_part **ret_part)
+static int resume_lacks(const char *path, const char *name)
+{
+    return status_fail(STATUS_RUN, "%s: impossible checkpoint: no %s", path, name);
+}
+
+/* A part of the file; STATUS_RUN if it is not there. */
+static int resume_part(const struct resume *resume, const char *name, const struct seal_part **ret_part)
 {
     *ret_part = seal_find(&resume->seal, name);
-    return *ret_part ? STATUS_OK : status_fail(STATUS_RUN, "%s: impossible checkpoint: no %s", resume->path, name);
+    return *ret_part ? STATUS_OK : resume_lacks(resume->path, name);
+}
+
+int resume_has_rows(const struct resume *resume, const char *name, uint64_t bytes)
+{
+    for (unsigned i = 0; i < resume->n_part; i++) {
+        const struct resume_file *file = &resume->parts[i];
+        const struct seal_part *part = seal_find(&file->seal, name);
+        if (!part && file->n_tile) return resume_lacks(file->path, name);
+        if (part && part->length != file->n_tile * bytes)
+            return status_fail(STATUS_RUN, "%s: impossible checkpoint: %s has not one row per tile", file->path, name);
+    }
+    return STATUS_OK;
+}
+
+/* The run that a tile is in. */
+static const struct resume_run *resume_run(const struct resume *resume, size_t tile)
+{
+    size_t low = 0, high = resume->n_run;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (resume->runs[middle].first <= tile) low = middle;
+        else high = middle;
+    }
+    return &resume->runs[low];
+}
+
+/* Each rank opens the parts that have its tiles. */
+static int resume_reach(struct resume_file *file)
+{
+    if (file->file < 0) file->file = open(file->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file->file >= 0) return STATUS_OK;
+    return status_fail(STATUS_RUN, "%s: rank %d cannot open it: %s", file->path, comm_rank(), strerror(errno));
+}
+
+int resume_row(const struct resume *resume, const char *name, size_t tile, uint64_t bytes, void *out)
+{
+    const struct resume_run *run = resume_run(resume, tile);
+    struct resume_file *file = &resume->parts[run->part];
+    const struct seal_part *part = seal_find(&file->seal, name);
+    if (!part) return resume_lacks(file->path, name);
+    TRY(resume_reach(file));
+    return seal_bytes(file->file, file->path, part->offset + (run->local + (tile - run->first)) * bytes, bytes, out);
 }
 
 /* A part as a text; release with mem_free. */
@@ -81,14 +130,52 @@ static int resume_read_tiles(struct resume *resume)
     return code;
 }
 
+/* A checkpoint that holds its tiles itself. */
+static void resume_read_alone(struct resume *resume)
+{
+    resume->runs = mem_new(1, sizeof *resume->runs);
+    resume->runs[0].n = resume->n_all;
+    resume->n_run = 1;
+    resume->parts[0].n_tile = resume->n_all;
+}
+
+/* Which part has which tiles. */
+static int resume_take_runs(struct resume *resume, const int32_t *rows, size_t n)
+{
+    size_t first = 0;
+    resume->runs = mem_new(n, sizeof *resume->runs);
+    for (resume->n_run = 0; resume->n_run < n; resume->n_run++, rows += CHECKPOINT_RUN) {
+        if (rows[0] < 0 || (unsigned)rows[0] >= resume->n_part || rows[1] <= 0)
+            return resume_damaged(resume, "tiles in a part that there is not");
+        struct resume_file *file = &resume->parts[rows[0]];
+        resume->runs[resume->n_run] = (struct resume_run){(unsigned)rows[0], first, (size_t)rows[1], file->n_tile};
+        file->n_tile += (size_t)rows[1];
+        first += (size_t)rows[1];
+    }
+    return first == resume->n_all ? STATUS_OK : resume_damaged(resume, "parts that have not all tiles");
+}
+
+static int resume_read_runs(struct resume *resume)
+{
+    const struct seal_part *part;
+    TRY(resume_part(resume, "/runs", &part));
+    size_t row = CHECKPOINT_RUN * sizeof(int32_t), n = part->length / row;
+    if (part->length % row || !n) return resume_damaged(resume, "a list of runs of no possible length");
+    int32_t *rows = mem_new(n * CHECKPOINT_RUN, sizeof *rows);
+    int code = seal_bytes(resume->file, resume->path, part->offset, part->length, rows);
+    if (!code) code = resume_take_runs(resume, rows, n);
+    mem_free(rows);
+    return code;
+}
+
 /* Everything but the fields. */
 static int resume_read(struct resume *resume)
 {
-    resume->file = open(resume->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (resume->file < 0)
-        return status_fail(STATUS_RUN, "%s: rank %d cannot open it: %s", resume->path, comm_rank(), strerror(errno));
     TRY(resume_read_notes(resume));
-    return resume_read_tiles(resume);
+    TRY(resume_read_tiles(resume));
+    if (resume->seal.kind == SEAL_HEAD) return resume_read_runs(resume);
+    resume_read_alone(resume);
+    return STATUS_OK;
 }
 
 static struct resume *resume_handle(const char *path)
@@ -99,25 +186,82 @@ static struct resume *resume_handle(const char *path)
     return resume;
 }
 
+/* The files that hold tiles, of which parts[i].seal is not known yet. */
+static int resume_read_parts(struct resume *resume, struct parts_list *ret_list)
+{
+    char *text;
+    resume->file = open(resume->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (resume->file < 0)
+        return status_fail(STATUS_RUN, "%s: rank %d cannot open it: %s", resume->path, comm_rank(), strerror(errno));
+    if (resume->seal.kind == SEAL_HEAD) {
+        TRY(resume_text(resume, "/parts", &text));
+        int code = parts_read(resume->path, text, ret_list);
+        mem_free(text);
+        TRY(code);
+        if (!ret_list->n) return resume_damaged(resume, "an empty list of parts");
+    }
+    resume->n_part = ret_list->n ? ret_list->n : 1;
+    resume->parts = mem_new(resume->n_part, sizeof *resume->parts);
+    for (unsigned i = 0; i < resume->n_part; i++) {
+        resume->parts[i].path = mem_text(ret_list->n ? ret_list->at[i].path : resume->path);
+        resume->parts[i].file = -1;
+    }
+    if (!ret_list->n) resume->parts[0].seal = resume->seal;
+    return STATUS_OK;
+}
+
+/* Verifies parts, each `step`-th from `first` on. */
+static int resume_check_parts(struct resume *resume, const struct parts_list *list, int first, int step)
+{
+    for (unsigned i = (unsigned)first; i < list->n; i += (unsigned)step)
+        TRY(parts_check(resume->path, list, i, seal_check, &resume->parts[i].seal));
+    return STATUS_OK;
+}
+
+static int resume_look_at(struct resume *resume)
+{
+    struct parts_list list = {0};
+    TRY(seal_check(resume->path, &resume->seal));
+    int code = resume_read_parts(resume, &list);
+    if (!code) code = resume_check_parts(resume, &list, 0, 1);
+    parts_done(&list);
+    return code ? code : resume_read(resume);
+}
+
 int resume_look(const char *path, struct resume **ret_resume)
 {
     struct resume *resume = resume_handle(path);
-    int code = seal_check(path, &resume->seal);
-    if (!code) code = resume_read(resume);
+    int code = resume_look_at(resume);
     if (code) resume_close(resume);
     else *ret_resume = resume;
     return code;
 }
 
-/* Rank 0 verifies for all. */
+/* The ranks share the parts among them; all learn what each has found. */
+static int resume_take_parts(struct resume *resume)
+{
+    struct parts_list list = {0};
+    int code = comm_agree(resume_read_parts(resume, &list));
+    if (!code) code = comm_agree(resume_check_parts(resume, &list, comm_rank(), comm_size()));
+    for (unsigned i = 0; !code && i < list.n; i++)
+        comm_bcast_from(&resume->parts[i].seal, sizeof resume->parts[i].seal, (int)(i % (unsigned)comm_size()));
+    parts_done(&list);
+    return code;
+}
+
+/* Rank 0 verifies the file for all. */
+static int resume_take_all(struct resume *resume)
+{
+    TRY(comm_agree(comm_rank() == 0 ? seal_check(resume->path, &resume->seal) : STATUS_OK));
+    comm_bcast(&resume->seal, sizeof resume->seal);
+    TRY(resume_take_parts(resume));
+    return comm_agree(resume_read(resume));
+}
+
 static int resume_take(const char *path, struct resume **ret_resume)
 {
     struct resume *resume = resume_handle(path);
-    int code = comm_agree(comm_rank() == 0 ? seal_check(path, &resume->seal) : STATUS_OK);
-    if (!code) {
-        comm_bcast(&resume->seal, sizeof resume->seal);
-        code = comm_agree(resume_read(resume));
-    }
+    int code = resume_take_all(resume);
     if (code) resume_close(resume);
     else *ret_resume = resume;
     return code;
@@ -170,6 +314,12 @@ void resume_close(struct resume *resume)
 {
     if (!resume) return;
     if (resume->file >= 0) close(resume->file);
+    for (unsigned i = 0; i < resume->n_part; i++) {
+        if (resume->parts[i].file >= 0) close(resume->parts[i].file);
+        mem_free(resume->parts[i].path);
+    }
+    mem_free(resume->parts);
+    mem_free(resume->runs);
     text_done(&resume->notes.text);
     mem_free(resume->tiles);
     mem_free(resume->path);

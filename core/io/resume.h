@@ -9,10 +9,28 @@
 #include "io/seal.h"
 #include "mesh/mesh.h"
 
+/* Tiles that follow each other in one file. */
+struct resume_run {
+    unsigned part;
+    size_t first, n, local; /* tiles; place of the first one in that file */
+};
+
+/* A file that holds tiles. */
+struct resume_file {
+    char *path;
+    int file; /* open for reading, or -1: nobody has asked for a tile yet */
+    struct seal seal;
+    size_t n_tile;
+};
+
 struct resume {
     char *path;
     int file; /* open for reading */
     struct seal seal;
+    unsigned n_part; /* files with tiles: 1, the checkpoint itself, or its parts */
+    struct resume_file *parts;
+    size_t n_run;
+    struct resume_run *runs;
     struct notes notes; /* what the state and the outputs left for the continued run */
     int n_level;
     unsigned n_tile[MESH_LEVELS];
@@ -31,8 +49,11 @@ int resume_look(const char *path, struct resume **ret_resume);
 
 void resume_close(struct resume *resume); /* NULL is fine */
 
-/* A part of the file; STATUS_RUN if it is not there. */
-int resume_part(const struct resume *resume, const char *name, const struct seal_part **ret_part);
+/* Has each tile a row of so many bytes in the part `name` of the file? Else STATUS_RUN. */
+int resume_has_rows(const struct resume *resume, const char *name, uint64_t bytes);
+
+/* Reads the row of a tile (its number among all) that has so many bytes. */
+int resume_row(const struct resume *resume, const char *name, size_t tile, uint64_t bytes, void *out);
 
 /* STATUS_RUN: right checksums, but content that no run can have written. */
 int resume_damaged(const struct resume *resume, const char *what);

@@ -16,9 +16,13 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-enum { SEAL_FORMAT = 1, SEAL_ORDER = 0x01020304, SEAL_PIECE = 1 << 20, SEAL_MAGIC = 16 };
+enum { SEAL_FORMATS = 2, SEAL_ORDER = 0x01020304, SEAL_BUFFER = 1 << 20, SEAL_MAGIC = 16 };
 
-static const char seal_magic[SEAL_MAGIC + 1] = "bulla checkpoint";
+static const char seal_magic[][SEAL_MAGIC + 1] = {
+    [SEAL_WHOLE] = "bulla checkpoint", [SEAL_HEAD] = "bulla checkpoint", [SEAL_PIECE] = "bulla part file."};
+
+/* Older programs refuse a checkpoint with part files by its format. */
+static const uint32_t seal_format[] = {[SEAL_WHOLE] = 1, [SEAL_HEAD] = 2, [SEAL_PIECE] = 1};
 
 /* The header as it stands in the file. */
 union seal_block {
@@ -72,7 +76,7 @@ int seal_bytes(int file, const char *path, uint64_t offset, uint64_t length, voi
 /* Adds the bytes [from, to) of a file to a checksum. */
 static int seal_sum(int file, const char *path, const uint64_t range[2], XXH64_state_t *sum)
 {
-    uint64_t most = range[1] - range[0] < SEAL_PIECE ? range[1] - range[0] : SEAL_PIECE;
+    uint64_t most = range[1] - range[0] < SEAL_BUFFER ? range[1] - range[0] : SEAL_BUFFER;
     char *piece = mem_new(most, 1);
     int code = STATUS_OK;
     for (uint64_t at = range[0]; !code && at < range[1]; at += most) {
@@ -126,9 +130,9 @@ static int seal_length(int file, const char *path, uint64_t *ret_bytes)
 static void seal_compose(const struct seal *seal, uint64_t rest, union seal_block *block)
 {
     memset(block, 0, sizeof *block);
-    memcpy(block->is.magic, seal_magic, SEAL_MAGIC);
+    memcpy(block->is.magic, seal_magic[seal->kind], SEAL_MAGIC);
     block->is.order = SEAL_ORDER;
-    block->is.format = SEAL_FORMAT;
+    block->is.format = seal_format[seal->kind];
     block->is.bytes = seal->bytes;
     block->is.number = seal->number;
     block->is.rest = rest;
@@ -145,31 +149,49 @@ static int seal_settle(int file, const char *path)
     return STATUS_OK;
 }
 
-static int seal_put(int file, const char *path, struct seal *seal)
+/* The header is the last that is written. */
+static int seal_write(int file, const char *path, struct seal *seal, union seal_block *ret_block)
 {
     uint64_t rest = 0;
-    union seal_block block, again;
-    TRY(seal_settle(file, path));
     TRY(seal_length(file, path, &seal->bytes));
     TRY(seal_survey(file, path, seal, &rest));
-    seal_compose(seal, rest, &block);
-    ssize_t put = pwrite(file, &block, sizeof block, 0);
-    if (put >= 0 && put < (ssize_t)sizeof block) errno = ENOSPC;
-    if (put < (ssize_t)sizeof block) return room_fail(path, "write");
+    seal_compose(seal, rest, ret_block);
+    seal->hash = ret_block->sealed.hash;
+    ssize_t put = pwrite(file, ret_block, sizeof *ret_block, 0);
+    if (put >= 0 && put < (ssize_t)sizeof *ret_block) errno = ENOSPC;
+    if (put < (ssize_t)sizeof *ret_block) return room_fail(path, "write");
+    return seal_settle(file, path);
+}
+
+static int seal_put(int file, const char *path, bool is_read_back, struct seal *seal)
+{
+    union seal_block block, again;
+    if (!is_read_back) return seal_write(file, path, seal, &block);
     TRY(seal_settle(file, path));
+    TRY(seal_write(file, path, seal, &block));
     TRY(seal_bytes(file, path, 0, sizeof again, &again));
     if (memcmp(&block, &again, sizeof block))
         return status_fail(STATUS_RUN, "%s: the disk does not give back what was written", path);
     return STATUS_OK;
 }
 
-int seal_close(const char *path, struct seal *seal)
+static int seal_finish(const char *path, bool is_read_back, struct seal *seal)
 {
     int file = open(path, O_RDWR | O_CLOEXEC);
     if (file < 0) return room_fail(path, "open");
-    int code = seal_put(file, path, seal);
+    int code = seal_put(file, path, is_read_back, seal);
     if (close(file) && !code) code = room_fail(path, "finish");
     return code;
+}
+
+int seal_close(const char *path, struct seal *seal)
+{
+    return seal_finish(path, true, seal);
+}
+
+int seal_stamp(const char *path, struct seal *seal)
+{
+    return seal_finish(path, false, seal);
 }
 
 /* Do the parts lie in order, apart, in the file? A header with a right checksum may still be forged. */
@@ -186,17 +208,27 @@ static bool seal_is_sound(const union seal_block *block)
     return true;
 }
 
+/* What a header says that its file is; false: nothing that we know. */
+static bool seal_kind(const union seal_block *block, enum seal_kind *ret_kind)
+{
+    *ret_kind = SEAL_WHOLE;
+    if (!memcmp(block->is.magic, seal_magic[SEAL_PIECE], SEAL_MAGIC)) *ret_kind = SEAL_PIECE;
+    else if (block->is.format == seal_format[SEAL_HEAD]) *ret_kind = SEAL_HEAD;
+    return !memcmp(block->is.magic, seal_magic[*ret_kind], SEAL_MAGIC);
+}
+
 static int seal_judge(const char *path, const union seal_block *block, uint64_t bytes)
 {
-    if (memcmp(block->is.magic, seal_magic, SEAL_MAGIC))
+    enum seal_kind kind;
+    if (!seal_kind(block, &kind))
         return status_fail(STATUS_RUN, "%s: not a checkpoint of bulla, or one that was not finished", path);
     if (block->sealed.hash != seal_hash(block->sealed.all, sizeof block->sealed.all))
         return status_fail(STATUS_RUN, "%s: damaged: the checksum of its header is wrong", path);
     if (block->is.order != SEAL_ORDER)
         return status_fail(STATUS_RUN, "%s: written by a machine with another order of bytes", path);
-    if (block->is.format != SEAL_FORMAT)
-        return status_fail(STATUS_RUN, "%s: a checkpoint of format %u; this version reads format %d", path,
-                           block->is.format, SEAL_FORMAT);
+    if (block->is.format != seal_format[kind])
+        return status_fail(STATUS_RUN, "%s: a checkpoint of format %u; this version reads formats 1 to %d", path,
+                           block->is.format, SEAL_FORMATS);
     if (!seal_is_sound(block)) return status_fail(STATUS_RUN, "%s: damaged: its list of parts is impossible", path);
     if (block->is.bytes != bytes)
         return status_fail(STATUS_RUN, "%s: damaged: %llu bytes long, not %llu: it was cut or grew", path,
@@ -212,7 +244,9 @@ static int seal_take(int file, const char *path, bool whole, struct seal *ret_se
     if (bytes < SEAL_BYTES) return status_fail(STATUS_RUN, "%s: not a checkpoint of bulla, or one that was cut", path);
     TRY(seal_bytes(file, path, 0, sizeof block, &block));
     TRY(seal_judge(path, &block, bytes));
-    *ret_seal = (struct seal){.bytes = bytes, .number = block.is.number, .n = (unsigned)block.is.n};
+    *ret_seal =
+        (struct seal){.hash = block.sealed.hash, .bytes = bytes, .number = block.is.number, .n = (unsigned)block.is.n};
+    seal_kind(&block, &ret_seal->kind);
     memcpy(ret_seal->parts, block.is.parts, sizeof ret_seal->parts);
     if (!whole) return STATUS_OK;
     TRY(seal_survey(file, path, ret_seal, &rest));
@@ -240,13 +274,23 @@ int seal_check(const char *path, struct seal *ret_seal)
     return seal_open(path, true, ret_seal);
 }
 
-bool seal_is(const char *path)
+static bool seal_begins(const char *path, enum seal_kind kind)
 {
     char magic[SEAL_MAGIC];
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    bool is = file >= 0 && pread(file, magic, sizeof magic, 0) == SEAL_MAGIC && !memcmp(magic, seal_magic, SEAL_MAGIC);
+    bool is = file >= 0 && pread(file, magic, sizeof magic, 0) == SEAL_MAGIC;
     if (file >= 0) close(file);
-    return is;
+    return is && !memcmp(magic, seal_magic[kind], SEAL_MAGIC);
+}
+
+bool seal_is(const char *path)
+{
+    return seal_begins(path, SEAL_WHOLE);
+}
+
+bool seal_is_piece(const char *path)
+{
+    return seal_begins(path, SEAL_PIECE);
 }
 
 int seal_sync_folder(const char *folder)

@@ -19,8 +19,14 @@ struct seal_part {
     uint64_t offset, length, hash;
 };
 
+/* What a sealed file is: a checkpoint; one whose fields lie in part files (parts.h); such a part file. */
+enum seal_kind { SEAL_WHOLE, SEAL_HEAD, SEAL_PIECE };
+
 /* Parts in the order of their offsets, apart, behind the header. */
 struct seal {
+    enum seal_kind kind;
+    uint64_t
+        hash; /* of the header, and so of the file: by this another file knows it; set by those that write or read it */
     uint64_t bytes;  /* of the whole file */
     uint64_t number; /* rises from one file of a run to the next */
     unsigned n;
@@ -38,6 +44,10 @@ uint64_t seal_hash(const void *bytes, uint64_t length);
  * and reads it back. `bytes` is set. STATUS_RUN with file and reason. Of this process alone, as all here. */
 int seal_close(const char *path, struct seal *seal);
 
+/* The same for what can be had again: the file is summed up and sealed, and made lasting, but not read back from the
+ * disk. */
+int seal_stamp(const char *path, struct seal *seal);
+
 /* Reads the header, and compares the length of the file with it: cheap. Anything else than a sealed,
  * whole file is STATUS_RUN with one clear line. */
 int seal_read(const char *path, struct seal *ret_seal);
@@ -45,8 +55,9 @@ int seal_read(const char *path, struct seal *ret_seal);
 /* Reads the header and then the whole file, comparing all checksums. */
 int seal_check(const char *path, struct seal *ret_seal);
 
-/* Does the file begin like a sealed one (else it may be of another kind)? */
+/* Does the file begin like a checkpoint (else it may be of another kind)? Like a part file? */
 bool seal_is(const char *path);
+bool seal_is_piece(const char *path);
 
 /* The part of this name, or NULL. */
 const struct seal_part *seal_find(const struct seal *seal, const char *name);

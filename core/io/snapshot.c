@@ -11,8 +11,10 @@
 #include "io/filelist.h"
 #include "io/h5out.h"
 #include "io/leaves.h"
+#include "io/parts.h"
 #include "io/place.h"
 #include "io/vtkhdf.h"
+#include "io/writers.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -22,6 +24,7 @@ enum { SNAPSHOT_FORMAT = 2, SNAPSHOT_BLOCK = 6 };
 struct snapshots {
     const struct scene *scene;
     char *folder, *list_path;
+    int writers;
     struct filelist list; /* rank 0 */
     unsigned n_field;
     struct derive *fields;
@@ -62,6 +65,7 @@ static void snapshot_drop(struct snapshots *snapshots)
 {
     char *path = mem_print("%s/%s", snapshots->folder, snapshots->list.names[--snapshots->list.n]);
     remove(path);
+    parts_remove(path);
     mem_free(path);
     mem_free(snapshots->list.names[snapshots->list.n]);
 }
@@ -96,6 +100,7 @@ int snapshot_new(const struct state *state, struct snapshots **ret_snapshots)
     snapshots->list_path = mem_print("%s/%s.hdf.series", snapshots->folder, state->scene->name);
     int code = state->scene->output.n_snapshot_field ? snapshot_find_fields(snapshots, state)
                                                      : snapshot_choose_fields(snapshots, state);
+    snapshots->writers = writers_count(state->scene);
     if (!code) code = place_folder(snapshots->folder);
     if (!code) snapshot_go_on(snapshots, state);
     if (code) snapshot_free(snapshots);
@@ -174,21 +179,35 @@ static int snapshot_fill(struct h5 *file, const struct state *state, const struc
     return code;
 }
 
-/* Writes the draft of a file. */
+/* Writes the draft of a file, and of its parts. */
 static int snapshot_draft(struct snapshots *snapshots, const struct state *state, struct derive_moment *moment,
-                          const char *path, const char *provenance)
+                          const struct parts *parts, const char *provenance)
 {
     struct vtkhdf_fields fields = {snapshots->n_field, snapshots->fields,
                                    snapshots->scene->output.snapshot_double ? H5_F64 : H5_F32};
-    for (unsigned i = 0; i < snapshots->n_field; i++) derive_prepare(moment, &snapshots->fields[i]);
-    char *draft = place_draft(path);
+    struct seal seal = {0};
     struct h5 *file;
-    int code = h5_create(draft, &file);
-    mem_free(draft);
-    if (code) return code;
-    code = snapshot_fill(file, state, &fields, provenance);
+    for (unsigned i = 0; i < snapshots->n_field; i++) derive_prepare(moment, &snapshots->fields[i]);
+    TRY(parts_create(parts, 0, &file));
+    int code = snapshot_fill(file, state, &fields, provenance);
+    if (!code) code = parts_seal(parts, file, "/bulla/parts", seal_stamp, &seal, NULL);
     if (!code) return h5_close(file);
     h5_abandon(file);
+    return code;
+}
+
+/* Writes a file under its name. */
+static int snapshot_put(struct snapshots *snapshots, const struct state *state, struct derive_moment *moment,
+                        const char *path, const char *provenance)
+{
+    struct parts *parts = parts_new(path, snapshots->writers);
+    int code = snapshot_draft(snapshots, state, moment, parts, provenance);
+    if (!code) code = parts_accept(parts);
+    if (code) place_reject(path);
+    else code = place_accept(path);
+    if (code) parts_reject(parts);
+    else parts_clean(parts);
+    parts_free(parts);
     return code;
 }
 
@@ -198,9 +217,7 @@ int snapshot_write(struct snapshots *snapshots, const struct state *state, struc
     if (snapshots->last == state->step) return STATUS_OK;
     char *name = mem_print("%s_%06ld.hdf", state->scene->name, state->step);
     char *path = mem_print("%s/%s", snapshots->folder, name);
-    int code = snapshot_draft(snapshots, state, moment, path, provenance);
-    if (code) place_reject(path);
-    else code = place_accept(path);
+    int code = snapshot_put(snapshots, state, moment, path, provenance);
     if (!code) {
         filelist_add(&snapshots->list, name, state->t);
         code = filelist_write(&snapshots->list, snapshots->list_path);

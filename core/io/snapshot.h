@@ -7,6 +7,7 @@
  *                      it knows one cell width: where cells are not square its lengths are off
  *   /bulla             case.yaml, blocks (level, i, j, k, rank, covered octants), provenance.json, and what
  *                      read.h needs: title, case, dim, beta, domain, materials
+ * With several writers (writers.h) the rows lie in parts beside the file (parts.h), and /bulla/parts lists these.
  * The order of cells is that of leaves.h. <case>.hdf.series lists all
  * files with their times. Files get their names when complete. The numbers do not depend on the
  * ranks (but for the rank column of blocks and provenance.json).

@@ -201,11 +201,8 @@ static int start_cells(struct start *start)
 {
     const struct resume *from = start->from;
     struct donor *donor = start->donor;
-    const struct seal_part *part;
     size_t block = start->stored * start->n_cell, tile = 0, finer = 0;
-    TRY(resume_part(from, "/u", &part));
-    if (part->length != from->n_all * block * sizeof(double))
-        return resume_damaged(from, "/u has not one block per tile");
+    TRY(resume_has_rows(from, "/u", block * sizeof(double)));
     donor->cells = mem_new(from->n_all * start->n_cell + 1, sizeof *donor->cells);
     donor->u = mem_new(from->n_all * start->n_cell * donor->n_field + 1, sizeof *donor->u);
     double *u = mem_new(block, sizeof *u);
@@ -213,7 +210,7 @@ static int start_cells(struct start *start)
     for (int level = 0; level < from->n_level; level++) {
         finer += from->n_tile[level];
         for (unsigned i = 0; i < from->n_tile[level] && !code; i++, tile++) {
-            code = seal_bytes(from->file, from->path, part->offset + tile * block * sizeof *u, block * sizeof *u, u);
+            code = resume_row(from, "/u", tile, block * sizeof *u, u);
             if (!code) start_tile(start, &from->tiles[tile], level, finer, u);
         }
     }

@@ -40,6 +40,7 @@ const char *units_of(const struct scene *scene, const struct scene_column *colum
     int plane = scene->domain.dim - 1, extent = scene->domain.geometry == SCENE_CARTESIAN ? plane : 2;
     switch (column->measure) {
     case SCENE_VOLUME: return units_integral("1", extent);
+    case SCENE_EVAPORATED:
     case SCENE_MASS: return units_integral("kg/m3", extent);
     case SCENE_CENTROID:
     case SCENE_PENETRATION:

@@ -10,6 +10,7 @@
 #include "cli/scenes.h"
 #include "io/dump_show.h"
 #include "io/info.h"
+#include "io/join.h"
 #include "plug/describe.h"
 #include "plug/registry.h"
 #include "solve/plan.h"
@@ -64,6 +65,13 @@ int inspect_info(const struct cli_given *given)
     for (int i = 0; i < given->n_word && !code && comm_rank() == 0; i++)
         code = (replay ? dump_show_replay : info_print)(stdout, given->words[i]);
     if (code == STATUS_RUN) code = STATUS_CASE; /* a file that is none of ours, or a broken one: nothing ran */
+    return cli_failed(code);
+}
+
+int inspect_join(const struct cli_given *given)
+{
+    int code = comm_size() == 1 ? 0 : status_fail(STATUS_CASE, "bulla join is work for one process, not for ranks");
+    for (int i = 0; i < given->n_word && !code; i++) code = join_path(stdout, given->words[i]);
     return cli_failed(code);
 }
 

@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "io/parts.h"
 #include "io/place.h"
 
 #include <dirent.h>
@@ -30,7 +31,7 @@ static bool outdir_is_ours(const char *name)
         size_t tail = strlen(outdir_endings[i]);
         if (length > tail && !strcmp(name + length - tail, outdir_endings[i])) return true;
     }
-    return false;
+    return parts_is(name);
 }
 
 /* Of maps: tables too, which elsewhere are somebody's own. */

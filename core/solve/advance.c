@@ -14,6 +14,7 @@
 #include "phys/mix.h"
 #include "solve/beyond.h"
 #include "solve/blame.h"
+#include "solve/evaporate.h"
 #include "solve/pace.h"
 #include "solve/peak.h"
 #include "solve/plan.h"
@@ -56,6 +57,7 @@ static double advance_attempt(struct stage *stage, double *ret_signal, bool *ret
     int n = stage->tableau->n, first = 0;
     double found[TABLEAU_STAGES + 2];
     guard_attempt(stage->guard);
+    evaporate_forget(stage);
     advance_run(stage);
     for (int s = 0; s < n; s++) found[s] = (double)stage->guard->bad[s];
     found[n] = stage->signal;
@@ -99,6 +101,7 @@ static void advance_accept(struct state *state, struct stage *stage, double sign
     state->counts.clipped += stage->clipped;
     mix_pressure_sum(&state->counts.closures, stage->effort);
     state->counts.relaxed += stage->guard->relaxed;
+    evaporate_accept(state, stage);
     stage->clipped = 0;
 }
 

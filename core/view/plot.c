@@ -14,7 +14,7 @@
 #include "view/plot_history.h"
 #include "view/plot_interface.h"
 #include "view/plot_map.h"
-#include "view/plot_picture.h"
+#include "view/plot_draw.h"
 #include "view/plot_time.h"
 
 #include <math.h>
@@ -88,7 +88,7 @@ static int plot_write(const char *directory, const struct snapshot *snapshot, co
                       bool many)
 {
     cairo_surface_t *image;
-    TRY(plot_picture_draw(snapshot, picture, &image));
+    TRY(plot_draw(snapshot, picture, &image));
     char *path = plot_path(directory, snapshot, picture, many);
     int code = picture_canvas_write(image, path);
     if (!code) printf("%s\n", path);

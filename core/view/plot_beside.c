@@ -5,6 +5,7 @@
 #include "base/status.h"
 #include "view/picture_canvas.h"
 #include "view/plot_case.h"
+#include "view/plot_draw.h"
 #include "view/plot_film.h"
 #include "view/plot_time.h"
 
@@ -45,7 +46,7 @@ int plot_beside_gather(char *const *paths, size_t n, struct plot_picture *pictur
     for (size_t i = 0; i < n; i++) {
         struct snapshot *snapshot;
         TRY(read_snapshot(paths[i], NULL, &snapshot));
-        int code = plot_picture_extremes(snapshot, picture);
+        int code = plot_draw_extremes(snapshot, picture);
         read_free(snapshot);
         if (code) return status_wrap(code, "%s: ", paths[i]);
     }
@@ -91,7 +92,7 @@ static int plot_beside_panel(const struct beside *beside, unsigned run, const ch
         mem_free(snapshot->title);
         snapshot->title = mem_text(beside->names[run]);
     }
-    int code = plot_picture_draw(snapshot, &beside->picture, ret_image);
+    int code = plot_draw(snapshot, &beside->picture, ret_image);
     read_free(snapshot);
     return code;
 }

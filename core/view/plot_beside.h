@@ -5,6 +5,7 @@
 #ifndef PLOT_BESIDE_H
 #define PLOT_BESIDE_H
 
+#include "view/plot_draw.h"
 #include "view/plot_picture.h"
 
 #include <stddef.h>

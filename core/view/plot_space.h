@@ -5,7 +5,9 @@
 
 #include "view/plot_picture.h"
 
-/* As plot_picture_draw and plot_picture_extremes, for options with --iso. A field, if there is one, colours the cuts, or
+#include <cairo.h>
+
+/* As plot_draw and plot_draw_extremes, for options with --iso. A field, if there is one, colours the cuts, or
  * without cuts the surfaces. */
 int plot_space_draw(const struct snapshot *snapshot, const struct plot_picture *picture, cairo_surface_t **ret_image);
 int plot_space_extremes(const struct snapshot *snapshot, struct plot_picture *picture);

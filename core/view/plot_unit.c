@@ -3,6 +3,7 @@
 #include "view/plot_unit.h"
 
 #include "base/mem.h"
+#include "case/scene_read.h"
 #include "io/units.h"
 
 #include <stdio.h>

@@ -8,7 +8,7 @@
 #include "view/picture_scale.h"
 #include "view/plot_case.h"
 #include "view/plot_interface.h"
-#include "view/plot_picture.h"
+#include "view/plot_draw.h"
 #include "view/report_columns.h"
 #include "view/report_course.h"
 #include "view/report_facts.h"
@@ -39,7 +39,7 @@ static int report_picture(struct text *page, const struct snapshot *snapshot, co
     char time[PICTURE_SCALE_LABEL], unit[PICTURE_SCALE_TEXT], caption[256];
     const struct snapshot_field *field = read_field(snapshot, picture->fields[0]);
     picture_scale_quantity(snapshot->time, snapshot->time, "s", time);
-    TRY(plot_picture_draw(snapshot, picture, &image));
+    TRY(plot_draw(snapshot, picture, &image));
     if (picture->n_field == 1)
         snprintf(caption, sizeof caption, "%s [%s] at t = %.48s", field->name, report_html_unit(field->unit, unit),
                  time);

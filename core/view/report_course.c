@@ -5,7 +5,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "view/picture_scale.h"
-#include "view/plot_picture.h"
+#include "view/plot_draw.h"
 #include "view/report_html.h"
 
 #include <math.h>
@@ -49,7 +49,7 @@ static int report_course_gather(struct course *course, const struct plot_option 
         struct snapshot *snapshot;
         TRY(read_snapshot(course->series->paths[report_course_index(course, frame)], NULL, &snapshot));
         if (frame == 0) report_course_choose(course, snapshot, plain, mirrored);
-        int code = plot_picture_extremes(snapshot, &course->picture);
+        int code = plot_draw_extremes(snapshot, &course->picture);
         read_free(snapshot);
         if (code) return code;
     }
@@ -69,7 +69,7 @@ static int report_course_frame(struct text *page, const struct course *course, s
     cairo_surface_t *image;
     char time[PICTURE_SCALE_LABEL], unit[PICTURE_SCALE_TEXT], caption[256];
     const struct snapshot_field *field = read_field(snapshot, course->picture.fields[0]);
-    TRY(plot_picture_draw(snapshot, &course->picture, &image));
+    TRY(plot_draw(snapshot, &course->picture, &image));
     picture_scale_quantity(snapshot->time, course->picture.time_like, "s", time);
     text_add(page, "<input type=\"radio\" name=\"step\" id=\"step-%zu\"%s aria-label=\"picture %zu of %zu\">\n", frame,
              frame ? "" : " checked", frame + 1, course->n);

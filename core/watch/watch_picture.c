@@ -39,7 +39,7 @@ static int watch_picture_draw(char *const *paths, unsigned n, const char *field,
     struct plot_option option = {.width = WATCH_PICTURE_WIDTH, .mirror = snapshot->beta == 1 && snapshot->dim == 2};
     struct plot_picture picture = {.option = &option, .n_field = 1, .fields = {field}};
     if (n > 1) TRY(plot_beside_gather(paths, n, &picture));
-    TRY(plot_picture_draw(snapshot, &picture, &image));
+    TRY(plot_draw(snapshot, &picture, &image));
     cairo_status_t status = cairo_surface_write_to_png_stream(image, watch_picture_send, &pipe_end);
     return status == CAIRO_STATUS_SUCCESS ? STATUS_OK : STATUS_RUN;
 }

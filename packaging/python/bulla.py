@@ -67,6 +67,21 @@ def _text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
+def _check_parts(path, text):
+    """With several writers the cells lie in parts beside a snapshot. HDF5 reads nothing where one is missing, and whatever
+    there is where it is of another file: neither must go unseen."""
+    for line in text.splitlines():
+        name, size, seal = line.split()
+        part = os.path.join(os.path.dirname(path), name)
+        if not os.path.exists(part):
+            raise FileNotFoundError("%s: its part %s is lost" % (path, name))
+        with open(part, "rb") as file:
+            head = file.read(4096)
+        found = "%016x" % int.from_bytes(head[4088:4096], "little")
+        if os.path.getsize(part) != int(size) or found != seal:
+            raise ValueError("%s: its part %s is broken, or of another run or moment" % (path, name))
+
+
 class Snapshot:
     """One file of fields/. snapshot["pressure"] is an array over the cells (leaves: the finest there are, which fill the
     domain without overlap), [n] or [n, 3]; "velocity_x" is a component. lower, upper, centre [n, dim] and volume [n] are
@@ -79,6 +94,8 @@ class Snapshot:
         with h5py.File(path, "r") as file:
             if "VTKHDF" not in file or "bulla" not in file:
                 raise ValueError("%s is no snapshot of bulla" % path)
+            if "bulla/parts" in file:
+                _check_parts(path, _text(file["bulla/parts"]))
             about = file["bulla"].attrs
             self.t = float(file.attrs["time"])
             self.step = int(file.attrs["iteration"])

@@ -3,7 +3,7 @@
  * BULLA_FAULT="N WHAT": the Nth call that writes, syncs, renames or closes something in a folder named checkpoints
  * (or reads it back while it is written) does WHAT: enospc, eio, short (half is written, then the disk is full),
  * flip (a bit of what is written is lost) or kill (the process dies before it). BULLA_FAULT_COUNT names a file that
- * gets the number of such calls when the process ends. */
+ * gets the number of such calls when the process ends. BULLA_FAULT_RANK: only on this rank of Open MPI. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <signal.h>
@@ -29,6 +29,13 @@ static bool fault_concerns(int file)
     return strstr(path, "/checkpoints") != NULL;
 }
 
+/* Is this the process that is meant? */
+static bool fault_is_here(void)
+{
+    const char *wanted = getenv("BULLA_FAULT_RANK"), *rank = getenv("OMPI_COMM_WORLD_RANK");
+    return !wanted || (rank && !strcmp(wanted, rank));
+}
+
 /* What this call does; counts it. */
 static enum fault fault_now(void)
 {
@@ -36,6 +43,7 @@ static enum fault fault_now(void)
     const char *wish = getenv("BULLA_FAULT");
     char what[16] = "none";
     long at = 0;
+    if (!fault_is_here()) return FAULT_NONE;
     fault_calls++;
     if (!wish || sscanf(wish, "%ld %15s", &at, what) != 2 || at != fault_calls) return FAULT_NONE;
     if (!strcmp(what, "kill")) kill(getpid(), SIGKILL);
@@ -47,7 +55,7 @@ static enum fault fault_now(void)
 __attribute__((destructor)) static void fault_tell(void)
 {
     const char *path = getenv("BULLA_FAULT_COUNT");
-    FILE *file = path ? fopen(path, "w") : NULL;
+    FILE *file = path && fault_is_here() && fault_calls ? fopen(path, "w") : NULL;
     if (!file) return;
     fprintf(file, "%ld\n", fault_calls);
     fclose(file);

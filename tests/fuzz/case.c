@@ -1,6 +1,6 @@
 /* case.c - case files: YAML, overlays, keys, units, expressions, Lua, shapes. What follows the last line that
  * begins with "%%" are settings of the command line, one a line. */
-#include "case/scene.h"
+#include "case/scene_read.h"
 #include "fuzz.h"
 
 enum { CASE_SETS = 8 };

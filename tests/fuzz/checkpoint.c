@@ -1,6 +1,6 @@
 /* checkpoint.c - checkpoints of a small case. The first byte says what is done to the rest: nothing ('0'), or all
  * checksums are made right again, so that what lies behind them is reached, too. */
-#include "case/scene.h"
+#include "case/scene_read.h"
 #include "fuzz.h"
 #include "io/info.h"
 #include "io/rebuild.h"

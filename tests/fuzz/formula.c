@@ -1,6 +1,7 @@
 /* formula.c - numbers, units and the expressions of `expect`: over a run, and over one to come. */
 #include "base/text.h"
 #include "case/formula.h"
+#include "case/script_host.h"
 #include "case/unit.h"
 #include "fuzz.h"
 

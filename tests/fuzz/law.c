@@ -2,7 +2,7 @@
  * one array a line, "name units rows columns scale" (0 columns: one dimension), its numbers those of a gas times scale.
  * What is accepted must be a law: numbers for any density and pressure. */
 #include "bulla/eos.h"
-#include "case/scene.h"
+#include "case/scene_read.h"
 #include "fuzz.h"
 
 #include <hdf5.h>

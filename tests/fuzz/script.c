@@ -1,5 +1,6 @@
 /* script.c - the Lua sandbox: an expression, a function, a table of fields; called with numbers. */
 #include "case/script.h"
+#include "case/script_host.h"
 #include "case/script_table.h"
 #include "fuzz.h"
 

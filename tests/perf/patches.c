@@ -1,6 +1,7 @@
 /* patches.c - what gathering tiles with edges and corners costs beside frames: `mpirun -n 2 bulla-bench-patches`. CPU
  * time per cell of a tile, the best of several passes over a periodic domain that no cache holds; messages and
  * memory per tile; and the making of a rim. Rank 0 prints. No test: times are those of the machine. */
+#include "base/abort.h"
 #include "base/comm.h"
 #include "base/mem.h"
 #include "levels/prolong_rim.h"
@@ -31,7 +32,7 @@ static struct mesh *domain(int dim, int tiles, int n, unsigned n_field)
         scene.domain.upper[d] = d < dim ? 1.0 : 0.0;
         scene.domain.boundary[d][0].type = scene.domain.boundary[d][1].type = SCENE_PERIODIC;
     }
-    if (mesh_new(&scene, n_field, 2, &mesh)) comm_abort(1);
+    if (mesh_new(&scene, n_field, 2, &mesh)) abort_all(1);
     return mesh;
 }
 

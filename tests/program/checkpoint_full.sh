@@ -29,9 +29,10 @@ failed() { # PATTERN COMMAND...: exit code 3 and the reason
     [ "$code" = 3 ] || { echo "exit code $code, not 3: $*"; cat said; exit 1; }
     grep -q "error: .*$pattern" said || { echo "no '$pattern':"; cat said; exit 1; }
 }
-intact() { # FOLDER: one whole checkpoint, of step 20, no draft
-    [ "$(ls "$1/checkpoints")" = "$(printf 'tube_000010.chk\ntube_000020.chk')" ] || { ls -l "$1/checkpoints"; exit 1; }
-    for file in "$1"/checkpoints/*; do "$BULLA" info "$file" >/dev/null; done
+intact() { # FOLDER: two whole checkpoints, of steps 10 and 20, no draft, no part of another
+    [ "$(ls "$1/checkpoints" | sed 's/\.a[123]$//' | uniq)" = "$(printf 'tube_000010.chk\ntube_000020.chk')" ] ||
+        { ls -l "$1/checkpoints"; exit 1; }
+    for file in "$1"/checkpoints/*.chk; do "$BULLA" info "$file" >/dev/null; done
 }
 go_on() { # FOLDER
     "$BULLA" run tube.yaml -o "$1" --quiet --restart
@@ -57,10 +58,14 @@ rm -rf out
 mkdir disk
 mount -t tmpfs -o size=2m none disk 2>/dev/null || { echo "no disk of its own: that part is skipped"; exit 0; }
 at_end='umount disk'
-for ranks in 1 3; do
+for ranks in 1 3 '3 --writers 3'; do
+    # shellcheck disable=SC2086
     "$BULLA" run tube.yaml -o disk/out --quiet --max-steps 20 -n $ranks
+    rm -rf disk/out/fields # the last state, which goes when the run goes on
     head -c "$(($(df --output=avail -B1 disk | tail -n 1) - 50000))" /dev/zero >disk/other
+    # shellcheck disable=SC2086
     failed 'No space left on device' "$BULLA" run tube.yaml -o disk/out --restart -n $ranks
+    [ "$(grep -c '^error: no checkpoint' said)" = 1 ] || { echo "more than one reason:"; cat said; exit 1; }
     grep -q 'tube_0000[0-9]*.chk.*; .* MB are free in disk/out/checkpoints' said || { cat said; exit 1; }
     intact disk/out
     rm disk/other

@@ -1,4 +1,5 @@
-# A run that is killed (kill -9) at moments that are drawn, on one rank and on several, one rank of them or all: it can always
+# A run that is killed (kill -9) at moments that are drawn, on one rank and on several, with one writer and with more, one
+# rank of them or all: it can always
 # be taken up, loses one interval of checkpoints at most, and in the end has the bits of a run that nobody touched.
 # BULLA_KILLS: how often (24).
 set -eu
@@ -99,17 +100,18 @@ kills=0 rounds=0
 while [ "$kills" -lt "${BULLA_KILLS:-24}" ]; do
     rounds=$((rounds + 1))
     [ $rounds -le $((20 * ${BULLA_KILLS:-24})) ] || fail "only $kills kills in $rounds runs"
-    ranks=1 how=all # mostly: starting MPI takes longer than the run
+    ranks=1 writers=1 how=all # mostly: starting MPI takes longer than the run
     draw 4
     if [ "$drawn" = 0 ]; then
         draw 3 && ranks=$((2 + drawn))
+        draw "$ranks" && writers=$((1 + drawn))
         draw 2 && [ "$drawn" = 0 ] || how=rank
     fi
     restart=--restart
     ls out/checkpoints/*.chk >/dev/null 2>&1 || restart=--overwrite
     draw_moment
     before=$(rows)
-    start "$BULLA" run bubble.yaml -n $ranks --quiet $restart >said 2>&1
+    start "$BULLA" run bubble.yaml -n $ranks --writers $writers --quiet $restart >said 2>&1
     await "$moment" reached
     [ $how = all ] || await "a row of this run" moved
     strike

@@ -1,4 +1,4 @@
-# A full disk while a snapshot is written: the run ends on all ranks with exit code 3 and one reason, what was
+# A full disk while a snapshot is written, of the only writer or of one of three: the run ends on all ranks with exit code 3 and one reason, what was
 # written before stays readable, and provenance says why.
 set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
@@ -18,22 +18,26 @@ output:
   snapshots: {every: 1000 steps}
 END
 begun() { [ -e out/fields/tube_000000.hdf ] || ! alive "$run"; }
-for ranks in 1 3; do
+for ranks in 1 3 '3 --writers 3'; do
     rm -rf out
-    start "$BULLA" run tube.yaml -o out -n "$ranks" --quiet 2>errors.txt
+    draft=tmp
+    [ ${#ranks} = 1 ] || draft=a2.tmp
+    # shellcheck disable=SC2086
+    start "$BULLA" run tube.yaml -o out -n $ranks --quiet 2>errors.txt
     await "the first snapshot" begun
     # shellcheck disable=SC2046
     kill -s STOP $(members "$run")
     number=1000 # from now on the disk is full: one of these is the next file
     while [ "$number" -le 40000 ]; do
-        ln -sf /dev/full "out/fields/$(printf 'tube_%06d.hdf.tmp' "$number")"
+        ln -sf /dev/full "out/fields/$(printf 'tube_%06d.hdf' "$number").$draft"
         number=$((number + 1000))
     done
     # shellcheck disable=SC2046
     kill -s CONT $(members "$run")
     ended "$run"
     [ "$code" -eq 3 ] || fail "exit code $code on $ranks ranks, not 3" errors.txt
-    grep -q 'tube_[0-9]*.hdf.tmp: cannot .*No space left on device' errors.txt || fail "not said" errors.txt
+    grep -q "tube_[0-9]*.hdf.$draft: cannot .*No space left on device" errors.txt || fail "not said" errors.txt
+    [ "$(grep -c '^error.*No space' errors.txt)" = 1 ] || fail "more than one reason" errors.txt
     grep -q '"exit_reason": ".*No space left on device' out/provenance.json
     grep -q '"exit_code": 3' out/provenance.json
     "$BULLA" info out/fields/tube_000000.hdf >/dev/null

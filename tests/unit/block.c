@@ -2,6 +2,7 @@
  * ranks together, with the same bits whoever makes what, one copy in memory; failures reach all ranks and nobody waits. */
 #include "plug/block.h"
 
+#include "base/abort.h"
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
@@ -62,7 +63,7 @@ static int open_fake(double value, struct instance *ret_instance)
     do {                                                                                \
         if (!(condition)) {                                                             \
             fprintf(stderr, "line %d: %s (%s)\n", __LINE__, #condition, status_text()); \
-            comm_abort(1);                                                              \
+            abort_all(1);                                                               \
         }                                                                               \
     } while (0)
 

@@ -2,6 +2,7 @@
  * kept until a newer one is whole. With two files as arguments: do they hold the same tiles, fields, time and counts? */
 #include "io/checkpoint.h"
 
+#include "case/scene_read.h"
 #include "io/rebuild.h"
 #include "io/seal.h"
 #include "small.h"
@@ -349,15 +350,6 @@ static void forged_files_do_no_harm(void **state)
     small_stop(&small);
 }
 
-static char *read_part(const char *path, const struct seal_part *part)
-{
-    char *bytes = mem_new(part->length + 1, 1);
-    int file = open(path, O_RDONLY);
-    if (file < 0 || seal_bytes(file, path, part->offset, part->length, bytes)) exit(2);
-    close(file);
-    return bytes;
-}
-
 /* Lines of notes that belong to the state, not to who wrote it. */
 static void keep_state(char *notes)
 {
@@ -371,27 +363,61 @@ static void keep_state(char *notes)
     *to = '\0';
 }
 
+/* Bytes of a tile's row; 0: there are no such rows. */
+static uint64_t row_bytes(const struct resume *resume, const char *name)
+{
+    for (unsigned i = 0; i < resume->n_part; i++) {
+        const struct seal_part *part = seal_find(&resume->parts[i].seal, name);
+        if (part) return part->length / resume->parts[i].n_tile;
+    }
+    return 0;
+}
+
+static bool same_tiles(const struct resume *a, const struct resume *b)
+{
+    bool same = a->n_level == b->n_level && a->n_all == b->n_all && !memcmp(a->n_tile, b->n_tile, sizeof a->n_tile);
+    for (size_t i = 0; same && i < a->n_all; i++)
+        same = a->tiles[i].key == b->tiles[i].key && a->tiles[i].unwanted == b->tiles[i].unwanted;
+    return same;
+}
+
+/* Wherever the rows lie. */
+static bool same_rows(const struct resume *a, const struct resume *b, const char *name)
+{
+    uint64_t bytes = row_bytes(a, name);
+    bool same = bytes == row_bytes(b, name);
+    char *x = mem_new(bytes + 1, 1), *y = mem_new(bytes + 1, 1);
+    for (size_t i = 0; same && bytes && i < a->n_all; i++)
+        same = !resume_row(a, name, i, bytes, x) && !resume_row(b, name, i, bytes, y) && !memcmp(x, y, bytes);
+    mem_free(x);
+    mem_free(y);
+    return same;
+}
+
+static bool same_notes(struct resume *a, struct resume *b)
+{
+    keep_state(a->notes.text.at);
+    keep_state(b->notes.text.at);
+    bool same = *a->notes.text.at && !strcmp(a->notes.text.at, b->notes.text.at);
+    if (!same) fprintf(stderr, "%s%s", a->notes.text.at, b->notes.text.at);
+    return same;
+}
+
+/* With one writer or many. */
 static int compare_files(char **paths)
 {
-    static const char *const names[] = {"/tiles", "/u", "/p", "/notes"};
-    struct seal seals[2];
-    int differences = 0;
+    struct resume *files[2];
     for (int i = 0; i < 2; i++)
-        if (seal_check(paths[i], &seals[i])) return fprintf(stderr, "%s\n", status_text()), 2;
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        const struct seal_part *a = seal_find(&seals[0], names[k]), *b = seal_find(&seals[1], names[k]);
-        if (!a && !b) continue;
-        if (!a || !b) return 2;
-        char *x = read_part(paths[0], a), *y = read_part(paths[1], b);
-        bool notes = !strcmp(names[k], "/notes");
-        if (notes) keep_state(x), keep_state(y);
-        bool same = notes ? *x && !strcmp(x, y) : a->length == b->length && !memcmp(x, y, a->length);
-        if (!same) fprintf(stderr, "%s differs\n", names[k]);
-        if (!same && notes) fprintf(stderr, "%s%s", x, y);
-        differences += !same;
-        mem_free(x);
-        mem_free(y);
+        if (resume_look(paths[i], &files[i])) return fprintf(stderr, "%s\n", status_text()), 2;
+    bool same[] = {same_tiles(files[0], files[1]), same_rows(files[0], files[1], "/u"),
+                   same_rows(files[0], files[1], "/p"), same_notes(files[0], files[1])};
+    static const char *const names[] = {"/tiles", "/u", "/p", "/notes"};
+    int differences = 0;
+    for (int k = 0; k < 4; k++) {
+        if (!same[k]) fprintf(stderr, "%s differs\n", names[k]);
+        differences += !same[k];
     }
+    for (int i = 0; i < 2; i++) resume_close(files[i]);
     return differences != 0;
 }
 

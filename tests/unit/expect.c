@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/status.h"
+#include "case/script_host.h"
 #include "judge/expect.h"
 
 static char folder[] = "/tmp/bulla-expect-XXXXXX";

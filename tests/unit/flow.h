@@ -5,6 +5,7 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "case/scene_read.h"
 #include "derive/derive.h"
 #include "mesh/metric.h"
 #include "phys/mix.h"

@@ -13,6 +13,7 @@
 
 #include "base/status.h"
 #include "case/formula.h"
+#include "case/script_host.h"
 #include "case/table.h"
 
 static const double t[] = {0, 1, 2, 4}, V[] = {8, 2, 4, 6}, p[] = {-1, 3, -5, 2}, bad[] = {1, NAN, 2, 3};

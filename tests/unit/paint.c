@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "base/status.h"
+#include "case/scene_read.h"
 #include "mesh/metric.h"
 #include "phys/mix.h"
 #include "phys/model.h"

@@ -2,6 +2,7 @@
  * stays as said), the identity in fluids; and what is no stretch is refused where it is met. */
 #include "paint/paint_stretch.h"
 
+#include "case/scene_read.h"
 #include "phys/elastic.h"
 #include "phys/mix.h"
 #include "small.h"

@@ -4,7 +4,7 @@
 #include "view/plot_field.h"
 #include "view/plot_interface.h"
 #include "view/plot_option.h"
-#include "view/plot_picture.h"
+#include "view/plot_draw.h"
 #include "view/plot_view.h"
 #include "close.h"
 
@@ -322,7 +322,7 @@ static void pictures_have_even_sizes(void **state)
         struct plot_option option = {.width = width};
         struct plot_picture picture = {.option = &option, .n_field = 1, .fields = {"pressure"}};
         cairo_surface_t *image;
-        assert_int_equal(plot_picture_draw(snapshot, &picture, &image), 0);
+        assert_int_equal(plot_draw(snapshot, &picture, &image), 0);
         assert_int_equal(cairo_image_surface_get_width(image), width + width % 2);
         assert_int_equal(cairo_image_surface_get_height(image) % 2, 0);
         cairo_surface_destroy(image);
@@ -352,7 +352,7 @@ static int draw(const struct snapshot *snapshot, const struct plot_option *optio
 {
     struct plot_picture picture = {.option = option, .n_field = 1, .fields = {name}};
     cairo_surface_t *image;
-    int code = plot_picture_draw(snapshot, &picture, &image);
+    int code = plot_draw(snapshot, &picture, &image);
     if (code) return code;
     assert_int_equal(cairo_image_surface_get_width(image), 300);
     cairo_surface_destroy(image);
@@ -397,7 +397,7 @@ static void a_pair_fills_the_two_halves(void **state)
     struct plot_option option = {.width = 300, .left = "pressure", .right = "velocity"};
     struct plot_picture picture = {.option = &option, .n_field = 2, .fields = {"pressure", "velocity"}};
     cairo_surface_t *image;
-    assert_int_equal(plot_picture_draw(snapshot, &picture, &image), 0);
+    assert_int_equal(plot_draw(snapshot, &picture, &image), 0);
     cairo_surface_destroy(image);
     read_free(snapshot);
 }

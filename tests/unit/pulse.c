@@ -1,5 +1,6 @@
 /* Pulses against formulas and against the tabulated lithotripter pulse. */
 #include "case/pulse.h"
+#include "case/script_host.h"
 #include "case/series.h"
 
 #include "base/status.h"

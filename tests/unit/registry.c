@@ -48,6 +48,7 @@ static const char *const builtin[][2] = {
     {"constitutive", "gent"},
     {"constitutive", "mooney-rivlin"},
     {"constitutive", "neo-hookean"},
+    {"constitutive", "quadratic"},
     {"eos", "cochran-chan"},
     {"eos", "helmholtz-air"},
     {"eos", "iapws95"},

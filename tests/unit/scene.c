@@ -11,7 +11,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
-#include "case/scene.h"
+#include "case/scene_read.h"
 #include "derive/derive.h"
 #include "phys/model.h"
 

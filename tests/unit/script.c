@@ -2,6 +2,7 @@
 #include "case/script_table.h"
 
 #include "base/status.h"
+#include "case/script_host.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -172,11 +173,11 @@ static void ends_what_takes_too_long_in_all(void **state)
     assert_int_equal(script_call(slow, &in, 1, &out, 1), STATUS_CASE);
     assert_says("case.yaml:4: the script ran for too long before");
     for (int i = 0; i < 1000000; i++) assert_int_equal(script_call(quick, &in, 1, &out, 1), 0);
-    script_limit(host, 1000.0);
+    script_host_limit(host, 1000.0);
     assert_int_equal(script_compile(host, loop, "x", "case.yaml", 6, &slow), 0);
     for (int i = 0; i < calls + 20; i++)
         if (script_call(slow, &in, 1, &out, 1)) fail_msg("%s", status_text());
-    script_limit(host, SCRIPT_TIME);
+    script_host_limit(host, SCRIPT_HOST_TIME);
 }
 
 /* A table whose keys 1, 2, 4, ... 2^62 make Lua believe that it has 2^62 elements. */
@@ -195,11 +196,11 @@ static void ends_bombs(void **state)
     expects("string.rep('x', 1e9)", "rep: the text would be longer");
     expects("string.rep('', 1e18) == '' and error('came back')", "came back");
     expects("string.rep('x', 1e18, 'y')", "rep: the text would be longer");
-    script_limit(host, 20.0); /* memory ends these also where sanitizers make it slow */
+    script_host_limit(host, 20.0); /* memory ends these also where sanitizers make it slow */
     expects("(function() local s = string.rep('x', 1e6) while true do s = s .. s end end)()", "not enough memory");
     expects("(function() local t, s = {}, string.rep('x', 1e5) for i = 1, 1e9 do t[i] = s .. i end end)()",
             "not enough memory");
-    script_limit(host, SCRIPT_TIME);
+    script_host_limit(host, SCRIPT_HOST_TIME);
     expects_long_list("table.insert(t, 1, 0)");
     expects_long_list("table.remove(t, 1)");
     expects("#table.concat({}, 'x', 1, 1e15)", "invalid value");

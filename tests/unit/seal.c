@@ -124,7 +124,7 @@ static void forged_headers_are_refused(void **state)
         uint64_t value;
         const char *said;
     } lies[] = {
-        {FORMAT, (uint64_t)9 << 32 | 0x01020304, "a checkpoint of format 9; this version reads format 1"},
+        {FORMAT, (uint64_t)9 << 32 | 0x01020304, "a checkpoint of format 9; this version reads formats 1 to 2"},
         {FORMAT, (uint64_t)1 << 32 | 0x04030201, "another order of bytes"},
         {BYTES, 1 << 20, "it was cut or grew"},
         {BYTES, 0, "impossible"},

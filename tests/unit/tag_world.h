@@ -11,6 +11,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "case/scene_read.h"
 #include "mesh/halo.h"
 #include "solve/tag.h"
 

@@ -1,21 +1,22 @@
-/* scene.c - from a case file to a scene: merge, modules, parameters, keys, sections, in this
- * order; what each section means is in scene_*.c. */
-#include "case/scene.h"
+/* scene_read.c - from a case file to a scene: merge, modules, parameters, keys, sections, in this order; what each section
+ * means is in scene_*.c. */
+#include "case/scene_read.h"
 
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
-#include "case/donor.h"
+#include "case/keys_read.h"
 #include "case/merge.h"
 #include "case/scene_draft.h"
+#include "case/script_host.h"
 #include "case/show.h"
 #include "plug/registry.h"
 
 #include <string.h>
 
 /* Loads what `modules:` lists; the names become absolute. */
-static void scene_load_modules(struct draft *draft, const struct node *modules)
+static void scene_read_modules(struct draft *draft, const struct node *modules)
 {
     for (unsigned i = 0; modules && modules->kind == TREE_LIST && i < modules->count; i++) {
         struct node *item = modules->items[i];
@@ -25,20 +26,20 @@ static void scene_load_modules(struct draft *draft, const struct node *modules)
     }
 }
 
-static char *scene_text(const struct keys_map *root, const char *name)
+static char *scene_read_text(const struct keys_map *root, const char *name)
 {
     const struct keys_value *value = keys_at(root, name);
     return value->given ? mem_text(value->text) : NULL;
 }
 
 /* "dir/name.yaml" -> "name" */
-static char *scene_base_name(const char *path)
+static char *scene_read_name(const char *path)
 {
     const char *slash = strrchr(path, '/'), *start = slash ? slash + 1 : path, *dot = strrchr(start, '.');
     return mem_text_n(start, dot && dot > start ? (size_t)(dot - start) : strlen(start));
 }
 
-static void scene_list_variants(struct scene *scene, const struct node *root)
+static void scene_read_variants(struct scene *scene, const struct node *root)
 {
     const struct node *variants = tree_get(root, "variants");
     unsigned most = variants ? variants->count + 1 : 1;
@@ -50,7 +51,7 @@ static void scene_list_variants(struct scene *scene, const struct node *root)
 }
 
 /* `matrix:` as settings, one per value of each list. */
-static void scene_list_settings(struct draft *draft, const struct node *root)
+static void scene_read_settings(struct draft *draft, const struct node *root)
 {
     const struct node *matrix = tree_get(root, "matrix");
     struct scene *scene = draft->scene;
@@ -71,12 +72,12 @@ static void scene_list_settings(struct draft *draft, const struct node *root)
     }
 }
 
-static void scene_fill(struct draft *draft)
+static void scene_read_sections(struct draft *draft)
 {
     struct scene *scene = draft->scene;
-    scene->title = scene_text(draft->root, "title");
-    scene->about = scene_text(draft->root, "about");
-    scene->cite = scene_text(draft->root, "cite");
+    scene->title = scene_read_text(draft->root, "title");
+    scene->about = scene_read_text(draft->root, "about");
+    scene->cite = scene_read_text(draft->root, "cite");
     scene_material(draft);
     scene_domain(draft);
     scene_scheme(draft);
@@ -99,7 +100,7 @@ static void scene_fill(struct draft *draft)
 }
 
 /* The resolved case: what has been used up is left out. */
-static void scene_resolve(struct draft *draft, struct node *root)
+static void scene_read_resolve(struct draft *draft, struct node *root)
 {
     static const char *const used_up[] = {"extends", "variants", "quick", "matrix", NULL};
     struct text text = {0};
@@ -114,70 +115,73 @@ static void scene_resolve(struct draft *draft, struct node *root)
 }
 
 /* Everything after the tree is there. */
-static void scene_build(struct draft *draft, struct node *root)
+static void scene_read_tree(struct draft *draft, struct node *root)
 {
-    scene_load_modules(draft, tree_get(root, "modules"));
-    scene_list_variants(draft->scene, root);
-    scene_list_settings(draft, root);
+    scene_read_modules(draft, tree_get(root, "modules"));
+    scene_read_variants(draft->scene, root);
+    scene_read_settings(draft, root);
     params_read(draft->keys.params, tree_get(root, "parameters"));
     scene_repeat(draft, tree_get(root, "initial"));
     draft->root = keys_read(&draft->keys, root, &scene_root_keys, "");
-    if (draft->root) scene_fill(draft);
+    if (draft->root) scene_read_sections(draft);
     if (diag_errors(draft->keys.diag)) return;
     scene_idle(draft, root);
     scene_coarse(draft);
+    scene_boil(draft);
     scene_branch_times(draft);
     scene_spare(draft, root);
-    scene_resolve(draft, root);
+    scene_read_resolve(draft, root);
 }
 
-static int scene_make(const char *path, const struct scene_options *options, struct diag *diag, struct scene *scene)
+static int scene_read_once(const char *path, const struct scene_options *options, struct diag *diag,
+                           struct scene *scene)
 {
     struct forest *forest = tree_forest_new();
     scene->path = mem_text(path);
-    scene->name = scene_base_name(path);
+    scene->name = scene_read_name(path);
     scene->output.directory = mem_text(options->directory);
     scene->host = script_host_new();
     struct params *params = params_new(forest, diag, scene->host);
     struct draft draft = {{forest, diag, params, &scene_root_keys}, scene, NULL};
     struct merge_options merge = {options->sets, options->variant};
     struct node *root = merge_case(forest, diag, path, &merge);
-    if (root) scene_build(&draft, root);
+    if (root) scene_read_tree(&draft, root);
     params_free(params);
     tree_forest_free(forest);
     return diag_errors(diag) ? STATUS_CASE : STATUS_OK;
 }
 
 /* Reads the case in another way, for its errors alone. */
-static void scene_try(const char *path, const struct scene_options *options, struct diag *diag, const char *context)
+static void scene_read_again(const char *path, const struct scene_options *options, struct diag *diag,
+                             const char *context)
 {
     struct scene *scene = mem_new(1, sizeof *scene);
     diag_context(diag, context);
-    scene_make(path, options, diag, scene);
+    scene_read_once(path, options, diag, scene);
     diag_context(diag, NULL);
     scene_free(scene);
 }
 
 /* A case that is right by itself may still have a variant or a row of its matrix that is not. */
-static void scene_try_overlays(const struct scene *scene, struct diag *diag)
+static void scene_read_overlays(const struct scene *scene, struct diag *diag)
 {
     for (unsigned i = 0; i < scene->n_variant; i++) {
         struct scene_options options = {.variant = scene->variants[i]};
         char *context = mem_print("this is read with --variant %s", scene->variants[i]);
-        scene_try(scene->path, &options, diag, context);
+        scene_read_again(scene->path, &options, diag, context);
         mem_free(context);
     }
     for (unsigned i = 0; i < scene->n_setting; i++) {
         const char *sets[] = {scene->settings[i], NULL};
         struct scene_options options = {.sets = sets};
-        scene_try(scene->path, &options, diag, "this is one of the values under 'matrix:'");
+        scene_read_again(scene->path, &options, diag, "this is one of the values under 'matrix:'");
     }
 }
 
 /* Outputs are named after the case, and listed by these names. */
-static int scene_check_name(const char *path)
+static int scene_read_check_name(const char *path)
 {
-    char *name = scene_base_name(path), *plain = mem_text(name);
+    char *name = scene_read_name(path), *plain = mem_text(name);
     text_line(plain, strlen(plain) + 4);
     int code = strcmp(name, plain) == 0
                    ? STATUS_OK
@@ -194,7 +198,7 @@ int scene_read(const char *path, const struct scene_options *options, struct sce
 {
     static const struct scene_options none;
     if (!options) options = &none;
-    TRY(scene_check_name(path));
+    TRY(scene_read_check_name(path));
     TRY(registry_init());
     if (registry_count() == 0)
         return status_fail(STATUS_CASE, "no modules were found: without them there are no equations of state; look at "
@@ -202,8 +206,8 @@ int scene_read(const char *path, const struct scene_options *options, struct sce
     struct diag *diag = diag_new();
     struct scene *scene = mem_new(1, sizeof *scene);
     bool plain = !options->variant && !(options->sets && options->sets[0]);
-    int code = scene_make(path, options, diag, scene);
-    if (!code && plain) scene_try_overlays(scene, diag);
+    int code = scene_read_once(path, options, diag, scene);
+    if (!code && plain) scene_read_overlays(scene, diag);
     if (comm_rank() == 0) diag_print(diag, options->messages ? options->messages : stderr, options->json);
     unsigned errors = diag_errors(diag);
     diag_free(diag);
@@ -213,112 +217,4 @@ int scene_read(const char *path, const struct scene_options *options, struct sce
     }
     *ret_scene = scene;
     return STATUS_OK;
-}
-
-int scene_value_at(const struct scene_value *value, const double x[SCENE_AXES], double r, double t, double *ret)
-{
-    if (!value->script) {
-        *ret = value->number;
-        return STATUS_OK;
-    }
-    double in[] = {x[0], x[1], x[2], r, t};
-    return script_call(value->script, in, 5, ret, 1);
-}
-
-static void scene_free_boundaries(struct scene *scene)
-{
-    for (int face = 0; face < 2 * SCENE_AXES; face++) {
-        struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
-        mem_free(boundary->sum);
-        mem_free(boundary->series_t);
-        mem_free(boundary->series_p);
-        mem_free(boundary->fractions);
-        mem_free(boundary->density);
-    }
-}
-
-static void scene_free_output(struct scene *scene)
-{
-    for (unsigned i = 0; i < scene->output.n_column; i++) {
-        shape_free(scene->output.columns[i].where);
-        mem_free(scene->output.columns[i].uses);
-    }
-    for (unsigned i = 0; i < scene->output.n_probe; i++) mem_free(scene->output.probes[i].fields);
-    for (unsigned i = 0; i < scene->n_expect; i++) {
-        struct scene_expect *expect = &scene->expects[i];
-        char *texts[] = {expect->value,  expect->reference,  expect->norm, expect->field,
-                         expect->column, expect->coordinate, expect->label};
-        for (unsigned k = 0; k < sizeof texts / sizeof *texts; k++) mem_free(texts[k]);
-    }
-    mem_free(scene->output.snapshot_fields);
-    mem_free(scene->output.columns);
-    mem_free(scene->output.probes);
-    mem_free(scene->output.peaks);
-    for (unsigned i = 0; i < scene->output.n_formula; i++) {
-        mem_free(scene->output.formulas[i].text);
-        mem_free(scene->output.formulas[i].uses);
-    }
-    mem_free(scene->output.formulas);
-    scene_map_done(scene);
-    mem_free(scene->expects);
-}
-
-struct instance *scene_instance(struct scene *scene, unsigned index)
-{
-    enum { LAWS = 5, SCHEMES = 4, FACES = 2 * SCENE_AXES };
-    if (index < LAWS * scene->n_material) {
-        struct scene_material *material = &scene->material[index / LAWS];
-        struct instance *const laws[LAWS] = {&material->eos, &material->constitutive, &material->plastic,
-                                             &material->viscosity, &material->conductivity};
-        return laws[index % LAWS];
-    }
-    index -= LAWS * scene->n_material;
-    struct scene_scheme *scheme = &scene->scheme;
-    struct instance *const schemes[SCHEMES] = {&scheme->reconstruction, &scheme->limiter, &scheme->interface_limiter,
-                                               &scheme->riemann};
-    if (index < SCHEMES) return schemes[index];
-    index -= SCHEMES;
-    if (index < FACES) return &scene->domain.boundary[index / 2][index % 2].law;
-    index -= FACES;
-    return index < scene->n_derived ? &scene->derived[index].law : NULL;
-}
-
-void scene_free(struct scene *scene)
-{
-    if (!scene) return;
-    scene_free_boundaries(scene);
-    scene_free_output(scene);
-    for (unsigned i = 0; i < scene->n_layer; i++) {
-        shape_free(scene->layers[i].shape);
-        mem_free(scene->layers[i].fractions);
-        mem_free(scene->layers[i].density);
-        mem_free(scene->layers[i].checkpoint);
-        donor_free(scene->layers[i].donor);
-    }
-    mem_free(scene->layers);
-    for (unsigned i = 0; i < scene->n_rigid; i++) shape_free(scene->rigids[i].shape);
-    mem_free(scene->sources);
-    for (unsigned i = 0; i < scene->mesh.n_refine; i++) {
-        shape_free(scene->mesh.refines[i].where);
-        mem_free(scene->mesh.refines[i].uses);
-    }
-    mem_free(scene->mesh.refines);
-    struct instance *instance;
-    for (unsigned i = 0; (instance = scene_instance(scene, i)); i++) instance_done(instance);
-    mem_free(scene->derived);
-    for (unsigned i = 0; i < scene->n_variant; i++) mem_free(scene->variants[i]);
-    mem_free(scene->variants);
-    for (unsigned i = 0; i < scene->n_setting; i++) mem_free(scene->settings[i]);
-    mem_free(scene->settings);
-    char *texts[] = {scene->path,
-                     scene->name,
-                     scene->title,
-                     scene->about,
-                     scene->cite,
-                     scene->resolved,
-                     scene->output.directory,
-                     scene->domain.cells_place};
-    for (unsigned i = 0; i < sizeof texts / sizeof *texts; i++) mem_free(texts[i]);
-    script_host_free(scene->host);
-    mem_free(scene);
 }
