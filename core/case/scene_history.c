@@ -283,13 +283,10 @@ static void scene_history_column(struct draft *draft, struct scene_column *colum
     if (scene_history_of_surface(column->measure) && !in->node)
         keys_error(&draft->keys, measure, "'in' is missing: the material whose surface it is");
     if (scene_history_between(column->measure)) scene_history_alone(draft, map, measure);
-    if (!scene_history_of_body(column->measure) || (!in->node && !where->node)) return;
-    keys_error(&draft->keys, in->node ? in : where, "a column of a body is of all of it");
-    bool whole = column->measure == SCENE_FORCE || column->measure == SCENE_EVAPORATED;
-    if (!whole || (!in->node && !where->node)) return;
+    bool of_body = scene_history_of_body(column->measure);
+    if ((!of_body && column->measure != SCENE_EVAPORATED) || (!in->node && !where->node)) return;
     keys_error(&draft->keys, in->node ? in : where,
-               column->measure == SCENE_FORCE ? "a force is that on a whole body"
-                                              : "what has evaporated is known of the whole domain");
+               of_body ? "a column of a body is of all of it" : "what has evaporated is known of the whole domain");
 }
 
 void scene_history(struct draft *draft)
