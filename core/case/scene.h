@@ -95,6 +95,13 @@ struct scene_material {
         double modulus, density, time; /* G [Pa] at that density [kg/m3]; of relaxation [s] */
     } branch[SCENE_BRANCHES];
     double drag; /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
+    struct scene_damage {
+        struct instance law;      /* how a solid breaks; module NULL: never */
+        double time;              /* in which it does at the fastest [s]; 0: at once */
+        bool opens;               /* where it breaks in tension, a void opens ... */
+        unsigned gas;             /* ... of this material ... */
+        double pressure, density; /* ... in this state [Pa, kg/m3] */
+    } damage;
 };
 
 /* Surface tension between two materials. */
@@ -117,6 +124,7 @@ struct scene_phase {
     double accommodation, area;    /* of hertz-knudsen [1, 1/m] */
     double tension, superheat;     /* what liquid without vapour bears [Pa, K] */
     double onset;                  /* liquid evaporates where vapour and gases fill this share of the cell */
+    double wet;                    /* vapour condenses where the liquid fills this share of the cell */
     struct saturation_range curve; /* of liquid and vapour */
 };
 
@@ -191,18 +199,23 @@ enum scene_measure {
     SCENE_MIN_BETWEEN,
     SCENE_MAX_BETWEEN,
     SCENE_FORCE,
+    SCENE_EVAPORATED,
+    SCENE_POWER,
+    SCENE_BODY_DISPLACEMENT,
+    SCENE_BODY_VELOCITY,
+    SCENE_BODY_ANGLE,
     SCENE_VALUE,
 };
 
 struct scene_column {
     char name[SCENE_NAME]; /* history.csv header; an identifier */
     enum scene_measure measure;
-    int rigid;              /* force: the body */
+    int rigid;              /* force, power, body-*: the body */
     int material;           /* volume, mass, centroid, penetration, equivalent-radius, ...: the material; else -1 */
     char field[SCENE_NAME]; /* min, max, mean, integrals, isosurface-*: a field; total: mass | momentum_x.. | energy */
     int in;                 /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
     struct shape *where;    /* restrict to a region, or NULL */
-    int along;              /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
+    int along;              /* axis 0..2 for centroid, penetration, jet-speed, force, body-*; -1: not given */
     unsigned of;            /* min-between, max-between: a column further up */
     const struct script *script; /* value: an expression of other columns */
     char (*uses)[SCENE_NAME];    /* value: its arguments, in order: "t" or columns further up */
@@ -242,8 +255,12 @@ struct scene_peak {
 struct scene_map {
     char name[SCENE_NAME];
     unsigned n_point;
-    int axis;                 /* the coordinate that tells places apart, 0..2; -1: the distance from the first */
-    double *place;            /* [n_point] m, ascending along an axis or not */
+    int axis;      /* the coordinate that tells places apart, 0..2; -1: the distance from the first */
+    double *place; /* [n_point] m, ascending along an axis or not */
+    double
+        *second; /* [n_point] m: on a rectangle, the distance along its second side, which varies faster; else NULL */
+    unsigned n_side[2]; /* of a rectangle: places along its sides */
+    double corner[SCENE_AXES], side[2][SCENE_AXES];
     double (*at)[SCENE_AXES]; /* [n_point] points; NULL: of a surface */
     int material;             /* its surface; else -1 */
     double width;             /* of a surface: that part of it counts at a place which lies within half of this */
@@ -283,7 +300,9 @@ struct scene_rigid {
     struct scene_value displacement[SCENE_AXES], angle; /* of t [m, rad]; not given: `velocity` t, none */
     double velocity[SCENE_AXES];
     double pivot[SCENE_AXES]; /* the angle turns it about this point, which moves along; from x to y */
-    double fastest;           /* most that a point of it moves in a second, over the run [m/s] */
+    double reach;             /* farthest that the domain goes from the pivot [m] */
+    double
+        brief; /* so little of time that no run follows what changes in it, a power of two [s]: speeds of what a script moves */
 };
 
 /* A criterion of refinement. All of them are limited by where, levels and time. */

@@ -50,7 +50,7 @@ const struct keys_section scene_curve_polyline_keys = {
     .rules = "{'properties': {'vertices': {'type': 'array', 'minItems': 2, 'items': {'type': 'array', 'minItems': 2, "
              "'maxItems': 3}}}}"};
 
-static void scene_curve_room(struct scene_map *map, unsigned n_point)
+void scene_curve_room(struct scene_map *map, unsigned n_point)
 {
     map->axis = -1;
     map->n_point = n_point;
@@ -58,8 +58,7 @@ static void scene_curve_room(struct scene_map *map, unsigned n_point)
     map->at = mem_new(n_point, sizeof *map->at);
 }
 
-/* Takes round-off beyond a face away. The axis along which a point lies truly outside, or -1. */
-static int scene_curve_outside(const struct scene *scene, double x[SCENE_AXES])
+int scene_curve_outside(const struct scene *scene, double x[SCENE_AXES])
 {
     for (int d = 0; d < scene->domain.dim; d++) {
         double lower = scene->domain.lower[d], upper = scene->domain.upper[d];
@@ -70,10 +69,11 @@ static int scene_curve_outside(const struct scene *scene, double x[SCENE_AXES])
     return -1;
 }
 
-static bool scene_curve_has_axes(struct draft *draft, const struct keys_value *value)
+bool scene_curve_has_axes(struct draft *draft, const struct keys_value *value)
 {
     if (draft->scene->domain.dim == 1)
-        keys_error(&draft->keys, value, "a curve needs two axes: with one there is 'line: {from: [..], to: [..]}'");
+        keys_error(&draft->keys, value,
+                   "curves and rectangles need two axes: with one there is 'line: {from: [..], to: [..]}'");
     return draft->scene->domain.dim > 1;
 }
 

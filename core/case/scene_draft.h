@@ -66,6 +66,7 @@ int scene_history_axis(struct draft *draft, const struct keys_value *along);
 
 /* Of space-time maps: the width of the cells of the finest level; how many places there are if there could be `fine`, one
  * per such cell; whether a point, a list of numbers, is in the domain, else an error is recorded. */
+enum { SCENE_MAP_MOST = 100000 }; /* places */
 double scene_map_width(const struct scene *scene, int axis);
 unsigned scene_map_count(const struct keys_value *points, double fine);
 bool scene_map_inside(struct draft *draft, const struct keys_value *value, const double *x);
@@ -74,6 +75,16 @@ bool scene_map_inside(struct draft *draft, const struct keys_value *value, const
 extern const struct keys_section scene_curve_circle_keys, scene_curve_polyline_keys;
 void scene_curve_read_circle(struct draft *draft, struct scene_map *map, const struct keys_map *rows);
 void scene_curve_read_polyline(struct draft *draft, struct scene_map *map, const struct keys_map *rows);
+
+/* Of curves and rectangles: has the domain two axes, or else an error? The axis along which a place lies outside of the
+ * domain, or -1, after round-off beyond a face is taken away. Room for n places. */
+bool scene_curve_has_axes(struct draft *draft, const struct keys_value *value);
+int scene_curve_outside(const struct scene *scene, double x[SCENE_AXES]);
+void scene_curve_room(struct scene_map *map, unsigned n_point);
+
+/* The places of a map on a rectangle; none after a recorded error. */
+extern const struct keys_section scene_plane_keys;
+void scene_plane_read(struct draft *draft, struct scene_map *map, const struct keys_map *rows);
 
 /* One point of a list of points: its numbers, not given after a recorded error. */
 const struct keys_value *scene_shape_vertex(struct draft *draft, struct node *node, const char *path);
@@ -88,6 +99,7 @@ void scene_spare(struct draft *draft, const struct node *root);
  * outside), and about what its cells are too coarse for (waves, bubbles). */
 void scene_idle(struct draft *draft, const struct node *root);
 void scene_coarse(struct draft *draft);
+void scene_boil(struct draft *draft);
 
 /* A list of `dim` numbers into ret[3] (rest 0); false after a recorded error. */
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES]);
@@ -104,6 +116,21 @@ const char *scene_material_solid(const struct draft *draft);
 
 /* 0: no material has a strength; 1: some has; 2: and it knows its plastic strain. */
 unsigned scene_material_strength(const struct draft *draft);
+
+/* Refuses what looks at temperatures (`what`, at `asking`) of a material of whose specific heat nothing is said. */
+void scene_material_warm(struct draft *draft, const struct keys_value *asking, const struct scene_material *material,
+                         const char *what);
+
+/* Can any material break? */
+bool scene_material_breaks(const struct draft *draft);
+
+/* How the material that `entry` describes breaks, whose other laws are open; its keys. */
+void scene_damage(struct draft *draft, const struct keys_map *entry, struct scene_material *material);
+extern const struct keys_section scene_damage_keys;
+
+/* What fills the voids of solids, once all materials are known; how fast they may break, once the mesh is. */
+void scene_damage_voids(struct draft *draft);
+void scene_damage_times(struct draft *draft);
 
 /* Has any material a Maxwell branch? */
 bool scene_material_branched(const struct draft *draft);

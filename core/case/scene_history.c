@@ -54,6 +54,18 @@ static const struct key scene_history_rows[] = {
     {.name = "force",
      .type = KEYS_TEXT,
      .doc = "Force of the fluids on a body, `along` an axis: what presses on its walls. Per metre of depth in 2D."},
+    {.name = "evaporated",
+     .type = KEYS_TEXT,
+     .doc = "Mass of a vapour that has come from its liquid since the start, less what has condensed."},
+    {.name = "power",
+     .type = KEYS_TEXT,
+     .doc = "Power that fluids give to a body that moves: what the pressure on its walls works; they lose as much "
+            "energy."},
+    {.name = "body-displacement", .type = KEYS_TEXT, .doc = "How far a body has moved `along` an axis."},
+    {.name = "body-velocity",
+     .type = KEYS_TEXT,
+     .doc = "Velocity of a body `along` an axis; of its pivot, if it turns."},
+    {.name = "body-angle", .type = KEYS_TEXT, .doc = "By how much a body has turned."},
     {.name = "value", .type = KEYS_TREE, .doc = "An expression of t, columns further up, and parameters."},
     {.name = "in", .type = KEYS_TEXT, .doc = "Only in this material."},
     {.name = "where", .type = KEYS_SECTION, .section = &scene_shape_keys, .doc = "Only in this region."},
@@ -86,7 +98,12 @@ static bool scene_history_of_surface(enum scene_measure measure)
 static bool scene_history_directed(enum scene_measure measure)
 {
     return measure == SCENE_CENTROID || measure == SCENE_PENETRATION || measure == SCENE_JET_SPEED ||
-           measure == SCENE_FORCE;
+           measure == SCENE_FORCE || measure == SCENE_BODY_DISPLACEMENT || measure == SCENE_BODY_VELOCITY;
+}
+
+static bool scene_history_of_body(enum scene_measure measure)
+{
+    return measure >= SCENE_FORCE && measure <= SCENE_BODY_ANGLE;
 }
 
 int scene_history_axis(struct draft *draft, const struct keys_value *along)
@@ -184,13 +201,25 @@ static void scene_history_alone(struct draft *draft, const struct keys_map *map,
     }
 }
 
+/* The vapour of a pair. */
+static void scene_history_vapour(struct draft *draft, struct scene_column *column, const struct keys_value *value)
+{
+    const struct scene *scene = draft->scene;
+    column->material = scene_material_index(draft, value);
+    if (column->material < 0 || scene_phase_of(scene, (unsigned)column->material)) return;
+    keys_error(&draft->keys, value, "'%s' is the vapour of no pair of 'phase-change'", value->text);
+    for (unsigned k = 0; k < scene->n_phase; k++)
+        diag_help(draft->keys.diag, "there is '%s'", scene->material[scene->phases[k].vapour].name);
+}
+
 static void scene_history_measure(struct draft *draft, struct scene_column *column, const struct keys_value *value)
 {
     if (scene_history_of_material(column->measure)) column->material = scene_material_index(draft, value);
     else if (column->measure == SCENE_TOTAL) snprintf(column->field, SCENE_NAME, "%s", value->given ? value->text : "");
     else if (column->measure == SCENE_VALUE) scene_history_value(draft, column, value);
     else if (scene_history_between(column->measure)) scene_history_of(draft, column, value);
-    else if (column->measure == SCENE_FORCE) column->rigid = scene_rigid_index(draft, value);
+    else if (column->measure == SCENE_EVAPORATED) scene_history_vapour(draft, column, value);
+    else if (scene_history_of_body(column->measure)) column->rigid = scene_rigid_index(draft, value);
     else if (value->given && scene_formula_is(value)) scene_formula(draft, value, column->name, column->field);
     else scene_field_name(draft, value, column->field);
 }
@@ -215,7 +244,8 @@ static const struct keys_value *scene_history_chosen(struct draft *draft, const 
     diag_help(draft->keys.diag,
               "one of volume, mass, centroid, min, max, mean, integral, plane-integral, total, "
               "penetration, equivalent-radius, jet-speed, isosurface-mean, isosurface-min, isosurface-max, "
-              "outside, min-between, max-between, force, value");
+              "outside, min-between, max-between, force, power, body-displacement, body-velocity, body-angle, "
+              "evaporated, value");
     return NULL;
 }
 
@@ -253,8 +283,10 @@ static void scene_history_column(struct draft *draft, struct scene_column *colum
     if (scene_history_of_surface(column->measure) && !in->node)
         keys_error(&draft->keys, measure, "'in' is missing: the material whose surface it is");
     if (scene_history_between(column->measure)) scene_history_alone(draft, map, measure);
-    if (column->measure != SCENE_FORCE || (!in->node && !where->node)) return;
-    keys_error(&draft->keys, in->node ? in : where, "a force is that on a whole body");
+    bool body = scene_history_of_body(column->measure), whole = body || column->measure == SCENE_EVAPORATED;
+    if (!whole || (!in->node && !where->node)) return;
+    keys_error(&draft->keys, in->node ? in : where,
+               body ? "a column of a body is of all of it" : "what has evaporated is known of the whole domain");
 }
 
 void scene_history(struct draft *draft)

@@ -1,5 +1,5 @@
 /* scene_map.c - space-time maps: fields along a line, a curve (scene_curve.c), a face of the domain or a
- * surface, over time. */
+ * surface, or on a rectangle (scene_plane.c), over time. */
 #include "case/scene_draft.h"
 
 #include "base/mem.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SCENE_MAP_WAYS = 5, SCENE_MAP_FINE = 1024, SCENE_MAP_MOST = 100000 };
+enum { SCENE_MAP_WAYS = 6, SCENE_MAP_FINE = 1024 };
 
 static const struct key scene_map_line_rows[] = {
     {.name = "from", .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = true, .doc = "First point."},
@@ -37,6 +37,10 @@ static const struct key scene_map_rows[] = {
      .type = KEYS_SECTION,
      .section = &scene_curve_polyline_keys,
      .doc = "Along straight pieces from point to point, against the distance s along them."},
+    {.name = "rectangle",
+     .type = KEYS_SECTION,
+     .section = &scene_plane_keys,
+     .doc = "On a rectangle, against the distances s1 and s2 along its sides."},
     {.name = "along",
      .type = KEYS_CHOICE,
      .choices = "x|y|z|r|axis",
@@ -62,10 +66,11 @@ static const struct key scene_map_rows[] = {
     {0},
 };
 
-static const struct keys_section scene_map_keys = {.name = "map",
-                                                   .doc = "Fields along a line, a curve or a surface, over time.",
-                                                   .keys = scene_map_rows,
-                                                   .choose = SCENE_MAP_WAYS};
+static const struct keys_section scene_map_keys = {
+    .name = "map",
+    .doc = "Fields along a line, a curve or a surface, or on a rectangle, over time.",
+    .keys = scene_map_rows,
+    .choose = SCENE_MAP_WAYS};
 
 static const struct key scene_map_row = {.name = "NAME",
                                          .type = KEYS_SECTION,
@@ -226,9 +231,9 @@ static void scene_map_refuse(struct draft *draft, const struct keys_map *rows, c
 static void scene_map_read(struct draft *draft, struct scene_map *map, const struct keys_value *value)
 {
     static void (*const read[])(struct draft *, struct scene_map *,
-                                const struct keys_map *) = {scene_map_read_line, scene_map_read_boundary,
-                                                            scene_map_read_surface, scene_curve_read_circle,
-                                                            scene_curve_read_polyline};
+                                const struct keys_map *) = {scene_map_read_line,       scene_map_read_boundary,
+                                                            scene_map_read_surface,    scene_curve_read_circle,
+                                                            scene_curve_read_polyline, scene_plane_read};
     int way = -1, ways = 0;
     map->material = map->axis = -1;
     snprintf(map->name, SCENE_NAME, "%s", value->key->name);
@@ -242,7 +247,7 @@ static void scene_map_read(struct draft *draft, struct scene_map *map, const str
         }
     if (ways != 1 && value->map) {
         keys_error(&draft->keys, value,
-                   "a map runs along one of 'line', 'boundary', 'isosurface', 'circle' and 'polyline'%s",
+                   "a map runs along one of 'line', 'boundary', 'isosurface', 'circle', 'polyline' and 'rectangle'%s",
                    ways ? ": one too many is given" : "");
         return;
     }
@@ -268,6 +273,7 @@ void scene_map_done(struct scene *scene)
     for (unsigned i = 0; i < scene->output.n_map; i++) {
         mem_free(scene->output.maps[i].fields);
         mem_free(scene->output.maps[i].place);
+        mem_free(scene->output.maps[i].second);
         mem_free(scene->output.maps[i].at);
         shape_free(scene->output.maps[i].where);
     }

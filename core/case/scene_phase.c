@@ -150,6 +150,14 @@ static const struct key scene_phase_rows[] = {
      .max = 0.9,
      .doc = "Liquid evaporates only where vapour and gases fill this share of a cell; wherever they are felt, if not "
             "given. 0.5 keeps the surface of superheated liquid sharp. Vapour condenses all the same."},
+    {.name = "condense-from",
+     .type = KEYS_NUMBER,
+     .unit = "1",
+     .min = KEYS_POSITIVE,
+     .max = 0.99,
+     .doc = "Vapour condenses only where the liquid fills this share of a cell; wherever it is felt, if not given. 0.9 "
+            "keeps "
+            "vapour among gases from condensing in all cells that the surface is smeared over."},
     {.name = "direction",
      .type = KEYS_CHOICE,
      .choices = "both|evaporation|condensation",
@@ -260,6 +268,9 @@ static void scene_phase_places(struct draft *draft, const struct keys_map *map, 
     if (pair->everywhere && keys_at(map, "onset")->given)
         keys_error(&draft->keys, keys_at(map, "onset"),
                    "with 'where: everywhere' liquid evaporates from nothing: 'onset' is for surfaces");
+    pair->wet = keys_at(map, "condense-from")->given ? keys_at(map, "condense-from")->number : 0.0;
+    if (pair->direction == SCENE_PHASE_EVAPORATION && keys_at(map, "condense-from")->given)
+        keys_error(&draft->keys, keys_at(map, "condense-from"), "with 'direction: evaporation' nothing condenses");
     if (!nucleation->map) return;
     const struct keys_value *tension = keys_at(nucleation->map, "tension"),
                             *superheat = keys_at(nucleation->map, "superheat");

@@ -13,6 +13,8 @@
 
 enum { SCENE_RIGID_TIMES = 64, SCENE_RIGID_LOOKS = 9 }; /* at which speeds are taken, and places */
 
+#define SCENE_RIGID_BRISK 1e6 /* a hundred times the speed of sound in anything [m/s] */
+
 static const struct key scene_rigid_rows[] = {
     {.name = "velocity",
      .type = KEYS_NUMBER,
@@ -45,6 +47,28 @@ const struct keys_section scene_rigid_keys = {.name = "body",
                                               .keys = scene_rigid_rows,
                                               .rules = "{'not': {'required': ['velocity', 'displacement']}}"};
 
+/* What fluids do among themselves only: it is computed, so it is no error, but somebody may wait for it. */
+static void scene_rigid_smooth(struct draft *draft, const struct keys_value *section)
+{
+    const struct scene *scene = draft->scene;
+    struct diag *diag = draft->keys.diag;
+    const char *viscous = NULL, *conducts = NULL;
+    for (unsigned l = 0; l < scene->n_material; l++) {
+        if (!viscous && scene->material[l].viscosity.module) viscous = scene->material[l].name;
+        if (!conducts && scene->material[l].conductivity.module) conducts = scene->material[l].name;
+    }
+    if (viscous) {
+        diag_warn(diag, &section->node->mark,
+                  "bodies: '%s' is viscous, but fluids slip along bodies: they feel no friction", viscous);
+        diag_help(diag, "walls of the domain can be 'no-slip'; a very viscous or dense material sticks, too");
+    }
+    if (conducts) {
+        diag_warn(diag, &section->node->mark, "bodies: '%s' conducts heat, but none passes the walls of bodies",
+                  conducts);
+        diag_help(diag, "walls of the domain can have a temperature; a material in place of the body conducts");
+    }
+}
+
 /* What is not computed beside bodies. */
 static void scene_rigid_beside(struct draft *draft, const struct keys_value *section)
 {
@@ -60,6 +84,7 @@ static void scene_rigid_beside(struct draft *draft, const struct keys_value *sec
                    "surface tension is not computed beside rigid bodies: no angle of contact is known");
         diag_help(draft->keys.diag, "leave 'surface-tension' out");
     }
+    scene_rigid_smooth(draft, section);
     for (int axis = 0; axis < scene->domain.dim; axis++)
         if (scene_boundary_is(scene, 2 * axis, SCENE_BOUNDARY_WRAPS) && scene->domain.cells[axis] < 8)
             keys_error(&draft->keys, section, "beside bodies a periodic axis has at least 8 cells");
@@ -88,16 +113,27 @@ static void scene_rigid_motion(struct draft *draft, const struct keys_value *val
                "around an axis or a centre no rigid body moves along the radius: write 0");
 }
 
-/* The body at a time, or false after an error. */
-static bool scene_rigid_pose(struct draft *draft, const struct keys_value *value, const struct scene_rigid *rigid,
-                             double t, struct pose *ret)
+/* Its script has failed at a time. */
+static bool scene_rigid_unknown(struct draft *draft, const struct keys_value *value, double t)
 {
-    if (!pose_at(rigid, t, ret)) return true;
     keys_error(&draft->keys, value, "its motion is not known at t = %.6g s: %s", t, status_text());
     return false;
 }
 
-/* Middle and half diagonal of the domain: what turns is looked at there. */
+/* A finest cell, the smallest of its sides, at a speed that nothing has, rounded to a power of two: sums of times are exact. */
+static double scene_rigid_brief(const struct scene *scene)
+{
+    double least = INFINITY;
+    int exponent;
+    for (int d = 0; d < scene->domain.dim; d++) {
+        double width = scene_map_width(scene, d);
+        least = width < least ? width : least;
+    }
+    frexp(least / SCENE_RIGID_BRISK, &exponent);
+    return ldexp(1.0, exponent);
+}
+
+/* The corner of the domain that is farthest from the pivot. */
 static double scene_rigid_reach(const struct scene_domain *domain, const double pivot[3])
 {
     double square = 0.0;
@@ -109,21 +145,16 @@ static double scene_rigid_reach(const struct scene_domain *domain, const double 
     return sqrt(square);
 }
 
-/* Fastest point, from differences over short times. */
-static bool scene_rigid_speed(struct draft *draft, const struct keys_value *value, struct scene_rigid *rigid)
+/* Fastest point over the run, as some of its times tell [m/s]; false after an error. */
+static bool scene_rigid_speed(struct draft *draft, const struct keys_value *value, const struct scene_rigid *rigid,
+                              double *ret_fastest)
 {
-    const struct scene *scene = draft->scene;
-    double step = scene->run.until / SCENE_RIGID_TIMES, brief = 1e-3 * step, reach;
-    reach = scene_rigid_reach(&scene->domain, rigid->pivot);
     for (int i = 0; i <= SCENE_RIGID_TIMES; i++) {
-        struct pose from, to;
-        double t = i * step, square = 0.0;
-        if (!scene_rigid_pose(draft, value, rigid, t, &from)) return false;
-        if (!scene_rigid_pose(draft, value, rigid, t + brief, &to)) return false;
-        for (int d = 0; d < 3; d++) square += (to.shift[d] - from.shift[d]) * (to.shift[d] - from.shift[d]);
-        double spin = hypot(to.turn[0][0] - from.turn[0][0], to.turn[1][0] - from.turn[1][0]);
-        double speed = (sqrt(square) + spin * reach) / brief;
-        rigid->fastest = speed > rigid->fastest ? speed : rigid->fastest;
+        struct pose_rate rate;
+        double t = i * draft->scene->run.until / SCENE_RIGID_TIMES;
+        if (pose_rate_at(rigid, t, &rate)) return scene_rigid_unknown(draft, value, t);
+        double speed = pose_rate_most(rigid, &rate);
+        *ret_fastest = speed > *ret_fastest ? speed : *ret_fastest;
     }
     return true;
 }
@@ -188,7 +219,7 @@ static bool scene_rigid_look(struct draft *draft, const struct keys_value *secti
     struct pose pose[SCENE_RIGIDS];
     for (int d = 0; d < domain->dim; d++) n *= side;
     for (unsigned k = 0; k <= which; k++)
-        if (!scene_rigid_pose(draft, value, &scene->rigids[k], t, &pose[k])) return false;
+        if (pose_at(&scene->rigids[k], t, &pose[k])) return scene_rigid_unknown(draft, value, t);
     for (size_t i = 0; i < n; i++) {
         double x[3];
         scene_rigid_point(domain, i, side, x);
@@ -215,15 +246,16 @@ static bool scene_rigid_look(struct draft *draft, const struct keys_value *secti
 
 static void scene_rigid_place(struct draft *draft, const struct keys_value *section, unsigned which)
 {
-    struct scene_rigid *rigid = &draft->scene->rigids[which];
+    const struct scene_rigid *rigid = &draft->scene->rigids[which];
     const struct keys_value *value = &section->list[which];
+    double fastest = 0.0;
     bool any = false;
     if (!(draft->scene->run.until > 0.0)) return;
-    if (rigid->moves && !scene_rigid_speed(draft, value, rigid)) return;
+    if (rigid->moves && !scene_rigid_speed(draft, value, rigid, &fastest)) return;
     double sound = scene_rigid_sound(draft->scene);
-    if (sound > 0.0 && rigid->fastest > sound) {
+    if (sound > 0.0 && fastest > sound) {
         keys_error(&draft->keys, value, "it moves with up to %.6g m/s, faster than sound at the start, %.6g m/s",
-                   rigid->fastest, sound);
+                   fastest, sound);
         diag_help(draft->keys.diag, "let the fluid flow towards a body at rest, or let it move more slowly");
         return;
     }
@@ -242,6 +274,8 @@ static bool scene_rigid_read(struct draft *draft, const struct keys_value *value
     snprintf(rigid->name, sizeof rigid->name, "%s", value->name);
     scene->n_rigid++;
     scene_rigid_motion(draft, value, rigid);
+    rigid->reach = scene_rigid_reach(&scene->domain, rigid->pivot);
+    rigid->brief = scene_rigid_brief(scene);
     if (rigid->moves && scene->scheme.integrator != SCENE_MIDPOINT)
         keys_error(&draft->keys, value, "bodies move with 'integrator: midpoint' alone");
     return true;

@@ -14,11 +14,12 @@
 #include "io/room.h"
 #include "io/seal.h"
 #include "io/writers.h"
+#include "solve/evaporate.h"
 #include "solve/peak.h"
 
 #include <dirent.h>
-#include <stdlib.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -121,6 +122,23 @@ static void checkpoint_note_tagged(const struct state *state, struct notes *note
     mem_free(counts);
 }
 
+/* Accounts of what has evaporated, where some column asks for it. */
+static void checkpoint_note_evaporated(const struct state *state, struct notes *notes)
+{
+    for (unsigned k = 0; k < state->scene->n_phase; k++) {
+        const struct account all = evaporate_account(state, k);
+        double digits[ACCOUNT_DIGITS];
+        bool any = false;
+        char name[32];
+        snprintf(name, sizeof name, "evaporated.%u", k);
+        for (int i = 0; i < ACCOUNT_DIGITS; i++) {
+            digits[i] = (double)all.digit[i];
+            any = any || all.digit[i];
+        }
+        if (any) notes_put(notes, name, ACCOUNT_DIGITS, digits);
+    }
+}
+
 /* Counts about laws. */
 static void checkpoint_note_laws(const struct state_counts *counts, unsigned n_material, struct notes *notes)
 {
@@ -154,6 +172,7 @@ static void checkpoint_note(const struct state *state, struct notes *notes)
     notes_put_one(notes, "cells.carried", (double)counts.carried);
     checkpoint_note_laws(&counts, state->model->n_material, notes);
     checkpoint_note_tagged(state, notes);
+    checkpoint_note_evaporated(state, notes);
     notes_put(notes, "counts.of_each_rank", 2, (double[]){(double)counts.retries, (double)counts.regrids});
 }
 

@@ -15,7 +15,12 @@
 const char *map_store_place(const struct scene_map *map)
 {
     static const char *const names[] = {"x", "y", "z"};
-    return map->axis < 0 ? "s" : names[map->axis];
+    return map->second ? "s1,s2" : map->axis < 0 ? "s" : names[map->axis];
+}
+
+unsigned map_store_head(const struct scene_map *map)
+{
+    return map->second ? 3 : 2;
 }
 
 static void map_store_origin(struct h5 *file, const struct scene *scene, const struct scene_map *map)
@@ -26,6 +31,10 @@ static void map_store_origin(struct h5 *file, const struct scene *scene, const s
     h5_attribute_text(file, "/", "geometry", geometries[scene->domain.geometry]);
     h5_attribute_text(file, "/", "map", map->name);
     h5_attribute_text(file, "/", "version", BULLA_VERSION);
+    if (!map->second) return;
+    h5_attribute(file, "/", "corner", H5_F64, SCENE_AXES, map->corner);
+    h5_attribute(file, "/", "first", H5_F64, SCENE_AXES, map->side[0]);
+    h5_attribute(file, "/", "second", H5_F64, SCENE_AXES, map->side[1]);
 }
 
 /* One data set; `name` is a column of the table, or of other ranks nothing to be looked up. */
@@ -39,6 +48,27 @@ static void map_store_column(struct h5 *file, const struct table *table, const c
     h5out_array(file, path, H5_F64, shape[0], (unsigned)shape[1], from);
     h5out_unit(file, path, unit);
     mem_free(path);
+}
+
+/* The distances along a side of a rectangle: [n] of those of all places, `step` apart. */
+static void map_store_side(struct h5 *file, const char *path, size_t n, size_t step, const double *all)
+{
+    double *own = mem_new(n, sizeof *own);
+    for (size_t i = 0; i < n; i++) own[i] = all[i * step];
+    h5out_array(file, path, H5_F64, n, 0, own);
+    h5out_unit(file, path, "m");
+    mem_free(own);
+}
+
+/* Where the places are. */
+static void map_store_places(struct h5 *file, const struct scene_map *map, const struct table *table)
+{
+    if (!map->second) {
+        map_store_column(file, table, map_store_place(map), "m", (size_t[]){map->n_point, 0});
+        return;
+    }
+    map_store_side(file, "/s1", map->n_side[0], map->n_side[1], map->place);
+    map_store_side(file, "/s2", map->n_side[1], 1, map->second);
 }
 
 static void map_store_fields(struct h5 *file, const struct map_values *values, const struct table *table,
@@ -68,7 +98,7 @@ static int map_store_draft(const struct map_values *values, const struct scene *
         map_store_origin(file, scene, values->map);
         h5out_array(file, "/t", H5_F64, n, 0, t);
         h5out_unit(file, "/t", "s");
-        map_store_column(file, table, map_store_place(values->map), "m", (size_t[]){n_point, 0});
+        map_store_places(file, values->map, table);
         map_store_fields(file, values, table, (size_t[]){n, n_point});
         code = h5_close(file);
     }

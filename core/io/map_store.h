@@ -7,7 +7,8 @@
 /* Writes `arrays` from the table `csv`, as far as it holds whole times; no file if it holds none. Collective. */
 int map_store_write(const struct map_values *values, const struct scene *scene, const char *csv, const char *arrays);
 
-/* The name of the column of places: x, y, z, or s for a distance. */
+/* The name of the column of places: x, y, z, or s for a distance; "s1,s2" of a rectangle. Columns up to these. */
 const char *map_store_place(const struct scene_map *map);
+unsigned map_store_head(const struct scene_map *map);
 
 #endif

@@ -14,7 +14,7 @@ struct maps_one {
     struct map_values values;
     struct csv *csv;
     char *name, *path, *header; /* name: of the file in the directory */
-    double *rows;               /* [n_point][2 + n_value] */
+    double *rows;               /* [n_point][map_store_head + n_value] */
 };
 
 struct maps {
@@ -34,7 +34,7 @@ static int maps_open(struct maps_one *one, const struct state *state, const stru
     one->name = mem_print("maps/%s.csv", map->name);
     one->path = mem_print("%s/%s", state->scene->output.directory, one->name);
     one->header = mem_text(header.at);
-    one->rows = mem_new((size_t)map->n_point * (2 + one->values.n_value), sizeof(double));
+    one->rows = mem_new((size_t)map->n_point * (map_store_head(map) + one->values.n_value), sizeof(double));
     text_done(&header);
     return code ? code : csv_open(one->path, one->header, resume, state->t, &one->csv);
 }
@@ -125,15 +125,16 @@ int maps_recall(struct maps *maps, const struct notes *notes, const char *origin
 static int maps_write(struct maps_one *one, const struct state *state, struct derive_moment *moment)
 {
     const struct scene_map *map = one->values.map;
-    unsigned n_value = one->values.n_value;
+    unsigned n_value = one->values.n_value, head = map_store_head(map);
     double *row = one->rows;
     map_values_take(&one->values, state, moment);
-    for (unsigned i = 0; i < map->n_point; i++, row += 2 + n_value) {
+    for (unsigned i = 0; i < map->n_point; i++, row += head + n_value) {
         row[0] = state->t;
         row[1] = map->place[i];
-        memcpy(row + 2, one->values.values + (size_t)i * n_value, n_value * sizeof *row);
+        if (map->second) row[2] = map->second[i];
+        memcpy(row + head, one->values.values + (size_t)i * n_value, n_value * sizeof *row);
     }
-    return csv_rows(one->csv, map->n_point, 2 + n_value, one->rows);
+    return csv_rows(one->csv, map->n_point, head + n_value, one->rows);
 }
 
 static int maps_write_all(struct maps *maps, const struct state *state, struct derive_moment *moment)

@@ -17,6 +17,7 @@
  *   jet-speed           velocity along `along` of largest magnitude, with its sign, over the cells
  *                       with a >= 0.5 (b, f likewise)
  *   outside             number of cells with b f > 0 where outside_count finds the material's law left
+ *   evaporated          evaporate_total of the vapour, over the whole domain
  *   min-between, max-between, value   not measured: history.c
  *   isosurface-mean     surface_mean of q on b = 0.5
  *   isosurface-min, isosurface-max   surface_extremes of it

@@ -9,6 +9,7 @@
 #include "mesh/nest.h"
 
 #include <math.h>
+#include <stdio.h>
 
 struct rebuild {
     const struct resume *from;
@@ -132,6 +133,19 @@ static void rebuild_tagged(const struct resume *resume, struct state *state)
     mem_free(tagged);
 }
 
+/* What has evaporated goes on with rank 0; a file of a run without such a column does not say it: then from here. */
+static void rebuild_evaporated(const struct resume *resume, struct state *state)
+{
+    for (unsigned k = 0; comm_rank() == 0 && k < state->scene->n_phase; k++) {
+        double digits[ACCOUNT_DIGITS];
+        char name[32];
+        snprintf(name, sizeof name, "evaporated.%u", k);
+        if (!notes_get(&resume->notes, name, ACCOUNT_DIGITS, digits)) continue;
+        for (int i = 0; i < ACCOUNT_DIGITS; i++)
+            if (fabs(digits[i]) <= 0x1p53) state->evaporated[k].digit[i] = (long long)digits[i];
+    }
+}
+
 /* Has the file as many blocks, and rows of pressures where they are needed, as tiles? */
 static int rebuild_measure(const struct rebuild *rebuild)
 {
@@ -220,6 +234,7 @@ static int rebuild_source(struct rebuild *rebuild, struct state **ret_state)
     TRY(state_resume(rebuild->scene, &source, ret_state));
     (*ret_state)->counts = counts;
     rebuild_tagged(resume, *ret_state);
+    rebuild_evaporated(resume, *ret_state);
     return STATUS_OK;
 }
 

@@ -30,7 +30,8 @@ struct rigid {
     struct slots slots; /* entries by level and place, where all bodies rest */
     struct rigid_entry **entries;
     unsigned n, room;
-    struct pose *poses; /* [4][n_rigid]: at from, to, now, and in the middle */
+    struct pose *poses;      /* [4][n_rigid]: at from, to, now, and in the middle */
+    struct pose_rate *rates; /* [n_rigid]: at a single time */
     int status;
     char *message;
 };
@@ -53,6 +54,7 @@ struct rigid *rigid_new(const struct scene *scene)
     rigid->scene = scene;
     for (unsigned k = 0; k < scene->n_rigid; k++) rigid->moves = rigid->moves || scene->rigids[k].moves;
     rigid->poses = mem_new((size_t)4 * scene->n_rigid, sizeof *rigid->poses);
+    rigid->rates = mem_new(scene->n_rigid, sizeof *rigid->rates);
     slots_start(&rigid->slots, RIGID_SLOTS);
     return rigid;
 }
@@ -66,6 +68,7 @@ void rigid_free(struct rigid *rigid)
     }
     mem_free(rigid->entries);
     mem_free(rigid->poses);
+    mem_free(rigid->rates);
     mem_free(rigid->message);
     slots_done(&rigid->slots);
     mem_free(rigid);
@@ -77,17 +80,28 @@ int rigid_failure(const struct rigid *rigid, const char **ret_message)
     return rigid ? rigid->status : STATUS_OK;
 }
 
+/* Keeps the first failure of a body's script. */
+static void rigid_note(struct rigid *rigid, unsigned body, int status)
+{
+    if (!status || rigid->status) return;
+    rigid->status = status;
+    rigid->message = mem_print("body '%s': %s", rigid->scene->rigids[body].name, status_text());
+}
+
 /* All bodies at a time into a row of poses; NaN after a failure, which is kept. */
 static struct rigid_part rigid_pose(struct rigid *rigid, unsigned row, double t)
 {
     unsigned n = rigid->scene->n_rigid;
-    for (unsigned k = 0; k < n; k++) {
-        int status = pose_at(&rigid->scene->rigids[k], t, &rigid->poses[row * n + k]);
-        if (!status || rigid->status) continue;
-        rigid->status = status;
-        rigid->message = mem_print("body '%s': %s", rigid->scene->rigids[k].name, status_text());
-    }
+    for (unsigned k = 0; k < n; k++)
+        rigid_note(rigid, k, pose_at(&rigid->scene->rigids[k], t, &rigid->poses[row * n + k]));
     return (struct rigid_part){rigid->scene, rigid->poses + row * n};
+}
+
+/* How fast all bodies go at a time. */
+static void rigid_rates(struct rigid *rigid, double t)
+{
+    for (unsigned k = 0; k < rigid->scene->n_rigid; k++)
+        rigid_note(rigid, k, pose_rate_at(&rigid->scene->rigids[k], t, &rigid->rates[k]));
 }
 
 /* --- the places of cells --- */
@@ -266,11 +280,24 @@ static bool rigid_has_wall(const struct rigid_make *make, size_t i)
     return any;
 }
 
+/* Velocity of a wall in a cell: its way over the step, or at a single time. */
+static void rigid_speed(const struct rigid_make *make, unsigned body, const struct rigid_part_box *cell, double ret[3])
+{
+    double x[3], duration = make->entry->times.to - make->entry->times.from;
+    if (duration == 0.0) {
+        for (int d = 0; d < 3; d++) x[d] = 0.5 * (cell->lower[d] + cell->upper[d]);
+        pose_rate_way(&make->rigid->scene->rigids[body], &make->rigid->rates[body], x, ret);
+        return;
+    }
+    rigid_way(make, body, cell, ret);
+    for (int d = 0; d < 3; d++) ret[d] /= duration;
+}
+
 static void rigid_wall(struct rigid_make *make, const int at[3], size_t i, const struct rigid_part_box *cell)
 {
     const struct rigid_cells *cells = &make->entry->cells;
     size_t step = 1;
-    double way[3], duration = make->entry->times.to - make->entry->times.from;
+    double u[3];
     for (int d = 0; d < make->mesh->dim; d++)
         if (at[d] == -cells->pad || at[d] + 1 == make->mesh->n[d] + cells->pad) return;
     for (int d = 0; d < make->mesh->dim; step *= cells->size[d], d++) {
@@ -281,8 +308,8 @@ static void rigid_wall(struct rigid_make *make, const int at[3], size_t i, const
         make->body[i] = make->body[make->wall[d][i] > 0.0 ? i + step : i - step]; /* a wall in the face */
     }
     if (!make->rigid->moves || (make->part[i] == 1.0 && !rigid_has_wall(make, i))) return;
-    rigid_way(make, (unsigned)make->body[i], cell, way);
-    for (int d = 0; d < make->mesh->dim; d++) make->speed[d][i] = way[d] / duration;
+    rigid_speed(make, (unsigned)make->body[i], cell, u);
+    for (int d = 0; d < make->mesh->dim; d++) make->speed[d][i] = u[d];
 }
 
 /* --- entries --- */
@@ -318,6 +345,7 @@ static void rigid_make(struct rigid_make *make)
     make->to = rigid_pose(rigid, 1, times->to);
     make->now = rigid_pose(rigid, 2, times->now);
     make->middle = rigid_pose(rigid, 3, 0.5 * (times->from + times->to));
+    if (rigid->moves && times->to == times->from) rigid_rates(rigid, times->now);
     if (!rigid_near(make)) return;
     rigid_rows(make);
     rigid_each(make, rigid_see);
@@ -382,7 +410,6 @@ const struct rigid_cells *rigid_at(const struct mesh *mesh, const struct level *
     struct rigid *rigid = mesh->rigid;
     if (!rigid) return NULL;
     struct rigid_entry key = {.l = (int)(level - mesh->levels), .at = {tile->at[0], tile->at[1], tile->at[2]}};
-    if (rigid->moves && times.to == times.from) times.to += 1e-9 * rigid->scene->run.until; /* walls have a velocity */
     key.times = times;
     key.cells.pad = mesh->ghosts + 1; /* frames know what lies behind what they see */
     key.cells.count = 1;
@@ -395,6 +422,20 @@ const struct rigid_cells *rigid_at(const struct mesh *mesh, const struct level *
     struct rigid_make make = {.rigid = rigid, .mesh = mesh, .level = level, .tile = tile, .entry = entry};
     if (made) rigid_make(&make);
     return entry->cells.any ? &entry->cells : NULL;
+}
+
+double rigid_pace(const struct mesh *mesh, const struct level *level, double t)
+{
+    struct rigid *rigid = mesh->rigid;
+    double most = 0.0, sum = 0.0;
+    if (!rigid || !rigid->moves) return 0.0;
+    rigid_rates(rigid, t);
+    for (unsigned k = 0; k < rigid->scene->n_rigid; k++) {
+        double speed = pose_rate_most(&rigid->scene->rigids[k], &rigid->rates[k]);
+        most = speed > most ? speed : most;
+    }
+    for (int d = 0; d < mesh->dim; d++) sum += most / level->h[d];
+    return sum;
 }
 
 bool rigid_is_wall(const struct rigid_cells *cells, const struct mesh *mesh, size_t i)

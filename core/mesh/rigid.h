@@ -61,6 +61,10 @@ bool rigid_is_wall(const struct rigid_cells *cells, const struct mesh *mesh, siz
 /* Multiplies theta at a time into a value per cell of the tile. Does nothing without bodies. */
 void rigid_weigh(const struct mesh *mesh, const struct level *level, const struct tile *tile, double t, double *value);
 
+/* What bodies at a time add to the signals of a level [1/s]: the fastest point of them over each side of a cell. 0 without
+ * bodies that move. */
+double rigid_pace(const struct mesh *mesh, const struct level *level, double t);
+
 /* First failure of a script that says where a body is, or STATUS_OK; its message. */
 int rigid_failure(const struct rigid *rigid, const char **ret_message);
 

@@ -9,6 +9,8 @@
 #include <string.h>
 
 #define CHECK_PHASE_ATM 101325.0
+#define CHECK_PHASE_MOST 1e12
+#define CHECK_PHASE_STEP 1.002
 
 /* psat of water by the auxiliary equation of IAPWS (Wagner & Pruss, J. Phys. Chem. Ref. Data 31 (2002) 387, eq. 2.5), 273 to 647 K. */
 static double check_phase_water(double T)
@@ -67,6 +69,27 @@ static void check_phase_layer(const struct scene *scene, const struct scene_phas
     putchar('\n');
 }
 
+/* Above the pressure where the vapour would be as dense as the liquid g_v - g_l falls again with p: where it is 0 once more. NaN:
+ * not below 1 TPa. */
+static double check_phase_second(const struct saturation *both, double T)
+{
+    double low = 1e3, high = CHECK_PHASE_MOST;
+    struct saturation_state at = saturation_at(both, low, T);
+    while (low < high && (at.v[1] > at.v[0] || at.drive > 0.0)) at = saturation_at(both, low *= CHECK_PHASE_STEP, T);
+    return low < high ? low : (double)NAN;
+}
+
+static void check_phase_root(const struct saturation *both, double T)
+{
+    double p = check_phase_second(both, T);
+    char text[HUMAN_ROOM];
+    if (isnan(p)) return;
+    printf("  %-12s above the end temperatures are shared, no mass is exchanged; at %.4g K the liquid would evaporate "
+           "again "
+           "from %s on\n",
+           "", T, human_si(p, "Pa", text));
+}
+
 static void check_phase_pair(const struct scene *scene, const struct scene_phase *pair, const char *head)
 {
     struct saturation both;
@@ -81,6 +104,7 @@ static void check_phase_pair(const struct scene *scene, const struct scene_phase
     }
     printf("curve from %.4g K, %s to %.4g K, %s\n", curve->T_min, human_si(curve->p_min, "Pa", text), curve->T_max,
            human_si(curve->p_max, "Pa", more));
+    if (!isnan(T)) check_phase_root(&both, T);
     for (unsigned i = 0; i < scene->n_layer; i++) check_phase_layer(scene, pair, &both, i);
 }
 

@@ -260,18 +260,12 @@ double cut_force(const struct cut_force *force, unsigned rigid, int axis)
     cut_rows_press(rows, force->model, cells, false);
     for (size_t i = 0; i < rows->n; i++)
         if (cells->now[rows->at[i]] > 0.0 && cells->body[rows->at[i]] == rigid)
-            sum += rows->p[i] * cells->wall[axis][rows->at[i]] * force->volume[rows->from[i]];
+            sum +=
+                rows->p[i] *
+                (axis == CUT_POWER ? cut_room(cells, force->mesh->dim, rows->at[i]) : cells->wall[axis][rows->at[i]]) *
+                force->volume[rows->from[i]];
     cut_close(cut);
     return sum;
-}
-
-static void cut_pace(const struct term_pace *pace, double *rate)
-{
-    double most = 0.0, add = 0.0;
-    for (unsigned k = 0; k < pace->model->scene->n_rigid; k++)
-        most = pace->model->scene->rigids[k].fastest > most ? pace->model->scene->rigids[k].fastest : most;
-    for (int d = 0; d < pace->model->dim; d++) add += most / pace->level->h[d];
-    for (size_t i = 0; add > 0.0 && i < pace->n_cell; i++) rate[i] += add;
 }
 
 static void cut_say(const struct scene *scene, struct text *text)
@@ -292,6 +286,5 @@ const struct term cut_term = {
     .begin = cut_begin,
     .frame = cut_frame,
     .cells = cut_rates,
-    .pace = cut_pace,
     .say = cut_say,
 };

@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "phys/mix.h"
+#include "solve/evaporate.h"
 #include "solve/rkl.h"
 #include "solve/verdict.h"
 
@@ -44,6 +45,7 @@ static void adopt_tiles(struct stage *stage, const int *from, const bool *born)
     if (tableau_keeps(stage->tableau))
         stage->previous =
             mem_new(level->n_local * stage->model->n_field * stage->mesh->n_cell, sizeof *stage->previous);
+    evaporate_renew(stage);
     rkl_free(stage->rkl);
     stage->rkl = rkl_new(stage);
     verdict_survey(stage);

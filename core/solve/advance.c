@@ -10,9 +10,11 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "mesh/rigid.h"
 #include "phys/mix.h"
 #include "solve/beyond.h"
 #include "solve/blame.h"
+#include "solve/evaporate.h"
 #include "solve/pace.h"
 #include "solve/peak.h"
 #include "solve/plan.h"
@@ -55,6 +57,7 @@ static double advance_attempt(struct stage *stage, double *ret_signal, bool *ret
     int n = stage->tableau->n, first = 0;
     double found[TABLEAU_STAGES + 2];
     guard_attempt(stage->guard);
+    evaporate_forget(stage);
     advance_run(stage);
     for (int s = 0; s < n; s++) found[s] = (double)stage->guard->bad[s];
     found[n] = stage->signal;
@@ -90,7 +93,7 @@ static void advance_accept(struct state *state, struct stage *stage, double sign
 {
     mesh_swap(stage->level);
     reflux_commit(stage->reflux, stage->dt);
-    state->signals[stage->l] = signal;
+    state->signals[stage->l] = signal + rigid_pace(state->mesh, stage->level, stage->t + stage->dt);
     state->level_steps[stage->l]++;
     state->dt_last = stage->dt;
     state->counts.cells += stage->cells;
@@ -98,6 +101,7 @@ static void advance_accept(struct state *state, struct stage *stage, double sign
     state->counts.clipped += stage->clipped;
     mix_pressure_sum(&state->counts.closures, stage->effort);
     state->counts.relaxed += stage->guard->relaxed;
+    evaporate_accept(state, stage);
     stage->clipped = 0;
 }
 

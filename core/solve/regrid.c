@@ -11,6 +11,7 @@
 #include "mesh/halo.h"
 #include "mesh/nest.h"
 #include "mesh/partition.h"
+#include "mesh/rigid.h"
 #include "paint/paint.h"
 #include "solve/adopt.h"
 #include "solve/pace.h"
@@ -50,7 +51,9 @@ void regrid_signals(struct state *state)
         ahead[l] = verdict_ahead(state->stages[l], state->t);
     }
     comm_max(most, 2 * mesh->n_level);
-    for (int l = 0; l < mesh->n_level; l++) state->signals[l] = ahead[l] > PACE_EXCESS * most[l] ? ahead[l] : most[l];
+    for (int l = 0; l < mesh->n_level; l++)
+        state->signals[l] =
+            (ahead[l] > PACE_EXCESS * most[l] ? ahead[l] : most[l]) + rigid_pace(mesh, &mesh->levels[l], state->t);
     double per_step = 1.0; /* steps of a level in one of level 0 */
     for (int l = 0; l < mesh->n_level; l++) {
         if (state->signals[l] / per_step > state->signal) state->signal = state->signals[l] / per_step;

@@ -34,6 +34,7 @@ void stage_free(struct stage *stage)
     mem_free(stage->census.tiles);
     mem_free(stage->census.behind);
     mem_free(stage->previous);
+    mem_free(stage->evaporated);
     mem_free(stage);
 }
 

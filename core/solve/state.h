@@ -4,6 +4,7 @@
 #ifndef STATE_H
 #define STATE_H
 
+#include "base/account.h"
 #include "case/scene.h"
 #include "mesh/mesh.h"
 #include "phys/mix_pressure.h"
@@ -48,8 +49,10 @@ struct state {
     bool whole;                  /* all levels stand at t: false after a step that failed half way */
     struct stage *stages[MESH_LEVELS]; /* work on each level (stage.h); NULL above the finest in use */
     struct work *work;                 /* scratch of this rank */
-    double starved;                    /* tiles that a regrid asked for and memory_limit forbids; 0: none */
-    long long *tagged;                 /* [n_refine] cells that each criterion has tagged on this rank so far */
+    struct account
+        evaporated[SCENE_PHASES]; /* net mass of each vapour that this rank's tiles have made (evaporate.h) */
+    double starved;               /* tiles that a regrid asked for and memory_limit forbids; 0: none */
+    long long *tagged;            /* [n_refine] cells that each criterion has tagged on this rank so far */
 
     /* Who looks at the moments inside a step of level 0 (NULL: nobody): called whenever the levels from `base` on have
      * reached t, with that t. Those below `base` stand at the end of the steps that they have under way. Changes

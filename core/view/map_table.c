@@ -8,6 +8,7 @@
 #include "view/plot_unit.h"
 
 #include <dirent.h>
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -52,6 +53,11 @@ int map_table_open(const char *directory, const char *name, struct map_table *re
         return status_fail(STATUS_CASE, "map %s has %zu times and %zu places: two of each make a picture", name,
                            ret_map->n_time, n);
     ret_map->scene = plot_unit_scene(directory);
+    if (strcmp(table->names[1], "s1") != 0) return STATUS_OK;
+    size_t side = 0;
+    while (side < n && table->columns[1][side] == table->columns[1][0]) side++;
+    ret_map->n_side[0] = n / side;
+    ret_map->n_side[1] = side;
     return STATUS_OK;
 }
 
@@ -66,9 +72,9 @@ int map_table_column(const struct map_table *map, const char *field, const doubl
 {
     struct text list = {0};
     *ret_values = NULL;
-    for (unsigned c = 2; c < map->table.n_column; c++) {
+    for (unsigned c = map->n_side[0] ? 3 : 2; c < map->table.n_column; c++) {
         if (!strcmp(map->table.names[c], field)) *ret_values = map->table.columns[c];
-        text_add(&list, "%s%s", c > 2 ? ", " : "", map->table.names[c]);
+        text_add(&list, "%s%s", list.length ? ", " : "", map->table.names[c]);
     }
     int code = *ret_values ? STATUS_OK
                            : status_fail(STATUS_CASE, "map %s has no field '%s'; there are: %s", map->name, field,
@@ -84,6 +90,20 @@ char *map_table_place(const struct map_table *map)
     if (round && *column == 'x') symbol = "r";
     if (round && *column == 'y') symbol = "z";
     return mem_print(PICTURE_ITALIC "%s" PICTURE_UPRIGHT, symbol);
+}
+
+size_t map_table_highest(const struct map_table *map, const double *values, const double window[2])
+{
+    const double *places = map->table.columns[1];
+    double highest = -INFINITY;
+    size_t at = 0;
+    for (size_t i = 0; i < map->n_time * map->n_place; i++) {
+        double place = places[i % map->n_place];
+        if (!(place >= window[0] && place <= window[1]) || !(values[i] > highest)) continue;
+        highest = values[i];
+        at = i / map->n_place;
+    }
+    return at;
 }
 
 char *map_table_label(const struct map_table *map, const char *field)

@@ -10,6 +10,7 @@ struct map_table {
     const char *name;   /* of the map; the caller's */
     struct table table; /* t, the place, fields; all places of the first time, then of the next */
     size_t n_place, n_time;
+    size_t n_side[2];    /* of a rectangle: places along its sides (columns s1, s2, which varies faster); else 0 */
     struct scene *scene; /* or NULL */
 };
 
@@ -26,6 +27,9 @@ int map_table_column(const struct map_table *map, const char *field, const doubl
 
 /* The coordinate's name with its italic marks: x, y, z, s; r and z in round geometries. In new memory. */
 char *map_table_place(const struct map_table *map);
+
+/* The time, 0 to n_time - 1, at which a column is largest, of all places or those within [lo, hi] of column 1. */
+size_t map_table_highest(const struct map_table *map, const double *values, const double window[2]);
 
 /* What pictures call a field ("temperature of water"), in new memory; its SI unit, "" if it is not known. */
 char *map_table_label(const struct map_table *map, const char *field);

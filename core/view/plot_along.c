@@ -24,30 +24,13 @@ struct along_line {
 
 struct along {
     unsigned n_map, n_field, n_line;
+    const char *const *directories;
     struct map_table maps[CHART_SERIES];
     char *fields[CHART_PANELS];
     char *labels[CHART_PANELS];
     char *runs[CHART_SERIES]; /* names, one for each map */
     struct along_line lines[CHART_SERIES];
 };
-
-/* The time that has the highest value within the shown places. */
-static size_t plot_along_highest(const struct map_table *map, const double *values,
-                                 const struct plot_option_span *limit)
-{
-    const double *places = map->table.columns[1];
-    double highest = -INFINITY;
-    size_t at = 0;
-    for (size_t i = 0; i < map->n_time; i++)
-        for (size_t k = 0; k < map->n_place; k++) {
-            double value = values[i * map->n_place + k];
-            bool shown = !limit->given || (places[k] >= limit->lo && places[k] <= limit->hi);
-            if (!shown || !(value > highest)) continue;
-            highest = value;
-            at = i;
-        }
-    return at;
-}
 
 static void plot_along_add(struct along *along, const struct map_table *map, size_t time, const char *run)
 {
@@ -62,6 +45,8 @@ static void plot_along_add(struct along *along, const struct map_table *map, siz
 
 static int plot_along_lines(struct along *along, const struct plot_option *option)
 {
+    const struct plot_option_span *limit = &option->limit[0];
+    const double window[] = {limit->given ? limit->lo : -INFINITY, limit->given ? limit->hi : INFINITY};
     unsigned each = option->n_time ? option->n_time : 1;
     if (along->n_map * each > CHART_SERIES)
         return status_fail(STATUS_CASE, "%u lines in one picture (%u runs, %u times): at most %d", along->n_map * each,
@@ -70,6 +55,9 @@ static int plot_along_lines(struct along *along, const struct plot_option *optio
         const struct map_table *map = &along->maps[m];
         const char *run = along->n_map > 1 ? along->runs[m] : NULL;
         const double *values;
+        if (map->n_side[0])
+            return status_fail(STATUS_CASE, "map %s is a rectangle, which 'bulla plot %s map %s %s --time T' draws",
+                               map->name, along->directories[m], map->name, along->fields[0]);
         TRY(map_table_column(map, along->fields[0], &values));
         for (unsigned i = 0; i < option->n_time; i++) {
             size_t time;
@@ -77,7 +65,7 @@ static int plot_along_lines(struct along *along, const struct plot_option *optio
                                   &time));
             plot_along_add(along, map, time, run);
         }
-        if (!option->n_time) plot_along_add(along, map, plot_along_highest(map, values, &option->limit[0]), run);
+        if (!option->n_time) plot_along_add(along, map, map_table_highest(map, values, window), run);
     }
     return STATUS_OK;
 }
@@ -174,6 +162,7 @@ int plot_along_write(const char *const *directories, unsigned n_directory, const
     struct along *along = mem_new(1, sizeof *along);
     char *list = mem_text(words[1]);
     plot_case_names(directories, n_directory, along->runs);
+    along->directories = directories;
     int code = plot_along_fields(along, list);
     while (!code && along->n_map < n_directory) {
         code = map_table_open(directories[along->n_map], words[0], &along->maps[along->n_map]);

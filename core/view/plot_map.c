@@ -10,6 +10,7 @@
 #include "view/picture_text.h"
 #include "view/plot_case.h"
 #include "view/plot_picture.h"
+#include "view/plot_time.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +18,8 @@
 
 struct map {
     struct map_table of;
-    struct raster_cell *cells; /* [n_time * n_place], as the rows of the table */
+    struct raster_cell *cells; /* [n], as the rows of the table */
+    size_t n;                  /* n_time * n_place; of a rectangle n_place */
     double edge[2][2];         /* of all cells */
 };
 
@@ -31,30 +33,41 @@ static double *plot_map_edges(const double *values, size_t n, size_t step)
     return edges;
 }
 
-static void plot_map_cells(struct map *map)
+/* Cells around n[0] times n[1] points, the second of which vary faster; at: where, `step` apart in the table; axis: of
+ * the picture. */
+static void plot_map_cells(struct map *map, const double *const at[2], const size_t n[2], const size_t step[2],
+                           const int axis[2])
 {
-    double *time = plot_map_edges(map->of.table.columns[0], map->of.n_time, map->of.n_place);
-    double *place = plot_map_edges(map->of.table.columns[1], map->of.n_place, 1);
-    map->cells = mem_new(map->of.n_time * map->of.n_place, sizeof *map->cells);
-    for (size_t i = 0; i < map->of.n_time; i++)
-        for (size_t k = 0; k < map->of.n_place; k++) {
-            double a = place[k], b = place[k + 1];
-            map->cells[i * map->of.n_place + k] =
-                (struct raster_cell){{{a < b ? a : b, a < b ? b : a}, {time[i], time[i + 1]}}};
+    double *edges[2];
+    for (int k = 0; k < 2; k++) edges[k] = plot_map_edges(at[k], n[k], step[k]);
+    map->n = n[0] * n[1];
+    map->cells = mem_new(map->n, sizeof *map->cells);
+    for (size_t i = 0; i < map->n; i++)
+        for (int k = 0; k < 2; k++) {
+            const double *edge = edges[k] + (k ? i % n[1] : i / n[1]);
+            double *to = map->cells[i].at[axis[k]];
+            to[0] = edge[0] < edge[1] ? edge[0] : edge[1];
+            to[1] = edge[0] < edge[1] ? edge[1] : edge[0];
         }
-    double a = place[0], b = place[map->of.n_place];
-    map->edge[0][0] = a < b ? a : b;
-    map->edge[0][1] = a < b ? b : a;
-    map->edge[1][0] = time[0];
-    map->edge[1][1] = time[map->of.n_time];
-    mem_free(time);
-    mem_free(place);
+    for (int k = 0; k < 2; k++) {
+        double a = edges[k][0], b = edges[k][n[k]];
+        map->edge[axis[k]][0] = a < b ? a : b;
+        map->edge[axis[k]][1] = a < b ? b : a;
+        mem_free(edges[k]);
+    }
 }
 
 static int plot_map_open(const char *directory, const char *name, struct map *map)
 {
     TRY(map_table_open(directory, name, &map->of));
-    plot_map_cells(map);
+    double *const *columns = map->of.table.columns;
+    size_t n_place = map->of.n_place;
+    if (map->of.n_side[0])
+        plot_map_cells(map, (const double *[]){columns[1], columns[2]}, map->of.n_side,
+                       (size_t[]){map->of.n_side[1], 1}, (int[]){0, 1});
+    else
+        plot_map_cells(map, (const double *[]){columns[0], columns[1]}, (size_t[]){map->of.n_time, n_place},
+                       (size_t[]){n_place, 1}, (int[]){1, 0});
     return STATUS_OK;
 }
 
@@ -68,7 +81,7 @@ static void plot_map_close(struct map *map)
 static void plot_map_extremes(const struct map *map, const double *values, const double window[2][2], bool log,
                               double extremes[2])
 {
-    for (size_t i = 0; i < map->of.n_time * map->of.n_place; i++) {
+    for (size_t i = 0; i < map->n; i++) {
         const struct raster_cell *cell = &map->cells[i];
         bool inside = true;
         for (int axis = 0; axis < 2; axis++)
@@ -94,9 +107,15 @@ static int plot_map_window(const struct map *map, const struct plot_option *opti
     return STATUS_OK;
 }
 
-/* Axes: the coordinate by its symbol, and t. */
+/* Axes: the coordinate by its symbol, and t; of a rectangle both distances. */
 static void plot_map_axes(const struct map *map, const double window[2][2], struct picture *drawn)
 {
+    for (int axis = 0; axis < 2 && map->of.n_side[0]; axis++)
+        picture_scale_init(&drawn->axis[axis], &(struct picture_scale_inp){.name = map->of.table.names[1 + axis],
+                                                                           .unit = "m",
+                                                                           .lo = window[axis][0],
+                                                                           .hi = window[axis][1]});
+    if (map->of.n_side[0]) return;
     char *place = map_table_place(&map->of);
     const struct picture_scale_inp axes[] = {
         {.name = place, .unit = "m", .lo = window[0][0], .hi = window[0][1]},
@@ -106,13 +125,13 @@ static void plot_map_axes(const struct map *map, const double window[2][2], stru
     mem_free(place);
 }
 
-static int plot_map_layer(const struct map *map, const char *field, const struct plot_option *option,
-                          const double window[2][2], struct picture_layer *layer)
+static int plot_map_layer(const struct map *map, const char *field, const double *values,
+                          const struct plot_option *option, const double window[2][2], struct picture_layer *layer)
 {
     double extremes[2] = {INFINITY, -INFINITY};
     layer->cells = map->cells;
-    layer->n = map->of.n_time * map->of.n_place;
-    TRY(map_table_column(&map->of, field, &layer->values));
+    layer->n = map->n;
+    layer->values = values;
     plot_map_extremes(map, layer->values, window, option->log, extremes);
     const char *colours = option->map ? option->map : colormap_for_field(field, extremes[0], extremes[1]);
     TRY(colormap_find(colours, &layer->map));
@@ -135,15 +154,44 @@ static char *plot_map_path(const struct map *map, const char *directory, const c
     return many ? plot_option_file(output, field) : mem_text(output);
 }
 
+/* The values that are drawn: a column; of a rectangle its part at a time, with a note that says which. */
+static int plot_map_values(const struct map *map, const char *field, const struct plot_option *option,
+                           const double **ret_values, char **ret_note)
+{
+    static const double all[] = {-INFINITY, INFINITY};
+    const double *times = map->of.table.columns[0];
+    char moment[PICTURE_SCALE_LABEL];
+    size_t row;
+    TRY(map_table_column(&map->of, field, ret_values));
+    if (option->n_time > 1 || (option->n_time && !map->of.n_side[0]))
+        return status_fail(STATUS_CASE, map->of.n_side[0]
+                                            ? "--time: one time for a picture of a rectangle"
+                                            : "--time: a map shows all of its times; 'profile' shows one");
+    if (!map->of.n_side[0]) {
+        *ret_note = mem_text(map->of.name);
+        return STATUS_OK;
+    }
+    row = map_table_highest(&map->of, *ret_values, all);
+    if (option->n_time)
+        TRY(plot_time_nearest(times, map->of.n_time, map->of.n_place, option->times[0], "the map's rows", &row));
+    *ret_values += row * map->of.n_place;
+    picture_scale_quantity(times[row * map->of.n_place], times[row * map->of.n_place], "s", moment);
+    *ret_note = mem_print("%s, %s", map->of.name, moment);
+    return STATUS_OK;
+}
+
 static int plot_map_draw(const struct map *map, const char *directory, const char *field,
                          const struct plot_option *option, bool many)
 {
-    char *title = plot_case_title(directory), *path = NULL;
-    struct picture drawn = {.title = title, .note = map->of.name, .n_layer = 1, .aspect = 0.8};
+    char *title = plot_case_title(directory), *path = NULL, *note = NULL;
+    struct picture drawn = {.title = title, .n_layer = 1, .aspect = map->of.n_side[0] ? 0.0 : 0.8};
     double window[2][2];
+    const double *values;
     cairo_surface_t *image = NULL;
     int code = plot_map_window(map, option, window);
-    if (!code) code = plot_map_layer(map, field, option, window, &drawn.layer[0]);
+    if (!code) code = plot_map_values(map, field, option, &values, &note);
+    drawn.note = note;
+    if (!code) code = plot_map_layer(map, field, values, option, window, &drawn.layer[0]);
     if (!code) plot_map_axes(map, window, &drawn);
     if (!code) code = picture_draw(&drawn, option->width, &image);
     if (!code) {
@@ -153,6 +201,7 @@ static int plot_map_draw(const struct map *map, const char *directory, const cha
     if (!code) printf("%s\n", path);
     if (image) cairo_surface_destroy(image);
     mem_free(path);
+    mem_free(note);
     mem_free(title);
     return code;
 }

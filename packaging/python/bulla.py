@@ -280,18 +280,29 @@ class Snapshot:
 
 
 class Map:
-    """A space-time map: t [n], place [m] (coordinate `axis`), and map["pressure"] [n, m]."""
+    """A space-time map: t [n], place [m] (coordinate `axis`), and map["pressure"] [n, m]. Of a rectangle place is (s1, s2),
+    the distances along its sides, axis "s1,s2", map["pressure"] [n, m1, m2], and points() says where they are."""
 
     def __init__(self, path):
         import h5py
 
         self.path = path
         with h5py.File(path, "r") as file:
-            self.axis = next(name for name in ("x", "y", "z", "s") if name in file)
-            self.t, self.place = file["t"][()], file[self.axis][()]
-            self.fields = [name for name in file if name not in ("t", self.axis)]
-            self._data = {name: file[name][()] for name in self.fields}
+            names = [name for name in ("x", "y", "z", "s", "s1", "s2") if name in file]
+            places = tuple(file[name][()] for name in names)
+            self.axis, self.place = ",".join(names), places if len(places) > 1 else places[0]
+            self.t = file["t"][()]
+            self.fields = [name for name in file if name not in ["t"] + names]
+            shape = tuple(len(place) for place in places)
+            self._data = {name: file[name][()].reshape((-1,) + shape) for name in self.fields}
             self.units = {name: _text(file[name].attrs["units"]) for name in self.fields}
+            self._sides = [file.attrs[name] for name in ("corner", "first", "second") if name in file.attrs]
+
+    def points(self):
+        """Of a rectangle: the places in space, [m1, m2, 3] m."""
+        corner, first, second = self._sides
+        s1, s2 = (s / np.linalg.norm(side) for s, side in zip(self.place, (first, second)))
+        return corner + s1[:, None, None] * first + s2[None, :, None] * second
 
     def __getitem__(self, name):
         return self._data[name]

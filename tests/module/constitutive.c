@@ -7,7 +7,7 @@
 
 enum { STRETCHES = 4000 };
 
-static const char *const names[] = {"fung", "gent", "mooney-rivlin", "neo-hookean", NULL};
+static const char *const names[] = {"fung", "gent", "mooney-rivlin", "neo-hookean", "quadratic", NULL};
 
 /* mu, rho0 and the number of the law itself. */
 static const double numbers[] = {8.5e4, 1060.0, 0.3};
@@ -25,6 +25,11 @@ static struct point textbook(const char *name, double I1, double I2, double own)
     if (strcmp(name, "mooney-rivlin") == 0)
         return (struct point){(double)(k * ((1.0L - c) * J + c * (I2 - 3.0L))), (double)(k * (1.0L - c)),
                               (double)(k * c), 0.0};
+    if (strcmp(name, "quadratic") == 0) {
+        long double least = c > 0.0L ? -0.5L / c : -2.0L, x = fmaxl(J, least), slope = k * (1.0L + c * x);
+        return (struct point){(double)(k * (x + c * x * x / 2.0L) + slope * (J - x)), (double)slope, 0.0,
+                              J < least ? 0.0 : (double)(k * c)};
+    }
     bool fung = strcmp(name, "fung") == 0;
     long double edge = fung ? 12.0L / c : 0.95L * c, x = J < edge ? J : edge, d = J - x;
     long double grown = expm1l(c * x), left = 1.0L / (1.0L - x / c);
@@ -58,7 +63,8 @@ static void compare(const char *name, double own, double I1, double I2)
 static void test_textbook(void **state)
 {
     (void)state;
-    static const double owns[][3] = {{1.0, 8.35, 1e-6}, {97.2, 0.5, 1e6}, {0.0, 0.2, 1.0}, {0.0, 0.0, 0.0}};
+    static const double owns[][3] = {
+        {1.0, 8.35, 1e-6}, {97.2, 0.5, 1e6}, {0.0, 0.2, 1.0}, {0.0, 0.0, 0.0}, {0.1, 0.0, 1e3}};
     uint64_t seed = 1;
     for (int l = 0; names[l]; l++)
         for (int i = 0; i < STRETCHES; i++) {
@@ -109,9 +115,12 @@ static void test_contract(void **state)
         assert_int_equal(contract.n_row, 18);
         assert_int_equal(contract.n_cost, law->second ? 2 : 1);
         assert_true(contract.n_fact == 1 && contract.facts[0].holds);
-        /* The end of the range is tested where there is one. */
+        struct bulla_constitutive_range range; /* its end is tested where there is one */
+        struct instance instance = support_open(contract.module, numbers);
+        law->range(instance.self, &range);
+        instance_done(&instance);
         for (unsigned i = 0; i < contract.n_row; i++)
-            assert_true(contract.rows[i].points > 0 || (i == 1 && !law->second));
+            assert_true(contract.rows[i].points > 0 || (i == 1 && isinf(range.I1_max)));
     }
 }
 

@@ -42,7 +42,7 @@ speeds() { # LAW OWN-NUMBER
         function slopes(I1,    J) {
             J = I1 - 3
             e2 = law == "mooney-rivlin" ? own / 2 : 0
-            e1 = law == "mooney-rivlin" ? (1 - own) / 2 : law == "gent" ? 0.5 / (1 - J / own) : law == "fung" ? exp(own * J) / 2 : 0.5
+            e1 = law == "mooney-rivlin" ? (1 - own) / 2 : law == "gent" ? 0.5 / (1 - J / own) : law == "fung" ? exp(own * J) / 2 : law == "quadratic" ? 0.5 * (1 + own * J) : 0.5
             e1 *= 1e6; e2 *= 1e6
         }
         function stress(eps,    bx, bt, I1) { # per density of the bar before eps
@@ -68,7 +68,7 @@ pulse() { # LAW KEYS C ALONG ACROSS
     }
 }
 
-for law in neo-hookean: mooney-rivlin:ratio=0.5 gent:limit=1 fung:stiffening=2; do
+for law in neo-hookean: mooney-rivlin:ratio=0.5 gent:limit=1 fung:stiffening=2 quadratic:stiffening=2; do
     name=${law%%:*} keys=${law#*:}
     set -- $(speeds "$name" "${keys#*=}")
     keys=${keys:+, ${keys%=*}: ${keys#*=}}

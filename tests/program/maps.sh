@@ -27,6 +27,7 @@ output:
     skin: {isosurface: air, along: axis, from: 0.15 mm, to: 0.45 mm, points: 30, fields: [temperature_air]}
     arc: {circle: {center: [0, 0.3 mm], radius: 0.2 mm, from: -90 deg, to: 90 deg}, points: 37, fields: [pressure, velocity]}
     chain: {polyline: {vertices: [[0.1 mm, 0.6 mm], [0.3 mm, 0.6 mm], [0.3 mm, 0.2 mm]]}, points: 61, fields: [pressure]}
+    plane: {rectangle: {corner: [0.05 mm, 0.1 mm], first: [0.3 mm, 0], second: [0, 0.4 mm], points: [13, 17]}, fields: [pressure, velocity]}
   checkpoints: {every: 30 steps, keep: 100}
 END
 go() # DIRECTORY OPTIONS...
@@ -37,7 +38,7 @@ go() # DIRECTORY OPTIONS...
 }
 same() # DIRECTORY: its tables are those of `alone`
 {
-    for map in wall axis slant skin arc chain; do
+    for map in wall axis slant skin arc chain plane; do
         cmp "alone/maps/$map.csv" "$1/maps/$map.csv" || { echo "$1: maps/$map.csv is another"; exit 1; }
         [ -s "$1/maps/$map.hdf" ] || { echo "$1: there is no maps/$map.hdf"; exit 1; }
     done
@@ -71,6 +72,12 @@ awk -F, 'NR == 1 && $0 !~ /^t,s,pressure,velocity_x,velocity_y/ { bad = 1 }
          END { if (bad || n != 37 || (NR - 1) % 37 || s < 6.2831e-4 || s > 6.2832e-4) { print "arc: " n " places"; exit 1 } }' alone/maps/arc.csv
 awk -F, 'NR > 1 && $1 == 0 { n++; s = $2; r = s < 0.2e-3 ? 0.1e-3 + s : 0.3e-3; d = $3 - 1e5 - 1e9 * r; if (d * d > 4e6) bad = 1 }
          END { if (bad || n != 61 || s < 5.9999e-4 || s > 6.0001e-4) { print "chain: " n " places"; exit 1 } }' alone/maps/chain.csv
+# On a rectangle the second distance varies faster.
+awk -F, 'NR == 1 && $0 !~ /^t,s1,s2,pressure,velocity_x,velocity_y/ { bad = 1 }
+         NR > 1 && $1 == 0 { r = 0.05e-3 + $2; z = 0.1e-3 + $3; e = $2 - int(n / 17) * 0.025e-3; f = $3 - n % 17 * 0.025e-3
+                             if (e * e > 1e-24 || f * f > 1e-24) bad = 1
+                             d = $4 - 1e5 - 1e9 * r; if (r^2 + (z - 0.3e-3)^2 > (0.15e-3)^2 && d * d > 4e6) bad = 1; n++ }
+         END { if (bad || n != 221 || (NR - 1) % 221) { print "plane: " n " places"; exit 1 } }' alone/maps/plane.csv
 
 # In space a linear field is what it is, around each axis and along a chain; a whole circle ends where it began.
 cat >space.yaml <<'END'
@@ -87,6 +94,8 @@ output:
     y: {circle: {center: [0.5, 0.5, 0.5], radius: 0.3, axis: y, from: 30 deg}, fields: [pressure]}
     z: {circle: {center: [0.5, 0.5, 0.5], radius: 0.3}, points: 9, fields: [pressure]}
     chain: {polyline: {vertices: [[0.2, 0.2, 0.2], [0.2, 0.8, 0.2], [0.2, 0.8, 0.8], [0.8, 0.8, 0.8]]}, fields: [pressure]}
+    plane: {rectangle: {corner: [0.2, 0.8, 0.2], first: [0.6, 0, 0], second: [0, -0.3, 0.4], points: [4, 6]}, fields: [pressure]}
+    wide: {rectangle: {corner: [0, 0, 0.5], first: [1, 0, 0], second: [0, 1, 0]}, fields: [pressure]}
 END
 "$BULLA" run space.yaml -o space --quiet
 linear() # MAP PLACES EXPRESSION of s and a = s / 0.3: the pressure beyond 1e5 Pa
@@ -100,6 +109,17 @@ linear x 10 '3500 + 300 * (2 * cos(a) - 4 * sin(a))'
 linear y 16 '3500 + 300 * (4 * cos(a + 0.523598775598298873) + sin(a + 0.523598775598298873))'
 linear z 9 '3500 + 300 * (cos(a) + 2 * sin(a))'
 linear chain 15 's < 0.6 ? 1400 + 2000 * s : s < 1.2 ? 2600 + 4000 * (s - 0.6) : 5000 + 1000 * (s - 1.2)'
+[ "$(grep -c '^0,' space/maps/wide.csv)" = 81 ] # one per cell, and the edges
+awk -F, 'NR > 1 && $1 == 0 { n++; d = $4 - 1e5 - 1e3 * (0.2 + $2) - 2e3 * (0.8 - 0.6 * $3) - 4e3 * (0.2 + 0.8 * $3); if (d * d > 1e-16) bad = 1 }
+         END { if (bad || n != 24) { print "plane: " n " places"; exit 1 } }' space/maps/plane.csv
+if /usr/bin/python3 -c 'import numpy, h5py' 2>/dev/null; then
+    PYTHONPATH="$BULLA_SOURCE/packaging/python" PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c '
+import bulla, numpy as np
+plane = bulla.Run("space").maps["plane"]
+assert plane.axis == "s1,s2" and [len(s) for s in plane.place] == [4, 6] and plane["pressure"].shape == (2, 4, 6)
+assert np.allclose(plane.points()[3, 5], [0.8, 0.5, 0.6], atol=1e-15) and np.allclose(plane.place[1][-1], 0.5, atol=1e-15)
+assert np.allclose(plane["pressure"][0], 1e5 + plane.points() @ [1e3, 2e3, 4e3], atol=1e-8)'
+fi
 
 # What cannot be, at its place.
 refused() { # LINE:COLUMN WORDS MAP: a map of the plane case; the line is that of `wall`
@@ -124,6 +144,13 @@ refused 20:33 'at least two points, [x, y], is needed' 'polyline: {vertices: [[0
 refused 20:63 "only for a 'boundary' or an 'isosurface': the polyline has its own ends" \
     'polyline: {vertices: [[0, 0], [0.1 mm, 0]]}, from: 0'
 refused 20:11 'one too many is given' 'boundary: y-, circle: {center: [0, 0], radius: 1 mm}'
+refused 20:68 'it is 45 deg from the first side: a rectangle has right angles' 'rectangle: {corner: [0, 0], first: [0.1 mm, 0], second: [0.1 mm, 0.1 mm]}'
+refused 20:47 'the end of this side is at x = 0.0005 m, outside of the domain, 0 to 0.0004 m' \
+    'rectangle: {corner: [0, 0], first: [0.5 mm, 0], second: [0, 0.1 mm]}'
+refused 20:68 'this side has no length' 'rectangle: {corner: [0, 0], first: [0.1 mm, 0], second: [0, 0]}'
+refused 20:89 '400 x 300 places are more than 100000' \
+    'rectangle: {corner: [0, 0], first: [0.1 mm, 0], second: [0, 0.1 mm], points: [400, 300]}'
+refused 20:86 "'points: [.., ..]' of its own" 'rectangle: {corner: [0, 0], first: [1 um, 0], second: [0, 1 um]}, points: 7'
 
 # Overwriting takes away the maps that were there, and what is the user's own stays.
 mkdir -p other/fields other/maps
@@ -140,6 +167,12 @@ if [ -e other/maps/old.csv ] || [ -e other/maps/old.hdf ]; then echo "old maps a
 [ -s "$(cat said)" ]
 "$BULLA" plot alone map skin temperature_air -o skin.png --range 250,400 --width 400 >said
 [ -s skin.png ]
+"$BULLA" plot alone map plane pressure,velocity_y >said # when they are largest
+grep -q plots/map_plane_pressure.png said && [ -s alone/plots/map_plane_velocity_y.png ]
+"$BULLA" plot alone map plane pressure --time 0.3us -o then.png >said
+"$BULLA" plot alone map plane pressure --time 0.302us -o near.png >said
+cmp then.png near.png
+! cmp -s then.png alone/plots/map_plane_pressure.png
 
 # Profiles: at the hottest moment, at chosen times, of two runs. Of two equal runs the second line hides the first.
 "$BULLA" plot alone profile wall pressure >said
@@ -156,7 +189,8 @@ height() { od -An -tu1 -j20 -N4 "$1" | awk '{ print (($1 * 256 + $2) * 256 + $3)
 [ "$(height many.png)" -gt "$(height pair.png)" ] # eight names want more than a line above the panel
 ! cmp -s early.png late.png
 ! cmp -s early.png alone/plots/profile_wall_pressure.png
-for wrong in 'map' 'map side pressure' 'map wall density' 'profile' 'profile wall' 'profile wall density' 'profile side pressure' \
+for wrong in 'map' 'map side pressure' 'map wall density' 'profile' 'profile wall' 'profile wall density' 'profile side pressure' 'profile plane pressure' \
+    'map wall pressure --time 1ns' 'map plane pressure --time 1ns --time 2ns' 'map plane s2' \
     'alone_is_no_run profile wall pressure' 'pressure --time 1ns --time 2ns'; do
     code=0
     # shellcheck disable=SC2086

@@ -290,6 +290,10 @@ static void test_kinds(void **state)
     assert_true(vapour_after(onset, 400.0, 1e5, 0.49) == 0.0);
     assert_true(vapour_after(onset, 400.0, 1e5, 0.51) > 0.0);
     assert_true(vapour_after(onset, 360.0, 1e5, 0.1) < 0.0);
+    static const char wet[] = "{liquid: water, vapour: steam, condense-from: 0.9}";
+    assert_true(vapour_after(wet, 360.0, 1e5, 0.11) == 0.0);
+    assert_true(vapour_after(wet, 360.0, 1e5, 0.09) < 0.0);
+    assert_true(vapour_after(wet, 400.0, 1e5, 0.5) > 0.0);
     static const char tense[] = "{liquid: water, vapour: steam, where: everywhere, nucleation: {tension: 2 MPa}}";
     assert_true(vapour_after(tense, 300.0, -1.9e6, 0.0) == 0.0);
     assert_true(vapour_after(tense, 300.0, -2.1e6, 0.0) > 0.0);

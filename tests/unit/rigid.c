@@ -127,13 +127,39 @@ static void test_pose(void **state)
     assert_close(way[1], -0.5 + sin(0.3), 1e-15);
 }
 
+/* How fast a body goes: exactly what is given; what a script moves to second order; no point is faster than said. */
+static void test_rates(void **state)
+{
+    (void)state;
+    struct small small;
+    struct pose_rate rate;
+    double u[3], x[3] = {0.5, 0.25, 0};
+    small_start(&small,
+                CASE(SQUARE,
+                     "  a: {sphere: {center: [0, 0.5], radius: 0.1}, velocity: [0.6, -0.3]}\n  b: {box: {lower: "
+                     "[-0.9, -0.8], upper: [-0.5, -0.5]}, displacement: [0, '= 0.02 * math.sin(40 * t)'], "
+                     "angle: '= 3 * t', pivot: [-0.7, -0.65]}\n"));
+    const struct scene_rigid *a = &small.state->scene->rigids[0], *b = &small.state->scene->rigids[1];
+    assert_int_equal(pose_rate_at(a, 0.0137, &rate), 0);
+    pose_rate_way(a, &rate, x, u);
+    assert_true(u[0] == 0.6 && u[1] == -0.3 && u[2] == 0.0);
+    assert_close(pose_rate_most(a, &rate), hypot(0.6, 0.3), 1e-15);
+    assert_int_equal(pose_rate_at(b, 0.0137, &rate), 0);
+    pose_rate_way(b, &rate, x, u);
+    double up = 0.8 * cos(40 * 0.0137);
+    assert_close(u[0], -3.0 * (0.25 + 0.65 - 0.02 * sin(40 * 0.0137)), 1e-6);
+    assert_close(u[1], up + 3.0 * (0.5 + 0.7), 1e-6);
+    assert_close(pose_rate_most(b, &rate), up + 3.0 * hypot(1.7, 1.65), 1e-6);
+    const struct mesh *mesh = small.state->mesh;
+    assert_close(rigid_pace(mesh, &mesh->levels[0], 0.0137), 2.0 * (up + 3.0 * hypot(1.7, 1.65)) * 12.0, 1e-4);
+    small_stop(&small);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_volumes),
-        cmocka_unit_test(test_faces),
-        cmocka_unit_test(test_ways),
-        cmocka_unit_test(test_pose),
+        cmocka_unit_test(test_volumes), cmocka_unit_test(test_faces), cmocka_unit_test(test_ways),
+        cmocka_unit_test(test_pose),    cmocka_unit_test(test_rates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
