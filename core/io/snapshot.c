@@ -332,6 +332,7 @@ static int snapshot_put(struct snapshots *snapshots, const struct state *state, 
     int code = snapshot_draft(snapshots, state, moment, snapshots->parts, provenance);
     if (!code && !snapshots->list_text)
         code = status_fail(STATUS_RUN, "%s: a file name is not UTF-8", snapshots->list_path);
+    code = comm_agree(code);
     if (code) return snapshot_conclude(snapshots, code);
     bool is_here = comm_rank() == 0 || writers_here(snapshots->writers);
     snapshot_begin(snapshots, SNAPSHOT_STORING, is_here, snapshot_store);

@@ -233,6 +233,7 @@ static void vtkhdf_recall(struct vtkhdf *out, struct vtkhdf_cells *cells)
     }
     out->nodes = cells->nodes;
     out->kept = vtkhdf_bytes(out) / (size_t)out->file->writers <= cells->most ? cells : NULL;
+    out->again = out->again && out->kept;
 }
 
 static void vtkhdf_begin(struct vtkhdf *out, struct vtkhdf_cells *cells)
