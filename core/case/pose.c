@@ -16,15 +16,14 @@ static int pose_value(const struct scene_value *value, double constant, double t
 
 int pose_at(const struct scene_rigid *rigid, double t, struct pose *ret)
 {
-    double angle;
     *ret = (struct pose){.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, .turned = rigid->angle.given};
     memcpy(ret->pivot, rigid->pivot, sizeof ret->pivot);
     for (int d = 0; d < SCENE_AXES; d++)
         TRY(pose_value(&rigid->displacement[d], rigid->velocity[d], t, &ret->shift[d]));
     if (!ret->turned) return STATUS_OK;
-    TRY(pose_value(&rigid->angle, 0.0, t, &angle));
-    ret->turn[0][0] = ret->turn[1][1] = cos(angle);
-    ret->turn[1][0] = sin(angle);
+    TRY(pose_value(&rigid->angle, 0.0, t, &ret->angle));
+    ret->turn[0][0] = ret->turn[1][1] = cos(ret->angle);
+    ret->turn[1][0] = sin(ret->angle);
     ret->turn[0][1] = -ret->turn[1][0];
     return STATUS_OK;
 }

@@ -9,6 +9,7 @@ struct pose {
     double turn[3][3]; /* about `pivot`; the identity unless `turned` */
     double pivot[3];   /* before it is moved */
     bool turned;
+    double angle; /* [rad] */
 };
 
 /* The pose of a body at time t [s]. A script's failure is STATUS_CASE. */

@@ -200,18 +200,22 @@ enum scene_measure {
     SCENE_MAX_BETWEEN,
     SCENE_FORCE,
     SCENE_EVAPORATED,
+    SCENE_POWER,
+    SCENE_BODY_DISPLACEMENT,
+    SCENE_BODY_VELOCITY,
+    SCENE_BODY_ANGLE,
     SCENE_VALUE,
 };
 
 struct scene_column {
     char name[SCENE_NAME]; /* history.csv header; an identifier */
     enum scene_measure measure;
-    int rigid;              /* force: the body */
+    int rigid;              /* force, power, body-*: the body */
     int material;           /* volume, mass, centroid, penetration, equivalent-radius, ...: the material; else -1 */
     char field[SCENE_NAME]; /* min, max, mean, integrals, isosurface-*: a field; total: mass | momentum_x.. | energy */
     int in;                 /* restrict to a material (weight alpha, threshold 0.5 for min/max), or -1 */
     struct shape *where;    /* restrict to a region, or NULL */
-    int along;              /* axis 0..2 for centroid, penetration, jet-speed; -1: not given */
+    int along;              /* axis 0..2 for centroid, penetration, jet-speed, force, body-*; -1: not given */
     unsigned of;            /* min-between, max-between: a column further up */
     const struct script *script; /* value: an expression of other columns */
     char (*uses)[SCENE_NAME];    /* value: its arguments, in order: "t" or columns further up */

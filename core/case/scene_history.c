@@ -57,6 +57,15 @@ static const struct key scene_history_rows[] = {
     {.name = "evaporated",
      .type = KEYS_TEXT,
      .doc = "Mass of a vapour that has come from its liquid since the start, less what has condensed."},
+    {.name = "power",
+     .type = KEYS_TEXT,
+     .doc = "Power that fluids give to a body that moves: what the pressure on its walls works; they lose as much "
+            "energy."},
+    {.name = "body-displacement", .type = KEYS_TEXT, .doc = "How far a body has moved `along` an axis."},
+    {.name = "body-velocity",
+     .type = KEYS_TEXT,
+     .doc = "Velocity of a body `along` an axis; of its pivot, if it turns."},
+    {.name = "body-angle", .type = KEYS_TEXT, .doc = "By how much a body has turned."},
     {.name = "value", .type = KEYS_TREE, .doc = "An expression of t, columns further up, and parameters."},
     {.name = "in", .type = KEYS_TEXT, .doc = "Only in this material."},
     {.name = "where", .type = KEYS_SECTION, .section = &scene_shape_keys, .doc = "Only in this region."},
@@ -89,7 +98,12 @@ static bool scene_history_of_surface(enum scene_measure measure)
 static bool scene_history_directed(enum scene_measure measure)
 {
     return measure == SCENE_CENTROID || measure == SCENE_PENETRATION || measure == SCENE_JET_SPEED ||
-           measure == SCENE_FORCE;
+           measure == SCENE_FORCE || measure == SCENE_BODY_DISPLACEMENT || measure == SCENE_BODY_VELOCITY;
+}
+
+static bool scene_history_of_body(enum scene_measure measure)
+{
+    return measure >= SCENE_FORCE && measure <= SCENE_BODY_ANGLE;
 }
 
 int scene_history_axis(struct draft *draft, const struct keys_value *along)
@@ -205,7 +219,7 @@ static void scene_history_measure(struct draft *draft, struct scene_column *colu
     else if (column->measure == SCENE_VALUE) scene_history_value(draft, column, value);
     else if (scene_history_between(column->measure)) scene_history_of(draft, column, value);
     else if (column->measure == SCENE_EVAPORATED) scene_history_vapour(draft, column, value);
-    else if (column->measure == SCENE_FORCE) column->rigid = scene_rigid_index(draft, value);
+    else if (scene_history_of_body(column->measure)) column->rigid = scene_rigid_index(draft, value);
     else if (value->given && scene_formula_is(value)) scene_formula(draft, value, column->name, column->field);
     else scene_field_name(draft, value, column->field);
 }
@@ -230,7 +244,8 @@ static const struct keys_value *scene_history_chosen(struct draft *draft, const 
     diag_help(draft->keys.diag,
               "one of volume, mass, centroid, min, max, mean, integral, plane-integral, total, "
               "penetration, equivalent-radius, jet-speed, isosurface-mean, isosurface-min, isosurface-max, "
-              "outside, min-between, max-between, force, evaporated, value");
+              "outside, min-between, max-between, force, power, body-displacement, body-velocity, body-angle, "
+              "evaporated, value");
     return NULL;
 }
 
@@ -268,11 +283,10 @@ static void scene_history_column(struct draft *draft, struct scene_column *colum
     if (scene_history_of_surface(column->measure) && !in->node)
         keys_error(&draft->keys, measure, "'in' is missing: the material whose surface it is");
     if (scene_history_between(column->measure)) scene_history_alone(draft, map, measure);
-    bool whole = column->measure == SCENE_FORCE || column->measure == SCENE_EVAPORATED;
+    bool body = scene_history_of_body(column->measure), whole = body || column->measure == SCENE_EVAPORATED;
     if (!whole || (!in->node && !where->node)) return;
     keys_error(&draft->keys, in->node ? in : where,
-               column->measure == SCENE_FORCE ? "a force is that on a whole body"
-                                              : "what has evaporated is known of the whole domain");
+               body ? "a column of a body is of all of it" : "what has evaporated is known of the whole domain");
 }
 
 void scene_history(struct draft *draft)

@@ -47,6 +47,28 @@ const struct keys_section scene_rigid_keys = {.name = "body",
                                               .keys = scene_rigid_rows,
                                               .rules = "{'not': {'required': ['velocity', 'displacement']}}"};
 
+/* What fluids do among themselves only: it is computed, so it is no error, but somebody may wait for it. */
+static void scene_rigid_smooth(struct draft *draft, const struct keys_value *section)
+{
+    const struct scene *scene = draft->scene;
+    struct diag *diag = draft->keys.diag;
+    const char *viscous = NULL, *conducts = NULL;
+    for (unsigned l = 0; l < scene->n_material; l++) {
+        if (!viscous && scene->material[l].viscosity.module) viscous = scene->material[l].name;
+        if (!conducts && scene->material[l].conductivity.module) conducts = scene->material[l].name;
+    }
+    if (viscous) {
+        diag_warn(diag, &section->node->mark,
+                  "bodies: '%s' is viscous, but fluids slip along bodies: they feel no friction", viscous);
+        diag_help(diag, "walls of the domain can be 'no-slip'; a very viscous or dense material sticks, too");
+    }
+    if (conducts) {
+        diag_warn(diag, &section->node->mark, "bodies: '%s' conducts heat, but none passes the walls of bodies",
+                  conducts);
+        diag_help(diag, "walls of the domain can have a temperature; a material in place of the body conducts");
+    }
+}
+
 /* What is not computed beside bodies. */
 static void scene_rigid_beside(struct draft *draft, const struct keys_value *section)
 {
@@ -62,6 +84,7 @@ static void scene_rigid_beside(struct draft *draft, const struct keys_value *sec
                    "surface tension is not computed beside rigid bodies: no angle of contact is known");
         diag_help(draft->keys.diag, "leave 'surface-tension' out");
     }
+    scene_rigid_smooth(draft, section);
     for (int axis = 0; axis < scene->domain.dim; axis++)
         if (scene_boundary_is(scene, 2 * axis, SCENE_BOUNDARY_WRAPS) && scene->domain.cells[axis] < 8)
             keys_error(&draft->keys, section, "beside bodies a periodic axis has at least 8 cells");

@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "derive/derive.h"
+#include "io/bodies.h"
 #include "io/line.h"
 #include "io/region.h"
 #include "io/surface.h"
@@ -15,7 +16,6 @@
 #include "mesh/rigid.h"
 #include "mesh/tally.h"
 #include "phys/outside.h"
-#include "scheme/cut.h"
 #include "solve/evaporate.h"
 
 #include <math.h>
@@ -269,23 +269,6 @@ static double measure_extent(const struct measures *measures)
     return product;
 }
 
-/* What presses on a rigid body in the leaves of the tile at hand. */
-static double measure_force(const struct measures *measures, const struct measure_column *column)
-{
-    const struct state *state = measures->state;
-    const struct mesh *mesh = state->mesh;
-    const struct tile *tile = &measures->level->tiles[measures->level->first + measures->local];
-    double *volume = mem_new(mesh->n_cell, sizeof *volume);
-    tally_volumes(mesh, measures->level, tile, volume);
-    struct cut_force force = {
-        .model = state->model, .mesh = mesh, .level = measures->level, .tile = tile, .t = state->t};
-    force.w = measures->level->w[measures->local];
-    force.volume = volume;
-    double sum = cut_force(&force, (unsigned)column->from->rigid, column->axis);
-    mem_free(volume);
-    return sum;
-}
-
 static void measure_sum(struct measures *measures, const struct measure_column *column, double *sums)
 {
     const struct scene_column *from = column->from;
@@ -320,7 +303,8 @@ static void measure_sum(struct measures *measures, const struct measure_column *
         sums[0] = (double)outside_count(measures->state->model, (unsigned)from->material, n, n,
                                         measures->level->w[measures->local], cover);
         break;
-    case SCENE_FORCE: sums[0] = measure_force(measures, column); break;
+    case SCENE_FORCE:
+    case SCENE_POWER: sums[0] = bodies_load(measures->state, measures->l, measures->local, from, column->axis); break;
     default: break;
     }
 }
@@ -400,6 +384,9 @@ static double measure_result(struct measures *measures, const struct measure_col
     case SCENE_JET_SPEED: return empty ? NAN : extremes[0] >= extremes[1] ? extremes[0] : -extremes[1];
     case SCENE_PENETRATION: return measure_penetration(state, column);
     case SCENE_EVAPORATED: return evaporate_total(state, (unsigned)from->material);
+    case SCENE_BODY_DISPLACEMENT:
+    case SCENE_BODY_VELOCITY:
+    case SCENE_BODY_ANGLE: return bodies_motion(state, from, column->axis);
     case SCENE_ISOSURFACE_MEAN: return surface_mean(state, (unsigned)from->in, field, column->where);
     case SCENE_ISOSURFACE_MIN:
     case SCENE_ISOSURFACE_MAX:

@@ -57,6 +57,10 @@ const char *units_of(const struct scene *scene, const struct scene_column *colum
     case SCENE_TOTAL: return units_total(column->field, extent);
     case SCENE_OUTSIDE: return "1";
     case SCENE_FORCE: return units_integral("N/m3", extent);
+    case SCENE_POWER: return units_integral("W/m3", extent);
+    case SCENE_BODY_DISPLACEMENT: return "m";
+    case SCENE_BODY_VELOCITY: return "m/s";
+    case SCENE_BODY_ANGLE: return "rad";
     case SCENE_MIN_BETWEEN:
     case SCENE_MAX_BETWEEN:
     case SCENE_VALUE: return "";

@@ -16,6 +16,7 @@
 #include "cli/scenes.h"
 #include "run/check_phase.h"
 #include "run/transport.h"
+#include "run/travel.h"
 #include "scheme/source.h"
 #include "solve/advance.h"
 #include "solve/cost.h"
@@ -346,6 +347,7 @@ static void check_print(const struct scene *scene, const struct model *model, co
     check_print_modules(scene);
     check_print_sources(scene);
     check_print_tension(scene);
+    travel_print(scene);
     check_phase_print(scene);
     if (scene->n_material > 1) check_print_module("interface", &scene->scheme.interface_limiter);
     double bytes = SCENES_BESIDE * scenes_bytes(scene, mesh->all);

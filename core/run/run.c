@@ -25,6 +25,7 @@
 #include "run/progress.h"
 #include "run/record.h"
 #include "run/stop.h"
+#include "run/travel.h"
 #include "solve/advance.h"
 #include "solve/tag.h"
 
@@ -45,6 +46,7 @@ struct run {
     struct state *state;
     struct record *record;
     struct progress progress;
+    struct travel travel;
     bool limited;   /* the command line gives the step limit */
     bool shortened; /* the command line ended the run before the case does */
     bool quiet, json;
@@ -198,6 +200,7 @@ static void run_say_end(const struct run *run, int code)
     else run_say_what_is_left(run, time);
     laws_say(state);
     run_say_spread(state);
+    travel_say(&run->travel, state);
 }
 
 /* A run leaves a checkpoint if it could go on: it did not come to the end of its case, or the case asks for them. */
@@ -307,6 +310,7 @@ static int run_files(struct run *run, const struct cli_given *given)
     const struct resume *past = run->step_0 > 0 ? run->from : NULL; /* the start has none: its outputs begin anew */
     TRY(record_open(run->state, given->argc, given->argv, past, &run->record));
     record_follow(run->record, run->state);
+    run->travel = travel_begin(run->state);
     return STATUS_OK;
 }
 

@@ -260,7 +260,10 @@ double cut_force(const struct cut_force *force, unsigned rigid, int axis)
     cut_rows_press(rows, force->model, cells, false);
     for (size_t i = 0; i < rows->n; i++)
         if (cells->now[rows->at[i]] > 0.0 && cells->body[rows->at[i]] == rigid)
-            sum += rows->p[i] * cells->wall[axis][rows->at[i]] * force->volume[rows->from[i]];
+            sum +=
+                rows->p[i] *
+                (axis == CUT_POWER ? cut_room(cells, force->mesh->dim, rows->at[i]) : cells->wall[axis][rows->at[i]]) *
+                force->volume[rows->from[i]];
     cut_close(cut);
     return sum;
 }

@@ -33,7 +33,9 @@ struct cut_force {
     const double *w, *volume; /* primitives; what counts of each cell [m3, ...] */
 };
 
-/* What presses along an axis on one body in the cells of a tile: the sum of p_w W_axis V [N; per metre in 2D, per m2 in 1D]. */
+/* What presses along an axis on one body in the cells of a tile: the sum of p_w W_axis V [N; per metre in 2D, per m2 in 1D]. Of
+ * CUT_POWER what that works, the sum of p_w W . U V [W]. */
+enum { CUT_POWER = -1 };
 double cut_force(const struct cut_force *force, unsigned rigid, int axis);
 
 #endif

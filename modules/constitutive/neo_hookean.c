@@ -9,6 +9,9 @@ static const struct bulla_preset neo_hookean_presets[] = {
     LAW_PRESETS(),
     {"begostone", "BegoStone 15:3, an artificial kidney stone, 10.7 GPa (Esch et al. 2010)",
      (const double[]){10.7e9, 1995.0}},
+    {"begostone-15-6", "BegoStone 15:6, a soft one, 5.1 GPa (Esch et al. 2010)", (const double[]){5.1e9, 1563.0}},
+    {"gypsum", "Ultracal-30 gypsum, an artificial kidney stone, 4.16 GPa", (const double[]){4.15872e9, 1800.0}},
+    {"pmma", "PMMA, 1.48 GPa", (const double[]){1.480192e9, 1180.0}},
     {0},
 };
 

@@ -90,6 +90,40 @@ cmp later-straight/out/history.csv later-on/out/history.csv
 last=$(ls later-straight/out/fields/later_*.hdf | tail -1)
 "$BULLA_BUILD/tests/test-unit-snapshot" "$last" "later-on/out/fields/${last##*/}"
 
+# A piston: where it is and how fast, in the history; what fluids work on it is force times velocity, and what they gain of energy;
+# the run says what mass its way has cost, a quarter with half the steps.
+cat >piston.yaml <<'END'
+bulla: 1
+domain: {lower: [0], upper: [1], cells: [100], boundaries: {x-: reflecting, x+: reflecting}}
+materials: {air: {eos: {type: ideal-gas, gamma: 1.4}}}
+bodies: {p: {box: {lower: [-0.1], upper: [0.2]}, displacement: ['= 0.05 * (1 - math.cos(2000 * t))']}}
+initial: [{everywhere: true, material: air, density: 1.2, pressure: 1e5}]
+run: {until: 3 ms}
+output:
+  directory: out
+  history: {columns: {E: {total: energy}, f: {force: p}, P: {power: p}, x: {body-displacement: p}, u: {body-velocity: p}}}
+END
+ran piston piston
+awk -F, 'NR == 1 { if ($0 !~ /^step,t,dt,E,f,P,x,u,/) bad = 1; next }
+         function off(a, b, most) { d = a - b; if (d > most || d < -most) { print "step " $1 ": " a " for " b; bad = 1 } }
+         { off($7, 0.05 * (1 - cos(2000 * $2)), 1e-15); off($8, 100 * sin(2000 * $2), 1e-6); off($6, $5 * $8, 1e-6)
+           if (NR > 2) work += ($2 - t) * ($6 + P) / 2; else first = $4
+           t = $2; P = $6 }
+         END { off($4 - first, -work, 2e-5 * first); exit bad }' piston/out/history.csv || fail 'the piston'
+grep -q 'bodies that move: the mass of the fluids has changed by 6.5e-06 of itself' piston/out/log.txt || fail 'the mass is not told' piston/out/log.txt
+ran piston-half piston --set scheme.cfl=0.2
+grep -q 'changed by 1.6e-06 of itself' piston-half/out/log.txt || fail 'not of second order' piston-half/out/log.txt
+"$BULLA" check piston.yaml >said
+grep -q 'bodies  *p: moves with up to 99.97 m/s' said || fail 'how it goes is not told' said
+sed 's/gamma: 1.4}/preset: air}, viscosity: 1 mPa.s, conductivity: 0.026/' piston.yaml >sticky.yaml
+"$BULLA" check sticky.yaml >/dev/null 2>said
+grep -q "sticky.yaml:4:9: warning: bodies: 'air' is viscous, but fluids slip along bodies" said || fail 'no warning of friction' said
+grep -q "'air' conducts heat, but none passes the walls of bodies" said || fail 'no warning of heat' said
+sed 's/{body-velocity: p}/{body-velocity: p, in: air}/' piston.yaml >part.yaml
+
+"$BULLA" check part.yaml >/dev/null 2>said && fail 'a part of a body went through'
+grep -q "a column of a body is of all of it" said || fail 'wrong message' said
+
 # Still: rest stays rest; what goes along a wall goes on.
 cat >still.yaml <<'END'
 bulla: 1

@@ -46,6 +46,14 @@ static const struct bulla_preset stiffened_gas_presets[] = {
     {"blood", "blood at 37 C: 1060 kg/m3, 1571 m/s", (const double[]){7.1, 368368093.0, 183.735215, 0.0, 0.0}},
     {"begostone", "BegoStone 15:3, its bulk modulus: 1995 kg/m3, 20.2 GPa (Esch et al. 2010)",
      (const double[]){4.4, 4590809090.9, 2308.80353, 0.0, 0.0}},
+    {"begostone-15-6", "BegoStone 15:6, its bulk modulus: 1563 kg/m3, 8.6 GPa (Esch et al. 2010)",
+     (const double[]){4.4, 1954445454.5, 1254.63668, 0.0, 0.0}},
+    {"gypsum", "Ultracal-30 gypsum, an artificial stone, its bulk modulus: 1800 kg/m3, 11.75 GPa",
+     (const double[]){4.4, 2671045454.5, 1488.86807, 0.0, 0.0}},
+    {"pmma", "PMMA, its bulk modulus: 1180 kg/m3, 6.44 GPa; gamma from its Hugoniot (Kinslow 1970)",
+     (const double[]){5.144, 1251554873.0, 873.158210, 0.0, 0.0}},
+    {"gelatin", "gelatin in water, 10 %: 1030 kg/m3, 1520 m/s",
+     (const double[]){6.2, 383724516.1, 244.456869, 0.0, 0.0}},
     {0},
 };
 
