@@ -51,12 +51,12 @@ static const struct key scene_history_rows[] = {
     {.name = "max-between",
      .type = KEYS_TEXT,
      .doc = "Largest value of a column further up, over all steps since the row before."},
-    {.name = "force",
-     .type = KEYS_TEXT,
-     .doc = "Force of the fluids on a body, `along` an axis: what presses on its walls. Per metre of depth in 2D."},
     {.name = "evaporated",
      .type = KEYS_TEXT,
      .doc = "Mass of a vapour that has come from its liquid since the start, less what has condensed."},
+    {.name = "force",
+     .type = KEYS_TEXT,
+     .doc = "Force of the fluids on a body, `along` an axis: what presses on its walls. Per metre of depth in 2D."},
     {.name = "power",
      .type = KEYS_TEXT,
      .doc = "Power that fluids give to a body that moves: what the pressure on its walls works; they lose as much "
@@ -218,8 +218,8 @@ static void scene_history_measure(struct draft *draft, struct scene_column *colu
     else if (column->measure == SCENE_TOTAL) snprintf(column->field, SCENE_NAME, "%s", value->given ? value->text : "");
     else if (column->measure == SCENE_VALUE) scene_history_value(draft, column, value);
     else if (scene_history_between(column->measure)) scene_history_of(draft, column, value);
-    else if (column->measure == SCENE_EVAPORATED) scene_history_vapour(draft, column, value);
     else if (scene_history_of_body(column->measure)) column->rigid = scene_rigid_index(draft, value);
+    else if (column->measure == SCENE_EVAPORATED) scene_history_vapour(draft, column, value);
     else if (value->given && scene_formula_is(value)) scene_formula(draft, value, column->name, column->field);
     else scene_field_name(draft, value, column->field);
 }
@@ -283,10 +283,10 @@ static void scene_history_column(struct draft *draft, struct scene_column *colum
     if (scene_history_of_surface(column->measure) && !in->node)
         keys_error(&draft->keys, measure, "'in' is missing: the material whose surface it is");
     if (scene_history_between(column->measure)) scene_history_alone(draft, map, measure);
-    bool body = scene_history_of_body(column->measure), whole = body || column->measure == SCENE_EVAPORATED;
-    if (!whole || (!in->node && !where->node)) return;
+    bool of_body = scene_history_of_body(column->measure);
+    if ((!of_body && column->measure != SCENE_EVAPORATED) || (!in->node && !where->node)) return;
     keys_error(&draft->keys, in->node ? in : where,
-               body ? "a column of a body is of all of it" : "what has evaporated is known of the whole domain");
+               of_body ? "a column of a body is of all of it" : "what has evaporated is known of the whole domain");
 }
 
 void scene_history(struct draft *draft)
