@@ -271,6 +271,7 @@ void scene_initial(struct draft *draft)
     scene->layers = mem_new(initial->count + 1, sizeof *scene->layers);
     scene->n_layer = initial->count;
     for (unsigned i = 0; i < initial->count; i++) {
+        if (keys_at(initial->list[i].map, "cloud")->node) continue; /* it has been refused */
         scene_initial_layer(draft, &scene->layers[i], initial->list[i].map);
         scene_tension_balance(draft, keys_at(initial->list[i].map, "balance"), i);
     }
