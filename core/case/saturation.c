@@ -23,6 +23,7 @@ bool saturation_of(const struct instance *liquid, const struct instance *vapour,
         if (!law || !BULLA_EOS_HAS(law, thermal)) return false;
         ret_pair->law[k] = law;
         ret_pair->self[k] = both[k]->self;
+        ret_pair->rho[k] = 0.0;
     }
     return true;
 }
@@ -31,7 +32,7 @@ struct saturation_state saturation_at(const struct saturation *pair, double p, d
 {
     struct saturation_state at;
     for (int k = 0; k < 2; k++) {
-        double rho = 0.0, v_T, v_p, c_p;
+        double rho = pair->rho[k], v_T, v_p, c_p;
         pair->law[k]->thermal(pair->self[k], 1, &p, &T, &rho, &at.v[k], &at.h[k], &at.s[k], &v_T, &v_p, &c_p);
     }
     at.drive = at.h[1] - at.h[0] - T * (at.s[1] - at.s[0]);

@@ -15,6 +15,7 @@ struct bulla_eos;
 struct saturation {
     const struct bulla_eos *law[2]; /* liquid, vapour; both offer `thermal` */
     const void *self[2];
+    double rho[2]; /* densities that searches of the laws may start from, or 0 */
 };
 
 struct saturation_state {

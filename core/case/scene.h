@@ -95,6 +95,13 @@ struct scene_material {
         double modulus, density, time; /* G [Pa] at that density [kg/m3]; of relaxation [s] */
     } branch[SCENE_BRANCHES];
     double drag; /* resistance against motion [kg/m3/s]; 0: none (scheme/drag.h) */
+    struct scene_damage {
+        struct instance law;      /* how a solid breaks; module NULL: never */
+        double time;              /* in which it does at the fastest [s]; 0: at once */
+        bool opens;               /* where it breaks in tension, a void opens ... */
+        unsigned gas;             /* ... of this material ... */
+        double pressure, density; /* ... in this state [Pa, kg/m3] */
+    } damage;
 };
 
 /* Surface tension between two materials. */

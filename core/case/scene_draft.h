@@ -117,6 +117,21 @@ const char *scene_material_solid(const struct draft *draft);
 /* 0: no material has a strength; 1: some has; 2: and it knows its plastic strain. */
 unsigned scene_material_strength(const struct draft *draft);
 
+/* Refuses what looks at temperatures (`what`, at `asking`) of a material of whose specific heat nothing is said. */
+void scene_material_warm(struct draft *draft, const struct keys_value *asking, const struct scene_material *material,
+                         const char *what);
+
+/* Can any material break? */
+bool scene_material_breaks(const struct draft *draft);
+
+/* How the material that `entry` describes breaks, whose other laws are open; its keys. */
+void scene_damage(struct draft *draft, const struct keys_map *entry, struct scene_material *material);
+extern const struct keys_section scene_damage_keys;
+
+/* What fills the voids of solids, once all materials are known; how fast they may break, once the mesh is. */
+void scene_damage_voids(struct draft *draft);
+void scene_damage_times(struct draft *draft);
+
 /* Has any material a Maxwell branch? */
 bool scene_material_branched(const struct draft *draft);
 

@@ -84,6 +84,9 @@ enum { SCENE_FIELD_PLASTIC = sizeof scene_field_plastic / sizeof *scene_field_pl
 /* In scenes where a solid has Maxwell branches. */
 static const struct scene_field scene_field_branched = {"overstress", "Pa", SCENE_FIELD_VANISHING};
 
+/* In scenes where a solid can break. */
+static const struct scene_field scene_field_breaking = {"damage", "1", SCENE_FIELD_FRACTION};
+
 /* In scenes with rigid bodies. */
 static const struct scene_field scene_field_body = {"body", "1", SCENE_FIELD_FRACTION};
 
@@ -151,6 +154,15 @@ static bool scene_field_miss_strength(struct draft *draft, const struct keys_val
     return true;
 }
 
+/* A field of damage in a scene where nothing can break. */
+static bool scene_field_miss_damage(struct draft *draft, const struct keys_value *value)
+{
+    if (strcmp(value->text, scene_field_breaking.name) != 0) return false;
+    keys_error(&draft->keys, value, "'%s' is a field of solids that can break, and no material has a 'damage' law",
+               value->text);
+    return true;
+}
+
 /* A field of solids in a scene of fluids. */
 static bool scene_field_miss_solid(struct draft *draft, const struct keys_value *value)
 {
@@ -162,7 +174,7 @@ static bool scene_field_miss_solid(struct draft *draft, const struct keys_value 
 bool scene_field_miss(struct draft *draft, const struct keys_value *value)
 {
     return scene_field_miss_strength(draft, value) || scene_field_miss_viscosity(draft, value) ||
-           scene_field_miss_solid(draft, value);
+           scene_field_miss_damage(draft, value) || scene_field_miss_solid(draft, value);
 }
 
 bool scene_field_is_vector(const char *name)
@@ -197,7 +209,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     const struct scene *scene = draft->scene;
     struct forest *forest = draft->keys.forest;
     unsigned count = SCENE_FIELD_PLAIN, most = count + SCENE_FIELD_SOLID + SCENE_FIELD_PLASTIC + SCENE_FIELD_VISCOUS +
-                                               2 + (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR) * scene->n_material;
+                                               3 + (SCENE_FIELD_EACH + SCENE_FIELD_VAPOUR) * scene->n_material;
     most += scene->n_derived * BULLA_FIELD_OUTPUTS;
     most += 4 * scene->output.n_peak;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
@@ -208,6 +220,7 @@ const struct scene_field *scene_field_all(struct draft *draft)
     }
     for (unsigned i = 0; i < scene_material_strength(draft); i++) list[count++] = scene_field_plastic[i];
     if (scene_material_branched(draft)) list[count++] = scene_field_branched;
+    if (scene_material_breaks(draft)) list[count++] = scene_field_breaking;
     if (keys_at(draft->root, "bodies")->count) list[count++] = scene_field_body;
     for (unsigned i = 0; scene_material_viscous(draft) && i < SCENE_FIELD_VISCOUS; i++)
         list[count++] = scene_field_viscous[i];
@@ -230,11 +243,12 @@ const struct scene_field *scene_field_all(struct draft *draft)
 const char *const *scene_field_always(struct forest *forest)
 {
     enum { SOLID = SCENE_FIELD_PLAIN, PLASTIC = SOLID + SCENE_FIELD_SOLID };
-    enum { VISCOUS = PLASTIC + SCENE_FIELD_PLASTIC, ALL = VISCOUS + SCENE_FIELD_VISCOUS + 2 };
+    enum { VISCOUS = PLASTIC + SCENE_FIELD_PLASTIC, ALL = VISCOUS + SCENE_FIELD_VISCOUS + 3 };
     const char **names = tree_take(forest, (ALL + 1) * sizeof *names);
     for (unsigned i = 0; i < SCENE_FIELD_PLAIN; i++) names[i] = scene_field_plain[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_SOLID; i++) names[SOLID + i] = scene_field_solid[i].name;
     for (unsigned i = 0; i < SCENE_FIELD_PLASTIC; i++) names[PLASTIC + i] = scene_field_plastic[i].name;
+    names[ALL - 3] = scene_field_breaking.name;
     names[ALL - 2] = scene_field_branched.name;
     names[ALL - 1] = scene_field_body.name;
     for (unsigned i = 0; i < SCENE_FIELD_VISCOUS; i++) names[VISCOUS + i] = scene_field_viscous[i].name;

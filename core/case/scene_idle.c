@@ -42,6 +42,8 @@ static bool scene_idle_arises(const struct scene *scene, unsigned material)
     bool arises = false;
     for (unsigned k = 0; k < scene->n_phase; k++)
         arises = arises || scene->phases[k].vapour == material || scene->phases[k].liquid == material;
+    for (unsigned l = 0; l < scene->n_material; l++)
+        arises = arises || (scene->material[l].damage.opens && scene->material[l].damage.gas == material);
     return arises;
 }
 

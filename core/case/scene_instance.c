@@ -3,11 +3,11 @@
 
 struct instance *scene_instance(struct scene *scene, unsigned index)
 {
-    enum { LAWS = 5, SCHEMES = 4, FACES = 2 * SCENE_AXES };
+    enum { LAWS = 6, SCHEMES = 4, FACES = 2 * SCENE_AXES };
     if (index < LAWS * scene->n_material) {
         struct scene_material *material = &scene->material[index / LAWS];
-        struct instance *const laws[LAWS] = {&material->eos, &material->constitutive, &material->plastic,
-                                             &material->viscosity, &material->conductivity};
+        struct instance *const laws[LAWS] = {&material->eos,       &material->constitutive, &material->plastic,
+                                             &material->viscosity, &material->conductivity, &material->damage.law};
         return laws[index % LAWS];
     }
     index -= LAWS * scene->n_material;

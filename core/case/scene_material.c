@@ -83,6 +83,12 @@ static const struct key scene_material_rows[] = {
      .many = KEYS_LIST,
      .section = &scene_branch_keys,
      .doc = "Maxwell branches of a solid, whose stresses add to that of its elastic law and relax."},
+    {.name = "damage",
+     .type = KEYS_SECTION,
+     .section = &scene_damage_keys,
+     .doc = "How a solid breaks: its elastic energy falls to (1 - D)^2 as its damage D goes from 0 to 1. Without it "
+            "the solid "
+            "never does."},
     {.name = "viscosity",
      .type = KEYS_SECTION,
      .section = &scene_material_viscosity,
@@ -178,6 +184,11 @@ bool scene_material_conducts(const struct draft *draft)
     return scene_material_has(draft, "conductivity");
 }
 
+bool scene_material_breaks(const struct draft *draft)
+{
+    return scene_material_has(draft, "damage");
+}
+
 bool scene_material_viscous(const struct draft *draft)
 {
     return scene_material_has(draft, "viscosity");
@@ -247,18 +258,16 @@ static bool scene_material_says(const struct keys_value *section, const char *ke
     return tree_get(section->map->node, "preset") || here->line != there->line || here->column != there->column;
 }
 
-/* A law that looks at temperatures needs an equation of state whose specific heat somebody has given. */
-static void scene_material_warm(struct draft *draft, const struct keys_map *entry,
-                                const struct scene_material *material)
+void scene_material_warm(struct draft *draft, const struct keys_value *asking, const struct scene_material *material,
+                         const char *what)
 {
-    const struct bulla_inelastic *law = material->plastic.module->table;
-    const struct keys_value *eos = keys_at(entry, "eos"), *plastic = keys_at(entry, "plastic");
-    if (!(law->needs(material->plastic.self) & BULLA_INELASTIC_TEMPERATURE) || !material->eos.module || !eos->map)
-        return;
+    const struct keys_value *entry = &keys_at(draft->root, "materials")->list[material - draft->scene->material];
+    const struct keys_value *eos = keys_at(entry->map, "eos");
+    if (!material->eos.module || !eos->map) return;
     int row = instance_param_find(material->eos.module, "cv");
     if (row < 0 || isnan(material->eos.module->params[row].fallback) || scene_material_says(eos, "cv")) return;
-    keys_error(&draft->keys, plastic, "'%s' looks at temperatures, and nothing is said of the specific heat of '%s'",
-               material->plastic.module->name, material->name);
+    keys_error(&draft->keys, asking, "'%s' looks at temperatures, and nothing is said of the specific heat of '%s'",
+               what, material->name);
     diag_help(draft->keys.diag, "give 'cv' in its 'eos', or set 'melting-temperature: 0' where the law has that key");
 }
 
@@ -278,7 +287,9 @@ static void scene_material_strong(struct draft *draft, const struct keys_map *en
         keys_error(&draft->keys, plastic, "'%s' depends on I2: plastic flow is there for laws of I1 alone",
                    material->constitutive.module->name);
     scene_material_weigh(draft, material, plastic);
-    scene_material_warm(draft, entry, material);
+    const struct bulla_inelastic *law = material->plastic.module->table;
+    if (law->needs(material->plastic.self) & BULLA_INELASTIC_TEMPERATURE)
+        scene_material_warm(draft, plastic, material, material->plastic.module->name);
 }
 
 void scene_material(struct draft *draft)
@@ -301,6 +312,7 @@ void scene_material(struct draft *draft)
         scene_material_open(draft, keys_at(entry->map, "constitutive"), &material->constitutive);
         if (entry->map) scene_material_strong(draft, entry->map, material);
         if (entry->map) scene_branch(draft, entry->map, material);
+        if (entry->map) scene_damage(draft, entry->map, material);
         scene_material_open(draft, keys_at(entry->map, "viscosity"), &material->viscosity);
         scene_material_open(draft, keys_at(entry->map, "conductivity"), &material->conductivity);
         material->drag = entry->map ? keys_at(entry->map, "drag")->number : 0.0;

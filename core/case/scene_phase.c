@@ -205,7 +205,8 @@ static int scene_phase_member(struct draft *draft, const struct keys_value *valu
     if (BULLA_EOS_HAS(law, thermal)) return index;
     keys_error(&draft->keys, value, "the law '%s' of '%s' does not give its entropy and enthalpy from p and T",
                material->eos.module->name, material->name);
-    diag_help(draft->keys.diag, "laws that do: ideal-gas, stiffened-gas, nasg, mnasg");
+    diag_help(draft->keys.diag,
+              "laws that do: ideal-gas, stiffened-gas, nasg, mnasg, iapws95 (the liquid), helmholtz-air (a gas)");
     return -1;
 }
 

@@ -88,6 +88,7 @@ static void scene_read_sections(struct draft *draft)
     scene_boundary(draft);
     scene_tension(draft);
     scene_phase(draft);
+    scene_damage_voids(draft);
     scene_initial(draft);
     scene_rigid(draft);
     scene_diffusion(draft);
@@ -129,6 +130,7 @@ static void scene_read_tree(struct draft *draft, struct node *root)
     scene_coarse(draft);
     scene_boil(draft);
     scene_branch_times(draft);
+    scene_damage_times(draft);
     scene_spare(draft, root);
     scene_read_resolve(draft, root);
 }

@@ -23,7 +23,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What a name stands for: DERIVE_STRONG needs a solid with a strength, DERIVE_STRAINED one whose strength knows strains;
+/* What a name stands for: DERIVE_STRONG needs a solid with a strength, DERIVE_STRAINED one whose strength knows strains, DERIVE_BREAKING one that can break;
  * DERIVE_OF_SCENE is a name of the case's own. */
 enum derive_form {
     DERIVE_ONE,
@@ -34,6 +34,7 @@ enum derive_form {
     DERIVE_TENSOR,
     DERIVE_STRONG,
     DERIVE_STRAINED,
+    DERIVE_BREAKING,
     DERIVE_BRANCHED,
     DERIVE_RIGID,          /* of scenes with rigid bodies */
     DERIVE_VISCOUS,        /* of scenes with a viscous material */
@@ -275,6 +276,7 @@ static const struct derive_quantity derive_table[] = {
     {"flow_stress", "Pa", DERIVE_STRONG, derive_stress_strength, 0, DERIVE_ALONE},
     {"overstress", "Pa", DERIVE_BRANCHED, derive_stress_over, 0, DERIVE_ALONE},
     {"plastic_strain", "1", DERIVE_STRAINED, derive_stress_plastic, 0, DERIVE_ALONE},
+    {"damage", "1", DERIVE_BREAKING, derive_stress_damage, 0, DERIVE_ALONE},
     {"invariant_1", "1", DERIVE_SOLID, derive_stress_invariant, 0, DERIVE_ALONE},
     {"invariant_2", "1", DERIVE_SOLID, derive_stress_invariant, 1, DERIVE_ALONE},
     {"", "", DERIVE_OF_SCENE, derive_law, 0, DERIVE_DECLARED},
@@ -315,7 +317,8 @@ static bool derive_has(const struct model *model, enum derive_form form)
     if (form == DERIVE_BRANCHED) return model->n_branch > 0;
     if (form == DERIVE_RIGID) return model->scene->n_rigid > 0;
     if (form == DERIVE_VISCOUS || form == DERIVE_VISCOUS_TENSOR) return model->viscous;
-    return form != DERIVE_STRAINED || model->n_strain > 0;
+    if (form == DERIVE_BREAKING) return model->damaged;
+    return form != DERIVE_STRAINED || model->aged;
 }
 
 /* One of the peaks that the scene keeps of a field of the table: `prefix` and its name. */

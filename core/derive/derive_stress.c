@@ -7,6 +7,7 @@
 #include "derive/derive_stress.h"
 
 #include "base/mem.h"
+#include "phys/bearing.h"
 #include "phys/elastic.h"
 #include "phys/flow.h"
 #include "phys/row.h"
@@ -22,7 +23,7 @@ struct derive_stress_pair {
 };
 typedef struct derive_stress_pair derive_stress_finder(const double *s, size_t n, unsigned components, size_t i);
 
-/* Partial densities of the solids, rows of `m`, in `partial` [n_solid][n]. */
+/* Partial densities of the solids as far as they bear, rows of `m`, in `partial` [n_solid][n]. */
 static void derive_stress_partial(const struct derive_view *tile, double *partial, const double **m)
 {
     const struct model *model = tile->model;
@@ -31,6 +32,8 @@ static void derive_stress_partial(const struct derive_view *tile, double *partia
         const double *rho = derive_view_w(tile, model->i_m + l);
         for (size_t i = 0; i < tile->n; i++) partial[k * tile->n + i] = derive_view_alpha(tile, l, i) * rho[i];
         m[k] = partial + k * tile->n;
+        for (size_t i = 0; model->solids[k].damage.law && i < tile->n; i++)
+            partial[k * tile->n + i] *= bearing_part(derive_view_w(tile, model->solids[k].damage.field)[i]);
     }
 }
 
@@ -209,18 +212,29 @@ void derive_stress_strength(const struct derive_view *tile, double *out)
     flow_strength(tile->model, tile->n, tile->n, tile->w, out);
 }
 
-void derive_stress_plastic(const struct derive_view *tile, double *out)
+/* Of the memories of the solids with or without a greatest value, the mean by mass of the solids that have one. */
+static void derive_stress_remember(const struct derive_view *tile, bool bounded, double *out)
 {
     const struct model *model = tile->model;
     for (size_t i = 0; i < tile->n; i++) {
         double mass = 0.0, sum = 0.0;
-        for (unsigned s = 0; s < model->n_solid; s++) {
-            unsigned l = model->solids[s].material, q = model->solids[s].strain;
+        for (unsigned k = 0; k < model->n_memory; k++) {
+            unsigned l = model->solids[model->memories[k].solid].material, q = model->memories[k].field;
             double m = derive_view_alpha(tile, l, i) * derive_view_w(tile, model->i_m + l)[i];
-            if (!q) continue;
+            if ((model->memories[k].most < HUGE_VAL) != bounded) continue;
             mass += m;
             sum += m * derive_view_w(tile, q)[i];
         }
         out[i] = mass > ELASTIC_NOTHING ? sum / mass : 0.0;
     }
+}
+
+void derive_stress_plastic(const struct derive_view *tile, double *out)
+{
+    derive_stress_remember(tile, false, out);
+}
+
+void derive_stress_damage(const struct derive_view *tile, double *out)
+{
+    derive_stress_remember(tile, true, out);
 }

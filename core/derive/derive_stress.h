@@ -48,4 +48,7 @@ void derive_stress_strength(const struct derive_view *tile, double *out);
 /* Accumulated plastic strain, the mean by mass of the solids that have one [1]. */
 void derive_stress_plastic(const struct derive_view *tile, double *out);
 
+/* Damage from 0 to 1, the mean by mass of the solids that can break. */
+void derive_stress_damage(const struct derive_view *tile, double *out);
+
 #endif

@@ -63,6 +63,7 @@ void facts_put(const struct scene *scene, const struct model *model, int tile, s
         facts_put_law(material->name, "eos", &material->eos, notes);
         facts_put_law(material->name, "constitutive", &material->constitutive, notes);
         if (material->plastic.module) facts_put_law(material->name, "plastic", &material->plastic, notes);
+        if (material->damage.law.module) facts_put_law(material->name, "damage", &material->damage.law, notes);
         facts_put_law(material->name, "viscosity", &material->viscosity, notes);
         facts_put_law(material->name, "conductivity", &material->conductivity, notes);
     }

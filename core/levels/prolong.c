@@ -12,7 +12,7 @@
 #include "levels/prolong_slope.h"
 #include "mesh/metric.h"
 #include "mesh/post.h"
-#include "phys/elastic.h"
+#include "phys/bearing.h"
 #include "phys/mix.h"
 
 #include <string.h>
@@ -28,7 +28,7 @@ struct prolong {
     double *frame;                   /* [n_field][pitch]: a line of cells with all beside it along an axis */
     size_t pitch;
     double *w, *u, *rho_c2, *stiffness; /* blocks: primitives, conserved, rho c_f^2 and that of each material */
-    double *elastic;                    /* elastic energy per volume; NULL without a solid */
+    double *elastic;                    /* energy per volume, then [n_solid] masses that bear; NULL without a solid */
     struct prolong_held *held;          /* what forces make of pressure; NULL without */
 };
 
@@ -64,7 +64,8 @@ struct prolong *prolong_new(const struct model *model, const struct mesh *mesh)
     prolong->u = mem_new(model->n_field * prolong->cells, sizeof(double));
     prolong->stiffness = mem_new(model->n_material * prolong->cells, sizeof(double));
     prolong->rho_c2 = mem_new(prolong->cells, sizeof(double));
-    if (model->n_stretch) prolong->elastic = mem_new(prolong->cells, sizeof(double));
+    size_t bearing = model->damaged ? model->n_solid : 0;
+    if (model->n_stretch) prolong->elastic = mem_new((1 + bearing) * prolong->cells, sizeof(double));
     prolong->held = prolong_held_new(model, mesh, prolong->cells);
     return prolong;
 }
@@ -359,6 +360,8 @@ static void prolong_strain(struct prolong *prolong)
     if (!prolong->elastic) return;
     for (unsigned s = 0; s < model->n_solid; s++)
         m[s] = prolong->u + (model->i_m + model->solids[s].material) * prolong->cells;
+    double *left = prolong->elastic + prolong->cells;
+    bearing_of_conserved(model, prolong->cells, prolong->cells, prolong->u, prolong->cells, left, m);
     elastic_energy(model, prolong->cells, prolong->cells, prolong->u + model->i_V * prolong->cells, m,
                    prolong->elastic);
 }

@@ -7,6 +7,7 @@
  * absent stays absent. */
 #include "levels/prolong_cell.h"
 
+#include "phys/bearing.h"
 #include "phys/elastic.h"
 #include "phys/mix.h"
 
@@ -57,7 +58,7 @@ static double prolong_cell_slack(const struct prolong_cells *source, size_t at, 
     if (model->n_alpha && q < model->i_m) return CELL_TRACE;
     if (model->n_alpha && q < model->i_u) return CELL_TRACE * source->w[q * source->pitch + at];
     for (unsigned l = 0; l < model->n_material; l++) rho += source->u[(model->i_m + l) * source->pitch + at];
-    if (q < model->i_u || model_is_strain(model, q)) return CELL_ROUND_OFF * rho;
+    if (q < model->i_u || model_is_inner(model, q)) return CELL_ROUND_OFF * rho;
     return CELL_ROUND_OFF * (q < model->i_E ? sqrt(rho * stiffness) : stiffness);
 }
 
@@ -71,7 +72,7 @@ static double prolong_cell_share(const struct prolong_cells *source, size_t at, 
     struct prolong_cell_range range = prolong_cell_range(source, at, source->u + q * source->pitch, NULL);
     double slack = prolong_cell_slack(source, at, q), up = 0.0, down = 0.0, phi = 1.0;
     prolong_cell_widen(&range, mean);
-    bool positive = (q < source->model->i_u || model_is_strain(source->model, q)) && range.low >= 0.0;
+    bool positive = (q < source->model->i_u || model_is_inner(source->model, q)) && range.low >= 0.0;
     double low = range.low - slack, high = range.high + slack;
     if (positive && low < 0.5 * range.low) low = 0.5 * range.low;
     for (int axis = 0; axis < source->model->dim; axis++) {
@@ -100,7 +101,7 @@ static void prolong_cell_fill(const struct model *model, const double *mean, con
         for (int o = 0; o < 1 << model->dim; o++) {
             double share = q < sloped ? phi : 0.0;
             double value = mean[q] + share * prolong_cell_step(give, difference[q], o);
-            bool positive = q < model->i_u || model_is_strain(model, q);
+            bool positive = q < model->i_u || model_is_inner(model, q);
             ret->u[q][o] = positive && mean[q] >= 0.0 && value < 0.0 ? 0.0 : value;
         }
     elastic_settle(model, (size_t)1 << model->dim, PROLONG_CHILDREN, ret->u[0]);
@@ -117,11 +118,12 @@ static void prolong_cell_strain(const struct prolong_cells *source, size_t at, c
                                 struct prolong_children *children)
 {
     const struct model *model = source->model;
-    double difference[3], energy[PROLONG_CHILDREN];
+    double difference[3], energy[PROLONG_CHILDREN], left[SCENE_MATERIALS * PROLONG_CHILDREN];
     const double *m[SCENE_MATERIALS];
     memset(children->strain, 0, sizeof children->strain);
     if (!source->elastic) return;
     for (unsigned s = 0; s < model->n_solid; s++) m[s] = children->u[model->i_m + model->solids[s].material];
+    bearing_of_conserved(model, (size_t)1 << model->dim, PROLONG_CHILDREN, children->u[0], PROLONG_CHILDREN, left, m);
     elastic_energy(model, (size_t)1 << model->dim, PROLONG_CHILDREN, children->u[model->i_V], m, energy);
     prolong_cell_differ(source, source->elastic + at, difference);
     for (int o = 0; o < 1 << model->dim; o++)

@@ -41,7 +41,7 @@ static double spread_room(const struct spread *spread, size_t cell, const double
     for (unsigned q = 0; q < model->n_field; q++) {
         size_t at = q * spread->mesh->n_cell + cell;
         double now = spread->u[at] + delta[at], step = factor * change[q], has = step < 0.0 ? now : 1.0 - now;
-        bool fraction = q < model->n_alpha, bounded = q < model->i_u || q == model->i_E || model_is_strain(model, q);
+        bool fraction = q < model->n_alpha, bounded = q < model->i_u || q == model->i_E || model_is_inner(model, q);
         if (step == 0.0 || !bounded || (step > 0.0 && !fraction)) continue;
         has = has > 0.0 ? has : 0.0;
         if (has < room * fabs(step)) room = has / fabs(step);

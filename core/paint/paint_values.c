@@ -317,7 +317,7 @@ int paint_values_at(const struct paint_values *values, const double x[3], const 
         return paint_values_fail(values, x, what);
     }
     TRY(paint_values_materials(values, x, &said, before, w));
-    for (unsigned s = 0; s < model->n_strain; s++) w[model->i_strain + s] = 0.0;
+    for (unsigned s = 0; s < model->n_inner; s++) w[model->i_inner + s] = 0.0;
     paint_stretch_relaxed(model, 1, 1, w);
     for (unsigned q = model->i_normal; q < model->n_field; q++) w[q] = 0.0; /* no surface at a point */
     return model->n_stretch ? paint_values_stretch(values, x, &said, before, w) : STATUS_OK;

@@ -185,7 +185,6 @@ static void equilibrium_begin(const struct equilibrium_family *family, struct eq
         at->state[i] = at->gas[i] = at->share[i] = 0.0;
         for (unsigned k = EQUILIBRIUM_GAS; k < family->n && family->mixing; k++)
             at->gas[i] += cells->m[k][i] * family->R[k];
-        for (unsigned k = 0; k < family->n; k++) cells->v[k][i] = 0.0;
         if (!family->exchange) continue;
         if (*vapour < least) *vapour = least, *liquid = all - least;
         if (*liquid < least) *liquid = least, *vapour = all - least;
@@ -208,15 +207,26 @@ static void equilibrium_settle(const struct equilibrium_family *family, const st
     for (unsigned k = 0; k < family->n; k++) cells->m[k][i] = point.m[k], cells->v[k][i] = point.v[k];
 }
 
+/* Volumes of one material at (p, T), from those close by where the law has to search. */
+static void equilibrium_volume(const struct model_eos *eos, size_t n, const double *p, const double *T,
+                               struct equilibrium_newton *at, double *v)
+{
+    if (eos->law->linear) {
+        eos->law->density(eos->self, n, p, T, at->rho);
+        for (size_t i = 0; i < n; i++) v[i] = 1.0 / at->rho[i];
+        return;
+    }
+    for (size_t i = 0; i < n; i++) at->rho[i] = v[i] > 0.0 ? 1.0 / v[i] : 0.0;
+    eos->law->thermal(eos->self, n, p, T, at->rho, v, at->h[0], at->s[0], at->v_T, at->v_p, at->c_p);
+}
+
 /* Volumes at the answers, for rows that stand at a point a step ago. */
 static void equilibrium_volumes(const struct equilibrium_family *family, struct equilibrium_cells *cells,
                                 struct equilibrium_newton *at)
 {
     size_t n = cells->n;
-    for (unsigned k = 0; k < family->n; k++) {
-        family->eos[k].law->density(family->eos[k].self, n, cells->p, cells->T, at->rho);
-        for (size_t i = 0; i < n; i++) cells->v[k][i] = 1.0 / at->rho[i];
-    }
+    for (unsigned k = 0; k < family->n; k++)
+        equilibrium_volume(&family->eos[k], n, cells->p, cells->T, at, cells->v[k]);
     for (unsigned k = 0; k < cells->n_other; k++)
         for (size_t i = 0; i < n; i++)
             cells->v_other[k][i] = squeeze_volume(&cells->other[k], cells->v0[k][i], cells->e0[k][i], cells->p[i]);

@@ -34,7 +34,7 @@ struct equilibrium_family {
 enum equilibrium_regime { EQUILIBRIUM_NONE, EQUILIBRIUM_TWO_PHASE, EQUILIBRIUM_ALL_VAPOUR, EQUILIBRIUM_ALL_LIQUID };
 
 /* n <= EQUILIBRIUM_BLOCK cells of unit volume. In: masses m of the family [kg/m3], m_o, v0 and e0 of n_other others,
- * energy E [J/m3], and p, T to start from. Out: p, T, masses of liquid and vapour (their sum is kept to round-off), specific volumes
+ * energy E [J/m3], and p, T and specific volumes v (or 0) to start from. Out: p, T, masses of liquid and vapour (their sum is kept to round-off), specific volumes
  * of all, regime. EQUILIBRIUM_NONE: no state of these masses has so little energy; numbers of that cell mean nothing. */
 struct equilibrium_cells {
     size_t n;

@@ -6,6 +6,7 @@
  * the error. */
 #include "phys/flow.h"
 
+#include "phys/bearing.h"
 #include "phys/elastic.h"
 #include "phys/elastic_tensor.h"
 #include "phys/flow_curve.h"
@@ -29,7 +30,9 @@ struct flow_solid {
     const struct model_solid *solid;
     const struct model_eos *eos;
     double m[FLOW_BATCH];                                     /* partial density [kg/m3] */
-    double alpha[FLOW_BATCH];                                 /* of its volume */
+    double left[FLOW_BATCH];                                  /* the same of one that can break, as far as it bears */
+    const double *bears;                                      /* left, or m */
+    double alpha[FLOW_BATCH];                                 /* of its volume, as far as it bears */
     double eps[FLOW_BATCH];                                   /* plastic strain when the step began */
     double p[FLOW_BATCH], rho[FLOW_BATCH], per_p[FLOW_BATCH]; /* own pressure, density, d(rho e)/dp */
 };
@@ -273,7 +276,7 @@ static double flow_miss(struct flow *flow)
     double A[FLOW_BATCH], part[FLOW_BATCH], most = 0.0;
     size_t n = flow->n;
     flow_curve(n, flow, flow->E, flow->first, flow->r, flow->grown);
-    for (unsigned s = 0; s < flow->n_solid; s++) m[s] = flow->solids[s].m;
+    for (unsigned s = 0; s < flow->n_solid; s++) m[s] = flow->solids[s].bears;
     flow_moduli(flow->model, n, flow->first, m, true, A);
     flow_moduli(flow->model, n, flow->first, m, false, part);
     for (size_t i = 0; i < n; i++) flow->q[i] = (A[i] + part[i]) * flow->r[i];
@@ -324,6 +327,18 @@ static void flow_gather_state(struct flow *flow, size_t n, size_t stride, const 
     own->eos->law->derivatives(own->eos->self, flow->n, own->rho, own->p, own->per_p, none);
 }
 
+/* What bears of a solid that can break. */
+static void flow_weaken(const struct flow *flow, size_t stride, const double *u, struct flow_solid *own)
+{
+    const struct model_damage *damage = &own->solid->damage;
+    own->bears = damage->law ? own->left : own->m;
+    for (size_t i = 0; damage->law && i < flow->n; i++) {
+        double part = bearing_part(flow_part(u[damage->field * stride + flow->cell[i]], own->m[i]));
+        own->left[i] = part * own->m[i];
+        own->alpha[i] *= part;
+    }
+}
+
 static void flow_gather_solid(struct flow *flow, size_t n, size_t stride, const double *w, const double *u, unsigned s)
 {
     const struct model *model = flow->model;
@@ -332,17 +347,18 @@ static void flow_gather_solid(struct flow *flow, size_t n, size_t stride, const 
     unsigned l = own->solid->material;
     own->eos = &model->eos[l];
     flow_gather(flow, u + (model->i_m + l) * stride, own->m);
-    if (!own->solid->strength) return;
     if (model->n_alpha) flow_gather(flow, u + (model->i_alpha + l) * stride, own->alpha);
     for (size_t i = 0; !model->n_alpha && i < flow->n; i++) own->alpha[i] = 1.0;
+    flow_weaken(flow, stride, u, own);
+    if (!own->solid->strength) return;
     if (own->solid->strain)
         for (size_t i = 0; i < flow->n; i++)
             own->eps[i] = flow_part(u[own->solid->strain * stride + flow->cell[i]], own->m[i]);
     flow_gather_state(flow, n, stride, w, own);
 }
 
-/* The stretches of the cells that yield, put back, and what their strains have grown by. */
-static void flow_scatter(struct flow *flow, size_t stride, double *u)
+/* The stretches of the cells that yield, put back, and what their strains have grown by: also into `grown`, if any. */
+static void flow_scatter(struct flow *flow, size_t stride, double *u, double *grown)
 {
     const struct model *model = flow->model;
     struct elastic_rows rows = elastic_tensor_rows(flow->V[0], FLOW_BATCH, model->n_stretch);
@@ -351,6 +367,7 @@ static void flow_scatter(struct flow *flow, size_t stride, double *u)
     elastic_unimodular(model, flow->n, FLOW_BATCH, out[0]);
     for (unsigned c = 0; c < model->n_stretch; c++)
         for (size_t i = 0; i < flow->n; i++) u[(model->i_V + c) * stride + flow->cell[i]] = out[c][i];
+    for (size_t i = 0; grown && i < flow->n; i++) grown[flow->cell[i]] = flow->grown[i];
     for (unsigned s = 0; s < flow->n_solid; s++) {
         double *amount = u + flow->solids[s].solid->strain * stride;
         if (amount == u) continue;
@@ -363,10 +380,11 @@ static void flow_find(struct flow *flow, size_t n, size_t stride, const double *
 {
     const struct model *model = flow->model;
     const double *m[SCENE_MATERIALS];
-    double first[FLOW_BATCH], r[FLOW_BATCH], A[FLOW_BATCH], part[FLOW_BATCH];
+    double first[FLOW_BATCH], r[FLOW_BATCH], A[FLOW_BATCH], part[FLOW_BATCH], left[SCENE_MATERIALS][FLOW_BATCH];
     struct elastic_rows rows = elastic_tensor_rows(u + model->i_V * stride, stride, model->n_stretch);
     ELASTIC_CHOOSE(model->n_velocity, flow_measure, n, rows, first, r);
     for (unsigned s = 0; s < model->n_solid; s++) m[s] = u + (model->i_m + model->solids[s].material) * stride;
+    bearing_of_conserved(model, n, stride, u, FLOW_BATCH, left[0], m);
     flow_moduli(model, n, first, m, true, A);
     flow_moduli(model, n, first, m, false, part);
     flow->n = n;
@@ -396,7 +414,7 @@ static void flow_select(struct flow *flow)
     flow->n = kept;
 }
 
-static void flow_batch(struct flow *flow, size_t n, size_t stride, const double *w, double *u)
+static void flow_batch(struct flow *flow, size_t n, size_t stride, const double *w, double *u, double *grown)
 {
     const struct model *model = flow->model;
     flow_find(flow, n, stride, w, u);
@@ -407,17 +425,20 @@ static void flow_batch(struct flow *flow, size_t n, size_t stride, const double 
     struct elastic_rows rows = elastic_tensor_rows(flow->V[0], FLOW_BATCH, model->n_stretch);
     ELASTIC_CHOOSE(model->n_velocity, flow_open, flow->n, rows, flow->I1, flow->I2, flow->a, flow->b, flow->c);
     flow_search(flow);
-    flow_scatter(flow, stride, u);
+    flow_scatter(flow, stride, u, grown);
 }
 
-void flow_return(const struct model *model, size_t n, size_t stride, double dt, const double *w, double *u)
+void flow_return(const struct model *model, size_t n, size_t stride, double dt, const double *w, double *u,
+                 double *grown)
 {
     struct flow flow; /* large: filled as far as it is used */
     flow.model = model;
     flow.dt = dt;
     flow.n_solid = model->n_solid;
+    if (grown) memset(grown, 0, n * sizeof *grown);
     for (size_t from = 0; from < n; from += FLOW_BATCH)
-        flow_batch(&flow, n - from < FLOW_BATCH ? n - from : FLOW_BATCH, stride, w + from, u + from);
+        flow_batch(&flow, n - from < FLOW_BATCH ? n - from : FLOW_BATCH, stride, w + from, u + from,
+                   grown ? grown + from : NULL);
 }
 
 void flow_strength(const struct model *model, size_t n, size_t stride, const double *w, double *ret)
@@ -438,6 +459,8 @@ void flow_strength(const struct model *model, size_t n, size_t stride, const dou
                                          here + (model->i_m + l) * stride};
             flow_ask(solid, &model->eos[l], part, at, T, Y);
             for (size_t i = 0; i < part; i++) alpha[i] = model->n_alpha ? here[(model->i_alpha + l) * stride + i] : 1.0;
+            for (size_t i = 0; solid->damage.law && i < part; i++)
+                alpha[i] *= bearing_part(here[solid->damage.field * stride + i]);
             flow_bear(part, alpha, Y, ret + from);
         }
     }

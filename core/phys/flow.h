@@ -6,7 +6,8 @@
  * x is the one unknown, found by secants in a bracket. Mass, momentum and total energy stay as they are.
  *
  * A cell of several solids has one stretch: those with a strength yield together where sum alpha_l (q_l - Y_l) > 0, and
- * what elastic solids beside them bear stays. */
+ * what elastic solids beside them bear stays. A damaged solid has (1 - D)^2 of its stress and of its strength (bearing.h):
+ * alone it flows as if it were whole. */
 #ifndef FLOW_H
 #define FLOW_H
 
@@ -18,8 +19,9 @@
 bool flow_reads(const struct model *path);
 
 /* Lets the stretch, and the plastic strain where it is a field, of n points flow for dt. u: conserved fields; w: their primitives where
- * flow_reads(). Points at which nothing yields keep their bits. */
-void flow_return(const struct model *model, size_t n, size_t stride, double dt, const double *w, double *u);
+ * flow_reads(). Points at which nothing yields keep their bits. grown: what the plastic strain grows by, or NULL. */
+void flow_return(const struct model *model, size_t n, size_t stride, double dt, const double *w, double *u,
+                 double *grown);
 
 /* What the solids of n points can bear when they flow slowly: sum alpha_l Y_l of those with a strength, from primitives w [Pa]. */
 void flow_strength(const struct model *model, size_t n, size_t stride, const double *w, double *ret);

@@ -6,6 +6,7 @@
  * point, and its weight alpha_l = 0 removes it. */
 #include "phys/mix.h"
 
+#include "phys/bearing.h"
 #include "phys/elastic.h"
 #include "phys/present.h"
 #include "phys/row.h"
@@ -134,23 +135,25 @@ static void mix_curvatures(const struct model *model, size_t n, size_t stride, c
         memcpy(to + model->pairs[k].i_kappa * stride, from + model->pairs[k].i_kappa * stride, n * sizeof *to);
 }
 
-/* eps = m eps/m; 0 where there is nothing of the solid. */
-static BULLA_KERNEL void mix_strain(size_t n, const double *restrict amount, const double *restrict m,
+/* eps = m eps/m, at most `most`; 0 where there is nothing of the solid. */
+static BULLA_KERNEL void mix_strain(size_t n, double most, const double *restrict amount, const double *restrict m,
                                     double *restrict eps)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double mass = m[i], value = amount[i] / mass;
+        value = value > most ? most : value;
         eps[i] = mass > ELASTIC_NOTHING ? value : 0.0;
     }
 }
 
-/* Plastic strains of the solids that have one. */
+/* What the solids remember: plastic strains and damage. */
 static void mix_strains(const struct model *model, size_t n, size_t stride, const double *u, double *w)
 {
-    for (unsigned s = 0; s < model->n_solid; s++) {
-        unsigned q = model->solids[s].strain, l = model->i_m + model->solids[s].material;
-        if (q) mix_strain(n, u + q * stride, u + l * stride, w + q * stride);
+    for (unsigned k = 0; k < model->n_memory; k++) {
+        const struct model_memory *memory = &model->memories[k];
+        unsigned q = memory->field, l = model->i_m + model->solids[memory->solid].material;
+        mix_strain(n, memory->most, u + q * stride, u + l * stride, w + q * stride);
     }
 }
 
@@ -158,10 +161,11 @@ static void mix_strains(const struct model *model, size_t n, size_t stride, cons
 static void mix_unload(const struct model *model, size_t n, size_t stride, const double *u, double *w,
                        struct mix_row *ret_rest)
 {
-    struct mix_row elastic;
+    struct mix_row elastic, left[SCENE_MATERIALS];
     const double *m[SCENE_MATERIALS];
     mix_solids(model, stride, u, m);
     mix_strains(model, n, stride, u, w);
+    bearing_of_conserved(model, n, stride, u, MIX_BATCH, left->value, m);
     for (unsigned i = model_drawn(model); i < model_edged(model); i++)
         memcpy(w + model->active[i] * stride, u + model->active[i] * stride, n * sizeof *w);
     elastic_energy(model, n, stride, u + model->i_V * stride, m, elastic.value);
@@ -231,13 +235,14 @@ struct mix_effort mix_primitives(const struct model *model, size_t n, size_t str
 /* Copies stretches and adds the elastic energy; u has its partial densities. */
 static void mix_load(const struct model *model, size_t n, size_t stride, const double *w, double *u, double *energy)
 {
-    struct mix_row elastic;
+    struct mix_row elastic, left[SCENE_MATERIALS];
     const double *m[SCENE_MATERIALS];
     mix_solids(model, stride, u, m);
-    for (unsigned s = 0; s < model->n_solid; s++) {
-        size_t at = model->solids[s].strain * stride;
-        for (size_t i = 0; at && i < n; i++) u[at + i] = m[s][i] * w[at + i];
+    for (unsigned k = 0; k < model->n_memory; k++) {
+        size_t at = model->memories[k].field * stride;
+        for (size_t i = 0; i < n; i++) u[at + i] = m[model->memories[k].solid][i] * w[at + i];
     }
+    bearing_of(model, n, stride, w, MIX_BATCH, left->value, m);
     for (unsigned i = model_drawn(model); i < model_edged(model); i++)
         memcpy(u + model->active[i] * stride, w + model->active[i] * stride, n * sizeof *u);
     elastic_energy(model, n, stride, w + model->i_V * stride, m, elastic.value);
@@ -329,7 +334,7 @@ void mix_stiffness_everywhere(const struct model *model, size_t n, size_t stride
     mix_stiff(model, n, stride, w, true, rho_c2);
 }
 
-/* Partial densities alpha_l rho_l of the solids from primitives; one material alone has them at hand. */
+/* Partial densities alpha_l rho_l of the solids from primitives, as far as they bear; one material alone has them at hand. */
 static void mix_solid_densities(const struct model *model, size_t n, size_t stride, const double *w,
                                 struct mix_row *masses, const double **ret_m)
 {
@@ -342,13 +347,14 @@ static void mix_solid_densities(const struct model *model, size_t n, size_t stri
         row_add_product(n, w + (model->i_alpha + l) * stride, rho, masses[s].value);
         ret_m[s] = masses[s].value;
     }
+    bearing_of(model, n, stride, w, MIX_BATCH, masses[SCENE_MATERIALS].value, ret_m);
 }
 
 /* What elasticity adds to c^2. */
 static void mix_quicken(const struct model *model, size_t n, size_t stride, const double *w, const double *rho,
                         double *c2)
 {
-    struct mix_row masses[SCENE_MATERIALS];
+    struct mix_row masses[2 * SCENE_MATERIALS];
     const double *m[SCENE_MATERIALS];
     if (!model->n_stretch) return;
     mix_solid_densities(model, n, stride, w, masses, m);
@@ -357,7 +363,7 @@ static void mix_quicken(const struct model *model, size_t n, size_t stride, cons
 
 void mix_hoop(const struct model *model, size_t n, size_t stride, const double *w, double *ret)
 {
-    struct mix_row masses[SCENE_MATERIALS];
+    struct mix_row masses[2 * SCENE_MATERIALS];
     const double *m[SCENE_MATERIALS];
     for (size_t i = 0; i < n; i += MIX_BATCH) {
         size_t part = n - i < MIX_BATCH ? n - i : MIX_BATCH;

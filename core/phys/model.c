@@ -46,10 +46,11 @@ static void model_name_fields(struct model *model)
         model->field_names[at++] = mem_print("partial_density_%s", model->scene->material[l].name);
     for (unsigned d = 0; d < model->n_velocity; d++) model->field_names[at++] = mem_text(momentum[d]);
     model->field_names[at++] = mem_text("total_energy");
-    for (unsigned s = 0; s < model->n_solid; s++)
-        if (model->solids[s].strain)
-            model->field_names[at++] =
-                mem_print("plastic_strain_mass_%s", model->scene->material[model->solids[s].material].name);
+    for (unsigned k = 0; k < model->n_memory; k++) {
+        const struct model_solid *solid = &model->solids[model->memories[k].solid];
+        const char *what = model->memories[k].field == solid->strain ? "plastic_strain" : "damage";
+        model->field_names[at++] = mem_print("%s_mass_%s", what, model->scene->material[solid->material].name);
+    }
     for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = mem_print("stretch_%s", model_tensor[c]);
     for (unsigned b = 0; b < model->n_branch; b++)
         for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = model_branch_name(model, b, c);
@@ -77,14 +78,15 @@ static void model_name_derived(struct model *model)
     static const char *const plastic[] = {"flow_stress",
                                           "plastic_strain"}; /* with a strength; one that knows strains */
     size_t n_solid = model->elastic ? sizeof solid / sizeof *solid : 0;
-    size_t n_plastic = model->n_strain ? 2 : model->plastic ? 1 : 0, n_branched = model->n_branch > 0;
+    size_t n_plastic = model->aged ? 2 : model->plastic ? 1 : 0, n_branched = model->n_branch > 0;
     size_t n_derived = (size_t)model->scene->n_derived * BULLA_FIELD_OUTPUTS, n_rigid = model->scene->n_rigid > 0;
-    model->names =
-        mem_new(n_plain + n_solid + n_plastic + n_branched + n_rigid + (n_each + 4) * model->n_material + n_derived + 1,
-                sizeof *model->names);
+    model->names = mem_new(n_plain + n_solid + n_plastic + model->damaged + n_branched + n_rigid +
+                               (n_each + 4) * model->n_material + n_derived + 1,
+                           sizeof *model->names);
     for (size_t i = 0; i < n_plain; i++) model->names[at++] = mem_text(plain[i]);
     for (size_t i = 0; i < n_solid; i++) model->names[at++] = mem_text(solid[i]);
     for (size_t i = 0; i < n_plastic; i++) model->names[at++] = mem_text(plastic[i]);
+    if (model->damaged) model->names[at++] = mem_text("damage");
     if (n_branched) model->names[at++] = mem_text("overstress");
     if (n_rigid) model->names[at++] = mem_text("body");
     for (unsigned l = 0; l < model->n_material; l++) {
@@ -184,6 +186,20 @@ static void model_narrow_branches(const struct model *model, unsigned s, struct 
     }
 }
 
+/* What solid s remembers, which becomes the next solid of a narrowed model; its void's gas may be outside of that. */
+static void model_narrow_memories(const struct model *model, unsigned s, struct model *narrow)
+{
+    struct model_damage *damage = &narrow->solids[narrow->n_solid].damage;
+    narrow->damaged = narrow->damaged || damage->law;
+    damage->gas -= narrow->first; /* wraps where it stands before */
+    damage->opens = damage->opens && damage->gas < narrow->n_alpha;
+    for (unsigned k = 0; k < model->n_memory; k++) {
+        if (model->memories[k].solid != s) continue;
+        narrow->memories[narrow->n_memory] = model->memories[k];
+        narrow->memories[narrow->n_memory++].solid = narrow->n_solid;
+    }
+}
+
 /* The model of a region that holds nothing but the n materials from `first`: works on the same blocks, leaves the
  * other materials' components alone, and the stretch where none of them is a solid; gives bitwise what the full model
  * would. One material alone needs no fractions either. */
@@ -198,9 +214,9 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     narrow->i_m = model->i_m + first;
     narrow->kapila = model->kapila && n > 1;
     narrow->linear = true;
-    narrow->n_solid = narrow->n_active = narrow->n_branch = 0;
+    narrow->n_solid = narrow->n_active = narrow->n_branch = narrow->n_memory = 0;
     narrow->viscous = false;
-    narrow->plastic = false;
+    narrow->plastic = narrow->damaged = false;
     for (unsigned l = 0; l < n; l++) {
         narrow->eos[l] = model->eos[first + l];
         narrow->viscosity[l] = model->viscosity[first + l];
@@ -214,6 +230,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
         narrow->plastic = narrow->plastic || model->solids[s].strength;
         model_narrow_branches(model, s, narrow);
         narrow->solids[narrow->n_solid] = model->solids[s];
+        model_narrow_memories(model, s, narrow);
         narrow->solids[narrow->n_solid++].material = l;
     }
     if (narrow->n_solid == 0) narrow->n_stretch = 0;
@@ -225,8 +242,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     for (unsigned l = 0; l < narrow->n_alpha; l++) narrow->active[narrow->n_active++] = narrow->i_alpha + l;
     for (unsigned l = 0; l < n; l++) narrow->active[narrow->n_active++] = narrow->i_m + l;
     for (unsigned q = model->i_u; q <= model->i_E; q++) narrow->active[narrow->n_active++] = q;
-    for (unsigned s = 0; s < narrow->n_solid; s++)
-        if (narrow->solids[s].strain) narrow->active[narrow->n_active++] = narrow->solids[s].strain;
+    for (unsigned k = 0; k < narrow->n_memory; k++) narrow->active[narrow->n_active++] = narrow->memories[k].field;
     for (unsigned k = 0; k < model_stretches(narrow); k++)
         for (unsigned c = 0; c < narrow->n_stretch; c++)
             narrow->active[narrow->n_active++] = model_stretch(narrow, k) + c;
@@ -261,22 +277,58 @@ static void model_stretch_all(struct model *model)
     model->n_stretched = model->n_field - model->i_V;
 }
 
+/* A field of what the last solid remembers. */
+static unsigned model_remember(struct model *model, double most)
+{
+    unsigned field = model->i_inner + model->n_inner++;
+    model->memories[model->n_memory++] =
+        (struct model_memory){.solid = model->n_solid - 1, .field = field, .most = most};
+    return field;
+}
+
+/* The strength of the last solid. */
+static void model_strength(struct model *model, const struct instance *plastic)
+{
+    struct model_solid *solid = &model->solids[model->n_solid - 1];
+    if (!plastic->module) return;
+    solid->strength = plastic->module->table;
+    solid->strength_self = plastic->self;
+    solid->needs = solid->strength->needs(plastic->self);
+    model->plastic = true;
+    if (!(solid->needs & BULLA_INELASTIC_STRAIN)) return;
+    solid->strain = model_remember(model, HUGE_VAL);
+    model->aged = true;
+}
+
+/* How the last solid breaks. */
+static void model_damage(struct model *model, const struct scene_damage *scene)
+{
+    struct model_damage *damage = &model->solids[model->n_solid - 1].damage;
+    if (!scene->law.module) return;
+    *damage = (struct model_damage){.law = scene->law.module->table,
+                                    .self = scene->law.self,
+                                    .field = model_remember(model, 1.0),
+                                    .time = scene->time,
+                                    .opens = scene->opens,
+                                    .gas = scene->gas,
+                                    .p = scene->pressure,
+                                    .rho = scene->density};
+    damage->needs = damage->law->needs(scene->law.self);
+    model->damaged = true;
+}
+
 /* The solids of a scene. */
 static void model_solids(struct model *model)
 {
     for (unsigned l = 0; l < model->n_material; l++) {
-        const struct instance *law = &model->scene->material[l].constitutive;
-        const struct instance *plastic = &model->scene->material[l].plastic;
+        const struct scene_material *material = &model->scene->material[l];
+        const struct instance *law = &material->constitutive;
         if (!law->module) continue;
         struct model_solid *solid = &model->solids[model->n_solid++];
         *solid = (struct model_solid){.law = law->module->table, .self = law->self, .material = l};
         solid->slack = model_is_slack(solid);
-        if (!plastic->module) continue;
-        solid->strength = plastic->module->table;
-        solid->strength_self = plastic->self;
-        solid->needs = solid->strength->needs(plastic->self);
-        model->plastic = true;
-        if (solid->needs & BULLA_INELASTIC_STRAIN) solid->strain = model->i_strain + model->n_strain++;
+        model_strength(model, &material->plastic);
+        model_damage(model, &material->damage);
     }
     model->elastic = model->n_solid > 0;
 }
@@ -349,9 +401,9 @@ struct model *model_new(const struct scene *scene)
     model->i_u = model->i_m + model->n_material;
     model->n_velocity = (unsigned)scene->domain.n_velocity;
     model->i_E = model->i_u + model->n_velocity;
-    model->i_strain = model->i_E + 1;
+    model->i_inner = model->i_E + 1;
     model_solids(model);
-    model->i_V = model->i_strain + model->n_strain;
+    model->i_V = model->i_inner + model->n_inner;
     model_stretch_all(model);
     model->i_normal = model->n_field;
     model->split = model_is_split(model);

@@ -1,12 +1,13 @@
 /* model.h - which fields exist and the laws behind them: built once from a scene.
  *
  * Conserved fields u, in this order: alpha_l (N of them, none if N = 1), m_l = alpha_l rho_l,
- * rho u_i (n_velocity), rho E, m_l eps_l (n_strain: of solids whose strength knows their plastic strain eps) and, in a
- * scene with a solid, the stretch V (n_stretch: xx, yy, zz, then xy, then xz, yz, as far as n_velocity reaches), then as
- * many more for each Maxwell branch of a solid, which has a stretch of its own (scheme/viscoelastic.h).
+ * rho u_i (n_velocity), rho E, what solids remember (n_inner: m_l eps_l of those whose strength knows their plastic strain
+ * eps, m_l D_l of those that can break, D their damage from 0 to 1) and, in a scene with a solid, the stretch V
+ * (n_stretch: xx, yy, zz, then xy, then xz, yz, as far as n_velocity reaches), then as many more for each Maxwell branch of
+ * a solid, which has a stretch of its own (scheme/viscoelastic.h).
  * Last, for each pair of materials with surface tension, the curvature of their interface in the cell, which is no
  * conserved field but made anew from the fractions in every stage (scheme/tension.h).
- * Primitives w, same count: alpha_l, rho_l, u_i, p, eps_l, V, those of the branches, kappa. For N = 1 m is rho.
+ * Primitives w, same count: alpha_l, rho_l, u_i, p, eps_l and D_l, V, those of the branches, kappa. For N = 1 m is rho.
  *
  * This folder, phys: materials at points: which fields there are, mixtures, elasticity, presence, relaxation.
  * Batches of points, no neighbours. */
@@ -15,6 +16,7 @@
 
 #include "bulla/conductivity.h"
 #include "bulla/constitutive.h"
+#include "bulla/damage.h"
 #include "bulla/eos.h"
 #include "bulla/inelastic.h"
 #include "bulla/limiter.h"
@@ -42,6 +44,22 @@ struct model_solid {
     unsigned strain; /* field of its plastic strain; 0: it has none */
     unsigned needs;  /* enum bulla_inelastic_needs, of the strength */
     bool slack;      /* its law bears nothing, as in a Maxwell fluid: its stretch means nothing and stays 1 */
+    struct model_damage {
+        const struct bulla_damage *law; /* NULL: it never breaks */
+        const void *self;
+        unsigned field; /* of m D */
+        unsigned needs; /* enum bulla_damage_needs */
+        double time;    /* in which it breaks at the fastest [s]; 0: at once */
+        bool opens;     /* where it breaks in tension, a void opens */
+        unsigned gas;   /* that fills it: a material of the same model */
+        double p, rho;  /* pressure and density of the gas in a new void [Pa, kg/m3] */
+    } damage;
+};
+
+/* What a solid remembers beside its stretch, as a field that travels with its mass: m times the plastic strain or damage. */
+struct model_memory {
+    unsigned solid, field; /* index into the solids of the same model */
+    double most;           /* of what it remembers: 1 of damage */
 };
 
 /* A Maxwell branch of a solid: a neo-Hookean spring on a stretch of its own, e = k (I1 - 3), and a dashpot in a row. */
@@ -86,9 +104,9 @@ struct model_phase {
     const struct scene_phase *scene;
 };
 
-/* Most evolved fields a scene can have: fractions, densities, velocities, energy, plastic strains, stretches, normals,
+/* Most evolved fields a scene can have: fractions, densities, velocities, energy, memories of solids, stretches, normals,
  * curvatures. */
-enum { MODEL_FIELDS = 3 * SCENE_MATERIALS + 3 + 1 + 6 * (1 + SCENE_BRANCHES) + 3 + SCENE_PAIRS };
+enum { MODEL_FIELDS = 4 * SCENE_MATERIALS + 3 + 1 + 6 * (1 + SCENE_BRANCHES) + 3 + SCENE_PAIRS };
 
 struct model {
     const struct scene *scene;
@@ -99,7 +117,9 @@ struct model {
     unsigned n_stretched; /* components of all stretches of the scene, be they of this path or not */
     unsigned n_branch;
     struct model_branch branches[SCENE_BRANCHES];
-    unsigned n_strain, i_strain; /* plastic strains of the scene: first index */
+    unsigned n_inner, i_inner; /* what the solids of the scene remember: first index */
+    unsigned n_memory;         /* the same of this path */
+    struct model_memory memories[2 * SCENE_MATERIALS];
     unsigned n_pair;
     struct model_pair pairs[SCENE_PAIRS];
     unsigned n_phase;
@@ -112,6 +132,8 @@ struct model {
     bool mixed;                              /* the scene has several materials */
     bool elastic;                            /* the scene has a solid (this path need not) */
     bool plastic;                            /* some solid of this path has a strength (flow.h) */
+    bool aged;                               /* the scene has a plastic strain as a field */
+    bool damaged;                            /* some solid of this path can break (damage.h) */
     struct model *pure[SCENE_MATERIALS];     /* the same scene where only material l is present (NULL for N = 1): one
                                             material, no fractions, indices into the same storage */
     struct model *fluids; /* the same scene where only its fluids are present; NULL without a solid, with less
@@ -194,10 +216,10 @@ static inline bool model_carries(const struct model *model, unsigned k, unsigned
     return k ? model->branches[k - 1].solid == s : !model->solids[s].slack;
 }
 
-/* Is component q a plastic strain? */
-static inline bool model_is_strain(const struct model *model, unsigned q)
+/* Is component q what a solid remembers? */
+static inline bool model_is_inner(const struct model *model, unsigned q)
 {
-    return q - model->i_strain < model->n_strain; /* wraps below i_strain */
+    return q - model->i_inner < model->n_inner; /* wraps below i_inner */
 }
 
 /* Number of a path for files: -1 the scene's model, l its material l alone, SCENE_MATERIALS its fluids. */

@@ -137,6 +137,7 @@ static void phase_fill(struct phase_block *block)
             if (there > 0.0 && rho_c2[i] > block->blur[i]) block->blur[i] = rho_c2[i];
             if (k < 2) cells->m[k][i] = block->u[model->i_m + l][i];
             else if (k < block->phase->n) cells->m[k][i] = m;
+            if (k < block->phase->n) cells->v[k][i] = there > 0.0 ? 1.0 / rho[i] : 0.0;
             if (k < block->phase->n) continue;
             cells->m_other[o][i] = m;
             cells->v0[o][i] = 1.0 / rho[i];
@@ -152,8 +153,10 @@ static void phase_fill(struct phase_block *block)
 static double phase_drive_alone(const struct phase_block *block, size_t i, double tension, double superheat)
 {
     const struct equilibrium_family *family = &block->family;
+    const double v_l = block->cells.v[0][i], v_v = block->cells.v[1][i];
     const struct saturation pair = {{family->eos[0].law, family->eos[1].law},
-                                    {family->eos[0].self, family->eos[1].self}};
+                                    {family->eos[0].self, family->eos[1].self},
+                                    {v_l > 0.0 ? 1.0 / v_l : 0.0, v_v > 0.0 ? 1.0 / v_v : 0.0}};
     double p = block->cells.p[i] + tension, T = block->cells.T[i] - superheat;
     if (!(p > 0.0)) return -HUGE_VAL;
     return saturation_at(&pair, p, T).drive / (family->R[EQUILIBRIUM_VAPOUR] * T);
@@ -230,7 +233,10 @@ static void phase_move(struct phase_block *block, size_t i, size_t to)
     block->alone[to] = block->alone[i];
     for (unsigned l = 0; l < block->model->n_material; l++)
         block->u[block->model->i_alpha + l][to] = block->u[block->model->i_alpha + l][i];
-    for (unsigned k = 0; k < block->phase->n; k++) cells->m[k][to] = cells->m[k][i];
+    for (unsigned k = 0; k < block->phase->n; k++) {
+        cells->m[k][to] = cells->m[k][i];
+        cells->v[k][to] = cells->v[k][i];
+    }
     for (unsigned k = 0; k < cells->n_other; k++) {
         cells->m_other[k][to] = cells->m_other[k][i];
         cells->v0[k][to] = cells->v0[k][i];

@@ -1,6 +1,7 @@
 /* relax.c - see relax.h. Scalar code: it runs in a handful of cells. */
 #include "phys/relax.h"
 
+#include "phys/bearing.h"
 #include "phys/elastic.h"
 #include "phys/mix.h"
 #include "phys/squeeze.h"
@@ -200,8 +201,9 @@ static double relax_elastic(const struct relax *relax)
 {
     const struct model *model = relax->model;
     const double *m[SCENE_MATERIALS];
-    double energy = 0.0;
+    double energy = 0.0, left[SCENE_MATERIALS];
     for (unsigned s = 0; s < model->n_solid; s++) m[s] = &relax->u[model->i_m + model->solids[s].material];
+    bearing_of_conserved(model, 1, 1, relax->u, 1, left, m);
     if (model->n_stretch) elastic_energy(model, 1, 1, relax->u + model->i_V, m, &energy);
     return energy;
 }

@@ -1,6 +1,7 @@
 /* traction.c - see traction.h. */
 #include "phys/traction.h"
 
+#include "phys/bearing.h"
 #include "phys/elastic.h"
 #include "phys/row.h"
 
@@ -74,9 +75,9 @@ static void traction_of(const struct model *model, size_t n, const double *rho, 
                         row[ELASTIC_ZZ], view->I1, view->I2, view->e_1, view->e_2, own);
 }
 
-/* What the Maxwell branches of the solids add: each a neo-Hookean spring on its own stretch. */
-static void traction_branches(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
-                              double *own)
+/* What the Maxwell branches of the solids add: each a neo-Hookean spring on its own stretch. rho: of the solids. */
+static void traction_branches(const struct model *model, size_t n, size_t stride, const double *w,
+                              const double *const *rho, size_t pitch, double *own)
 {
     struct traction_view view;
     double part[TRACTION_BATCH];
@@ -85,7 +86,7 @@ static void traction_branches(const struct model *model, size_t n, size_t stride
         unsigned l = model->solids[branch->solid].material;
         traction_look(model, n, stride, w, branch->field, &view);
         for (size_t i = 0; i < n; i++) view.e_1[i] = branch->k, view.e_2[i] = 0.0;
-        traction_of(model, n, w + (model->i_m + l) * stride, &view, part);
+        traction_of(model, n, rho[branch->solid], &view, part);
         row_add(n, part, own + l * pitch);
     }
 }
@@ -94,15 +95,18 @@ static void traction_batch(const struct model *model, size_t n, size_t stride, c
                            double *own)
 {
     struct traction_view view;
-    double e[TRACTION_BATCH];
+    double e[TRACTION_BATCH], left[SCENE_MATERIALS * TRACTION_BATCH];
+    const double *rho[SCENE_MATERIALS];
+    for (unsigned s = 0; s < model->n_solid; s++) rho[s] = w + (model->i_m + model->solids[s].material) * stride;
+    bearing_of(model, n, stride, w, TRACTION_BATCH, left, rho);
     traction_look(model, n, stride, w, model->i_V, &view);
     for (unsigned l = 0; l < model->n_material; l++) memset(own + l * pitch, 0, n * sizeof *own);
     for (unsigned s = 0; s < model->n_solid; s++) {
         const struct model_solid *solid = &model->solids[s];
         solid->law->energy(solid->self, n, view.I1, view.I2, e, view.e_1, view.e_2);
-        traction_of(model, n, w + (model->i_m + solid->material) * stride, &view, own + solid->material * pitch);
+        traction_of(model, n, rho[s], &view, own + solid->material * pitch);
     }
-    traction_branches(model, n, stride, w, pitch, own);
+    traction_branches(model, n, stride, w, rho, pitch, own);
 }
 
 void traction_own(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch, double *own)

@@ -6,6 +6,7 @@
 #include "bulla/boundary.h"
 #include "bulla/conductivity.h"
 #include "bulla/constitutive.h"
+#include "bulla/damage.h"
 #include "bulla/eos.h"
 #include "bulla/field.h"
 #include "bulla/inelastic.h"
@@ -297,6 +298,14 @@ static const struct vet_kind vet_kinds[] = {
      vet_try_constitutive,
      "gives no finite energy that rises at stretches of 1, 2 and 4",
      VET_OF_MATERIAL("constitutive")},
+    {"damage",
+     sizeof(struct bulla_damage),
+     {VET_SLOT(bulla_damage, grow), VET_SLOT(bulla_damage, needs)},
+     NULL,
+     vet_try_damage,
+     "gives no aims from 0 to 1 and rates from 0 of a solid at rest and of one that is pulled, or needs what core does "
+     "not know",
+     VET_OF_MATERIAL("damage")},
     {"eos",
      offsetof(struct bulla_eos, energy), /* what came later is optional */
      {VET_SLOT(bulla_eos, state), VET_SLOT(bulla_eos, derivatives), VET_SLOT(bulla_eos, temperature),

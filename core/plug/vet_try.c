@@ -4,6 +4,7 @@
 #include "bulla/boundary.h"
 #include "bulla/coefficient.h"
 #include "bulla/constitutive.h"
+#include "bulla/damage.h"
 #include "bulla/field.h"
 #include "bulla/inelastic.h"
 #include "bulla/reconstruction.h"
@@ -120,6 +121,23 @@ bool vet_try_inelastic(const void *table, const void *self)
     if (law->needs(self) & ~(uint32_t)BULLA_INELASTIC_ALL) return false;
     law->strength(self, N, eps, rate, p, T, rho, Y);
     return isfinite(Y[0] + Y[1] + Y[2]) && Y[0] >= 0.0 && Y[1] >= 0.0 && Y[2] >= 0.0;
+}
+
+/* Damage of a body at rest, of one that is pulled, and of one that is broken. */
+bool vet_try_damage(const void *table, const void *self)
+{
+    const struct bulla_damage *law = table;
+    enum { N = 3 };
+    const double damage[N] = {0.0, 0.1, 1.0}, stress[N] = {-1e5, 1e9, 0.0}, stretch[N] = {1.0, 2.0, 1.0};
+    const double rows[N] = {0.0, 1e6, 0.0}, strain[N] = {0.0, 1.0, 2.0}, T[N] = {300.0, 600.0, 300.0};
+    const struct bulla_damage_state state = {sizeof state, damage, stress, stress, stretch,
+                                             rows,         rows,   strain, rows,   T};
+    double aim[N] = {(double)NAN, (double)NAN, (double)NAN}, rate[N] = {(double)NAN, (double)NAN, (double)NAN};
+    bool good = true;
+    if (law->needs(self) & ~(uint32_t)BULLA_DAMAGE_ALL) return false;
+    law->grow(self, N, &state, aim, rate);
+    for (int i = 0; i < N; i++) good &= aim[i] >= 0.0 && aim[i] <= 1.0 && rate[i] >= 0.0;
+    return good;
 }
 
 /* A liquid that is sheared at 300 K: what comes out may stand in a flux, and what bounds it in a time step. */

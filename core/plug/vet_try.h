@@ -10,6 +10,7 @@ bool vet_try_reconstruction(const void *table, const void *self);
 bool vet_try_riemann(const void *table, const void *self);
 bool vet_try_constitutive(const void *table, const void *self);
 bool vet_try_inelastic(const void *table, const void *self);
+bool vet_try_damage(const void *table, const void *self);
 bool vet_try_coefficient(const void *table, const void *self);
 bool vet_try_boundary(const void *table, const void *self);
 bool vet_try_field(const void *table, const void *self);

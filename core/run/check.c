@@ -120,6 +120,18 @@ static void check_print_strength(const struct model *model, unsigned l, double r
     printf("  %-12s its strength looks at temperatures: %.4g K at %g kg/m3 and 1 atm\n", "", T, rho);
 }
 
+/* How it breaks, how fast, and what then opens. */
+static void check_print_damage(const struct scene *scene, const struct scene_damage *damage)
+{
+    char time[HUMAN_ROOM], pressure[HUMAN_ROOM];
+    check_print_module("", &damage->law);
+    printf("  %-12s breaks in %s at the fastest", "", human_si(damage->time, "s", time));
+    if (damage->opens)
+        printf("; where it is in tension a void of %s opens, at %s and %.3g kg/m3", scene->material[damage->gas].name,
+               human_si(damage->pressure, "Pa", pressure), damage->density);
+    putchar('\n');
+}
+
 /* Boundaries and fields that are modules. */
 static void check_print_modules(const struct scene *scene)
 {
@@ -164,6 +176,7 @@ static void check_print_material(const struct scene *scene, const struct model *
            rho, human_si(sqrt(c2), "m/s", speed));
     check_print_branches(material, c2);
     if (material->plastic.module) check_print_strength(model, l, rho, rho * c2);
+    if (material->damage.law.module) check_print_damage(scene, &material->damage);
 }
 
 static void check_print_fields(const struct model *model)

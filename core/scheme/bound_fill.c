@@ -346,7 +346,7 @@ static void bound_fill_wave(const struct bound_fill *fill)
 /* What comes in has no stretch, no strain, and no surface yet. */
 static void bound_fill_fresh(const struct model *model, double *at, size_t stride)
 {
-    for (unsigned s = 0; s < model->n_strain; s++) at[(model->i_strain + s) * stride] = 0.0;
+    for (unsigned s = 0; s < model->n_inner; s++) at[(model->i_inner + s) * stride] = 0.0;
     for (unsigned k = 0; k < model_stretches(model); k++)
         elastic_identity(model, 1, stride, at + model_stretch(model, k) * stride);
     for (unsigned d = 0; d < model->n_normal; d++) at[(model->i_normal + d) * stride] = 0.0;

@@ -247,7 +247,7 @@ static void edges_bound(const struct edges *edges, const struct model *model, co
     for (unsigned i = model->n_alpha; i < model_edged(model); i++) {
         unsigned q = model->active[i];
         const double *w = edges_inside(edges, row, q), *upper = edges_upper(edges, row, q);
-        bool positive = q < model->i_u || (q == model->i_E && !model->elastic) || model_is_strain(model, q);
+        bool positive = q < model->i_u || (q == model->i_E && !model->elastic) || model_is_inner(model, q);
         edges_mark_value(n, positive ? EDGES_LEAST : 0.0, w - row->step, w, w + row->step, upper + n, upper,
                          edges->mark);
         if (edges_any(edges, n)) edges_replace(edges, model, row, q);

@@ -5,6 +5,7 @@
 #include "scheme/face.h"
 
 #include "base/mem.h"
+#include "phys/bearing.h"
 #include "phys/present.h"
 #include "phys/row.h"
 #include "scheme/edges.h"
@@ -83,7 +84,7 @@ struct face_work *face_new(const struct model *model)
     if (model->scene->n_rigid) work->flat = face_row(1);
     own->edges = edges_new(model, FACE_ROOM);
     own->state = face_row(2 * model->n_field);
-    own->m = face_row(2 * n);
+    own->m = face_row(model->n_inner ? 4 * n : 2 * n); /* behind them those that bear */
     own->rho = face_row(2);
     own->energy = face_row(2);
     own->c = face_row(2);
@@ -100,7 +101,7 @@ struct face_work *face_new(const struct model *model)
     work->energy = work->momentum + model->n_velocity * FACE_ROOM;
     work->u = work->energy + FACE_ROOM;
     work->stretch = model->n_stretch ? face_row(model->n_stretched) : NULL;
-    work->strains = model->n_strain ? face_row(model->n_strain) : NULL;
+    work->strains = model->n_inner ? face_row(model->n_inner) : NULL;
     work->solid = model->n_stretch && model->n_alpha ? face_row(1) : NULL;
     work->heat_below = model->conducts && model->n_alpha ? face_row(2 * model->n_alpha) : NULL;
     work->heat_above = work->heat_below ? work->heat_below + model->n_alpha * FACE_ROOM : NULL;
@@ -216,6 +217,7 @@ static void face_load(struct face_work *work, const struct frame *frame, size_t 
     if (!model->n_stretch) return;
     for (unsigned s = 0; s < model->n_solid; s++)
         m[s] = model->n_alpha ? own->m + 2 * model->solids[s].material * FACE_ROOM : rho;
+    bearing_of(model, n, 2 * FACE_ROOM, own->state, 2 * FACE_ROOM, own->m + 2 * model->n_material * FACE_ROOM, m);
     struct face_stress_edges edges = {
         .frame = frame, .n = n, .state = own->state, .m = m, .rho = rho, .energy = own->energy, .rho_c2 = own->c};
     face_stress_complete(own->stress, model, &edges);

@@ -22,7 +22,7 @@ struct face_work {
     double *carried;                           /* [n_alpha] alpha* u* times the pressure of the side it comes from */
     double *strained;                          /* [n_alpha] alpha* u* times the compression on the way to the face */
     double *stretch; /* [n_stretched] V* F, F the mass flux of the solids that carry it, V* of the side it comes from */
-    double *strains; /* [n_strain of the scene] eps* F_l, F_l the mass flux of the solid */
+    double *strains; /* [n_inner] eps* F_l, D* F_l: what solids remember, F_l the mass flux of the solid */
     double *heat_below,
         *heat_above; /* [n_alpha] heat of each material as the cells above and below the face get and give
                                         it (conduction.h); NULL unless the scene conducts */

@@ -143,12 +143,10 @@ void face_stress_carry_branches(const struct model *model, size_t n, size_t righ
 void face_stress_age(const struct model *model, size_t n, size_t right, const double *state, const double *m,
                      double *out)
 {
-    for (unsigned s = 0; s < model->n_solid; s++) {
-        unsigned q = model->solids[s].strain;
+    for (unsigned k = 0; k < model->n_memory; k++) {
+        unsigned q = model->memories[k].field, l = model->solids[model->memories[k].solid].material;
         const double *edges = state + 2 * q * FACE_ROOM;
-        if (!q) continue;
-        face_stress_upwind(n, m + model->solids[s].material * FACE_ROOM, edges, edges + right,
-                           out + (q - model->i_strain) * FACE_ROOM);
+        face_stress_upwind(n, m + l * FACE_ROOM, edges, edges + right, out + (q - model->i_inner) * FACE_ROOM);
     }
 }
 

@@ -4,12 +4,14 @@
 #include "phys/mix.h"
 #include "scheme/phase_change.h"
 #include "scheme/plastic.h"
+#include "scheme/rupture.h"
 
 #include <assert.h>
 
 const struct operator* operators_all[OPERATORS_MOST + 1] = {
     &phase_change_operator, /* liquids evaporate, vapours condense */
     &plastic_operator,      /* stresses beyond the strength of solids flow off */
+    &rupture_operator,      /* solids break */
     NULL,
 };
 

@@ -10,7 +10,7 @@ static bool plastic_wanted(const struct model *path)
 
 static void plastic_acts(const struct operator_tile *tile)
 {
-    flow_return(tile->model, tile->n_cell, tile->n_cell, tile->dt, tile->w, tile->u);
+    flow_return(tile->model, tile->n_cell, tile->n_cell, tile->dt, tile->w, tile->u, tile->grown);
 }
 
 static void plastic_say(const struct scene *scene, struct text *text)

@@ -2,6 +2,7 @@
 #include "scheme/tilt.h"
 
 #include "base/mem.h"
+#include "phys/bearing.h"
 #include "phys/elastic.h"
 #include "phys/row.h"
 #include "phys/traction.h"
@@ -15,6 +16,7 @@
 struct tilt {
     double *stress; /* [6] deviator of the cells, xx first; those that the scene has not are 0 */
     double *m;      /* [n_solid] partial densities */
+    double *bears;  /* the same of solids that can break, as far as they bear; NULL without any */
     double *mean;   /* N.s'N of the cells */
     double *zero;
 };
@@ -23,11 +25,15 @@ void *tilt_open(const struct term_room *room)
 {
     const struct model *model = room->model;
     if (!model->n_normal) return NULL;
-    size_t solids = model->n_solid;
+    size_t solids = model->n_solid, bears = model->damaged ? solids : 0, rest = 6 + solids + bears;
     double *rows;
-    struct tilt *tilt = mem_new(1, sizeof *tilt + (6 + solids + 2) * FACE_ROOM * sizeof *rows);
+    struct tilt *tilt = mem_new(1, sizeof *tilt + (rest + 2) * FACE_ROOM * sizeof *rows);
     rows = (double *)(tilt + 1);
-    *tilt = (struct tilt){rows, rows + 6 * FACE_ROOM, rows + (6 + solids) * FACE_ROOM, rows + (7 + solids) * FACE_ROOM};
+    *tilt = (struct tilt){.stress = rows,
+                          .m = rows + 6 * FACE_ROOM,
+                          .bears = bears ? rows + (6 + solids) * FACE_ROOM : NULL,
+                          .mean = rows + rest * FACE_ROOM,
+                          .zero = rows + (rest + 1) * FACE_ROOM};
     return tilt;
 }
 
@@ -75,6 +81,7 @@ static void tilt_stress(const struct model *model, size_t n, const double *w, st
         row_add_product(n, w + (model->i_alpha + l) * FACE_ROOM, w + (model->i_m + l) * FACE_ROOM, partial);
         m[s] = partial;
     }
+    bearing_of(model, n, FACE_ROOM, w, FACE_ROOM, tilt->bears, m);
     elastic_stress(model, n, FACE_ROOM, w + model->i_V * FACE_ROOM, m, tilt->stress);
 }
 

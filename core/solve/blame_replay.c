@@ -24,7 +24,7 @@ struct replay {
     struct terms *terms;
     void *own[TERMS_MOST];
     const struct tableau *tableau;
-    double *rates, *K, *rho_c2, *c2, *u, *w;
+    double *rates, *K, *rho_c2, *c2, *u, *w, *grown;
 };
 
 static void blame_replay_mesh(struct replay *replay)
@@ -73,12 +73,13 @@ static struct replay *blame_replay_new(const struct model *model, const struct b
     replay->c2 = mem_new(n_cell, sizeof(double));
     replay->u = mem_new(model->n_field * n_cell, sizeof(double));
     replay->w = mem_new(model->n_field * n_cell, sizeof(double));
+    if (model->plastic && model->damaged) replay->grown = mem_new(n_cell, sizeof(double));
     return replay;
 }
 
 static void blame_replay_free(struct replay *replay)
 {
-    double *blocks[] = {replay->rates, replay->K, replay->rho_c2, replay->c2, replay->u, replay->w};
+    double *blocks[] = {replay->rates, replay->K, replay->rho_c2, replay->c2, replay->u, replay->w, replay->grown};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) mem_free(blocks[i]);
     terms_free(replay->terms);
     terms_close(replay->own);
@@ -148,7 +149,8 @@ static void blame_replay_operate(struct replay *replay)
                                        .t = facts->t + dt,
                                        .dt = dt,
                                        .u = replay->u,
-                                       .w = replay->w};
+                                       .w = replay->w,
+                                       .grown = replay->grown};
     operators_of(replay->used, &operators);
     operators_act(&operators, facts->stage + 1 == replay->tableau->n, &tile);
 }

@@ -76,10 +76,10 @@ static bool guard_name_unfinite(const struct guard_cell *cell, struct guard_name
         if (model->n_stretch && q >= model->i_V) guard_name_lost(cell, &text);
         else
             text_add(&text, "%s",
-                     model_is_strain(model, q) || (q >= model->i_m && q < model->i_u) ? " kg/m3"
-                     : q == model->i_E                                                ? " J/m3"
-                     : q < model->i_u                                                 ? ""
-                                                                                      : " kg/m2/s");
+                     model_is_inner(model, q) || (q >= model->i_m && q < model->i_u) ? " kg/m3"
+                     : q == model->i_E                                               ? " J/m3"
+                     : q < model->i_u                                                ? ""
+                                                                                     : " kg/m2/s");
         guard_name_say(name, model->field_names[q], value, text.at);
         text_done(&text);
         return true;

@@ -29,6 +29,7 @@ struct work *work_new(const struct model *model, const struct mesh *mesh)
     work->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
     work->c2 = mem_new(mesh->n_cell, sizeof(double));
     work->u_star = mem_new(model->n_field * mesh->n_cell, sizeof(double));
+    if (model->plastic && model->damaged) work->grown = mem_new(mesh->n_cell, sizeof(double));
     return work;
 }
 
@@ -48,6 +49,7 @@ void work_free(struct work *work)
     mem_free(work->rho_c2);
     mem_free(work->c2);
     mem_free(work->u_star);
+    mem_free(work->grown);
     mem_free(work);
 }
 

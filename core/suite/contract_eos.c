@@ -3,8 +3,8 @@
  * Everything follows from rho e(rho, p): its derivatives are compared with differences, and rho c^2,
  * T and s with the identities (v = 1/rho, h = e + p/rho)
  *     c^2 = (h - d(rho e)/drho)/(d(rho e)/dp),    T ds = de + p dv.
- * A law that passes is one potential, whatever formulas it is made of. Where continuations begin and end, rho e must
- * go on without a jump: it is followed along lines of constant density and of constant pressure through all of them. */
+ * A law that passes is one potential. Where continuations begin and end, rho e must go on without a jump: it is
+ * followed along lines of constant density and of constant pressure. */
 #include "suite/contract_eos.h"
 
 #include "bulla/eos.h"
@@ -130,7 +130,6 @@ static void contract_eos_energy(const struct eos_suite *suite, double rho, doubl
     contract_holds(suite->contract, rho_e == point.rho_e && de_dp == point.de_dp, where);
 }
 
-/* All that `thermal` says at one point. */
 struct contract_eos_thermal {
     double rho, v, h, s, v_T, v_p, c_p, g;
 };
@@ -163,36 +162,46 @@ static void contract_eos_thermal_same(const struct eos_suite *suite, double rho,
     contract_near(contract, contract_eos_thermal_at(suite, p, T, rho).v, at.v, at.v, where);
 }
 
-/* Its derivatives, as those of one potential g = h - T s. What rounding does to differences of large numbers counts as
- * size. */
+/* States two steps and one below, one and two above. */
+static void contract_eos_around(const struct eos_suite *suite, double p, double T, double rho, const double step[2],
+                                struct contract_eos_thermal ret_at[4])
+{
+    for (int k = 0, by = -2; k < 4; k++, by += by == -1 ? 2 : 1)
+        ret_at[k] = contract_eos_thermal_at(suite, p + by * step[0], T + by * step[1], rho);
+}
+
+/* A slope, to fourth order. */
+#define CONTRACT_EOS_SLOPE(x, what, step) ((8.0 * (x[2].what - x[1].what) - (x[3].what - x[0].what)) / (12.0 * (step)))
+
+/* Its derivatives, as those of one potential g = h - T s; rounding of differences counts as size. */
 static void contract_eos_thermal_slopes(const struct eos_suite *suite, double rho, double p, double T,
                                         const char *where)
 {
     struct contract *contract = suite->contract;
-    struct contract_eos_thermal at = contract_eos_thermal_at(suite, p, T, 0.0);
+    struct contract_eos_thermal at = contract_eos_thermal_at(suite, p, T, 0.0), warm[4], press[4];
     double dT = 2e-4 * T, dp = 2e-4 * (p - contract_eos_p_min(suite, rho));
-    struct contract_eos_thermal hot = contract_eos_thermal_at(suite, p, T + dT, rho),
-                                cold = contract_eos_thermal_at(suite, p, T - dT, rho),
-                                up = contract_eos_thermal_at(suite, p + dp, T, rho),
-                                down = contract_eos_thermal_at(suite, p - dp, T, rho);
-    double g = fabs(at.h) + T * fabs(at.s), noise = 1e-9 * g, order = fabs(at.s) + at.c_p;
+    contract_eos_around(suite, p, T, rho, (const double[]){0.0, dT}, warm);
+    contract_eos_around(suite, p, T, rho, (const double[]){dp, 0.0}, press);
+    double noise = 1e-9 * (fabs(at.h) + T * fabs(at.s)), order = fabs(at.s) + at.c_p;
     contract_begin(contract, "thermal(p, T): one potential, g_p = v, g_T = -s", 1e-6);
-    contract_near(contract, (up.g - down.g) / (2 * dp), at.v, at.v + noise / dp, where);
-    contract_near(contract, (hot.g - cold.g) / (2 * dT), -at.s, order + noise / dT, where);
+    contract_near(contract, CONTRACT_EOS_SLOPE(press, g, dp), at.v, at.v + noise / dp, where);
+    contract_near(contract, CONTRACT_EOS_SLOPE(warm, g, dT), -at.s, order + noise / dT, where);
     contract_begin(contract, "thermal(p, T): h_T = c_p, s_T = c_p/T, h_p = v - T v_T, s_p = -v_T", 1e-6);
-    contract_near(contract, (hot.h - cold.h) / (2 * dT), at.c_p, at.c_p + 1e-9 * fabs(at.h) / dT, where);
-    contract_near(contract, (hot.s - cold.s) / (2 * dT) * T, at.c_p, at.c_p + 1e-9 * order * T / dT, where);
-    contract_near(contract, (up.h - down.h) / (2 * dp), at.v - T * at.v_T,
+    contract_near(contract, CONTRACT_EOS_SLOPE(warm, h, dT), at.c_p, at.c_p + 1e-9 * fabs(at.h) / dT, where);
+    contract_near(contract, CONTRACT_EOS_SLOPE(warm, s, dT) * T, at.c_p, at.c_p + 1e-9 * order * T / dT, where);
+    contract_near(contract, CONTRACT_EOS_SLOPE(press, h, dp), at.v - T * at.v_T,
                   at.v + T * fabs(at.v_T) + 1e-9 * fabs(at.h) / dp, where);
-    contract_near(contract, (up.s - down.s) / (2 * dp), -at.v_T, fabs(at.v_T) + at.v / T + 1e-9 * order / dp, where);
+    contract_near(contract, CONTRACT_EOS_SLOPE(press, s, dp), -at.v_T, fabs(at.v_T) + at.v / T + 1e-9 * order / dp,
+                  where);
     contract_begin(contract, "thermal(p, T): v_T and v_p are slopes of v", 1e-6);
-    contract_near(contract, (hot.v - cold.v) / (2 * dT), at.v_T, fabs(at.v_T) + at.v / T, where);
-    contract_near(contract, (up.v - down.v) / (2 * dp), at.v_p, -at.v_p + 1e-9 * at.v / dp, where);
+    contract_near(contract, CONTRACT_EOS_SLOPE(warm, v, dT), at.v_T, fabs(at.v_T) + at.v / T, where);
+    contract_near(contract, CONTRACT_EOS_SLOPE(press, v, dp), at.v_p, -at.v_p + 1e-9 * at.v / dp, where);
 }
 
 static void contract_eos_thermal(const struct eos_suite *suite, double rho, double p, const char *where)
 {
-    if (!BULLA_EOS_HAS(suite->eos, thermal)) return;
+    bool counts = BULLA_EOS_HAS(suite->eos, count_outside);
+    if (!BULLA_EOS_HAS(suite->eos, thermal) || (counts && suite->eos->count_outside(suite->self, 1, &rho, &p))) return;
     double T = contract_eos_temperature(suite, rho, p);
     contract_eos_thermal_same(suite, rho, p, T, where);
     contract_eos_thermal_slopes(suite, rho, p, T, where);
@@ -388,7 +397,6 @@ static void contract_eos_range(const struct eos_suite *suite)
 }
 
 /* The functions as rows; `context` of a call is the suite. */
-
 static void contract_eos_draw_state(const struct contract *contract, const struct contract_call *call, uint64_t *seed,
                                     double *in)
 {

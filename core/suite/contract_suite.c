@@ -4,6 +4,7 @@
 #include "suite/contract_boundary.h"
 #include "suite/contract_conductivity.h"
 #include "suite/contract_constitutive.h"
+#include "suite/contract_damage.h"
 #include "suite/contract_eos.h"
 #include "suite/contract_field.h"
 #include "suite/contract_inelastic.h"
@@ -22,6 +23,7 @@ static const struct {
 } contract_suite_table[] = {{"boundary", contract_boundary_run, contract_boundary_probe},
                             {"conductivity", contract_conductivity_run, contract_conductivity_probe},
                             {"constitutive", contract_constitutive_run, contract_constitutive_probe},
+                            {"damage", contract_damage_run, contract_damage_probe},
                             {"eos", contract_eos_run, contract_eos_probe},
                             {"field", contract_field_run, contract_field_probe},
                             {"inelastic", contract_inelastic_run, contract_inelastic_probe},

@@ -32,6 +32,11 @@ for file in "$BULLA_BUILD"/lib/bulla/modules/*.so "$BULLA_BUILD"/tests/plugin/*.
         eos-table.so) judge 0 "$file" --set file=states.csv ;;
         inelastic-von-mises.so) judge 0 "$file" --set 'yield=300 MPa' --set 'hardening=500 MPa' --set exponent=0.3 ;;
         inelastic-power-law.so) judge 0 "$file" --set 'yield=300 MPa' --set reference-rate=1e5 --set sensitivity=0.1 ;;
+        damage-tension.so) judge 0 "$file" --set 'stress=1 GPa' ;;
+        damage-strain.so) judge 0 "$file" --set begins=0.3 ;;
+        damage-energy.so) judge 0 "$file" --set 'begins=1 MJ/m3' ;;
+        damage-tuler-butcher.so)
+            judge 0 "$file" --set 'threshold=0.1 GPa' --set 'stress=1 GPa' --set 'duration=1 us' ;;
         *) judge 0 "$file" ;;
     esac
     grep -q '^pass: all [0-9]* checks hold' out || fail "$file: no verdict"

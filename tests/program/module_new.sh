@@ -16,7 +16,7 @@ refused() { # CODE PATTERN ARGS...
     grep -qE -- "$pattern" out || fail "new $*: does not say '$pattern'"
 }
 
-for kind in boundary conductivity constitutive eos field inelastic limiter reconstruction riemann viscosity; do
+for kind in boundary conductivity constitutive damage eos field inelastic limiter reconstruction riemann viscosity; do
     "$BULLA" new module $kind my-$kind >out 2>&1 || fail "no $kind was made"
     for file in Makefile README.md case.yaml my_$kind.c my_${kind}_test.c; do
         [ -s my-$kind/$file ] || fail "my-$kind/$file is not there"

@@ -104,11 +104,11 @@ static struct model model_of(unsigned n_velocity, const struct bulla_constitutiv
                              const struct bulla_inelastic *strength, const double *yield)
 {
     struct model model = {
-        .dim = (int)n_velocity, .n_velocity = n_velocity, .n_material = 1, .n_solid = 1, .n_strain = 1};
+        .dim = (int)n_velocity, .n_velocity = n_velocity, .n_material = 1, .n_solid = 1, .n_inner = 1};
     model.i_u = 1;
     model.i_E = model.i_u + n_velocity;
-    model.i_strain = model.i_E + 1;
-    model.i_V = model.i_strain + 1;
+    model.i_inner = model.i_E + 1;
+    model.i_V = model.i_inner + 1;
     model.n_stretch = elastic_count(n_velocity);
     model.n_field = model.i_V + model.n_stretch;
     model.elastic = model.plastic = true;
@@ -117,7 +117,7 @@ static struct model model_of(unsigned n_velocity, const struct bulla_constitutiv
                                            .self = slope,
                                            .strength = strength,
                                            .strength_self = yield,
-                                           .strain = model.i_strain,
+                                           .strain = model.i_inner,
                                            .needs = BULLA_INELASTIC_ALL};
     return model;
 }
@@ -211,10 +211,10 @@ static void advance(const struct model *model, void (*motion)(double, double[3][
     stage(model, motion, t, t, 0.5 * dt, old, old, middle);
     stage(model, motion, t, t + 0.5 * dt, dt, old, middle, V);
     u[0] *= scale;
-    u[model->i_strain] *= scale;
+    u[model->i_inner] *= scale;
     w[0] = RHO0; /* at which heat is counted */
     double before = energy_of(model, u);
-    flow_return(model, 1, 1, dt, w, u);
+    flow_return(model, 1, 1, dt, w, u, NULL);
     w[model->i_E] += before - energy_of(model, u);
 }
 
@@ -281,8 +281,8 @@ static struct errors follow(const char *name, const struct model *model, void (*
         }
         size = fmax(size, sqrt(deviator));
         worst.B = fmax(worst.B, sqrt(off) / size);
-        worst.eps = fmax(worst.eps, fabs(u[model->i_strain] / u[0] - rows[r][14]));
-        double eps = u[model->i_strain] / u[0], rate = 0.0, p = w[model->i_E], T = 300.0 + p / (RHO0 * CV), Y;
+        worst.eps = fmax(worst.eps, fabs(u[model->i_inner] / u[0] - rows[r][14]));
+        double eps = u[model->i_inner] / u[0], rate = 0.0, p = w[model->i_E], T = 300.0 + p / (RHO0 * CV), Y;
         model->solids[0].strength->strength(model->solids[0].strength_self, 1, &eps, &rate, &p, &T, u, &Y);
         worst.q = fmax(worst.q, equivalent(model, u) / Y - 1.0);
     }
@@ -341,10 +341,10 @@ static void test_overshoot(void **state)
                 memcpy(before, u, sizeof before);
                 double q = equivalent(&model, u), W = energy_of(&model, u);
                 yield = 1.01 * q;
-                flow_return(&model, 1, 1, 1e-6, w, u);
+                flow_return(&model, 1, 1, 1e-6, w, u, NULL);
                 assert_memory_equal(u, before, sizeof u);
                 yield = q / over;
-                flow_return(&model, 1, 1, 1e-6, w, u);
+                flow_return(&model, 1, 1, 1e-6, w, u, NULL);
                 assert_true(fabs(equivalent(&model, u) / yield - 1.0) < 2e-10);
                 double C[6] = {0}, A[6] = {0};
                 square(&model, before + model.i_V, A);
@@ -355,11 +355,11 @@ static void test_overshoot(void **state)
                 double xx = V[0], yy = V[1], zz = V[2], b = nv > 1 ? V[3] : 0.0, d = nv > 2 ? V[4] : 0.0,
                        f = nv > 2 ? V[5] : 0.0;
                 assert_true(fabs(xx * (yy * zz - f * f) - b * (b * zz - f * d) + d * (b * f - yy * d) - 1.0) < 1e-13);
-                double work = W - energy_of(&model, u), grown = u[model.i_strain] / u[0];
+                double work = W - energy_of(&model, u), grown = u[model.i_inner] / u[0];
                 double part = work / (0.5 * (q + yield) * grown), far = (over - 1.0) / over;
                 assert_true(fabs(part - 1.0) < 0.5 * far * far + 1e-6);
                 memcpy(before, u, sizeof before);
-                flow_return(&model, 1, 1, 1e-6, w, u); /* once is enough */
+                flow_return(&model, 1, 1, 1e-6, w, u, NULL); /* once is enough */
                 assert_memory_equal(u, before, sizeof u);
             }
 }
@@ -374,7 +374,7 @@ static void test_beside_elastic(void **state)
     model.i_m = 2;
     model.i_u = 4;
     model.i_E = 5;
-    model.i_strain = model.i_V = 6;
+    model.i_inner = model.i_V = 6;
     model.n_stretch = 3;
     model.elastic = model.plastic = true;
     model.solids[0] =
@@ -389,7 +389,7 @@ static void test_beside_elastic(void **state)
         u[6] = 1.5;
         u[7] = u[8] = 1.0 / sqrt(1.5);
         q0 = 1e6 * (u[6] * u[6] - u[7] * u[7]);
-        flow_return(&model, 1, 1, 1e-6, w, u);
+        flow_return(&model, 1, 1, 1e-6, w, u, NULL);
         q = 1e6 * (u[6] * u[6] - u[7] * u[7]);
         assert_true(fabs(q - (share * yield + (1.0 - share) * q0)) < 1e-9 * q0);
     }
@@ -407,10 +407,10 @@ static void test_ends(void **state)
     u[model.i_V + 3] = 0.001;
     elastic_unimodular(&model, 1, 1, u + model.i_V);
     double q = equivalent(&model, u);
-    flow_return(&model, 1, 1, 1e-6, w, u);
+    flow_return(&model, 1, 1, 1e-6, w, u, NULL);
     assert_true(equivalent(&model, u) < 2e-6 * q);
     u[model.i_V] = NAN;
-    flow_return(&model, 1, 1, 1e-6, w, u);
+    flow_return(&model, 1, 1, 1e-6, w, u, NULL);
     assert_true(isnan(u[model.i_V]));
 }
 

@@ -49,6 +49,12 @@ static const char *const builtin[][2] = {
     {"constitutive", "mooney-rivlin"},
     {"constitutive", "neo-hookean"},
     {"constitutive", "quadratic"},
+    {"damage", "energy"},
+    {"damage", "johnson-cook"},
+    {"damage", "strain"},
+    {"damage", "stretch"},
+    {"damage", "tension"},
+    {"damage", "tuler-butcher"},
     {"eos", "cochran-chan"},
     {"eos", "helmholtz-air"},
     {"eos", "iapws95"},
@@ -156,8 +162,8 @@ static const struct refusal refusals[] = {
     {"null_slot", "has no function 'slope', which kind limiter needs"},
     {"new_flags", "has the flags 0x4; this program knows 0x3"},
     {"null_edges", "has no function 'edges', which BULLA_TWO_SIDED needs"},
-    {"unknown_kind", "unknown kind 'weather'; kinds are boundary, conductivity, constitutive, eos, field, inelastic, "
-                     "limiter, reconstruction, riemann, viscosity"},
+    {"unknown_kind", "unknown kind 'weather'; kinds are boundary, conductivity, constitutive, damage, eos, field, "
+                     "inelastic, limiter, reconstruction, riemann, viscosity"},
     {"bad_name", "'Bad_Name'; names are lower case with hyphens"},
     {"no_doc", "lacks its doc"},
     {"param_twice", "parameter 'strength' twice"},

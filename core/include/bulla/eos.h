@@ -77,7 +77,7 @@ struct bulla_eos {
      * volume v [m3/kg], enthalpy h [J/kg], entropy s [J/(kg K)], dv/dT at constant p, dv/dp at constant T, and the heat
      * capacity c_p [J/(kg K)]. rho: a density to start a search from, or 0; out: 1/v. They are one potential g = h - T s
      * (g_p = v, g_T = -s), and the zeros of h and s are those of `state` and `entropy`: what h and s differ by between the phases
-     * of one substance decides where it boils. Where there is no state, something is not finite, or v <= 0. */
+     * of one substance decides where it boils. Where there is no state, something is not finite, or v <= 0; where `count_outside` counts, there need be none. */
     void (*thermal)(const void *self, size_t n, const double *BULLA_RESTRICT p, const double *BULLA_RESTRICT T,
                     double *BULLA_RESTRICT rho, double *BULLA_RESTRICT v, double *BULLA_RESTRICT h,
                     double *BULLA_RESTRICT s, double *BULLA_RESTRICT v_T, double *BULLA_RESTRICT v_p,

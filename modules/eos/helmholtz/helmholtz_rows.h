@@ -9,6 +9,7 @@
 #define HELMHOLTZ_ROWS_H
 
 #include "helmholtz_blocks.h"
+#include "helmholtz_thermal.h"
 
 /* By the formulas, or by the table. */
 static void helmholtz_ask(const void *instance, enum helmholtz_want want, size_t n, const double *const in[2],
@@ -120,12 +121,12 @@ static size_t helmholtz_count_outside(const void *instance, size_t n, const doub
     return count;
 }
 
-#define HELMHOLTZ_TABLE(range_function)                                                                   \
-    {                                                                                                     \
-        .size = sizeof(struct bulla_eos), .state = helmholtz_state, .derivatives = helmholtz_derivatives, \
-        .temperature = helmholtz_temperature, .entropy = helmholtz_entropy, .density = helmholtz_density, \
-        .p_min = helmholtz_p_min, .range = (range_function), .energy = helmholtz_energy_slope,            \
-        .count_outside = helmholtz_count_outside                                                          \
+#define HELMHOLTZ_TABLE(range_function)                                                                                \
+    {                                                                                                                  \
+        .size = sizeof(struct bulla_eos), .state = helmholtz_state, .derivatives = helmholtz_derivatives,              \
+        .temperature = helmholtz_temperature, .entropy = helmholtz_entropy, .density = helmholtz_density,              \
+        .p_min = helmholtz_p_min, .range = (range_function), .energy = helmholtz_energy_slope,                         \
+        .count_outside = helmholtz_count_outside, .thermal = helmholtz_thermal, .gas_constant = helmholtz_gas_constant \
     }
 
 #endif
