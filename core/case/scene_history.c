@@ -51,9 +51,6 @@ static const struct key scene_history_rows[] = {
     {.name = "max-between",
      .type = KEYS_TEXT,
      .doc = "Largest value of a column further up, over all steps since the row before."},
-    {.name = "evaporated",
-     .type = KEYS_TEXT,
-     .doc = "Mass of a vapour that has come from its liquid since the start, less what has condensed."},
     {.name = "force",
      .type = KEYS_TEXT,
      .doc = "Force of the fluids on a body, `along` an axis: what presses on its walls. Per metre of depth in 2D."},
@@ -66,6 +63,9 @@ static const struct key scene_history_rows[] = {
      .type = KEYS_TEXT,
      .doc = "Velocity of a body `along` an axis; of its pivot, if it turns."},
     {.name = "body-angle", .type = KEYS_TEXT, .doc = "By how much a body has turned."},
+    {.name = "evaporated",
+     .type = KEYS_TEXT,
+     .doc = "Mass of a vapour that has come from its liquid since the start, less what has condensed."},
     {.name = "value", .type = KEYS_TREE, .doc = "An expression of t, columns further up, and parameters."},
     {.name = "in", .type = KEYS_TEXT, .doc = "Only in this material."},
     {.name = "where", .type = KEYS_SECTION, .section = &scene_shape_keys, .doc = "Only in this region."},
@@ -218,8 +218,8 @@ static void scene_history_measure(struct draft *draft, struct scene_column *colu
     else if (column->measure == SCENE_TOTAL) snprintf(column->field, SCENE_NAME, "%s", value->given ? value->text : "");
     else if (column->measure == SCENE_VALUE) scene_history_value(draft, column, value);
     else if (scene_history_between(column->measure)) scene_history_of(draft, column, value);
-    else if (column->measure == SCENE_EVAPORATED) scene_history_vapour(draft, column, value);
     else if (scene_history_of_body(column->measure)) column->rigid = scene_rigid_index(draft, value);
+    else if (column->measure == SCENE_EVAPORATED) scene_history_vapour(draft, column, value);
     else if (value->given && scene_formula_is(value)) scene_formula(draft, value, column->name, column->field);
     else scene_field_name(draft, value, column->field);
 }
@@ -283,10 +283,10 @@ static void scene_history_column(struct draft *draft, struct scene_column *colum
     if (scene_history_of_surface(column->measure) && !in->node)
         keys_error(&draft->keys, measure, "'in' is missing: the material whose surface it is");
     if (scene_history_between(column->measure)) scene_history_alone(draft, map, measure);
-    bool body = scene_history_of_body(column->measure), whole = body || column->measure == SCENE_EVAPORATED;
-    if (!whole || (!in->node && !where->node)) return;
+    bool of_body = scene_history_of_body(column->measure);
+    if ((!of_body && column->measure != SCENE_EVAPORATED) || (!in->node && !where->node)) return;
     keys_error(&draft->keys, in->node ? in : where,
-               body ? "a column of a body is of all of it" : "what has evaporated is known of the whole domain");
+               of_body ? "a column of a body is of all of it" : "what has evaporated is known of the whole domain");
 }
 
 void scene_history(struct draft *draft)

@@ -383,10 +383,10 @@ static double measure_result(struct measures *measures, const struct measure_col
     case SCENE_MAX: return empty ? NAN : extremes[0];
     case SCENE_JET_SPEED: return empty ? NAN : extremes[0] >= extremes[1] ? extremes[0] : -extremes[1];
     case SCENE_PENETRATION: return measure_penetration(state, column);
-    case SCENE_EVAPORATED: return evaporate_total(state, (unsigned)from->material);
     case SCENE_BODY_DISPLACEMENT:
     case SCENE_BODY_VELOCITY:
     case SCENE_BODY_ANGLE: return bodies_motion(state, from, column->axis);
+    case SCENE_EVAPORATED: return evaporate_total(state, (unsigned)from->material);
     case SCENE_ISOSURFACE_MEAN: return surface_mean(state, (unsigned)from->in, field, column->where);
     case SCENE_ISOSURFACE_MIN:
     case SCENE_ISOSURFACE_MAX:
