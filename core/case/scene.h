@@ -205,12 +205,12 @@ enum scene_measure {
     SCENE_OUTSIDE,
     SCENE_MIN_BETWEEN,
     SCENE_MAX_BETWEEN,
+    SCENE_EVAPORATED,
     SCENE_FORCE,
     SCENE_POWER,
     SCENE_BODY_DISPLACEMENT,
     SCENE_BODY_VELOCITY,
     SCENE_BODY_ANGLE,
-    SCENE_EVAPORATED,
     SCENE_VALUE,
 };
 
@@ -404,7 +404,8 @@ struct scene_output {
     int writers; /* of snapshots and checkpoints; 0: one per machine */
     char (*snapshot_fields)[SCENE_NAME];
     unsigned n_snapshot_field;
-    bool snapshot_double; /* float64 instead of float32 */
+    bool snapshot_double;   /* float64 instead of float32 */
+    double snapshot_memory; /* bytes that a writer may take to write snapshots beside the run */
     unsigned n_column, n_probe, n_map;
     struct scene_column *columns;
     struct scene_probe *probes;
