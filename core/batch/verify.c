@@ -8,6 +8,7 @@
 #include "base/system.h"
 #include "base/text.h"
 #include "batch/study.h"
+#include "batch/verify_beside.h"
 #include "batch/verify_cost.h"
 #include "batch/verify_file.h"
 #include "batch/verify_hard.h"
@@ -37,10 +38,15 @@ static const struct cli_option verify_save_option = {"--save", NULL, NULL,
                                                      "Write the tables into docs/verification.md too."};
 static const struct cli_option verify_cost_option = {
     "--cost", NULL, NULL, "Error against CPU seconds of schemes and meshes (cases/cost.yaml): table, CSV, picture."};
+static const struct cli_option verify_beside_option = {
+    "--beside", NULL, "PATH=VALUE", "Every scene twice, coarse: as it is, and with this setting; may be repeated."};
+static const struct cli_option verify_set_option = {"--set", NULL, "PATH=VALUE",
+                                                    "With --beside: a setting of both runs; may be repeated."};
 static const struct cli_option verify_output_option = {"--output", "-o", "DIR", "Where the runs write (out/verify)."};
 static const struct cli_option verify_ranks_option = {"--ranks", "-n", "RANKS", "MPI ranks of each run."};
 const struct cli_option *const verify_option_table[] = {&verify_list_option,  &verify_save_option,
-                                                        &verify_cost_option,  &verify_output_option,
+                                                        &verify_cost_option,  &verify_beside_option,
+                                                        &verify_set_option,   &verify_output_option,
                                                         &verify_ranks_option, NULL};
 
 static int verify_by_name(const void *a, const void *b)
@@ -270,8 +276,63 @@ static int verify_of_cost(const struct verify *verify, const struct cli_given *g
     return STATUS_OK;
 }
 
+/* What an option gives, each time; ends with NULL. */
+static char **verify_given(const struct cli_given *given, const char *name, char **list, unsigned *n)
+{
+    for (int i = 0; i < given->n_option; i++) {
+        if (strcmp(given->options[i]->name, name) != 0) continue;
+        list = mem_grow(list, *n + 1, *n + 2, sizeof *list);
+        list[(*n)++] = mem_text(given->values[i]);
+        list[*n] = NULL;
+    }
+    return list;
+}
+
+static void verify_given_free(char **list)
+{
+    for (char **at = list; *at; at++) mem_free(*at);
+    mem_free(list);
+}
+
+/* "scheme.cfl=0.8 mesh.tile=8". */
+static char *verify_words(char *const *list, unsigned from)
+{
+    struct text words = {0};
+    for (unsigned i = from; list[i]; i++) text_add(&words, "%s%s", i > from ? " " : "", list[i]);
+    return words.at ? words.at : mem_text("");
+}
+
+/* `bulla verify --beside PATH=VALUE [ID...]`. */
+static int verify_of_beside(struct verify *verify, const struct cli_given *given)
+{
+    unsigned n_plain = 0, n = 0;
+    TRY(verify_read(verify, given));
+    char **plain = verify_given(given, "--set", mem_new(1, sizeof *plain), &n_plain);
+    char **beside = verify_given(given, "--beside", verify_given(given, "--set", mem_new(1, sizeof *plain), &n), &n);
+    char *both = verify_words(plain, 0), *other = verify_words(beside, n_plain);
+    char *title = mem_print("%s%s%s", other, *both ? " beside " : "", both);
+    struct verify_beside_options options = {verify->source,
+                                            verify->options.directory,
+                                            verify->options.ranks,
+                                            verify->paths,
+                                            verify->n_path,
+                                            plain,
+                                            beside,
+                                            title,
+                                            verify->save};
+    int code = verify_beside(&options);
+    mem_free(title);
+    mem_free(other);
+    mem_free(both);
+    verify_given_free(plain);
+    verify_given_free(beside);
+    return code;
+}
+
 static int verify_of_scenes(struct verify *verify, const struct cli_given *given)
 {
+    if (cli_value(given, "--set"))
+        return status_fail(STATUS_CASE, "--set goes with --beside: cases/verify are run as they are");
     TRY(verify_read(verify, given));
     return cli_value(given, "--list") ? verify_list(verify) : verify_all(verify);
 }
@@ -285,9 +346,10 @@ int verify_command(const struct cli_given *given)
         .options = {.directory = directory ? directory : "out/verify", .ranks = cli_value(given, "--ranks")},
     };
     bool hard = given->n_word > 0 && strcmp(given->words[0], "hard") == 0;
-    int code = hard                         ? verify_of_hard(&verify, given)
-               : cli_value(given, "--cost") ? verify_of_cost(&verify, given)
-                                            : verify_of_scenes(&verify, given);
+    int code = hard                           ? verify_of_hard(&verify, given)
+               : cli_value(given, "--cost")   ? verify_of_cost(&verify, given)
+               : cli_value(given, "--beside") ? verify_of_beside(&verify, given)
+                                              : verify_of_scenes(&verify, given);
     for (unsigned i = 0; i < verify.n_path; i++) mem_free(verify.paths[i]);
     mem_free(verify.paths);
     mem_free(verify.source);

@@ -167,7 +167,8 @@ static int verify_cost_write(const struct verify_cost_run *run)
 static int verify_cost_scene(struct verify_cost_run *run, const struct node *root)
 {
     run->scene = tree_get(tree_get(root, "scenes"), run->id);
-    run->schemes = tree_get(root, "schemes");
+    const struct node *own = tree_get(run->scene, "schemes");
+    run->schemes = own ? own : tree_get(root, "schemes");
     if (!run->scene || run->scene->kind != TREE_MAP || !verify_cost_text(run->scene, "case"))
         return status_fail(STATUS_CASE, "cases/cost.yaml has no scene '%s' with a 'case'", run->id);
     if (!run->schemes || run->schemes->kind != TREE_MAP)

@@ -177,16 +177,19 @@ static void scene_mesh_finest(struct draft *draft, const struct keys_value *leve
     }
 }
 
-/* Waves must not leave the refined cells between two regriddings (Berger & Oliger 1984). */
+/* Waves must not leave the refined cells between two regriddings (Berger & Oliger 1984). The Courant number is summed
+ * over axes: at most 2/(dim + 1) of it is that of one axis, in cells as wide as high and flow no faster than sound,
+ * (u + c)/(u + dim c). */
 static void scene_mesh_buffer(struct draft *draft, const struct keys_value *buffer)
 {
     const struct scene *scene = draft->scene;
-    double wanted = scene->mesh.regrid_every * scene->scheme.cfl + 1;
+    double per_step = scene->scheme.cfl * 2.0 / (scene->domain.dim + 1);
+    double wanted = scene->mesh.regrid_every * per_step + 1;
     if (scene->scheme.dt_fixed > 0 || scene->mesh.buffer >= wanted - 1e-9) return;
-    int every = (int)((scene->mesh.buffer - 1) / scene->scheme.cfl + 1e-9);
+    int every = (int)((scene->mesh.buffer - 1) / per_step + 1e-9);
     diag_warn(draft->keys.diag, &buffer->node->mark,
-              "%s: waves cross up to %g cells in the %d step%s between two regriddings, and leave %d refined cells",
-              buffer->path, scene->mesh.regrid_every * scene->scheme.cfl, scene->mesh.regrid_every,
+              "%s: waves cross up to %.3g cells in the %d step%s between two regriddings, and leave %d refined cells",
+              buffer->path, scene->mesh.regrid_every * per_step, scene->mesh.regrid_every,
               scene->mesh.regrid_every == 1 ? "" : "s", scene->mesh.buffer);
     if (every >= 1) diag_help(draft->keys.diag, "buffer: %.0f would do, or regrid-every: %d", ceil(wanted), every);
     else diag_help(draft->keys.diag, "buffer: %.0f would do", ceil(wanted));

@@ -349,18 +349,28 @@ void reflux_source(const struct reflux *reflux, unsigned s, size_t index, const 
         reflux_stretch(reflux, &value, k, source->face / 2, sign, swept, ret_change);
 }
 
-void reflux_delta(const struct reflux *reflux, unsigned local, double dt, double *delta)
+/* Of the sources across one axis. */
+static void reflux_delta_axis(const struct reflux *reflux, unsigned local, int axis, const struct metric *metric,
+                              double dt, double *delta)
 {
     const struct mesh *mesh = reflux->mesh;
     const struct link *up = reflux->up;
-    struct metric metric;
     double change[MODEL_FIELDS];
-    memset(delta, 0, reflux->model->n_field * mesh->n_cell * sizeof *delta);
-    if (mesh->beta) metric_of_tile(mesh, reflux->level, &reflux->level->tiles[reflux->level->first + local], &metric);
     for (unsigned s = up->source_from[local]; s < up->source_from[local + 1]; s++)
-        for (size_t i = 0; i < up->face_cells; i++) {
+        for (size_t i = 0; up->sources[s].face / 2 == axis && i < up->face_cells; i++) {
             size_t cell = reflux_cell(mesh, &up->sources[s], i);
-            reflux_source(reflux, s, i, &metric, dt, change);
+            reflux_source(reflux, s, i, metric, dt, change);
             for (unsigned q = 0; q < reflux->model->n_field; q++) delta[q * mesh->n_cell + cell] += change[q];
         }
+}
+
+/* A cell may have finer neighbours across all three axes. The list of sources follows the Morton curve, which a mirror
+ * turns around, and sums of three depend on their order: axis by axis they do not. */
+void reflux_delta(const struct reflux *reflux, unsigned local, double dt, double *delta)
+{
+    const struct mesh *mesh = reflux->mesh;
+    struct metric metric;
+    memset(delta, 0, reflux->model->n_field * mesh->n_cell * sizeof *delta);
+    if (mesh->beta) metric_of_tile(mesh, reflux->level, &reflux->level->tiles[reflux->level->first + local], &metric);
+    for (int axis = 0; axis < mesh->dim; axis++) reflux_delta_axis(reflux, local, axis, &metric, dt, delta);
 }

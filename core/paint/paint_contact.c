@@ -1,6 +1,7 @@
 /* paint_contact.c - see paint_contact.h. */
 #include "paint/paint_contact.h"
 
+#include "paint/paint_star.h"
 #include "phys/mix.h"
 
 #include <math.h>
@@ -78,10 +79,12 @@ bool paint_contact(const struct model *model, const double *u_a, const double *u
     w[model->i_E] = PAINT_CONTACT_START;
     mix_primitives(model, 1, 1, u, w);
     for (unsigned d = 0; d < model->n_velocity; d++) along += n[d] * w[model->i_u + d];
-    double speed = (a.impedance * a.velocity + b.impedance * b.velocity + wave) / sum;
-    w[model->i_E] = (b.impedance * a.p + a.impedance * b.p + a.impedance * b.impedance * slip) / sum;
+    struct paint_star star;
+    double acoustic = (b.impedance * a.p + a.impedance * b.p + a.impedance * b.impedance * slip) / sum;
+    if (!paint_star_find(model, a.w, b.w, a.velocity, b.velocity, acoustic, &star)) return false;
+    w[model->i_E] = star.p;
     if (!paint_contact_is_borne(model, w)) return false;
-    for (unsigned d = 0; d < model->n_velocity; d++) w[model->i_u + d] += n[d] * (speed - along);
+    for (unsigned d = 0; d < model->n_velocity; d++) w[model->i_u + d] += n[d] * (star.u - along);
     mix_conserved(model, 1, 1, w, met);
     for (unsigned d = 0; d < model->n_velocity; d++) u[model->i_u + d] = met[model->i_u + d];
     u[model->i_E] = met[model->i_E];

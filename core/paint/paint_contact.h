@@ -3,9 +3,7 @@
  * Where they have one pressure, the mean of what they hold is the state of the cell, also of bodies that move. Where they
  * have not, the mean is a body that was never there: of water at 1 GPa and gas of 1 kg/m3 at 1 bar it has gas of a million kelvin, which
  * runs ahead of the contact for the rest of the run. What is in that cell is the contact itself. It has one pressure
- * and one velocity from the first instant, those of the waves that go out from it:
- *     p* = (Z_b p_a + Z_a p_b + Z_a Z_b (u_a - u_b))/(Z_a + Z_b),  u* = (Z_a u_a + Z_b u_b + p_a - p_b)/(Z_a + Z_b)
- * (Toro 2009, ch. 9.3; Z = rho c of each body, u along the normal from a to b). Masses and fractions stay what the
+ * and one velocity from the first instant, those of the waves that go out from it (paint_star.h). Masses and fractions stay what the
  * shapes say, to round-off; momentum and energy of this one cell become the contact's. Figures: docs/decisions/cut-cells.md. */
 #ifndef PAINT_CONTACT_H
 #define PAINT_CONTACT_H

@@ -410,12 +410,15 @@ static BULLA_KERNEL void mix_compliance(size_t n, const double *restrict alpha, 
     }
 }
 
+/* A material that is alone has none, exactly: narrowed paths know of no K, and what rounding leaves would be clipped and
+ * counted, or be a change of fraction in refluxing that no cell has room for. */
 static BULLA_KERNEL void mix_k(size_t n, const double *restrict alpha, const double *restrict rho_c2,
                                const double *restrict sum, double *restrict K)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double s = rho_c2[i], a = alpha[i], k = a * (1.0 / (sum[i] * s) - 1.0);
+        k = a < 1.0 ? k : 0.0;
         K[i] = s > 0.0 ? k : 0.0;
     }
 }

@@ -150,7 +150,7 @@ static BULLA_KERNEL void exchange_temper(size_t n, const double *restrict rho_c2
     }
 }
 
-/* d alpha of one material. */
+/* d alpha of one material; of one that is alone 0, exactly (phys/mix.c has the same for K). */
 static BULLA_KERNEL void exchange_make(size_t n, const double *restrict rho_c2, const struct exchange_misfit *misfit,
                                        const double *restrict own, const double *restrict alpha,
                                        double *restrict volume)
@@ -160,7 +160,8 @@ static BULLA_KERNEL void exchange_make(size_t n, const double *restrict rho_c2, 
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a = alpha[i], s = rho_c2[i], c = compliance[i], part = a / (s * c), all = sum[i];
-        volume[i] = share[i] * (own[i] - (s > 0.0 ? part : 0.0) * all);
+        double given = share[i] * (own[i] - (s > 0.0 ? part : 0.0) * all);
+        volume[i] = a < 1.0 ? given : 0.0;
     }
 }
 

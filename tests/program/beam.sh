@@ -17,6 +17,7 @@ domain:
 mesh: {tile: 16}
 materials: {water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}}
 initial: [{everywhere: true, material: water, density: 998, pressure: 1 bar}]
+scheme: {cfl: 0.4} # probes see every step
 run: {until: 4.4 us}
 output:
   directory: out

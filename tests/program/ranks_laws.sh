@@ -29,6 +29,7 @@ initial:
   - {half-space: {point: [0, 0.6 mm], normal: [0, 1]}, material: water, temperature: 300 K, pressure: 100 bar}
   - {half-space: {point: [0, -0.5 mm], normal: [0, -1]}, material: gel, temperature: 300 K, pressure: 1 bar}
   - {sphere: {center: [0, 0.1 mm], radius: 0.3 mm}, material: air, temperature: 300 K, pressure: 1 bar}
+scheme: {cfl: 0.4}
 run: {until: 1 us, max-steps: 24}
 output:
   snapshots: {every: 24 steps, fields: [density, velocity, pressure, temperature, alpha_air], precision: double}

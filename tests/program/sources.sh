@@ -23,6 +23,7 @@ END
 cat >falls.yaml <<'END'
 extends: box.yaml
 sources: {acceleration: ["= 2e3 * t", -9.81], force: [3, 0]}
+scheme: {cfl: 0.4}
 expect:
   - {value: last(u), equals: 0.125, relative: 1e-12} # 1e3 t2 + 3 t/rho
   - {value: last(v), equals: -0.0981, relative: 1e-12}

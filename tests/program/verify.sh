@@ -84,6 +84,23 @@ expect_code 0 "$BULLA" verify hard h10
 [ "$(grep -c '^| h' stdout)" = 1 ]
 expect_code 2 "$BULLA" verify hard h7
 
+# Beside: what changes is a line with the error that grows most, what does not is counted; both settings count.
+cp cases/hard/h1-tube.yaml cases/verify/tube-a.yaml
+sed 's/limiter: mc//; s/^scheme.*//' ../tube.yaml >cases/verify/tube-b.yaml # without a coarse variant
+printf '# Beside\n' >docs/beside.md
+expect_code 0 "$BULLA" verify tube-a tube-b --beside scheme.limiter=minmod --save
+grep -q '^| tube-a | L1(density) |.* | yes | ' docs/beside.md
+grep -q '^| tube-b | L1(density) |' docs/beside.md
+[ "$(grep -o '\*\*[0-9.]*\*\*' docs/beside.md | wc -l)" = 2 ] # minmod is worse by more than 15 %
+grep -q '^2 scenes, 0 of them without any change' docs/beside.md
+expect_code 0 "$BULLA" verify tube-a --set scheme.limiter=minmod --beside scheme.limiter=minmod
+grep -q '^## scheme.limiter=minmod beside scheme.limiter=minmod' stdout
+grep -q '^1 scenes, 1 of them without any change' stdout
+expect_code 0 "$BULLA" verify tube-a --beside scheme.limiter=no-such-limiter
+grep -q '^| tube-a |.* | yes | \*\*stops\*\* |' stdout
+expect_code 2 "$BULLA" verify tube-a --set scheme.cfl=0.2
+grep -q 'goes with --beside' stderr
+
 # Error against cost: every scheme a line, the front marked, rows of others, a picture.
 cat >cases/cost.yaml <<'END2'
 schemes: {mc: {cfl: 0.4}, minmod: {limiter: minmod, cfl: 0.4}, wrong: {limiter: nothing}}

@@ -128,7 +128,8 @@ static void test_gas_in_solid(void **state)
     static const char *const solid = "  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}, constitutive: "
                                      "{type: neo-hookean, shear-modulus: 200 MPa, reference-density: 1000}}\n";
     for (int common = 0; common < 2; common++) {
-        char *materials = mem_print(FLOW_AIR "%sscheme: {traction: %s}\n", solid, common ? "common" : "pressure");
+        char *materials =
+            mem_print(FLOW_AIR "%sscheme: {traction: %s, cfl: 0.8}\n", solid, common ? "common" : "pressure");
         for (size_t i = 0; i < sizeof SETUPS / sizeof *SETUPS; i++)
             check(&SETUPS[i], materials, "material: air, density: 100, pressure: 5e7");
         mem_free(materials);

@@ -190,6 +190,28 @@ static void test_trace(void **state)
     flow_stop(&flow);
 }
 
+/* A material that is alone gives way by what there is, to the bit: narrowed paths and the full one must agree. */
+static void test_closure_alone(void **state)
+{
+    (void)state;
+    struct flow flow;
+    start(&flow, 2);
+    const struct model *model = flow.state->model;
+    uint64_t seed = 7;
+    for (int i = 0; i < 1000; i++) {
+        double w[FLOW_FIELDS] = {0}, stiff[2], K[2];
+        unsigned l = (unsigned)i % 2;
+        w[model->i_alpha + l] = 1.0;
+        w[model->i_m] = 1.0 + 999.0 * flow_random(&seed);
+        w[model->i_m + 1] = 1.0 + 9.0 * flow_random(&seed);
+        w[model->i_E] = 1e3 + 1e8 * flow_random(&seed);
+        mix_stiffness_everywhere(model, 1, 1, w, stiff);
+        mix_closure(model, 1, 1, w, stiff, K);
+        assert_true(K[0] == 0.0 && K[1] == 0.0);
+    }
+    flow_stop(&flow);
+}
+
 static void test_closure(void **state)
 {
     (void)state;
@@ -308,8 +330,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_inverse), cmocka_unit_test(test_alone),   cmocka_unit_test(test_no_pressure),
-        cmocka_unit_test(test_trace),   cmocka_unit_test(test_closure), cmocka_unit_test(test_wood),
-        cmocka_unit_test(test_run),
+        cmocka_unit_test(test_trace),   cmocka_unit_test(test_closure), cmocka_unit_test(test_closure_alone),
+        cmocka_unit_test(test_wood),    cmocka_unit_test(test_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -192,47 +192,6 @@ static void moving_bodies_stay_cold(void **state)
     canvas_done(&canvas);
 }
 
-/* Velocity and pressure of the cell of LINE that is cut at x = 0.04, or at -0.04; its masses are those of the shapes. */
-static void cut_cell(const char *layers, bool turned, double rho_a, double rho_b, double *ret_u, double *ret_p)
-{
-    struct canvas canvas = good(LINE, layers, false);
-    size_t cell = turned ? 15 : 16, n = canvas.n_cell;
-    double w[MODEL_FIELDS], part = 1.0 - 0.04 * 16.0;
-    const struct model *model = canvas.model;
-    w[model->i_E] = 1e5;
-    double u[MODEL_FIELDS], m = 0.0;
-    for (unsigned q = 0; q < model->n_field; q++) u[q] = field(&canvas, 0)[q * n + cell];
-    mix_primitives(model, 1, 1, u, w);
-    for (unsigned l = 0; l < model->n_material; l++) m += u[model->i_m + l];
-    near(m, part * rho_b + (1.0 - part) * rho_a, 1e-12);
-    *ret_u = w[model->i_u];
-    *ret_p = w[model->i_E];
-    canvas_done(&canvas);
-}
-
-/* Where a surface with another pressure on its other side cuts a cell, the cell holds the contact: two waves of Z = rho c
- * have gone out from it. Mirrored scenes mirror it to the bit. Two pressures of one material are a wave: its mean stays. */
-static void cut_cells_hold_the_contact(void **state)
-{
-    (void)state;
-    const double Za = sqrt(1.4 * 1e5 * 1.2), Zb = sqrt(4.4 * (1e8 + 6e8) * 1000.0);
-    double u, p, mirrored;
-    cut_cell("  - {everywhere: true, material: air, density: 1.2, pressure: 1 bar, velocity: [7]}\n"
-             "  - {half-space: {point: [0.04], normal: [1]}, material: water, density: 1000, pressure: 100 MPa}\n",
-             false, 1.2, 1000.0, &u, &p);
-    near(u, (Za * 7.0 + 1e5 - 1e8) / (Za + Zb), 1e-12);
-    near(p, (Zb * 1e5 + Za * 1e8 + Za * Zb * 7.0) / (Za + Zb), 1e-8);
-    cut_cell("  - {everywhere: true, material: air, density: 1.2, pressure: 1 bar, velocity: [-7]}\n"
-             "  - {half-space: {point: [-0.04], normal: [-1]}, material: water, density: 1000, pressure: 100 MPa}\n",
-             true, 1.2, 1000.0, &mirrored, &p);
-    assert_true(mirrored == -u);
-    cut_cell("  - {everywhere: true, material: water, density: 1000, pressure: 1 bar}\n"
-             "  - {half-space: {point: [0.04], normal: [1]}, material: water, density: 1040, pressure: 100 MPa}\n",
-             false, 1000.0, 1040.0, &u, &p);
-    assert_true(u == 0.0);
-    near(p, 1e5 + 0.36 * (1e8 - 1e5), 1e-6);
-}
-
 static void same_for_all_tiles(void **state)
 {
     (void)state;
@@ -474,7 +433,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paints_a_bubble),
         cmocka_unit_test(moving_bodies_stay_cold),
-        cmocka_unit_test(cut_cells_hold_the_contact),
         cmocka_unit_test(same_for_all_tiles),
         cmocka_unit_test(averages_profiles),
         cmocka_unit_test(averages_the_part_inside),

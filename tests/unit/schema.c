@@ -40,7 +40,7 @@ static const char *text_at(const char *path)
 static void keys_carry_their_table_rows(void **state)
 {
     (void)state;
-    assert_true(json_number_value(at("definitions/scheme/properties/cfl/default")) == 0.4);
+    assert_true(json_number_value(at("definitions/mesh/properties/buffer/default")) == 4.0);
     assert_true(json_number_value(at("definitions/scheme/properties/cfl/maximum")) == 1.0);
     assert_string_equal(text_at("definitions/domain/properties/geometry/enum/1"), "axisymmetric");
     assert_non_null(strstr(text_at("definitions/run/properties/until/markdownDescription"), "Unit: `s`"));

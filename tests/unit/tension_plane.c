@@ -146,7 +146,7 @@ static void test_drop(void **state)
         double *p = flow_primitive(&flow, flow.state->model->i_E), jump = p[0] - p[flow.n_cell - 1];
         assert_true(fabs(jump / (ROOMS[i].turns * SIGMA / RADIUS) - 1.0) < 1e-9);
         mem_free(p);
-        flow_steps(&flow, ROOMS[i].dim == 3 ? 60 : 400);
+        flow_steps(&flow, ROOMS[i].dim == 3 ? 30 : 200);
         print_message("%d: largest velocity %.3g m/s\n", i, largest(&flow));
         assert_true(largest(&flow) > 1e-6 && largest(&flow) < ROOMS[i].most);
         flow_stop(&flow);
