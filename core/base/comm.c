@@ -14,13 +14,16 @@
 enum { COMM_LOOKS = 100 }; /* a message from a rank at work next door takes fewer */
 
 static bool comm_is_active;
+static bool comm_has_threads = true;       /* without MPI nobody minds */
 static MPI_Comm comm_near = MPI_COMM_NULL; /* the ranks of this machine, once asked for */
 
 void comm_init(int *argc, char ***argv)
 {
     struct launcher here = launcher_here();
     if (!here.is_rank || here.is_mute) return;
-    MPI_Init(argc, argv);
+    int given = MPI_THREAD_SINGLE;
+    MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &given);
+    comm_has_threads = given >= MPI_THREAD_FUNNELED;
     comm_is_active = true;
 }
 
@@ -34,6 +37,11 @@ void comm_done(void)
 bool comm_active(void)
 {
     return comm_is_active;
+}
+
+bool comm_threads(void)
+{
+    return comm_has_threads;
 }
 
 int comm_rank(void)

@@ -19,6 +19,9 @@ void comm_done(void);
 
 /* True when MPI is initialised. */
 bool comm_active(void);
+
+/* May there be threads beside the main one, which alone calls what is declared here (MPI_THREAD_FUNNELED)? */
+bool comm_threads(void);
 int comm_rank(void);
 int comm_size(void);
 MPI_Comm comm_world(void);

@@ -1,6 +1,6 @@
 /* status.c - the one place where the text of the last failure lives.
  *
- * One process is one thread of control (MPI ranks, no threads), so a static buffer serves. */
+ * Each thread has its own (aside.h), so a static buffer serves. */
 #include "base/status.h"
 
 #include "base/text.h"
@@ -11,7 +11,7 @@
 
 enum { STATUS_LINE = 4000 }; /* longest message: one line, whatever names and values are in it */
 
-static char status_buffer[4096];
+static _Thread_local char status_buffer[4096];
 
 int status_fail(int code, const char *format, ...)
 {

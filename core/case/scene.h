@@ -112,7 +112,13 @@ struct scene_tension {
 
 /* A liquid, its vapour and the gases beside it: section `phase-change:`. */
 enum { SCENE_PHASES = 4 };
-enum scene_phase_rate { SCENE_PHASE_EQUILIBRIUM, SCENE_PHASE_NONE, SCENE_PHASE_RELAXATION, SCENE_PHASE_HERTZ_KNUDSEN };
+enum scene_phase_rate {
+    SCENE_PHASE_EQUILIBRIUM,
+    SCENE_PHASE_NONE,
+    SCENE_PHASE_RELAXATION,
+    SCENE_PHASE_HERTZ_KNUDSEN,
+    SCENE_PHASE_LUA
+};
 enum scene_phase_direction { SCENE_PHASE_BOTH, SCENE_PHASE_EVAPORATION, SCENE_PHASE_CONDENSATION };
 
 struct scene_phase {
@@ -122,6 +128,7 @@ struct scene_phase {
     enum scene_phase_direction direction;
     double time;                   /* of relaxation [s] */
     double accommodation, area;    /* of hertz-knudsen [1, 1/m] */
+    const struct script *script;   /* of lua: function(p, T, p_eq, share, alpha); [kg/m3/s] */
     double tension, superheat;     /* what liquid without vapour bears [Pa, K] */
     double onset;                  /* liquid evaporates where vapour and gases fill this share of the cell */
     double wet;                    /* vapour condenses where the liquid fills this share of the cell */
@@ -199,12 +206,12 @@ enum scene_measure {
     SCENE_OUTSIDE,
     SCENE_MIN_BETWEEN,
     SCENE_MAX_BETWEEN,
+    SCENE_EVAPORATED,
     SCENE_FORCE,
     SCENE_POWER,
     SCENE_BODY_DISPLACEMENT,
     SCENE_BODY_VELOCITY,
     SCENE_BODY_ANGLE,
-    SCENE_EVAPORATED,
     SCENE_VALUE,
 };
 
@@ -398,7 +405,8 @@ struct scene_output {
     int writers; /* of snapshots and checkpoints; 0: one per machine */
     char (*snapshot_fields)[SCENE_NAME];
     unsigned n_snapshot_field;
-    bool snapshot_double; /* float64 instead of float32 */
+    bool snapshot_double;   /* float64 instead of float32 */
+    double snapshot_memory; /* bytes that a writer may take to write snapshots beside the run */
     unsigned n_column, n_probe, n_map;
     struct scene_column *columns;
     struct scene_probe *probes;

@@ -24,6 +24,14 @@ static const struct key scene_output_snapshot_rows[] = {
      .choices = "single|double",
      .fallback = "single",
      .doc = "Bits of the numbers: single halves the files."},
+    {.name = "memory",
+     .type = KEYS_INTEGER,
+     .min = 0,
+     .max = 1000000,
+     .fallback = "256",
+     .doc =
+         "MiB that a writer may take for a snapshot (before it is packed) to write it while the run goes on; 0, or a "
+         "larger snapshot: the run waits for it."},
     {0},
 };
 
@@ -225,6 +233,7 @@ void scene_output(struct draft *draft)
     scene_field_name_list(draft, keys_at(snapshots, "fields"), &scene->output.snapshot_fields,
                           &scene->output.n_snapshot_field);
     scene_output_body(scene);
+    scene->output.snapshot_memory = (double)keys_at(snapshots, "memory")->integer * 0x1p20;
     scene->output.snapshot_double = keys_at(snapshots, "precision")->integer == 1;
     scene->output.history = scene_output_every(keys_at(keys_at(output, "history")->map, "every"));
     scene->output.history_finest = keys_at(keys_at(output, "history")->map, "steps-of")->integer == 1;

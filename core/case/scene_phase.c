@@ -44,6 +44,19 @@ static const struct key scene_phase_hertz_rows[] = {
     {0},
 };
 
+static const struct key scene_phase_lua_rows[] = {
+    {.name = "lua",
+     .type = KEYS_TEXT,
+     .required = true,
+     .doc = "File or block: function(p, T, p_eq, share, alpha) that returns the mass that evaporates per volume of the "
+            "cell and "
+            "time, kg/m3/s, below 0 where vapour condenses: p and T of the cell, p_eq the vapour's pressure at which "
+            "nothing "
+            "happens, share * p its pressure (share: its mole fraction among the gases), alpha the volume fraction of "
+            "vapour and gases."},
+    {0},
+};
+
 static const struct keys_section scene_phase_equilibrium = {
     .name = "equilibrium", .doc = "Infinitely fast: one pressure, temperature and Gibbs energy after every stage."};
 static const struct keys_section scene_phase_none = {.name = "none",
@@ -56,8 +69,14 @@ static const struct keys_section scene_phase_hertz = {
     .doc = "Kinetic theory: 2 s/(2 - s)/sqrt(2 pi R T) (p_eq - p_v) per surface, implicit in time.",
     .keys = scene_phase_hertz_rows};
 
+static const struct keys_section scene_phase_lua = {
+    .name = "lua",
+    .doc = "A function of yours, implicit in time and never past equilibrium.",
+    .keys = scene_phase_lua_rows};
+
 static const struct keys_section *const scene_phase_rates[] = {&scene_phase_equilibrium, &scene_phase_none,
-                                                               &scene_phase_relaxation, &scene_phase_hertz, NULL};
+                                                               &scene_phase_relaxation,  &scene_phase_hertz,
+                                                               &scene_phase_lua,         NULL};
 
 static const struct keys_section scene_phase_rate = {.name = "rate",
                                                      .doc = "How fast mass is exchanged.",
@@ -132,7 +151,8 @@ static const struct key scene_phase_rows[] = {
      .type = KEYS_SECTION,
      .section = &scene_phase_rate,
      .fallback = "equilibrium",
-     .doc = "How fast mass is exchanged: equilibrium, none, or {type: relaxation, ...}, {type: hertz-knudsen, ...}."},
+     .doc = "How fast mass is exchanged: equilibrium, none, or {type: relaxation, ...}, {type: hertz-knudsen, ...}, "
+            "{type: lua, ...}."},
     {.name = "where",
      .type = KEYS_CHOICE,
      .choices = "interface|everywhere",
@@ -246,14 +266,16 @@ static bool scene_phase_gases(struct draft *draft, const struct keys_value *list
     return good;
 }
 
-static void scene_phase_pace(const struct keys_map *map, struct scene_phase *pair)
+static void scene_phase_pace(struct draft *draft, const struct keys_map *map, struct scene_phase *pair)
 {
-    static const char *const words[] = {"equilibrium", "none", "relaxation", "hertz-knudsen"};
+    static const char *const words[] = {"equilibrium", "none", "relaxation", "hertz-knudsen", "lua"};
     const struct keys_map *rate = keys_at(map, "rate")->map;
     if (!rate || !rate->chosen) return;
     for (unsigned i = 0; i < sizeof words / sizeof *words; i++)
         if (strcmp(rate->chosen->name, words[i]) == 0) pair->rate = (enum scene_phase_rate)i;
     if (pair->rate == SCENE_PHASE_RELAXATION) pair->time = keys_at(rate, "time")->number;
+    if (pair->rate == SCENE_PHASE_LUA && keys_at(rate, "lua")->given)
+        pair->script = scene_file_lua(draft, keys_at(rate, "lua"));
     if (pair->rate != SCENE_PHASE_HERTZ_KNUDSEN) return;
     pair->accommodation = keys_at(rate, "accommodation")->number;
     pair->area = keys_at(rate, "area")->number;
@@ -345,7 +367,7 @@ static void scene_phase_pair(struct draft *draft, const struct keys_value *value
     pair.liquid = (unsigned)liquid;
     pair.vapour = (unsigned)vapour;
     bool gases = scene_phase_gases(draft, keys_at(map, "gases"), &pair);
-    scene_phase_pace(map, &pair);
+    scene_phase_pace(draft, map, &pair);
     scene_phase_places(draft, map, &pair);
     if (liquid < 0 || vapour < 0 || !gases) return;
     scene_phase_set(draft, keys_at(map, "calibrate"), &pair);

@@ -403,7 +403,7 @@ static int checkpoint_put(struct checkpoints *checkpoints, const struct state *s
                           const char *path)
 {
     char *draft = place_draft(path);
-    struct parts *parts = parts_new(path, checkpoints->writers);
+    struct parts *parts = parts_new(path, checkpoints->writers, false);
     struct checkpoint point = {.state = state};
     int code = checkpoint_draft(&point, parts, outputs);
     if (!code) code = parts_accept(parts);

@@ -3,7 +3,6 @@
 
 #include "base/mem.h"
 #include "base/status.h"
-#include "io/place.h"
 
 #include <jansson.h>
 #include <stdlib.h>
@@ -50,19 +49,23 @@ void filelist_done(struct filelist *list)
 
 void filelist_add(struct filelist *list, const char *name, double time)
 {
-    while (list->n && list->times[list->n - 1] >= time) mem_free(list->names[--list->n]);
+    while (list->n && list->times[list->n - 1] >= time) filelist_drop(list);
     filelist_append(list, name, time);
 }
 
-int filelist_write(const struct filelist *list, const char *path)
+void filelist_drop(struct filelist *list)
+{
+    mem_free(list->names[--list->n]);
+}
+
+char *filelist_text(const struct filelist *list)
 {
     json_t *files = json_array();
     for (size_t i = 0; i < list->n; i++)
         json_array_append_new(files, json_pack("{s:s, s:f}", "name", list->names[i], "time", list->times[i]));
     json_t *root = json_pack("{s:s, s:o}", "file-series-version", "1.0", "files", files);
-    char *text = json_dumps(root, JSON_INDENT(1));
-    int code = text ? place_text(path, text) : status_fail(STATUS_RUN, "%s: a file name is not UTF-8", path);
+    char *text = json_dumps(root, JSON_INDENT(1)), *copy = mem_text(text);
     free(text);
     json_decref(root);
-    return code;
+    return copy;
 }

@@ -19,7 +19,10 @@ void filelist_done(struct filelist *list);
 /* Adds a file; entries at or after its time are dropped first (a run that was taken up again). */
 void filelist_add(struct filelist *list, const char *name, double time);
 
-/* Writes the list by draft and rename. Collective. */
-int filelist_write(const struct filelist *list, const char *path);
+/* Takes the file added last away again. */
+void filelist_drop(struct filelist *list);
+
+/* The list as a text, to be released with mem_free; NULL: a file name is not UTF-8. */
+char *filelist_text(const struct filelist *list);
 
 #endif

@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "io/held.h"
 #include "io/room.h"
 #include "io/writers.h"
 
@@ -110,6 +111,7 @@ void h5_abandon(struct h5 *file)
 static hid_t h5_access(struct h5 *file)
 {
     hid_t access = h5_check(file, H5Pcreate(H5P_FILE_ACCESS), "prepare");
+    if (held_is(file->path)) h5_check(file, H5Pset_fapl_stdio(access), "prepare"); /* others want a name in a folder */
     h5_check(file, H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST), "set the file version");
     h5_check(file, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "prepare");
     return access;

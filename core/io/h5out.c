@@ -244,16 +244,37 @@ static size_t h5out_gather(struct h5out *out, size_t first)
     return h5out_pack(out, count);
 }
 
+void h5out_forget(struct h5out_kept *kept)
+{
+    for (unsigned i = 0; i < kept->n; i++) mem_free(kept->chunks[i]);
+    mem_free(kept->chunks);
+    mem_free(kept->sizes);
+    *kept = (struct h5out_kept){0};
+}
+
+static void h5out_keep(struct h5out_kept *kept, const char *packed, size_t size)
+{
+    kept->sizes = mem_grow(kept->sizes, kept->n, kept->n + 1u, sizeof *kept->sizes);
+    kept->chunks = mem_grow(kept->chunks, kept->n, kept->n + 1u, sizeof *kept->chunks);
+    kept->sizes[kept->n] = size;
+    kept->chunks[kept->n] = mem_new(size, 1);
+    memcpy(kept->chunks[kept->n++], packed, size);
+}
+
 /* The part of a writer. */
 static void h5out_store(struct h5 *file, hid_t set, struct h5out *out, const char *path)
 {
-    for (size_t first = 0; first < out->total; first += out->chunk) {
+    const struct h5out_rows *rows = out->rows;
+    size_t i = 0;
+    for (size_t first = 0; first < out->total; first += out->chunk, i++) {
         uint32_t skipped;
         hsize_t at[2] = {first, 0};
-        size_t size = h5out_gather(out, first) - H5OUT_HEAD;
-        memcpy(&skipped, out->packed, sizeof skipped);
+        size_t size = rows->again ? rows->kept->sizes[i] : h5out_gather(out, first);
+        const char *packed = rows->again ? rows->kept->chunks[i] : out->packed;
+        if (rows->kept && !rows->again) h5out_keep(rows->kept, packed, size);
+        memcpy(&skipped, packed, sizeof skipped);
         if (file->code) continue; /* the others go on sending */
-        h5_check(file, H5Dwrite_chunk(set, H5P_DEFAULT, skipped, at, size, out->packed + H5OUT_HEAD), path);
+        h5_check(file, H5Dwrite_chunk(set, H5P_DEFAULT, skipped, at, size - H5OUT_HEAD, packed + H5OUT_HEAD), path);
     }
 }
 
@@ -354,7 +375,7 @@ static void h5out_map_part(struct h5 *file, const char *path, const struct h5out
 static void h5out_unite(struct h5 *file, const char *path, const struct h5out *out)
 {
     const struct h5out_rows *rows = out->rows;
-    hid_t layout = h5_check(file, H5Pcreate(H5P_DATASET_CREATE), "prepare a view");
+    hid_t layout = h5out_plain_layout(file);
     hid_t space = h5out_space(file, rows->total, rows->columns), type = h5_type_id(rows->type);
     if (rows->type == H5_F32 || rows->type == H5_F64)
         h5_check(file, H5Pset_fill_value(layout, H5T_NATIVE_DOUBLE, &(double){NAN}), "prepare a view");
@@ -372,7 +393,9 @@ int h5out_write(struct h5 *file, const char *path, const struct h5out_rows *rows
     struct h5 *holder = file->part ? file->part : file;
     TRY(comm_agree(file->code ? file->code : holder->code));
     h5out_begin(&out, rows, file->writers);
-    if (holder->idle) (rows->hash ? h5out_send_plain : h5out_send)(&out);
+    if (holder->idle && !rows->again) (rows->hash ? h5out_send_plain : h5out_send)(&out);
+    else if (holder->idle)
+        ; /* the writer has them */
     else if (!file->part) h5out_put(holder, path, &out);
     else if (out.total) {
         h5_parents(holder, path);

@@ -10,6 +10,14 @@ struct h5out_range {
     size_t first, count;
 };
 
+/* Chunks as they were packed, kept by their writer to be written once more: start from {0}. */
+struct h5out_kept {
+    unsigned n;
+    size_t *sizes;
+    char **chunks;
+};
+void h5out_forget(struct h5out_kept *kept);
+
 /* A data set of `total` rows, of which this rank writes some ranges (ascending, apart); together
  * the ranks write each row once, each rank with the same n_range. `fill` is asked for runs of these
  * rows, ascending, each inside a range and a chunk, and writes them to `out` as `type`. */
@@ -19,6 +27,9 @@ struct h5out_rows {
     size_t total;
     size_t chunk;   /* rows that are compressed together (shuffle + deflate 1), or travel together if they are not */
     uint64_t *hash; /* not NULL: the rows are stored as they are, in one piece; a writer gets the XXH64 of its rows */
+    struct h5out_kept
+        *kept;  /* not NULL: where the packed chunks are kept; `again`: nobody is asked, they are written */
+    bool again; /* as they were. For rows that are compressed; the same on all ranks */
     unsigned n_range;
     const struct h5out_range *ranges;
     void (*fill)(void *context, size_t first, size_t count, void *out);

@@ -111,8 +111,15 @@ static struct nodes_owner nodes_first(const struct nodes_owner regions[NODES_REG
 static void nodes_look(const struct mesh *mesh, int l, unsigned tile, struct nodes_around *ret_around)
 {
     struct nodes_owner regions[NODES_REGIONS];
+    int from = 0, to = NODES_KINDS, one = NODES_KINDS / 5;
+    for (int axis = 2; axis >= mesh->dim; axis--, one /= 5) { /* no points elsewhere along axes that there are not */
+        from += one;
+        to = from + one;
+    }
     nodes_regions(mesh, l, tile, regions);
-    for (int kind = 0; kind < NODES_KINDS; kind++) ret_around->owners[kind] = nodes_first(regions, l, kind);
+    for (int kind = 0; kind < NODES_KINDS; kind++)
+        ret_around->owners[kind] =
+            kind >= from && kind < to ? nodes_first(regions, l, kind) : (struct nodes_owner){.level = NODES_NONE};
 }
 
 /* Numbers the points that a tile owns from 0 on, the others -1; returns how many. */

@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "io/h5out.h"
+#include "io/held.h"
 #include "io/place.h"
 #include "io/room.h"
 #include "io/writers.h"
@@ -23,7 +24,8 @@ enum { PARTS_NUMBERS = 2 }; /* what a writer says of its part: bytes, seal */
 struct parts {
     int n;
     char *path;
-    char *stem, *own; /* NAME.a; the part of this rank's writer. NULL with one writer */
+    char *stem, *own;               /* NAME.a; the part of this rank's writer. NULL with one writer */
+    struct held *draft, *own_draft; /* where they are written; NULL on ranks that do not */
 };
 
 /* The last element of a path. */
@@ -45,23 +47,36 @@ static char parts_letter(const char *path)
     return 'z';
 }
 
-struct parts *parts_new(const char *path, int n)
+/* Where the draft of a file is written. */
+static struct held *parts_draft(const char *path, bool in_memory)
+{
+    char *draft = place_draft(path);
+    struct held *held = held_new(draft, in_memory);
+    mem_free(draft);
+    return held;
+}
+
+struct parts *parts_new(const char *path, int n, bool in_memory)
 {
     struct parts *parts = mem_new(1, sizeof *parts);
     char letter = 'a';
     parts->n = n;
     parts->path = mem_text(path);
+    if (comm_rank() == 0) parts->draft = parts_draft(path, in_memory);
     if (n == 1) return parts;
     if (comm_rank() == 0) letter = parts_letter(path);
     comm_bcast(&letter, 1);
     parts->stem = mem_print("%s.%c", path, letter);
     parts->own = mem_print("%s%d", parts->stem, writers_of(n, comm_rank()) + 1);
+    if (writers_here(n)) parts->own_draft = parts_draft(parts->own, in_memory);
     return parts;
 }
 
 void parts_free(struct parts *parts)
 {
     if (!parts) return;
+    held_free(parts->own_draft);
+    held_free(parts->draft);
     mem_free(parts->own);
     mem_free(parts->stem);
     mem_free(parts->path);
@@ -70,12 +85,15 @@ void parts_free(struct parts *parts)
 
 int parts_create(const struct parts *parts, size_t head, struct h5 **ret_file)
 {
-    char *draft = place_draft(parts->path), *own = parts->own ? place_draft(parts->own) : NULL;
+    const char *own = parts->own_draft ? held_path(parts->own_draft) : parts->own;
     const struct h5_parts made = {parts->n, parts->stem ? parts_base(parts->stem) : NULL, own, SEAL_BYTES};
-    int code = h5_create_parts(draft, head, &made, ret_file);
-    mem_free(own);
-    mem_free(draft);
-    return code;
+    return h5_create_parts(parts->draft ? held_path(parts->draft) : parts->path, head, &made, ret_file);
+}
+
+int parts_store(const struct parts *parts)
+{
+    if (parts->own_draft) TRY(held_store(parts->own_draft));
+    return parts->draft ? held_store(parts->draft) : STATUS_OK;
 }
 
 /* Does this rank write a part? */

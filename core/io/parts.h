@@ -16,8 +16,8 @@
 struct parts;
 
 /* Prepares a file `path` to be written by n writers (writers.h); 1: an ordinary one, and what follows concerns that
- * file alone. Collective. */
-struct parts *parts_new(const char *path, int n);
+ * file alone. `in_memory`: drafts are made there first (held.h). Collective. */
+struct parts *parts_new(const char *path, int n, bool in_memory);
 void parts_free(struct parts *parts); /* NULL is fine */
 
 /* Creates the drafts (place.h) of the file, behind `head` bytes that are left to others, and of its parts. Collective. */
@@ -27,6 +27,9 @@ int parts_create(const struct parts *parts, size_t head, struct h5 **ret_file);
  * `where` (noted in *ret_hash, the text's checksum, if not NULL). `seals`: seal_close or seal_stamp. Collective. */
 int parts_seal(const struct parts *parts, struct h5 *file, const char *where, int (*seals)(const char *, struct seal *),
                struct seal *seal, uint64_t *ret_hash);
+
+/* Brings the drafts of this rank to the disk, if they are in memory. Of this rank alone, and beside the run (aside.h). */
+int parts_store(const struct parts *parts);
 
 /* Gives the parts their names; the file itself comes after them. Collective. */
 int parts_accept(const struct parts *parts);

@@ -87,24 +87,38 @@ void place_reject(const char *path)
     mem_free(draft);
 }
 
+int place_accept_here(const char *path)
+{
+    char *draft = place_draft(path);
+    int code = place_rename(draft, path);
+    mem_free(draft);
+    return code;
+}
+
 int place_accept(const char *path)
 {
-    int code = STATUS_OK;
-    if (comm_rank() == 0) {
-        char *draft = place_draft(path);
-        code = place_rename(draft, path);
-        mem_free(draft);
-    }
-    code = comm_agree(code);
+    int code = comm_agree(comm_rank() == 0 ? place_accept_here(path) : STATUS_OK);
     if (code) place_reject(path);
     return code;
 }
 
-int place_text(const char *path, const char *text)
+static int place_write_draft(const char *path, const char *text)
 {
     char *draft = place_draft(path);
-    int code = comm_agree(comm_rank() == 0 ? place_write(draft, text) : STATUS_OK);
+    int code = place_write(draft, text);
     mem_free(draft);
+    return code;
+}
+
+int place_text_here(const char *path, const char *text)
+{
+    TRY(place_write_draft(path, text));
+    return place_accept_here(path);
+}
+
+int place_text(const char *path, const char *text)
+{
+    int code = comm_agree(comm_rank() == 0 ? place_write_draft(path, text) : STATUS_OK);
     if (!code) return place_accept(path);
     place_reject(path);
     return code;

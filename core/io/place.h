@@ -18,6 +18,10 @@ char *place_draft(const char *path);
  * cannot be renamed is removed. */
 int place_accept(const char *path);
 
+/* The same for this process alone, beside the run (aside.h). Drafts of failures stay for place_reject. */
+int place_accept_here(const char *path);
+int place_text_here(const char *path, const char *text);
+
 /* Removes the draft of a file after a failure; keeps the recorded message. */
 void place_reject(const char *path);
 

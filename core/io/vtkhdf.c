@@ -7,6 +7,7 @@
 #include "base/status.h"
 #include "io/h5out.h"
 #include "io/nodes.h"
+#include "io/seal.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -20,6 +21,8 @@ struct vtkhdf {
     const struct mesh *mesh;
     const struct leaves *leaves;
     struct nodes *nodes;
+    struct vtkhdf_cells *kept;
+    bool again;   /* `kept` is of this mesh */
     size_t chunk; /* cells compressed together */
     unsigned n_range;
     struct h5out_range cells[LEAVES_KINDS * MESH_LEVELS], points[MESH_LEVELS];
@@ -66,6 +69,15 @@ static void vtkhdf_place(const int from[3], const int count[3], size_t i, int re
     ret_at[2] = from[2] + (int)(i / (n0 * n1));
 }
 
+/* The next cell of the box. */
+static void vtkhdf_next(const int from[3], const int count[3], int ret_at[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        if (++ret_at[axis] < from[axis] + count[axis]) return;
+        ret_at[axis] = from[axis];
+    }
+}
+
 /* Writes the values of a part; returns how many numbers that were. */
 static size_t vtkhdf_put(struct vtkhdf *out, const struct vtkhdf_part *part, void *to)
 {
@@ -79,8 +91,8 @@ static size_t vtkhdf_put(struct vtkhdf *out, const struct vtkhdf_part *part, voi
         derive_tile(out->state->model, mesh, out->level, out->tile - mesh->levels[out->level].first, out->state->t,
                     out->field, out->values);
     leaves_box(out->leaves, part->block, from, box);
-    for (size_t i = part->from; i < part->to; i++) {
-        vtkhdf_place(from, box, i, at);
+    vtkhdf_place(from, box, part->from, at);
+    for (size_t i = part->from; i < part->to; i++, vtkhdf_next(from, box, at)) {
         const double *value = out->values + at[0] + n[0] * (at[1] + n[1] * at[2]);
         for (size_t q = 0; q < components; q++, count++) {
             if (out->type == H5_F64) wide[count] = value[q * mesh->n_cell];
@@ -128,8 +140,8 @@ static void vtkhdf_connect(struct vtkhdf *out, const struct vtkhdf_part *part, i
     int from[3], box[3], at[3];
     if (vtkhdf_turn(out, part->block)) nodes_of_tile(out->nodes, out->mesh, out->level, out->tile, out->numbers);
     leaves_box(out->leaves, part->block, from, box);
-    for (size_t i = part->from; i < part->to; i++) {
-        vtkhdf_place(from, box, i, at);
+    vtkhdf_place(from, box, part->from, at);
+    for (size_t i = part->from; i < part->to; i++, vtkhdf_next(from, box, at)) {
         for (int c = 0; c < out->corners; c++)
             *ret_corners++ =
                 out->numbers[at[0] + turn[c][0] + points[0] * (at[1] + turn[c][1] + points[1] * (at[2] + turn[c][2]))];
@@ -179,14 +191,59 @@ static void vtkhdf_divide(struct vtkhdf *out)
     }
 }
 
-static void vtkhdf_begin(struct vtkhdf *out)
+void vtkhdf_forget(struct vtkhdf_cells *cells)
+{
+    nodes_free(cells->nodes);
+    h5out_forget(&cells->points);
+    h5out_forget(&cells->connectivity);
+    h5out_forget(&cells->offsets);
+    h5out_forget(&cells->types);
+    *cells = (struct vtkhdf_cells){.most = cells->most};
+}
+
+/* What tells one mesh from another: the tiles of all levels, who has them, what is under finer ones. */
+static uint64_t vtkhdf_mesh(const struct mesh *mesh)
+{
+    uint64_t sum = 0;
+    for (int l = 0; l < mesh->n_level; l++)
+        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++) {
+            const struct tile *tile = &mesh->levels[l].tiles[i];
+            const uint64_t facts[] = {sum, tile->key, (uint64_t)tile->rank << 32 | (uint64_t)l << 8 | tile->covered};
+            sum = seal_hash(facts, sizeof facts);
+        }
+    return sum;
+}
+
+/* Bytes of points and connections. */
+static size_t vtkhdf_bytes(const struct vtkhdf *out)
+{
+    size_t cell = (size_t)out->corners * sizeof(int32_t) + sizeof(int32_t) + 1;
+    return out->nodes->total * 3 * sizeof(double) + out->leaves->n_cell * cell;
+}
+
+/* Goes on with the points of the file before, if they are those of this mesh. */
+static void vtkhdf_recall(struct vtkhdf *out, struct vtkhdf_cells *cells)
+{
+    uint64_t mesh = vtkhdf_mesh(out->mesh);
+    out->again = cells->is_kept && cells->mesh == mesh;
+    if (!out->again) {
+        vtkhdf_forget(cells);
+        cells->nodes = nodes_new(out->mesh);
+        cells->mesh = mesh;
+    }
+    out->nodes = cells->nodes;
+    out->kept = vtkhdf_bytes(out) / (size_t)out->file->writers <= cells->most ? cells : NULL;
+    out->again = out->again && out->kept;
+}
+
+static void vtkhdf_begin(struct vtkhdf *out, struct vtkhdf_cells *cells)
 {
     const struct mesh *mesh = out->mesh;
     size_t tiles = VTKHDF_CHUNK_ROWS / mesh->n_cell;
     if (tiles > VTKHDF_CHUNK_TILES) tiles = VTKHDF_CHUNK_TILES;
     out->chunk = mesh->n_cell * (tiles ? tiles : 1);
     out->corners = 1 << mesh->dim;
-    out->nodes = nodes_new(mesh);
+    vtkhdf_recall(out, cells);
     out->values = mem_new(3 * mesh->n_cell, sizeof *out->values);
     out->numbers = mem_new(out->nodes->n_point, sizeof *out->numbers);
     out->x = mem_new(out->nodes->n_point, sizeof *out->x);
@@ -195,7 +252,6 @@ static void vtkhdf_begin(struct vtkhdf *out)
 
 static void vtkhdf_end(struct vtkhdf *out)
 {
-    nodes_free(out->nodes);
     mem_free(out->values);
     mem_free(out->numbers);
     mem_free(out->x);
@@ -219,6 +275,8 @@ static int vtkhdf_write_points(struct vtkhdf *out)
                               .columns = 3,
                               .total = out->nodes->total,
                               .chunk = out->chunk,
+                              .kept = out->kept ? &out->kept->points : NULL,
+                              .again = out->again,
                               .n_range = (unsigned)out->mesh->n_level,
                               .ranges = out->points,
                               .fill = vtkhdf_fill_points,
@@ -230,22 +288,27 @@ static int vtkhdf_write_cells(struct vtkhdf *out)
 {
     struct h5out_range ranges[LEAVES_KINDS * MESH_LEVELS];
     size_t corners = (size_t)out->corners;
-    struct h5out_rows rows = {.type = H5_I32, .n_range = out->n_range, .ranges = ranges, .context = out};
+    struct vtkhdf_cells *kept = out->kept;
+    struct h5out_rows rows = {
+        .type = H5_I32, .again = out->again, .n_range = out->n_range, .ranges = ranges, .context = out};
     vtkhdf_scale(out, corners, 0, ranges);
     rows.total = out->leaves->n_cell * corners;
     rows.chunk = out->chunk * corners;
     rows.fill = vtkhdf_fill_connectivity;
+    rows.kept = kept ? &kept->connectivity : NULL;
     out->level = -1;
     TRY(h5out_write(out->file, "/VTKHDF/Connectivity", &rows));
     vtkhdf_scale(out, 1, 1, ranges);
     rows.total = out->leaves->n_cell + 1;
     rows.chunk = out->chunk;
     rows.fill = vtkhdf_fill_offsets;
+    rows.kept = kept ? &kept->offsets : NULL;
     TRY(h5out_write(out->file, "/VTKHDF/Offsets", &rows));
     vtkhdf_scale(out, 1, 0, ranges);
     rows.total = out->leaves->n_cell;
     rows.type = H5_U8;
     rows.fill = vtkhdf_fill_types;
+    rows.kept = kept ? &kept->types : NULL;
     return h5out_write(out->file, "/VTKHDF/Types", &rows);
 }
 
@@ -290,14 +353,15 @@ static void vtkhdf_write_frame(struct vtkhdf *out)
 }
 
 int vtkhdf_write(struct h5 *file, const struct state *state, const struct leaves *leaves,
-                 const struct vtkhdf_fields *fields)
+                 const struct vtkhdf_fields *fields, struct vtkhdf_cells *cells)
 {
     struct vtkhdf out = {.file = file, .state = state, .mesh = state->mesh, .leaves = leaves, .type = fields->type};
-    vtkhdf_begin(&out);
+    vtkhdf_begin(&out, cells);
     vtkhdf_write_frame(&out);
     int code = vtkhdf_write_counts(&out);
     if (!code) code = vtkhdf_write_points(&out);
     if (!code) code = vtkhdf_write_cells(&out);
+    cells->is_kept = !code && out.kept;
     for (unsigned i = 0; !code && i < fields->n; i++) code = vtkhdf_write_field(&out, &fields->at[i]);
     vtkhdf_end(&out);
     return code;

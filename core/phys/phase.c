@@ -27,6 +27,7 @@ struct phase_block {
     bool alone[PHASE_BLOCK];   /* liquid without vapour, which has to nucleate */
     bool left[PHASE_BLOCK];    /* the liquid has taken volume that had no vapour left */
     struct equilibrium_cells cells, start;
+    int status; /* of scripts */
 };
 
 static void phase_family(const struct model *model, const struct model_phase *phase, struct equilibrium_family *ret)
@@ -281,10 +282,12 @@ static void phase_limit(struct phase_block *block, size_t i, double dt)
     bool wrong = (scene->direction == SCENE_PHASE_EVAPORATION && after < before) ||
                  (scene->direction == SCENE_PHASE_CONDENSATION && after > before);
     if (scene->rate == SCENE_PHASE_RELAXATION) m = before - (after - before) * expm1(-dt / scene->time);
-    if (scene->rate == SCENE_PHASE_HERTZ_KNUDSEN) {
+    if (scene->rate == SCENE_PHASE_HERTZ_KNUDSEN || scene->rate == SCENE_PHASE_LUA) {
         struct equilibrium_point point;
+        int status;
         equilibrium_point_take(&block->family, cells, i, &point);
-        m = phase_rate_step(&point, scene, before, after, dt);
+        m = phase_rate_step(&point, scene, before, after, dt, &status);
+        block->status = block->status ? block->status : status;
     }
     if (wrong || block->thermal[i]) m = before;
     if (m < EQUILIBRIUM_NOTHING * all) m = 0.0;
@@ -340,8 +343,8 @@ static void phase_run(struct phase_block *block, size_t stride, double dt, doubl
     }
 }
 
-void phase_act(const struct model *model, unsigned k, size_t n, size_t stride, double dt, double *w, double *u,
-               struct equilibrium_effort *effort)
+int phase_act(const struct model *model, unsigned k, size_t n, size_t stride, double dt, double *w, double *u,
+              struct equilibrium_effort *effort)
 {
     struct phase_block block = {.model = model, .phase = &model->phases[k]};
     phase_family(model, block.phase, &block.family);
@@ -353,4 +356,5 @@ void phase_act(const struct model *model, unsigned k, size_t n, size_t stride, d
         block.n = 0;
     }
     if (block.n) phase_run(&block, stride, dt, w, u, effort);
+    return block.status;
 }

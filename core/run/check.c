@@ -14,6 +14,7 @@
 #include "case/shape.h"
 #include "cli/human.h"
 #include "cli/scenes.h"
+#include "io/snapshot.h"
 #include "run/check_phase.h"
 #include "run/transport.h"
 #include "run/travel.h"
@@ -354,6 +355,10 @@ static void check_print(const struct scene *scene, const struct model *model, co
     printf("  %-12s about %s", "memory", human_bytes(bytes, text));
     if (bytes > mem_machine()) printf(": more than this machine has, %s", human_bytes(mem_machine(), text));
     putchar('\n');
+    double beside = snapshot_memory(model, mesh->all);
+    if (beside > 0.0)
+        printf("  %-12s and up to %s for snapshots, to write them while the run goes on\n", "",
+               human_bytes(beside, text));
 }
 
 static const char *check_seconds(double seconds, char text[HUMAN_ROOM])

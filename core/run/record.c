@@ -37,6 +37,7 @@ struct record {
 static int record_open_files(struct record *record, const struct state *state, int argc, char *const *argv)
 {
     TRY(snapshot_new(state, &record->snapshots));
+    snapshot_beside(record->snapshots);
     TRY(history_new(state, &record->history));
     TRY(probes_new(state, &record->probes));
     TRY(maps_new(state, &record->maps));
@@ -165,9 +166,11 @@ static int record_note(const struct record *record, const struct state *state, s
     return probes_keep(record->probes, notes);
 }
 
+/* A checkpoint says which snapshots there are: they must be there. */
 static int record_checkpoint(struct record *record, const struct state *state)
 {
     struct notes notes = {0};
+    TRY(snapshot_wait(record->snapshots));
     int code = record_note(record, state, &notes);
     if (!code) code = checkpoint_write(record->checkpoints, state, &notes);
     text_done(&notes.text);
@@ -253,7 +256,23 @@ static int record_write_last(struct record *record, const struct state *state)
     } else {
         TRY(history_flush(record->history));
     }
-    return record_snapshot(record, state, &moment);
+    TRY(record_snapshot(record, state, &moment));
+    return snapshot_wait(record->snapshots);
+}
+
+bool record_busy(const struct record *record)
+{
+    return snapshot_busy(record->snapshots);
+}
+
+int record_settle(struct record *record, bool is_busy)
+{
+    return is_busy ? STATUS_OK : snapshot_settle(record->snapshots);
+}
+
+int record_finish(struct record *record)
+{
+    return snapshot_wait(record->snapshots);
 }
 
 int record_last(struct record *record, const struct state *state)

@@ -45,6 +45,13 @@ const char *record_saved(const struct record *record);
  * there is nothing to dump. */
 int record_dump(const struct record *record, const struct state *state, char **ret_path);
 
+/* Is this rank at work beside the run, bringing a file to the disk? Not collective. */
+bool record_busy(const struct record *record);
+
+/* If no rank is (`is_busy`, agreed on): looks what became of such a file. Waits for it, whoever is. */
+int record_settle(struct record *record, bool is_busy);
+int record_finish(struct record *record);
+
 /* Writes whatever this state lacks: the end of a run, whatever ended it. */
 int record_last(struct record *record, const struct state *state);
 

@@ -101,7 +101,7 @@ static double run_clock(const struct run *run)
  * is long ago. */
 static int run_interruption(struct run *run)
 {
-    double wish[3] = {RUN_GO, 0.0, 0.0};
+    double wish[4] = {RUN_GO, 0.0, 0.0, record_busy(run->record)};
     if (comm_rank() == 0) {
         double clock = run_clock(run);
         if (clock >= run->walltime) wish[0] = RUN_CLOCK;
@@ -109,7 +109,8 @@ static int run_interruption(struct run *run)
         wish[2] = record_late(run->record, clock);
     }
     if (stop_signal()) wish[0] = RUN_SIGNAL + stop_signal();
-    comm_max(wish, 3);
+    comm_max(wish, 4);
+    TRY(record_settle(run->record, wish[3] > 0.0));
     if (wish[1] > 0.0) TRY(run_snapshot(run));
     if (wish[2] > 0.0 && wish[0] == RUN_GO) record_rescue(run->record, run->state); /* an end saves the state itself */
     if (wish[0] == RUN_GO) return 0;
@@ -214,6 +215,9 @@ static bool run_may_go_on(const struct run *run, int code)
 /* The outputs that end a run however it ends; the checkpoint first, because it leaves most. */
 static int run_save(struct run *run, int code)
 {
+    int late = record_finish(run->record);
+    if (late) log_error("%s", status_text());
+    if (late && code != STATUS_RUN) run_because(run, "%s", status_text());
     int bad = run_may_go_on(run, code) ? record_save(run->record, run->state) : STATUS_OK;
     if (bad && strcmp(status_text(), run->reason) != 0) /* the same failure once more needs no second line */
         log_error("the last state could not be saved: %s", status_text());
@@ -221,7 +225,7 @@ static int run_save(struct run *run, int code)
     int worse = record_last(run->record, run->state);
     if (worse) log_error("the last state could not be written: %s", status_text());
     if (worse && !bad && code != STATUS_RUN) run_because(run, "%s", status_text());
-    return bad || worse ? STATUS_RUN : STATUS_OK;
+    return late || bad || worse ? STATUS_RUN : STATUS_OK;
 }
 
 /* Criteria of refinement that have not tagged a single cell: a threshold that is never reached looks like a mesh that

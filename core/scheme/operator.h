@@ -19,6 +19,12 @@
 
 enum operator_when { OPERATOR_STAGE, OPERATOR_STEP, OPERATOR_TIMES };
 
+/* The first failure of a script that an operator asked. */
+struct operator_fault {
+    int status;
+    char message[512];
+};
+
 /* One tile whose new state stands. Blocks are [rows][n_cell]; only the active fields of `model` mean anything. */
 struct operator_tile {
     const struct model *model; /* the path that the tile was advanced with */
@@ -31,6 +37,7 @@ struct operator_tile {
     double *u;     /* conserved fields, which it may change */
     double *w;     /* primitives of u, for operators that ask for them; core makes them anew afterwards */
     double *grown; /* [n_cell] what plastic strains have grown by in this step: from plastic.c to rupture.c; or NULL */
+    struct operator_fault *fault; /* for who asks scripts: the step is not taken. NULL: nobody looks */
 };
 
 struct operator

@@ -1,7 +1,10 @@
 /* phase_change.c - see phase_change.h. */
 #include "scheme/phase_change.h"
 
+#include "base/status.h"
 #include "phys/phase.h"
+
+#include <stdio.h>
 
 static bool phase_change_wanted(const struct model *path)
 {
@@ -19,13 +22,17 @@ static bool phase_change_spreads(const struct scene *scene)
 static void phase_change_acts(const struct operator_tile *tile)
 {
     struct equilibrium_effort effort = {0};
-    for (unsigned k = 0; k < tile->model->n_phase; k++)
-        phase_act(tile->model, k, tile->n_cell, tile->n_cell, tile->dt, tile->w, tile->u, &effort);
+    for (unsigned k = 0; k < tile->model->n_phase; k++) {
+        int status = phase_act(tile->model, k, tile->n_cell, tile->n_cell, tile->dt, tile->w, tile->u, &effort);
+        if (!status || !tile->fault || tile->fault->status) continue;
+        tile->fault->status = status;
+        snprintf(tile->fault->message, sizeof tile->fault->message, "%s", status_text());
+    }
 }
 
 static void phase_change_say(const struct scene *scene, struct text *text)
 {
-    static const char *const rates[] = {"equilibrium", "none", "relaxation", "hertz-knudsen"};
+    static const char *const rates[] = {"equilibrium", "none", "relaxation", "hertz-knudsen", "lua"};
     for (unsigned k = 0; k < scene->n_phase; k++) {
         const struct scene_phase *pair = &scene->phases[k];
         text_add(text, "%s%s to %s, %s, %s", k ? "; " : ": ", scene->material[pair->liquid].name,

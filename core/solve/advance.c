@@ -58,10 +58,12 @@ static double advance_attempt(struct stage *stage, double *ret_signal, bool *ret
     double found[TABLEAU_STAGES + 2];
     guard_attempt(stage->guard);
     evaporate_forget(stage);
+    stage->fault.status = STATUS_OK;
     advance_run(stage);
     for (int s = 0; s < n; s++) found[s] = (double)stage->guard->bad[s];
     found[n] = stage->signal;
-    found[n + 1] = stage->bound->status || terms_failure(stage->work->own, &words, &place) ? 1.0 : 0.0;
+    bool blind = stage->bound->status || stage->fault.status || terms_failure(stage->work->own, &words, &place);
+    found[n + 1] = blind ? 1.0 : 0.0;
     comm_max(found, n + 2);
     cost_lap(&stage->work->cost, COST_EXCHANGE);
     *ret_signal = found[n];
@@ -224,6 +226,9 @@ static int advance_script(const struct state *state, struct stage *stage)
     if (status && stage->blind >= 0) advance_say_blind(stage, sizeof place, place);
     if (!status && (status = terms_failure(stage->work->own, &message, &inside)))
         snprintf(place, sizeof place, ", %s", inside);
+    char fault[sizeof stage->fault.message]; /* the repetition overwrites it */
+    snprintf(fault, sizeof fault, "%s", stage->fault.message);
+    if (!status && (status = stage->fault.status)) message = fault;
     guard_clear(stage->guard);
     stage->guard->last = true; /* no marks, which would make the repetition another attempt */
     advance_watch(state, stage);

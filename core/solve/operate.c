@@ -16,7 +16,8 @@ void operate_tile(struct stage *stage, unsigned local, double *u, double *w)
                                        .dt = dt,
                                        .u = u,
                                        .w = w,
-                                       .grown = stage->work->grown};
+                                       .grown = stage->work->grown,
+                                       .fault = &stage->fault};
     const struct operators *operators = work_operators(stage->work, path);
     evaporate_before(stage, local, u);
     mix_pressure_sum(&stage->effort, operators_act(operators, stage->turn + 1 == stage->tableau->n, &tile));

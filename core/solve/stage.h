@@ -34,10 +34,11 @@ struct stage {
     struct census census;
     double *previous;   /* [n_local][n_field][n_cell]: conserved fields of the stage before (tableau_keeps), or NULL */
     double *evaporated; /* masses that change phase in the step under way (evaporate.h), or NULL */
-    double at;          /* when its rates are taken, in dt: set by who runs the plan, and by stages within it (rkl.h) */
-    int turn;           /* stage under way: its row of the tableau, set by who runs the plan */
-    int blind;          /* tile whose boundary values a script could not give, times 3 plus the axis; -1: none */
-    struct rkl *rkl;    /* what diffuses takes super steps, or NULL */
+    struct operator_fault fault; /* of the attempt under way */
+    double at;       /* when its rates are taken, in dt: set by who runs the plan, and by stages within it (rkl.h) */
+    int turn;        /* stage under way: its row of the tableau, set by who runs the plan */
+    int blind;       /* tile whose boundary values a script could not give, times 3 plus the axis; -1: none */
+    struct rkl *rkl; /* what diffuses takes super steps, or NULL */
     struct blame *blame; /* a tile being watched while a failed attempt is repeated, and what was seen; or NULL */
     double t, dt;        /* of the step under way */
     double from, part;   /* where it begins in the step of the coarser level, and how much of that it takes */

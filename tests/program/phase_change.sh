@@ -125,3 +125,50 @@ CASE
 code=0
 "$BULLA" check fields.yaml --set 'output.history.columns={x: {max: quality_water}}' >said 2>&1 || code=$?
 [ "$code" = 2 ] && grep -q "no field .quality_water" said || fail "quality of a liquid is no field" said
+
+# A rate in Lua: that of Hertz and Knudsen again, to round-off; never past equilibrium; on any ranks; what it does wrong is said.
+cat >lua.yaml <<'CASE'
+bulla: 1
+title: A rate of one's own
+parameters: {A: 1000, s: 0.4}
+domain: {lower: [0], upper: [1 mm], cells: [16], boundaries: {x-: reflecting, x+: reflecting}}
+mesh: {tile: 4}
+materials: {water: {eos: {type: nasg, preset: water-2016}}, steam: {eos: {type: ideal-gas, preset: water-2016}}, air: {eos: {type: ideal-gas, preset: air}}}
+phase-change:
+  - liquid: water
+    vapour: steam
+    gases: [air]
+    rate:
+      type: lua
+      lua: |
+        return function(p, T, p_eq, share, alpha)
+          local R = 955 * 0.467015707
+          return A * 2 * s / (2 - s) / sqrt(2 * pi * R * T) * (p_eq - share * p)
+        end
+initial:
+  - {everywhere: true, fractions: {water: 0.5, steam: 0.2, air: 0.3}, temperature: 370, pressure: 1 bar}
+run: {until: 1 us, max-steps: 10}
+output: {directory: out, checkpoints: {every: 5 steps}, history: {columns: {e: {evaporated: steam}, m: {mass: steam}}}}
+CASE
+ranked lua 1 2
+resumed lua 5 lua-1
+mass() { awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "e") c = i } END { printf "%.9e\n", $c }' "$1/out/history.csv"; }
+awk '/rate:/ { print "    rate: {type: hertz-knudsen, accommodation: 0.4, area: 1000}"; skip = 1; next } /^initial:/ { skip = 0 } !skip' lua.yaml | grep -v '^parameters' >hertz.yaml
+ran hertz hertz
+[ "$(mass hertz)" = "$(mass lua-1)" ] || fail "not the rate of Hertz and Knudsen: $(mass hertz) $(mass lua-1)"
+sed 's/return A/return 1e9 * A/' lua.yaml >fast.yaml
+awk '/rate:/ { skip = 1; next } /^initial:/ { skip = 0 } !skip' lua.yaml | grep -v '^parameters' >instant.yaml
+ran fast fast
+ran instant instant 2>/dev/null
+[ "$(mass fast)" = "$(mass instant)" ] || fail "past equilibrium, or short of it: $(mass fast) $(mass instant)"
+sed 's/return A/return -A/' lua.yaml >back.yaml
+ran back back
+[ "$(mass back)" = 0.000000000e+00 ] || fail "vapour that wants to come to be condenses"
+wrong() { # WORDS SED-EXPRESSION: the run, changed so, ends with these words and code 2 or 3
+    sed -e "$2" lua.yaml >wrong.yaml
+    ! "$BULLA" run wrong.yaml --quiet --overwrite 2>said || fail "not seen: $1" said
+    grep -q "error: .*$1" said || fail "not told: $1" said
+}
+wrong "wrong.yaml:16: attempt to perform arithmetic on a nil value (called with 100000, 370, .*); step 1 at t = 0 s" 's/return A/return nil + A/'
+wrong "wrong.yaml:14: the script gives inf" 's/return A/return 1 \/ 0 * A/'
+wrong "key 'lua' is missing" '/^      lua: /,/^        end/d'

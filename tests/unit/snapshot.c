@@ -5,10 +5,12 @@
 #include "base/text.h"
 #include "io/read.h"
 #include "small.h"
+#include "solve/advance.h"
 
 #include <hdf5.h>
 #include <math.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* One object: "/VTKHDF/Points f8 [2145,3]"; "+" marks virtual data. */
 static herr_t note(hid_t file, const char *name, const H5O_info_t *info, void *context)
@@ -359,11 +361,108 @@ static int compare_files(char **paths)
     return comparison.sets < 5 ? 2 : comparison.differences != 0;
 }
 
+/* A bubble on three levels that come and go. */
+static const char moving[] =
+    "bulla: 1\ndomain:\n  geometry: axisymmetric\n  lower: [0, -1 mm]\n  upper: [1 mm, 1 mm]\n"
+    "  cells: [16, 32]\n  boundaries: {x-: axis, x+: outflow, y-: outflow, y+: outflow}\n"
+    "mesh: {tile: 8, levels: 2, regrid-every: 2, buffer: 2, refine: [{gradient: pressure, above: 0.05, relative: "
+    "true}]}\n" SMALL_MATERIALS "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: 1e5}\n"
+    "  - {half-space: {point: [0, 0.7 mm], normal: [0, 1]}, material: water, density: 1010, pressure: 3e7}\n"
+    "  - {sphere: {center: [0, 0], radius: 0.5 mm}, material: air, density: 1.2, pressure: 1e5}\n"
+    "run: {until: 1 us}\noutput: {snapshots: {every: 1 us, fields: [density, velocity]}}\n";
+
+/* Gives the file of this step another name. */
+static char *take_file(const struct small *small, const char *as)
+{
+    char *name = mem_print("fields/tiny_%06ld.hdf", small->state->step), *path = small_path(small, name);
+    char *to = small_path(small, as);
+    assert_int_equal(rename(path, to), 0);
+    mem_free(path);
+    mem_free(name);
+    return to;
+}
+
+/* The files have the same numbers, and the same length; bytes differ where objects know when they were made. */
+static void expect_same(char **paths)
+{
+    struct stat info[2];
+    assert_int_equal(compare_files(paths), 0);
+    for (int i = 0; i < 2; i++) assert_int_equal(stat(paths[i], &info[i]), 0);
+    assert_int_equal(info[0].st_size, info[1].st_size);
+}
+
+/* What is written at once is written beside the run, too, with points and cells that were kept from the file before where
+ * the mesh is the same. */
+static void test_beside(void **state)
+{
+    (void)state;
+    struct small small;
+    struct snapshots *beside, *now;
+    int regrids = 0;
+    small_start_levels(&small, moving, 2);
+    assert_true(small.scene->output.snapshot_memory == 256 * 0x1p20);
+    assert_int_equal(snapshot_new(small.state, &beside), 0);
+    snapshot_beside(beside);
+    for (int i = 0; i < 9; i++) {
+        char *paths[2];
+        assert_int_equal(snapshot_write(beside, small.state, SMALL_NOW(small.state), "{}"), 0);
+        assert_true(snapshot_pending(beside));
+        assert_int_equal(snapshot_wait(beside), 0);
+        assert_false(snapshot_pending(beside) || snapshot_busy(beside));
+        paths[0] = take_file(&small, "beside");
+        assert_int_equal(snapshot_new(small.state, &now), 0);
+        assert_int_equal(snapshot_write(now, small.state, SMALL_NOW(small.state), "{}"), 0);
+        assert_false(snapshot_pending(now));
+        snapshot_free(now);
+        paths[1] = take_file(&small, "now");
+        expect_same(paths);
+        mem_free(paths[0]);
+        mem_free(paths[1]);
+        assert_int_equal(advance_step(small.state, INFINITY), 0);
+        regrids = (int)small.state->counts.regrids;
+    }
+    assert_in_range(regrids, 1, 8); /* meshes that change, and that stay */
+    snapshot_free(beside);
+    small_stop(&small);
+}
+
+/* What fails beside the run is said by the next call that asks; its file is not listed and leaves no draft. */
+static void test_beside_fails(void **state)
+{
+    (void)state;
+    struct small small;
+    struct snapshots *snapshots;
+    struct snapshot_series series;
+    small_start(&small, SMALL_AXISYMMETRIC "output: {snapshots: {every: 1 us, fields: [density]}}\n");
+    char *out = small_path(&small, ""), *full = small_path(&small, "fields/tiny_000001.hdf.tmp");
+    assert_int_equal(snapshot_new(small.state, &snapshots), 0);
+    snapshot_beside(snapshots);
+    assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), 0);
+    small_skip(&small, 1e-7);
+    assert_int_equal(symlink("/dev/full", full), 0);
+    assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), 0);
+    assert_int_equal(snapshot_wait(snapshots), STATUS_RUN);
+    assert_non_null(strstr(status_text(), "tiny_000001.hdf.tmp: cannot write: No space left on device"));
+    assert_int_equal(access(full, F_OK), -1);
+    assert_int_equal(snapshot_wait(snapshots), 0);
+    assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), 0); /* there is room again */
+    assert_int_equal(snapshot_wait(snapshots), 0);
+    snapshot_free(snapshots);
+    assert_int_equal(read_series(out, &series), 0);
+    assert_int_equal(series.n, 2);
+    for (size_t i = 0; i < series.n; i++) assert_int_equal(access(series.paths[i], R_OK), 0);
+    read_series_done(&series);
+    mem_free(full);
+    mem_free(out);
+    small_stop(&small);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_axisymmetric), cmocka_unit_test(test_view),   cmocka_unit_test(test_line),
-        cmocka_unit_test(test_volume),       cmocka_unit_test(test_series), cmocka_unit_test(test_failure),
+        cmocka_unit_test(test_axisymmetric), cmocka_unit_test(test_view),         cmocka_unit_test(test_line),
+        cmocka_unit_test(test_volume),       cmocka_unit_test(test_series),       cmocka_unit_test(test_failure),
+        cmocka_unit_test(test_beside),       cmocka_unit_test(test_beside_fails),
     };
     if (argc == 3) return compare_files(argv + 1);
     if (registry_init()) return 1;
