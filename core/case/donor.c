@@ -11,10 +11,17 @@ struct donor_box {
     const struct donor *donor;
     const double *at, *lower, *upper;
     int dim, beta;
-    double away[3]; /* unit vector from the origin of a spherical donor to the middle of the box */
+    double away
+        [3]; /* unit vector from the origin of a spherical donor, or the axis of rings in space, to the middle of the box */
     double covered;
     double *sum; /* [n_model] */
 };
+
+/* Are the cells of the donor rings in space? */
+static bool donor_is_rings(const struct donor_box *box)
+{
+    return box->donor->beta == 1 && box->dim == 3;
+}
 
 static size_t donor_bucket_of(const struct donor *donor, const double x[3], int round)
 {
@@ -77,10 +84,12 @@ static void donor_add(struct donor_box *box, size_t cell, double part)
 {
     const struct donor *donor = box->donor;
     const double *u = donor->u + cell * donor->n_field;
-    bool turned = donor->beta == 2 && box->beta != 2;
+    bool rings = donor_is_rings(box), turned = rings || (donor->beta == 2 && box->beta != 2);
     box->covered += part;
     for (unsigned q = 0; q < donor->n_field; q++) {
-        if (!turned || donor->what[q] != donor->momentum) box->sum[donor->what[q]] += part * u[q];
+        int what = donor->what[q];
+        if (rings && what == donor->momentum + 1) box->sum[donor->momentum + donor->axis] += part * u[q];
+        else if (!turned || what != donor->momentum) box->sum[what] += part * u[q];
         else
             for (int d = 0; d < box->dim; d++) box->sum[donor->momentum + d] += part * u[q] * box->away[d];
     }
@@ -122,15 +131,68 @@ static void donor_shells(struct donor_box *box)
     }
 }
 
+/* The part of the box that lies in a cylinder around the axis of rings. */
+static double donor_disc(const struct donor_box *box, double radius)
+{
+    struct shape disc = {.type = SHAPE_SPHERE, .radius = radius};
+    double lower[3] = {0.0}, upper[3] = {0.0};
+    for (int k = 0; k < 2; k++) {
+        int d = (box->donor->axis + 1 + k) % 3;
+        lower[k] = box->lower[d] - box->at[d];
+        upper[k] = box->upper[d] - box->at[d];
+    }
+    return radius > 0.0 ? shape_fraction(&disc, lower, upper, 2, 0) : 0.0;
+}
+
+/* The part of the box that lies in a ring. */
+static double donor_ring(const struct donor_box *box, const struct donor_cell *cell)
+{
+    int axis = box->donor->axis;
+    double lower = box->lower[axis], upper = box->upper[axis];
+    double a = cell->lower[1] + box->at[axis], b = cell->upper[1] + box->at[axis];
+    if (a < lower) a = lower;
+    if (b > upper) b = upper;
+    return b > a ? (b - a) / (upper - lower) * (donor_disc(box, cell->upper[0]) - donor_disc(box, cell->lower[0]))
+                 : 0.0;
+}
+
+/* Where the box is in the donor's coordinates; of rings in space the distances from the axis between which it lies, and its span
+ * along it. */
+static void donor_span(struct donor_box *box, double ret_lower[3], double ret_upper[3])
+{
+    double near = 0.0, far = 0.0, length = 0.0;
+    for (int d = 0; d < box->dim; d++) {
+        ret_lower[d] = box->lower[d] - box->at[d];
+        ret_upper[d] = box->upper[d] - box->at[d];
+    }
+    if (!donor_is_rings(box)) return;
+    int axis = box->donor->axis;
+    for (int k = 1; k < 3; k++) {
+        int d = (axis + k) % 3;
+        double a = ret_lower[d], b = ret_upper[d], gap = a > 0.0 ? a : b < 0.0 ? -b : 0.0;
+        near = hypot(near, gap);
+        far = hypot(far, a * a > b * b ? a : b);
+        box->away[d] = 0.5 * (a + b);
+        length = hypot(length, box->away[d]);
+    }
+    for (int d = 0; d < 3; d++) box->away[d] = length > 0.0 && d != axis ? box->away[d] / length : 0.0;
+    ret_lower[1] = ret_lower[axis];
+    ret_upper[1] = ret_upper[axis];
+    ret_lower[0] = near;
+    ret_upper[0] = far;
+}
+
 /* Buckets that the box reaches into. */
 static void donor_boxes(struct donor_box *box)
 {
     const struct donor *donor = box->donor;
     int low[3] = {0}, high[3] = {0}, i[3];
-    for (int d = 0; d < box->dim; d++) {
+    double lower[3], upper[3];
+    donor_span(box, lower, upper);
+    for (int d = 0; d < donor->dim; d++) {
         double width = (donor->domain[1][d] - donor->domain[0][d]) / donor->buckets[d];
-        double a = floor((box->lower[d] - box->at[d] - donor->domain[0][d]) / width - 1e-9);
-        double b = floor((box->upper[d] - box->at[d] - donor->domain[0][d]) / width + 1e-9);
+        double a = floor((lower[d] - donor->domain[0][d]) / width - 1e-9);
+        double b = floor((upper[d] - donor->domain[0][d]) / width + 1e-9);
         if (b < 0.0 || a >= donor->buckets[d]) return;
         low[d] = a > 0.0 ? (int)a : 0;
         high[d] = b < donor->buckets[d] - 1 ? (int)b : donor->buckets[d] - 1;
@@ -139,9 +201,10 @@ static void donor_boxes(struct donor_box *box)
         for (i[1] = low[1]; i[1] <= high[1]; i[1]++)
             for (i[0] = low[0]; i[0] <= high[0]; i[0]++) {
                 size_t bucket = 0;
-                for (int d = box->dim - 1; d >= 0; d--) bucket = bucket * (size_t)donor->buckets[d] + (size_t)i[d];
+                for (int d = donor->dim - 1; d >= 0; d--) bucket = bucket * (size_t)donor->buckets[d] + (size_t)i[d];
                 for (size_t k = donor->first[bucket]; k < donor->first[bucket + 1]; k++) {
-                    double part = donor_overlap(box, &donor->cells[donor->order[k]]);
+                    const struct donor_cell *cell = &donor->cells[donor->order[k]];
+                    double part = donor_is_rings(box) ? donor_ring(box, cell) : donor_overlap(box, cell);
                     if (part > 0.0) donor_add(box, donor->order[k], part);
                 }
             }

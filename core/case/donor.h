@@ -2,9 +2,9 @@
  *
  * A box gets sum_i w_i u_i, w_i the part of its volume that lies in cell i of the donor: overlaps of boxes in the metric of
  * the geometry where both have the same one, and differences of the exact volumes of balls in the box where the donor is
- * spherical and this run is not. So masses, energy and volumes of materials are those of the donor to round-off, wherever
+ * spherical and this run is not, or of discs where the donor is axisymmetric and this run has three axes. So masses, energy and volumes of materials are those of the donor to round-off, wherever
  * its domain lies whole in this one; uniform pressure stays uniform with laws that are linear in it, as in the averages of
- * levels. The momentum of a shell points away from the centre, at the middle of the box. */
+ * levels. The momentum of a shell points away from the centre, that of a ring away from the axis, at the middle of the box. */
 #ifndef DONOR_H
 #define DONOR_H
 
@@ -19,6 +19,7 @@ struct donor_cell {
 
 struct donor {
     int dim, beta; /* geometry of the donor */
+    int axis;      /* of this run, along which the axis of an axisymmetric donor lies in space */
     double domain[2][3];
     int buckets[3]; /* cells of its level 0: a leaf lies in one */
     size_t n;       /* leaves */

@@ -149,6 +149,7 @@ struct scene_layer {
     const struct script *script;   /* `lua:` layer: returns a table of named fields of (x, y, z) */
     char *checkpoint;              /* of another run, whose state it paints; or NULL */
     double at[SCENE_AXES];         /* where the origin of that run lies here */
+    int axis;                      /* along which the axis of an axisymmetric one lies in space; -1: not given */
     struct donor *donor;           /* its cells (case/donor.h), once io/start.h has read them */
     double centre[SCENE_AXES];     /* r in expressions is measured from here */
     int line;                      /* in the case file, for messages */

@@ -20,13 +20,18 @@ static const struct key scene_initial_checkpoint_rows[] = {
      .unit = "m",
      .doc = "Where the origin of that run's coordinates (the centre of a spherical one) lies here; the origin if not "
             "given."},
+    {.name = "axis",
+     .type = KEYS_CHOICE,
+     .choices = "x|y|z",
+     .doc = "Of an axisymmetric run in a 3D scene: the axis along which its own lies, z if not given."},
     {0},
 };
 
 static const struct keys_section scene_initial_checkpoint_keys = {
     .name = "checkpoint",
-    .doc = "The state of another run: of the same geometry and number of axes, or spherical in an axisymmetric or 3D "
-           "scene.",
+    .doc = "The state of another run: of the same geometry and number of axes, spherical in an axisymmetric or 3D "
+           "scene, or "
+           "axisymmetric in a 3D scene.",
     .keys = scene_initial_checkpoint_rows};
 
 static const struct key scene_initial_rows[] = {
@@ -153,6 +158,17 @@ static void scene_initial_lua(struct draft *draft, struct scene_layer *layer, co
     scene_initial_lua_alone(draft, map, "balance");
 }
 
+/* Snapshots are what people look at: they are rounded, and lack what a state needs. */
+static void scene_initial_snapshot(struct draft *draft, const struct keys_value *file)
+{
+    size_t length = strlen(file->text);
+    if (length < 4 || strcmp(file->text + length - 4, ".hdf") != 0) return;
+    keys_error(&draft->keys, file, "'%s' is a snapshot, whose numbers are rounded: a run goes on from a checkpoint",
+               file->text);
+    diag_help(draft->keys.diag,
+              "let that run write some: 'output: {checkpoints: {every: 10 us}}'; they are in checkpoints/");
+}
+
 /* A layer out of a checkpoint is where that run was, and says all. */
 static void scene_initial_checkpoint(struct draft *draft, struct scene_layer *layer, const struct keys_map *map)
 {
@@ -164,8 +180,11 @@ static void scene_initial_checkpoint(struct draft *draft, struct scene_layer *la
             keys_error(&draft->keys, value, "a layer that is made of a 'checkpoint' has no '%s' of its own",
                        value->key->name);
     }
+    const struct keys_value *axis = keys_at(checkpoint->map, "axis");
     if (at->node) scene_domain_vector(draft, at, layer->at);
+    layer->axis = axis->given ? (int)axis->integer : -1;
     if (!file->given) return;
+    scene_initial_snapshot(draft, file);
     const char *path = scene_file(draft, file);
     layer->checkpoint = mem_text(path);
     if (access(path, R_OK) == 0) return;
@@ -252,6 +271,7 @@ void scene_initial(struct draft *draft)
     scene->layers = mem_new(initial->count + 1, sizeof *scene->layers);
     scene->n_layer = initial->count;
     for (unsigned i = 0; i < initial->count; i++) {
+        if (keys_at(initial->list[i].map, "cloud")->node) continue; /* it has been refused */
         scene_initial_layer(draft, &scene->layers[i], initial->list[i].map);
         scene_tension_balance(draft, keys_at(initial->list[i].map, "balance"), i);
     }

@@ -13,7 +13,7 @@
 
 enum { SCENE_RIGID_TIMES = 64, SCENE_RIGID_LOOKS = 9 }; /* at which speeds are taken, and places */
 
-#define SCENE_RIGID_BRISK 1e6 /* a hundred times the speed of sound in anything [m/s] */
+#define SCENE_RIGID_BRISK 1e7 /* a thousand times the speed of sound in anything [m/s] */
 
 static const struct key scene_rigid_rows[] = {
     {.name = "velocity",

@@ -61,7 +61,7 @@ static const struct unit_family {
     signed char power[UNIT_BASES];
     const char *kind, *examples;
 } unit_families[] = {
-    {{0, 0, 0, 0, 0}, "a pure number", "1, %"},
+    {{0, 0, 0, 0, 0}, "a pure number", "1, %, deg"},
     {{1, 0, 0, 0, 0}, "a length", "m, cm, mm, um, nm"},
     {{2, 0, 0, 0, 0}, "an area", "m2, mm2, um2"},
     {{3, 0, 0, 0, 0}, "a volume", "m3, mm3, mL, L"},

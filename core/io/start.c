@@ -55,9 +55,13 @@ static int start_geometry(struct start *start)
     donor->dim++;
     bool same = donor->beta == (int)domain->geometry && donor->dim == domain->dim;
     bool ball = donor->beta == 2 && (domain->geometry == SCENE_AXISYMMETRIC || domain->dim == 3);
-    if (!same && !ball)
+    bool rings = donor->beta == 1 && domain->dim == 3;
+    if (!same && !ball && !rings)
         return start_fail(start, "a checkpoint of this geometry cannot be painted here: the same geometry with as many "
-                                 "axes can, and a spherical one in axisymmetric and 3D scenes");
+                                 "axes can, a spherical one in axisymmetric and 3D scenes, an axisymmetric one in 3D");
+    if (start->layer->axis >= 0 && !rings)
+        return start_fail(start, "'axis' is for a checkpoint of an axisymmetric run in a 3D scene");
+    donor->axis = start->layer->axis >= 0 ? start->layer->axis : 2;
     if (domain->geometry != SCENE_CARTESIAN && start->layer->at[0] != 0.0)
         return start_fail(start, "'at' must lie on the axis (or at the centre), where the first coordinate is 0");
     TRY(start_numbers(start, "domain.lower", (unsigned)donor->dim, donor->domain[0]));

@@ -96,7 +96,7 @@ static double prolong_cell_step(const double give[3][2], const double difference
 static void prolong_cell_fill(const struct model *model, const double *mean, const cell_difference difference,
                               const double give[3][2], double phi, struct prolong_children *ret)
 {
-    unsigned sloped = model->n_field - model->n_normal - model->n_pair; /* made anew from the fractions */
+    unsigned sloped = model->n_field - model_renewed(model);
     for (unsigned q = 0; q < model->n_field; q++)
         for (int o = 0; o < 1 << model->dim; o++) {
             double share = q < sloped ? phi : 0.0;

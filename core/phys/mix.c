@@ -126,13 +126,15 @@ static BULLA_KERNEL void mix_subtract(size_t n, const double *restrict a, const 
     for (size_t i = 0; i < n; i++) rest[i] = a[i] - b[i];
 }
 
-/* Normals and curvatures are what they are in both. */
-static void mix_curvatures(const struct model *model, size_t n, size_t stride, const double *from, double *to)
+/* Normals, curvatures and pulls are what they are in both. */
+static void mix_renewed(const struct model *model, size_t n, size_t stride, const double *from, double *to)
 {
     for (unsigned d = model->i_normal; d < model->i_normal + model->n_normal; d++)
         memcpy(to + d * stride, from + d * stride, n * sizeof *to);
     for (unsigned k = 0; k < model->n_pair; k++)
         memcpy(to + model->pairs[k].i_kappa * stride, from + model->pairs[k].i_kappa * stride, n * sizeof *to);
+    for (unsigned k = 0; k < model->n_pull; k++)
+        memcpy(to + model->pulls[k].field * stride, from + model->pulls[k].field * stride, n * sizeof *to);
 }
 
 /* eps = m eps/m, at most `most`; 0 where there is nothing of the solid. */
@@ -217,7 +219,7 @@ static struct mix_effort mix_primitives_batch(const struct model *model, size_t 
         energy = rest.value;
     }
     mix_internal(n, energy, twice.value, rho_e.value);
-    mix_curvatures(model, n, stride, u, w);
+    mix_renewed(model, n, stride, u, w);
     struct mix_effort effort = mix_pressure_close(model, n, stride, rho_e.value, w);
     if (traces > 0.0) mix_fractions(model, n, stride, u, MIX_ABSENT, 0.0, w);
     return effort;
@@ -277,7 +279,7 @@ static void mix_conserved_batch(const struct model *model, size_t n, size_t stri
         }
     }
     if (model->n_stretch) mix_load(model, n, stride, w, u, energy.value);
-    mix_curvatures(model, n, stride, w, u);
+    mix_renewed(model, n, stride, w, u);
     memcpy(u + model->i_E * stride, energy.value, n * sizeof *u);
 }
 

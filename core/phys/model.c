@@ -58,6 +58,8 @@ static void model_name_fields(struct model *model)
     for (unsigned k = 0; k < model->n_pair; k++)
         model->field_names[at++] = mem_print("curvature_%s_%s", model->scene->material[model->pairs[k].inside].name,
                                              model->scene->material[model->pairs[k].outside].name);
+    for (unsigned k = 0; k < model->n_pull; k++)
+        model->field_names[at++] = mem_print("pull_%s", model->scene->material[model->pulls[k].material].name);
 }
 
 /* Names that derive.c understands for this scene. */
@@ -149,6 +151,17 @@ static void model_pair_narrow(const struct model *model, struct model *narrow)
     }
 }
 
+/* Pulls of those materials that a narrowed model of several has. */
+static void model_pull_narrow(const struct model *model, struct model *narrow)
+{
+    narrow->n_pull = 0;
+    for (unsigned k = 0; k < model->n_pull; k++) {
+        struct model_pull pull = model->pulls[k];
+        pull.material -= narrow->first; /* wraps where it stands before */
+        if (pull.material < narrow->n_alpha) narrow->pulls[narrow->n_pull++] = pull;
+    }
+}
+
 /* Families of the scene. */
 static void model_phases(struct model *model)
 {
@@ -237,8 +250,9 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     narrow->n_normal = 0; /* nothing meets there */
     narrow->split = model->split && narrow->n_solid && !model->n_normal;
     model_pair_narrow(model, narrow);
+    model_pull_narrow(model, narrow);
     model_phase_narrow(model, narrow);
-    narrow->lagged = narrow->split || narrow->n_pair > 0;
+    narrow->lagged = narrow->split || model_jumps(narrow);
     for (unsigned l = 0; l < narrow->n_alpha; l++) narrow->active[narrow->n_active++] = narrow->i_alpha + l;
     for (unsigned l = 0; l < n; l++) narrow->active[narrow->n_active++] = narrow->i_m + l;
     for (unsigned q = model->i_u; q <= model->i_E; q++) narrow->active[narrow->n_active++] = q;
@@ -247,6 +261,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
         for (unsigned c = 0; c < narrow->n_stretch; c++)
             narrow->active[narrow->n_active++] = model_stretch(narrow, k) + c;
     for (unsigned k = 0; k < narrow->n_pair; k++) narrow->active[narrow->n_active++] = narrow->pairs[k].i_kappa;
+    for (unsigned k = 0; k < narrow->n_pull; k++) narrow->active[narrow->n_active++] = narrow->pulls[k].field;
     return narrow;
 }
 
@@ -354,6 +369,17 @@ static void model_pair_up(struct model *model)
                                               .sigma = scene->tension[k].sigma};
 }
 
+/* Viscous fluids that others meet in one dimension around an axis or a centre, and the fields of their pull. Solids and
+ * phase change have pressures by rules of their own. */
+static void model_pull_all(struct model *model)
+{
+    const struct scene *scene = model->scene;
+    if (model->dim > 1 || !model->beta || !model->kapila || model->elastic || model->n_phase) return;
+    for (unsigned l = 0; l < model->n_material; l++)
+        if (scene->material[l].viscosity.module)
+            model->pulls[model->n_pull++] = (struct model_pull){.material = l, .field = model->n_field++};
+}
+
 /* The fluids alone, if they stand together: they need neither the stretch nor the solids' components. */
 static struct model *model_liquefy(const struct model *model)
 {
@@ -411,9 +437,10 @@ struct model *model_new(const struct scene *scene)
     model->n_field += model->n_normal;
     model_pair_up(model);
     model_phases(model);
-    model->lagged = model->split || model->n_pair > 0;
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
-    model->forced = model_is_forced(scene) || model->n_pair > 0;
+    model_pull_all(model);
+    model->lagged = model->split || model_jumps(model);
+    model->forced = model_is_forced(scene) || model_jumps(model);
     model->linear = true;
     for (unsigned l = 0; l < model->n_material; l++) {
         const struct instance *instance = &scene->material[l].eos;

@@ -80,7 +80,7 @@ static double relax_start(const struct relax *relax, unsigned l)
     return least + above;
 }
 
-/* Lags by surface tension, at the fractions that the cell arrived with. */
+/* Lags by surface tension and viscosity, at the fractions that the cell arrived with. */
 static void relax_lag(struct relax *relax)
 {
     const struct model *model = relax->model;
@@ -90,6 +90,12 @@ static void relax_lag(struct relax *relax)
         double jump = pair->sigma * relax->u[pair->i_kappa];
         relax->own[pair->inside] += alpha[pair->outside] * jump;
         relax->own[pair->outside] -= alpha[pair->inside] * jump;
+    }
+    for (unsigned k = 0; k < model->n_pull; k++) {
+        unsigned m = model->pulls[k].material;
+        double pull = relax->u[model->pulls[k].field];
+        for (unsigned l = 0; l < model->n_material; l++)
+            relax->own[l] += l == m ? (1.0 - alpha[m]) * pull : -alpha[m] * pull;
     }
 }
 

@@ -78,6 +78,5 @@ void travel_print(const struct scene *scene)
         else printf("rests\n");
     }
     if (scene->n_rigid) printf("  %-12s fluids slip along them, and no heat passes\n", "");
-    if (travel_any(scene))
-        printf("  %-12s mass and energy beside those that move are kept to second order in the step\n", "");
+    if (travel_any(scene)) printf("  %-12s those that move cost a little of the mass and energy beside them\n", "");
 }

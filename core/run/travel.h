@@ -9,7 +9,7 @@
 /* For `bulla check`, on stdout: how fast each body goes and what passes its walls. */
 void travel_print(const struct scene *scene);
 
-/* Cells that bodies pass keep mass to second order in the step only. What is lost shows where nothing else changes the mass of
+/* Cells that bodies pass do not keep all of their mass. What is lost shows where nothing else changes the mass of
  * the domain: `told` says whether that is so. */
 struct travel {
     bool told;

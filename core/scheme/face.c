@@ -26,7 +26,7 @@ struct face_own {
     double *term, *stiffness;     /* one material's rho e and rho c^2 */
     double *give;                 /* of the mixture at the edges, where Wood's speed is asked for; else NULL */
     double *origin, *strain;      /* of the face state: pressure of the side it comes from, compression since */
-    double *lagged;               /* one material's pressure at the edges, with surface tension */
+    double *lagged;               /* one material's pressure at the edges, where it is not p */
     double *zero;                 /* stands in for the velocities of unused axes */
     double *robust;               /* fluxes of the robust solver, same order as the block behind face_work.alpha */
     const double *side_u[2][3], *side_m[2][SCENE_MATERIALS], *side_alpha[2][SCENE_MATERIALS];
@@ -109,7 +109,7 @@ struct face_work *face_new(const struct model *model)
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
     for (int side = 0; side < 2 && model->forced; side++) work->rise[side] = face_row(1);
     for (int side = 0; side < 2 && model->n_normal; side++) work->lean[side] = face_row(1);
-    if (model->n_pair) {
+    if (model_jumps(model)) {
         work->lag = face_row(n + 1);
         work->tension = work->lag + n * FACE_ROOM;
         own->lagged = face_row(2);
@@ -254,7 +254,7 @@ static const double *face_pressure(const struct face_work *work, const struct fr
     const double *p = own->state + 2 * model->i_E * FACE_ROOM;
     size_t cells = n / 2;
     if (model->split) p = face_stress_pressure(own->stress, l);
-    if (!model->n_pair) return p;
+    if (!model_jumps(model)) return p;
     const double *above = work->lag + l * FACE_ROOM + frame_reach(frame), *below = above - frame->inner;
     face_lag(cells, p, above, own->lagged);
     face_lag(cells, p + cells, below, own->lagged + cells);
@@ -464,6 +464,8 @@ void face_begin(struct face_work *work, const struct frame *frame)
     for (int side = 0; side < 2; side++)
         if (work->rise[side]) memset(work->rise[side], 0, frame->count * sizeof(double));
     if (work->flat) memset(work->flat, 0, frame->count * sizeof *work->flat);
+    for (unsigned l = 0; work->lag && l < work->model->n_material; l++)
+        memset(work->lag + l * FACE_ROOM, 0, frame->count * sizeof *work->lag);
 }
 
 /* Cells whose faces get first-order states: troubled ones, and those that terms have marked. */

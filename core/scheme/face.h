@@ -36,7 +36,7 @@ struct face_work {
                         the cells before and behind [Pa]; NULL where normals are axes */
     bool open[3][2]; /* [axis][side] does the tile of the frames end there, at a boundary that waves cross? */
     double *lag; /* [n_material] p_l - p at the face between each cell of the frame and the next, at the place of the
-                        cell before, by surface tension (tension.h) [Pa]; NULL where the scene has none */
+                        cell before, by what acts in interfaces (lag.h) [Pa]; NULL where the scene has none */
     double *tension; /* force of surface tension at the faces: what p grows by across them [Pa]; likewise */
     void *own;       /* scratch of face.c */
 };

@@ -4,9 +4,6 @@
 
 #include "paint/paint_curvature.h"
 #include "phys/row.h"
-#include "phys/traction.h"
-#include "scheme/closure.h"
-#include "scheme/exchange.h"
 #include "scheme/terms.h"
 
 #include <math.h>
@@ -126,7 +123,6 @@ static void tension_frame(const struct term_piece *piece)
     double curve[FACE_ROOM], force[FACE_ROOM]; /* large: filled as far as they are used */
     size_t n = frame->count - frame->inner;
     memset(force, 0, frame->count * sizeof *force);
-    for (unsigned l = 0; l < path->n_material; l++) memset(faces->lag + l * FACE_ROOM, 0, frame->count * sizeof *curve);
     for (unsigned k = 0; k < path->n_pair; k++) {
         const struct model_pair *pair = &path->pairs[k];
         tension_curve(piece, pair, curve);
@@ -139,39 +135,6 @@ static void tension_frame(const struct term_piece *piece)
     for (size_t j = 0; j < n; j++) force[j] *= 0.5;
     row_add(n, force, faces->rise[1]);
     row_add(n, force, faces->rise[0] + frame->inner);
-}
-
-/* What volume of a material carries through the faces beside the mean pressure there: energy, and a pressure that it
- * had (exchange.h). */
-static void tension_faces(const struct term_piece *piece)
-{
-    const struct model *path = piece->model;
-    struct face_work *faces = piece->faces;
-    size_t n = faces->faces.n, reach = frame_reach(piece->frame);
-    for (unsigned l = 0; l < path->n_material; l++) {
-        const double *lag = faces->lag + l * FACE_ROOM + reach, *volume = faces->alpha + l * FACE_ROOM;
-        row_add_product(n, volume, lag, faces->energy);
-        row_add_product(n, volume, lag, faces->carried + l * FACE_ROOM);
-    }
-}
-
-/* Volume that comes in is compared with the pressure that its own material has in the cell. */
-static void tension_cells(struct term_tile *tile)
-{
-    const struct model *path = tile->model;
-    if (!closure_term.wanted(path)) return;
-    double *carried = tile->rates + terms_first(tile->terms, &exchange_term) * tile->n_cell;
-    for (size_t from = 0; from < tile->n_cell; from += TRACTION_BATCH) {
-        size_t n = tile->n_cell - from < TRACTION_BATCH ? tile->n_cell - from : TRACTION_BATCH;
-        struct traction_pressures parts; /* large: filled as far as it is used */
-        double owed[TRACTION_BATCH];
-        traction_part(path, n, tile->n_cell, tile->w + from, &parts);
-        for (unsigned l = 0; l < path->n_material; l++) {
-            memset(owed, 0, n * sizeof *owed);
-            row_add_product(n, parts.lag[l], tile->rates + (path->i_alpha + l) * tile->n_cell + from, owed);
-            row_take(n, owed, carried + l * tile->n_cell + from);
-        }
-    }
 }
 
 /* What the surface that came to a cell since u has stored, sigma kappa d alpha, is taken from its energy. */
@@ -246,8 +209,6 @@ const struct term tension_term = {
     .rows = tension_rows,
     .list = tension_list,
     .frame = tension_frame,
-    .faces = tension_faces,
-    .cells = tension_cells,
     .apply = tension_apply,
     .pace = tension_pace,
     .say = tension_say,

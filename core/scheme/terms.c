@@ -14,12 +14,14 @@
 #include "scheme/fraction.h"
 #include "scheme/hardening.h"
 #include "scheme/hoop.h"
+#include "scheme/lag.h"
 #include "scheme/normal.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
 #include "scheme/tension.h"
 #include "scheme/viscoelastic.h"
 #include "scheme/viscous.h"
+#include "scheme/viscous_pull.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -40,7 +42,9 @@ const struct term *const terms_all[] = {
     &exchange_term,     /* volume that brings materials back to one pressure */
     &closure_term,      /* K div u, and what was exchanged */
     &fraction_sum,      /* fractions sum to 1 */
+    &lag_term,          /* pressures that materials have in an interface travel with them */
     &tension_term,      /* surface tension: its force, and what a surface that moves has stored */
+    &viscous_pull_term, /* what viscous fluids pull with at their surface */
     &normal_term,       /* how the surfaces of solids lie */
     &strain_term,       /* the stretch of solids */
     &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */

@@ -4,6 +4,7 @@
 #include "phys/mix.h"
 #include "phys/row.h"
 #include "scheme/swell.h"
+#include "scheme/viscous_pull.h"
 
 #include <string.h>
 
@@ -88,24 +89,30 @@ static const double *viscous_heat_stiffness(const struct viscous_heat *heat, uns
     return heat->tile->rho_c2 + l * heat->tile->n_cell + heat->from;
 }
 
+/* Viscosities of material l. */
+static struct viscous_mix_rows viscous_heat_ask(const struct viscous_heat *at, unsigned l,
+                                                struct viscous_mix_number *room)
+{
+    const struct model *path = at->tile->model;
+    const struct coefficient_points points = {at->strain->n, at->rate, viscous_heat_row(at, path->i_E),
+                                              viscous_heat_row(at, path->i_m + l)};
+    return viscous_mix_ask(at->mix, path, l, &points, room);
+}
+
 /* Heat per own volume of material l: of its own strain where there is an interface. */
-static void viscous_heat_own(const struct viscous_heat *at, unsigned l, double *heat)
+static void viscous_heat_own(const struct viscous_heat *at, unsigned l, const struct viscous_mix_rows *rows,
+                             double *heat)
 {
     const struct viscous_strain *strain = at->strain;
-    const struct model *path = at->tile->model;
     size_t n = strain->n;
     double r[STRAIN_POINTS], square[STRAIN_POINTS], dilatation[STRAIN_POINTS];
-    struct viscous_mix_number room;
-    const struct coefficient_points points = {n, at->rate, viscous_heat_row(at, path->i_E),
-                                              viscous_heat_row(at, path->i_m + l)};
-    const struct viscous_mix_rows rows = viscous_mix_ask(at->mix, path, l, &points, &room);
-    if (!strain->interface || !path->kapila) {
-        viscous_heat_warm(n, &rows, at->square, strain->div, heat);
+    if (!strain->interface || !at->tile->model->kapila) {
+        viscous_heat_warm(n, rows, at->square, strain->div, heat);
         return;
     }
     viscous_heat_share(n, viscous_heat_stiffness(at, l), at->compliance, r);
     viscous_strain_own(strain, at->square, r, square, dilatation);
-    viscous_heat_warm(n, &rows, square, dilatation, heat);
+    viscous_heat_warm(n, rows, square, dilatation, heat);
 }
 
 /* What all materials need. */
@@ -128,14 +135,18 @@ static void viscous_heat_swell(struct viscous_heat *at)
     const struct model *path = at->tile->model;
     double heat[STRAIN_POINTS];
     struct swell swell; /* large: filled as far as it is used */
+    struct viscous_mix_number room;
     viscous_heat_begin(at);
     swell_begin(&swell, path, at->strain->n);
     for (unsigned l = 0; l < path->n_material; l++) {
-        viscous_heat_own(at, l, heat);
+        const struct viscous_mix_rows rows = viscous_heat_ask(at, l, &room);
+        viscous_heat_own(at, l, &rows, heat);
+        viscous_pull_make(at->tile, at->strain, l, at->from, rows.mu);
         swell_material(&swell, l, viscous_heat_row(at, path->i_alpha + l), viscous_heat_row(at, path->i_m + l),
                        viscous_heat_row(at, path->i_E), viscous_heat_stiffness(at, l), heat, NULL);
     }
     swell_share(&swell, at->tile, at->from);
+    viscous_pull_bound(at->tile, at->from, at->strain->n);
 }
 
 static void viscous_heat_block(const struct term_tile *tile, const struct viscous_slopes *slopes,
@@ -178,10 +189,12 @@ static void viscous_heat_sum(struct viscous_heat *at, double *sum)
     const struct model *path = at->tile->model;
     size_t n = at->strain->n;
     double heat[STRAIN_POINTS];
+    struct viscous_mix_number room;
     viscous_heat_begin(at);
     memset(sum, 0, n * sizeof *sum);
     for (unsigned l = 0; l < path->n_material; l++) {
-        viscous_heat_own(at, l, heat);
+        const struct viscous_mix_rows rows = viscous_heat_ask(at, l, &room);
+        viscous_heat_own(at, l, &rows, heat);
         if (path->n_alpha) row_add_product(n, viscous_heat_row(at, path->i_alpha + l), heat, sum);
         else row_add(n, heat, sum);
     }

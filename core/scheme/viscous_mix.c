@@ -19,6 +19,11 @@
  * parts are at most twice the smaller of both viscosities. */
 #define VISCOUS_MIX_MOST 2.0
 
+/* The same where a fluid pulls on its surface (viscous_pull.h): there the normal is the radius, mu_a acts on no difference across
+ * the face, and the pressures on both sides of it are those of mu_a as it is. Not without a bound: with one of 200 a
+ * bubble in 1 Pa s breaks up. */
+#define VISCOUS_MIX_PULLED 60.0
+
 /* Sums over the materials, where there is an interface. */
 struct viscous_mix_sums {
     double rho[2][STRAIN_POINTS], mu[2][STRAIN_POINTS], zeta[2][STRAIN_POINTS]; /* of the two sides */
@@ -210,16 +215,16 @@ static void viscous_mix_add(const struct viscous_mix_state *state, unsigned l, s
     viscous_mix_stiff(n, material, rho_c2, sums);
 }
 
-/* The most that a viscosity may be at the faces: what the lighter side can bear. a, b: those of both sides. */
-static BULLA_KERNEL void viscous_mix_bear(size_t n, double rho[2][STRAIN_POINTS], const double *restrict a,
-                                          const double *restrict b, double *restrict most)
+/* The most that a viscosity may be at the faces: `times` what the lighter side can bear. a, b: those of both sides. */
+static BULLA_KERNEL void viscous_mix_bear(size_t n, double times, double rho[2][STRAIN_POINTS],
+                                          const double *restrict a, const double *restrict b, double *restrict most)
 {
     const double *restrict rho_a = rho[0], *restrict rho_b = rho[1];
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double light = rho_a[i] < rho_b[i] ? rho_a[i] : rho_b[i], heavy = rho_a[i] < rho_b[i] ? rho_b[i] : rho_a[i];
         double own = rho_a[i] < rho_b[i] ? a[i] : b[i], other = (rho_a[i] < rho_b[i] ? b[i] : a[i]) * (light / heavy);
-        most[i] = VISCOUS_MIX_MOST * (own > other ? own : other);
+        most[i] = times * (own > other ? own : other);
     }
 }
 
@@ -233,13 +238,16 @@ static BULLA_KERNEL void viscous_mix_cut(size_t n, const double *restrict most, 
 }
 
 /* No viscosity of a face between two materials is more than that; the harmonic mean is not anyway. */
-static void viscous_mix_bound(size_t n, struct viscous_mix_sums *sums, struct viscous_mix *ret)
+static void viscous_mix_bound(const struct model *path, size_t n, struct viscous_mix_sums *sums,
+                              struct viscous_mix *ret)
 {
     double most[STRAIN_POINTS];
-    viscous_mix_bear(n, sums->rho, sums->mu[0], sums->mu[1], most);
+    viscous_mix_bear(n, path->n_pull ? VISCOUS_MIX_PULLED : VISCOUS_MIX_MOST, sums->rho, sums->mu[0], sums->mu[1],
+                     most);
     viscous_mix_cut(n, most, ret->mu);
+    viscous_mix_bear(n, VISCOUS_MIX_MOST, sums->rho, sums->mu[0], sums->mu[1], most);
     viscous_mix_cut(n, most, ret->own);
-    viscous_mix_bear(n, sums->rho, sums->zeta[0], sums->zeta[1], most);
+    viscous_mix_bear(n, VISCOUS_MIX_MOST, sums->rho, sums->zeta[0], sums->zeta[1], most);
     viscous_mix_cut(n, most, ret->zeta);
     viscous_mix_cut(n, most, sums->own_zeta);
 }
@@ -295,7 +303,7 @@ static void viscous_mix_all(const struct viscous_mix_state *state, struct viscou
     }
     if (!state->strain->interface) return;
     viscous_mix_split(n, sums, ret);
-    if (state->sides->step) viscous_mix_bound(n, sums, ret);
+    if (state->sides->step) viscous_mix_bound(path, n, sums, ret);
     viscous_mix_turned(n, sums, state->strain->sharp, ret);
 }
 

@@ -62,6 +62,19 @@ class Table:
         return pandas.DataFrame(self.data, columns=self.names)
 
 
+def emitted(table, volume, distance, density, sound_speed, every=1):
+    """Times [s] and pressures [Pa, above that at rest] of the sound of bubbles, `distance` [m] away in a liquid without walls:
+    p(t + distance/c) = rho V''(t)/(4 pi distance), their volume V being a column of history.csv, over `every` rows to both
+    sides. For bubbles that are small against the waves; of a bubble beside a wall that reflects, twice as much."""
+    t, V, n = table.t, table[volume], int(every)
+    if len(t) < 2 * n + 1:
+        raise ValueError("%d rows are too few for a second difference over %d to both sides" % (len(t), n))
+    before, here, after = (slice(k, k + len(t) - 2 * n) for k in (0, n, 2 * n))
+    rise = (V[after] - V[here]) / (t[after] - t[here]) - (V[here] - V[before]) / (t[here] - t[before])
+    curvature = 2 * rise / (t[after] - t[before])
+    return t[here] + distance / sound_speed, density * curvature / (4 * np.pi * distance)
+
+
 def _text(value):
     value = value if isinstance(value, bytes) or not hasattr(value, "shape") else value[()]
     return value.decode() if isinstance(value, bytes) else str(value)

@@ -96,6 +96,31 @@ donor ring
 "$BULLA" run on.yaml -o ring-2 --set 'domain={geometry: axisymmetric, lower: [0, -1.7 mm], upper: [1.5 mm, 1.6 mm], cells: [24, 48], boundaries: {x-: axis, x+: outflow, y-: outflow, y+: outflow}}' \
     --set 'initial[1].checkpoint.at=[0, -0.07 mm]' --quiet
 kept ring-2 "$(column ring/history.csv 0 V)" "$(column ring/history.csv 0 m)" 1e-12
+
+# Rings into space, their axis along any of its axes: volumes, masses, what moves along the axis, and towards it.
+donor ball
+"$BULLA" run on.yaml -o ring-3 --set output.checkpoints='{every: 1 step}' --set 'initial[0].velocity=[0, 3 m/s]' \
+    --set output.history.columns.P='{total: momentum_y}' --set output.history.columns.K='{integral: "= velocity_x * x + velocity_y * y"}' --quiet
+donor ring-3
+space='domain={lower: [-1.6 mm, -1.6 mm, -1.6 mm], upper: [1.6 mm, 1.6 mm, 1.6 mm], cells: [16, 16, 16], boundaries: {x-: outflow, x+: outflow, y-: outflow, y+: outflow, z-: outflow, z+: outflow}}'
+for axis in x y z; do
+    at='[0.05 mm, -0.1 mm, 0.2 mm]'
+    "$BULLA" run on.yaml -o "space-$axis" --set "$space" --set "initial[1].checkpoint.at=$at" --set "initial[1].checkpoint.axis=$axis" \
+        --set output.history.columns.P="{total: momentum_$axis}" --set output.history.columns.K='{integral: "= velocity_x * (x - 5e-5) + velocity_y * (y + 1e-4) + velocity_z * (z - 2e-4)"}' --quiet
+    kept "space-$axis" "$(column ring-3/history.csv 0 V)" "$(column ring-3/history.csv 0 m)" 1e-12
+    near "$(column ring-3/history.csv 0 P)" "$(column "space-$axis/history.csv" 2 P)" 1e-12
+    near "$(column ring-3/history.csv 0 K)" "$(column "space-$axis/history.csv" 2 K)" 0.02 # cells of a third of the radius
+done
+"$BULLA" run on.yaml -o space-2 -n 2 --set "$space" --set "initial[1].checkpoint.at=$at" --set output.history.columns.P="{total: momentum_z}" \
+    --set output.history.columns.K='{integral: "= velocity_x * (x - 5e-5) + velocity_y * (y + 1e-4) + velocity_z * (z - 2e-4)"}' --quiet # along z if nothing is said
+cmp space-z/history.csv space-2/history.csv
+"$BULLA" run ball.yaml -o calm --set 'initial[0].pressure=10 bar' --set run.max-steps=2 --quiet
+donor calm
+"$BULLA" run on.yaml -o calm-ring --set output.checkpoints='{every: 1 step}' --set 'initial[0].pressure=10 bar' --quiet
+donor calm-ring
+"$BULLA" run on.yaml -o calm-space --set "$space" --set "initial[1].checkpoint.at=$at" --set 'initial[0].pressure=10 bar' --quiet
+near 1e6 "$(column calm-space/history.csv 2 p)" 1e-10
+near 1e6 "$(column calm-space/history.csv 2 q)" 1e-10
 donor plane
 
 refused() { # WORDS SETTINGS...
@@ -110,6 +135,9 @@ refused 'cannot be read' --set 'initial[1].checkpoint.file=nowhere/donor.chk'
 refused "the law of 'water' is" --set materials.water.eos.preset=sg4
 refused "there is no material 'air' here" --set 'materials={water: {eos: {type: stiffened-gas, preset: sg44}}, gas: {eos: {type: ideal-gas, preset: air}}}' --set 'mesh.refine=[{interface: gas}]' --set output.history.columns='{}'
 refused 'must lie on the axis' --set 'initial[1].checkpoint.at=[0.1 mm, 0]'
+refused "'axis' is for a checkpoint of an axisymmetric run" --set 'initial[1].checkpoint.axis=x'
+cp donor.chk field.hdf
+refused "'field.hdf' is a snapshot, whose numbers are rounded" --set 'initial[1].checkpoint.file=field.hdf'
 refused "has no 'pressure' of its own" --set 'initial[1].pressure=1 bar'
 cp ball/history.csv other.chk
 refused 'other.chk' --set 'initial[1].checkpoint.file=other.chk'

@@ -51,6 +51,7 @@ refused() { # WORDS CASE SETTING
 }
 refused 'only [0-9]* of 900 spheres fit' cloud.yaml 'initial[1].cloud={within: {sphere: {center: [0.5 mm, 0.5 mm, 0.4 mm], radius: 0.35 mm}}, number: 900, radii: 40 um}'
 refused 'only 0 of 1 spheres fit' cloud.yaml 'initial[1].cloud={within: {box: {lower: [0, 0, 0], upper: [10 um, 10 um, 10 um]}}, number: 1, radii: 40 um}'
+grep -q ': 1 error;' said || { cat said; exit 1; } # and nothing else
 refused "one of 'number' and 'void-fraction'" cloud.yaml 'initial[1].cloud.void-fraction=0.1'
 refused 'one sphere is more than that' plane.yaml 'initial[1].cloud.void-fraction=1e-9'
 refused 'is less than .smallest' cloud.yaml 'initial[1].cloud.smallest=80 um'

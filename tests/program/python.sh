@@ -14,7 +14,7 @@ export PYTHONPATH="$BULLA_SOURCE/packaging/python" PYTHONDONTWRITEBYTECODE=1
 import importlib, re, sys
 text = open(sys.argv[1]).read()
 blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
-assert len(blocks) == 10, len(blocks)
+assert len(blocks) == 11, len(blocks)
 names = {}
 for number, block in enumerate(blocks, 1):
     needs = re.match(r"# needs (.*)\n", block)
@@ -55,6 +55,25 @@ for wrong in (lambda: last["presure"], lambda: history["W"], lambda: names["bull
     except (KeyError, FileNotFoundError, ValueError):
         continue
     sys.exit("a mistake went through")
+END
+
+# The sound of a bubble, from its volume, against probes in the liquid around it: amplitude and time.
+"$BULLA" run "$BULLA_SOURCE/tests/data/python/ring.yaml" --quiet
+"$python3" - <<'END'
+import bulla, numpy as np
+run = bulla.Run("out/ring")
+for name, r in (("heard", 0.3e-3), ("far", 0.6e-3)):
+    t, p = bulla.emitted(run.history, "V", r, 998.2, np.sqrt(4.4 * 6.001e8 / 998.2), every=8)
+    heard = run.probes.at(name + ".pressure", t) - 1e5
+    past = (t > 1.2e-6) & (t < 5.8e-6)
+    assert np.sqrt(np.mean((p - heard)[past] ** 2) / np.mean(heard[past] ** 2)) < 0.01
+    late = run.probes.at(name + ".pressure", t + 0.1e-6) - 1e5
+    assert np.sqrt(np.mean((p - late)[past] ** 2) / np.mean(heard[past] ** 2)) > 0.1
+try:
+    bulla.emitted(run.history, "V", 1, 1e3, 1500, every=len(run.history))
+    raise SystemExit("too few rows went through")
+except ValueError:
+    pass
 END
 
 # Volumes in every geometry.

@@ -74,3 +74,26 @@ E
 "$BULLA" run parting.yaml -o parting --quiet >said 2>&1 && fail "the step did not fail" said
 "$BULLA" info --replay parting/dump_*.h5 >said 2>&1 || fail "the replay gives something else" said
 grep -q 'the same, to the bit' said || fail "the replay says nothing" said
+
+# A bubble in a viscous liquid: pressures of its cells differ by the pull, on ranks to the bit, and after a restart.
+cat >ring.yaml <<'E2'
+bulla: 1
+title: A bubble rings in a viscous liquid
+domain: {geometry: spherical, lower: [0], upper: [20 um], cells: [64], boundaries: {x-: axis, x+: reflecting}}
+mesh: {tile: 8, levels: 1, refine: [{interface: air}]}
+materials:
+  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}, viscosity: 0.1}
+  air: {eos: {type: ideal-gas, gamma: 1.4}, viscosity: 18.5 uPa s}
+initial:
+  - {everywhere: true, material: water, density: 1000, pressure: 1 bar}
+  - {sphere: {center: [0], radius: 4 um}, material: air, density: 2, pressure: 3 bar}
+run: {until: 1, max-steps: 40}
+output:
+  directory: out
+  checkpoints: {every: 16 steps}
+  history: {every: 1 step, columns: {R: {equivalent-radius: air}, p: {max: pressure}, E: {total: energy}}}
+E2
+ranked ring 1 2 4
+resumed ring 16 ring-1
+"$BULLA" plan ring.yaml >said 2>&1
+grep -q 'core/scheme/viscous_pull.c' said || fail "the plan does not say that viscosity pulls" said
