@@ -19,6 +19,7 @@ materials:
 initial:
   - {everywhere: true, material: air, density: 1.2, pressure: 1e5}
   - {box: {lower: [0.004, 0.0062], upper: [0.0162, 0.0131]}, material: gel, density: 1060, pressure: 1e5, velocity: ["= 2000*(x - 0.01)", 0]}
+scheme: {cfl: 0.4}
 run: {until: 1 ms, max-steps: 40}
 output:
   directory: out
