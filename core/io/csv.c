@@ -23,22 +23,40 @@ struct csv {
     XXH64_state_t *sum; /* of these */
 };
 
-/* Length of the part of a file that stays: the header and the whole rows up to `limit`; 0 if the
- * header is another one. */
-static long csv_past(FILE *stream, const char *header, double limit)
+/* Is row `row` of a file one of the first block with these places, or begins another one behind it? */
+static bool csv_fits(const struct csv_places *places, unsigned row, const char *line, double *first)
 {
+    char *at;
+    double number = strtod(line, &at);
+    if (row == 0) *first = number;
+    if (row > places->n) return true;
+    if (row == places->n) return number != *first;
+    for (unsigned i = 0; i < places->n_number; i++) {
+        double want = places->numbers[(size_t)row * places->n_number + i];
+        if (*at != ',' || strtod(at + 1, &at) != want) return false;
+    }
+    return number == *first;
+}
+
+/* Length of the part of a file that stays: the header and the whole rows up to `limit`; 0 if the
+ * header or the places are other ones. */
+static long csv_past(FILE *stream, const char *header, const struct csv_places *places, double limit)
+{
+    double first = 0.0;
     char *line = NULL;
     size_t room = 0;
     long keep = 0;
     ssize_t length = getline(&line, &room, stream);
     bool same = length > 0 && (size_t)length == strlen(header) + 1 && !strncmp(line, header, strlen(header));
-    while (same && length > 0 && line[length - 1] == '\n') {
+    for (unsigned row = 0; same && length > 0 && line[length - 1] == '\n'; row++) {
         keep += length;
         length = getline(&line, &room, stream);
         if (length > 0 && strtod(line, NULL) > limit) break;
+        bool broken = length <= 0 || line[length - 1] != '\n'; /* it goes, whatever it was to be */
+        same = !places || broken || csv_fits(places, row, line, &first);
     }
     free(line);
-    return keep;
+    return same ? keep : 0;
 }
 
 /* Adds a text, which counts as soon as all of it has been written. */
@@ -69,22 +87,22 @@ static long csv_replay(struct csv *csv, const char *path, long bytes, bool copy)
     return csv->bytes;
 }
 
-/* Rows with other columns are not thrown away. */
+/* Rows with other columns, or of other places, are not thrown away. */
 static void csv_set_aside(const char *path)
 {
     char *aside = mem_print("%s.before", path);
     if (!rename(path, aside))
-        log_warn("%s has other columns than the case asks for now: it is kept as %s", path, aside);
+        log_warn("%s has other columns or places than the case asks for now: it is kept as %s", path, aside);
     mem_free(aside);
 }
 
-static int csv_start(struct csv *csv, const char *header, bool resume, double limit)
+static int csv_start(struct csv *csv, const char *header, const struct csv_places *places, bool resume, double limit)
 {
     struct stat about;
     if (!stat(csv->path, &about) && S_ISFIFO(about.st_mode)) /* opening it would wait for a reader */
         return status_fail(STATUS_RUN, "%s: cannot write: it is a pipe", csv->path);
     FILE *old = resume ? fopen(csv->path, "r") : NULL;
-    long keep = old ? csv_past(old, header, limit) : 0;
+    long keep = old ? csv_past(old, header, places, limit) : 0;
     if (old) fclose(old);
     if (old && !keep) csv_set_aside(csv->path);
     if (keep && truncate(csv->path, keep)) return room_fail(csv->path, "write");
@@ -96,13 +114,14 @@ static int csv_start(struct csv *csv, const char *header, bool resume, double li
     return csv_add(csv, "\n", 1);
 }
 
-int csv_open(const char *path, const char *header, bool resume, double limit, struct csv **ret_csv)
+int csv_open(const char *path, const char *header, const struct csv_places *places, bool resume, double limit,
+             struct csv **ret_csv)
 {
     struct csv *csv = mem_new(1, sizeof *csv);
     csv->path = mem_text(path);
     csv->sum = XXH64_createState();
     XXH64_reset(csv->sum, 0);
-    int code = comm_agree(comm_rank() == 0 ? csv_start(csv, header, resume, limit) : STATUS_OK);
+    int code = comm_agree(comm_rank() == 0 ? csv_start(csv, header, places, resume, limit) : STATUS_OK);
     if (code) csv_close(csv);
     else *ret_csv = csv;
     return code;

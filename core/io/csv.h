@@ -9,9 +9,17 @@
 
 struct csv;
 
-/* Starts a file. With `resume` one that has the same header goes on: rows whose first number is
- * larger than `limit` (the future of the state that is taken up) and a broken last one are cut off. */
-int csv_open(const char *path, const char *header, bool resume, double limit, struct csv **ret_csv);
+/* Where rows come in blocks, one row for each place: the numbers behind the first one that tell places apart. */
+struct csv_places {
+    unsigned n, n_number;
+    const double *numbers; /* [n][n_number] */
+};
+
+/* Starts a file. With `resume` one that has the same header, and in its first block the same places, goes on: rows whose
+ * first number is larger than `limit` (the future of the state that is taken up) and a broken last one are cut off. Another
+ * one is kept under another name. `places`: NULL, of single rows. */
+int csv_open(const char *path, const char *header, const struct csv_places *places, bool resume, double limit,
+             struct csv **ret_csv);
 
 /* Appends a row; whole numbers are written as such. */
 int csv_row(struct csv *csv, unsigned n, const double *values);

@@ -36,7 +36,7 @@ static int history_open(struct history *history, const struct state *state)
     text_add(&header, "step,t,dt");
     for (unsigned i = 0; i < scene->output.n_column; i++) text_add(&header, ",%s", scene->output.columns[i].name);
     text_add(&header, ",guard_fallback,guard_relaxed,guard_clipped,guard_retries");
-    int code = csv_open(path, header.at, state->step > 0, (double)state->step, &history->csv);
+    int code = csv_open(path, header.at, NULL, state->step > 0, (double)state->step, &history->csv);
     text_done(&header);
     mem_free(path);
     return code;

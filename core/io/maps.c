@@ -9,11 +9,13 @@
 
 #include <math.h>
 #include <string.h>
+#include <xxhash.h>
 
 struct maps_one {
     struct map_values values;
     struct csv *csv;
     char *name, *path, *header; /* name: of the file in the directory */
+    char *kind;                 /* columns and places: tables of another kind are not gone on with */
     double *rows;               /* [n_point][map_store_head + n_value] */
 };
 
@@ -24,6 +26,18 @@ struct maps {
     double t_row; /* of the last rows; -infinity: none */
     long next;    /* rows are due at next * every */
 };
+
+/* The numbers that tell places apart, in the rows as in the table: a new array. */
+static double *maps_places(const struct scene_map *map)
+{
+    unsigned n_number = map_store_head(map) - 1;
+    double *places = mem_new((size_t)map->n_point * n_number, sizeof *places);
+    for (unsigned i = 0; i < map->n_point; i++) {
+        places[(size_t)i * n_number] = map->place[i];
+        if (map->second) places[(size_t)i * n_number + 1] = map->second[i];
+    }
+    return places;
+}
 
 static int maps_open(struct maps_one *one, const struct state *state, const struct scene_map *map)
 {
@@ -36,7 +50,13 @@ static int maps_open(struct maps_one *one, const struct state *state, const stru
     one->header = mem_text(header.at);
     one->rows = mem_new((size_t)map->n_point * (map_store_head(map) + one->values.n_value), sizeof(double));
     text_done(&header);
-    return code ? code : csv_open(one->path, one->header, resume, state->t, &one->csv);
+    double *numbers = maps_places(map);
+    struct csv_places places = {map->n_point, map_store_head(map) - 1, numbers};
+    size_t bytes = (size_t)places.n * places.n_number * sizeof *numbers;
+    one->kind = mem_print("%s %u %016llx", one->header, places.n, (unsigned long long)XXH64(numbers, bytes, 0));
+    if (!code) code = csv_open(one->path, one->header, &places, resume, state->t, &one->csv);
+    mem_free(numbers);
+    return code;
 }
 
 static void maps_schedule(struct maps *maps, double t)
@@ -75,6 +95,7 @@ void maps_free(struct maps *maps)
         mem_free(one->name);
         mem_free(one->path);
         mem_free(one->header);
+        mem_free(one->kind);
         mem_free(one->rows);
     }
     mem_free(maps->ones);
@@ -89,7 +110,7 @@ int maps_keep(struct maps *maps, struct notes *notes)
     for (unsigned i = 0; i < maps->n; i++) {
         const struct maps_one *one = &maps->ones[i];
         char *columns = mem_print("%s.columns", one->name);
-        notes_put_text(notes, columns, one->header);
+        notes_put_text(notes, columns, one->kind);
         mem_free(columns);
         TRY(csv_keep(one->csv, one->name, notes));
     }
@@ -100,7 +121,7 @@ static int maps_return(struct maps_one *one, const struct notes *notes, const ch
 {
     char *key = mem_print("%s.columns", one->name), *columns = notes_get_text(notes, key);
     char *past = mem_print("%s/%s", origin, one->name);
-    bool same = columns && !strcmp(columns, one->header);
+    bool same = columns && !strcmp(columns, one->kind);
     int code = same ? csv_recall(one->csv, one->name, notes, past) : STATUS_OK;
     mem_free(past);
     mem_free(columns);

@@ -104,7 +104,7 @@ int probes_new(const struct state *state, struct probes **ret_probes)
     if (probes->every.time > 0.0 && resume) probes->next = 1 + (long)floor(state->t / probes->every.time + 1e-9);
     int code = probes_prepare(probes, state, &header);
     char *path = mem_print("%s/probes.csv", scene->output.directory);
-    if (!code) code = csv_open(path, header.at, resume, state->t, &probes->csv);
+    if (!code) code = csv_open(path, header.at, NULL, resume, state->t, &probes->csv);
     mem_free(path);
     probes->header = mem_text(header.at);
     text_done(&header);

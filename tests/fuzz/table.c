@@ -34,7 +34,7 @@ static void table_try_table(void)
 static void table_try_history(void)
 {
     struct csv *csv;
-    if (csv_open("input", "step,t,m", true, 2.0, &csv)) return;
+    if (csv_open("input", "step,t,m", NULL, true, 2.0, &csv)) return;
     csv_row(csv, 3, (const double[]){3, 2.5, 1});
     csv_close(csv);
     remove("input.before");

@@ -52,6 +52,11 @@ same three
 first=$(ls alone/checkpoints/*.chk | head -n 1)
 go elsewhere --restart "$first"
 same elsewhere
+# With other places a table begins anew, and what was there is kept.
+go moved --max-steps 70
+go moved --restart --set output.maps.slant.points=20
+[ -s moved/maps/slant.csv.before ] && cmp moved/maps/arc.csv alone/maps/arc.csv
+awk -F, 'NR == 2 { t = $1 } END { if (t <= 0 || (NR - 1) % 20) { print "slant: begins at " t ", " NR " lines"; exit 1 } }' moved/maps/slant.csv
 
 # 31 times: the start, each multiple of 20 ns (at the first step after it), of which the end is one. The wall at the start: 1e5 + 1e9 r,
 # but for the metric of cell averages (h^2/12r) and the ends, where values stay constant.

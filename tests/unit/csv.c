@@ -57,7 +57,7 @@ static void add_rows(struct csv *csv, int from, int to)
 static void write_table(struct notes *notes, int kept)
 {
     struct csv *csv;
-    assert_int_equal(csv_open(path, "n,x", false, 0.0, &csv), 0);
+    assert_int_equal(csv_open(path, "n,x", NULL, false, 0.0, &csv), 0);
     add_rows(csv, 0, kept);
     assert_int_equal(csv_keep(csv, "a.csv", notes), 0);
     add_rows(csv, kept + 1, 4);
@@ -68,7 +68,7 @@ static void write_table(struct notes *notes, int kept)
 static void go_on(const char *name, const char *origin, struct notes *notes)
 {
     struct csv *csv;
-    assert_int_equal(csv_open(name, "n,x", true, 3.0, &csv), 0);
+    assert_int_equal(csv_open(name, "n,x", NULL, true, 3.0, &csv), 0);
     assert_int_equal(csv_recall(csv, "a.csv", notes, origin), 0);
     add_rows(csv, 2, 2);
     assert_int_equal(csv_keep(csv, "again", notes), 0);
@@ -130,7 +130,7 @@ static void missing_rows_leave_what_is_there(void **state)
     FILE *file = fopen(path, "w");
     fputs("n,x\n1,7\n", file);
     fclose(file);
-    assert_int_equal(csv_open(path, "n,x", true, 3.0, &csv), 0);
+    assert_int_equal(csv_open(path, "n,x", NULL, true, 3.0, &csv), 0);
     assert_int_equal(csv_recall(csv, "a.csv", &notes, other), 0);
     add_rows(csv, 2, 2);
     csv_close(csv);
@@ -144,13 +144,35 @@ static void other_columns_are_set_aside(void **state)
     struct notes notes = {0};
     struct csv *csv;
     write_table(&notes, 4);
-    assert_int_equal(csv_open(path, "n,y", true, 3.0, &csv), 0);
+    assert_int_equal(csv_open(path, "n,y", NULL, true, 3.0, &csv), 0);
     csv_close(csv);
     assert_string_equal(text_of(path), "n,y\n");
     char *aside = mem_print("%s.before", path);
     assert_non_null(strstr(text_of(aside), "n,x\n0,0\n"));
     mem_free(aside);
     text_done(&notes.text);
+}
+
+/* Two places at 0.1 and 0.2, and what a table is when it is opened for others. */
+static void other_places_are_set_aside(void **state)
+{
+    (void)state;
+    static const char text[] = "t,x,p\n0,0.1,7\n0,0.2,8\n1,0.1,9\n1,0.2,9\n2,0.";
+    static const double numbers[] = {0.1, 0.2, 0.3}, moved[] = {0.1, 0.25};
+    const struct {
+        struct csv_places places;
+        bool stays;
+    } tries[] = {{{2, 1, numbers}, true}, {{3, 1, numbers}, false}, {{1, 1, numbers}, false}, {{2, 1, moved}, false}};
+    for (size_t i = 0; i < sizeof tries / sizeof *tries; i++) {
+        struct csv *csv;
+        FILE *file = fopen(path, "w");
+        fputs(text, file);
+        fclose(file);
+        assert_int_equal(csv_open(path, "t,x,p", &tries[i].places, true, 3.0, &csv), 0);
+        csv_close(csv);
+        if (tries[i].stays) assert_memory_equal(text_of(path), text, sizeof text - 6);
+        else assert_string_equal(text_of(path), "t,x,p\n");
+    }
 }
 
 static void notes_read_back_to_the_bit(void **state)
@@ -188,6 +210,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_broken_last_row_is_cut, make, drop),
         cmocka_unit_test_setup_teardown(missing_rows_leave_what_is_there, make, drop),
         cmocka_unit_test_setup_teardown(other_columns_are_set_aside, make, drop),
+        cmocka_unit_test_setup_teardown(other_places_are_set_aside, make, drop),
         cmocka_unit_test(notes_read_back_to_the_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
