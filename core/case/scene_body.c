@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+#define SCENE_BODY_STRETCH 0.02 /* that far pixels may be from square */
+
 #define POINT(word, must, text)                                                                          \
     {                                                                                                    \
         .name = word, .type = KEYS_NUMBER, .many = KEYS_LIST, .unit = "m", .required = must, .doc = text \
@@ -161,6 +163,19 @@ static bool scene_body_box(struct draft *draft, const struct keys_map *map, int 
     return true;
 }
 
+/* Pixels are square on screens: an image that is stretched was probably given the size of another one. */
+static void scene_body_square(struct draft *draft, const struct keys_value *upper, const struct raster *raster,
+                              const double box[2][3])
+{
+    double wide = (box[1][0] - box[0][0]) / (double)raster->n[0], high = (box[1][1] - box[0][1]) / (double)raster->n[1];
+    if (fabs(wide - high) <= SCENE_BODY_STRETCH * wide) return;
+    diag_warn(draft->keys.diag, &upper->node->mark,
+              "%s: an image of %zu x %zu pixels is stretched: they are %.4g m wide and %.4g m high", upper->path,
+              raster->n[0], raster->n[1], wide, high);
+    diag_help(draft->keys.diag, "it has its own shape with 'upper: [%.6g m, %.6g m]'", box[1][0],
+              box[0][1] + wide * (double)raster->n[1]);
+}
+
 bool scene_body_raster(struct draft *draft, struct shape *shape, const struct keys_map *map, bool image)
 {
     const struct keys_value *file = keys_at(map, "file"), *threshold = keys_at(map, "threshold");
@@ -180,6 +195,7 @@ bool scene_body_raster(struct draft *draft, struct shape *shape, const struct ke
         keys_error(&draft->keys, file, "the array has %d axes, the domain %d", raster->dim, dim);
         return false;
     }
+    if (image) scene_body_square(draft, keys_at(map, "upper"), raster, box);
     bool turn = keys_at(map, "inside")->integer != 0; /* dark and below are what is less */
     if (raster_place(raster, box[0], box[1], threshold->number, turn ? -1.0 : 1.0))
         return scene_body_refuse(draft, threshold, "'inside' and 'threshold' say which values are");

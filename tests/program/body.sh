@@ -71,6 +71,9 @@ refused space 'initial[1].surface.file=missing.stl' 'missing.stl cannot be read:
 refused plane 'initial[1]={surface: {file: octahedron.stl, scale: 1 mm}, material: a, density: 1.2, pressure: 1 bar}' 'a surface needs three axes'
 refused plane 'initial[1].image.file=octahedron.stl' 'octahedron.stl is no image'
 refused plane 'initial[1].image.threshold=0' 'none of its values are inside'
+"$BULLA" check plane.yaml --set 'initial[1].image.upper=[10 mm, 0]' >said 2>&1
+grep -q 'is stretched' said && grep -qF "'upper: [0.01 m, 0.01 m]'" said || fail "nothing of stretched pixels" said
+! "$BULLA" check plane.yaml 2>&1 | grep stretched
 refused plane 'initial[1].image.upper=[1 cm]' '2 numbers are needed, not 1'
 refused plane 'initial[1].image.upper=[-1 cm, 1 cm]' 'is not above the lower end'
 refused plane 'initial[2].difference[0].array.file=oval.png' 'no file of NumPy'
