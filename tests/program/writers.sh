@@ -13,7 +13,7 @@ domain:
   upper: [1 mm, 1 mm]
   cells: [24, 48]
   boundaries: {x-: axis, x+: outflow, y-: reflecting, y+: outflow}
-mesh: {tile: 8, levels: 2, regrid-every: 2, buffer: 2, refine: [{interface: air}]}
+mesh: {tile: 8, levels: 2, regrid-every: 2, buffer: 3, refine: [{interface: air}]}
 materials:
   water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
   air: {eos: {type: ideal-gas, gamma: 1.4}}
