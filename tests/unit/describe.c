@@ -45,9 +45,8 @@ static void test_one(void **state)
     assert_says(&text, "  parameter     unit    default   range ");
     assert_says(&text, "  gamma         1       required  1.0001 to 100 ");
     assert_says(&text, "  cv            J/kg/K  1000      0.001 to 1e+09 ");
-    assert_says(
-        &text,
-        "\n  sg235           water, gamma 2.35, p-inf 1 GPa (Le Metayer et al. 2004): gamma 2.35, p-inf 1e+09, cv 1816");
+    assert_says(&text, "\n  sg235           water, gamma 2.35, p-inf 1 GPa (Le Metayer et al. 2004): gamma 2.35, p-inf "
+                       "1e+09, cv 1816");
     assert_says(&text, "materials: {NAME: {eos: {type: stiffened-gas, preset: sg44}}}\n");
     text_done(&text);
 }
