@@ -54,7 +54,8 @@ function duration(s) {
 }
 const ago = (s) => s === null ? '–' : s < 2 ? 'just now' : s < 120 ? Math.round(s) + ' s ago' : duration(s) + ' ago';
 const count = (n) => n === null || n === undefined ? '–' : Math.round(n).toLocaleString('en').replace(/,/g, '\u2009');
-const guardSum = (guard) => Object.values(guard).reduce((a, b) => b === null ? a : (a || 0) + b, null);
+// What went wrong: cells of first order and steps tried again. Relaxing and clipping are everyday work (their table below).
+const rescues = (guard) => guard.fallback === null ? null : guard.fallback + guard.retries;
 const color = (run) => 'var(--c' + [...chosen].sort((a, b) => a - b).indexOf(run) % 6 + ')';
 const isAtWork = (run) => run.short.life === 'running' || run.short.life === 'quiet';
 const pillClass = (life) => 'pill ' + (life === 'quiet' ? 'quiet-run' : life);
@@ -92,7 +93,7 @@ function drawList() {
     write(cell.time, quantity(short.t, 's', short.until));
     write(cell.step, count(short.step));
     write(cell.left, isAtWork(run) ? duration(short.left_s) : '');
-    write(cell.guard, count(guardSum(short.guard)));
+    write(cell.guard, count(rescues(short.guard)));
   }
 }
 
@@ -106,7 +107,7 @@ const facts = [
   ['time step', (s) => quantity(s.dt, 's')],
   ['left, at the mean pace', (s) => duration(s.left_s)],
   ['written', (s) => ago(s.silent_s)],
-  ['guard', (s) => count(guardSum(s.guard))],
+  ['fallback + retries', (s) => count(rescues(s.guard))],
   ['started', (s) => s.started ? new Date(s.started).toLocaleString([], {dateStyle: 'short', timeStyle: 'short'}) : '–'],
   ['ranks', (s) => count(s.ranks)],
 ];
@@ -361,7 +362,7 @@ function drawPictures() {
 // --- guard, expectations, log ---
 function drawRest() {
   const wanted = [...chosen].sort((a, b) => a - b).map((i) => runs[i]);
-  const guarded = wanted.filter((r) => guardSum(r.short.guard) !== null);
+  const guarded = wanted.filter((r) => rescues(r.short.guard) !== null);
   byId('guards').hidden = !guarded.length;
   byId('guard').replaceChildren(...guarded.map((r) => make('tr', {}, make('td', {class: 'name'}, r.short.name),
     ...['fallback', 'relaxed', 'clipped', 'retries'].map((name) => make('td', {}, count(r.short.guard[name]))))));
