@@ -166,6 +166,12 @@ static const struct key scene_boundary_far[] = {
      .type = KEYS_VALUE,
      .unit = "Pa",
      .doc = "Far-field pressure; the initial pressure at the boundary if not given."},
+    {.name = "origin",
+     .type = KEYS_NUMBER,
+     .many = KEYS_LIST,
+     .unit = "m",
+     .doc = "Point from which the waves come that leave here, say the middle of a bubble: they leave as round waves, "
+            "under any angle. Without it as plane ones along the normal; in spherical scenes it is the centre."},
     {0},
 };
 
@@ -451,6 +457,8 @@ void scene_boundary(struct draft *draft)
                 text_add(&missing, "%s%s", missing.length ? ", " : "", names[axis][side]);
             if (pair[side]->map && boundary->type == SCENE_INCOMING_WAVE)
                 scene_beam(draft, boundary, pair[side]->map, axis, side);
+            if (pair[side]->map && boundary->type == SCENE_NONREFLECTING)
+                scene_beam_origin(draft, boundary, pair[side]->map, axis, side);
             scene_boundary_place(draft, axis, side, pair[side]->map);
         }
         scene_boundary_pair(draft, axis, pair);

@@ -202,6 +202,10 @@ bool scene_body_prism(struct draft *draft, struct shape *shape, struct shape *pa
 extern const struct keys_section scene_beam_plane_keys, scene_beam_focus_keys;
 void scene_beam(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map, int axis, int side);
 
+/* Where the waves come from that leave through a non-reflecting face: its `origin`; the centre of a ball. */
+void scene_beam_origin(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map, int axis,
+                       int side);
+
 /* Its speed of sound, if the case does not say: that at the face at the start [m/s]; NaN, not known, is an error. */
 void scene_beam_speed(struct draft *draft, struct scene_boundary *boundary, const struct keys_value *value,
                       double sound);
