@@ -79,6 +79,9 @@ struct scene_boundary {
     bool moves;                              /* a no-slip wall with a velocity */
     /* walls: their temperature [K], or the heat that they give to what is inside [W/m2]; neither: none passes */
     struct scene_value temperature, heat_flux;
+    /* no-slip walls, by pairs of scene.tension: cosine of the angle between wall and surface within `one`; 0 is a right
+     * angle, that of all who say nothing */
+    double cosine[SCENE_PAIRS];
     struct instance law; /* of a module, and its enum scene_boundary_trait; module NULL: none */
     unsigned traits;
 };

@@ -278,6 +278,14 @@ static const struct key scene_boundary_sticky[] = {
      .unit = "m/s",
      .doc = "Velocity of the wall; it rests if not given. Viscous fluids are dragged along; across the face as for "
             "`reflecting`."},
+    {.name = "contact-angle",
+     .type = KEYS_NUMBER,
+     .many = KEYS_NAMED,
+     .unit = "rad",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .doc = "Angle at which the surface between two materials meets the wall, within the first of them, as in "
+            "`water+air: 60 deg`, for pairs with a `surface-tension`; 90 deg if not given."},
     {0},
 };
 

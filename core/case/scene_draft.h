@@ -34,6 +34,7 @@ void scene_derived(struct draft *draft);
 void scene_refine(struct draft *draft);
 void scene_boundary(struct draft *draft);
 void scene_tension(struct draft *draft);
+void scene_contact(struct draft *draft);
 void scene_phase(struct draft *draft);
 void scene_initial(struct draft *draft);
 void scene_rigid(struct draft *draft);
@@ -48,6 +49,12 @@ void scene_peak(struct draft *draft);
 void scene_history(struct draft *draft);
 void scene_map(struct draft *draft);
 void scene_expect(struct draft *draft);
+
+/* "one+other", the name of a pair, into two materials, neither the same nor unknown; false after a recorded error. */
+bool scene_tension_split(struct draft *draft, const struct keys_value *pair, unsigned *ret_one, unsigned *ret_other);
+
+/* Index of the pair that has a surface tension, in whatever order; n_tension: none. */
+unsigned scene_tension_find(const struct scene *scene, unsigned one, unsigned other);
 
 /* `balance: tension` of layer `index`: the pressure inside is made the given one and what surface tension adds. */
 void scene_tension_balance(struct draft *draft, const struct keys_value *balance, unsigned index);
