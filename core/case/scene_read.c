@@ -87,6 +87,7 @@ static void scene_read_sections(struct draft *draft)
     scene_refine(draft);
     scene_boundary(draft);
     scene_tension(draft);
+    scene_contact(draft);
     scene_phase(draft);
     scene_fick(draft);
     scene_damage_voids(draft);
