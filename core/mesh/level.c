@@ -5,6 +5,7 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "mesh/morton.h"
+#include "mesh/span.h"
 
 void level_local(const struct tile *tiles, unsigned n_tile, unsigned *ret_first, unsigned *ret_n_local)
 {
@@ -36,6 +37,9 @@ void level_adopt(struct level *level, struct tile *tiles, unsigned n_tile)
     level->tiles = tiles;
     level->n_tile = n_tile;
     level_local(tiles, n_tile, &level->first, &level->n_local);
+    mem_free(level->first_keys);
+    level->n_rank = comm_size();
+    level->first_keys = span_first(tiles, n_tile, level->n_rank);
     level_tabulate(level);
 }
 
@@ -44,6 +48,8 @@ void level_drop(struct level *level)
     mem_free(level->neighbours);
     slots_done(&level->slots);
     mem_free(level->tiles);
+    mem_free(level->first_keys);
+    level->first_keys = NULL;
     level->neighbours = NULL;
     level->tiles = NULL;
     level->n_tile = level->first = level->n_local = 0;

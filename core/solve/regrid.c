@@ -1,6 +1,6 @@
 /* regrid.c - see regrid.h.
  *
- * Every rank makes the same sets from the same joined wishes; only cells, tags and costs are local. A level is
+ * Every rank makes its piece of the new sets; where they differ from what is there, the pieces are joined. A level is
  * replaced after the coarser one, so that new tiles find the final state they are made from. */
 #include "solve/regrid.h"
 
@@ -33,7 +33,8 @@ struct regrid {
     int base;
     struct tile *root; /* tiles of level 0 with other owners, where those they have share the work badly */
     struct nest_keys wishes[MESH_LEVELS + 1];
-    struct nest_set sets[MESH_LEVELS + 1];
+    struct nest_set sets[MESH_LEVELS + 1]; /* this rank's pieces, until a new mesh is made of them */
+    long long n_tile[MESH_LEVELS + 1];     /* of the sets, on all ranks */
 };
 
 bool regrid_due(const struct state *state, int base)
@@ -86,7 +87,7 @@ static int regrid_sets(struct regrid *regrid, int patience)
     moment.base = regrid->base; /* ghosts of this level are those of a step that is under way */
     for (int l = regrid->base; l < mesh->most_level && l < mesh->n_level; l++) {
         TRY(regrid_tag(regrid, &moment, l));
-        nest_join(&regrid->wishes[l + 1]);
+        nest_join(mesh, l + 1, &regrid->wishes[l + 1]);
     }
     nest_sets(mesh, regrid->base, regrid->wishes, patience, regrid->sets);
     return STATUS_OK;
@@ -101,14 +102,21 @@ static void regrid_free(struct regrid *regrid)
 }
 
 /* Are all sets what the levels are? Then only the counts of unwanted tiles move on. */
-static bool regrid_is_idle(const struct regrid *regrid)
+static bool regrid_is_idle(struct regrid *regrid)
 {
     struct mesh *mesh = regrid->state->mesh;
-    for (int l = regrid->base + 1; l <= mesh->most_level; l++)
-        if (!nest_same(mesh, l, &regrid->sets[l])) return false;
-    for (int l = regrid->base + 1; l < mesh->n_level; l++)
-        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++)
-            mesh->levels[l].tiles[i].unwanted = regrid->sets[l].tiles[i].unwanted;
+    long long sums[MESH_LEVELS + 2] = {0}; /* the last one: pieces that differ */
+    for (int l = regrid->base + 1; l <= mesh->most_level; l++) {
+        sums[l] = regrid->sets[l].n;
+        sums[MESH_LEVELS + 1] += !nest_same(mesh, l, &regrid->sets[l]);
+    }
+    comm_sum_counts(sums, MESH_LEVELS + 2);
+    memcpy(regrid->n_tile, sums, sizeof regrid->n_tile);
+    if (sums[MESH_LEVELS + 1]) return false;
+    for (int l = regrid->base + 1; l < mesh->n_level; l++) {
+        struct tile *tiles = mesh->levels[l].tiles + mesh->levels[l].first;
+        for (unsigned i = 0; i < regrid->sets[l].n; i++) tiles[i].unwanted = regrid->sets[l].tiles[i].unwanted;
+    }
     return true;
 }
 
@@ -214,7 +222,7 @@ static bool regrid_affords(const struct regrid *regrid)
     const struct mesh *mesh = state->mesh;
     double tiles = 0.0, limit = state->scene->mesh.memory_limit;
     for (int l = 0; l <= regrid->base; l++) tiles += mesh->levels[l].n_tile;
-    for (int l = regrid->base + 1; l <= mesh->most_level; l++) tiles += regrid->sets[l].n;
+    for (int l = regrid->base + 1; l <= mesh->most_level; l++) tiles += (double)regrid->n_tile[l];
     if (limit <= 0.0 || mesh_bytes(mesh, tiles) <= limit) return true;
     state->starved = tiles;
     return false;
@@ -300,6 +308,7 @@ static int regrid_apply(struct regrid *regrid, enum regrid_origin origin)
     struct state *state = regrid->state;
     struct mesh *mesh = state->mesh;
     int finest = regrid->base;
+    for (int l = regrid->base + 1; l <= mesh->most_level; l++) nest_whole(&regrid->sets[l]);
     regrid_partition(regrid);
     while (finest < mesh->most_level && regrid->sets[finest + 1].n) finest++;
     peak_up(mesh, &state->scene->output, regrid->base);

@@ -128,8 +128,7 @@ static struct study_times study_regrid(struct study *study, int size)
     times.sets = study_clock() - start;
     start = study_clock();
     for (int l = 1; l < mesh->n_level; l++) {
-        for (unsigned i = 0; i < sets[l].n; i++) sets[l].tiles[i].rank = mesh->levels[l].tiles[i].rank;
-        level_adopt(&mesh->levels[l], sets[l].tiles, sets[l].n);
+        level_adopt(&mesh->levels[l], sets[l].tiles, sets[l].n); /* of one rank */
         nest_free_keys(&wishes[l]);
     }
     times.list = study_clock() - start;
