@@ -211,6 +211,19 @@ static struct nest_set nest_merge(const struct nest_keys *used, const struct til
     return set;
 }
 
+struct nest_set nest_piece(const struct mesh *mesh, int l, struct nest_families *used, int patience)
+{
+    struct nest_keys keys = {0};
+    const struct level *level = &mesh->levels[l];
+    bool exists = l < mesh->n_level;
+    nest_family_sort(used);
+    keys.keys = nest_family_keys(used, &keys.n);
+    struct nest_set set =
+        nest_merge(&keys, exists ? level->tiles + level->first : NULL, exists ? level->n_local : 0, patience);
+    nest_free_keys(&keys);
+    return set;
+}
+
 void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes, int patience,
                struct nest_set *ret_sets)
 {
@@ -218,32 +231,51 @@ void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes
         struct nest_families families = {0};
         nest_add_wishes(mesh, base, l, &wishes[l], &families);
         if (l < mesh->most_level) nest_share_needs(mesh, l + 1, ret_sets[l + 1].tiles, ret_sets[l + 1].n, &families);
-        nest_family_sort(&families);
-        struct nest_keys used = {0};
-        used.keys = nest_family_keys(&families, &used.n);
-        const struct level *level = &mesh->levels[l];
-        bool exists = l < mesh->n_level;
-        ret_sets[l] =
-            nest_merge(&used, exists ? level->tiles + level->first : NULL, exists ? level->n_local : 0, patience);
-        nest_free_keys(&used);
+        ret_sets[l] = nest_piece(mesh, l, &families, patience);
         nest_family_free(&families);
     }
 }
 
-/* Two words of each tile: its key and how often it was unwanted. */
+struct nest_keys nest_pack(const struct nest_set *set)
+{
+    struct nest_keys words = {.keys = mem_new(2 * (size_t)set->n, sizeof *words.keys)};
+    for (unsigned i = 0; i < set->n; i++) {
+        uint64_t family = set->tiles[i].key >> 3, octant = set->tiles[i].key & 7u, unwanted = set->tiles[i].unwanted;
+        if (!words.n || words.keys[words.n - 2] != family) {
+            words.keys[words.n] = family;
+            words.n += 2;
+        }
+        if (unwanted > NEST_UNWANTED) unwanted = NEST_UNWANTED;
+        words.keys[words.n - 1] |= 1u << octant | unwanted << (MESH_OCTANTS + 7 * octant);
+    }
+    return words;
+}
+
+struct nest_set nest_unpack(const struct nest_keys *words)
+{
+    struct nest_set set = {0};
+    for (unsigned i = 1; i < words->n; i += 2) set.n += (unsigned)__builtin_popcount(words->keys[i] & 0xffu);
+    struct tile *to = set.tiles = mem_new(set.n, sizeof *set.tiles);
+    for (unsigned i = 0; i < words->n; i += 2) {
+        int at[3];
+        nest_at(words->keys[i], at);
+        for (unsigned mask = words->keys[i + 1] & 0xffu; mask; mask &= mask - 1, to++) {
+            unsigned octant = (unsigned)__builtin_ctz(mask);
+            to->key = words->keys[i] << 3 | octant;
+            for (int d = 0; d < 3; d++) to->at[d] = 2 * at[d] + (int)(octant >> d & 1u);
+            to->unwanted = words->keys[i + 1] >> (MESH_OCTANTS + 7 * octant) & NEST_UNWANTED;
+        }
+    }
+    return set;
+}
+
 void nest_whole(struct nest_set *set)
 {
-    struct nest_keys own = {.n = 2 * set->n, .keys = mem_new(2 * (size_t)set->n, sizeof *own.keys)}, all = {0};
-    if (comm_size() > 1) {
-        for (unsigned i = 0; i < set->n; i++) {
-            own.keys[2 * i] = set->tiles[i].key;
-            own.keys[2 * i + 1] = set->tiles[i].unwanted;
-        }
-        all.keys = comm_join_keys(own.keys, own.n, &all.n);
-        nest_free_set(set);
-        *set = (struct nest_set){all.n / 2, mem_new(all.n / 2, sizeof *set->tiles)};
-        for (unsigned i = 0; i < set->n; i++) set->tiles[i] = nest_tile(all.keys[2 * i], (unsigned)all.keys[2 * i + 1]);
-    }
+    if (comm_size() == 1) return;
+    struct nest_keys own = nest_pack(set), all = {0};
+    all.keys = comm_join_keys(own.keys, own.n, &all.n);
+    nest_free_set(set);
+    *set = nest_unpack(&all);
     nest_free_keys(&own);
     nest_free_keys(&all);
 }
@@ -314,24 +346,31 @@ static int nest_fail(const struct mesh *mesh, int l, uint64_t missing)
     return STATUS_OK;
 }
 
-/* The first tile in this rank's piece of level l - 1 that one of level l needs and that is not there. */
-static bool nest_misses(const struct mesh *mesh, int l, uint64_t *ret_missing)
+bool nest_lacks(const struct mesh *mesh, int l, struct nest_families *needs, uint64_t *ret_missing)
 {
-    const struct level *level = &mesh->levels[l], *coarse = level - 1;
-    const struct tile *tile = coarse->tiles + coarse->first, *end = tile + coarse->n_local;
-    struct nest_families needs = {0};
-    nest_share_needs(mesh, l, level->tiles + level->first, level->n_local, &needs);
-    nest_family_sort(&needs);
+    const struct level *level = &mesh->levels[l];
+    const struct tile *tile = level->tiles + level->first, *end = tile + level->n_local;
     uint32_t missing = 0;
-    for (unsigned i = 0; i < needs.n && !missing; i++) {
-        uint64_t family = needs.list[i].key;
-        missing = needs.list[i].mask;
+    nest_family_sort(needs);
+    for (unsigned i = 0; i < needs->n && !missing; i++) {
+        uint64_t family = needs->list[i].key;
+        missing = needs->list[i].mask;
         while (tile < end && tile->key >> 3 < family) tile++;
         for (; tile < end && tile->key >> 3 == family; tile++) missing &= ~(1u << (tile->key & 7u));
         if (missing) *ret_missing = family << 3 | (unsigned)__builtin_ctz(missing);
     }
-    nest_family_free(&needs);
     return missing != 0;
+}
+
+/* The first tile in this rank's piece of level l - 1 that one of level l needs and that is not there. */
+static bool nest_misses(const struct mesh *mesh, int l, uint64_t *ret_missing)
+{
+    const struct level *level = &mesh->levels[l];
+    struct nest_families needs = {0};
+    nest_share_needs(mesh, l, level->tiles + level->first, level->n_local, &needs);
+    bool lacks = nest_lacks(mesh, l - 1, &needs, ret_missing);
+    nest_family_free(&needs);
+    return lacks;
 }
 
 static int nest_check_needs(const struct mesh *mesh, int l)

@@ -40,6 +40,12 @@ void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes
 /* All pieces of a set, in place of this rank's. Collective. */
 void nest_whole(struct nest_set *set);
 
+/* What travels for that, two words per family: its key (that of the tile below); which octants are there (8 bits) and
+ * their counts (7 bits each: more than any patience). */
+enum { NEST_UNWANTED = 127 };
+struct nest_keys nest_pack(const struct nest_set *set);
+struct nest_set nest_unpack(const struct nest_keys *words);
+
 /* All tiles of level l as they are, with their counts, which only owners keep. Collective. */
 struct nest_set nest_of(const struct mesh *mesh, int l);
 
@@ -49,6 +55,14 @@ bool nest_same(const struct mesh *mesh, int l, const struct nest_set *set);
 /* Do all levels nest, are they sorted, and in the domain, and does level 0 cover it? STATUS_RUN with the offending
  * tile; always checked. Each rank checks its own tiles, and what all need of them. Collective. */
 int nest_check(const struct mesh *mesh);
+
+struct nest_families;
+
+/* What a rank does with what is asked of its piece of level l, without messages. The new piece, from what is used: */
+struct nest_set nest_piece(const struct mesh *mesh, int l, struct nest_families *used, int patience);
+
+/* Is a tile of the piece needed that is not there? */
+bool nest_lacks(const struct mesh *mesh, int l, struct nest_families *needs, uint64_t *ret_missing);
 
 /* Tile coordinates of a key. */
 void nest_at(uint64_t key, int ret_at[3]);

@@ -33,35 +33,44 @@ bool nest_share_keys(const struct mesh *mesh, int l, struct nest_keys *keys)
     return mixed;
 }
 
+/* The next owner of a tile that is needed of a family, after `owner` (-1: the first); -1: there is none. Between two of
+ * them may lie any number of ranks without tiles. */
+static int nest_share_next(const struct span *span, const struct nest_family *family, int owner)
+{
+    for (uint32_t mask = family->mask; mask; mask &= mask - 1) {
+        uint64_t key = family->key << 3 | (unsigned)__builtin_ctz(mask);
+        if (owner >= 0 && (span_holds(span, owner, key) || key >> span->shift < span->first[owner])) continue;
+        return span_owner(span, key);
+    }
+    return -1;
+}
+
 struct nest_families nest_share_deal(const struct span *span, const struct nest_families *needs, int **ret_to)
 {
-    struct nest_families dealt = {.room = needs->n};
-    int owner = 0, *to = NULL;
-    for (unsigned i = 0; i < needs->n; i++) {
-        uint64_t first = needs->list[i].key << 3, last = first | 7u;
-        if (!span_holds(span, owner, first)) owner = span_owner(span, first);
-        dealt.room += span_holds(span, owner, last) ? 0 : (unsigned)(span_owner(span, last) - owner);
-    }
+    struct nest_families dealt = {.room = needs->n + 64};
+    int near = 0, *to = mem_new(dealt.room, sizeof *to);
     dealt.list = mem_new(dealt.room, sizeof *dealt.list);
-    *ret_to = to = mem_new(dealt.room, sizeof *to);
-    owner = 0;
     for (unsigned i = 0; i < needs->n; i++) {
-        uint64_t first = needs->list[i].key << 3, last = first | 7u;
-        if (!span_holds(span, owner, first)) owner = span_owner(span, first);
-        for (;; owner++) {
-            to[dealt.n] = owner;
+        uint64_t first = needs->list[i].key << 3;
+        bool whole = span_holds(span, near, first) && span_holds(span, near, first | 7u);
+        for (int owner = whole ? near : nest_share_next(span, &needs->list[i], -1); owner >= 0;
+             owner = whole ? -1 : nest_share_next(span, &needs->list[i], owner)) {
+            if (dealt.n == dealt.room) {
+                to = mem_grow(to, dealt.room, 2 * dealt.room, sizeof *to);
+                dealt.list = mem_grow(dealt.list, dealt.room, 2 * dealt.room, sizeof *dealt.list);
+                dealt.room *= 2;
+            }
+            to[dealt.n] = near = owner;
             dealt.list[dealt.n++] = needs->list[i];
-            if (span_holds(span, owner, last)) break;
         }
     }
+    *ret_to = to;
     return dealt;
 }
 
-/* Adds what lies in this rank's piece of the families that have come. */
-static void nest_share_take(const struct span *span, const struct nest_family *list, unsigned n,
-                            struct nest_families *families)
+void nest_share_take(const struct span *span, int rank, const struct nest_family *list, unsigned n,
+                     struct nest_families *families)
 {
-    int rank = comm_rank();
     for (unsigned i = 0; i < n; i++) {
         uint64_t first = list[i].key << 3;
         uint32_t mask = list[i].mask;
@@ -87,7 +96,7 @@ void nest_share_needs(const struct mesh *mesh, int l, const struct tile *tiles, 
     nest_family_sort(&needs);
     struct nest_families dealt = nest_share_deal(&span, &needs, &to);
     swap_items(dealt.list, sizeof *dealt.list, dealt.n, to, &got);
-    nest_share_take(&span, got.items, got.n, families);
+    nest_share_take(&span, comm_rank(), got.items, got.n, families);
     swap_done(&got);
     mem_free(to);
     nest_family_free(&dealt);

@@ -25,4 +25,8 @@ uint32_t *nest_share_around(const struct mesh *mesh, int l, const struct nest_ke
  * (mem_free). */
 struct nest_families nest_share_deal(const struct span *span, const struct nest_families *needs, int **ret_to);
 
+/* Adds what lies in a rank's piece of n families that have come for it. */
+void nest_share_take(const struct span *span, int rank, const struct nest_family *list, unsigned n,
+                     struct nest_families *families);
+
 #endif

@@ -1,9 +1,10 @@
 /* Tile sets: wishes and nested sets against their definitions, on all of a small domain; mirrored and turned inputs
- * give mirrored and turned sets. Under a launcher every rank makes
- * the sets of its piece of the curve, cut at random: the definition is the replicated reference. */
+ * give mirrored and turned sets. Under a launcher every rank makes the sets of its piece of the curve, cut at random:
+ * the definition is the replicated reference. */
 #include "nest_world.h"
 
 #include "base/status.h"
+#include "mesh/carry.h"
 #include "mesh/morton.h"
 
 #include <setjmp.h>
@@ -111,11 +112,50 @@ static void compare_set(const struct mesh *mesh, int l, const struct nest_set *s
     }
 }
 
+/* A number of its own for every tile of every level. */
+static double number(int l, uint64_t key)
+{
+    return (double)((key + 1) * (uint64_t)(2 * l + 1) % 100003);
+}
+
+/* Of the finest tile of the mesh as it is at or under a place of level l. */
+static double number_under(const struct mesh *mesh, int l, uint64_t key)
+{
+    for (int m = l; m > 0; m--, key >>= 3)
+        if (m < mesh->n_level && level_find(&mesh->levels[m], key) >= 0) return number(m, key);
+    return number(0, key);
+}
+
+/* Numbers carried to the pieces of new sets are those of the whole lists. */
+static void compare_carried(const struct mesh *mesh, int base, const struct nest_set *pieces)
+{
+    struct carry below = {0};
+    double *carried[MOST + 1] = {0};
+    for (int l = base; l <= mesh->most_level; l++) {
+        const struct level *level = &mesh->levels[l];
+        struct carry before = {0};
+        if (l < mesh->n_level) before = (struct carry){level->n_local, level->tiles + level->first, NULL};
+        double *values = mem_new(before.n, sizeof *values);
+        for (unsigned i = 0; i < before.n; i++) values[i] = number(l, before.tiles[i].key);
+        before.values = values;
+        if (l > base) {
+            carried[l] = carry_values(mesh, l, &pieces[l], &before, &below);
+            for (unsigned i = 0; i < pieces[l].n; i++)
+                assert_true(carried[l][i] == number_under(mesh, l, pieces[l].tiles[i].key));
+            before = (struct carry){pieces[l].n, pieces[l].tiles, carried[l]};
+            mem_free(values);
+        } else carried[l] = values;
+        below = before;
+    }
+    for (int l = base; l <= mesh->most_level; l++) mem_free(carried[l]);
+}
+
 static void regrid(struct mesh *mesh, int base, int patience, char *const *wished, struct nest_set *ret_sets)
 {
     struct nest_keys wishes[MESH_LEVELS] = {0};
     for (int l = base + 1; l <= mesh->most_level; l++) wishes[l] = keys_of(mesh, l, wished[l]);
     nest_sets(mesh, base, wishes, patience, ret_sets);
+    compare_carried(mesh, base, ret_sets);
     for (int l = base + 1; l <= mesh->most_level; l++) nest_whole(&ret_sets[l]);
     for (int l = base + 1; l <= mesh->most_level; l++) nest_free_keys(&wishes[l]);
 }
