@@ -111,6 +111,12 @@ struct model_phase {
     const struct scene_phase *scene;
 };
 
+/* Gases that diffuse through each other (scheme/fick.h). */
+struct model_fick {
+    unsigned n, member[SCENE_MATERIALS]; /* materials of the same model */
+    const struct scene_fick *scene;
+};
+
 /* Most evolved fields a scene can have: fractions, densities, velocities, energy, memories of solids, stretches, normals,
  * curvatures, pulls. */
 enum { MODEL_FIELDS = 5 * SCENE_MATERIALS + 3 + 1 + 6 * (1 + SCENE_BRANCHES) + 3 + SCENE_PAIRS };
@@ -133,6 +139,8 @@ struct model {
     struct model_pull pulls[SCENE_MATERIALS];
     unsigned n_phase;
     struct model_phase phases[SCENE_PHASES];
+    unsigned n_fick;
+    struct model_fick ficks[SCENE_PHASES];
     unsigned n_normal, i_normal; /* normals of the surfaces of solids (scheme/normal.h): dim, or 0 */
     unsigned n_material, n_alpha, n_field;
     unsigned i_alpha, i_m, i_u, i_E;         /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
