@@ -429,6 +429,7 @@ int main(int argc, char **argv)
     if (argc == 2 && !strcmp(argv[1], "tiny")) return study_tiny() != 0;
     const struct sets_scene *scenes[4] = {&SHELL_2D, &BUBBLE_2D, &SHELL_3D, &BUBBLE_3D};
     static struct study studies[8];
+    setvbuf(stdout, NULL, _IOLBF, 0);
     bool all = argc < 2; /* else tiles of 16 alone, and the tables of topology */
     int n_study = all ? 8 : 4;
     for (int i = 0; i < n_study; i++) study_start(&studies[i], *scenes[all ? i / 2 : i], all && i % 2 ? 8 : 16);

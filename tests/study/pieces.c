@@ -8,6 +8,7 @@
 #include "mesh/nest_share.h"
 #include "mesh/partition.h"
 
+#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -239,6 +240,7 @@ struct pieces pieces_regrid(struct study *study, int size)
     for (int l = 1; l < mesh->n_level; l++) wishes[l] = sets_wishes(&study->scene, mesh, l);
     pieces_whole(study, size, &pieces);
     struct pieces_world world = pieces_start(study, size);
+    mallopt(M_MXFAST, 0); /* else a rank now and then pays for sorting what thousands have freed */
     for (int repeat = 0; repeat < PIECES_REPEATS; repeat++) pieces_run(&world, study, wishes);
     for (int r = 0; r < size; r++) {
         struct pieces_rank *rank = &world.ranks[r];
