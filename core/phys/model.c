@@ -26,13 +26,15 @@ static double model_fill_density(const struct scene *scene, unsigned l, const st
     return rho > 0 && isfinite(rho) ? rho : 1.0;
 }
 
-/* Of a component of a branch's stretch: the branches of a material count from 1. */
-static char *model_branch_name(const struct model *model, unsigned b, unsigned c)
+/* Of a component of stretch k: with the name of its solid where there are several; the branches of one count from 1. */
+static char *model_stretch_name(const struct model *model, unsigned k, unsigned c)
 {
-    unsigned solid = model->branches[b].solid, number = 1;
-    for (unsigned other = 0; other < b; other++) number += model->branches[other].solid == solid;
-    return mem_print("stretch_%s_%u_%s", model->scene->material[model->solids[solid].material].name, number,
-                     model_tensor[c]);
+    const char *solid = model->scene->material[model->solids[model_bearer(model, k)].material].name;
+    unsigned number = 1;
+    for (unsigned b = model->n_solid; b < k; b++) number += model_bearer(model, b) == model_bearer(model, k);
+    if (k >= model->n_solid) return mem_print("stretch_%s_%u_%s", solid, number, model_tensor[c]);
+    return model->n_solid == 1 ? mem_print("stretch_%s", model_tensor[c])
+                               : mem_print("stretch_%s_%s", solid, model_tensor[c]);
 }
 
 static void model_name_fields(struct model *model)
@@ -52,9 +54,8 @@ static void model_name_fields(struct model *model)
         const char *what = model->memories[k].field == solid->strain ? "plastic_strain" : "damage";
         model->field_names[at++] = mem_print("%s_mass_%s", what, model->scene->material[solid->material].name);
     }
-    for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = mem_print("stretch_%s", model_tensor[c]);
-    for (unsigned b = 0; b < model->n_branch; b++)
-        for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = model_branch_name(model, b, c);
+    for (unsigned k = 0; k < model_stretches(model); k++)
+        for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = model_stretch_name(model, k, c);
     for (unsigned d = 0; d < model->n_normal; d++) model->field_names[at++] = mem_text(normal[d]);
     for (unsigned k = 0; k < model->n_pair; k++)
         model->field_names[at++] = mem_print("curvature_%s_%s", model->scene->material[model->pairs[k].inside].name,
@@ -247,11 +248,15 @@ static bool model_is_slack(const struct model_solid *solid)
     return e_1 == 0.0 && e_2 == 0.0;
 }
 
-/* The fields of stretches: of all solids together, then of each Maxwell branch. */
+/* The fields of stretches: of each solid, then of each Maxwell branch. */
 static void model_stretch_all(struct model *model)
 {
     model->n_stretch = model->elastic ? elastic_count(model->n_velocity) : 0;
-    model->n_field = model->i_V + model->n_stretch;
+    model->n_field = model->i_V;
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        model->solids[s].stretch = model->n_field;
+        model->n_field += model->n_stretch;
+    }
     for (unsigned s = 0; s < model->n_solid; s++) {
         const struct scene_material *material = &model->scene->material[model->solids[s].material];
         for (unsigned b = 0; b < material->n_branch; b++) {

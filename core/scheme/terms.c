@@ -23,6 +23,7 @@
 #include "scheme/viscoelastic.h"
 #include "scheme/viscous.h"
 #include "scheme/viscous_pull.h"
+#include "scheme/weld.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -50,6 +51,7 @@ const struct term *const terms_all[] = {
     &normal_term,       /* how the surfaces of solids lie */
     &strain_term,       /* the stretch of solids */
     &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */
+    &weld_term,         /* where they meet solids share their shear traction */
     &cut_flux_term,     /* rigid bodies: what they leave of fluxes */
     NULL,
 };

@@ -121,9 +121,8 @@ static bool regrid_is_idle(struct regrid *regrid)
     return true;
 }
 
-/* Work per cell of a tile relative to one of a single fluid (measured: docs/decisions). Beside a solid all materials are
- * computed, and its stretch with them. */
-static double regrid_cost(const struct stage *stage, unsigned local)
+/* Beside a solid all materials are computed, and its stretch with them. */
+double regrid_cost(const struct stage *stage, unsigned local)
 {
     const struct census_tile *tile = &stage->census.tiles[local];
     const struct model *model = stage->model;
