@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "phys/elastic.h"
+#include "phys/model_family.h"
 #include "plug/registry.h"
 
 #include <math.h>
@@ -163,33 +164,6 @@ static void model_pull_narrow(const struct model *model, struct model *narrow)
     }
 }
 
-/* Families of the scene. */
-static void model_phases(struct model *model)
-{
-    model->n_phase = model->scene->n_phase;
-    for (unsigned k = 0; k < model->n_phase; k++) {
-        const struct scene_phase *scene = &model->scene->phases[k];
-        struct model_phase *phase = &model->phases[k];
-        *phase = (struct model_phase){.n = 2, .member = {scene->liquid, scene->vapour}, .scene = scene};
-        for (unsigned g = 0; g < scene->n_gas; g++) phase->member[phase->n++] = scene->gas[g];
-    }
-}
-
-/* Those families that a narrowed model has all of. */
-static void model_phase_narrow(const struct model *model, struct model *narrow)
-{
-    narrow->n_phase = 0;
-    for (unsigned k = 0; k < model->n_phase; k++) {
-        struct model_phase phase = model->phases[k];
-        bool all = true;
-        for (unsigned i = 0; i < phase.n; i++) {
-            phase.member[i] -= narrow->first; /* wraps where it stands before */
-            all = all && phase.member[i] < narrow->n_alpha;
-        }
-        if (all) narrow->phases[narrow->n_phase++] = phase;
-    }
-}
-
 /* The branches of solid s, which becomes the next solid of a narrowed model. */
 static void model_narrow_branches(const struct model *model, unsigned s, struct model *narrow)
 {
@@ -252,7 +226,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     narrow->split = model->split && narrow->n_solid && !model->n_normal;
     model_pair_narrow(model, narrow);
     model_pull_narrow(model, narrow);
-    model_phase_narrow(model, narrow);
+    model_family_narrow(model, narrow);
     narrow->lagged = narrow->split || model_jumps(narrow);
     for (unsigned l = 0; l < narrow->n_alpha; l++) narrow->active[narrow->n_active++] = narrow->i_alpha + l;
     for (unsigned l = 0; l < n; l++) narrow->active[narrow->n_active++] = narrow->i_m + l;
@@ -441,7 +415,7 @@ struct model *model_new(const struct scene *scene)
     if (model->split && model->dim > 1) model->n_normal = (unsigned)model->dim;
     model->n_field += model->n_normal;
     model_pair_up(model);
-    model_phases(model);
+    model_family_all(model);
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
     model_pull_all(model);
     model->lagged = model->split || model_jumps(model);
@@ -460,8 +434,9 @@ struct model *model_new(const struct scene *scene)
     }
     model_transport(model);
     model_conduct(model);
-    model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO ? !model->linear || model->conducts || model->n_phase
-                                                                   : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
+    model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO
+                         ? !model->linear || model->conducts || model->n_phase || model->n_fick
+                         : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
     model->limiter = (struct model_limiter){scene->scheme.limiter.module->table, scene->scheme.limiter.self};
     model->limiter_alpha =
         (struct model_limiter){scene->scheme.interface_limiter.module->table, scene->scheme.interface_limiter.self};

@@ -112,6 +112,12 @@ struct model_phase {
     const struct scene_phase *scene;
 };
 
+/* Gases that diffuse through each other (scheme/fick.h). */
+struct model_fick {
+    unsigned n, member[SCENE_MATERIALS]; /* materials of the same model */
+    const struct scene_fick *scene;
+};
+
 /* Most stretches a scene can have: of solids and of branches. */
 enum { MODEL_STRETCHES = SCENE_MATERIALS + SCENE_BRANCHES };
 
@@ -138,6 +144,8 @@ struct model {
     struct model_pull pulls[SCENE_MATERIALS];
     unsigned n_phase;
     struct model_phase phases[SCENE_PHASES];
+    unsigned n_fick;
+    struct model_fick ficks[SCENE_PHASES];
     unsigned n_normal, i_normal; /* normals of the surfaces of solids (scheme/normal.h): dim, or 0 */
     unsigned n_material, n_alpha, n_field;
     unsigned i_alpha, i_m, i_u, i_E;         /* first index of each group; primitives: i_m holds rho_l, i_E holds p */

@@ -105,7 +105,7 @@ struct face_work *face_new(const struct model *model)
     work->solid = model->n_stretch && model->n_alpha ? face_row(model->n_solid) : NULL;
     work->heat_below = model->conducts && model->n_alpha ? face_row(2 * model->n_alpha) : NULL;
     work->heat_above = work->heat_below ? work->heat_below + model->n_alpha * FACE_ROOM : NULL;
-    work->carried = face_row(2 * model->n_alpha);
+    work->carried = face_row((model->n_fick ? 3 : 2) * model->n_alpha); /* face_mingled */
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
     for (int side = 0; side < 2 && model->forced; side++) work->rise[side] = face_row(1);
     for (int side = 0; side < 2 && model->n_normal; side++) work->lean[side] = face_row(1);

@@ -45,6 +45,12 @@ struct face_work {
 struct face_work *face_new(const struct model *model);
 void face_free(struct face_work *work);
 
+/* Volume of each gas that diffuses through others (fick.h), a row each, behind `strained`; of scenes with any. */
+static inline double *face_mingled(const struct face_work *work)
+{
+    return work->strained + (work->strained - work->carried); /* of the whole scene, whatever the path */
+}
+
 /* Before terms look at a gathered frame: no forces yet. */
 void face_begin(struct face_work *work, const struct frame *frame);
 

@@ -11,6 +11,7 @@
 #include "scheme/drag.h"
 #include "scheme/exchange.h"
 #include "scheme/face_stress.h"
+#include "scheme/fick.h"
 #include "scheme/fraction.h"
 #include "scheme/hardening.h"
 #include "scheme/hoop.h"
@@ -34,6 +35,7 @@ const struct term *const terms_all[] = {
     &hardening_term,    /* plastic strains travel with their solids */
     &hoop_term,         /* what stands against p / r and the hoop stress in curved geometry */
     &conduction_term,   /* heat from cell to cell and from material to material */
+    &fick_term,         /* gases through each other */
     &face_stress_term,  /* one traction for the materials of a cell */
     &source_term,       /* forces, heat, mass, Lua */
     &drag_term,         /* resistance of porous media */
