@@ -138,6 +138,13 @@ struct scene_phase {
     struct saturation_range curve; /* of liquid and vapour */
 };
 
+/* Gases that diffuse through each other: section `gas-diffusion:`. */
+struct scene_fick {
+    unsigned n, gas[SCENE_MATERIALS];
+    bool constant;  /* D is the same everywhere; else it goes with T^1.75/p */
+    double D, T, p; /* [m2/s], at this temperature and pressure [K, Pa] */
+};
+
 /* One layer of paint. Layers are applied in order; a later one covers an earlier one by its
  * sub-cell volume fraction. */
 struct scene_layer {
@@ -434,6 +441,8 @@ struct scene {
     struct scene_tension tension[SCENE_PAIRS];
     unsigned n_phase;
     struct scene_phase phases[SCENE_PHASES];
+    unsigned n_fick;
+    struct scene_fick ficks[SCENE_PHASES];
     unsigned n_rigid;
     struct scene_rigid rigids[SCENE_RIGIDS]; /* `bodies:` */
     unsigned n_layer;

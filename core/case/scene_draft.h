@@ -16,7 +16,8 @@ struct draft {
 
 extern const struct keys_section scene_root_keys;
 extern const struct keys_section scene_domain_keys, scene_mesh_keys, scene_refine_keys, scene_boundary_keys;
-extern const struct keys_section scene_material_keys, scene_scheme_keys, scene_phase_keys, scene_rigid_keys;
+extern const struct keys_section scene_material_keys, scene_scheme_keys, scene_phase_keys, scene_fick_keys,
+    scene_rigid_keys;
 extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_stretch_keys, scene_source_keys;
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
 extern const struct keys_section scene_pulse_units;
@@ -36,6 +37,7 @@ void scene_boundary(struct draft *draft);
 void scene_tension(struct draft *draft);
 void scene_contact(struct draft *draft);
 void scene_phase(struct draft *draft);
+void scene_fick(struct draft *draft);
 void scene_initial(struct draft *draft);
 void scene_rigid(struct draft *draft);
 void scene_diffusion(struct draft *draft);

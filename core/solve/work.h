@@ -21,8 +21,8 @@ struct work {
     struct around *around;                    /* or NULL */
     struct curve *curve;                      /* or NULL */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
-    double *grown;                            /* of one tile (operator.h); NULL unless plastic solids can break */
-    struct cost cost;                         /* where the time goes, of all levels */
+    double *grown;    /* [n_solid] rows of one tile (operator.h); NULL unless plastic solids can break */
+    struct cost cost; /* where the time goes, of all levels */
 };
 
 struct work *work_new(const struct model *model, const struct mesh *mesh);
