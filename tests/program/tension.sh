@@ -85,6 +85,7 @@ expect: [{value: "max(abs(m/first(m) - 1))", at-most: 1e-13}, {value: max(u), at
 END
 ranked lens 1 3
 resumed lens 30 lens-1
+"$BULLA" run "$BULLA_SOURCE/cases/verify/k13-lens.yaml" --variant quick -o neumann --quiet >said 2>&1 || fail "not Neumann's angles" said
 
 # A surface that leaves the finest level: the force at the faces between levels is one on both sides.
 cat >half.yaml <<'END'
