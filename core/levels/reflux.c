@@ -79,6 +79,23 @@ static const double *reflux_row(const struct model *model, const struct terms *t
     return alone ? terms->faces->u : NULL;
 }
 
+/* What the coarse cell sees go through a face: a flux, and from it the half of a force there that acts on the cell. */
+struct reflux_through {
+    const double *flux, *force; /* NULL: none */
+    double part;                /* of the force: -1/2 for a cell below the face, 1/2 for one above */
+};
+
+static struct reflux_through reflux_through(const struct model *model, const struct terms *terms, int axis, unsigned q,
+                                            bool left)
+{
+    struct reflux_through through = {.flux = reflux_row(model, terms, axis, q, left), .part = left ? -0.5 : 0.5};
+    for (unsigned i = 0; i < terms->n_flux[axis]; i++) {
+        const struct term_flux *flux = &terms->flux[axis][i];
+        if (flux->rate == q && flux->kind == TERM_FORCE) through.force = flux->below;
+    }
+    return through;
+}
+
 /* A square patch of faces (or cells) of a tile across an axis. */
 struct reflux_patch {
     int layer;   /* index along the axis */
@@ -105,9 +122,9 @@ static void reflux_count(const struct reflux *reflux, double value, double *sum)
     *sum = reflux->fresh ? counts : *sum + counts;
 }
 
-/* Takes what the piece holds of a patch of faces; row NULL: zeros. Counted, or as it is. */
-static void reflux_copy(const struct reflux *reflux, bool counted, const struct frame *frame, const double *row,
-                        const struct reflux_patch *patch, double *out)
+/* Takes what the piece holds of a patch of faces. Counted, or as it is. */
+static void reflux_copy(const struct reflux *reflux, bool counted, const struct frame *frame,
+                        struct reflux_through through, const struct reflux_patch *patch, double *out)
 {
     const struct mesh *mesh = reflux->mesh;
     int across[2];
@@ -123,7 +140,8 @@ static void reflux_copy(const struct reflux *reflux, bool counted, const struct 
             for (int d = frame->axis + 1; d < 3; d++, step *= (size_t)mesh->n[d - 1]) outer += at[d] * step;
             if (inner - frame->inner_from >= frame->inner || outer - frame->outer_from >= frame->outer) continue;
             size_t face = face_at(frame, outer - frame->outer_from, (size_t)patch->layer) + inner - frame->inner_from;
-            double value = row ? row[face] : 0.0;
+            double value = through.flux ? through.flux[face] : 0.0;
+            if (through.force) value += through.part * through.force[face];
             if (counted) reflux_count(reflux, value, out);
             else *out = value;
         }
@@ -150,7 +168,7 @@ static void reflux_collect_fine(struct reflux *reflux, const struct terms *terms
         if (reflux->level->neighbours[local][2 * frame->axis + side].kind != NEIGHBOUR_COARSE) continue;
         struct reflux_patch patch = {.layer = side ? mesh->n[frame->axis] : 0, .cells = mesh->n[0]};
         for (unsigned q = 0; q < reflux->down->n_register; q++)
-            reflux_copy(reflux, false, frame, reflux_row(reflux->model, terms, frame->axis, q, side == 0), &patch,
+            reflux_copy(reflux, false, frame, reflux_through(reflux->model, terms, frame->axis, q, side == 0), &patch,
                         reflux->plane + ((size_t)side * reflux->down->n_register + q) * plane);
     }
 }
@@ -168,8 +186,9 @@ void reflux_collect(struct reflux *reflux, const struct terms *terms, unsigned l
         struct reflux_patch patch = {.layer = source->layer + (source->face % 2 == 0), .cells = mesh->n[0] / 2};
         memcpy(patch.from, source->from, sizeof patch.from);
         for (unsigned q = 0; q < up->n_register; q++)
-            reflux_copy(reflux, true, frame, reflux_row(reflux->model, terms, frame->axis, q, source->face % 2 == 0),
-                        &patch, reflux_coarse(reflux, s) + q * up->face_cells);
+            reflux_copy(reflux, true, frame,
+                        reflux_through(reflux->model, terms, frame->axis, q, source->face % 2 == 0), &patch,
+                        reflux_coarse(reflux, s) + q * up->face_cells);
     }
 }
 

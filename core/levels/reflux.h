@@ -1,7 +1,9 @@
 /* reflux.h - coarse and fine fluxes made one: what the coarse cell at a coarse-fine face gets after the fine level
  * has caught up (Berger & Colella 1989; model.md 7, amr.md 3.6).
  *
- * Rows of fluxes whose rates are evolved fields (term.h) are refluxed, whatever term they belong to. Of the fluxes of the
+ * Rows of fluxes whose rates are evolved fields (term.h) are refluxed, whatever term they belong to, and with them the half
+ * of a force at the face that acts on the coarse cell: where the pressures at the face balance it on each level, they do
+ * so after the exchange. Of the fluxes of the
  * stages, with their weights in the step (solve/tableau.h), a level keeps those through its coarse-fine faces: as the finer side, their means over sub-faces; as the coarser side, its own. With
  * delta = (sum over fine steps of dt F_fine) - dt F_coarse and the cell on the lower side of the face,
  *     conserved fields:  d q = -(A/V) delta(F)

@@ -22,7 +22,7 @@
 struct curvature {
     const struct mesh *mesh;
     int g;
-    double *rows, *psi, *other, *kappa, *spare;
+    double *rows, *psi, *other, *kappa, *kept, *spare;
     double *normal[3];
 };
 
@@ -52,7 +52,7 @@ static size_t curvature_cells(const struct mesh *mesh, int more)
 
 struct curvature *curvature_new(const struct mesh *mesh, int g)
 {
-    enum { BLOCKS = 7 };
+    enum { BLOCKS = 8 };
     struct curvature *room = mem_new(1, sizeof *room);
     size_t cells = curvature_cells(mesh, 2 * g);
     room->mesh = mesh;
@@ -61,7 +61,8 @@ struct curvature *curvature_new(const struct mesh *mesh, int g)
     room->psi = room->rows;
     room->other = room->psi + cells;
     room->kappa = room->other + cells;
-    room->spare = room->kappa + cells;
+    room->kept = room->kappa + cells;
+    room->spare = room->kept + cells;
     for (size_t d = 0; d < 3; d++) room->normal[d] = room->spare + (d + 1) * cells;
     return room;
 }
@@ -338,6 +339,17 @@ const double *curvature_take(struct curvature *room, const struct level *level, 
     curvature_divide(room, level, tile, more - 3);
     if (cosine) curvature_behind(room, cosine);
     return room->kappa;
+}
+
+void curvature_keep(struct curvature *room)
+{
+    memcpy(room->kept, room->kappa, curvature_cells(room->mesh, 2 * room->g - 4) * sizeof *room->kept);
+}
+
+void curvature_oppose(struct curvature *room, double part)
+{
+    size_t n = curvature_cells(room->mesh, 2 * room->g - 4);
+    for (size_t c = 0; c < n; c++) room->kappa[c] = part * room->kept[c] - (1.0 - part) * room->kappa[c];
 }
 
 const double *curvature_psi(const struct curvature *room)

@@ -32,6 +32,12 @@ bool curvature_is_mixed(size_t n, const double *a, double least);
 const double *curvature_take(struct curvature *room, const struct level *level, const struct tile *tile,
                              const double *a, const double *b, const double *cosine);
 
+/* Where a third material is about, a and b have each its surface against all others: curvature_keep keeps kappa of the last
+ * call, that of a; curvature_oppose makes it part * kept - (1 - part) * that of the last call, of b. After Smith, Solis &
+ * Chopp, Interfaces Free Bound. 4 (2002) 263-276, who give each material its part of the tensions. */
+void curvature_keep(struct curvature *room);
+void curvature_oppose(struct curvature *room, double part);
+
 /* psi of the averaged fractions that the last call has made, of the tile and g - 1 layers around it; and psi of one a. */
 const double *curvature_psi(const struct curvature *room);
 double curvature_psi_of(double a);

@@ -18,7 +18,7 @@ struct curve {
     const struct model *model;
     const struct mesh *mesh;
     struct curvature *room;
-    double *patch; /* fractions around a tile */
+    double *patch; /* fractions around a tile; if there are three, then room for what is not one of them */
     size_t pitch;
 };
 
@@ -30,7 +30,7 @@ struct curve *curve_new(const struct model *model, const struct mesh *mesh)
     curve->mesh = mesh;
     curve->room = curvature_new(mesh, CURVE_LAYERS);
     curve->pitch = patch_block(mesh, CURVE_LAYERS, NULL).pitch;
-    curve->patch = mem_new(model->n_alpha * curve->pitch, sizeof *curve->patch);
+    curve->patch = mem_new((model->n_alpha + (model->n_alpha > 2 ? 1 : 0)) * curve->pitch, sizeof *curve->patch);
     return curve;
 }
 
@@ -72,6 +72,57 @@ static bool curve_walls(const struct curve *curve, const struct patch_source *so
     return some;
 }
 
+/* All fractions but that of material l. */
+static const double *curve_rest(const struct curve *curve, unsigned l)
+{
+    size_t n = curve->pitch;
+    double *rest = curve->patch + curve->model->n_alpha * n;
+    memset(rest, 0, n * sizeof *rest);
+    for (unsigned m = 0; m < curve->model->n_alpha; m++)
+        for (size_t c = 0; m != l && c < n; c++) rest[c] += curve->patch[m * n + c];
+    return rest;
+}
+
+static double curve_sigma(const struct model *model, unsigned one, unsigned other)
+{
+    const struct scene *scene = model->scene;
+    for (unsigned k = 0; k < scene->n_tension; k++) {
+        const struct scene_tension *pair = &scene->tension[k];
+        if ((pair->one == one && pair->other == other) || (pair->one == other && pair->other == one))
+            return pair->sigma;
+    }
+    return 0.0;
+}
+
+/* Share of the first of a pair in its tension, sigma_ab = gamma_a + gamma_b with gamma_a = (sigma_ab + sigma_ac - sigma_bc)/2
+ * among three materials; among more there are no such parts, and it is a half. */
+static double curve_part(const struct model *model, const struct model_pair *pair)
+{
+    unsigned third = 3 - pair->inside - pair->outside;
+    if (model->n_alpha != 3) return 0.5;
+    double one = curve_sigma(model, pair->inside, third), other = curve_sigma(model, pair->outside, third);
+    double part = 0.5 * (1.0 + (one - other) / pair->sigma);
+    return part < 0.0 ? 0.0 : part > 1.0 ? 1.0 : part;
+}
+
+/* kappa of a pair, in the room. Where there are others, each of the two has its surface against all others, with its part of
+ * the tension: at a line where three meet the pulls of their corners are in balance at Neumann's angles. */
+static void curve_pair(const struct curve *curve, const struct level *level, const struct tile *tile,
+                       const struct model_pair *pair, const double *cosine)
+{
+    const double *a = curve->patch + pair->inside * curve->pitch, *b = curve->patch + pair->outside * curve->pitch;
+    double other[MESH_FACES];
+    if (curve->model->n_alpha < 3) {
+        curvature_take(curve->room, level, tile, a, b, cosine);
+        return;
+    }
+    for (int face = 0; cosine && face < MESH_FACES; face++) other[face] = -cosine[face];
+    curvature_take(curve->room, level, tile, a, curve_rest(curve, pair->inside), cosine);
+    curvature_keep(curve->room);
+    curvature_take(curve->room, level, tile, b, curve_rest(curve, pair->outside), cosine ? other : NULL);
+    curvature_oppose(curve->room, curve_part(curve->model, pair));
+}
+
 static void curve_tile(struct curve *curve, const struct patch_source *source, unsigned local)
 {
     const struct model *model = curve->model;
@@ -91,7 +142,7 @@ static void curve_tile(struct curve *curve, const struct patch_source *source, u
         gathered = true;
         double cosine[MESH_FACES];
         bool leans = curve_walls(curve, source, local, k, cosine);
-        curvature_take(curve->room, level, &level->tiles[level->first + local], a, b, leans ? cosine : NULL);
+        curve_pair(curve, level, &level->tiles[level->first + local], pair, leans ? cosine : NULL);
         curvature_mean(curve->room, a, b, CURVE_LEAST, kappa);
     }
 }

@@ -58,6 +58,52 @@ END
 ranked plane 1 3
 resumed plane 30 plane-1
 
+# Three materials that meet in lines, two of them on a wall with angles: surfaces of each against all others.
+cat >lens.yaml <<'END'
+bulla: 1
+title: a lens between two liquids
+domain:
+  lower: [0, -8 um]
+  upper: [16 um, 8 um]
+  cells: [32, 32]
+  boundaries: {x-: symmetry, x+: {type: no-slip, contact-angle: {above+below: 70 deg}}, y-: reflecting, y+: reflecting}
+mesh: {tile: 8, levels: 1, refine: [{interface: lens}]}
+materials:
+  above: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 0.5 MPa}, viscosity: 6 mPa s}
+  below: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 0.5 MPa}, viscosity: 6 mPa s}
+  lens: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 0.5 MPa}, viscosity: 6 mPa s}
+surface-tension: {lens+above: 52 mN/m, lens+below: 60 mN/m, above+below: 72.8 mN/m}
+initial:
+  - {everywhere: true, material: above, density: 1000, pressure: 1 atm}
+  - {half-space: {point: [0, 0], normal: [0, -1]}, material: below, density: 1000, pressure: 1 atm}
+  - {sphere: {center: [0, 0], radius: 4.5 um}, material: lens, density: 1000, pressure: 1.1 atm}
+run: {until: 60 ns}
+output:
+  history: {every: 1 step, columns: {S: {integral: surface_energy}, m: {mass: lens}, u: {max: velocity_x}, v: {max: velocity_y}}}
+  checkpoints: {every: 20 steps}
+expect: [{value: "max(abs(m/first(m) - 1))", at-most: 1e-13}, {value: max(u), at-least: 0.1}]
+END
+ranked lens 1 3
+resumed lens 30 lens-1
+"$BULLA" run "$BULLA_SOURCE/cases/verify/k13-lens.yaml" --variant quick -o neumann --quiet >said 2>&1 || fail "not Neumann's angles" said
+
+# A surface that leaves the finest level: the force at the faces between levels is one on both sides.
+cat >half.yaml <<'END'
+bulla: 1
+title: a drop half of which is fine
+domain: {lower: [-20 um, -20 um], upper: [20 um, 20 um], cells: [32, 32], boundaries: {x-: periodic, x+: periodic, y-: periodic, y+: periodic}}
+mesh: {tile: 8, levels: 1, refine: [{region: {box: {lower: [0, -20 um], upper: [20 um, 20 um]}}}]}
+materials: {water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}, air: {eos: {type: ideal-gas, gamma: 1.4}}}
+surface-tension: {water+air: 72.8 mN/m}
+initial:
+  - {everywhere: true, material: air, density: 1.2, pressure: 1 atm}
+  - {sphere: {center: [0, 0], radius: 10 um}, material: water, density: 998, pressure: 1 atm, balance: tension}
+run: {until: 20 ns}
+output: {history: {every: 5 steps, columns: {u: {max: "= sqrt(velocity_x^2 + velocity_y^2)"}, m: {mass: water}}}}
+expect: [{value: max(u), at-most: 0.1}, {value: "max(abs(m/first(m) - 1))", at-most: 1e-13}]
+END
+ran half half 2>said || fail "a drop on two levels" said
+
 refused() { # WHAT SETTING...: ends with 2 and says so
     what=$1
     shift
