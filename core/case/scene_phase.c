@@ -175,9 +175,10 @@ static const struct key scene_phase_rows[] = {
      .unit = "1",
      .min = KEYS_POSITIVE,
      .max = 0.99,
-     .doc = "Vapour condenses only where the liquid fills this share of a cell; wherever it is felt, if not given. 0.9 "
-            "keeps "
-            "vapour among gases from condensing in all cells that the surface is smeared over."},
+     .doc =
+         "Vapour condenses only where the liquid fills this share of a cell; wherever it is felt, if not given. 0.9 "
+         "keeps vapour among gases from condensing, and gases from cooling, in all cells that the surface is smeared "
+         "over."},
     {.name = "direction",
      .type = KEYS_CHOICE,
      .choices = "both|evaporation|condensation",

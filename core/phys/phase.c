@@ -24,7 +24,7 @@ struct phase_block {
     size_t at[PHASE_BLOCK]; /* place in the tile */
     phase_row u[MODEL_FIELDS], w[MODEL_FIELDS], T[SCENE_MATERIALS], blur;
     bool warm[PHASE_BLOCK];    /* temperatures fit */
-    bool thermal[PHASE_BLOCK]; /* no exchange: beyond the end of the curve, or too dry to condense */
+    bool thermal[PHASE_BLOCK]; /* no exchange: beyond the end of the curve */
     bool alone[PHASE_BLOCK];   /* liquid without vapour, which has to nucleate */
     bool left[PHASE_BLOCK];    /* the liquid has taken volume that had no vapour left */
     struct equilibrium_cells cells, start;
@@ -232,7 +232,7 @@ static bool phase_fits(struct phase_block *block, size_t i)
     if (block->alone[i])
         return block->thermal[i] || !(phase_drive_alone(block, i, scene->tension, scene->superheat) < 0.0);
     if (phase_thin(block, i) < scene->onset && phase_drive(block, i) < 0.0) return true;
-    if (phase_wet(block, i) < scene->wet && phase_drive(block, i) > 0.0) block->thermal[i] = true;
+    if (phase_wet(block, i) < scene->wet && phase_drive(block, i) > 0.0) return true;
     block->warm[i] = phase_warm(block, i, near);
     if (!block->warm[i]) return false;
     if (block->thermal[i]) return true;
