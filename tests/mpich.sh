@@ -15,7 +15,7 @@ cmake -S "$root" --preset ci -B "$build" -DMPI_C_COMPILER=mpicc.mpich $launcher
 cmake --build "$build" -j "$(nproc)"
 grep -q 'define BULLA_OPEN_MPI 1\|BULLA_OPEN_MPI=1' "$build/build.ninja" && { echo "this is Open MPI"; exit 1; }
 # Style is that of the tree; the others start ranks by themselves, in Open MPI's dialect.
-dialect='^style-|^nightly-|^study-nest-ranks$|^program-(case-tags|queue|ranks-mesh|run-ranks)$'
+dialect='^style-|^nightly-|^program-(case-tags|queue|ranks-mesh|run-ranks)$'
 ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" -R "${BULLA_MPICH_TESTS:-.}" -E "$dialect"
 
 place=$build/histories

@@ -1,4 +1,4 @@
-/* comm.c - see comm.h. Outside this file MPI is called by abort.c, mesh/post.c (exchange) and
+/* comm.c - see comm.h. Outside this file MPI is called by abort.c, swap.c, mesh/post.c (exchange) and
  * the writer of data sets (io/h5out.c) only. */
 #include "base/comm.h"
 

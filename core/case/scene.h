@@ -47,13 +47,13 @@ enum scene_pulse {
     SCENE_PULSE_SCRIPT,       /* Lua: gauge pressure of (t, x, y, z) */
 };
 
-/* The way of an incoming wave (beam.h). */
+/* The way of a wave that comes in (beam.h), or of those that leave (scheme/bound_ray.h). */
 struct scene_beam {
-    enum { SCENE_BEAM_NORMAL, SCENE_BEAM_PLANE, SCENE_BEAM_FOCUS } path;
+    enum { SCENE_BEAM_NORMAL, SCENE_BEAM_PLANE, SCENE_BEAM_FOCUS, SCENE_BEAM_ORIGIN } path;
     double way[SCENE_AXES];   /* unit vector of the plane wave, or of the transducer's axis */
-    double point[SCENE_AXES]; /* where the pulse is after its delay; or the focus [m] */
+    double point[SCENE_AXES]; /* where the pulse is after its delay; or the focus; or where waves come from [m] */
     double radius, cosine;    /* of the transducer [m], of half of its aperture */
-    double power, speed;      /* of F/r; of sound [m/s] */
+    double power, speed;      /* of F/r, or 1/r; of sound [m/s] */
 };
 
 struct scene_boundary {
@@ -65,7 +65,7 @@ struct scene_boundary {
     enum scene_pulse pulse;
     double amplitude, frequency, decay, cycles, centre, width, delay;         /* Pa, Hz, 1/s, 1, s, s, s */
     enum { SCENE_WINDOW_NONE, SCENE_WINDOW_HANN, SCENE_WINDOW_TUKEY } window; /* of a sine of some cycles */
-    struct scene_beam beam;
+    struct scene_beam beam; /* of non-reflecting ones: that of what leaves */
     double *sum, sum_step; /* [n_sum] integral of the pulse from 0 to i sum_step [Pa s]; NULL: not needed (pulse_sum) */
     unsigned n_sum;
     bool compressive_only;       /* keep only p' > 0 up to the first zero (model.md 8) */
@@ -79,6 +79,9 @@ struct scene_boundary {
     bool moves;                              /* a no-slip wall with a velocity */
     /* walls: their temperature [K], or the heat that they give to what is inside [W/m2]; neither: none passes */
     struct scene_value temperature, heat_flux;
+    /* no-slip walls, by pairs of scene.tension: cosine of the angle between wall and surface within `one`; 0 is a right
+     * angle, that of all who say nothing */
+    double cosine[SCENE_PAIRS];
     struct instance law; /* of a module, and its enum scene_boundary_trait; module NULL: none */
     unsigned traits;
 };
@@ -133,6 +136,13 @@ struct scene_phase {
     double onset;                  /* liquid evaporates where vapour and gases fill this share of the cell */
     double wet;                    /* vapour condenses where the liquid fills this share of the cell */
     struct saturation_range curve; /* of liquid and vapour */
+};
+
+/* Gases that diffuse through each other: section `gas-diffusion:`. */
+struct scene_fick {
+    unsigned n, gas[SCENE_MATERIALS];
+    bool constant;  /* D is the same everywhere; else it goes with T^1.75/p */
+    double D, T, p; /* [m2/s], at this temperature and pressure [K, Pa] */
 };
 
 /* One layer of paint. Layers are applied in order; a later one covers an earlier one by its
@@ -431,6 +441,8 @@ struct scene {
     struct scene_tension tension[SCENE_PAIRS];
     unsigned n_phase;
     struct scene_phase phases[SCENE_PHASES];
+    unsigned n_fick;
+    struct scene_fick ficks[SCENE_PHASES];
     unsigned n_rigid;
     struct scene_rigid rigids[SCENE_RIGIDS]; /* `bodies:` */
     unsigned n_layer;

@@ -1,4 +1,5 @@
-/* scene_beam.c - the keys of beam.h beside those of a pulse: direction or focus of an incoming wave. */
+/* scene_beam.c - the ways of waves at the domain's faces: direction or focus of one that comes in (the keys of beam.h
+ * beside those of a pulse), origin of those that leave. */
 #include "case/scene_draft.h"
 
 #include "case/pulse.h"
@@ -65,6 +66,12 @@ static void scene_beam_read_plane(struct draft *draft, struct scene_beam *beam, 
     beam->path = SCENE_BEAM_PLANE;
 }
 
+/* How the pressure of a wave around a point falls: with 1/r, in the plane with its root. */
+static double scene_beam_power(const struct scene *scene)
+{
+    return scene->domain.dim == 2 && scene->domain.geometry == SCENE_CARTESIAN ? 0.5 : 1.0;
+}
+
 static void scene_beam_read_focus(struct draft *draft, struct scene_beam *beam, const struct keys_map *map, int axis,
                                   int side)
 {
@@ -74,7 +81,7 @@ static void scene_beam_read_focus(struct draft *draft, struct scene_beam *beam, 
     if (along->node && !scene_domain_direction(draft, along, beam->way)) return;
     beam->radius = keys_at(map, "radius")->number;
     beam->cosine = cos(keys_at(map, "aperture")->number);
-    beam->power = draft->scene->domain.dim == 2 && draft->scene->domain.geometry == SCENE_CARTESIAN ? 0.5 : 1.0;
+    beam->power = scene_beam_power(draft->scene);
     beam->path = SCENE_BEAM_FOCUS;
 }
 
@@ -107,6 +114,37 @@ void scene_beam(struct draft *draft, struct scene_boundary *boundary, const stru
     if (beam->path == SCENE_BEAM_NORMAL) return;
     beam->speed = keys_at(map, "sound-speed")->given ? keys_at(map, "sound-speed")->number : NAN;
     scene_beam_round(draft, beam, plane->node ? plane : focus);
+}
+
+/* Why no wave leaves from this point through a face; NULL: it does. */
+static const char *scene_beam_lost(const struct draft *draft, const double point[SCENE_AXES], int axis, int side)
+{
+    const struct scene_domain *domain = &draft->scene->domain;
+    double face = side ? domain->upper[axis] : domain->lower[axis],
+           inwards = side ? face - point[axis] : point[axis] - face;
+    if (domain->geometry == SCENE_SPHERICAL) return "waves leave a ball from its centre";
+    if (domain->dim < 2) return "in one dimension waves leave along the axis";
+    if (domain->geometry == SCENE_AXISYMMETRIC && point[0] != 0.0)
+        return "waves around an axis come from a point on it";
+    if (scene_material_solid(draft)) return "in scenes with a solid waves leave as plane ones";
+    return inwards > 0.0 ? NULL : "this point lies behind the face, so waves from there would come in";
+}
+
+void scene_beam_origin(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map, int axis,
+                       int side)
+{
+    const struct keys_value *origin = keys_at(map, "origin");
+    struct scene_beam *beam = &boundary->beam;
+    beam->power = scene_beam_power(draft->scene);
+    if (draft->scene->domain.geometry == SCENE_SPHERICAL && side) beam->path = SCENE_BEAM_ORIGIN;
+    if (!origin->node || !scene_domain_vector(draft, origin, beam->point)) return;
+    const char *lost = scene_beam_lost(draft, beam->point, axis, side);
+    beam->path = SCENE_BEAM_ORIGIN;
+    if (!lost) return;
+    keys_error(&draft->keys, origin, "%s", lost);
+    diag_help(draft->keys.diag, draft->scene->domain.dim < 2 || scene_material_solid(draft)
+                                    ? "leave 'origin' out"
+                                    : "give the middle of what sends them out, 'origin: [0, 1 mm]', or leave it out");
 }
 
 void scene_beam_speed(struct draft *draft, struct scene_boundary *boundary, const struct keys_value *value,

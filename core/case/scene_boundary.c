@@ -166,6 +166,12 @@ static const struct key scene_boundary_far[] = {
      .type = KEYS_VALUE,
      .unit = "Pa",
      .doc = "Far-field pressure; the initial pressure at the boundary if not given."},
+    {.name = "origin",
+     .type = KEYS_NUMBER,
+     .many = KEYS_LIST,
+     .unit = "m",
+     .doc = "Point from which the waves come that leave here, say the middle of a bubble: they leave as round waves, "
+            "under any angle. Without it as plane ones along the normal; in spherical scenes it is the centre."},
     {0},
 };
 
@@ -272,6 +278,14 @@ static const struct key scene_boundary_sticky[] = {
      .unit = "m/s",
      .doc = "Velocity of the wall; it rests if not given. Viscous fluids are dragged along; across the face as for "
             "`reflecting`."},
+    {.name = "contact-angle",
+     .type = KEYS_NUMBER,
+     .many = KEYS_NAMED,
+     .unit = "rad",
+     .min = KEYS_POSITIVE,
+     .max = KEYS_MOST,
+     .doc = "Angle at which the surface between two materials meets the wall, within the first of them, as in "
+            "`water+air: 60 deg`, for pairs with a `surface-tension`; 90 deg if not given."},
     {0},
 };
 
@@ -451,6 +465,8 @@ void scene_boundary(struct draft *draft)
                 text_add(&missing, "%s%s", missing.length ? ", " : "", names[axis][side]);
             if (pair[side]->map && boundary->type == SCENE_INCOMING_WAVE)
                 scene_beam(draft, boundary, pair[side]->map, axis, side);
+            if (pair[side]->map && boundary->type == SCENE_NONREFLECTING)
+                scene_beam_origin(draft, boundary, pair[side]->map, axis, side);
             scene_boundary_place(draft, axis, side, pair[side]->map);
         }
         scene_boundary_pair(draft, axis, pair);

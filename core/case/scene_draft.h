@@ -16,7 +16,8 @@ struct draft {
 
 extern const struct keys_section scene_root_keys;
 extern const struct keys_section scene_domain_keys, scene_mesh_keys, scene_refine_keys, scene_boundary_keys;
-extern const struct keys_section scene_material_keys, scene_scheme_keys, scene_phase_keys, scene_rigid_keys;
+extern const struct keys_section scene_material_keys, scene_scheme_keys, scene_phase_keys, scene_fick_keys,
+    scene_rigid_keys;
 extern const struct keys_section scene_shape_keys, scene_initial_keys, scene_stretch_keys, scene_source_keys;
 extern const struct key scene_state_rows[]; /* material, density, pressure ...: of layers and inflows */
 extern const struct keys_section scene_pulse_units;
@@ -34,7 +35,9 @@ void scene_derived(struct draft *draft);
 void scene_refine(struct draft *draft);
 void scene_boundary(struct draft *draft);
 void scene_tension(struct draft *draft);
+void scene_contact(struct draft *draft);
 void scene_phase(struct draft *draft);
+void scene_fick(struct draft *draft);
 void scene_initial(struct draft *draft);
 void scene_rigid(struct draft *draft);
 void scene_diffusion(struct draft *draft);
@@ -48,6 +51,12 @@ void scene_peak(struct draft *draft);
 void scene_history(struct draft *draft);
 void scene_map(struct draft *draft);
 void scene_expect(struct draft *draft);
+
+/* "one+other", the name of a pair, into two materials, neither the same nor unknown; false after a recorded error. */
+bool scene_tension_split(struct draft *draft, const struct keys_value *pair, unsigned *ret_one, unsigned *ret_other);
+
+/* Index of the pair that has a surface tension, in whatever order; n_tension: none. */
+unsigned scene_tension_find(const struct scene *scene, unsigned one, unsigned other);
 
 /* `balance: tension` of layer `index`: the pressure inside is made the given one and what surface tension adds. */
 void scene_tension_balance(struct draft *draft, const struct keys_value *balance, unsigned index);
@@ -201,6 +210,10 @@ bool scene_body_prism(struct draft *draft, struct shape *shape, struct shape *pa
 /* The way of a wave at the face across `axis` on this side; nothing if the case names none. */
 extern const struct keys_section scene_beam_plane_keys, scene_beam_focus_keys;
 void scene_beam(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map, int axis, int side);
+
+/* Where the waves come from that leave through a non-reflecting face: its `origin`; the centre of a ball. */
+void scene_beam_origin(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map, int axis,
+                       int side);
 
 /* Its speed of sound, if the case does not say: that at the face at the start [m/s]; NaN, not known, is an error. */
 void scene_beam_speed(struct draft *draft, struct scene_boundary *boundary, const struct keys_value *value,

@@ -375,6 +375,22 @@ static void scene_phase_pair(struct draft *draft, const struct keys_value *value
     scene->phases[scene->n_phase++] = pair;
 }
 
+/* Surface tension: one pressure for the vapour, one for the liquid, which a round surface in one dimension knows exactly. */
+static void scene_phase_curved(struct draft *draft, const struct keys_value *section)
+{
+    const struct scene *scene = draft->scene;
+    if (scene->domain.dim > 1) {
+        keys_error(&draft->keys, section,
+                   "phase change and surface tension go together in one dimension around a centre or an axis only");
+        diag_help(draft->keys.diag, "'geometry: spherical', or leave one of them out");
+    } else if (scene->n_material > 2) {
+        keys_error(&draft->keys, section,
+                   "phase change and surface tension go together for a liquid and its vapour alone, without a third "
+                   "material");
+        diag_help(draft->keys.diag, "leave '%s' out, or the surface tension", scene->material[2].name);
+    }
+}
+
 /* What does not go together with it. */
 static void scene_phase_company(struct draft *draft, const struct keys_value *section)
 {
@@ -383,7 +399,7 @@ static void scene_phase_company(struct draft *draft, const struct keys_value *se
     if (scene->scheme.closure == SCENE_ALLAIRE)
         keys_error(&draft->keys, closure,
                    "phase change needs the closure kapila: with allaire, mixtures are not in mechanical equilibrium");
-    if (scene->n_tension) keys_error(&draft->keys, section, "phase change and surface tension do not go together yet");
+    if (scene->n_tension) scene_phase_curved(draft, section);
     bool line = scene->domain.dim == 1 && scene->scheme.traction == SCENE_TRACTION_AUTO;
     if (!scene_material_solid(draft) || !(line || scene->scheme.traction == SCENE_TRACTION_COMMON)) return;
     keys_error(

@@ -87,7 +87,9 @@ static void scene_read_sections(struct draft *draft)
     scene_refine(draft);
     scene_boundary(draft);
     scene_tension(draft);
+    scene_contact(draft);
     scene_phase(draft);
+    scene_fick(draft);
     scene_damage_voids(draft);
     scene_initial(draft);
     scene_rigid(draft);

@@ -13,13 +13,12 @@ static int scene_tension_material(struct draft *draft, const struct keys_value *
     return scene_material_index(draft, &named);
 }
 
-/* "one+other" into the two materials; false after an error. */
-static bool scene_tension_split(struct draft *draft, const struct keys_value *pair, struct scene_tension *ret)
+bool scene_tension_split(struct draft *draft, const struct keys_value *pair, unsigned *ret_one, unsigned *ret_other)
 {
     const char *plus = strchr(pair->name, '+');
     if (!plus || strchr(plus + 1, '+')) {
         keys_error(&draft->keys, pair, "'%s' is no pair of materials", pair->name);
-        diag_help(draft->keys.diag, "write two names with a + between them: 'water+air: 72.8 mN/m'");
+        diag_help(draft->keys.diag, "write two names with a + between them, as in 'water+air'");
         return false;
     }
     char *first = mem_text_n(pair->name, (size_t)(plus - pair->name));
@@ -27,19 +26,19 @@ static bool scene_tension_split(struct draft *draft, const struct keys_value *pa
     mem_free(first);
     if (one >= 0 && one == other) keys_error(&draft->keys, pair, "a material has no surface tension with itself");
     if (one < 0 || other < 0 || one == other) return false;
-    *ret = (struct scene_tension){.one = (unsigned)one, .other = (unsigned)other, .sigma = pair->number};
+    *ret_one = (unsigned)one;
+    *ret_other = (unsigned)other;
     return true;
 }
 
-/* A pair is named once, in whatever order. */
-static bool scene_tension_again(const struct scene *scene, const struct scene_tension *pair)
+unsigned scene_tension_find(const struct scene *scene, unsigned one, unsigned other)
 {
     for (unsigned k = 0; k < scene->n_tension; k++) {
         const struct scene_tension *old = &scene->tension[k];
-        if (old->one == pair->one && old->other == pair->other) return true;
-        if (old->one == pair->other && old->other == pair->one) return true;
+        if (old->one == one && old->other == other) return k;
+        if (old->one == other && old->other == one) return k;
     }
-    return false;
+    return scene->n_tension;
 }
 
 /* What is computed so far. */
@@ -75,9 +74,9 @@ void scene_tension(struct draft *draft)
     if (section->count > SCENE_PAIRS)
         keys_error(&draft->keys, section, "%u pairs are more than %d", section->count, SCENE_PAIRS);
     for (unsigned i = 0; i < section->count && scene->n_tension < SCENE_PAIRS && scene->n_material > 1; i++) {
-        struct scene_tension pair;
-        if (!section->list[i].given || !scene_tension_split(draft, &section->list[i], &pair)) continue;
-        if (scene_tension_again(scene, &pair))
+        struct scene_tension pair = {.sigma = section->list[i].number};
+        if (!section->list[i].given || !scene_tension_split(draft, &section->list[i], &pair.one, &pair.other)) continue;
+        if (scene_tension_find(scene, pair.one, pair.other) < scene->n_tension)
             keys_error(&draft->keys, &section->list[i], "this pair has a surface tension already");
         else scene->tension[scene->n_tension++] = pair;
     }

@@ -60,7 +60,7 @@ void derive_curvature(const struct derive_view *tile, double *out)
         struct curvature *room = curvature_new(tile->mesh, CURVATURE_LAYERS);
         for (size_t c = 0; c < cells; c++) rest[c] = 1.0 - a[c];
         const double *kappa =
-            curvature_take(room, tile->level, &tile->level->tiles[tile->level->first + tile->local], a, rest);
+            curvature_take(room, tile->level, &tile->level->tiles[tile->level->first + tile->local], a, rest, NULL);
         derive_curvature_cells(tile, curvature_psi(room), kappa, out);
         curvature_free(room);
     }

@@ -68,11 +68,34 @@ void derive_stress_cauchy(const struct derive_view *tile, double *out)
     mem_free(s);
 }
 
+/* The stretch of the tile, [n_stretch][n]: of several solids the mean by volume, 1 where there is none. Release with
+ * mem_free. */
+static double *derive_stress_stretches(const struct derive_view *tile)
+{
+    const struct model *model = tile->model;
+    size_t n = tile->n, size = model->n_stretch * n;
+    double *V = mem_new(size, sizeof *V);
+    memcpy(V, derive_view_w(tile, model->solids[0].stretch), size * sizeof *V);
+    for (size_t i = 0; model->n_solid > 1 && i < n; i++) {
+        double all = 0.0, sum[6] = {0};
+        for (unsigned s = 0; s < model->n_solid; s++) {
+            double alpha = derive_view_alpha(tile, model->solids[s].material, i);
+            all += alpha;
+            for (unsigned c = 0; c < model->n_stretch; c++)
+                sum[c] += alpha * derive_view_w(tile, model->solids[s].stretch + c)[i];
+        }
+        for (unsigned c = 0; c < model->n_stretch; c++) V[c * n + i] = all > 0.0 ? sum[c] / all : c < 3 ? 1.0 : 0.0;
+    }
+    return V;
+}
+
 void derive_stress_stretch(const struct derive_view *tile, double *out)
 {
     unsigned c = (unsigned)tile->field->index;
-    if (c < tile->model->n_stretch) memcpy(out, derive_view_w(tile, tile->model->i_V + c), tile->n * sizeof *out);
+    double *V = derive_stress_stretches(tile);
+    if (c < tile->model->n_stretch) memcpy(out, V + c * tile->n, tile->n * sizeof *out);
     else memset(out, 0, tile->n * sizeof *out);
+    mem_free(V);
 }
 
 /* Those in the plane of x and y. */
@@ -151,8 +174,9 @@ void derive_stress_principal(const struct derive_view *tile, double *out)
 
 void derive_stress_stretch_max(const struct derive_view *tile, double *out)
 {
-    const double *V = derive_view_w(tile, tile->model->i_V);
+    double *V = derive_stress_stretches(tile);
     for (size_t i = 0; i < tile->n; i++) out[i] = derive_stress_of_all(V, tile->n, tile->model->n_stretch, i).most;
+    mem_free(V);
 }
 
 /* sqrt(3/2 s:s) of a block of components. */
@@ -200,11 +224,11 @@ void derive_stress_energy(const struct derive_view *tile, double *out)
 void derive_stress_invariant(const struct derive_view *tile, double *out)
 {
     const struct model *model = tile->model;
-    double *other = mem_new(tile->n, sizeof *other);
+    double *other = mem_new(tile->n, sizeof *other), *V = derive_stress_stretches(tile);
     bool first = tile->field->index == 0;
-    elastic_invariants(model, tile->n, tile->n, derive_view_w(tile, model->i_V), first ? out : other,
-                       first ? other : out);
+    elastic_invariants(model, tile->n, tile->n, V, first ? out : other, first ? other : out);
     mem_free(other);
+    mem_free(V);
 }
 
 void derive_stress_strength(const struct derive_view *tile, double *out)

@@ -14,6 +14,7 @@
 #include "io/room.h"
 #include "io/seal.h"
 #include "io/writers.h"
+#include "mesh/nest.h"
 #include "solve/evaporate.h"
 #include "solve/peak.h"
 
@@ -283,12 +284,14 @@ static void checkpoint_put_tiles(struct checkpoint *point)
 {
     const struct mesh *mesh = point->state->mesh;
     int32_t *rows = mem_new(point->n_tile * CHECKPOINT_TILE, sizeof *rows), *row = rows;
-    for (int l = 0; l < mesh->n_level; l++)
-        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++, row += CHECKPOINT_TILE) {
-            const struct tile *tile = &mesh->levels[l].tiles[i];
+    for (int l = 0; l < mesh->n_level; l++) {
+        struct nest_set all = nest_of(mesh, l);
+        for (const struct tile *tile = all.tiles; tile < all.tiles + all.n; tile++, row += CHECKPOINT_TILE) {
             const int32_t values[CHECKPOINT_TILE] = {l, tile->at[0], tile->at[1], tile->at[2], tile->unwanted};
             memcpy(row, values, sizeof values);
         }
+        nest_free_set(&all);
+    }
     h5out_array(point->file, "/tiles", H5_I32, point->n_tile, CHECKPOINT_TILE, rows);
     checkpoint_list_part(point->file, &point->seal, "/tiles",
                          seal_hash(rows, point->n_tile * CHECKPOINT_TILE * sizeof *rows));

@@ -195,6 +195,7 @@ struct provenance_cost {
     double split[COST_PARTS + 1];
     struct state_counts counts;
     struct ledger now;
+    struct balance_level share[MESH_LEVELS];
 };
 
 /* Leaves of a level. */
@@ -208,7 +209,8 @@ static double provenance_leaves(const struct mesh *mesh, const struct level *lev
 }
 
 /* What there is of each level now, and was at most. */
-static json_t *provenance_levels(const struct provenance *provenance, const struct state *state)
+static json_t *provenance_levels(const struct provenance *provenance, const struct state *state,
+                                 const struct balance_level share[MESH_LEVELS])
 {
     const struct mesh *mesh = state->mesh;
     json_t *levels = json_array();
@@ -217,11 +219,13 @@ static json_t *provenance_levels(const struct provenance *provenance, const stru
         unsigned tiles = l < mesh->n_level ? level->n_tile : 0;
         double leaves = tiles ? provenance_leaves(mesh, level) : 0.0, n_cell = (double)mesh->n_cell;
         json_array_append_new(levels,
-                              json_pack("{s:i, s:f, s:I, s:I, s:I, s:I, s:I, s:I}", "level", l, "width", level->h[0],
-                                        "tiles", (json_int_t)tiles, "cells", (json_int_t)(tiles * n_cell), "leaves",
-                                        (json_int_t)leaves, "peak_tiles", (json_int_t)provenance->peak[l], "peak_cells",
-                                        (json_int_t)(provenance->peak[l] * n_cell), "steps",
-                                        (json_int_t)state->level_steps[l]));
+                              json_pack("{s:i, s:f, s:I, s:I, s:I, s:I, s:I, s:I, s:{s:o, s:o}}", "level", l, "width",
+                                        level->h[0], "tiles", (json_int_t)tiles, "cells", (json_int_t)(tiles * n_cell),
+                                        "leaves", (json_int_t)leaves, "peak_tiles", (json_int_t)provenance->peak[l],
+                                        "peak_cells", (json_int_t)(provenance->peak[l] * n_cell), "steps",
+                                        (json_int_t)state->level_steps[l], "balance", "predicted",
+                                        provenance_number(share[l].predicted), "seen",
+                                        provenance_number(share[l].seen)));
     }
     return levels;
 }
@@ -308,7 +312,7 @@ static char *provenance_compose(const struct provenance *provenance, const struc
     json_object_set_new(root, "guard", provenance_guard(&cost->counts));
     json_object_set_new(root, "closures", provenance_laws_closures(&cost->counts));
     json_object_set_new(root, "outside", provenance_laws_outside(state->model, &cost->counts));
-    json_object_set_new(root, "levels", provenance_levels(provenance, state));
+    json_object_set_new(root, "levels", provenance_levels(provenance, state, cost->share));
     json_object_set_new(root, "cpu_split_s", provenance_split(cost));
     json_object_set_new(root, "refinement", provenance_refinement(cost));
     json_object_set_new(root, "exit_reason", json_string(reason));
@@ -374,6 +378,7 @@ int provenance_write(struct provenance *provenance, const struct state *state, c
                                    .counts = state_counts_total(state)};
     provenance_parts(provenance, state, cost.split);
     ledger_take(state, &cost.now);
+    balance_take(&state->work->balance, cost.share);
     char *text = comm_rank() == 0 ? provenance_compose(provenance, state, &cost, reason, exit_code) : NULL;
     mem_free(provenance->text);
     provenance->text = provenance_share(text);

@@ -1,10 +1,12 @@
-/* level.c - see level.h. Tiles are found by a table of slots: a build asks some ten times per tile, and
- * bisection of a long list costs several times as much. */
+/* level.c - see level.h. Own tiles are found by a table of slots: a build asks some ten times per tile, and
+ * bisection of a long list costs several times as much. Those of others, which only tiles at the rim of the own piece
+ * ask for, are found by bisection: a table of all would cost each rank more than it saves. */
 #include "mesh/level.h"
 
 #include "base/comm.h"
 #include "base/mem.h"
 #include "mesh/morton.h"
+#include "mesh/span.h"
 
 void level_local(const struct tile *tiles, unsigned n_tile, unsigned *ret_first, unsigned *ret_n_local)
 {
@@ -21,13 +23,12 @@ static bool level_has(const void *tiles, unsigned index, const void *key)
     return ((const struct tile *)tiles)[index].key == *(const uint64_t *)key;
 }
 
-static void level_tabulate(struct level *level)
+void level_tabulate(struct level *level)
 {
-    slots_start(&level->slots, level->n_tile);
-    for (unsigned i = 0; i < level->n_tile; i++) {
-        uint64_t key = level->tiles[i].key;
-        *slots_find(&level->slots, key, level_has, level->tiles, &key) = i + 1;
-    }
+    const struct tile *own = level->tiles + level->first;
+    slots_start(&level->slots, level->n_local);
+    for (unsigned i = 0; i < level->n_local; i++)
+        *slots_find(&level->slots, own[i].key, level_has, own, &own[i].key) = i + 1;
 }
 
 void level_adopt(struct level *level, struct tile *tiles, unsigned n_tile)
@@ -36,6 +37,9 @@ void level_adopt(struct level *level, struct tile *tiles, unsigned n_tile)
     level->tiles = tiles;
     level->n_tile = n_tile;
     level_local(tiles, n_tile, &level->first, &level->n_local);
+    mem_free(level->first_keys);
+    level->n_rank = comm_size();
+    level->first_keys = span_first(tiles, n_tile, level->n_rank);
     level_tabulate(level);
 }
 
@@ -44,15 +48,33 @@ void level_drop(struct level *level)
     mem_free(level->neighbours);
     slots_done(&level->slots);
     mem_free(level->tiles);
+    mem_free(level->first_keys);
+    level->first_keys = NULL;
     level->neighbours = NULL;
     level->tiles = NULL;
     level->n_tile = level->first = level->n_local = 0;
 }
 
+/* A tile in one of the pieces before or after the own one. */
+static int level_find_far(const struct level *level, uint64_t key)
+{
+    unsigned end = level->first + level->n_local;
+    bool before = level->first > 0 && key <= level->tiles[level->first - 1].key;
+    unsigned low = before ? 0 : end, high = before ? level->first : level->n_tile;
+    while (low < high) {
+        unsigned middle = low + (high - low) / 2;
+        if (level->tiles[middle].key < key) low = middle + 1;
+        else high = middle;
+    }
+    return low < level->n_tile && level->tiles[low].key == key ? (int)low : -1;
+}
+
 int level_find(const struct level *level, uint64_t key)
 {
-    if (!level->n_tile) return -1;
-    return (int)*slots_find(&level->slots, key, level_has, level->tiles, &key) - 1;
+    const struct tile *own = level->tiles + level->first;
+    if (!level->n_local || key < own[0].key || key > own[level->n_local - 1].key) return level_find_far(level, key);
+    unsigned slot = *slots_find(&level->slots, key, level_has, own, &key);
+    return slot ? (int)(level->first + slot - 1) : -1;
 }
 
 bool level_step(const struct mesh *mesh, const struct level *level, const struct tile *tile, int face, int ret_at[3])
@@ -98,8 +120,10 @@ unsigned char level_whole(const struct mesh *mesh)
 }
 
 /* Both lists follow the curve, and the key of a parent is that of its child without the last digit: one walk. */
-static void level_mark(struct level *level, const struct level *finer)
+void level_mark(struct mesh *mesh, int l)
 {
+    const struct level none = {0}, *finer = l + 1 < mesh->n_level ? &mesh->levels[l + 1] : &none;
+    struct level *level = &mesh->levels[l];
     unsigned i = 0;
     for (unsigned t = 0; t < level->n_tile; t++) level->tiles[t].covered = 0;
     for (unsigned t = 0; t < finer->n_tile; t++) {
@@ -151,9 +175,15 @@ static bool level_hidden(const struct mesh *mesh, const struct level *level, con
     return hidden;
 }
 
-void level_cover(struct mesh *mesh, int l)
+void level_hide(struct mesh *mesh, int l)
 {
     struct level *level = &mesh->levels[l];
-    level_mark(level, l + 1 < mesh->n_level ? &mesh->levels[l + 1] : &(struct level){0});
-    for (unsigned t = 0; t < level->n_tile; t++) level->tiles[t].hidden = level_hidden(mesh, level, &level->tiles[t]);
+    for (struct tile *tile = level->tiles + level->first; tile < level->tiles + level->first + level->n_local; tile++)
+        tile->hidden = level_hidden(mesh, level, tile);
+}
+
+void level_cover(struct mesh *mesh, int l)
+{
+    level_mark(mesh, l);
+    level_hide(mesh, l);
 }

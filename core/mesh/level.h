@@ -29,7 +29,12 @@ void level_connect(const struct mesh *mesh, struct level *level);
 /* Bits of all octants of a tile. */
 unsigned char level_whole(const struct mesh *mesh);
 
-/* Sets `covered` and `hidden` of the tiles of level l from the list of level l + 1. */
+/* Sets `covered` of the tiles of level l, and `hidden` of the local ones, from the list of level l + 1. */
 void level_cover(struct mesh *mesh, int l);
+
+/* Its parts, and that of level_adopt, which the partition study takes the time of: `covered`, `hidden`, the table. */
+void level_mark(struct mesh *mesh, int l);
+void level_hide(struct mesh *mesh, int l);
+void level_tabulate(struct level *level);
 
 #endif

@@ -30,9 +30,9 @@ struct tile {
     int at[3];    /* tile coordinates; cell (i, j, k) of the tile is cell at * n + (i, j, k) of the level */
     int rank;
     unsigned char covered;  /* bit o: octant o = ox + 2 oy + 4 oz lies under a tile of the next level */
-    unsigned char unwanted; /* regrids in a row that found no use for the tile */
+    unsigned char unwanted; /* regrids in a row that found no use for the tile: its owner knows */
     bool hidden;            /* wholly covered, and so are its neighbours: nobody reads its cells between averages of the
-                               finer level, so they are not advanced */
+                               finer level, so they are not advanced; its owner knows */
 };
 
 /* What lies behind face 2 * axis + side of a local tile. */
@@ -51,8 +51,10 @@ struct level {
     double h[3];   /* cell size [m]; 1 beyond dim */
     int extent[3]; /* tiles per axis if the level covered the domain */
     unsigned n_tile, first, n_local;
-    struct tile *tiles;                         /* [n_tile], replicated, Morton order */
-    struct slots slots;                         /* for mesh_find: the tiles by their keys */
+    struct tile *tiles; /* [n_tile], replicated, Morton order */
+    int n_rank;
+    uint64_t *first_keys;                       /* [n_rank] of each rank's piece (mesh/span.h) */
+    struct slots slots;                         /* for mesh_find: local tiles by their keys */
     struct neighbour (*neighbours)[MESH_FACES]; /* [n_local] */
     double **u_old, **u_new; /* [n_local] conserved at t^n and the one being made: [n_field][n^d], 64-byte aligned */
     double **w;              /* [n_local] primitives of the last completed stage: [n_prim][n^d] */

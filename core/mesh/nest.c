@@ -1,7 +1,7 @@
 /* nest.c - see nest.h.
  *
  * Sets are lists of families (nest_family.h), sorted once per level and merged with lists that are sorted already;
- * nothing is looked up tile by tile, except around the fixed level, once per tile of it.
+ * nothing is looked up tile by tile, except around the fixed level, once per tile of it (nest_share.c).
  * Coordinates are halved by an arithmetic shift, which rounds down on both sides of zero: a mirrored set
  * then needs the mirrored tiles exactly, since extents above level 0 are even. */
 #include "mesh/nest.h"
@@ -9,10 +9,10 @@
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
-#include "mesh/level.h"
 #include "mesh/metric.h"
 #include "mesh/morton.h"
 #include "mesh/nest_family.h"
+#include "mesh/nest_share.h"
 
 #include <assert.h>
 #include <string.h>
@@ -135,73 +135,54 @@ static void nest_sort(struct nest_keys *keys)
     nest_family_free(&families);
 }
 
-void nest_join(struct nest_keys *keys)
+void nest_join(const struct mesh *mesh, int l, struct nest_keys *keys)
 {
     nest_sort(keys);
-    struct nest_keys all = {0};
-    all.keys = comm_join_keys(keys->keys, keys->n, &all.n);
-    nest_sort(&all);
-    nest_free_keys(keys);
-    *keys = all;
+    if (nest_share_keys(mesh, l, keys)) nest_sort(keys);
 }
 
-/* The tiles of the fixed level around one place: remembered, since wishes come sorted. */
-struct nest_base {
-    const struct mesh *mesh;
-    int level;
-    uint64_t key; /* of the place */
-    bool known;
-    uint32_t there; /* which of the 3^d exist or lie outside the domain */
-};
-
-static void nest_look_around(struct nest_base *base, uint64_t key)
-{
-    if (base->known && base->key == key) return;
-    const struct level *level = &base->mesh->levels[base->level];
-    int at[3];
-    nest_at(key, at);
-    base->known = true;
-    base->key = key;
-    base->there = 0;
-    for (int a = 0; a < NEST_FAMILY_AROUND; a++) {
-        int place[3] = {at[0] + a % 3 - 1, at[1] + a / 3 % 3 - 1, at[2] + a / 9 - 1};
-        uint64_t around;
-        bool inside = nest_family_place(base->mesh, level, place, &around);
-        if (!inside || level_find(level, around) >= 0) base->there |= 1u << a;
-    }
-}
-
-/* May a tile of level l exist over the fixed level? What it needs on the way down, and what that needs, is a box
- * that is at most one tile wider on each side than the tile it lies in. */
-static bool nest_is_allowed(struct nest_base *base, int l, uint64_t key)
+/* May a tile of level l exist over the fixed level `base`? What it needs on the way down, and what that needs, is a
+ * box that is at most one tile wider on each side than the tile it lies in: `there` says which of the 3^d around that
+ * one exist or lie outside the domain. */
+static bool nest_is_allowed(const struct mesh *mesh, int base, int l, uint64_t key, uint32_t there)
 {
     int lo[3], hi[3], at[3];
     nest_at(key, at);
     for (int d = 0; d < 3; d++) {
         lo[d] = hi[d] = at[d];
-        if (d < base->mesh->dim)
-            for (int m = l; m > base->level; m--) {
+        if (d < mesh->dim)
+            for (int m = l; m > base; m--) {
                 lo[d] = (lo[d] - 1) >> 1;
                 hi[d] = (hi[d] + 1) >> 1;
             }
-        at[d] >>= l - base->level;
+        at[d] >>= l - base;
     }
-    nest_look_around(base, key >> 3 * (l - base->level));
     for (int z = lo[2]; z <= hi[2]; z++)
         for (int y = lo[1]; y <= hi[1]; y++)
             for (int x = lo[0]; x <= hi[0]; x++) {
                 int a = NEST_FAMILY_SELF + (x - at[0]) + 3 * (y - at[1]) + 9 * (z - at[2]);
-                if (!(base->there >> a & 1u)) return false;
+                if (!(there >> a & 1u)) return false;
             }
     return true;
 }
 
-static void nest_add_wishes(const struct mesh *mesh, int fixed, int l, const struct nest_keys *wishes,
+/* Wishes come sorted: those in one tile of the fixed level follow each other, and its owner is asked once. */
+static void nest_add_wishes(const struct mesh *mesh, int base, int l, const struct nest_keys *wishes,
                             struct nest_families *families)
 {
-    struct nest_base base = {.mesh = mesh, .level = fixed};
-    for (unsigned i = 0; i < wishes->n; i++)
-        if (fixed == 0 || nest_is_allowed(&base, l, wishes->keys[i])) nest_family_add_tile(families, wishes->keys[i]);
+    int shift = 3 * (l - base);
+    struct nest_keys places = {.n = 0, .keys = mem_new(wishes->n, sizeof *places.keys)};
+    for (unsigned i = 0; base > 0 && i < wishes->n; i++)
+        if (!places.n || places.keys[places.n - 1] != wishes->keys[i] >> shift)
+            places.keys[places.n++] = wishes->keys[i] >> shift;
+    uint32_t *there = base > 0 ? nest_share_around(mesh, base, &places) : NULL;
+    for (unsigned i = 0, place = 0; i < wishes->n; i++) {
+        uint64_t key = wishes->keys[i];
+        while (base > 0 && places.keys[place] != key >> shift) place++;
+        if (base == 0 || nest_is_allowed(mesh, base, l, key, there[place])) nest_family_add_tile(families, key);
+    }
+    mem_free(there);
+    nest_free_keys(&places);
 }
 
 static struct tile nest_tile(uint64_t key, unsigned unwanted)
@@ -230,38 +211,98 @@ static struct nest_set nest_merge(const struct nest_keys *used, const struct til
     return set;
 }
 
+struct nest_set nest_piece(const struct mesh *mesh, int l, struct nest_families *used, int patience)
+{
+    struct nest_keys keys = {0};
+    const struct level *level = &mesh->levels[l];
+    bool exists = l < mesh->n_level;
+    nest_family_sort(used);
+    keys.keys = nest_family_keys(used, &keys.n);
+    struct nest_set set =
+        nest_merge(&keys, exists ? level->tiles + level->first : NULL, exists ? level->n_local : 0, patience);
+    nest_free_keys(&keys);
+    return set;
+}
+
 void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes, int patience,
                struct nest_set *ret_sets)
 {
     for (int l = mesh->most_level; l > base; l--) {
         struct nest_families families = {0};
         nest_add_wishes(mesh, base, l, &wishes[l], &families);
-        if (l < mesh->most_level) nest_family_needs(mesh, l + 1, ret_sets[l + 1].tiles, ret_sets[l + 1].n, &families);
-        nest_family_sort(&families);
-        struct nest_keys used = {0};
-        used.keys = nest_family_keys(&families, &used.n);
-        const struct level *level = &mesh->levels[l];
-        bool exists = l < mesh->n_level;
-        ret_sets[l] = nest_merge(&used, exists ? level->tiles : NULL, exists ? level->n_tile : 0, patience);
-        nest_free_keys(&used);
+        if (l < mesh->most_level) nest_share_needs(mesh, l + 1, ret_sets[l + 1].tiles, ret_sets[l + 1].n, &families);
+        ret_sets[l] = nest_piece(mesh, l, &families, patience);
         nest_family_free(&families);
     }
+}
+
+struct nest_keys nest_pack(const struct nest_set *set)
+{
+    struct nest_keys words = {.keys = mem_new(2 * (size_t)set->n, sizeof *words.keys)};
+    for (unsigned i = 0; i < set->n; i++) {
+        uint64_t family = set->tiles[i].key >> 3, octant = set->tiles[i].key & 7u, unwanted = set->tiles[i].unwanted;
+        if (!words.n || words.keys[words.n - 2] != family) {
+            words.keys[words.n] = family;
+            words.n += 2;
+        }
+        if (unwanted > NEST_UNWANTED) unwanted = NEST_UNWANTED;
+        words.keys[words.n - 1] |= 1u << octant | unwanted << (MESH_OCTANTS + 7 * octant);
+    }
+    return words;
+}
+
+struct nest_set nest_unpack(const struct nest_keys *words)
+{
+    struct nest_set set = {0};
+    for (unsigned i = 1; i < words->n; i += 2) set.n += (unsigned)__builtin_popcount(words->keys[i] & 0xffu);
+    struct tile *to = set.tiles = mem_new(set.n, sizeof *set.tiles);
+    for (unsigned i = 0; i < words->n; i += 2) {
+        int at[3];
+        nest_at(words->keys[i], at);
+        for (unsigned mask = words->keys[i + 1] & 0xffu; mask; mask &= mask - 1, to++) {
+            unsigned octant = (unsigned)__builtin_ctz(mask);
+            to->key = words->keys[i] << 3 | octant;
+            for (int d = 0; d < 3; d++) to->at[d] = 2 * at[d] + (int)(octant >> d & 1u);
+            to->unwanted = words->keys[i + 1] >> (MESH_OCTANTS + 7 * octant) & NEST_UNWANTED;
+        }
+    }
+    return set;
+}
+
+void nest_whole(struct nest_set *set)
+{
+    if (comm_size() == 1) return;
+    struct nest_keys own = nest_pack(set), all = {0};
+    all.keys = comm_join_keys(own.keys, own.n, &all.n);
+    nest_free_set(set);
+    *set = nest_unpack(&all);
+    nest_free_keys(&own);
+    nest_free_keys(&all);
+}
+
+struct nest_set nest_of(const struct mesh *mesh, int l)
+{
+    const struct level *level = &mesh->levels[l];
+    struct nest_set set = {level->n_local, mem_new(level->n_local, sizeof *set.tiles)};
+    if (set.n) memcpy(set.tiles, level->tiles + level->first, set.n * sizeof *set.tiles);
+    nest_whole(&set);
+    return set;
 }
 
 bool nest_same(const struct mesh *mesh, int l, const struct nest_set *set)
 {
     if (l >= mesh->n_level) return set->n == 0;
     const struct level *level = &mesh->levels[l];
-    if (level->n_tile != set->n) return false;
+    if (level->n_local != set->n) return false;
     for (unsigned i = 0; i < set->n; i++)
-        if (level->tiles[i].key != set->tiles[i].key) return false;
+        if (level->tiles[level->first + i].key != set->tiles[i].key) return false;
     return true;
 }
 
 static int nest_check_order(const struct mesh *mesh, int l)
 {
     const struct level *level = &mesh->levels[l];
-    for (unsigned i = 0; i < level->n_tile; i++) {
+    for (unsigned i = level->first; i < level->first + level->n_local; i++) {
         const struct tile *tile = &level->tiles[i];
         const int *at = tile->at;
         bool inside = true;
@@ -289,35 +330,56 @@ static bool nest_is_needed_by(const struct mesh *mesh, int l, const struct tile 
     return found;
 }
 
+/* The owner of the place knows what is missing there; who needs it says so. */
 static int nest_fail(const struct mesh *mesh, int l, uint64_t missing)
 {
-    const struct tile *tile = mesh->levels[l].tiles;
+    const struct level *level = &mesh->levels[l];
     int at[3];
     nest_at(missing, at);
-    while (!nest_is_needed_by(mesh, l, tile, missing)) tile++;
-    return status_fail(STATUS_RUN,
-                       "the mesh is broken: tile (%d, %d, %d) of level %d needs tile (%d, %d, %d) of level %d, "
-                       "which does not exist",
-                       tile->at[0], tile->at[1], tile->at[2], l, at[0], at[1], at[2], l - 1);
+    for (const struct tile *tile = level->tiles + level->first; tile < level->tiles + level->first + level->n_local;
+         tile++)
+        if (nest_is_needed_by(mesh, l, tile, missing))
+            return status_fail(STATUS_RUN,
+                               "the mesh is broken: tile (%d, %d, %d) of level %d needs tile (%d, %d, %d) of level "
+                               "%d, which does not exist",
+                               tile->at[0], tile->at[1], tile->at[2], l, at[0], at[1], at[2], l - 1);
+    return STATUS_OK;
+}
+
+bool nest_lacks(const struct mesh *mesh, int l, struct nest_families *needs, uint64_t *ret_missing)
+{
+    const struct level *level = &mesh->levels[l];
+    const struct tile *tile = level->tiles + level->first, *end = tile + level->n_local;
+    uint32_t missing = 0;
+    nest_family_sort(needs);
+    for (unsigned i = 0; i < needs->n && !missing; i++) {
+        uint64_t family = needs->list[i].key;
+        missing = needs->list[i].mask;
+        while (tile < end && tile->key >> 3 < family) tile++;
+        for (; tile < end && tile->key >> 3 == family; tile++) missing &= ~(1u << (tile->key & 7u));
+        if (missing) *ret_missing = family << 3 | (unsigned)__builtin_ctz(missing);
+    }
+    return missing != 0;
+}
+
+/* The first tile in this rank's piece of level l - 1 that one of level l needs and that is not there. */
+static bool nest_misses(const struct mesh *mesh, int l, uint64_t *ret_missing)
+{
+    const struct level *level = &mesh->levels[l];
+    struct nest_families needs = {0};
+    nest_share_needs(mesh, l, level->tiles + level->first, level->n_local, &needs);
+    bool lacks = nest_lacks(mesh, l - 1, &needs, ret_missing);
+    nest_family_free(&needs);
+    return lacks;
 }
 
 static int nest_check_needs(const struct mesh *mesh, int l)
 {
-    const struct level *level = &mesh->levels[l], *coarse = level - 1;
-    struct nest_families needs = {0};
-    nest_family_needs(mesh, l, level->tiles, level->n_tile, &needs);
-    nest_family_sort(&needs);
-    int code = STATUS_OK;
-    for (unsigned i = 0, j = 0; i < needs.n && !code; i++) {
-        uint64_t family = needs.list[i].key;
-        uint32_t missing = needs.list[i].mask;
-        while (j < coarse->n_tile && coarse->tiles[j].key >> 3 < family) j++;
-        for (; j < coarse->n_tile && coarse->tiles[j].key >> 3 == family; j++)
-            missing &= ~(1u << (coarse->tiles[j].key & 7u));
-        if (missing) code = nest_fail(mesh, l, family << 3 | (unsigned)__builtin_ctz(missing));
-    }
-    nest_family_free(&needs);
-    return code;
+    uint64_t missing = 0;
+    int first = comm_first(nest_misses(mesh, l, &missing));
+    if (first == comm_size()) return STATUS_OK;
+    comm_bcast_from(&missing, sizeof missing, first);
+    return comm_agree(nest_fail(mesh, l, missing));
 }
 
 static int nest_check_cover(const struct mesh *mesh)
@@ -331,11 +393,10 @@ static int nest_check_cover(const struct mesh *mesh)
 
 int nest_check(const struct mesh *mesh)
 {
-    TRY(nest_check_cover(mesh));
-    for (int l = 0; l < mesh->n_level; l++) {
-        TRY(nest_check_order(mesh, l));
-        if (l) TRY(nest_check_needs(mesh, l));
-    }
+    int code = nest_check_cover(mesh);
+    for (int l = 0; l < mesh->n_level && !code; l++) code = nest_check_order(mesh, l);
+    TRY(comm_agree(code));
+    for (int l = 1; l < mesh->n_level; l++) TRY(nest_check_needs(mesh, l));
     return STATUS_OK;
 }
 

@@ -36,6 +36,19 @@ static unsigned partition_reach(const struct partition_curve *curve, unsigned fr
     return to;
 }
 
+/* The least begin of a piece up to `to` that costs at most `most`. */
+static unsigned partition_reach_back(const struct partition_curve *curve, unsigned to, double most)
+{
+    unsigned from = to, step = 1;
+    while (from >= step && partition_piece(curve, from - step, to) <= most) {
+        from -= step;
+        step *= 2;
+    }
+    for (; step; step /= 2)
+        if (from >= step && partition_piece(curve, from - step, to) <= most) from -= step;
+    return from;
+}
+
 /* Do pieces of at most `most` suffice? Then *ret_load is the largest of them; else the least load, above `most`, with
  * which any piece would be longer. */
 static bool partition_probe(const struct partition_curve *curve, double most, double *ret_load)
@@ -78,11 +91,7 @@ static unsigned *partition_earliest(const struct partition_curve *curve, double 
 {
     unsigned *earliest = mem_new((size_t)curve->size + 1, sizeof *earliest), to = curve->n;
     earliest[curve->size] = to;
-    for (int rank = curve->size - 1; rank > 0; rank--) {
-        unsigned from = to;
-        while (from > 0 && partition_piece(curve, from - 1, to) <= most) from--;
-        earliest[rank] = to = from;
-    }
+    for (int rank = curve->size - 1; rank > 0; rank--) earliest[rank] = to = partition_reach_back(curve, to, most);
     return earliest;
 }
 
@@ -145,7 +154,12 @@ void partition_cut(struct tile *tiles, unsigned n, const double *cost, int size,
     if (!n) return;
     if (n < (unsigned)size) partition_few(tiles, n, size, load);
     else partition_contiguous(tiles, n, cost, size);
-    for (unsigned i = 0; i < n; i++) load[tiles[i].rank] += weight * cost[i];
+    for (unsigned i = 0; i < n;) {
+        int rank = tiles[i].rank;
+        double sum = load[rank];
+        for (; i < n && tiles[i].rank == rank; i++) sum += weight * cost[i];
+        load[rank] = sum;
+    }
 }
 
 double partition_imbalance(const struct tile *tiles, unsigned n, const double *cost, int size)

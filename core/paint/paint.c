@@ -204,15 +204,25 @@ static double paint_sum(const double *value, unsigned n)
     return fold[0];
 }
 
-/* Means of the conserved fields over the points that count; of the stretch over their solid. */
+/* Weights of the points for field q: those of stretches count by how much of their solid there is. */
+static void paint_parts(const struct paint *paint, unsigned q, const double *weight, unsigned n, double *part)
+{
+    const struct model *model = paint->model;
+    unsigned c, s = 0;
+    memcpy(part, weight, n * sizeof *part);
+    if (!model_is_stretch(model, q, &c)) return;
+    s = model_bearer(model, (q - model->i_V) / model->n_stretch);
+    for (unsigned k = 0, at = 0; k < n; k++)
+        if (weight[k] > 0.0) part[k] *= paint_stretch_share(model, s, &paint->conserved.at[0][at++], PAINT_POINTS);
+}
+
+/* Means of the conserved fields over the points that count; of stretches over their solid. */
 static void paint_mean(const struct paint *paint, const double *weight, unsigned n, double *ret_mean)
 {
     const struct model *model = paint->model;
     double part[PAINT_POINTS], used[PAINT_POINTS];
-    memcpy(part, weight, n * sizeof *part);
     for (unsigned q = 0; q < model->n_field; q++) {
-        for (unsigned k = 0, at = 0; k < n && q == model->i_V && model->n_stretch; k++)
-            if (weight[k] > 0.0) part[k] *= paint_stretch_share(model, &paint->conserved.at[0][at++], PAINT_POINTS);
+        paint_parts(paint, q, weight, n, part);
         for (unsigned k = 0, at = 0; k < n; k++)
             used[k] = weight[k] > 0.0 ? part[k] * paint->conserved.at[q][at++] : 0.0;
         double whole = paint_sum(part, n);

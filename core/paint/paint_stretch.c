@@ -24,33 +24,35 @@ void paint_stretch_unimodular(const struct model *model, double V[6])
     elastic_unimodular(model, 1, 1, V); /* round-off as the solver leaves it */
 }
 
-double paint_stretch_share(const struct model *model, const double *state, size_t stride)
+double paint_stretch_share(const struct model *model, unsigned s, const double *state, size_t stride)
 {
-    double sum = 0.0;
-    if (model->n_alpha == 0) return model->n_solid ? 1.0 : 0.0;
-    for (unsigned s = 0; s < model->n_solid; s++) sum += state[(model->i_alpha + model->solids[s].material) * stride];
-    return sum;
+    return model->n_alpha ? state[(model->i_alpha + model->solids[s].material) * stride] : 1.0;
 }
 
 void paint_stretch_mix(const struct model *model, const struct paint_stretch_layer *layer, size_t stride, double *cell)
 {
-    double below = (1.0 - layer->fraction) * paint_stretch_share(model, cell, stride);
-    double above = layer->fraction * paint_stretch_share(model, layer->state, layer->stride);
-    if (model->n_alpha == 0) below *= layer->covered;
-    double share = above > 0.0 ? above / (below + above) : 0.0;
-    for (unsigned c = 0; c < model->n_stretch; c++) {
-        double *V = cell + (model->i_V + c) * stride, laid = layer->state[(model->i_V + c) * layer->stride];
-        double mean = (1.0 - share) * *V + share * laid;
-        *V = below + above > 0.0 ? mean : c < 3 ? 1.0 : 0.0;
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        double below = (1.0 - layer->fraction) * paint_stretch_share(model, s, cell, stride);
+        double above = layer->fraction * paint_stretch_share(model, s, layer->state, layer->stride);
+        if (model->n_alpha == 0) below *= layer->covered;
+        double share = above > 0.0 ? above / (below + above) : 0.0;
+        for (unsigned c = 0; c < model->n_stretch; c++) {
+            unsigned q = model->solids[s].stretch + c;
+            double *V = cell + q * stride, mean = (1.0 - share) * *V + share * layer->state[q * layer->stride];
+            *V = below + above > 0.0 ? mean : c < 3 ? 1.0 : 0.0;
+        }
     }
 }
 
 void paint_stretch_finish(const struct model *model, size_t n, size_t stride, double *u)
 {
-    double *V = u + model->i_V * stride, *share = mem_new(n, sizeof *share);
-    for (size_t i = 0; i < n; i++) share[i] = paint_stretch_share(model, u + i, stride);
-    elastic_unimodular(model, n, stride, V);
-    elastic_fade(model, n, stride, share, V);
+    double *share = mem_new(n, sizeof *share);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        double *V = u + model->solids[s].stretch * stride;
+        for (size_t i = 0; i < n; i++) share[i] = paint_stretch_share(model, s, u + i, stride);
+        elastic_unimodular(model, n, stride, V);
+        elastic_fade(model, n, stride, share, V);
+    }
     mem_free(share);
 }
 

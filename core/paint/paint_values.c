@@ -286,17 +286,21 @@ static int paint_values_stretch(const struct paint_values *values, const double 
                                 const double *before, double *w)
 {
     const struct model *model = values->model;
-    double V[6] = {1.0, 1.0, 1.0};
-    bool told = false;
-    for (unsigned c = 0; c < 6; c++) told = told || !isnan(said->stretch[c]);
-    if (paint_stretch_share(model, w, 1) > 0.0 && told) {
-        for (unsigned c = 0; c < 6; c++) V[c] = isnan(said->stretch[c]) ? V[c] : said->stretch[c];
-        TRY(paint_values_stretch_check(values, x, V));
-        paint_stretch_unimodular(model, V);
-    } else if (paint_stretch_share(model, w, 1) > 0.0 && before) {
-        memcpy(V, before + model->i_V, model->n_stretch * sizeof *V);
+    double told[6] = {1.0, 1.0, 1.0};
+    bool any = false, tells = false;
+    for (unsigned c = 0; c < 6; c++) tells = tells || !isnan(said->stretch[c]);
+    for (unsigned s = 0; s < model->n_solid; s++) any = any || paint_stretch_share(model, s, w, 1) > 0.0;
+    if (any && tells) {
+        for (unsigned c = 0; c < 6; c++) told[c] = isnan(said->stretch[c]) ? told[c] : said->stretch[c];
+        TRY(paint_values_stretch_check(values, x, told));
+        paint_stretch_unimodular(model, told);
     }
-    memcpy(w + model->i_V, V, model->n_stretch * sizeof *V);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        unsigned first = model->solids[s].stretch;
+        const double *V = tells || !before ? told : before + first;
+        elastic_identity(model, 1, 1, w + first);
+        if (paint_stretch_share(model, s, w, 1) > 0.0) memcpy(w + first, V, model->n_stretch * sizeof *V);
+    }
     return STATUS_OK;
 }
 

@@ -64,14 +64,14 @@ static void damage_pull(const struct model *model, unsigned s, size_t n, size_t 
                         double (*ret)[DAMAGE_BATCH])
 {
     unsigned needs = model->solids[s].damage.needs;
-    double V[6 * (1 + SCENE_BRANCHES)][DAMAGE_BATCH];
+    double V[6 * MODEL_STRETCHES][DAMAGE_BATCH];
     const double *m[SCENE_MATERIALS];
     for (unsigned c = 0; c < model->n_stretched; c++) memcpy(V[c], w + (model->i_V + c) * stride, n * sizeof(double));
     for (unsigned k = 0; k < model->n_solid; k++) m[k] = damage_zero;
     m[s] = w + (model->i_m + model->solids[s].material) * stride;
     damage_stress(model, needs, n, V[0], m, ret);
     for (size_t i = 0; needs & BULLA_DAMAGE_STRETCH && i < n; i++)
-        ret[ROW_STRETCH][i] = damage_largest(damage_tensor(model, V[0], i));
+        ret[ROW_STRETCH][i] = damage_largest(damage_tensor(model, V[elastic_block(model, s, 1)], i));
 }
 
 void damage_look(const struct model *model, unsigned s, size_t n, size_t stride, double dt, const double *w,
@@ -159,7 +159,7 @@ void damage_grow(const struct model *model, size_t n, size_t stride, double dt, 
         for (unsigned s = 0; s < model->n_solid; s++)
             if (model->solids[s].damage.law)
                 damage_batch(model, s, n - from < DAMAGE_BATCH ? n - from : DAMAGE_BATCH, stride, dt, w + from,
-                             grown ? grown + from : NULL, u + from);
+                             grown ? grown + s * stride + from : NULL, u + from);
     for (unsigned k = 0; k < model_stretches(model); k++)
         for (size_t i = 0; i < n; i++)
             if (damage_gone(model, k, stride, u + i))

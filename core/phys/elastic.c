@@ -1,9 +1,9 @@
 /* elastic.c - see elastic.h: what a stretch means (energy, stress, speeds). How it moves is in elastic_advance.c.
  *
  * With B = V V and I1, I2 its invariants, every isotropic law comes down to two moduli per point,
- *     G1 = sum_l 2 m_l (e_1 + I1 e_2),   G2 = sum_l 2 m_l e_2,   s' = G1 dev B - G2 dev B^2,
+ *     G1 = 2 m (e_1 + I1 e_2),   G2 = 2 m e_2,   s' = G1 dev B - G2 dev B^2,
  * and their derivatives for wave speeds. Laws of I1 alone with constant slope (neo-Hookean) take the short path,
- * G2 = 0 and constant G1. So does every Maxwell branch, on a stretch of its own; what it finds is added. */
+ * G2 = 0 and constant G1. So does every Maxwell branch. What the stretches of solids and branches find adds up. */
 #include "phys/elastic.h"
 
 #include "mesh/axis.h"
@@ -18,86 +18,52 @@ enum { ELASTIC_BATCH = 512 };
 /* Arrays of one batch: invariants and moduli. */
 struct elastic_batch {
     double I1[ELASTIC_BATCH], I2[ELASTIC_BATCH], energy[ELASTIC_BATCH], G1[ELASTIC_BATCH], G2[ELASTIC_BATCH];
-    double H11[ELASTIC_BATCH], H12[ELASTIC_BATCH], H22[ELASTIC_BATCH]; /* sum_l 2 m_l e_11 ... */
+    double H11[ELASTIC_BATCH], H12[ELASTIC_BATCH], H22[ELASTIC_BATCH]; /* 2 m e_11 ... */
 };
 
-/* One plain solid's part of the energy and of G1. */
-static BULLA_KERNEL void elastic_add_plain(size_t n, const double *restrict m, const double *restrict e,
-                                           const double *restrict e_1, double *restrict energy, double *restrict G1)
+/* A plain solid's energy and G1. */
+static BULLA_KERNEL void elastic_fill_plain(size_t n, const double *restrict m, const double *restrict e,
+                                            const double *restrict e_1, double *restrict energy, double *restrict G1)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double mass = m[i], sum = energy[i], g1 = G1[i];
-        energy[i] = sum + mass * e[i];
-        G1[i] = g1 + 2.0 * mass * e_1[i];
+        double mass = m[i];
+        energy[i] = mass * e[i];
+        G1[i] = 2.0 * mass * e_1[i];
     }
 }
 
-/* One solid's part of the energy and of the moduli. */
-static BULLA_KERNEL void elastic_add(size_t n, const double *restrict m, const double *restrict I1,
-                                     const double *restrict e, const double *restrict e_1, const double *restrict e_2,
-                                     double *restrict energy, double *restrict G1, double *restrict G2)
+/* A solid's energy and moduli. */
+static BULLA_KERNEL void elastic_fill(size_t n, const double *restrict m, const double *restrict I1,
+                                      const double *restrict e, const double *restrict e_1, const double *restrict e_2,
+                                      double *restrict energy, double *restrict G1, double *restrict G2)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double mass = m[i], sum = energy[i], g1 = G1[i], g2 = G2[i], first = e_1[i], second = e_2[i];
-        energy[i] = sum + mass * e[i];
-        G1[i] = g1 + 2.0 * mass * (first + I1[i] * second);
-        G2[i] = g2 + 2.0 * mass * second;
+        double mass = m[i], first = e_1[i], second = e_2[i];
+        energy[i] = mass * e[i];
+        G1[i] = 2.0 * mass * (first + I1[i] * second);
+        G2[i] = 2.0 * mass * second;
     }
 }
 
-static BULLA_KERNEL void elastic_add_second(size_t n, const double *restrict m, const double *restrict e_11,
-                                            const double *restrict e_12, const double *restrict e_22,
-                                            double *restrict H11, double *restrict H12, double *restrict H22)
+static BULLA_KERNEL void elastic_fill_second(size_t n, const double *restrict m, double *restrict H11,
+                                             double *restrict H12, double *restrict H22)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double twice = 2.0 * m[i], h11 = H11[i], h12 = H12[i], h22 = H22[i];
-        H11[i] = h11 + twice * e_11[i];
-        H12[i] = h12 + twice * e_12[i];
-        H22[i] = h22 + twice * e_22[i];
+        H11[i] = twice * h11;
+        H12[i] = twice * h12;
+        H22[i] = twice * h22;
     }
 }
 
-/* Do all solids have a constant G1 and no G2? */
-static bool elastic_is_plain(const struct model *model)
+/* Has stretch k a constant G1 and no G2? */
+static bool elastic_is_plain(const struct model *model, unsigned k)
 {
-    for (unsigned s = 0; s < model->n_solid; s++)
-        if (model->solids[s].law->second || !model->solids[s].law->first_only) return false;
-    return true;
-}
-
-/* Invariants, energy and moduli of all solids at n <= ELASTIC_BATCH points from `from` of the rows m. */
-static void elastic_moduli(const struct model *model, size_t n, size_t stride, const double *V, size_t from,
-                           const double *const *m, struct elastic_batch *batch)
-{
-    double e[ELASTIC_BATCH], e_1[ELASTIC_BATCH], e_2[ELASTIC_BATCH];
-    double *sums[] = {batch->energy, batch->G1, batch->G2};
-    bool plain = elastic_is_plain(model);
-    for (size_t i = 0; i < (plain ? 2 : 3); i++) memset(sums[i], 0, n * sizeof *e);
-    if (plain) elastic_invariants_first(model, n, stride, V, batch->I1);
-    else elastic_invariants(model, n, stride, V, batch->I1, batch->I2);
-    for (unsigned s = 0; s < model->n_solid; s++) {
-        const struct model_solid *solid = &model->solids[s];
-        solid->law->energy(solid->self, n, batch->I1, plain ? batch->I1 : batch->I2, e, e_1, e_2);
-        if (plain) elastic_add_plain(n, m[s] + from, e, e_1, batch->energy, batch->G1);
-        else elastic_add(n, m[s] + from, batch->I1, e, e_1, e_2, batch->energy, batch->G1, batch->G2);
-    }
-}
-
-static void elastic_curvature(const struct model *model, size_t n, size_t from, const double *const *m,
-                              struct elastic_batch *batch)
-{
-    double e_11[ELASTIC_BATCH], e_12[ELASTIC_BATCH], e_22[ELASTIC_BATCH];
-    double *sums[] = {batch->H11, batch->H12, batch->H22};
-    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) memset(sums[i], 0, n * sizeof *e_11);
-    for (unsigned s = 0; s < model->n_solid; s++) {
-        const struct model_solid *solid = &model->solids[s];
-        if (!solid->law->second) continue;
-        solid->law->second(solid->self, n, batch->I1, batch->I2, e_11, e_12, e_22);
-        elastic_add_second(n, m[s] + from, e_11, e_12, e_22, batch->H11, batch->H12, batch->H22);
-    }
+    const struct bulla_constitutive *law = k < model->n_solid ? model->solids[k].law : NULL;
+    return !law || (!law->second && law->first_only);
 }
 
 /* The spring of a branch: what it adds to the energy, and its modulus. */
@@ -112,15 +78,41 @@ static BULLA_KERNEL void elastic_spring(size_t n, double k, const double *restri
     }
 }
 
-/* I1, energy and modulus of branch b alone, as elastic_moduli has them of the springs at rest; its rows. */
-static struct elastic_rows elastic_pull(const struct model *model, unsigned b, size_t n, size_t stride, const double *V,
-                                        size_t from, const double *const *m, struct elastic_batch *batch)
+/* The same of stretch k of a solid, and of a branch. */
+static void elastic_of_solid(const struct model_solid *solid, bool plain, size_t n, const double *m,
+                             struct elastic_batch *batch)
 {
-    const struct model_branch *branch = &model->branches[b];
-    const double *own = V + elastic_branch(model, b, stride) + from;
-    elastic_invariants_first(model, n, stride, own, batch->I1);
-    elastic_spring(n, branch->k, m[branch->solid] + from, batch->I1, batch->energy, batch->G1);
-    return elastic_tensor_rows(own, stride, model->n_stretch);
+    double e[ELASTIC_BATCH], e_1[ELASTIC_BATCH], e_2[ELASTIC_BATCH];
+    solid->law->energy(solid->self, n, batch->I1, plain ? batch->I1 : batch->I2, e, e_1, e_2);
+    if (plain) elastic_fill_plain(n, m, e, e_1, batch->energy, batch->G1);
+    else elastic_fill(n, m, batch->I1, e, e_1, e_2, batch->energy, batch->G1, batch->G2);
+}
+
+/* Invariants, energy and moduli of stretch k alone at n <= ELASTIC_BATCH points from `from` of all rows; its block from
+ * there. */
+static const double *elastic_moduli(const struct model *model, unsigned k, size_t n, size_t stride, const double *V,
+                                    size_t from, const double *const *m, struct elastic_batch *batch)
+{
+    const double *own = V + elastic_block(model, k, stride) + from;
+    bool plain = elastic_is_plain(model, k);
+    if (plain) elastic_invariants_first(model, n, stride, own, batch->I1);
+    else elastic_invariants(model, n, stride, own, batch->I1, batch->I2);
+    if (k < model->n_solid) {
+        elastic_of_solid(&model->solids[k], plain, n, m[k] + from, batch);
+    } else {
+        const struct model_branch *branch = &model->branches[k - model->n_solid];
+        elastic_spring(n, branch->k, m[branch->solid] + from, batch->I1, batch->energy, batch->G1);
+    }
+    return own;
+}
+
+static void elastic_curvature(const struct model_solid *solid, size_t n, const double *m, struct elastic_batch *batch)
+{
+    double *rows[] = {batch->H11, batch->H12, batch->H22};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && !solid->law->second; i++) memset(rows[i], 0, n * sizeof *m);
+    if (!solid->law->second) return;
+    solid->law->second(solid->self, n, batch->I1, batch->I2, batch->H11, batch->H12, batch->H22);
+    elastic_fill_second(n, m, batch->H11, batch->H12, batch->H22);
 }
 
 static size_t elastic_part(size_t n, size_t from)
@@ -132,15 +124,13 @@ void elastic_energy(const struct model *model, size_t n, size_t stride, const do
                     double *restrict rho_es)
 {
     struct elastic_batch batch;
-    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
-        size_t part = elastic_part(n, from);
-        elastic_moduli(model, part, stride, V + from, from, m, &batch);
-        memcpy(rho_es + from, batch.energy, part * sizeof *rho_es);
-        for (unsigned b = 0; b < model->n_branch; b++) {
-            elastic_pull(model, b, part, stride, V, from, m, &batch);
-            row_add(part, batch.energy, rho_es + from);
+    for (size_t from = 0; from < n; from += ELASTIC_BATCH)
+        for (unsigned k = 0; k < model_stretches(model); k++) {
+            size_t part = elastic_part(n, from);
+            elastic_moduli(model, k, part, stride, V, from, m, &batch);
+            if (k) row_add(part, batch.energy, rho_es + from);
+            else memcpy(rho_es + from, batch.energy, part * sizeof *rho_es);
         }
-    }
 }
 
 /* dev of G1 B - G2 B^2, component by component. */
@@ -172,16 +162,12 @@ void elastic_stress(const struct model *model, size_t n, size_t stride, const do
                     double *s)
 {
     struct elastic_batch batch;
-    for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
-        size_t part = elastic_part(n, from);
-        elastic_moduli(model, part, stride, V + from, from, m, &batch);
-        elastic_stress_part(model, elastic_is_plain(model), false, part, stride, V + from, &batch, s + from);
-        for (unsigned b = 0; b < model->n_branch; b++) {
-            elastic_pull(model, b, part, stride, V, from, m, &batch);
-            elastic_stress_part(model, true, true, part, stride, V + elastic_branch(model, b, stride) + from, &batch,
-                                s + from);
+    for (size_t from = 0; from < n; from += ELASTIC_BATCH)
+        for (unsigned k = 0; k < model_stretches(model); k++) {
+            size_t part = elastic_part(n, from);
+            const double *own = elastic_moduli(model, k, part, stride, V, from, m, &batch);
+            elastic_stress_part(model, elastic_is_plain(model, k), k > 0, part, stride, own, &batch, s + from);
         }
-    }
 }
 
 /* zz stands alone in curved geometries: B_zz = V_zz^2, and tr B^2 = I1^2 - 2 I2. Plain laws have no G2. */
@@ -211,17 +197,15 @@ void elastic_hoop(const struct model *model, size_t n, size_t stride, const doub
                   const double *p, double *ret)
 {
     struct elastic_batch batch;
+    double beside[ELASTIC_BATCH];
     for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
         size_t part = elastic_part(n, from);
-        elastic_moduli(model, part, stride, V + from, from, m, &batch);
-        const double *zz = V + ELASTIC_ZZ * stride + from;
-        if (elastic_is_plain(model)) elastic_hoop_plain(part, zz, &batch, p + from, ret + from);
-        else elastic_hoop_part(part, zz, &batch, p + from, ret + from);
-        for (unsigned b = 0; b < model->n_branch; b++) {
-            double beside[ELASTIC_BATCH];
-            memcpy(beside, ret + from, part * sizeof *beside);
-            elastic_pull(model, b, part, stride, V, from, m, &batch);
-            elastic_hoop_plain(part, zz + elastic_branch(model, b, stride), &batch, beside, ret + from);
+        memcpy(beside, p + from, part * sizeof *beside);
+        for (unsigned k = 0; k < model_stretches(model); k++) {
+            const double *zz = elastic_moduli(model, k, part, stride, V, from, m, &batch) + ELASTIC_ZZ * stride;
+            if (k) memcpy(beside, ret + from, part * sizeof *beside);
+            if (elastic_is_plain(model, k)) elastic_hoop_plain(part, zz, &batch, beside, ret + from);
+            else elastic_hoop_part(part, zz, &batch, beside, ret + from);
         }
     }
 }
@@ -346,19 +330,30 @@ static struct elastic_rows elastic_turn(const struct model *model, int axis, siz
     return rows;
 }
 
-/* What the branches add to a row of faces. The stiffness along the normal adds up to first order in what couples it to
- * the tangents, which is squared in it; all else is exact. `stiffness`: of the fluid, from 0. */
-static void elastic_sides_pull(const struct model *model, int axis, size_t n, size_t stride, const double *V,
-                               size_t from, const double *const *m, const double *stiffness,
-                               const struct elastic_out *out, double *energy)
+/* What stretch k alone gives a row of faces; its energy is in the batch. `stiffness`: of the fluid, from 0. */
+static void elastic_sides_of(const struct model *model, unsigned k, int axis, size_t n, size_t stride, const double *V,
+                             size_t from, const double *const *m, const double *stiffness,
+                             const struct elastic_out *out, struct elastic_batch *batch)
+{
+    const double *own = elastic_moduli(model, k, n, stride, V, from, m, batch);
+    struct elastic_rows rows = elastic_turn(model, axis, stride, own);
+    bool plain = elastic_is_plain(model, k);
+    if (!plain) elastic_curvature(&model->solids[k], n, m[k] + from, batch);
+    if (plain) ELASTIC_CHOOSE(model->n_velocity, elastic_plain, n, rows, batch, stiffness, *out);
+    else ELASTIC_CHOOSE(model->n_velocity, elastic_general, n, rows, batch, stiffness, *out);
+}
+
+/* What the stretches behind the first one add to a row of faces. The stiffness along the normal adds up to first order in
+ * what couples it to the tangents, which is squared in it; all else is exact. */
+static void elastic_sides_add(const struct model *model, int axis, size_t n, size_t stride, const double *V,
+                              size_t from, const double *const *m, const double *stiffness,
+                              const struct elastic_out *out, double *energy)
 {
     struct elastic_batch batch;
     double row[5][ELASTIC_BATCH];
     const struct elastic_out own = {row[0], row[1], row[2], row[3], row[4]};
-    for (unsigned b = 0; b < model->n_branch; b++) {
-        struct elastic_rows rows = elastic_turn(model, axis, stride, V + elastic_branch(model, b, stride) + from);
-        elastic_pull(model, b, n, stride, V, from, m, &batch);
-        ELASTIC_CHOOSE(model->n_velocity, elastic_plain, n, rows, &batch, stiffness, own);
+    for (unsigned k = 1; k < model_stretches(model); k++) {
+        elastic_sides_of(model, k, axis, n, stride, V, from, m, stiffness, &own, &batch);
         if (energy) row_add(n, batch.energy, energy);
         row_add(n, own.normal, out->normal);
         row_add(n, own.stiff, out->stiff);
@@ -372,21 +367,15 @@ void elastic_sides(const struct model *model, int axis, size_t n, size_t stride,
                    const double *const *m, const double *stiffness, const struct elastic_side *ret)
 {
     struct elastic_batch batch;
-    bool plain = elastic_is_plain(model);
     for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
         size_t part = elastic_part(n, from);
-        struct elastic_rows rows = elastic_turn(model, axis, stride, V + from);
         struct elastic_out out = {.normal = ret->normal + from, .stiff = ret->stiff + from, .rigid = ret->rigid + from};
         if (model->n_velocity > 1) out.shear_1 = ret->shear[0] + from;
         if (model->n_velocity > 2) out.shear_2 = ret->shear[1] + from;
-        elastic_moduli(model, part, stride, V + from, from, m, &batch);
+        elastic_sides_of(model, 0, axis, part, stride, V, from, m, stiffness + from, &out, &batch);
         if (ret->energy) memcpy(ret->energy + from, batch.energy, part * sizeof *batch.energy);
-        if (!plain) elastic_curvature(model, part, from, m, &batch);
-        if (plain) ELASTIC_CHOOSE(model->n_velocity, elastic_plain, part, rows, &batch, stiffness + from, out);
-        else ELASTIC_CHOOSE(model->n_velocity, elastic_general, part, rows, &batch, stiffness + from, out);
-        if (model->n_branch)
-            elastic_sides_pull(model, axis, part, stride, V, from, m, stiffness + from, &out,
-                               ret->energy ? ret->energy + from : NULL);
+        elastic_sides_add(model, axis, part, stride, V, from, m, stiffness + from, &out,
+                          ret->energy ? ret->energy + from : NULL);
     }
 }
 
@@ -446,26 +435,23 @@ void elastic_speed2(const struct model *model, size_t n, size_t stride, const do
                     const double *rho, double *c2)
 {
     double most[ELASTIC_BATCH], fluid[ELASTIC_BATCH];
-    bool plain = elastic_is_plain(model); /* other laws find their branches beside them */
+    bool plain = true; /* other laws find all stretches at once */
     struct elastic_batch batch;
+    for (unsigned k = 0; k < model_stretches(model); k++) plain = plain && elastic_is_plain(model, k);
     for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
         size_t part = elastic_part(n, from);
-        const double *masses[SCENE_MATERIALS];
-        for (unsigned s = 0; s < model->n_solid; s++) masses[s] = m[s] + from;
-        if (plain) {
-            struct elastic_rows rows = elastic_tensor_rows(V + from, stride, model->n_stretch);
-            elastic_moduli(model, part, stride, V + from, 0, masses, &batch);
-            ELASTIC_CHOOSE(model->n_velocity, elastic_bound, part, rows, &batch, most);
-        } else {
-            for (size_t i = 0; i < part; i++) fluid[i] = rho[from + i] * c2[from + i];
-            elastic_bound_general(model, part, stride, V + from, masses, fluid, most);
-        }
-        elastic_speed(part, most, rho + from, c2 + from);
-        for (unsigned b = 0; plain && b < model->n_branch; b++) {
-            struct elastic_rows rows = elastic_pull(model, b, part, stride, V, from, m, &batch);
+        for (unsigned k = 0; plain && k < model_stretches(model); k++) {
+            const double *own = elastic_moduli(model, k, part, stride, V, from, m, &batch);
+            struct elastic_rows rows = elastic_tensor_rows(own, stride, model->n_stretch);
             ELASTIC_CHOOSE(model->n_velocity, elastic_bound, part, rows, &batch, most);
             elastic_speed(part, most, rho + from, c2 + from);
         }
+        if (plain) continue;
+        const double *masses[SCENE_MATERIALS];
+        for (unsigned s = 0; s < model->n_solid; s++) masses[s] = m[s] + from;
+        for (size_t i = 0; i < part; i++) fluid[i] = rho[from + i] * c2[from + i];
+        elastic_bound_general(model, part, stride, V + from, masses, fluid, most);
+        elastic_speed(part, most, rho + from, c2 + from);
     }
 }
 

@@ -5,8 +5,8 @@
  * densities alpha_l rho_l of the solids of the model. Batches of any length. A fluid has m = 0, hence no elastic part
  * at all, bitwise.
  *
- * Maxwell branches add up: V is where the fields of stretches begin, and energy, stress and speeds are those of the springs
- * at rest on the first of them and of each branch of the model on its own (model_stretch()). */
+ * Every solid has a stretch of its own, and so has every Maxwell branch (model_stretch()): V is where the fields of stretches
+ * begin, and energy, stress and speeds add up. */
 #ifndef ELASTIC_H
 #define ELASTIC_H
 
@@ -36,7 +36,7 @@ void elastic_energy(const struct model *model, size_t n, size_t stride, const do
 void elastic_stress(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
                     double *s);
 
-/* Invariants I1, I2 of B of the springs at rest. */
+/* Invariants I1, I2 of B of one stretch, whose block V is. */
 void elastic_invariants(const struct model *model, size_t n, size_t stride, const double *V, double *restrict I1,
                         double *restrict I2);
 
@@ -92,17 +92,17 @@ void elastic_unimodular(const struct model *model, size_t n, size_t stride, doub
 /* Sum over the solids of a block that has one row per material of the model, such as fractions or partial densities. */
 void elastic_sum(const struct model *model, size_t n, size_t stride, const double *block, double *restrict sum);
 
-/* The same over the solids that carry stretch k (model_carries()). */
+/* The row of the solid that carries stretch k (model_carries()); 0 where nothing bears it. */
 void elastic_carriers(const struct model *model, unsigned k, size_t n, size_t stride, const double *block,
                       double *restrict sum);
 
 /* V = 1: a stretch that nothing carries, or one that nothing has stretched yet. */
 void elastic_identity(const struct model *model, size_t n, size_t stride, double *V);
 
-/* The block of branch b in the fields of stretches that begin at V. */
-static inline size_t elastic_branch(const struct model *model, unsigned b, size_t stride)
+/* The block of stretch k in the fields of stretches that begin at V. */
+static inline size_t elastic_block(const struct model *model, unsigned k, size_t stride)
 {
-    return (model->branches[b].field - model->i_V) * stride;
+    return (model_stretch(model, k) - model->i_V) * stride;
 }
 
 /* Bounds the stretch where there is little solid: |V - 1| <= (phi/ELASTIC_FADE)^2, phi = alpha the fraction of all solids;

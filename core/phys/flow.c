@@ -37,24 +37,22 @@ struct flow_solid {
     double p[FLOW_BATCH], rho[FLOW_BATCH], per_p[FLOW_BATCH]; /* own pressure, density, d(rho e)/dp */
 };
 
-/* The cells of a batch that yield. */
+/* The cells of a batch in which one solid yields. */
 struct flow {
     const struct model *model;
     double dt;
     size_t n;
-    unsigned n_solid;
     size_t cell[FLOW_BATCH];
     double V[6][FLOW_BATCH];
     double I1[FLOW_BATCH], I2[FLOW_BATCH];
     double a[FLOW_BATCH], b[FLOW_BATCH], c[FLOW_BATCH]; /* 3/2 of dev B:dev B, dev B:dev B^-1, dev B^-1:dev B^-1 */
     double q0[FLOW_BATCH], r0[FLOW_BATCH];
-    double elastic[FLOW_BATCH]; /* part of q0 that solids without a strength bear */
     double x[FLOW_BATCH], g[FLOW_BATCH], x_before[FLOW_BATCH], g_before[FLOW_BATCH];
     double low[FLOW_BATCH], high[FLOW_BATCH];                                  /* the bracket; high 0: none yet */
     double E[FLOW_BATCH], first[FLOW_BATCH], r[FLOW_BATCH], grown[FLOW_BATCH]; /* at x: E, I1, r, d eps */
     double q[FLOW_BATCH], aim[FLOW_BATCH];                                     /* at x: q, and what it should be */
     double rate[FLOW_BATCH], T[FLOW_BATCH], p[FLOW_BATCH], strain[FLOW_BATCH], Y[FLOW_BATCH];
-    struct flow_solid solids[SCENE_MATERIALS];
+    struct flow_solid own;
 };
 
 static const double flow_zero[FLOW_BATCH];
@@ -190,17 +188,6 @@ FLOW_CLOSE(1)
 FLOW_CLOSE(2)
 FLOW_CLOSE(3)
 
-/* sum += 2 m e_1 */
-static BULLA_KERNEL void flow_stiffen(size_t n, const double *restrict m, const double *restrict e_1,
-                                      double *restrict sum)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double s = sum[i];
-        sum[i] = s + 2.0 * m[i] * e_1[i];
-    }
-}
-
 /* sum += alpha Y */
 static BULLA_KERNEL void flow_bear(size_t n, const double *restrict alpha, const double *restrict Y,
                                    double *restrict sum)
@@ -212,18 +199,12 @@ static BULLA_KERNEL void flow_bear(size_t n, const double *restrict alpha, const
     }
 }
 
-/* A of the solids with (or, `strong` false, without) a strength, at I1; m: their partial densities. */
-static void flow_moduli(const struct model *model, size_t n, const double *first, const double *const *m, bool strong,
-                        double *A)
+/* A of a solid at I1; m: its partial densities. */
+static void flow_moduli(const struct model_solid *solid, size_t n, const double *first, const double *m, double *A)
 {
     double e[FLOW_BATCH], e_1[FLOW_BATCH], e_2[FLOW_BATCH];
-    memset(A, 0, n * sizeof *A);
-    for (unsigned s = 0; s < model->n_solid; s++) {
-        const struct model_solid *solid = &model->solids[s];
-        if (!solid->strength == strong) continue;
-        solid->law->energy(solid->self, n, first, first, e, e_1, e_2);
-        flow_stiffen(n, m[s], e_1, A);
-    }
+    solid->law->energy(solid->self, n, first, first, e, e_1, e_2);
+    for (size_t i = 0; i < n; i++) A[i] = 2.0 * m[i] * e_1[i];
 }
 
 /* The strength of one solid at its strain, rate, pressure, density; rows of n. T: room for n. */
@@ -239,9 +220,10 @@ static void flow_ask(const struct model_solid *solid, const struct model_eos *eo
                               thermal ? T : flow_zero, pressed ? at[3] : flow_zero, Y);
 }
 
-/* The strength of one solid when it has flowed by `grown` in this step, and kept the heat of that. */
-static void flow_bearing(struct flow *flow, struct flow_solid *own)
+/* The strength of the solid when it has flowed by `grown` in this step, and kept the heat of that. */
+static void flow_bearing(struct flow *flow)
 {
+    struct flow_solid *own = &flow->own;
     const struct model_solid *solid = own->solid;
     const double *const at[4] = {flow->strain, flow->rate, flow->p, own->rho};
     size_t n = flow->n;
@@ -256,30 +238,21 @@ static void flow_bearing(struct flow *flow, struct flow_solid *own)
 /* aim: what q should be after `grown`. */
 static void flow_aim(struct flow *flow)
 {
-    memcpy(flow->aim, flow->elastic, flow->n * sizeof *flow->aim);
-    for (unsigned s = 0; s < flow->n_solid; s++) {
-        struct flow_solid *own = &flow->solids[s];
-        if (!own->solid->strength) continue;
-        flow_bearing(flow, own);
-        flow_bear(flow->n, own->alpha, flow->Y, flow->aim);
-    }
+    flow_bearing(flow);
     for (size_t i = 0; i < flow->n; i++) {
-        double least = FLOW_MOLTEN * flow->q0[i];
-        flow->aim[i] = flow->aim[i] > least ? flow->aim[i] : least;
+        double least = FLOW_MOLTEN * flow->q0[i], aim = flow->own.alpha[i] * flow->Y[i];
+        flow->aim[i] = aim > least ? aim : least;
     }
 }
 
 /* g = aim/q - 1 at x; returns the largest |g|. */
 static double flow_miss(struct flow *flow)
 {
-    const double *m[SCENE_MATERIALS];
-    double A[FLOW_BATCH], part[FLOW_BATCH], most = 0.0;
+    double A[FLOW_BATCH], most = 0.0;
     size_t n = flow->n;
     flow_curve(n, flow, flow->E, flow->first, flow->r, flow->grown);
-    for (unsigned s = 0; s < flow->n_solid; s++) m[s] = flow->solids[s].bears;
-    flow_moduli(flow->model, n, flow->first, m, true, A);
-    flow_moduli(flow->model, n, flow->first, m, false, part);
-    for (size_t i = 0; i < n; i++) flow->q[i] = (A[i] + part[i]) * flow->r[i];
+    flow_moduli(flow->own.solid, n, flow->first, flow->own.bears, A);
+    for (size_t i = 0; i < n; i++) flow->q[i] = A[i] * flow->r[i];
     flow_aim(flow);
     for (size_t i = 0; i < n; i++) {
         flow->g[i] = flow->aim[i] / flow->q[i] - 1.0;
@@ -339,63 +312,54 @@ static void flow_weaken(const struct flow *flow, size_t stride, const double *u,
     }
 }
 
-static void flow_gather_solid(struct flow *flow, size_t n, size_t stride, const double *w, const double *u, unsigned s)
+static void flow_gather_solid(struct flow *flow, size_t n, size_t stride, const double *w, const double *u)
 {
     const struct model *model = flow->model;
-    struct flow_solid *own = &flow->solids[s];
-    own->solid = &model->solids[s];
+    struct flow_solid *own = &flow->own;
     unsigned l = own->solid->material;
-    own->eos = &model->eos[l];
     flow_gather(flow, u + (model->i_m + l) * stride, own->m);
     if (model->n_alpha) flow_gather(flow, u + (model->i_alpha + l) * stride, own->alpha);
     for (size_t i = 0; !model->n_alpha && i < flow->n; i++) own->alpha[i] = 1.0;
     flow_weaken(flow, stride, u, own);
-    if (!own->solid->strength) return;
     if (own->solid->strain)
         for (size_t i = 0; i < flow->n; i++)
             own->eps[i] = flow_part(u[own->solid->strain * stride + flow->cell[i]], own->m[i]);
     flow_gather_state(flow, n, stride, w, own);
 }
 
-/* The stretches of the cells that yield, put back, and what their strains have grown by: also into `grown`, if any. */
+/* The stretches of the cells that yield, put back, and what their strain has grown by: also into `grown`, if any. */
 static void flow_scatter(struct flow *flow, size_t stride, double *u, double *grown)
 {
     const struct model *model = flow->model;
     struct elastic_rows rows = elastic_tensor_rows(flow->V[0], FLOW_BATCH, model->n_stretch);
-    double out[6][FLOW_BATCH];
+    double out[6][FLOW_BATCH], *V = u + flow->own.solid->stretch * stride,
+                               *amount = u + flow->own.solid->strain * stride;
     ELASTIC_CHOOSE(model->n_velocity, flow_close, flow->n, rows, flow, out);
     elastic_unimodular(model, flow->n, FLOW_BATCH, out[0]);
     for (unsigned c = 0; c < model->n_stretch; c++)
-        for (size_t i = 0; i < flow->n; i++) u[(model->i_V + c) * stride + flow->cell[i]] = out[c][i];
+        for (size_t i = 0; i < flow->n; i++) V[c * stride + flow->cell[i]] = out[c][i];
     for (size_t i = 0; grown && i < flow->n; i++) grown[flow->cell[i]] = flow->grown[i];
-    for (unsigned s = 0; s < flow->n_solid; s++) {
-        double *amount = u + flow->solids[s].solid->strain * stride;
-        if (amount == u) continue;
-        for (size_t i = 0; i < flow->n; i++) amount[flow->cell[i]] += flow->solids[s].m[i] * flow->grown[i];
-    }
+    for (size_t i = 0; flow->own.solid->strain && i < flow->n; i++)
+        amount[flow->cell[i]] += flow->own.m[i] * flow->grown[i];
 }
 
-/* The cells of a batch whose stress is beyond their strength. */
+/* The cells of a batch in which the stress of the solid is beyond its strength. */
 static void flow_find(struct flow *flow, size_t n, size_t stride, const double *w, const double *u)
 {
     const struct model *model = flow->model;
-    const double *m[SCENE_MATERIALS];
-    double first[FLOW_BATCH], r[FLOW_BATCH], A[FLOW_BATCH], part[FLOW_BATCH], left[SCENE_MATERIALS][FLOW_BATCH];
-    struct elastic_rows rows = elastic_tensor_rows(u + model->i_V * stride, stride, model->n_stretch);
+    const struct model_solid *solid = flow->own.solid;
+    double first[FLOW_BATCH], r[FLOW_BATCH], A[FLOW_BATCH];
+    struct elastic_rows rows = elastic_tensor_rows(u + solid->stretch * stride, stride, model->n_stretch);
     ELASTIC_CHOOSE(model->n_velocity, flow_measure, n, rows, first, r);
-    for (unsigned s = 0; s < model->n_solid; s++) m[s] = u + (model->i_m + model->solids[s].material) * stride;
-    bearing_of_conserved(model, n, stride, u, FLOW_BATCH, left[0], m);
-    flow_moduli(model, n, first, m, true, A);
-    flow_moduli(model, n, first, m, false, part);
     flow->n = n;
+    for (size_t i = 0; i < n; i++) flow->cell[i] = i;
+    flow_gather_solid(flow, n, stride, w, u);
+    flow_moduli(solid, n, first, flow->own.bears, A);
     for (size_t i = 0; i < n; i++) {
-        flow->cell[i] = i;
-        flow->elastic[i] = part[i] * r[i];
-        flow->q0[i] = flow->q[i] = (A[i] + part[i]) * r[i];
+        flow->q0[i] = flow->q[i] = A[i] * r[i];
         flow->r0[i] = r[i];
         flow->grown[i] = 0.0;
     }
-    for (unsigned s = 0; s < model->n_solid; s++) flow_gather_solid(flow, n, stride, w, u, s);
     flow_aim(flow);
 }
 
@@ -406,7 +370,6 @@ static void flow_select(struct flow *flow)
     for (size_t i = 0; i < flow->n; i++) {
         if (!(flow->q0[i] > flow->aim[i] * (1.0 + FLOW_SLACK))) continue;
         flow->cell[kept] = flow->cell[i];
-        flow->elastic[kept] = flow->elastic[i];
         flow->aim[kept] = flow->aim[i];
         flow->r0[kept] = flow->r0[i];
         flow->q0[kept++] = flow->q0[i];
@@ -420,8 +383,9 @@ static void flow_batch(struct flow *flow, size_t n, size_t stride, const double 
     flow_find(flow, n, stride, w, u);
     flow_select(flow);
     if (!flow->n) return;
-    for (unsigned s = 0; s < model->n_solid && flow->n < n; s++) flow_gather_solid(flow, n, stride, w, u, s);
-    for (unsigned c = 0; c < model->n_stretch; c++) flow_gather(flow, u + (model->i_V + c) * stride, flow->V[c]);
+    const double *V = u + flow->own.solid->stretch * stride;
+    if (flow->n < n) flow_gather_solid(flow, n, stride, w, u);
+    for (unsigned c = 0; c < model->n_stretch; c++) flow_gather(flow, V + c * stride, flow->V[c]);
     struct elastic_rows rows = elastic_tensor_rows(flow->V[0], FLOW_BATCH, model->n_stretch);
     ELASTIC_CHOOSE(model->n_velocity, flow_open, flow->n, rows, flow->I1, flow->I2, flow->a, flow->b, flow->c);
     flow_search(flow);
@@ -434,11 +398,16 @@ void flow_return(const struct model *model, size_t n, size_t stride, double dt, 
     struct flow flow; /* large: filled as far as it is used */
     flow.model = model;
     flow.dt = dt;
-    flow.n_solid = model->n_solid;
-    if (grown) memset(grown, 0, n * sizeof *grown);
-    for (size_t from = 0; from < n; from += FLOW_BATCH)
-        flow_batch(&flow, n - from < FLOW_BATCH ? n - from : FLOW_BATCH, stride, w + from, u + from,
-                   grown ? grown + from : NULL);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        double *own = grown ? grown + s * stride : NULL;
+        if (own) memset(own, 0, n * sizeof *own);
+        if (!model->solids[s].strength) continue;
+        flow.own.solid = &model->solids[s];
+        flow.own.eos = &model->eos[model->solids[s].material];
+        for (size_t from = 0; from < n; from += FLOW_BATCH)
+            flow_batch(&flow, n - from < FLOW_BATCH ? n - from : FLOW_BATCH, stride, w + from, u + from,
+                       own ? own + from : NULL);
+    }
 }
 
 void flow_strength(const struct model *model, size_t n, size_t stride, const double *w, double *ret)

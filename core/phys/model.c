@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "phys/elastic.h"
+#include "phys/model_family.h"
 #include "plug/registry.h"
 
 #include <math.h>
@@ -25,13 +26,15 @@ static double model_fill_density(const struct scene *scene, unsigned l, const st
     return rho > 0 && isfinite(rho) ? rho : 1.0;
 }
 
-/* Of a component of a branch's stretch: the branches of a material count from 1. */
-static char *model_branch_name(const struct model *model, unsigned b, unsigned c)
+/* Of a component of stretch k: with the name of its solid where there are several; the branches of one count from 1. */
+static char *model_stretch_name(const struct model *model, unsigned k, unsigned c)
 {
-    unsigned solid = model->branches[b].solid, number = 1;
-    for (unsigned other = 0; other < b; other++) number += model->branches[other].solid == solid;
-    return mem_print("stretch_%s_%u_%s", model->scene->material[model->solids[solid].material].name, number,
-                     model_tensor[c]);
+    const char *solid = model->scene->material[model->solids[model_bearer(model, k)].material].name;
+    unsigned number = 1;
+    for (unsigned b = model->n_solid; b < k; b++) number += model_bearer(model, b) == model_bearer(model, k);
+    if (k >= model->n_solid) return mem_print("stretch_%s_%u_%s", solid, number, model_tensor[c]);
+    return model->n_solid == 1 ? mem_print("stretch_%s", model_tensor[c])
+                               : mem_print("stretch_%s_%s", solid, model_tensor[c]);
 }
 
 static void model_name_fields(struct model *model)
@@ -51,9 +54,8 @@ static void model_name_fields(struct model *model)
         const char *what = model->memories[k].field == solid->strain ? "plastic_strain" : "damage";
         model->field_names[at++] = mem_print("%s_mass_%s", what, model->scene->material[solid->material].name);
     }
-    for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = mem_print("stretch_%s", model_tensor[c]);
-    for (unsigned b = 0; b < model->n_branch; b++)
-        for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = model_branch_name(model, b, c);
+    for (unsigned k = 0; k < model_stretches(model); k++)
+        for (unsigned c = 0; c < model->n_stretch; c++) model->field_names[at++] = model_stretch_name(model, k, c);
     for (unsigned d = 0; d < model->n_normal; d++) model->field_names[at++] = mem_text(normal[d]);
     for (unsigned k = 0; k < model->n_pair; k++)
         model->field_names[at++] = mem_print("curvature_%s_%s", model->scene->material[model->pairs[k].inside].name,
@@ -167,33 +169,6 @@ static void model_pull_narrow(const struct model *model, struct model *narrow)
     }
 }
 
-/* Families of the scene. */
-static void model_phases(struct model *model)
-{
-    model->n_phase = model->scene->n_phase;
-    for (unsigned k = 0; k < model->n_phase; k++) {
-        const struct scene_phase *scene = &model->scene->phases[k];
-        struct model_phase *phase = &model->phases[k];
-        *phase = (struct model_phase){.n = 2, .member = {scene->liquid, scene->vapour}, .scene = scene};
-        for (unsigned g = 0; g < scene->n_gas; g++) phase->member[phase->n++] = scene->gas[g];
-    }
-}
-
-/* Those families that a narrowed model has all of. */
-static void model_phase_narrow(const struct model *model, struct model *narrow)
-{
-    narrow->n_phase = 0;
-    for (unsigned k = 0; k < model->n_phase; k++) {
-        struct model_phase phase = model->phases[k];
-        bool all = true;
-        for (unsigned i = 0; i < phase.n; i++) {
-            phase.member[i] -= narrow->first; /* wraps where it stands before */
-            all = all && phase.member[i] < narrow->n_alpha;
-        }
-        if (all) narrow->phases[narrow->n_phase++] = phase;
-    }
-}
-
 /* The branches of solid s, which becomes the next solid of a narrowed model. */
 static void model_narrow_branches(const struct model *model, unsigned s, struct model *narrow)
 {
@@ -256,7 +231,7 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     narrow->split = model->split && narrow->n_solid && !model->n_normal;
     model_pair_narrow(model, narrow);
     model_pull_narrow(model, narrow);
-    model_phase_narrow(model, narrow);
+    model_family_narrow(model, narrow);
     narrow->lagged = narrow->split || model_jumps(narrow);
     for (unsigned l = 0; l < narrow->n_alpha; l++) narrow->active[narrow->n_active++] = narrow->i_alpha + l;
     for (unsigned l = 0; l < n; l++) narrow->active[narrow->n_active++] = narrow->i_m + l;
@@ -278,11 +253,15 @@ static bool model_is_slack(const struct model_solid *solid)
     return e_1 == 0.0 && e_2 == 0.0;
 }
 
-/* The fields of stretches: of all solids together, then of each Maxwell branch. */
+/* The fields of stretches: of each solid, then of each Maxwell branch. */
 static void model_stretch_all(struct model *model)
 {
     model->n_stretch = model->elastic ? elastic_count(model->n_velocity) : 0;
-    model->n_field = model->i_V + model->n_stretch;
+    model->n_field = model->i_V;
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        model->solids[s].stretch = model->n_field;
+        model->n_field += model->n_stretch;
+    }
     for (unsigned s = 0; s < model->n_solid; s++) {
         const struct scene_material *material = &model->scene->material[model->solids[s].material];
         for (unsigned b = 0; b < material->n_branch; b++) {
@@ -441,7 +420,7 @@ struct model *model_new(const struct scene *scene)
     if (model->split && model->dim > 1) model->n_normal = (unsigned)model->dim;
     model->n_field += model->n_normal;
     model_pair_up(model);
-    model_phases(model);
+    model_family_all(model);
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
     model_pull_all(model);
     model->lagged = model->split || model_jumps(model);
@@ -460,8 +439,9 @@ struct model *model_new(const struct scene *scene)
     }
     model_transport(model);
     model_conduct(model);
-    model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO ? !model->linear || model->conducts || model->n_phase
-                                                                   : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
+    model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO
+                         ? !model->linear || model->conducts || model->n_phase || model->n_fick
+                         : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
     model->limiter = (struct model_limiter){scene->scheme.limiter.module->table, scene->scheme.limiter.self};
     model->limiter_alpha =
         (struct model_limiter){scene->scheme.interface_limiter.module->table, scene->scheme.interface_limiter.self};

@@ -2,7 +2,7 @@
  *
  * Conserved fields u, in this order: alpha_l (N of them, none if N = 1), m_l = alpha_l rho_l,
  * rho u_i (n_velocity), rho E, what solids remember (n_inner: m_l eps_l of those whose strength knows their plastic strain
- * eps, m_l D_l of those that can break, D their damage from 0 to 1) and, in a scene with a solid, the stretch V
+ * eps, m_l D_l of those that can break, D their damage from 0 to 1) and the stretch V of each solid
  * (n_stretch: xx, yy, zz, then xy, then xz, yz, as far as n_velocity reaches), then as many more for each Maxwell branch of
  * a solid, which has a stretch of its own (scheme/viscoelastic.h).
  * Last, for each pair of materials with surface tension, the curvature of their interface in the cell, which is no
@@ -40,6 +40,7 @@ struct model_solid {
     const struct bulla_constitutive *law;
     const void *self;
     unsigned material;                      /* index into the materials of the same model */
+    unsigned stretch;                       /* first component of its stretch */
     const struct bulla_inelastic *strength; /* NULL: purely elastic */
     const void *strength_self;
     unsigned strain; /* field of its plastic strain; 0: it has none */
@@ -111,17 +112,27 @@ struct model_phase {
     const struct scene_phase *scene;
 };
 
+/* Gases that diffuse through each other (scheme/fick.h). */
+struct model_fick {
+    unsigned n, member[SCENE_MATERIALS]; /* materials of the same model */
+    const struct scene_fick *scene;
+};
+
+/* Most stretches a scene can have: of solids and of branches. */
+enum { MODEL_STRETCHES = SCENE_MATERIALS + SCENE_BRANCHES };
+
 /* Most evolved fields a scene can have: fractions, densities, velocities, energy, memories of solids, stretches, normals,
  * curvatures, pulls. */
-enum { MODEL_FIELDS = 5 * SCENE_MATERIALS + 3 + 1 + 6 * (1 + SCENE_BRANCHES) + 3 + SCENE_PAIRS };
+enum { MODEL_FIELDS = 5 * SCENE_MATERIALS + 3 + 1 + 6 * MODEL_STRETCHES + 3 + SCENE_PAIRS };
 
 struct model {
     const struct scene *scene;
     int dim, beta;
     unsigned n_velocity;              /* >= dim */
-    unsigned n_solid, n_stretch, i_V; /* stretch: first index; n_stretch 0 in paths without a solid */
+    unsigned n_solid, n_stretch, i_V; /* components of one stretch, 0 in paths without a solid; first field of all
+                                         stretches of the scene, be they of this path or not */
     struct model_solid solids[SCENE_MATERIALS];
-    unsigned n_stretched; /* components of all stretches of the scene, be they of this path or not */
+    unsigned n_stretched; /* components of all of those */
     unsigned n_branch;
     struct model_branch branches[SCENE_BRANCHES];
     unsigned n_inner, i_inner; /* what the solids of the scene remember: first index */
@@ -133,6 +144,8 @@ struct model {
     struct model_pull pulls[SCENE_MATERIALS];
     unsigned n_phase;
     struct model_phase phases[SCENE_PHASES];
+    unsigned n_fick;
+    struct model_fick ficks[SCENE_PHASES];
     unsigned n_normal, i_normal; /* normals of the surfaces of solids (scheme/normal.h): dim, or 0 */
     unsigned n_material, n_alpha, n_field;
     unsigned i_alpha, i_m, i_u, i_E;         /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
@@ -205,16 +218,16 @@ static inline bool model_looks_around(const struct model *path)
     return path->viscous || path->calm || path->n_normal > 0;
 }
 
-/* Number of stretches of a path: that of the springs at rest, then those of the branches. */
+/* Number of stretches of a path: those of its solids, then those of the branches. */
 static inline unsigned model_stretches(const struct model *model)
 {
-    return model->n_stretch ? 1 + model->n_branch : 0;
+    return model->n_solid + model->n_branch;
 }
 
 /* First component of stretch k of a path. */
 static inline unsigned model_stretch(const struct model *model, unsigned k)
 {
-    return k ? model->branches[k - 1].field : model->i_V;
+    return k < model->n_solid ? model->solids[k].stretch : model->branches[k - model->n_solid].field;
 }
 
 /* Active fields of stretches: the last but those made anew, from active[model_drawn()] to active[model_edged()]. */
@@ -231,10 +244,16 @@ static inline bool model_is_stretch(const struct model *model, unsigned q, unsig
     return is;
 }
 
+/* The solid that stretch k of a path belongs to. */
+static inline unsigned model_bearer(const struct model *model, unsigned k)
+{
+    return k < model->n_solid ? k : model->branches[k - model->n_solid].solid;
+}
+
 /* Does solid s carry stretch k of a path with its mass? */
 static inline bool model_carries(const struct model *model, unsigned k, unsigned s)
 {
-    return k ? model->branches[k - 1].solid == s : !model->solids[s].slack;
+    return model_bearer(model, k) == s && !(k == s && model->solids[s].slack);
 }
 
 /* Is component q what a solid remembers? */

@@ -99,10 +99,10 @@ static void traction_batch(const struct model *model, size_t n, size_t stride, c
     const double *rho[SCENE_MATERIALS];
     for (unsigned s = 0; s < model->n_solid; s++) rho[s] = w + (model->i_m + model->solids[s].material) * stride;
     bearing_of(model, n, stride, w, TRACTION_BATCH, left, rho);
-    traction_look(model, n, stride, w, model->i_V, &view);
     for (unsigned l = 0; l < model->n_material; l++) memset(own + l * pitch, 0, n * sizeof *own);
     for (unsigned s = 0; s < model->n_solid; s++) {
         const struct model_solid *solid = &model->solids[s];
+        traction_look(model, n, stride, w, solid->stretch, &view);
         solid->law->energy(solid->self, n, view.I1, view.I2, e, view.e_1, view.e_2);
         traction_of(model, n, rho[s], &view, own + solid->material * pitch);
     }

@@ -350,6 +350,7 @@ static void check_print(const struct scene *scene, const struct model *model, co
     check_print_tension(scene);
     travel_print(scene);
     check_phase_print(scene);
+    transport_print_gases(scene, model);
     if (scene->n_material > 1) check_print_module("interface", &scene->scheme.interface_limiter);
     double bytes = SCENES_BESIDE * scenes_bytes(scene, mesh->all);
     printf("  %-12s about %s", "memory", human_bytes(bytes, text));

@@ -4,6 +4,7 @@
 #include "cli/human.h"
 #include "phys/coefficient.h"
 #include "scheme/conduction.h"
+#include "scheme/distance.h"
 #include "solve/rkl.h"
 
 #include <math.h>
@@ -87,6 +88,21 @@ void transport_print_heat(const struct scene *scene, const struct model *model, 
     printf("  %-12s heat gets %s far in the run, %.3g of the finest cells\n", "", human_si(layer, "m", width),
            layer / h);
     transport_print_limits(scene, 1 / conduction_step(facts.k / facts.rho_cv, 1), transport_fluid(model, l).c);
+}
+
+void transport_print_gases(const struct scene *scene, const struct model *model)
+{
+    char width[HUMAN_ROOM];
+    for (unsigned k = 0; k < scene->n_fick; k++) {
+        const struct scene_fick *fick = &scene->ficks[k];
+        double layer = sqrt(fick->D * scene->run.until), h = transport_cells(scene, scene->mesh.levels).h;
+        printf("  %-12s", k ? "" : "gases");
+        for (unsigned g = 0; g < fick->n; g++) printf("%s %s", g ? "," : "", scene->material[fick->gas[g]].name);
+        printf(" diffuse: %.3g m2/s", fick->D);
+        if (!fick->constant) printf(" at %g K and %g Pa, as T^1.75/p", fick->T, fick->p);
+        printf("; they get %s far in the run, %.3g of the finest cells\n", human_si(layer, "m", width), layer / h);
+        transport_print_limits(scene, DISTANCE_PACE * fick->D, transport_fluid(model, fick->gas[0]).c);
+    }
 }
 
 /* What walls drag along with; scripts are not asked. */

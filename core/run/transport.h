@@ -12,6 +12,9 @@ void transport_print_viscosity(const struct scene *scene, const struct model *mo
 /* Of material l at 25 C and 1 atm. */
 void transport_print_heat(const struct scene *scene, const struct model *model, unsigned l);
 
+/* Of gases that diffuse through each other: D where it is given, how far they get, steps by level. */
+void transport_print_gases(const struct scene *scene, const struct model *model);
+
 /* Reynolds numbers rho u L/mu of the viscous materials: u the larger of `speed` [m/s] and what walls move with, L the shortest
  * side of the domain. */
 void transport_print_reynolds(const struct scene *scene, const struct model *model, double speed);

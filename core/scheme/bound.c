@@ -16,18 +16,29 @@ static size_t bound_face_cells(const struct mesh *mesh, int axis)
     return mesh->n_cell / (size_t)mesh->n[axis];
 }
 
+bool bound_has_rays(const struct model *model, int face)
+{
+    const struct scene_boundary *boundary = &model->scene->domain.boundary[face / 2][face % 2];
+    return boundary->type == SCENE_NONREFLECTING && boundary->beam.path == SCENE_BEAM_ORIGIN && !model->elastic;
+}
+
 static void bound_keep_reference(struct bound *bound, unsigned local, int axis, int side, const double *w)
 {
     const struct mesh *mesh = bound->mesh;
     const struct model *model = bound->model;
     size_t cells = bound_face_cells(mesh, axis), n = (size_t)mesh->n[axis], inner = 1;
+    unsigned others = bound_has_rays(model, 2 * axis + side) ? model->n_velocity - 1 : 0;
     for (int d = 0; d < axis; d++) inner *= (size_t)mesh->n[d];
-    double *reference = mem_new(2 * cells, sizeof *reference);
+    double *reference = mem_new((2 + others) * cells, sizeof *reference);
     const double *p = w + model->i_E * mesh->n_cell, *u = w + (model->i_u + (unsigned)axis) * mesh->n_cell;
     for (size_t c = 0; c < cells; c++) {
         size_t cell = (c / inner * n + (side ? n - 1 : 0)) * inner + c % inner;
         reference[c] = p[cell];
         reference[cells + c] = side ? u[cell] : -u[cell];
+        for (unsigned k = 0; k < others; k++) {
+            unsigned q = model->i_u + ((unsigned)axis + 1 + k) % model->n_velocity;
+            reference[(2 + k) * cells + c] = w[q * mesh->n_cell + cell];
+        }
     }
     bound->reference[local * MESH_FACES + (unsigned)(2 * axis + side)] = reference;
 }

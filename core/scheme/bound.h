@@ -16,7 +16,8 @@ struct bound {
     const struct level *level;
     double t; /* [s] at which time-dependent values are taken; set before each stage */
     unsigned n_local;
-    double **reference;           /* [n_local * MESH_FACES]: p then u_n of the boundary cells, or NULL */
+    double **reference;           /* [n_local * MESH_FACES]: of the boundary cells p, u outwards and, where waves leave
+                                     from a point, u along the other axes; or NULL */
     struct source_value *sources; /* forces, which pressure goes on holding behind a boundary; NULL without */
     int status;                   /* first failure of a script since bound_new */
     char *message;                /* of it; NULL: none */
@@ -32,6 +33,10 @@ struct bound *bound_new(const struct model *model, const struct mesh *mesh, cons
 struct bound *bound_paint(const struct model *model, const struct mesh *mesh, const struct level *level,
                           struct bound *before, const int *from);
 void bound_free(struct bound *bound);
+
+/* Do waves leave through this face from a point (bound_ray.h)? Not where there are solids: pressure alone does not say what
+ * leaves them. */
+bool bound_has_rays(const struct model *model, int face);
 
 /* Callback for frame_source: primitives of all fields. `data` is a struct bound. Where a script fails they are NaN. */
 void bound_fill(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);

@@ -6,7 +6,7 @@
  * the incoming one of the far field plus the wave,
  *     p + Z u = p_i + Z u_i,      p - Z u = (p_0 + p') - Z (u_0 - p'/Z),      Z = rho c,
  * u along the outward normal, so that a wave at normal incidence enters or leaves without a
- * reflection to first order. Densities follow each material's isentrope from inside. */
+ * reflection to first order. Densities follow each material's isentrope from inside. What leaves from a point: bound_ray.h. */
 #include "scheme/bound.h"
 
 #include "base/mem.h"
@@ -16,13 +16,13 @@
 #include "phys/mix.h"
 #include "scheme/bound_law.h"
 #include "scheme/bound_layer.h"
+#include "scheme/bound_ray.h"
+#include "scheme/bound_row.h"
 #include "scheme/source_weight.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-enum { BOUND_FILL_ROW = FRAME_CELLS / (2 * SCENE_GHOSTS) }; /* most face cells of a frame */
 
 /* The layers behind one side of a gathered piece of a local tile. */
 struct bound_fill {
@@ -65,14 +65,8 @@ static void bound_fill_mirror(const struct bound_fill *fill, bool no_slip)
     }
 }
 
-/* One row of boundary cells taken out of the frame: [n_field] components of `stride` points. */
-struct bound_fill_row {
-    size_t n, stride;
-    double *w;
-};
-
 /* The cells that lie `depth` cells inside the outermost ones. */
-static void bound_fill_take(const struct bound_fill *fill, int depth, struct bound_fill_row *row)
+static void bound_fill_take(const struct bound_fill *fill, int depth, struct bound_row *row)
 {
     const struct model *model = fill->bound->model;
     const struct frame *frame = fill->frame;
@@ -83,7 +77,7 @@ static void bound_fill_take(const struct bound_fill *fill, int depth, struct bou
                    frame->inner * sizeof *fill->w);
 }
 
-static void bound_fill_put(const struct bound_fill *fill, const struct bound_fill_row *row)
+static void bound_fill_put(const struct bound_fill *fill, const struct bound_row *row)
 {
     const struct model *model = fill->bound->model;
     const struct frame *frame = fill->frame;
@@ -94,12 +88,9 @@ static void bound_fill_put(const struct bound_fill *fill, const struct bound_fil
                        row->w + q * row->stride + o * frame->inner, frame->inner * sizeof *fill->w);
 }
 
-/* Do sound waves leave through this side of a ball, where there is one axis? Pressure alone does not say what leaves a
- * solid. */
-static bool bound_fill_is_round(const struct bound_fill *fill)
+static bool bound_fill_has_rays(const struct bound_fill *fill)
 {
-    const struct model *model = fill->bound->model;
-    return model->beta == 2 && !model->elastic && fill->side == 1;
+    return bound_has_rays(fill->bound->model, 2 * fill->frame->axis + fill->side);
 }
 
 static const struct scene_boundary *bound_fill_boundary(const struct bound_fill *fill)
@@ -107,16 +98,16 @@ static const struct scene_boundary *bound_fill_boundary(const struct bound_fill 
     return &fill->bound->model->scene->domain.boundary[fill->frame->axis][fill->side];
 }
 
-/* Fills the layers with the states that `compose` makes of the cells inside: one for all, but around a ball and where a
- * module mirrors. */
+/* Fills the layers with the states that `compose` makes of the cells inside: one for all, but where waves leave from a
+ * point and where a module mirrors. */
 static void bound_fill_composed(const struct bound_fill *fill,
-                                void (*compose)(const struct bound_fill *fill, struct bound_fill_row *row))
+                                void (*compose)(const struct bound_fill *fill, struct bound_row *row))
 {
-    double space[MODEL_FIELDS * (size_t)BOUND_FILL_ROW];
-    struct bound_fill_row row = {.n = fill->frame->outer * fill->frame->inner, .stride = BOUND_FILL_ROW, .w = space};
+    double space[MODEL_FIELDS * (size_t)BOUND_ROW];
+    struct bound_row row = {.n = fill->frame->outer * fill->frame->inner, .stride = BOUND_ROW, .w = space};
     struct bound_fill each = *fill;
     bool mirrors = bound_law_mirrors(bound_fill_boundary(fill));
-    int layers = mirrors || bound_fill_is_round(fill) ? (int)fill->frame->ghosts : 1;
+    int layers = mirrors || bound_fill_has_rays(fill) ? (int)fill->frame->ghosts : 1;
     for (each.layer = 0; each.layer < layers; each.layer++) {
         bound_fill_take(fill, mirrors ? each.layer : 0, &row);
         compose(&each, &row);
@@ -204,20 +195,6 @@ static void bound_fill_no_slip(const struct bound_fill *fill)
     bound_fill_wall(fill, true);
 }
 
-/* rho_l moved along its isentrope by dp: midpoint rule on d rho / dp = 1/c^2. */
-static void bound_fill_isentrope(const struct model_eos *eos, size_t n, const double *p, const double *p_new,
-                                 double *rho, double *scratch)
-{
-    double *e = scratch, *rho_c2 = scratch + n, *half_rho = scratch + 2 * n, *half_p = scratch + 3 * n;
-    eos->law->state(eos->self, n, rho, p, e, rho_c2);
-    for (size_t i = 0; i < n; i++) {
-        half_p[i] = 0.5 * (p[i] + p_new[i]);
-        half_rho[i] = rho[i] + 0.5 * (p_new[i] - p[i]) * rho[i] / rho_c2[i];
-    }
-    eos->law->state(eos->self, n, half_rho, half_p, e, rho_c2);
-    for (size_t i = 0; i < n; i++) rho[i] += (p_new[i] - p[i]) * half_rho[i] / rho_c2[i];
-}
-
 /* What comes from outside at the points of a row: the far-field pressure, where the case gives one, and what enters
  * of the gauge pressure of the wave, if there is one (case/pulse.h). */
 static void bound_fill_outside(const struct bound_fill *fill, size_t n, bool wave, double *far, double *gauge)
@@ -236,49 +213,6 @@ static void bound_fill_outside(const struct bound_fill *fill, size_t n, bool wav
     }
 }
 
-/* Plane waves that leave have p' - Z u' = 0 behind the face, primes: less the far field. Waves from a centre, p' = f'(t -
- * r/c)/r and Z u' = p' + c f/r^2, have not: what the cell inside has of it is the memory of f, and goes on to the layer
- * at r + d by
- *     p' - Z u' = -c f(t - (r + d)/c)/(r + d)^2 = ((p' - Z u')_i r^2 + d r p'_i)/(r + d)^2,
- * so that d(p' - Z u')/dt = -(c/r) p': a pressure that is not the far field's falls off within 2 r/c. */
-static double bound_fill_near(const struct bound_fill *fill, double p, double Z_u)
-{
-    double h = fill->bound->level->h[0], d = (fill->layer + 1) * h;
-    double r = fill->bound->mesh->upper[0] - 0.5 * h, behind = r + d;
-    return ((p - Z_u) * r + d * p) * r / (behind * behind);
-}
-
-/* p + Z u of the cell that lies `depth` cells inside the outermost one of a line. */
-static double bound_fill_leaving(const struct bound_fill *fill, int depth, double Z)
-{
-    const struct model *model = fill->bound->model;
-    const double *cell = fill->w + frame_at(fill->frame, 0, bound_layer_inside(fill->frame, fill->side, depth));
-    return cell[model->i_E * fill->pitch] + Z * cell[model->i_u * fill->pitch];
-}
-
-/* What leaves goes on as it comes; not at shocks. */
-static double bound_fill_onward(const struct bound_fill *fill, double Z)
-{
-    double last = bound_fill_leaving(fill, 0, Z), before = bound_fill_leaving(fill, 1, Z);
-    double a = last - before, b = before - bound_fill_leaving(fill, 2, Z);
-    return a * b <= 0.0 ? 0.0 : (fill->layer + 1) * (fabs(a) < fabs(b) ? a : b);
-}
-
-/* Density and speed of sound of the mixture in a row. */
-static void bound_fill_sound(const struct model *model, const struct bound_fill_row *row, double *rho, double *sound)
-{
-    double stiff[SCENE_MATERIALS * BOUND_FILL_ROW], c2[BOUND_FILL_ROW];
-    mix_stiffness(model, row->n, row->stride, row->w, stiff);
-    mix_speed2(model, row->n, row->stride, row->w, stiff, c2);
-    for (size_t c = 0; c < row->n; c++) {
-        rho[c] = 0.0;
-        sound[c] = sqrt(c2[c]);
-        for (unsigned l = 0; l < model->n_material; l++)
-            rho[c] += (model->n_alpha ? row->w[(model->i_alpha + l) * row->stride + c] : 1.0) *
-                      row->w[(model->i_m + l) * row->stride + c];
-    }
-}
-
 /* What stood at the boundary at the start: a row of p, one of the velocity outwards. */
 static const double *bound_fill_start(const struct bound_fill *fill)
 {
@@ -286,28 +220,18 @@ static const double *bound_fill_start(const struct bound_fill *fill)
     return fill->bound->reference[fill->local * MESH_FACES + face];
 }
 
-/* Each material along its isentrope from the pressures `old` to those that the row has. */
-static void bound_fill_follow(const struct model *model, struct bound_fill_row *row, const double *old)
-{
-    double scratch[4 * BOUND_FILL_ROW];
-    const double *p = row->w + model->i_E * row->stride;
-    for (unsigned l = 0; l < model->n_material; l++)
-        bound_fill_isentrope(&model->eos[l], row->n, old, p, row->w + (model->i_m + l) * row->stride, scratch);
-}
-
-static void bound_fill_characteristic(const struct bound_fill *fill, struct bound_fill_row *row, bool wave)
+static void bound_fill_characteristic(const struct bound_fill *fill, struct bound_row *row, bool wave)
 {
     const struct model *model = fill->bound->model;
     const struct frame *frame = fill->frame;
     size_t n = row->n, cells = frame->tile_outer * frame->tile_inner;
-    double far[BOUND_FILL_ROW], gauge[BOUND_FILL_ROW], old[BOUND_FILL_ROW], rho[BOUND_FILL_ROW], c_s[BOUND_FILL_ROW];
+    double far[BOUND_ROW], gauge[BOUND_ROW], old[BOUND_ROW], rho[BOUND_ROW], c_s[BOUND_ROW];
     const double *reference = bound_fill_start(fill);
     double *p = row->w + model->i_E * row->stride, *u = row->w + (model->i_u + (unsigned)frame->axis) * row->stride;
     double outward = fill->side ? 1.0 : -1.0;
-    bool round = !wave && bound_fill_is_round(fill);
     for (size_t c = 0; c < n; c++) far[c] = reference[bound_fill_face_cell(frame, c)];
     bound_fill_outside(fill, n, wave, far, gauge);
-    bound_fill_sound(model, row, rho, c_s);
+    bound_row_sound(model, row, rho, c_s);
     memcpy(old, p, n * sizeof *p);
     for (size_t c = 0; c < n; c++) {
         double inside = outward * u[c];
@@ -315,25 +239,93 @@ static void bound_fill_characteristic(const struct bound_fill *fill, struct boun
         double Z = rho[c] * c_s[c], leaving = old[c] + Z * inside;
         double u_far = reference[cells + bound_fill_face_cell(frame, c)];
         double entering = far[c] + 2.0 * gauge[c] - Z * u_far;
-        if (round) leaving += bound_fill_onward(fill, Z);
-        if (round) entering += bound_fill_near(fill, old[c] - far[c], Z * (inside - u_far));
         p[c] = 0.5 * (leaving + entering);
         u[c] = outward * (0.5 * (leaving - entering) / Z);
     }
-    bound_fill_follow(model, row, old);
+    bound_row_follow(model, row, old);
 }
 
-static void bound_fill_compose_far(const struct bound_fill *fill, struct bound_fill_row *row)
+static void bound_fill_compose_far(const struct bound_fill *fill, struct bound_row *row)
 {
     bound_fill_characteristic(fill, row, false);
 }
 
-static void bound_fill_far(const struct bound_fill *fill)
+/* What bound_ray.h wants: centres of the faces, the far field, the cells inside. */
+struct bound_fill_rays {
+    double x[SCENE_AXES][BOUND_ROW], far_p[BOUND_ROW], far_u[SCENE_AXES][BOUND_ROW];
+    double rho[BOUND_ROW], c_s[BOUND_ROW], Z[BOUND_ROW], old[BOUND_ROW];
+    double p[BOUND_RAY_DEPTHS][BOUND_ROW], u[BOUND_RAY_DEPTHS][SCENE_AXES][BOUND_ROW];
+};
+
+static void bound_fill_rays_far(const struct bound_fill *fill, size_t c, struct bound_fill_rays *rays)
 {
-    bound_fill_composed(fill, bound_fill_compose_far);
+    const struct frame *frame = fill->frame;
+    const double *start = bound_fill_start(fill) + bound_fill_face_cell(frame, c);
+    size_t cells = frame->tile_outer * frame->tile_inner;
+    unsigned axis = (unsigned)frame->axis, n = fill->bound->model->n_velocity;
+    double x[SCENE_AXES];
+    bound_fill_position(fill, c, x);
+    for (int d = 0; d < SCENE_AXES; d++) rays->x[d][c] = x[d];
+    rays->far_p[c] = start[0];
+    rays->far_u[axis][c] = fill->side ? start[cells] : -start[cells];
+    for (unsigned k = 0; k + 1 < n; k++) rays->far_u[(axis + 1 + k) % n][c] = start[(2 + k) * cells];
+    const struct scene_value *pressure = &bound_fill_boundary(fill)->pressure;
+    if (pressure->given) bound_fill_ask(fill, pressure, "far-field pressure", x, &rays->far_p[c]);
 }
 
-static void bound_fill_compose_wave(const struct bound_fill *fill, struct bound_fill_row *row)
+/* Pressures and velocities of the cells inside. */
+static void bound_fill_rays_inside(const struct bound_fill *fill, size_t c, struct bound_fill_rays *rays)
+{
+    const struct model *model = fill->bound->model;
+    const struct frame *frame = fill->frame;
+    for (int depth = 0; depth < BOUND_RAY_DEPTHS; depth++) {
+        const double *cell = fill->w + frame_at(frame, c / frame->inner, bound_layer_inside(frame, fill->side, depth)) +
+                             c % frame->inner;
+        rays->p[depth][c] = cell[model->i_E * fill->pitch];
+        for (unsigned d = 0; d < model->n_velocity; d++) rays->u[depth][d][c] = cell[(model->i_u + d) * fill->pitch];
+    }
+}
+
+static void bound_fill_compose_rays(const struct bound_fill *fill, struct bound_row *row)
+{
+    const struct model *model = fill->bound->model;
+    struct bound_fill_rays rays;
+    struct bound_ray_row leave = {.from = &bound_fill_boundary(fill)->beam,
+                                  .axis = fill->frame->axis,
+                                  .dim = model->dim,
+                                  .n_velocity = model->n_velocity,
+                                  .outward = fill->side ? 1.0 : -1.0,
+                                  .h = fill->bound->level->h[fill->frame->axis],
+                                  .layer = fill->layer,
+                                  .n = row->n,
+                                  .Z = rays.Z,
+                                  .far_p = rays.far_p,
+                                  .c_s = rays.c_s,
+                                  .to_p = row->w + model->i_E * row->stride};
+    for (unsigned d = 0; d < SCENE_AXES; d++) {
+        leave.x[d] = rays.x[d];
+        leave.far_u[d] = rays.far_u[d];
+        for (int depth = 0; depth < BOUND_RAY_DEPTHS; depth++) leave.u[depth][d] = rays.u[depth][d];
+        leave.to_u[d] = row->w + (model->i_u + d) * row->stride;
+    }
+    for (int depth = 0; depth < BOUND_RAY_DEPTHS; depth++) leave.p[depth] = rays.p[depth];
+    bound_row_sound(model, row, rays.rho, rays.c_s);
+    for (size_t c = 0; c < row->n; c++) {
+        rays.Z[c] = rays.rho[c] * rays.c_s[c];
+        bound_fill_rays_far(fill, c, &rays);
+        bound_fill_rays_inside(fill, c, &rays);
+    }
+    memcpy(rays.old, leave.to_p, row->n * sizeof *rays.old);
+    bound_ray_leave(&leave);
+    bound_row_follow(model, row, rays.old);
+}
+
+static void bound_fill_far(const struct bound_fill *fill)
+{
+    bound_fill_composed(fill, bound_fill_has_rays(fill) ? bound_fill_compose_rays : bound_fill_compose_far);
+}
+
+static void bound_fill_compose_wave(const struct bound_fill *fill, struct bound_row *row)
 {
     bound_fill_characteristic(fill, row, true);
 }
@@ -354,7 +346,7 @@ static void bound_fill_fresh(const struct model *model, double *at, size_t strid
     for (unsigned k = 0; k < model->n_pull; k++) at[model->pulls[k].field * stride] = 0.0;
 }
 
-static void bound_fill_compose_state(const struct bound_fill *fill, struct bound_fill_row *row)
+static void bound_fill_compose_state(const struct bound_fill *fill, struct bound_row *row)
 {
     static const char *const velocity[] = {"velocity_x", "velocity_y", "velocity_z"};
     const struct model *model = fill->bound->model;
@@ -386,7 +378,7 @@ static void bound_fill_state(const struct bound_fill *fill)
 }
 
 /* Turns the components of a mirror image round, but for the velocity, which is the module's. */
-static void bound_fill_reverse(const struct bound_fill *fill, struct bound_fill_row *row)
+static void bound_fill_reverse(const struct bound_fill *fill, struct bound_row *row)
 {
     const struct model *model = fill->bound->model;
     int axis = fill->frame->axis;
@@ -399,24 +391,24 @@ static void bound_fill_reverse(const struct bound_fill *fill, struct bound_fill_
 }
 
 /* What is not the module's: stretches and the like, and densities where it leaves them to us. */
-static void bound_fill_rest(const struct bound_fill *fill, struct bound_fill_row *row, const double *old)
+static void bound_fill_rest(const struct bound_fill *fill, struct bound_row *row, const double *old)
 {
     const struct model *model = fill->bound->model;
     const struct scene_boundary *boundary = bound_fill_boundary(fill);
-    if (bound_law_is_isentropic(boundary)) bound_fill_follow(model, row, old);
+    if (bound_law_is_isentropic(boundary)) bound_row_follow(model, row, old);
     if (bound_law_mirrors(boundary)) bound_fill_reverse(fill, row);
     for (size_t c = 0; c < row->n && bound_law_brings(boundary); c++) bound_fill_fresh(model, row->w + c, row->stride);
 }
 
-static void bound_fill_compose_law(const struct bound_fill *fill, struct bound_fill_row *row)
+static void bound_fill_compose_law(const struct bound_fill *fill, struct bound_row *row)
 {
     const struct model *model = fill->bound->model;
     const struct frame *frame = fill->frame;
     size_t cells = frame->tile_outer * frame->tile_inner;
-    double x[3][BOUND_FILL_ROW], Z[BOUND_FILL_ROW], rho[BOUND_FILL_ROW], start[2][BOUND_FILL_ROW];
-    double old[BOUND_FILL_ROW];
+    double x[3][BOUND_ROW], Z[BOUND_ROW], rho[BOUND_ROW], start[2][BOUND_ROW];
+    double old[BOUND_ROW];
     bool refers = scene_boundary_is(model->scene, 2 * frame->axis + fill->side, SCENE_BOUNDARY_REFERS);
-    bound_fill_sound(model, row, rho, Z);
+    bound_row_sound(model, row, rho, Z);
     for (size_t c = 0; c < row->n; c++) {
         double at[3];
         Z[c] *= rho[c];

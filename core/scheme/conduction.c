@@ -9,13 +9,11 @@
 #include "scheme/conduction_law.h"
 #include "scheme/conduction_plain.h"
 #include "scheme/conduction_wall.h"
+#include "scheme/distance.h"
 #include "scheme/swell.h"
 #include "scheme/terms.h"
 
 #include <string.h>
-
-/* What a step may take, against the limit of stability of one material: CONDUCTION_PACE D sum 1/h^2 <= 1/dt. */
-#define CONDUCTION_PACE (8.0 / 1.8)
 
 /* Rows of a frame: [n_material] of cells or faces with pitch FACE_ROOM. */
 struct conduction {
@@ -126,7 +124,7 @@ static void conduction_weigh(const struct model *path, size_t n, const double *w
 static bool conduction_is_heated(const struct term_piece *piece, int side)
 {
     int face = 2 * piece->frame->axis + side;
-    return scene_boundary_is_heated(piece->model->scene, face) && conduction_wall_is_there(piece, side);
+    return scene_boundary_is_heated(piece->model->scene, face) && distance_ends(piece, side);
 }
 
 /* Fractions, conductivities and capacities of the cells beside faces. */
@@ -158,37 +156,10 @@ static void conduction_frame(const struct term_piece *piece)
     if (!own->plain) conduction_look(piece, n, w, own);
 }
 
-/* One over the distances of cells along a curved axis. */
-static void conduction_stretch(const struct term_tile *tile, const struct frame *frame, double *per_d)
-{
-    const struct mesh *mesh = tile->mesh;
-    double h = tile->level->h[0], lower = mesh->lower[0], below, row[METRIC_CELLS + 1];
-    int first = tile->tile->at[0] * mesh->n[0];
-    below = metric_centroid(mesh->beta, lower + (first - 1) * h, lower + first * h);
-    for (int i = 0; i <= mesh->n[0]; i++) {
-        double here = metric_centroid(mesh->beta, lower + (first + i) * h, lower + (first + i + 1) * h);
-        row[i] = 1.0 / (here - below);
-        below = here;
-    }
-    if (first == 0 && lower == 0.0) row[0] = 1.0 / h; /* the axis: nothing goes through it */
-    for (size_t o = 0; o < frame->outer; o++) memcpy(per_d + face_at(frame, o, 0), row, (frame->n + 1) * sizeof *row);
-}
-
-static void conduction_distances(const struct term_piece *piece, struct conduction *own)
-{
-    const struct term_tile *tile = piece->tile;
-    size_t n = piece->faces->faces.n;
-    double per_h = 1.0 / tile->level->h[piece->frame->axis];
-    for (size_t i = 0; i < n; i++) own->per_d[i] = per_h;
-    if (tile->model->beta && piece->frame->axis == 0) conduction_stretch(tile, piece->frame, own->per_d);
-}
-
 /* The greatest diffusivity that a trace may have, times two [m2/s]. */
 static double conduction_most(const struct term_tile *tile)
 {
-    double sum = 0.0;
-    for (int d = 0; d < tile->model->dim; d++) sum += 1.0 / (tile->level->h[d] * tile->level->h[d]);
-    return 2.0 / (CONDUCTION_PACE * tile->dt * sum);
+    return 2.0 / (DISTANCE_PACE * tile->dt * distance_squares(tile->level, tile->model->dim));
 }
 
 /* One piece: what its channels need. */
@@ -303,18 +274,6 @@ static void conduction_unlike(const struct term_piece *piece, const struct condu
         }
 }
 
-/* Mirrors and copies let no heat through by themselves. Behind other boundaries than inflows there are states of waves:
- * the width of their faces is taken away. Walls may give heat of their own. */
-static void conduction_bound(const struct term_piece *piece, const struct conduction_piece *at, int side)
-{
-    const struct frame *frame = piece->frame;
-    const struct scene *scene = piece->model->scene;
-    int face = 2 * frame->axis + side;
-    if (!conduction_wall_is_there(piece, side)) return;
-    for (size_t o = 0; o < frame->outer && scene_boundary_is(scene, face, SCENE_BOUNDARY_REFERS); o++)
-        memset(at->own->per_d + face_at(frame, o, side ? frame->n : 0), 0, frame->inner * sizeof *at->own->per_d);
-}
-
 static void conduction_walls(const struct term_piece *piece, const struct conduction_piece *at)
 {
     struct conduction *own = at->own;
@@ -328,8 +287,7 @@ static void conduction_faces(const struct term_piece *piece)
     struct conduction *own = piece->own;
     const struct conduction_piece at = {piece->model, own, piece->faces->faces.n, piece->frame->inner,
                                         conduction_most(piece->tile)};
-    conduction_distances(piece, own);
-    for (int side = 0; side < 2; side++) conduction_bound(piece, &at, side);
+    distance_faces(piece, own->per_d);
     if (own->plain) {
         conduction_plain_add(at.path, at.n, at.step, own->T, own->per_d, piece->faces->energy);
         return;
@@ -419,9 +377,8 @@ static void conduction_swiftest(const struct model *path, size_t n, size_t strid
 static void conduction_pace(const struct term_pace *pace, double *rate)
 {
     const struct model *path = pace->model;
-    double factor = 0.0, D[CONDUCTION_LAW_BATCH];
-    for (int d = 0; d < path->dim; d++) factor += 1.0 / (pace->level->h[d] * pace->level->h[d]);
-    factor *= CONDUCTION_PACE * path->scene->scheme.cfl; /* dt = cfl / rate */
+    double D[CONDUCTION_LAW_BATCH]; /* dt = cfl / rate */
+    double factor = distance_squares(pace->level, path->dim) * (DISTANCE_PACE * path->scene->scheme.cfl);
     for (size_t from = 0; from < pace->n_cell; from += CONDUCTION_LAW_BATCH) {
         size_t n = pace->n_cell - from < CONDUCTION_LAW_BATCH ? pace->n_cell - from : CONDUCTION_LAW_BATCH;
         conduction_swiftest(path, n, pace->n_cell, pace->w + from, D);
@@ -431,7 +388,7 @@ static void conduction_pace(const struct term_pace *pace, double *rate)
 
 double conduction_step(double diffusivity, double sum)
 {
-    return 1.0 / (CONDUCTION_PACE * diffusivity * sum);
+    return 1.0 / (DISTANCE_PACE * diffusivity * sum);
 }
 
 /* cp by the difference of the enthalpy over 1e-4 of the density. */

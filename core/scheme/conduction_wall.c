@@ -9,14 +9,6 @@
 #include <math.h>
 #include <stdio.h>
 
-bool conduction_wall_is_there(const struct term_piece *piece, int side)
-{
-    const struct term_tile *tile = piece->tile;
-    int axis = piece->frame->axis, last = tile->level->extent[axis] - 1;
-    return tile->tile->at[axis] == (side ? last : 0) &&
-           !scene_boundary_is(piece->model->scene, 2 * axis + side, SCENE_BOUNDARY_WRAPS);
-}
-
 /* From the centroid of the cells at a wall to the wall. */
 static double conduction_wall_distance(const struct term_piece *piece, int side)
 {

@@ -19,9 +19,6 @@ struct conduction_wall_fault {
     char *message, place[160];
 };
 
-/* Does a piece end at the boundary of the domain, on this side of its axis? */
-bool conduction_wall_is_there(const struct term_piece *piece, int side);
-
 /* Adds what a heated wall gives to the fluxes of energy and of each material's heat. Where a script fails they are NaN. */
 void conduction_wall_add(const struct term_piece *piece, int side, const struct conduction_wall_cells *cells,
                          struct conduction_wall_fault *fault);

@@ -13,6 +13,9 @@
 /* Least difference of psi over a cell that says where the surface looks. */
 #define CURVATURE_FLAT 1e-3
 
+/* Least part along a wall of the unit normal at it: a surface that lies flatter does not meet the wall here. */
+#define CURVATURE_LYING 0.1
+
 /* Where a block counts as empty: no quotient is taken. */
 #define CURVATURE_NONE 1e-300
 
@@ -219,18 +222,121 @@ static void curvature_divide(struct curvature *room, const struct level *level, 
         }
 }
 
+/* A plane of a block across an axis, at `at`: its first place and the steps along its two other axes. */
+struct curvature_plane {
+    size_t from, n[2], stride[2];
+};
+
+static struct curvature_plane curvature_plane(const struct curvature_grid *grid, int axis, size_t at)
+{
+    int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    return (
+        struct curvature_plane){at * grid->stride[axis], {grid->n[u], grid->n[v]}, {grid->stride[u], grid->stride[v]}};
+}
+
+/* Layer `ghost` behind the wall at a face, or -1 - ghost before it, in a block of cells with `layers` around the tile. */
+static size_t curvature_layer(const struct mesh *mesh, size_t layers, int face, int ghost)
+{
+    int n = mesh->n[face / 2], behind = face % 2 ? n + ghost : -1 - ghost;
+    return (size_t)((int)layers + behind);
+}
+
+/* Fractions that go on straight behind walls with an angle, by one layer, so that the means of the cells at the wall are
+ * not bent; into `ret`, unless there are no such walls. */
+static const double *curvature_straight(const struct curvature *room, const double *cosine, const double *a,
+                                        double *ret)
+{
+    const struct mesh *mesh = room->mesh;
+    size_t g = (size_t)room->g;
+    if (!cosine) return a;
+    memcpy(ret, a, curvature_cells(mesh, 2 * room->g) * sizeof *ret);
+    const struct curvature_grid grid = curvature_grid(mesh, 2 * room->g);
+    for (int face = 0; face < 2 * mesh->dim; face++) {
+        struct curvature_plane to = curvature_plane(&grid, face / 2, curvature_layer(mesh, g, face, 0)),
+                               one = curvature_plane(&grid, face / 2, curvature_layer(mesh, g, face, -1)),
+                               two = curvature_plane(&grid, face / 2, curvature_layer(mesh, g, face, -2));
+        for (size_t v = 0; cosine[face] != 0.0 && v < to.n[1]; v++)
+            for (size_t u = 0; u < to.n[0]; u++) {
+                size_t at = u * to.stride[0] + v * to.stride[1];
+                ret[to.from + at] = 2.0 * ret[one.from + at] - ret[two.from + at];
+            }
+    }
+    return ret;
+}
+
+/* Turns one unit vector to the angle of a wall across `axis`, keeping its direction along the wall. `across`: what it
+ * shall have along the axis. What lies flat on the wall, or has no direction, stays. */
+static void curvature_turn_to(struct curvature *room, int axis, double across, size_t at)
+{
+    double *u = room->normal[(axis + 1) % 3] + at, *v = room->normal[(axis + 2) % 3] + at;
+    double along = sqrt(*u * *u + *v * *v), factor = sqrt(1.0 - across * across) / along;
+    if (!(along > CURVATURE_LYING)) return;
+    room->normal[axis][at] = across;
+    *u *= factor;
+    *v *= factor;
+}
+
+/* Is a corner, `u` and `v` along the axes after that of `face`, on another wall with an angle, too? */
+static bool curvature_in_edge(const struct curvature *room, const double *cosine, int face, size_t u, size_t v)
+{
+    size_t at[2] = {u, v}, wall = (size_t)room->g - 2;
+    for (int d = 0; d < 2; d++) {
+        int axis = (face / 2 + 1 + d) % 3;
+        if (axis >= room->mesh->dim) continue;
+        if (cosine[2 * axis] != 0.0 && at[d] == wall) return true;
+        if (cosine[2 * axis + 1] != 0.0 && at[d] == wall + (size_t)room->mesh->n[axis]) return true;
+    }
+    return false;
+}
+
+/* Normals at the corners on walls with an angle. In edges between two of them they stay. */
+static void curvature_lean(struct curvature *room, const double *cosine)
+{
+    const struct mesh *mesh = room->mesh;
+    const struct curvature_grid grid = curvature_grid(mesh, 2 * room->g - 3);
+    for (int face = 0; face < 2 * mesh->dim; face++) {
+        int axis = face / 2, n = mesh->n[axis];
+        size_t wall = (size_t)(room->g - 2 + (face % 2 ? n : 0));
+        struct curvature_plane plane = curvature_plane(&grid, axis, wall);
+        double across = face % 2 ? cosine[face] : -cosine[face];
+        for (size_t v = 0; cosine[face] != 0.0 && v < plane.n[1]; v++)
+            for (size_t u = 0; u < plane.n[0]; u++)
+                if (!curvature_in_edge(room, cosine, face, u, v))
+                    curvature_turn_to(room, axis, across, plane.from + u * plane.stride[0] + v * plane.stride[1]);
+    }
+}
+
+/* Behind walls with an angle the curvature of what lies before them. */
+static void curvature_behind(struct curvature *room, const double *cosine)
+{
+    const struct mesh *mesh = room->mesh;
+    const struct curvature_grid grid = curvature_grid(mesh, 2 * room->g - 4);
+    size_t layers = (size_t)room->g - 2;
+    for (int face = 0; layers && face < 2 * mesh->dim; face++) {
+        struct curvature_plane to = curvature_plane(&grid, face / 2, curvature_layer(mesh, layers, face, 0)),
+                               from = curvature_plane(&grid, face / 2, curvature_layer(mesh, layers, face, -1));
+        for (size_t v = 0; cosine[face] != 0.0 && v < to.n[1]; v++)
+            for (size_t u = 0; u < to.n[0]; u++) {
+                size_t at = u * to.stride[0] + v * to.stride[1];
+                room->kappa[to.from + at] = room->kappa[from.from + at];
+            }
+    }
+}
+
 const double *curvature_take(struct curvature *room, const struct level *level, const struct tile *tile,
-                             const double *a, const double *b)
+                             const double *a, const double *b, const double *cosine)
 {
     const struct mesh *mesh = room->mesh;
     int more = 2 * room->g;
-    curvature_between(mesh, more, a, room->spare);
+    curvature_between(mesh, more, curvature_straight(room, cosine, a, room->normal[0]), room->spare);
     curvature_between(mesh, more - 1, room->spare, room->psi);
-    curvature_between(mesh, more, b, room->spare);
+    curvature_between(mesh, more, curvature_straight(room, cosine, b, room->normal[0]), room->spare);
     curvature_between(mesh, more - 1, room->spare, room->other);
     curvature_straighten(curvature_cells(mesh, more - 2), room->other, room->psi);
     curvature_normals(room, level, more - 2);
+    if (cosine) curvature_lean(room, cosine);
     curvature_divide(room, level, tile, more - 3);
+    if (cosine) curvature_behind(room, cosine);
     return room->kappa;
 }
 

@@ -5,6 +5,10 @@
  * is three square roots). a and b are averaged to corners and back to cells before (1-2-1 along each axis), which fronts of
  * one or two cells need. Positive for a drop of a: 1/R in a plane, 2/R of a sphere. 0 where psi is flat.
  *
+ * Where a wall asks for an angle theta other than 90 degrees (Brackbill, Kothe & Zemach, J. Comput. Phys. 100 (1992)
+ * 335-354), fractions go on straight behind it, and at its corners n keeps the direction that it has along the wall,
+ * with -cos theta across it. Behind it lies the kappa of before.
+ *
  * A cell's kappa takes two layers of cells around it; a mean with the neighbours' (curvature_mean) one more. */
 #ifndef CURVATURE_H
 #define CURVATURE_H
@@ -23,9 +27,10 @@ void curvature_free(struct curvature *room); /* NULL is fine */
 bool curvature_is_mixed(size_t n, const double *a, double least);
 
 /* kappa of the cells of a tile and of g - 2 layers around it, from the fractions a and b of the patch; the row lasts until
- * the next call. */
+ * the next call. `cosine`: of the angles within a at walls of the domain, by faces of the tile; 0 where the patch stands as it
+ * is, a right angle at a mirror. NULL: so everywhere. */
 const double *curvature_take(struct curvature *room, const struct level *level, const struct tile *tile,
-                             const double *a, const double *b);
+                             const double *a, const double *b, const double *cosine);
 
 /* psi of the averaged fractions that the last call has made, of the tile and g - 1 layers around it; and psi of one a. */
 const double *curvature_psi(const struct curvature *room);

@@ -122,17 +122,20 @@ static void divergence_span(const struct term_tile *tile, int axis, const struct
 void divergence_add(const struct term_tile *tile, const struct frame *frame)
 {
     bool whole = frame->inner == frame->tile_inner; /* then the rows of an outer slice follow each other */
-    const struct divergence_lines lines = {.count = frame->outer,
-                                           .n = whole ? frame->n * frame->inner : frame->inner,
-                                           .face = frame_layers(frame) * frame->inner,
-                                           .cell = frame->n * frame->tile_inner};
-    struct divergence_span span = {.lines = &lines,
-                                   .next = frame->inner,
-                                   .per_h = 1.0 / tile->level->h[frame->axis],
-                                   .curved = tile->model->beta > 0 && frame->axis == 0};
-    for (size_t row = 0; row < (whole ? 1 : frame->n); row++) {
-        span.face = face_at(frame, 0, row);
-        span.cell = frame_tile_at(frame, 0, row);
-        divergence_span(tile, frame->axis, &span);
-    }
+    struct divergence_lines lines = {.count = frame->n,
+                                     .n = frame->inner,
+                                     .face = frame->inner,
+                                     .cell = frame->tile_inner};
+    if (whole) /* else there is one slice, and a line is one of its rows */
+        lines = (struct divergence_lines){.count = frame->outer,
+                                          .n = frame->n * frame->inner,
+                                          .face = frame_layers(frame) * frame->inner,
+                                          .cell = frame->n * frame->tile_inner};
+    const struct divergence_span span = {.lines = &lines,
+                                         .face = face_at(frame, 0, 0),
+                                         .next = frame->inner,
+                                         .cell = frame_tile_at(frame, 0, 0),
+                                         .per_h = 1.0 / tile->level->h[frame->axis],
+                                         .curved = tile->model->beta > 0 && frame->axis == 0};
+    divergence_span(tile, frame->axis, &span);
 }

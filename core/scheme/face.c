@@ -102,10 +102,10 @@ struct face_work *face_new(const struct model *model)
     work->u = work->energy + FACE_ROOM;
     work->stretch = model->n_stretch ? face_row(model->n_stretched) : NULL;
     work->strains = model->n_inner ? face_row(model->n_inner) : NULL;
-    work->solid = model->n_stretch && model->n_alpha ? face_row(1) : NULL;
+    work->solid = model->n_stretch && model->n_alpha ? face_row(model->n_solid) : NULL;
     work->heat_below = model->conducts && model->n_alpha ? face_row(2 * model->n_alpha) : NULL;
     work->heat_above = work->heat_below ? work->heat_below + model->n_alpha * FACE_ROOM : NULL;
-    work->carried = face_row(2 * model->n_alpha);
+    work->carried = face_row((model->n_fick ? 3 : 2) * model->n_alpha); /* face_mingled */
     work->strained = work->carried + model->n_alpha * FACE_ROOM;
     for (int side = 0; side < 2 && model->forced; side++) work->rise[side] = face_row(1);
     for (int side = 0; side < 2 && model->n_normal; side++) work->lean[side] = face_row(1);
@@ -407,40 +407,25 @@ static BULLA_KERNEL void face_carry(size_t n, const double *restrict u, const do
     }
 }
 
-/* The stretches that the solids carry through the faces. */
-static void face_drag(struct face_work *work, size_t right)
-{
-    const struct model *model = work->model;
-    struct face_own *own = work->own;
-    size_t n = work->faces.n;
-    memset(own->term, 0, n * sizeof *own->term);
-    for (unsigned s = 0; s < model->n_solid; s++)
-        if (model_carries(model, 0, s)) row_add(n, work->m + model->solids[s].material * FACE_ROOM, own->term);
-    face_stress_carry(model, n, right, own->state, own->term, work->stretch);
-    face_stress_carry_branches(model, n, right, own->state, work->m, work->stretch);
-    if (work->strains) face_stress_age(model, n, right, own->state, work->m, work->strains);
-}
-
-/* Mean of the two sides, added up. */
-static BULLA_KERNEL void face_add_mean(size_t n, const double *restrict left, const double *restrict right,
-                                       double *restrict sum)
+/* Mean of the two sides. */
+static BULLA_KERNEL void face_mean(size_t n, const double *restrict left, const double *restrict right,
+                                   double *restrict mean)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = left[i], b = right[i], s = sum[i];
-        sum[i] = s + 0.5 * (a + b);
+        double a = left[i], b = right[i];
+        mean[i] = 0.5 * (a + b);
     }
 }
 
-/* Fraction of all solids at the faces. Not alpha*, which takes a side even where nothing moves. */
+/* Fractions of the solids at the faces. Not alpha*, which takes a side even where nothing moves. */
 static void face_blend(struct face_work *work)
 {
     const struct model *model = work->model;
     const struct bulla_faces *faces = &work->faces;
-    memset(work->solid, 0, faces->n * sizeof *work->solid);
     for (unsigned s = 0; s < model->n_solid; s++) {
         unsigned l = model->solids[s].material;
-        face_add_mean(faces->n, faces->left.alpha[l], faces->right.alpha[l], work->solid);
+        face_mean(faces->n, faces->left.alpha[l], faces->right.alpha[l], work->solid + s * FACE_ROOM);
     }
 }
 
@@ -449,7 +434,9 @@ static void face_transport(struct face_work *work, size_t right)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
-    if (model->n_stretch) face_drag(work, right);
+    if (model->n_stretch) face_stress_carry(model, work->faces.n, right, own->state, work->m, work->stretch);
+    if (model->n_stretch && work->strains)
+        face_stress_age(model, work->faces.n, right, own->state, work->m, work->strains);
     if (!model->n_alpha) return;
     const double *p = own->state + 2 * model->i_E * FACE_ROOM;
     if (model->n_stretch) face_blend(work);

@@ -21,12 +21,13 @@ struct face_work {
                                                   alpha: alpha* u*, u: u* */
     double *carried;                           /* [n_alpha] alpha* u* times the pressure of the side it comes from */
     double *strained;                          /* [n_alpha] alpha* u* times the compression on the way to the face */
-    double *stretch; /* [n_stretched] V* F, F the mass flux of the solids that carry it, V* of the side it comes from */
+    double
+        *stretch; /* [n_stretched] V* F, F the mass flux of the solid that carries it, V* of the side it comes from */
     double *strains; /* [n_inner] eps* F_l, D* F_l: what solids remember, F_l the mass flux of the solid */
     double *heat_below,
         *heat_above; /* [n_alpha] heat of each material as the cells above and below the face get and give
                                         it (conduction.h); NULL unless the scene conducts */
-    double *solid;   /* fraction of all solids, mean of the sides (mixtures with a solid) */
+    double *solid;   /* [n_solid] fractions of the solids, means of the sides (mixtures with a solid) */
     double *slide_left,
         *slide_right; /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */
     double *rise[2]; /* of p from the middle of each cell of the frame to its lower and its upper face, with the sign of
@@ -43,6 +44,12 @@ struct face_work {
 
 struct face_work *face_new(const struct model *model);
 void face_free(struct face_work *work);
+
+/* Volume of each gas that diffuses through others (fick.h), a row each, behind `strained`; of scenes with any. */
+static inline double *face_mingled(const struct face_work *work)
+{
+    return work->strained + (work->strained - work->carried); /* of the whole scene, whatever the path */
+}
 
 /* Before terms look at a gathered frame: no forces yet. */
 void face_begin(struct face_work *work, const struct frame *frame);

@@ -120,23 +120,15 @@ static BULLA_KERNEL void face_stress_upwind(size_t n, const double *restrict mas
     }
 }
 
-void face_stress_carry(const struct model *model, size_t n, size_t right, const double *state, const double *mass,
+void face_stress_carry(const struct model *model, size_t n, size_t right, const double *state, const double *m,
                        double *out)
 {
-    for (unsigned c = 0; c < model->n_stretch; c++) {
-        const double *edges = state + 2 * (model->i_V + c) * FACE_ROOM;
-        face_stress_upwind(n, mass, edges, edges + right, out + c * FACE_ROOM);
-    }
-}
-
-void face_stress_carry_branches(const struct model *model, size_t n, size_t right, const double *state, const double *m,
-                                double *out)
-{
-    for (unsigned i = model_drawn(model) + model->n_stretch; i < model_edged(model); i++) {
-        unsigned q = model->active[i], b = (i - model_drawn(model)) / model->n_stretch - 1;
-        const double *edges = state + 2 * q * FACE_ROOM;
-        face_stress_upwind(n, m + model->solids[model->branches[b].solid].material * FACE_ROOM, edges, edges + right,
-                           out + (q - model->i_V) * FACE_ROOM);
+    for (unsigned k = 0; k < model_stretches(model); k++) {
+        unsigned first = model_stretch(model, k), l = model->solids[model_bearer(model, k)].material;
+        for (unsigned q = first; q < first + model->n_stretch; q++) {
+            const double *edges = state + 2 * q * FACE_ROOM;
+            face_stress_upwind(n, m + l * FACE_ROOM, edges, edges + right, out + (q - model->i_V) * FACE_ROOM);
+        }
     }
 }
 

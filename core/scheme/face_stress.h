@@ -49,16 +49,12 @@ void face_stress_complete(struct face_stress *stress, const struct model *model,
 /* Points the solver to traction, shear and slides of `faces`; right edges begin at `right`. */
 void face_stress_point(struct face_stress *stress, const struct model *model, size_t right, struct bulla_faces *faces);
 
-/* V* F of all components into `out`, pitch FACE_ROOM: the mass flux of the solids times the stretch of the side that it
- * comes from. */
-void face_stress_carry(const struct model *model, size_t n, size_t right, const double *state, const double *mass,
+/* V* F of all stretches into `out`, pitch FACE_ROOM: the mass flux of the solid times its stretch on the side that it comes
+ * from; m: [n_material] mass fluxes. */
+void face_stress_carry(const struct model *model, size_t n, size_t right, const double *state, const double *m,
                        double *out);
 
-/* The same of the branches, each with the mass flux of its solid; m: [n_material] mass fluxes. */
-void face_stress_carry_branches(const struct model *model, size_t n, size_t right, const double *state, const double *m,
-                                double *out);
-
-/* eps* F_l of the solids that have a plastic strain, the same way; m: [n_material] mass fluxes. */
+/* eps* F_l of the solids that have a plastic strain, the same way. */
 void face_stress_age(const struct model *model, size_t n, size_t right, const double *state, const double *m,
                      double *out);
 

@@ -1,39 +1,47 @@
 /* frame.c - gathering, see frame.h. */
 #include "scheme/frame.h"
 
+#include "bulla/module.h"
 #include "mesh/link.h"
 #include "scheme/blend.h"
 
 #include <string.h>
-
-static struct frame frame_whole(const struct mesh *mesh, int axis)
-{
-    struct frame frame = {.axis = axis, .n = (size_t)mesh->n[axis], .ghosts = (size_t)mesh->ghosts, .tile_inner = 1};
-    for (int d = 0; d < axis; d++) frame.tile_inner *= (size_t)mesh->n[d];
-    frame.tile_outer = mesh->n_cell / frame.n / frame.tile_inner;
-    size_t length = frame_layers(&frame);
-    frame.inner = frame.tile_inner;
-    while (frame.inner * length > FRAME_CELLS) frame.inner = (frame.inner + 1) / 2;
-    frame.outer = FRAME_CELLS / (length * frame.inner);
-    if (frame.outer < 1) frame.outer = 1;
-    if (frame.outer > frame.tile_outer) frame.outer = frame.tile_outer;
-    return frame;
-}
 
 static size_t frame_cut(size_t whole, size_t piece)
 {
     return (whole + piece - 1) / piece;
 }
 
+/* The first piece. The whole tile, if it fits, which takes no division: small tiles are many. Else slices, or parts of
+ * one, as many as fit and then equal in number, so that no short piece is left over. */
+static struct frame frame_first(const struct mesh *mesh, int axis)
+{
+    struct frame frame = {
+        .axis = axis, .n = (size_t)mesh->n[axis], .ghosts = (size_t)mesh->ghosts, .tile_inner = 1, .tile_outer = 1};
+    for (int d = 0; d < axis; d++) frame.tile_inner *= (size_t)mesh->n[d];
+    for (int d = axis + 1; d < mesh->dim; d++) frame.tile_outer *= (size_t)mesh->n[d];
+    size_t length = frame_layers(&frame);
+    frame.inner = frame.tile_inner;
+    frame.outer = frame.tile_outer;
+    frame.count = frame.outer * length * frame.inner;
+    if (frame.count <= FRAME_CELLS) return frame;
+    while (frame.inner * length > FRAME_CELLS) frame.inner = (frame.inner + 1) / 2;
+    size_t most = FRAME_CELLS / (length * frame.inner);
+    frame.outer = frame_cut(frame.tile_outer, frame_cut(frame.tile_outer, most));
+    return frame;
+}
+
 size_t frame_pieces(const struct mesh *mesh, int axis)
 {
-    struct frame frame = frame_whole(mesh, axis);
+    struct frame frame = frame_first(mesh, axis);
+    if (frame.count <= FRAME_CELLS) return 1;
     return frame_cut(frame.tile_outer, frame.outer) * frame_cut(frame.tile_inner, frame.inner);
 }
 
 struct frame frame_piece(const struct mesh *mesh, int axis, size_t index)
 {
-    struct frame frame = frame_whole(mesh, axis);
+    struct frame frame = frame_first(mesh, axis);
+    if (frame.count <= FRAME_CELLS) return frame;
     size_t across = frame_cut(frame.tile_inner, frame.inner);
     frame.outer_from = index / across * frame.outer;
     frame.inner_from = index % across * frame.inner;
@@ -51,19 +59,36 @@ static inline void frame_row(size_t n, const double *restrict source, double *re
     for (; i < n; i++) target[i] = source[i];
 }
 
+/* Rows of slices: how many, how long, and how far apart they are where they come from and where they go. */
+struct frame_rows {
+    size_t slices, rows, length;
+    size_t from_slice, from_row, to_slice, to_row;
+};
+
+static BULLA_KERNEL void frame_rows(const struct frame_rows *all, const double *source, double *target)
+{
+    size_t length = all->length;
+    for (size_t o = 0; o < all->slices; o++)
+        for (size_t row = 0; row < all->rows; row++)
+            frame_row(length, source + o * all->from_slice + row * all->from_row,
+                      target + o * all->to_slice + row * all->to_row);
+}
+
 /* `layers` layers of every outer slice, from a block whose slices have `depth` layers, starting
  * at layer `from`, to frame layer `to`. */
 static void frame_copy(const struct frame *frame, const double *block, size_t depth, size_t from, int to, size_t layers,
                        double *w)
 {
     bool whole = frame->inner == frame->tile_inner; /* then the layers of a slice follow each other */
-    size_t rows = whole ? 1 : layers, length = whole ? layers * frame->inner : frame->inner;
-    const double *source = block + (frame->outer_from * depth + from) * frame->tile_inner + frame->inner_from;
-    double *target = w + frame_at(frame, 0, to);
-    size_t source_slice = depth * frame->tile_inner, slice = frame_layers(frame) * frame->inner;
-    for (size_t o = 0; o < frame->outer; o++, source += source_slice, target += slice)
-        for (size_t row = 0; row < rows; row++)
-            frame_row(length, source + row * frame->tile_inner, target + row * frame->inner);
+    const struct frame_rows all = {.slices = frame->outer,
+                                   .rows = whole ? 1 : layers,
+                                   .length = whole ? layers * frame->inner : frame->inner,
+                                   .from_slice = depth * frame->tile_inner,
+                                   .from_row = frame->tile_inner,
+                                   .to_slice = frame_layers(frame) * frame->inner,
+                                   .to_row = frame->inner};
+    frame_rows(&all, block + (frame->outer_from * depth + from) * frame->tile_inner + frame->inner_from,
+               w + frame_at(frame, 0, to));
 }
 
 static unsigned frame_field(const struct frame_source *source, unsigned i)
@@ -139,7 +164,8 @@ static inline void frame_lines_of(size_t count, size_t n, size_t ghosts, const d
 }
 
 /* Along axis 0 a line is whole: its cells and the layers on both sides at once, instead of three copies of few cells. */
-static void frame_lines(const struct frame *frame, unsigned q, const struct frame_cells cells[3], double *w)
+static BULLA_KERNEL void frame_lines(const struct frame *frame, unsigned q, const struct frame_cells cells[3],
+                                     double *w)
 {
     const double *from[3];
     size_t depth[3], count = frame->outer, n = frame->n;

@@ -13,7 +13,7 @@
 
 #include <stddef.h>
 
-enum { FRAME_CELLS = 1536 }; /* most cells of a frame, the layers included: arrays stay in L2 */
+enum { FRAME_CELLS = 768 }; /* most cells of a frame, the layers included: what a sweep works on stays in L2 */
 
 /* Which part of a tile, along which axis. */
 struct frame {

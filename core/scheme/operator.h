@@ -32,11 +32,12 @@ struct operator_tile {
     const struct level *level;
     const struct tile *tile;
     size_t n_cell;
-    double t;      /* of the state [s] */
-    double dt;     /* that it has gone through since the step began [s] */
-    double *u;     /* conserved fields, which it may change */
-    double *w;     /* primitives of u, for operators that ask for them; core makes them anew afterwards */
-    double *grown; /* [n_cell] what plastic strains have grown by in this step: from plastic.c to rupture.c; or NULL */
+    double t;  /* of the state [s] */
+    double dt; /* that it has gone through since the step began [s] */
+    double *u; /* conserved fields, which it may change */
+    double *w; /* primitives of u, for operators that ask for them; core makes them anew afterwards */
+    double *
+        grown; /* [n_solid][n_cell] what plastic strains have grown by in this step: from plastic.c to rupture.c; or NULL */
     struct operator_fault *fault; /* for who asks scripts: the step is not taken. NULL: nobody looks */
 };
 

@@ -32,7 +32,8 @@ static void rate_sweep(const struct term_tile *tile, void *const *own, int axis,
 {
     const struct terms *terms = tile->terms;
     struct face_work *faces = terms->faces;
-    for (size_t index = 0; index < frame_pieces(tile->mesh, axis); index++) {
+    size_t pieces = frame_pieces(tile->mesh, axis);
+    for (size_t index = 0; index < pieces; index++) {
         struct frame frame = frame_piece(tile->mesh, axis, index);
         struct term_piece piece = {.tile = tile, .terms = terms, .model = tile->model, .frame = &frame, .faces = faces};
         watch->gather(watch->data, &frame, faces);

@@ -234,30 +234,29 @@ static void source_fractions(const struct source *source, const struct source_ba
     }
 }
 
-/* Rates of a stretch are those of m V, m the mass of the solids that carry it (elastic.h). */
+/* Rates of a stretch are those of m V, m the mass of the solid that carries it (elastic.h). */
 static void source_stretch(const struct source *source, const struct source_batch *batch)
 {
     const struct model *path = batch->path;
-    double m[SOURCE_BATCH] = {0}, arrives[SOURCE_BATCH] = {0}, energy[SOURCE_BATCH];
+    double m[SOURCE_BATCH], energy[SOURCE_BATCH];
     const double *masses[SCENE_MATERIALS], *V = batch->w + path->i_V * batch->stride;
     for (unsigned s = 0; s < path->n_solid; s++) {
         unsigned l = path->solids[s].material;
         bool given = source->values->row[SCENE_SOURCE_MASS + path->first + l];
         masses[s] = given ? batch->mass[l] : source_zero;
-        row_add_product(batch->n, source_alpha(batch, l), batch->w + (path->i_m + l) * batch->stride, m);
-        row_add(batch->n, masses[s], arrives);
     }
     elastic_energy(path, batch->n, batch->stride, V, masses, energy);
     row_add(batch->n, energy, source_rate(batch, path->i_E));
-    for (unsigned c = 0; c < path->n_stretch; c++) {
-        const double *given = source->values->row[SCENE_SOURCE_STRETCH + c];
-        row_add_product(batch->n, V + c * batch->stride, arrives, source_rate(batch, path->i_V + c));
-        if (given) row_add_product(batch->n, given, m, source_rate(batch, path->i_V + c));
+    for (unsigned k = 0; k < model_stretches(path); k++) {
+        unsigned s = model_bearer(path, k), l = path->solids[s].material, first = model_stretch(path, k);
+        memset(m, 0, batch->n * sizeof *m);
+        row_add_product(batch->n, source_alpha(batch, l), batch->w + (path->i_m + l) * batch->stride, m);
+        for (unsigned c = 0; c < path->n_stretch; c++) {
+            const double *given = k < path->n_solid ? source->values->row[SCENE_SOURCE_STRETCH + c] : NULL;
+            row_add_product(batch->n, batch->w + (first + c) * batch->stride, masses[s], source_rate(batch, first + c));
+            if (given) row_add_product(batch->n, given, m, source_rate(batch, first + c));
+        }
     }
-    for (unsigned b = 0; b < path->n_branch; b++)
-        for (unsigned c = 0; c < path->n_stretch; c++)
-            row_add_product(batch->n, V + elastic_branch(path, b, batch->stride) + c * batch->stride,
-                            masses[path->branches[b].solid], source_rate(batch, path->branches[b].field + c));
 }
 
 static void source_cells(struct term_tile *tile)

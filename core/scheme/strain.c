@@ -15,7 +15,7 @@ static bool strain_wanted(const struct model *path)
 static unsigned strain_rows(const struct model *path)
 {
     unsigned dim = (unsigned)path->dim;
-    return path->n_velocity * dim + (path->n_alpha ? dim : 0);
+    return path->n_velocity * dim + (path->n_alpha ? path->n_solid * dim : 0);
 }
 
 static const double *strain_row(const double *base, unsigned k)
@@ -23,7 +23,16 @@ static const double *strain_row(const double *base, unsigned k)
     return base ? base + k * FACE_ROOM : NULL;
 }
 
-/* The stretch that comes in, and the velocity gradient along the axis: plain differences in all geometries. Tangential
+void strain_carry(struct terms *terms, int axis, unsigned k, const double *stretch)
+{
+    const struct model *model = terms->model;
+    for (unsigned q = model_stretch(model, k); q < model_stretch(model, k) + model->n_stretch; q++) {
+        const double *row = strain_row(stretch, q - model->i_V);
+        terms_flux(terms, axis, (struct term_flux){.below = row, .above = row, .rate = q}, model->field_names[q], "");
+    }
+}
+
+/* The stretches that come in, and the velocity gradient along the axis: plain differences in all geometries. Tangential
  * velocities are those that the cell itself sees, as the right neighbour of its lower face and the left one of its upper. */
 static void strain_list(struct terms *terms, int axis, unsigned first, const struct face_work *faces)
 {
@@ -32,11 +41,7 @@ static void strain_list(struct terms *terms, int axis, unsigned first, const str
     const struct model *model = terms->model;
     unsigned dim = (unsigned)model->dim, along = (unsigned)axis;
     if (!faces) faces = &none;
-    for (unsigned c = 0; c < model->n_stretch; c++) {
-        const double *row = strain_row(faces->stretch, c);
-        terms_flux(terms, axis, (struct term_flux){.below = row, .above = row, .rate = model->i_V + c},
-                   model->field_names[model->i_V + c], "");
-    }
+    for (unsigned k = 0; k < model->n_solid; k++) strain_carry(terms, axis, k, faces->stretch);
     for (unsigned d = 0; d < model->n_velocity; d++)
         terms_flux(terms, axis,
                    (struct term_flux){.below = d ? strain_row(faces->slide_right, d - 1) : faces->u,
@@ -45,16 +50,16 @@ static void strain_list(struct terms *terms, int axis, unsigned first, const str
                                       .kind = TERM_DIFFERENCE,
                                       .sides = d > 0},
                    d ? "slide" : "", d ? tangents[d - 1] : "");
-    if (model->n_alpha)
+    for (unsigned s = 0; model->n_alpha && s < model->n_solid; s++)
         terms_flux(terms, axis,
-                   (struct term_flux){.below = faces->solid,
-                                      .above = faces->solid,
-                                      .rate = first + model->n_velocity * dim + along,
+                   (struct term_flux){.below = strain_row(faces->solid, s),
+                                      .above = strain_row(faces->solid, s),
+                                      .rate = first + (model->n_velocity + s) * dim + along,
                                       .kind = TERM_DIFFERENCE},
                    "", "");
 }
 
-/* -(K_s/alpha_s) div u of those that carry a stretch; 0 where there is none. */
+/* -(K_s/alpha_s) div u of the one that carries a stretch; 0 where there is none. */
 static BULLA_KERNEL void strain_squeeze(size_t n, const double *restrict K, const double *restrict alpha,
                                         const double *restrict div, double *restrict squeeze)
 {
@@ -85,7 +90,7 @@ static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, 
         elastic_carriers(model, k, n, n_cell, tile->w + fraction, solid);
         strain_squeeze(n, K, solid, div, squeeze);
         rates.squeeze = squeeze;
-        rates.slope = gradient + model->n_velocity * (unsigned)model->dim * n_cell;
+        rates.slope = gradient + (model->n_velocity + model_bearer(model, k)) * (unsigned)model->dim * n_cell;
     }
     elastic_advance(model, n, n_cell, tile->dt, V_old + from, &rates, V);
     if (model->n_alpha) elastic_carriers(model, k, n, n_cell, u_new + fraction, solid);
@@ -101,15 +106,15 @@ void strain_move(const struct term_tile *tile, unsigned k, const double *V_old, 
     elastic_unimodular(tile->model, tile->n_cell, tile->n_cell, u_new + model_stretch(tile->model, k) * tile->n_cell);
 }
 
-/* The stretch of a tile. Where nothing bears it, as in a Maxwell fluid, it would grow without end: it stays 1. */
+/* The stretches of a tile. What nothing bears, as in a Maxwell fluid, would grow without end: it stays 1. */
 static size_t strain_apply(const struct term_tile *tile, double *u_new)
 {
     const struct model *model = tile->model;
-    size_t first = model->i_V * tile->n_cell;
-    bool carried = false;
-    for (unsigned s = 0; s < model->n_solid; s++) carried = carried || model_carries(model, 0, s);
-    if (carried) strain_move(tile, 0, tile->u + first, u_new);
-    else elastic_identity(model, tile->n_cell, tile->n_cell, u_new + first);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        size_t first = model->solids[s].stretch * tile->n_cell;
+        if (model_carries(model, s, s)) strain_move(tile, s, tile->u + first, u_new);
+        else elastic_identity(model, tile->n_cell, tile->n_cell, u_new + first);
+    }
     return 0;
 }
 

@@ -52,6 +52,12 @@ void swell_material(struct swell *swell, unsigned l, const double *alpha, const 
     row_add(swell->n, swell->compliance[l], swell->all);
 }
 
+void swell_volume(struct swell *swell, unsigned l, const double *volume)
+{
+    row_add(swell->n, volume, swell->own[l]);
+    row_add(swell->n, volume, swell->sum);
+}
+
 /* Volume moves until the pressures are one again; what the exchange sees of transport stays as it is. */
 static BULLA_KERNEL void swell_move(size_t n, const double *restrict own, const double *restrict compliance,
                                     const double *restrict sum, const double *restrict all, const double *restrict p,

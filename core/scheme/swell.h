@@ -28,6 +28,9 @@ void swell_begin(struct swell *swell, const struct model *path, size_t n);
 void swell_material(struct swell *swell, unsigned l, const double *alpha, const double *rho, const double *p,
                     const double *rho_c2, const double *heat, const double *mass);
 
+/* Volume that material l brought along by itself [1/s], after swell_material of it: also where it was not before. */
+void swell_volume(struct swell *swell, unsigned l, const double *volume);
+
 /* Adds to the rates of the tile, from cell `from` on: d alpha_l/dt, and p times it to what volume carries (exchange.h), which
  * stays as it is. For paths with Kapila's closure. */
 void swell_share(const struct swell *swell, const struct term_tile *tile, size_t from);

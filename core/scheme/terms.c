@@ -11,6 +11,7 @@
 #include "scheme/drag.h"
 #include "scheme/exchange.h"
 #include "scheme/face_stress.h"
+#include "scheme/fick.h"
 #include "scheme/fraction.h"
 #include "scheme/hardening.h"
 #include "scheme/hoop.h"
@@ -22,6 +23,7 @@
 #include "scheme/viscoelastic.h"
 #include "scheme/viscous.h"
 #include "scheme/viscous_pull.h"
+#include "scheme/weld.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -33,6 +35,7 @@ const struct term *const terms_all[] = {
     &hardening_term,    /* plastic strains travel with their solids */
     &hoop_term,         /* what stands against p / r and the hoop stress in curved geometry */
     &conduction_term,   /* heat from cell to cell and from material to material */
+    &fick_term,         /* gases through each other */
     &face_stress_term,  /* one traction for the materials of a cell */
     &source_term,       /* forces, heat, mass, Lua */
     &drag_term,         /* resistance of porous media */
@@ -48,6 +51,7 @@ const struct term *const terms_all[] = {
     &normal_term,       /* how the surfaces of solids lie */
     &strain_term,       /* the stretch of solids */
     &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */
+    &weld_term,         /* where they meet solids share their shear traction */
     &cut_flux_term,     /* rigid bodies: what they leave of fluxes */
     NULL,
 };

@@ -22,12 +22,7 @@ static void viscoelastic_list(struct terms *terms, int axis, unsigned first, con
     const struct model *model = terms->model;
     (void)first;
     for (unsigned b = 0; b < model->n_branch; b++)
-        for (unsigned c = 0; c < model->n_stretch; c++) {
-            unsigned q = model->branches[b].field + c;
-            const double *row = faces && faces->stretch ? faces->stretch + (q - model->i_V) * FACE_ROOM : NULL;
-            terms_flux(terms, axis, (struct term_flux){.below = row, .above = row, .rate = q}, model->field_names[q],
-                       "");
-        }
+        strain_carry(terms, axis, model->n_solid + b, faces ? faces->stretch : NULL);
 }
 
 /* Room for the stretch of one branch of a tile. */
@@ -46,7 +41,7 @@ static size_t viscoelastic_apply(const struct term_tile *tile, double *u_new)
         double part = 0.5 * tile->dt / branch->time;
         memcpy(half, tile->u + branch->field * n_cell, model->n_stretch * n_cell * sizeof *half);
         flow_relax(model, n_cell, n_cell, part, half);
-        strain_move(tile, b + 1, half, u_new);
+        strain_move(tile, model->n_solid + b, half, u_new);
         flow_relax(model, n_cell, n_cell, part, u_new + branch->field * n_cell);
     }
     return 0;

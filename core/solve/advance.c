@@ -247,7 +247,8 @@ static int advance_once(struct state *state, struct stage *stage, bool *ret_good
     *ret_good = !bad && !blind;
     if (*ret_good) advance_accept(state, stage, signal);
     else verdict_reset(stage);
-    cost_close(&state->work->cost, COST_STEP);
+    double seconds = cost_close(&state->work->cost, COST_STEP);
+    if (seconds > 0.0) balance_note(&state->work->balance, stage, seconds);
     return blind ? advance_script(state, stage) : STATUS_OK;
 }
 

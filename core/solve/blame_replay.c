@@ -73,7 +73,7 @@ static struct replay *blame_replay_new(const struct model *model, const struct b
     replay->c2 = mem_new(n_cell, sizeof(double));
     replay->u = mem_new(model->n_field * n_cell, sizeof(double));
     replay->w = mem_new(model->n_field * n_cell, sizeof(double));
-    if (model->plastic && model->damaged) replay->grown = mem_new(n_cell, sizeof(double));
+    if (model->plastic && model->damaged) replay->grown = mem_new(model->n_solid * n_cell, sizeof(double));
     return replay;
 }
 

@@ -33,14 +33,18 @@ void cost_note(struct cost *cost, enum cost_part part)
     cost->lap = now;
 }
 
-void cost_close(struct cost *cost, enum cost_kind kind)
+double cost_close(struct cost *cost, enum cost_kind kind)
 {
-    if (!cost->on) return;
-    double wall = cost_clock(CLOCK_MONOTONIC) - cost->begin[0], cpu = cost_cpu() - cost->begin[1];
-    for (int part = 0; part < COST_PARTS && wall > 0.0; part++)
-        cost->sum[kind][part] += cost->window[part] * (cpu / wall);
+    if (!cost->on) return 0.0;
+    double wall = cost_clock(CLOCK_MONOTONIC) - cost->begin[0], cpu = cost_cpu() - cost->begin[1], work = 0.0;
+    for (int part = 0; part < COST_PARTS && wall > 0.0; part++) {
+        double seconds = cost->window[part] * (cpu / wall);
+        cost->sum[kind][part] += seconds;
+        if (part != COST_EXCHANGE) work += seconds;
+    }
     cost->sampled[kind]++;
     cost->on = false;
+    return work;
 }
 
 void cost_total(const struct cost *cost, double ret_seconds[COST_PARTS])

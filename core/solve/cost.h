@@ -34,7 +34,9 @@ struct cost {
 };
 
 void cost_open(struct cost *cost, enum cost_kind kind);
-void cost_close(struct cost *cost, enum cost_kind kind);
+
+/* Returns the CPU time of the window without messages; 0 of one that is not sampled [s]. */
+double cost_close(struct cost *cost, enum cost_kind kind);
 
 /* For cost_lap. */
 void cost_note(struct cost *cost, enum cost_part part);

@@ -56,6 +56,22 @@ static BULLA_KERNEL int curve_count(size_t n, const double *restrict a, const do
     return count;
 }
 
+/* The walls at a tile that give the surface of pair k an angle: false: none. */
+static bool curve_walls(const struct curve *curve, const struct patch_source *source, unsigned local, unsigned k,
+                        double ret_cosine[MESH_FACES])
+{
+    const struct level *level = source->level;
+    const struct tile *tile = &level->tiles[level->first + local];
+    bool some = false;
+    for (int face = 0; face < MESH_FACES; face++) {
+        int axis = face / 2, last = level->extent[axis] - 1;
+        bool there = tile->at[axis] == (face % 2 ? last : 0);
+        ret_cosine[face] = there ? curve->model->scene->domain.boundary[axis][face % 2].cosine[k] : 0.0;
+        some = some || ret_cosine[face] != 0.0;
+    }
+    return some;
+}
+
 static void curve_tile(struct curve *curve, const struct patch_source *source, unsigned local)
 {
     const struct model *model = curve->model;
@@ -73,7 +89,9 @@ static void curve_tile(struct curve *curve, const struct patch_source *source, u
         }
         if (!gathered) patch_gather(source, local, curve->patch);
         gathered = true;
-        curvature_take(curve->room, level, &level->tiles[level->first + local], a, b);
+        double cosine[MESH_FACES];
+        bool leans = curve_walls(curve, source, local, k, cosine);
+        curvature_take(curve->room, level, &level->tiles[level->first + local], a, b, leans ? cosine : NULL);
         curvature_mean(curve->room, a, b, CURVE_LEAST, kappa);
     }
 }

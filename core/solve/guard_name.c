@@ -39,12 +39,12 @@ static bool guard_name_borne(const struct guard_cell *cell, unsigned l)
     return model->split && solid > 0.5;
 }
 
-/* " (xx = 1.2, yy = ...)" of a block of conserved fields. */
-static void guard_name_stretch(struct text *text, const struct guard_cell *cell, const double *u)
+/* " (xx = 1.2, yy = ...)" of a stretch of the cell, whose first component is a field of a block of conserved ones. */
+static void guard_name_stretch(struct text *text, const struct guard_cell *cell, unsigned first, const double *u)
 {
     const struct model *model = cell->model;
     for (unsigned c = 0; c < model->n_stretch; c++)
-        text_add(text, "%s%s = %.4g", c ? ", " : " (", model_tensor[c], u[(model->i_V + c) * cell->n_cell + cell->at]);
+        text_add(text, "%s%s = %.4g", c ? ", " : " (", model_tensor[c], u[(first + c) * cell->n_cell + cell->at]);
     text_add(text, ")");
 }
 
@@ -53,15 +53,15 @@ static const struct scene_material *guard_name_solid(const struct guard_cell *ce
     return &cell->model->scene->material[cell->model->first + cell->model->solids[s].material];
 }
 
-/* The stretch is lost: whose it is, and what it was. */
-static void guard_name_lost(const struct guard_cell *cell, struct text *text)
+/* The stretch of field q is lost: whose it is, and what it was. */
+static void guard_name_lost(const struct guard_cell *cell, unsigned q, struct text *text)
 {
-    for (unsigned s = 0; s < cell->model->n_solid; s++) {
-        const struct scene_material *material = guard_name_solid(cell, s);
-        text_add(text, "%s '%s' (%s)", s ? "," : " of material", material->name, material->constitutive.module->name);
-    }
-    text_add(text, ": det V <= 0, or no number; stretch before the step");
-    guard_name_stretch(text, cell, cell->tile->u_old);
+    unsigned k = 0;
+    while (q - model_stretch(cell->model, k) >= cell->model->n_stretch) k++; /* wraps below */
+    const struct scene_material *material = guard_name_solid(cell, model_bearer(cell->model, k));
+    text_add(text, " of material '%s' (%s): det V <= 0, or no number; stretch before the step", material->name,
+             material->constitutive.module->name);
+    guard_name_stretch(text, cell, model_stretch(cell->model, k), cell->tile->u_old);
 }
 
 /* The first evolved field that is no number: what all else follows from. */
@@ -71,9 +71,10 @@ static bool guard_name_unfinite(const struct guard_cell *cell, struct guard_name
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
         double value = cell->tile->u[q * cell->n_cell + cell->at];
+        unsigned c;
         struct text text = {0};
         if (isfinite(value)) continue;
-        if (model->n_stretch && q >= model->i_V) guard_name_lost(cell, &text);
+        if (model_is_stretch(model, q, &c)) guard_name_lost(cell, q, &text);
         else
             text_add(&text, "%s",
                      model_is_inner(model, q) || (q >= model->i_m && q < model->i_u) ? " kg/m3"
@@ -98,7 +99,7 @@ static void guard_name_ask(const struct guard_cell *cell, unsigned s, struct gua
     const struct model *model = cell->model;
     const struct model_solid *solid = &model->solids[s];
     *ret = (struct guard_strain){0};
-    elastic_invariants(model, 1, cell->n_cell, cell->tile->u + model->i_V * cell->n_cell + cell->at, &ret->I1,
+    elastic_invariants(model, 1, cell->n_cell, cell->tile->u + solid->stretch * cell->n_cell + cell->at, &ret->I1,
                        &ret->I2);
     solid->law->energy(solid->self, 1, &ret->I1, &ret->I2, &ret->e, &ret->slope[0], &ret->slope[1]);
     if (solid->law->second)
@@ -121,7 +122,7 @@ static bool guard_name_law(const struct guard_cell *cell, unsigned s, struct gua
         if (isfinite(values[i])) continue;
         text_add(&text, " J/kg by the elastic law '%s' of material '%s' at I1 = %.6g, I2 = %.6g, stretch",
                  material->constitutive.module->name, material->name, strain.I1, strain.I2);
-        guard_name_stretch(&text, cell, cell->tile->u);
+        guard_name_stretch(&text, cell, cell->model->solids[s].stretch, cell->tile->u);
         guard_name_say(name, fields[i], values[i], text.at);
         text_done(&text);
         return true;

@@ -50,8 +50,9 @@ static void pace_say_material(struct text *text, const struct model *path, const
     text_add(text, "; %s (%s) fraction %.3g, density %.4g kg/m3, temperature %.4g K, sound speed %.4g m/s",
              material->name, material->eos.module->name, alpha, rho, T[l], sqrt(rho_c2[l] / rho));
     if (!path->n_stretch || !material->constitutive.module) return;
-    double I1, I2;
-    elastic_invariants(path, 1, 1, own + path->i_V, &I1, &I2);
+    double I1 = 3.0, I2 = 3.0;
+    for (unsigned s = 0; s < path->n_solid; s++)
+        if (path->solids[s].material == l) elastic_invariants(path, 1, 1, own + path->solids[s].stretch, &I1, &I2);
     text_add(text, ", %s at I1 = %.4g, I2 = %.4g", material->constitutive.module->name, I1, I2);
 }
 

@@ -1,6 +1,6 @@
 /* regrid.c - see regrid.h.
  *
- * Every rank makes the same sets from the same joined wishes; only cells, tags and costs are local. A level is
+ * Every rank makes its piece of the new sets; where they differ from what is there, the pieces are joined. A level is
  * replaced after the coarser one, so that new tiles find the final state they are made from. */
 #include "solve/regrid.h"
 
@@ -8,6 +8,7 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "mesh/carry.h"
 #include "mesh/halo.h"
 #include "mesh/nest.h"
 #include "mesh/partition.h"
@@ -33,7 +34,8 @@ struct regrid {
     int base;
     struct tile *root; /* tiles of level 0 with other owners, where those they have share the work badly */
     struct nest_keys wishes[MESH_LEVELS + 1];
-    struct nest_set sets[MESH_LEVELS + 1];
+    struct nest_set sets[MESH_LEVELS + 1]; /* this rank's pieces, until a new mesh is made of them */
+    long long n_tile[MESH_LEVELS + 1];     /* of the sets, on all ranks */
 };
 
 bool regrid_due(const struct state *state, int base)
@@ -86,7 +88,7 @@ static int regrid_sets(struct regrid *regrid, int patience)
     moment.base = regrid->base; /* ghosts of this level are those of a step that is under way */
     for (int l = regrid->base; l < mesh->most_level && l < mesh->n_level; l++) {
         TRY(regrid_tag(regrid, &moment, l));
-        nest_join(&regrid->wishes[l + 1]);
+        nest_join(mesh, l + 1, &regrid->wishes[l + 1]);
     }
     nest_sets(mesh, regrid->base, regrid->wishes, patience, regrid->sets);
     return STATUS_OK;
@@ -101,20 +103,26 @@ static void regrid_free(struct regrid *regrid)
 }
 
 /* Are all sets what the levels are? Then only the counts of unwanted tiles move on. */
-static bool regrid_is_idle(const struct regrid *regrid)
+static bool regrid_is_idle(struct regrid *regrid)
 {
     struct mesh *mesh = regrid->state->mesh;
-    for (int l = regrid->base + 1; l <= mesh->most_level; l++)
-        if (!nest_same(mesh, l, &regrid->sets[l])) return false;
-    for (int l = regrid->base + 1; l < mesh->n_level; l++)
-        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++)
-            mesh->levels[l].tiles[i].unwanted = regrid->sets[l].tiles[i].unwanted;
+    long long sums[MESH_LEVELS + 2] = {0}; /* the last one: pieces that differ */
+    for (int l = regrid->base + 1; l <= mesh->most_level; l++) {
+        sums[l] = regrid->sets[l].n;
+        sums[MESH_LEVELS + 1] += !nest_same(mesh, l, &regrid->sets[l]);
+    }
+    comm_sum_counts(sums, MESH_LEVELS + 2);
+    memcpy(regrid->n_tile, sums, sizeof regrid->n_tile);
+    if (sums[MESH_LEVELS + 1]) return false;
+    for (int l = regrid->base + 1; l < mesh->n_level; l++) {
+        struct tile *tiles = mesh->levels[l].tiles + mesh->levels[l].first;
+        for (unsigned i = 0; i < regrid->sets[l].n; i++) tiles[i].unwanted = regrid->sets[l].tiles[i].unwanted;
+    }
     return true;
 }
 
-/* Work per cell of a tile relative to one of a single fluid (measured: docs/decisions). Beside a solid all materials are
- * computed, and its stretch with them. */
-static double regrid_cost(const struct stage *stage, unsigned local)
+/* Beside a solid all materials are computed, and its stretch with them. */
+double regrid_cost(const struct stage *stage, unsigned local)
 {
     const struct census_tile *tile = &stage->census.tiles[local];
     const struct model *model = stage->model;
@@ -127,35 +135,20 @@ static double regrid_cost(const struct stage *stage, unsigned local)
     return (materials > 1 ? 1.2 * materials : 1.0) + (solid ? 1.5 : 0.0);
 }
 
-/* Costs of all tiles of a level as it is, in its order. */
+/* Costs of this rank's tiles of a level as it is, in their order. */
 static double *regrid_costs(const struct stage *stage)
 {
-    const struct level *level = stage->level;
-    double *own = mem_new(level->n_local + 1, sizeof *own), *all = mem_new(level->n_tile, sizeof *all);
-    for (unsigned t = 0; t < level->n_local; t++) own[t] = regrid_cost(stage, t);
-    comm_join(own, (int)level->n_local, all);
-    mem_free(own);
-    return all;
+    double *own = mem_new(stage->level->n_local + 1, sizeof *own);
+    for (unsigned t = 0; t < stage->level->n_local; t++) own[t] = regrid_cost(stage, t);
+    return own;
 }
 
-/* Costs of a new set: tiles that were there keep theirs, born ones take that of the tile below. */
-static double *regrid_new_costs(const struct regrid *regrid, int l, double *const *before)
+/* Those of all ranks, in their order. */
+static double *regrid_join(const double *own, unsigned n, size_t n_all)
 {
-    const struct mesh *mesh = regrid->state->mesh;
-    const struct nest_set *set = &regrid->sets[l];
-    double *cost = mem_new(set->n, sizeof *cost);
-    for (unsigned i = 0; i < set->n; i++) {
-        const struct tile *tile = &set->tiles[i];
-        int at[3] = {tile->at[0], tile->at[1], tile->at[2]};
-        cost[i] = 1.0;
-        for (int m = l; m >= 0; m--) {
-            int found = m < mesh->n_level ? mesh_find(mesh, &mesh->levels[m], at) : -1;
-            if (found >= 0 && before[m]) cost[i] = before[m][found];
-            if (found >= 0 && before[m]) break;
-            for (int d = 0; d < 3; d++) at[d] >>= d < mesh->dim;
-        }
-    }
-    return cost;
+    double *all = mem_new(n_all, sizeof *all);
+    comm_join(own, (int)n, all);
+    return all;
 }
 
 /* Level 0 with other owners, if those it has share the work badly and others would share it better. */
@@ -173,37 +166,63 @@ static struct tile *regrid_recut(const struct level *level, const double *cost)
     return NULL;
 }
 
-/* Level `base` and those below stay where they are and count as load; but level 0 is cut anew if it is `base` itself
- * and its cells under finer tiles, or at rest, leave some ranks idle. */
+/* What this rank's tiles of the levels up to `base` cost, `weight` times in a coarse step, is load. They stay where they
+ * are; but level 0 is cut anew if it is `base` itself and its cells under finer tiles, or at rest, leave some ranks
+ * idle. `cost`: of own tiles. */
 static void regrid_load(struct regrid *regrid, int l, const double *cost, double weight, double *load)
 {
     const struct level *level = &regrid->state->mesh->levels[l];
-    if (regrid->base == 0) regrid->root = regrid_recut(level, cost);
-    const struct tile *tiles = regrid->root ? regrid->root : level->tiles;
-    for (unsigned i = 0; i < level->n_tile; i++) load[tiles[i].rank] += weight * cost[i];
+    double own = load[comm_rank()];
+    if (regrid->base == 0) {
+        double *all = regrid_join(cost, level->n_local, level->n_tile);
+        regrid->root = regrid_recut(level, all);
+        for (unsigned i = 0; regrid->root && i < level->n_tile; i++) load[regrid->root[i].rank] += weight * all[i];
+        mem_free(all);
+        if (regrid->root) return;
+    }
+    for (unsigned i = 0; i < level->n_local; i++) own += weight * cost[i];
+    comm_join(&own, 1, load);
 }
 
-/* Sets the owners of all new sets. */
+/* The owners of a new set, which this rank's piece becomes all of; `cost`: of the piece. */
+static void regrid_cut(struct nest_set *set, size_t n_all, const double *cost, double weight, double *load)
+{
+    double *all = regrid_join(cost, set->n, n_all);
+    nest_whole(set);
+    partition_cut(set->tiles, set->n, all, comm_size(), weight, load);
+    mem_free(all);
+}
+
+/* Sets the owners of all new sets, of which this rank has a piece so far. */
 static void regrid_partition(struct regrid *regrid)
 {
     const struct state *state = regrid->state;
     const struct mesh *mesh = state->mesh;
-    int size = comm_size();
-    double *before[MESH_LEVELS] = {0}, *load = mem_new((size_t)size, sizeof *load), weight = 1.0;
-    if (size == 1) {
-        mem_free(load); /* rank 0 owns all */
-        return;
-    }
-    for (int l = 0; l < mesh->n_level; l++) before[l] = regrid_costs(state->stages[l]);
+    if (comm_size() == 1) return; /* rank 0 owns all */
+    double *load = mem_new((size_t)comm_size(), sizeof *load), *costs[MESH_LEVELS + 1] = {0}, weight = 1.0;
+    struct carry below = {0};
     for (int l = 0; l <= mesh->most_level; l++, weight *= state->scene->mesh.subcycle ? 2.0 : 1.0) {
-        if (l <= regrid->base) regrid_load(regrid, l, before[l], weight, load);
-        if (l <= regrid->base) continue;
-        if (!regrid->sets[l].n) break;
-        double *cost = regrid_new_costs(regrid, l, before);
-        partition_cut(regrid->sets[l].tiles, regrid->sets[l].n, cost, size, weight, load);
-        mem_free(cost);
+        const struct level *level = &mesh->levels[l];
+        struct nest_set *set = &regrid->sets[l];
+        bool exists = l < mesh->n_level;
+        struct carry before = {exists ? level->n_local : 0, exists ? level->tiles + level->first : NULL, NULL};
+        before.values = costs[l] = exists ? regrid_costs(state->stages[l]) : NULL;
+        if (l <= regrid->base) regrid_load(regrid, l, before.values, weight, load);
+        if (l > regrid->base && !regrid->n_tile[l]) break;
+        if (l > regrid->base) {
+            double *carried = carry_values(mesh, l, set, &before, &below);
+            mem_free(costs[l]);
+            costs[l] = carried;
+            before = (struct carry){set->n, set->tiles, carried};
+        }
+        below = before;
     }
-    for (int l = 0; l < mesh->n_level; l++) mem_free(before[l]);
+    weight = 1.0;
+    for (int l = 0; l <= mesh->most_level; l++, weight *= state->scene->mesh.subcycle ? 2.0 : 1.0) {
+        if (l > regrid->base && regrid->n_tile[l])
+            regrid_cut(&regrid->sets[l], (size_t)regrid->n_tile[l], costs[l], weight, load);
+        mem_free(costs[l]);
+    }
     mem_free(load);
 }
 
@@ -214,7 +233,7 @@ static bool regrid_affords(const struct regrid *regrid)
     const struct mesh *mesh = state->mesh;
     double tiles = 0.0, limit = state->scene->mesh.memory_limit;
     for (int l = 0; l <= regrid->base; l++) tiles += mesh->levels[l].n_tile;
-    for (int l = regrid->base + 1; l <= mesh->most_level; l++) tiles += regrid->sets[l].n;
+    for (int l = regrid->base + 1; l <= mesh->most_level; l++) tiles += (double)regrid->n_tile[l];
     if (limit <= 0.0 || mesh_bytes(mesh, tiles) <= limit) return true;
     state->starved = tiles;
     return false;

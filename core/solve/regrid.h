@@ -16,6 +16,10 @@ int regrid_levels(struct state *state, int base);
 /* STATUS_RUN and the reason if a regrid could not be afforded. */
 int regrid_verdict(const struct state *state);
 
+/* Weight of a tile of this rank when owners are chosen: work per cell relative to one of a single fluid (measured:
+ * docs/numerics.md 10). */
+double regrid_cost(const struct stage *stage, unsigned local);
+
 /* Is it time, after a step of level `base`? */
 bool regrid_due(const struct state *state, int base);
 

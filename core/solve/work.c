@@ -29,7 +29,7 @@ struct work *work_new(const struct model *model, const struct mesh *mesh)
     work->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
     work->c2 = mem_new(mesh->n_cell, sizeof(double));
     work->u_star = mem_new(model->n_field * mesh->n_cell, sizeof(double));
-    if (model->plastic && model->damaged) work->grown = mem_new(mesh->n_cell, sizeof(double));
+    if (model->plastic && model->damaged) work->grown = mem_new(model->n_solid * mesh->n_cell, sizeof(double));
     return work;
 }
 

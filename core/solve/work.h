@@ -6,6 +6,7 @@
 #include "scheme/operators.h"
 #include "scheme/rate.h"
 #include "solve/around.h"
+#include "solve/balance.h"
 #include "solve/cost.h"
 #include "solve/curve.h"
 
@@ -21,8 +22,9 @@ struct work {
     struct around *around;                    /* or NULL */
     struct curve *curve;                      /* or NULL */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
-    double *grown;                            /* of one tile (operator.h); NULL unless plastic solids can break */
-    struct cost cost;                         /* where the time goes, of all levels */
+    double *grown;          /* [n_solid] rows of one tile (operator.h); NULL unless plastic solids can break */
+    struct cost cost;       /* where the time goes, of all levels */
+    struct balance balance; /* and how evenly */
 };
 
 struct work *work_new(const struct model *model, const struct mesh *mesh);

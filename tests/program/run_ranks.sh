@@ -12,6 +12,10 @@ mpirun -n 3 --oversubscribe --allow-run-as-root --mca mpi_yield_when_idle 1 --bi
     "$BULLA" run tube.yaml -o three --overwrite --quiet
 cmp one/history.csv three/history.csv
 
+# Two of three tiles rest when the second step ends: 1.2 on one rank and 0.2 on the other.
+"$BULLA" run tube.yaml -o third --overwrite --quiet -n 2 --set domain.cells='[48]' --max-steps 3
+grep -q '"predicted": 0.58333' third/provenance.json || fail "the balance of two ranks is wrong" third/provenance.json
+
 exits() { # WANTED ARGS...
     wanted=$1
     shift

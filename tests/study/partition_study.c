@@ -4,6 +4,7 @@
  *
  * docs/scaling.md holds its output and says what it means. `tiny` takes small sets and few ranks, checks that the
  * figures hang together, and exits with 1 where they do not; it is what the test suite runs. */
+#include "pieces.h"
 #include "study.h"
 
 #include "base/mem.h"
@@ -16,7 +17,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { STUDY_REGRID = 4, STUDY_RANKS = 6, STUDY_REPEATS = 5, STUDY_REGRIDS = 6 };
+enum { STUDY_REGRID = 4, STUDY_RANKS = 6, STUDY_REPEATS = 5, STUDY_REGRIDS = 6, STUDY_MEETINGS = 7 };
 
 /* The machine of the projection: seconds per cell and stage of cost 1, per message, per byte. */
 static const double STUDY_CELL = 45e-9, STUDY_MESSAGE = 2e-6, STUDY_BYTE = 1e-10;
@@ -128,8 +129,7 @@ static struct study_times study_regrid(struct study *study, int size)
     times.sets = study_clock() - start;
     start = study_clock();
     for (int l = 1; l < mesh->n_level; l++) {
-        for (unsigned i = 0; i < sets[l].n; i++) sets[l].tiles[i].rank = mesh->levels[l].tiles[i].rank;
-        level_adopt(&mesh->levels[l], sets[l].tiles, sets[l].n);
+        level_adopt(&mesh->levels[l], sets[l].tiles, sets[l].n); /* of one rank */
         nest_free_keys(&wishes[l]);
     }
     times.list = study_clock() - start;
@@ -241,6 +241,38 @@ static void study_print_projection(struct study *study, int size)
            p.compute / (busy + p.network + p.topology), p.topology / p.compute);
 }
 
+/* Levels made anew in all regrids of a coarse step. */
+static double study_rounds(const struct study *study)
+{
+    int finest = study->mesh.n_level - 1;
+    double rounds = 0.0;
+    for (int b = 0; b < finest; b++) rounds += (finest - b) * ldexp(1.0, b) / STUDY_REGRID * (b ? 0.5 : 1.0);
+    return rounds;
+}
+
+/* Seconds of a rank in all regrids of a coarse step: its piece, what it does with all tiles, and messages. All meet
+ * STUDY_MEETINGS times per level: two messages, there and back, for each doubling of the ranks. */
+static double study_shared(const struct study *study, const struct pieces *pieces, int size)
+{
+    double regrids = study_regridded(study) / study->tiles;
+    double meetings = study_rounds(study) * STUDY_MEETINGS * 2.0 * ceil(log2(size));
+    return regrids * (pieces->most + pieces->whole + (pieces->bytes + pieces->joined) * STUDY_BYTE) +
+           (regrids * pieces->messages + meetings) * STUDY_MESSAGE;
+}
+
+static void study_print_pieces(struct study *study, int size)
+{
+    study_cut_levels(study, size);
+    struct pieces pieces = pieces_regrid(study, size);
+    struct study_projection p = study_project(study, size);
+    double shared = study_shared(study, &pieces, size), busy = p.compute + p.wait + p.network;
+    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2g | %.2g | %.3g | %.0f | %.2g | %.2g | %.3f | %.3f | %.2f | %.2f |\n",
+           study->scene.name, study->scene.dim, study->scene.n, size, study->tiles / size,
+           1e3 * study->topology * study->tiles, 1e3 * pieces.mean, 1e3 * pieces.most, 1e3 * pieces.whole,
+           pieces.messages, pieces.bytes / 1e3, pieces.held / 1e6, p.topology / p.compute, shared / p.compute,
+           p.compute / (busy + p.topology), p.compute / (busy + shared));
+}
+
 /* Owners as before, born tiles with those before them on the curve: if that balances within the slack of what a new
  * cut reaches. Both orders are merged; `level` has been cut anew. */
 static void study_keep(struct level *level, const struct level *old, const double *costs, int size)
@@ -313,6 +345,23 @@ static void study_head(const char *title, const char *columns)
     printf("\n");
 }
 
+static void study_topology(struct study *studies, int n_study)
+{
+    study_head("Topology",
+               "| set | tiles | bytes per tile | MB per rank | sets, ns | list | find | cover | check | cut | all "
+               "| ranks at 3 % | at 10 % |");
+    for (int i = 0; i < n_study; i++) study_print_topology(&studies[i], 1000);
+}
+
+/* What each rank does at a regrid: with a list of all tiles on all ranks, and now. */
+static void study_pieces(struct study *studies, int n_study)
+{
+    study_head("Pieces", "| set | ranks | tiles per rank | list of all, ms | piece, mean | most | rest of the list "
+                         "| messages | kB | MB held | topology / ideal, list | now | efficiency, list | now |");
+    for (int i = 0; i < n_study; i++)
+        for (int s = 0; s < STUDY_RANKS; s++) study_print_pieces(&studies[i], RANKS[s]);
+}
+
 static void study_tables(struct study *studies, int n_study)
 {
     study_head("Sets", "| set | dim | n | tiles | by level | cell-steps per coarse step | of the uniform grid's |");
@@ -325,14 +374,12 @@ static void study_tables(struct study *studies, int n_study)
             study_cut_levels(&studies[i], RANKS[s]);
             study_print_traffic(&studies[i], RANKS[s]);
         }
-    study_head("Topology",
-               "| set | tiles | bytes per tile | MB per rank | sets, ns | list | find | cover | check | cut | all "
-               "| ranks at 3 % | at 10 % |");
-    for (int i = 0; i < n_study; i++) study_print_topology(&studies[i], 1000);
+    study_topology(studies, n_study);
     study_head("Projection", "| set | ranks | tiles per rank | ideal, ms | balance | + network | + topology | "
                              "topology / ideal |");
     for (int i = 0; i < n_study; i++)
         for (int s = 0; s < STUDY_RANKS; s++) study_print_projection(&studies[i], RANKS[s]);
+    study_pieces(studies, n_study);
     study_head("Moves", "| set | ranks | owners | born | moved | to another node | efficiency |");
     for (int i = 0; i < n_study; i += 2)
         for (int s = 1; s < 4; s++)
@@ -371,6 +418,7 @@ static int study_tiny(void)
             failed += study_expect(traffic.halo[l].bytes + traffic.down[l].bytes + traffic.up[l].bytes == 0.0,
                                    "one rank sends nothing");
         study_print_topology(&study, 48);
+        study_print_pieces(&study, 48);
         study_stop(&study);
     }
     return failed;
@@ -381,8 +429,15 @@ int main(int argc, char **argv)
     if (argc == 2 && !strcmp(argv[1], "tiny")) return study_tiny() != 0;
     const struct sets_scene *scenes[4] = {&SHELL_2D, &BUBBLE_2D, &SHELL_3D, &BUBBLE_3D};
     static struct study studies[8];
-    for (int i = 0; i < 8; i++) study_start(&studies[i], *scenes[i / 2], i % 2 ? 8 : 16);
-    study_tables(studies, 8);
-    for (int i = 0; i < 8; i++) study_stop(&studies[i]);
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    bool all = argc < 2; /* else tiles of 16 alone, and the tables of topology */
+    int n_study = all ? 8 : 4;
+    for (int i = 0; i < n_study; i++) study_start(&studies[i], *scenes[all ? i / 2 : i], all && i % 2 ? 8 : 16);
+    if (all) study_tables(studies, n_study);
+    else {
+        study_topology(studies, n_study);
+        study_pieces(studies, n_study);
+    }
+    for (int i = 0; i < n_study; i++) study_stop(&studies[i]);
     return 0;
 }

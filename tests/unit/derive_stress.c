@@ -52,7 +52,7 @@ static void world_make(struct world *world, unsigned n_velocity)
     model->n_stretch = elastic_count(n_velocity);
     model->n_solid = 1;
     model->elastic = true;
-    model->solids[0] = (struct model_solid){.law = &LAW, .material = TISSUE};
+    model->solids[0] = (struct model_solid){.stretch = model->i_V, .law = &LAW, .material = TISSUE};
     model->names = (char **)(uintptr_t)none;
     world->mesh.n_cell = 1;
     world->mesh.n_level = 1;

@@ -37,6 +37,7 @@ static struct model model_of(const struct world *world)
     model.i_E = model.i_u + model.n_velocity;
     model.i_V = model.i_E + 1;
     model.n_field = model.i_V + model.n_stretch;
+    model.solids[0].stretch = model.i_V;
     return model;
 }
 

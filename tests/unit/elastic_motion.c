@@ -37,7 +37,7 @@ static struct model model_of(unsigned dim, int beta, unsigned n_velocity, const 
     model.n_stretch = elastic_count(n_velocity);
     model.n_field = model.i_V + model.n_stretch;
     model.elastic = true;
-    model.solids[0] = (struct model_solid){.law = &LAW, .self = self};
+    model.solids[0] = (struct model_solid){.stretch = model.i_V, .law = &LAW, .self = self};
     return model;
 }
 

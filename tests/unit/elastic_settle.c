@@ -16,6 +16,7 @@ static struct model model_of(bool mixed)
     model.i_V = model.n_alpha;
     model.n_stretch = 6;
     model.n_field = model.i_V + 6;
+    model.solids[0].stretch = model.i_V;
     return model;
 }
 

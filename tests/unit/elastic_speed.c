@@ -52,7 +52,7 @@ static struct model model_of(const struct law *law)
     model.i_V = 5;
     model.n_stretch = 6;
     model.n_field = 11;
-    model.solids[0] = (struct model_solid){.law = law == &PLAIN ? &FIRST : &BOTH, .self = law};
+    model.solids[0] = (struct model_solid){.stretch = model.i_V, .law = law == &PLAIN ? &FIRST : &BOTH, .self = law};
     return model;
 }
 

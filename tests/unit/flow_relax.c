@@ -40,7 +40,7 @@ static struct model model_of(unsigned n_velocity, const double *slope, unsigned 
     model.n_stretch = elastic_count(n_velocity);
     model.n_branch = n;
     model.n_stretched = (1 + n) * model.n_stretch;
-    model.solids[0] = (struct model_solid){.law = &PLAIN, .self = slope, .slack = *slope == 0.0};
+    model.solids[0] = (struct model_solid){.stretch = model.i_V, .law = &PLAIN, .self = slope, .slack = *slope == 0.0};
     for (unsigned b = 0; b < n; b++)
         model.branches[b] = (struct model_branch){.field = model.i_V + (1 + b) * model.n_stretch,
                                                   .k = 0.5 * branches[b][0] / RHO0,

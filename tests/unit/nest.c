@@ -1,11 +1,10 @@
 /* Tile sets: wishes and nested sets against their definitions, on all of a small domain; mirrored and turned inputs
- * give mirrored and turned sets. Under a launcher the keys of several ranks are joined. */
-#include "mesh/nest.h"
+ * give mirrored and turned sets. Under a launcher every rank makes the sets of its piece of the curve, cut at random:
+ * the definition is the replicated reference. */
+#include "nest_world.h"
 
-#include "base/comm.h"
-#include "base/mem.h"
 #include "base/status.h"
-#include "mesh/level.h"
+#include "mesh/carry.h"
 #include "mesh/morton.h"
 
 #include <setjmp.h>
@@ -15,85 +14,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-enum { MOST = 4, ROUNDS = 24 };
-
-static uint64_t seed;
-
-static unsigned pick(unsigned count)
-{
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return (unsigned)(seed >> 33) % count;
-}
-
-/* A mesh of tiles without blocks. */
-static void mesh_make(struct mesh *mesh, int dim, const int extent[3], int n, unsigned periodic, int most_level)
-{
-    *mesh = (struct mesh){.dim = dim, .n_cell = 1, .n_level = 1, .most_level = most_level};
-    struct level *level = &mesh->levels[0];
-    for (int d = 0; d < 3; d++) {
-        mesh->n[d] = d < dim ? n : 1;
-        mesh->n_cell *= (size_t)mesh->n[d];
-        mesh->periodic[d] = d < dim && (periodic >> d & 1u);
-        for (int l = 0; l <= most_level; l++) mesh->levels[l].extent[d] = d < dim ? extent[d] << l : 1;
-    }
-    unsigned count = 0, n_tile = (unsigned)(level->extent[0] * level->extent[1] * level->extent[2]);
-    struct tile *tiles = mem_new(n_tile, sizeof *tiles);
-    for (uint64_t key = 0; count < n_tile; key++) {
-        struct tile tile = {.key = key};
-        nest_at(key, tile.at);
-        bool inside = true;
-        for (int d = 0; d < 3; d++) inside &= tile.at[d] < level->extent[d];
-        if (inside) tiles[count++] = tile;
-    }
-    level_adopt(level, tiles, n_tile);
-}
-
-static void mesh_drop(struct mesh *mesh)
-{
-    for (int l = 0; l <= mesh->most_level; l++) level_drop(&mesh->levels[l]);
-}
-
-static void mesh_take(struct mesh *mesh, int base, struct nest_set *sets)
-{
-    mesh->n_level = base + 1;
-    for (int l = base + 1; l <= mesh->most_level; l++) {
-        struct level *level = &mesh->levels[l];
-        level_adopt(level, sets[l].tiles, sets[l].n);
-        if (level->n_tile) mesh->n_level = l + 1;
-    }
-}
-
-static size_t place_of(const struct mesh *mesh, int l, const int at[3])
-{
-    const int *extent = mesh->levels[l].extent;
-    return (size_t)at[0] + (size_t)extent[0] * ((size_t)at[1] + (size_t)extent[1] * (size_t)at[2]);
-}
-
-static size_t places(const struct mesh *mesh, int l)
-{
-    const int *extent = mesh->levels[l].extent;
-    return (size_t)extent[0] * (size_t)extent[1] * (size_t)extent[2];
-}
-
-static void at_of(const struct mesh *mesh, int l, size_t place, int ret_at[3])
-{
-    for (int d = 0; d < 3; d++) {
-        size_t extent = (size_t)mesh->levels[l].extent[d];
-        ret_at[d] = (int)(place % extent);
-        place /= extent;
-    }
-}
-
-static bool settle(const struct mesh *mesh, int l, int at[3])
-{
-    for (int d = 0; d < 3; d++) {
-        int extent = mesh->levels[l].extent[d];
-        if (mesh->periodic[d]) at[d] = (at[d] % extent + extent) % extent;
-        if (at[d] < 0 || at[d] >= extent) return false;
-    }
-    return true;
-}
 
 /* Marks on level l - 1 the tiles of the 3^d octants around all marked tiles of level l. */
 static void mark_needs(const struct mesh *mesh, int l, const char *tiles, char *coarse)
@@ -175,7 +95,7 @@ static struct nest_keys keys_of(const struct mesh *mesh, int l, const char *wish
         at_of(mesh, l, p, at);
         if (wished[p]) keys.keys[keys.n++] = morton_key(at);
     }
-    nest_join(&keys);
+    nest_join(mesh, l, &keys);
     return keys;
 }
 
@@ -192,11 +112,51 @@ static void compare_set(const struct mesh *mesh, int l, const struct nest_set *s
     }
 }
 
+/* A number of its own for every tile of every level. */
+static double number(int l, uint64_t key)
+{
+    return (double)((key + 1) * (uint64_t)(2 * l + 1) % 100003);
+}
+
+/* Of the finest tile of the mesh as it is at or under a place of level l. */
+static double number_under(const struct mesh *mesh, int l, uint64_t key)
+{
+    for (int m = l; m > 0; m--, key >>= 3)
+        if (m < mesh->n_level && level_find(&mesh->levels[m], key) >= 0) return number(m, key);
+    return number(0, key);
+}
+
+/* Numbers carried to the pieces of new sets are those of the whole lists. */
+static void compare_carried(const struct mesh *mesh, int base, const struct nest_set *pieces)
+{
+    struct carry below = {0};
+    double *carried[MOST + 1] = {0};
+    for (int l = base; l <= mesh->most_level; l++) {
+        const struct level *level = &mesh->levels[l];
+        struct carry before = {0};
+        if (l < mesh->n_level) before = (struct carry){level->n_local, level->tiles + level->first, NULL};
+        double *values = mem_new(before.n, sizeof *values);
+        for (unsigned i = 0; i < before.n; i++) values[i] = number(l, before.tiles[i].key);
+        before.values = values;
+        if (l > base) {
+            carried[l] = carry_values(mesh, l, &pieces[l], &before, &below);
+            for (unsigned i = 0; i < pieces[l].n; i++)
+                assert_true(carried[l][i] == number_under(mesh, l, pieces[l].tiles[i].key));
+            before = (struct carry){pieces[l].n, pieces[l].tiles, carried[l]};
+            mem_free(values);
+        } else carried[l] = values;
+        below = before;
+    }
+    for (int l = base; l <= mesh->most_level; l++) mem_free(carried[l]);
+}
+
 static void regrid(struct mesh *mesh, int base, int patience, char *const *wished, struct nest_set *ret_sets)
 {
     struct nest_keys wishes[MESH_LEVELS] = {0};
     for (int l = base + 1; l <= mesh->most_level; l++) wishes[l] = keys_of(mesh, l, wished[l]);
     nest_sets(mesh, base, wishes, patience, ret_sets);
+    compare_carried(mesh, base, ret_sets);
+    for (int l = base + 1; l <= mesh->most_level; l++) nest_whole(&ret_sets[l]);
     for (int l = base + 1; l <= mesh->most_level; l++) nest_free_keys(&wishes[l]);
 }
 
@@ -218,7 +178,10 @@ static void check_definition(int dim, const int extent[3], unsigned periodic, in
             mem_free(count[l]);
         }
         mesh_take(&mesh, base, sets);
-        for (int l = base + 1; l <= most_level; l++) assert_true(nest_same(&mesh, l, &sets[l]));
+        for (int l = base + 1; l <= most_level; l++) {
+            const struct level *level = &mesh.levels[l];
+            assert_true(nest_same(&mesh, l, &(struct nest_set){level->n_local, level->tiles + level->first}));
+        }
         assert_int_equal(nest_check(&mesh), STATUS_OK);
     }
     for (int l = 0; l <= most_level; l++) mem_free(wished[l]);
@@ -364,7 +327,8 @@ static void check_wishes(int dim, const int extent[3], int n, unsigned periodic,
         }
         nest_wish(&mesh, level, &level->tiles[t], marks, buffer, &keys);
     }
-    nest_join(&keys);
+    nest_join(&mesh, 1, &keys);
+    whole(&keys);
     unsigned count = 0;
     for (size_t p = 0; p < places(&mesh, 1); p++) count += expected[p] != 0;
     assert_int_equal(keys.n, count);
@@ -402,6 +366,7 @@ static void refused(struct mesh *mesh, const char *words)
 static void test_broken(void **state)
 {
     (void)state;
+    at_home = true;
     struct mesh mesh;
     mesh_make(&mesh, 2, (const int[]){4, 4, 1}, 8, 0, 2);
     char *wished[3];
@@ -415,8 +380,10 @@ static void test_broken(void **state)
     assert_int_equal(level->n_tile, 4);
     struct tile last = level->tiles[3];
     level->n_tile = 3;
+    level->n_local -= level->n_local > 0;
     refused(&mesh, "tile (6, 9, 0) of level 2 needs tile (3, 5, 0) of level 1");
     level->n_tile = 4;
+    level->n_local += level->n_local > 0;
     level->tiles[3].at[1] = 8;
     refused(&mesh, "tile (3, 8, 0) of level 1 is outside the domain");
     level->tiles[3].at[1] = 6;
@@ -427,11 +394,12 @@ static void test_broken(void **state)
     assert_int_equal(nest_check(&mesh), STATUS_OK);
     mesh.levels[0].n_tile--;
     refused(&mesh, "level 0 has 15 of the 16 tiles");
+    at_home = false;
     for (int l = 0; l < 3; l++) mem_free(wished[l]);
     mesh_drop(&mesh);
 }
 
-/* Every rank brings its own keys, one that all have, and repetitions. */
+/* Every rank brings its own keys, one that all have, and repetitions; cuts go through the middle of them. */
 static void test_join(void **state)
 {
     (void)state;
@@ -440,7 +408,12 @@ static void test_join(void **state)
     keys.keys = mem_new(keys.room, sizeof *keys.keys);
     for (unsigned i = 0; i < 2 * rank + 1; i++) keys.keys[i] = (1ull << 60) - 1 + (uint64_t)rank * (i % (rank + 1));
     keys.keys[2 * rank + 1] = 5;
-    nest_join(&keys);
+    struct mesh mesh = {.n_level = 1};
+    mesh.levels[0].n_rank = (int)size;
+    mesh.levels[0].first_keys = mem_new(size, sizeof *mesh.levels[0].first_keys);
+    for (unsigned r = 1; r < size; r++) mesh.levels[0].first_keys[r] = ((1ull << 60) - 1 + 2 * (r - 1)) >> 3;
+    nest_join(&mesh, 1, &keys);
+    whole(&keys);
     unsigned count = 1, most = (size - 1) * (size - 1);
     for (unsigned key = 0; key <= most; key++) {
         bool brought = false;
@@ -452,9 +425,10 @@ static void test_join(void **state)
     assert_int_equal(keys.n, count);
     assert_true(keys.keys[0] == 5);
     nest_free_keys(&keys);
-    nest_join(&keys);
+    nest_join(&mesh, 1, &keys);
     assert_int_equal(keys.n, 0);
     nest_free_keys(&keys);
+    level_drop(&mesh.levels[0]);
 }
 
 int main(int argc, char **argv)

@@ -204,6 +204,7 @@ static void test_levels(void **state)
     small.state->counts.spread = 7;
     small.state->counts.carried = 256;
     small.state->level_steps[1] = 12;
+    small.state->work->balance.level[1] = (struct balance_level){3.0, 0.25};
     small.state->counts.regrid_seconds = 1e-9;
     assert_int_equal(provenance_write(provenance, small.state, "finished", 0), 0);
     json_t *root = load(&small), *fine = json_array_get(json_object_get(root, "levels"), 1);
@@ -217,6 +218,10 @@ static void test_levels(void **state)
     assert_int_equal(json_integer_value(json_object_get(refinement, "limited_cells")), 5);
     assert_int_equal(json_integer_value(json_object_get(refinement, "spread_refluxes")), 7);
     assert_int_equal(json_integer_value(json_object_get(fine, "steps")), 12);
+    json_t *balance = json_object_get(fine, "balance"), *coarse = json_array_get(json_object_get(root, "levels"), 0);
+    assert_true(json_real_value(json_object_get(balance, "predicted")) == 1.0); /* one rank */
+    assert_true(json_real_value(json_object_get(balance, "seen")) == 1.0);
+    assert_true(json_is_null(json_object_get(json_object_get(coarse, "balance"), "seen"))); /* no step yet */
     assert_true(json_real_value(json_object_get(fine, "width")) == small.state->mesh->levels[1].h[0]);
     assert_int_equal(json_integer_value(json_object_get(root, "cells_carried")), 256);
     json_decref(root);

@@ -129,6 +129,114 @@ static void test_curvature(void **state)
     }
 }
 
+/* A cap on the wall y- or y+, which its surface meets at a given angle: centre of the sphere along y, width of a front [m].
+ * The wall asks all layers of the front for this angle, concentric ones differ by width/R: so it is some cells wide. */
+static double cap_centre, cap_width;
+
+static double cap_radius(const double x[3])
+{
+    double y = x[1] - cap_centre;
+    return sqrt(x[0] * x[0] + y * y + x[2] * x[2]);
+}
+
+static double cap_front(const double x[3])
+{
+    return 0.5 * (1.0 - tanh((cap_radius(x) - RADIUS) / cap_width));
+}
+
+static void set_cap(const struct model *model, const double x[3], double *w)
+{
+    w[model->i_alpha] = cap_front(x);
+    w[model->i_alpha + 1] = 1.0 - w[model->i_alpha];
+}
+
+/* %1$d cells an axis, the wall below or above, %2$s its angle. */
+#define CAP_WALLS \
+    "boundaries: {x-: %3$s, x+: reflecting, %4$s: reflecting, %5$s: {type: no-slip, contact-angle: {%2$s}}"
+static const struct {
+    const char *domain;
+    int dim, turns;
+} CAPS[] = {{"{lower: [0, 0], upper: [20 um, 20 um], cells: [%1$d, %1$d], " CAP_WALLS "}}", 2, 1},
+            {"{geometry: axisymmetric, lower: [0, 0], upper: [20 um, 20 um], cells: [%1$d, %1$d], " CAP_WALLS "}}", 2,
+             2},
+            {"{lower: [0, 0, 0], upper: [20 um, 20 um, 20 um], cells: [%1$d, %1$d, %1$d], " CAP_WALLS
+             ", z-: symmetry, z+: reflecting}}",
+             3, 2}};
+
+/* kappa of the cap; means of kappa r/turns - 1, of all cells and of those at the wall. */
+static double *cap_curvature(int i, int cells, int tile, const char *angle, bool above, double *ret_all,
+                             double *ret_row)
+{
+    struct flow flow;
+    double sum[2] = {0.0}, all[2] = {0.0};
+    char *domain =
+        mem_print(CAPS[i].domain, cells, angle, i == 1 ? "axis" : "symmetry", above ? "y-" : "y+", above ? "y+" : "y-");
+    cap_width = 1.5 * 20e-6 / cells;
+    start(&flow, domain, cells, tile, "");
+    flow_set(&flow, set_cap);
+    curve_take(flow.state->work->curve, 0, flow_level(&flow)->w);
+    double *kappa = flow_primitive(&flow, flow.state->model->pairs[0].i_kappa);
+    for (size_t c = 0; c < flow.n_cell; c++) {
+        double x[3];
+        flow_centre(&flow, c, x);
+        double weight = cap_front(x) * (1.0 - cap_front(x)), off = kappa[c] * cap_radius(x) / CAPS[i].turns - 1.0;
+        bool wall = x[1] < 20e-6 / cells || x[1] > 20e-6 - 20e-6 / cells;
+        for (int k = 0; k < (wall ? 2 : 1); k++) {
+            sum[k] += weight * weight * off;
+            all[k] += weight * weight;
+        }
+    }
+    *ret_all = sum[0] / all[0];
+    *ret_row = sum[1] / all[1];
+    mem_free(domain);
+    flow_stop(&flow);
+    return kappa;
+}
+
+/* The curvature knows the angle of a wall. */
+static void test_angle(void **state)
+{
+    static const struct {
+        double degrees;
+        const char *words;
+    } ANGLES[] = {{45.0, "water+air: 45 deg"}, {60.0, "water+air: 60 deg"}, {120.0, "air+water: 60 deg"}};
+    (void)state;
+    for (int i = 0; i < 3; i++)
+        for (int a = 0; a < 3; a++) {
+            double all[2], row[2];
+            int cells = CAPS[i].dim == 3 ? 32 : 64;
+            cap_centre = -RADIUS * cos(ANGLES[a].degrees * M_PI / 180.0);
+            for (int fine = 0; fine < 2; fine++)
+                mem_free(cap_curvature(i, cells << fine, 8, ANGLES[a].words, false, &all[fine], &row[fine]));
+            print_message("%d: %g deg: error of the curvature %.2e, %.2e, at the wall %.2e, %.2e\n", i,
+                          ANGLES[a].degrees, all[0], all[1], row[0], row[1]);
+            assert_true(fabs(all[1]) < 0.02 && fabs(row[1]) < 0.3);
+        }
+}
+
+/* A wall above is one below, to the bit, and tiles do not matter. */
+static void test_angle_mirror(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        double all, row;
+        size_t n = CAPS[i].dim == 3 ? 16 : 32;
+        cap_centre = -5e-6;
+        double *below = cap_curvature(i, (int)n, 4, "water+air: 60 deg", false, &all, &row);
+        double *other = cap_curvature(i, (int)n, 8, "water+air: 60 deg", false, &all, &row);
+        cap_centre = 25e-6;
+        double *above = cap_curvature(i, (int)n, 8, "water+air: 60 deg", true, &all, &row);
+        for (size_t c = 0; c < (CAPS[i].dim == 3 ? n * n * n : n * n); c++) {
+            size_t j = c / n % n, up = c + (n - 1 - j) * n - j * n;
+            assert_true(below[c] == other[c]);
+            assert_true(fabs(below[c] - above[up]) <= 1e-9 * fabs(below[c]));
+        }
+        mem_free(below);
+        mem_free(other);
+        mem_free(above);
+    }
+}
+
 #define DROP                                                                                                     \
     "  - {sphere: {center: [0, 0, 0], radius: 10 um}, material: water, density: 997, pressure: 1 atm, balance: " \
     "tension}\n"
@@ -206,8 +314,9 @@ static void test_tiles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_balance), cmocka_unit_test(test_curvature), cmocka_unit_test(test_drop),
-        cmocka_unit_test(test_mirrors), cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_balance),      cmocka_unit_test(test_curvature), cmocka_unit_test(test_drop),
+        cmocka_unit_test(test_mirrors),      cmocka_unit_test(test_tiles),     cmocka_unit_test(test_angle),
+        cmocka_unit_test(test_angle_mirror),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

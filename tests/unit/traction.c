@@ -42,10 +42,10 @@ static void draw(const struct model *model, double *w)
         }
         for (unsigned d = 0; d < 3; d++) w[(model->i_u + d) * POINTS + i] = any(&seed, -9.0, 9.0);
         w[model->i_E * POINTS + i] = any(&seed, 1e8, 2e8);
-        for (unsigned c = 0; c < 6; c++)
-            w[(model->i_V + c) * POINTS + i] = (c < 3 ? 1.0 : 0.0) + any(&seed, -0.02, 0.02);
+        for (unsigned c = 0; c < 12; c++)
+            w[(model->i_V + c) * POINTS + i] = (c % 6 < 3 ? 1.0 : 0.0) + any(&seed, -0.02, 0.02);
     }
-    elastic_unimodular(model, POINTS, POINTS, w + model->i_V * POINTS);
+    for (unsigned s = 0; s < 2; s++) elastic_unimodular(model, POINTS, POINTS, w + model->solids[s].stretch * POINTS);
 }
 
 /* p_l - s'_l,xx is the same for all, their mean by volume is p, and one alone has p. */

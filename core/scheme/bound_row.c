@@ -1,0 +1,42 @@
+/* bound_row.c - see bound_row.h. */
+#include "scheme/bound_row.h"
+
+#include "phys/mix.h"
+
+#include <math.h>
+
+void bound_row_sound(const struct model *model, const struct bound_row *row, double *rho, double *sound)
+{
+    double stiff[SCENE_MATERIALS * BOUND_ROW], c2[BOUND_ROW];
+    mix_stiffness(model, row->n, row->stride, row->w, stiff);
+    mix_speed2(model, row->n, row->stride, row->w, stiff, c2);
+    for (size_t c = 0; c < row->n; c++) {
+        rho[c] = 0.0;
+        sound[c] = sqrt(c2[c]);
+        for (unsigned l = 0; l < model->n_material; l++)
+            rho[c] += (model->n_alpha ? row->w[(model->i_alpha + l) * row->stride + c] : 1.0) *
+                      row->w[(model->i_m + l) * row->stride + c];
+    }
+}
+
+/* rho_l moved along its isentrope by dp: midpoint rule on d rho / dp = 1/c^2. */
+static void bound_row_isentrope(const struct model_eos *eos, size_t n, const double *p, const double *p_new,
+                                double *rho, double *scratch)
+{
+    double *e = scratch, *rho_c2 = scratch + n, *half_rho = scratch + 2 * n, *half_p = scratch + 3 * n;
+    eos->law->state(eos->self, n, rho, p, e, rho_c2);
+    for (size_t i = 0; i < n; i++) {
+        half_p[i] = 0.5 * (p[i] + p_new[i]);
+        half_rho[i] = rho[i] + 0.5 * (p_new[i] - p[i]) * rho[i] / rho_c2[i];
+    }
+    eos->law->state(eos->self, n, half_rho, half_p, e, rho_c2);
+    for (size_t i = 0; i < n; i++) rho[i] += (p_new[i] - p[i]) * half_rho[i] / rho_c2[i];
+}
+
+void bound_row_follow(const struct model *model, struct bound_row *row, const double *old)
+{
+    double scratch[4 * BOUND_ROW];
+    const double *p = row->w + model->i_E * row->stride;
+    for (unsigned l = 0; l < model->n_material; l++)
+        bound_row_isentrope(&model->eos[l], row->n, old, p, row->w + (model->i_m + l) * row->stride, scratch);
+}

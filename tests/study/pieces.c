@@ -1,0 +1,259 @@
+/* pieces.c - see pieces.h. Of messages only what travels is left out: lists of the sender are made by it, and taken by the
+ * receiver, as in core/mesh/nest_share.c. */
+#include "pieces.h"
+
+#include "base/mem.h"
+#include "mesh/carry.h"
+#include "mesh/level.h"
+#include "mesh/nest_share.h"
+#include "mesh/partition.h"
+
+#include <malloc.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* What has come for a rank. */
+struct pieces_mail {
+    unsigned n, room;
+    struct nest_family *list;
+};
+
+/* A rank at work. */
+struct pieces_rank {
+    struct nest_set sets[MESH_LEVELS];
+    struct pieces_mail mail;
+    double seconds, least, bytes, messages;
+};
+
+enum { PIECES_REPEATS = 3 }; /* the machine is shared: the least counts */
+
+struct pieces_world {
+    struct mesh *mesh;
+    int size;
+    struct pieces_rank *ranks;
+    unsigned (*first)[MESH_LEVELS]; /* [size + 1] first tile of each rank on each level */
+};
+
+static double pieces_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* The mesh as rank r sees it. */
+static void pieces_be(const struct pieces_world *world, int r)
+{
+    for (int l = 0; l < world->mesh->n_level; l++) {
+        world->mesh->levels[l].first = world->first[r][l];
+        world->mesh->levels[l].n_local = world->first[r + 1][l] - world->first[r][l];
+    }
+}
+
+static struct pieces_world pieces_start(struct study *study, int size)
+{
+    struct pieces_world world = {&study->mesh, size, mem_new((size_t)size, sizeof *world.ranks),
+                                 mem_new((size_t)size + 1, sizeof *world.first)};
+    for (int l = 0; l < study->mesh.n_level; l++) {
+        struct level *level = &study->mesh.levels[l];
+        mem_free(level->first_keys);
+        level->n_rank = size;
+        level->first_keys = span_first(level->tiles, level->n_tile, size);
+        unsigned i = 0;
+        for (int r = 0; r <= size; r++) {
+            while (i < level->n_tile && level->tiles[i].rank < r) i++;
+            world.first[r][l] = i;
+        }
+    }
+    return world;
+}
+
+/* One rank again, which has all. */
+static void pieces_stop(struct pieces_world *world)
+{
+    for (int l = 0; l < world->mesh->n_level; l++) {
+        struct level *level = &world->mesh->levels[l];
+        level->first = 0;
+        level->n_local = level->n_tile;
+        level->n_rank = 1;
+        level->first_keys[0] = 0;
+    }
+    mem_free(world->ranks);
+    mem_free(world->first);
+}
+
+static void pieces_post(struct pieces_mail *mail, const struct nest_family *family)
+{
+    if (mail->n == mail->room) {
+        unsigned room = 2 * mail->room + 8;
+        mail->list = mem_grow(mail->list, mail->room, room, sizeof *mail->list);
+        mail->room = room;
+    }
+    mail->list[mail->n++] = *family;
+}
+
+/* Each rank tells the others what its tiles of level l need of level l - 1. */
+static void pieces_needs(struct pieces_world *world, int l, bool check)
+{
+    struct span span = span_of(world->mesh, l - 1);
+    const struct level *level = &world->mesh->levels[l];
+    for (int r = 0; r < world->size; r++) world->ranks[r].mail.n = 0;
+    for (int r = 0; r < world->size; r++) {
+        struct pieces_rank *rank = &world->ranks[r];
+        struct nest_families needs = {0};
+        int *to, last = r;
+        pieces_be(world, r);
+        double start = pieces_clock();
+        if (check) nest_family_needs(world->mesh, l, level->tiles + level->first, level->n_local, &needs);
+        else nest_family_needs(world->mesh, l, rank->sets[l].tiles, rank->sets[l].n, &needs);
+        nest_family_sort(&needs);
+        struct nest_families dealt = nest_share_deal(&span, &needs, &to);
+        rank->seconds += pieces_clock() - start;
+        for (unsigned i = 0; i < dealt.n; i++) {
+            pieces_post(&world->ranks[to[i]].mail, &dealt.list[i]);
+            rank->bytes += to[i] != r ? sizeof *dealt.list : 0.0;
+            rank->messages += to[i] != r && to[i] != last;
+            last = to[i];
+        }
+        mem_free(to);
+        nest_family_free(&dealt);
+        nest_family_free(&needs);
+    }
+}
+
+/* Wishes are where they are answered for; `from` and `to` in the list of all. */
+static void pieces_wishes(const struct nest_keys *wishes, const struct span *span, int r, unsigned *from,
+                          struct nest_families *families)
+{
+    for (; *from < wishes->n && span_holds(span, r, wishes->keys[*from]); ++*from)
+        nest_family_add_tile(families, wishes->keys[*from]);
+}
+
+static void pieces_sets(struct pieces_world *world, int l, const struct nest_keys *wishes)
+{
+    struct span span = span_of(world->mesh, l);
+    unsigned from = 0;
+    if (l + 1 < world->mesh->n_level) pieces_needs(world, l + 1, false);
+    for (int r = 0; r < world->size; r++) {
+        struct pieces_rank *rank = &world->ranks[r];
+        struct nest_families families = {0};
+        pieces_be(world, r);
+        double start = pieces_clock();
+        pieces_wishes(wishes, &span, r, &from, &families);
+        if (l + 1 < world->mesh->n_level) nest_share_take(&span, r, rank->mail.list, rank->mail.n, &families);
+        rank->sets[l] = nest_piece(world->mesh, l, &families, 2);
+        rank->seconds += pieces_clock() - start;
+        if (!nest_same(world->mesh, l, &rank->sets[l])) {
+            printf("rank %d makes another piece of level %d\n", r, l);
+            exit(1);
+        }
+        nest_family_free(&families);
+    }
+}
+
+/* Costs carried, the own table made, flags of own tiles. */
+static void pieces_list(struct pieces_world *world, const struct study *study, int l)
+{
+    struct level *level = &world->mesh->levels[l];
+    for (int r = 0; r < world->size; r++) {
+        pieces_be(world, r);
+        struct carry before = {level->n_local, level->tiles + level->first, study->costs[l] + level->first};
+        double start = pieces_clock();
+        mem_free(carry_values(world->mesh, l, &world->ranks[r].sets[l], &before, &before));
+        level_tabulate(level);
+        level_hide(world->mesh, l);
+        world->ranks[r].seconds += pieces_clock() - start;
+    }
+}
+
+static void pieces_check(struct pieces_world *world, int l)
+{
+    struct span span = span_of(world->mesh, l - 1);
+    uint64_t missing;
+    pieces_needs(world, l, true);
+    for (int r = 0; r < world->size; r++) {
+        struct pieces_rank *rank = &world->ranks[r];
+        struct nest_families needs = {0};
+        pieces_be(world, r);
+        double start = pieces_clock();
+        nest_share_take(&span, r, rank->mail.list, rank->mail.n, &needs);
+        if (nest_lacks(world->mesh, l - 1, &needs, &missing)) exit(1);
+        rank->seconds += pieces_clock() - start;
+        nest_family_free(&needs);
+    }
+}
+
+/* What is left of the lists of all tiles: joined pieces become tiles, covered octants are marked, levels are cut. */
+static void pieces_whole(struct study *study, int size, struct pieces *pieces)
+{
+    struct mesh *mesh = &study->mesh;
+    for (int l = 0; l < mesh->n_level; l++) {
+        struct nest_set all = {mesh->levels[l].n_tile, mesh->levels[l].tiles};
+        struct nest_keys words = nest_pack(&all);
+        double least = HUGE_VAL;
+        for (int repeat = 0; repeat < PIECES_REPEATS; repeat++) {
+            double start = pieces_clock();
+            struct nest_set set = l ? nest_unpack(&words) : (struct nest_set){0};
+            level_mark(mesh, l);
+            least = fmin(least, pieces_clock() - start);
+            nest_free_set(&set);
+        }
+        pieces->whole += least;
+        pieces->joined += l ? 8.0 * words.n + 8.0 * all.n : 0.0; /* families and costs */
+        nest_free_keys(&words);
+    }
+    double least = HUGE_VAL;
+    for (int repeat = 0; repeat < PIECES_REPEATS; repeat++) {
+        double start = pieces_clock();
+        study_cut_levels(study, size);
+        least = fmin(least, pieces_clock() - start);
+    }
+    pieces->whole += least;
+}
+
+/* All that ranks do with their own pieces, once. */
+static void pieces_run(struct pieces_world *world, const struct study *study, const struct nest_keys *wishes)
+{
+    int n_level = world->mesh->n_level;
+    for (int r = 0; r < world->size; r++)
+        world->ranks[r].seconds = world->ranks[r].bytes = world->ranks[r].messages = 0.0;
+    for (int l = n_level - 1; l > 0; l--) pieces_sets(world, l, &wishes[l]);
+    for (int l = 1; l < n_level; l++) {
+        pieces_list(world, study, l);
+        pieces_check(world, l);
+    }
+    for (int r = 0; r < world->size; r++) {
+        struct pieces_rank *rank = &world->ranks[r];
+        if (rank->least == 0.0 || rank->seconds < rank->least) rank->least = rank->seconds;
+        for (int l = 1; l < n_level; l++) nest_free_set(&rank->sets[l]);
+    }
+}
+
+struct pieces pieces_regrid(struct study *study, int size)
+{
+    struct mesh *mesh = &study->mesh;
+    struct pieces pieces = {0};
+    struct nest_keys wishes[MESH_LEVELS] = {0};
+    for (int l = 1; l < mesh->n_level; l++) wishes[l] = sets_wishes(&study->scene, mesh, l);
+    pieces_whole(study, size, &pieces);
+    struct pieces_world world = pieces_start(study, size);
+    mallopt(M_MXFAST, 0); /* else a rank now and then pays for sorting what thousands have freed */
+    for (int repeat = 0; repeat < PIECES_REPEATS; repeat++) pieces_run(&world, study, wishes);
+    for (int r = 0; r < size; r++) {
+        struct pieces_rank *rank = &world.ranks[r];
+        pieces.mean += rank->least / size;
+        pieces.most = fmax(pieces.most, rank->least);
+        pieces.bytes = fmax(pieces.bytes, rank->bytes);
+        pieces.messages = fmax(pieces.messages, rank->messages);
+        mem_free(rank->mail.list);
+    }
+    for (int l = 0; l < mesh->n_level; l++) {
+        nest_free_keys(&wishes[l]);
+        pieces.held += (double)mesh->levels[l].n_tile * sizeof *mesh->levels[l].tiles + (double)size * sizeof(uint64_t);
+    }
+    pieces_stop(&world);
+    return pieces;
+}

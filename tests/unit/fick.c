@@ -1,0 +1,116 @@
+/* Gases through each other: a cloud spreads as the heat kernel says, at one pressure and temperature; hot vapour and cold air keep their
+ * temperatures while they mingle. */
+#include "flow.h"
+
+static const double P = 2e5, T = 600.0, W = 1e-4;
+
+static void start(struct flow *flow, const char *domain, const char *law)
+{
+    flow_start(flow, mem_print("bulla: 1\ntitle: gases\ndomain: {%s}\nmaterials:\n"
+                               "  steam: {eos: {type: ideal-gas, gamma: 1.3, cv: 1400}}\n"
+                               "  air: {eos: {type: ideal-gas, gamma: 1.4, cv: 717.5}}\n"
+                               "gas-diffusion: [{gases: [steam, air], %s}]\n"
+                               "initial:\n  - {everywhere: true, material: air, density: 1.2, pressure: 1 atm}\n"
+                               "run: {until: 1}\n",
+                               domain, law));
+}
+
+static double dense(double p, double gamma, double cv, double temperature)
+{
+    return p / ((gamma - 1.0) * cv * temperature);
+}
+
+static void set_cloud(const struct model *model, const double x[3], double *w)
+{
+    double share = 0.2 + 0.6 * exp(-x[0] * x[0] / (W * W));
+    w[model->i_alpha] = share;
+    w[model->i_alpha + 1] = 1.0 - share;
+    w[model->i_m] = dense(P, 1.3, 1400.0, T);
+    w[model->i_m + 1] = dense(P, 1.4, 717.5, T);
+    w[model->i_E] = P;
+}
+
+static double largest(const struct flow *flow, double *values, double sign)
+{
+    double most = sign * values[0];
+    for (size_t c = 0; c < flow->n_cell; c++) most = fmax(most, sign * values[c]);
+    mem_free(values);
+    return sign * most;
+}
+
+/* How far the cloud is from the heat kernel in its middle, after 4 D t = W^2, with n cells. */
+static double cloud_error(int n, bool steady)
+{
+    struct flow flow;
+    char *domain = mem_print("lower: [0], upper: [8e-4], cells: [%d], boundaries: {x-: symmetry, x+: outflow}", n);
+    double D = 1e-4 * (steady ? 1.0 : 0.5 * pow(2.0, 1.75));
+    start(&flow, domain,
+          steady ? "diffusivity: 1e-4, law: constant" : "diffusivity: 1e-4, temperature: 300, pressure: 1e5");
+    flow_set(&flow, set_cloud);
+    flow_until(&flow, W * W / (4.0 * D));
+    double h = 8e-4 / n, x = 0.5 * h / W, right = 0.2 + 0.6 / sqrt(2.0) * exp(-x * x / 2.0);
+    double found = largest(&flow, flow_primitive(&flow, flow.state->model->i_alpha), 1.0);
+    double high = largest(&flow, flow_primitive(&flow, flow.state->model->i_E), 1.0);
+    double low = largest(&flow, flow_primitive(&flow, flow.state->model->i_E), -1.0);
+    assert_true((high - low) / P < 2e-5);
+    flow_stop(&flow);
+    mem_free(domain);
+    return fabs(found - right);
+}
+
+static void test_cloud(void **state)
+{
+    (void)state;
+    for (int steady = 0; steady < 2; steady++) {
+        double coarse = cloud_error(40, steady), fine = cloud_error(80, steady);
+        print_message("error of the cloud %.3g, with cells half as large %.3g\n", coarse, fine);
+        assert_true(coarse < 4e-3 && fine < 1e-3);
+    }
+}
+
+static void set_contact(const struct model *model, const double x[3], double *w)
+{
+    bool steam = x[0] > 5e-4;
+    w[model->i_alpha] = steam ? 1.0 : 0.0;
+    w[model->i_alpha + 1] = steam ? 0.0 : 1.0;
+    w[model->i_m] = dense(P, 1.3, 1400.0, 500.0);
+    w[model->i_m + 1] = dense(P, 1.4, 717.5, 300.0);
+    w[model->i_E] = P;
+}
+
+/* The largest relative error of a gas's temperature where it is a thousandth of the cell or more. */
+static double warmed(const struct flow *flow, unsigned l, double R, double right)
+{
+    const struct model *model = flow->state->model;
+    double *alpha = flow_primitive(flow, model->i_alpha + l), *rho = flow_primitive(flow, model->i_m + l);
+    double *p = flow_primitive(flow, model->i_E), worst = 0.0;
+    for (size_t c = 0; c < flow->n_cell; c++)
+        if (alpha[c] > 1e-3) worst = fmax(worst, fabs(p[c] / (R * rho[c]) / right - 1.0));
+    mem_free(alpha);
+    mem_free(rho);
+    mem_free(p);
+    return worst;
+}
+
+static void test_contact(void **state)
+{
+    (void)state;
+    struct flow flow;
+    start(&flow, "lower: [0], upper: [1e-3], cells: [100], boundaries: {x-: outflow, x+: outflow}",
+          "diffusivity: 1e-4, law: constant");
+    flow_set(&flow, set_contact);
+    flow_until(&flow, 2e-5);
+    double steam = warmed(&flow, 0, 0.3 * 1400.0, 500.0), air = warmed(&flow, 1, 0.4 * 717.5, 300.0);
+    print_message("temperatures are off by %.3g and %.3g\n", steam, air);
+    assert_true(steam < 0.02 && air < 0.02);
+    flow_stop(&flow);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cloud),
+        cmocka_unit_test(test_contact),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
