@@ -436,6 +436,16 @@ void mix_closure(const struct model *model, size_t n, size_t stride, const doubl
     }
 }
 
+/* A material that is not there has no temperature. */
+static BULLA_KERNEL void mix_absent(size_t n, const double *restrict alpha, double *restrict T)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double own = T[i];
+        T[i] = alpha[i] <= 0.0 ? 0.0 : own;
+    }
+}
+
 static void mix_temperatures_batch(const struct model *model, size_t n, size_t stride, const double *w, double *T)
 {
     struct traction_pressures parts;
@@ -444,8 +454,7 @@ static void mix_temperatures_batch(const struct model *model, size_t n, size_t s
         const double *p = traction_pressure(model, n, l, w + model->i_E * stride, &parts);
         double *own = T + l * stride;
         model->eos[l].law->temperature(model->eos[l].self, n, w + (model->i_m + l) * stride, p, own);
-        for (size_t i = 0; model->n_alpha && i < n; i++)
-            if (w[(model->i_alpha + l) * stride + i] <= 0.0) own[i] = 0.0;
+        if (model->n_alpha) mix_absent(n, w + (model->i_alpha + l) * stride, own);
     }
 }
 

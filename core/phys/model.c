@@ -78,16 +78,21 @@ static void model_name_derived(struct model *model)
                                         "sigma_max_dev",   "sigma_min_dev",     "principal_max",     "principal_min",
                                         "principal_shear", "principal_max_dev", "principal_min_dev", "von_mises",
                                         "strain_energy",   "invariant_1",       "invariant_2"};
+    static const char *const viscous[] = {"stress_viscous_xx", "stress_viscous_yy", "stress_viscous_zz",
+                                          "stress_viscous_xy", "stress_viscous_xz", "stress_viscous_yz",
+                                          "dissipation"};
     size_t n_plain = sizeof plain / sizeof *plain, n_each = 5, at = 0;
     static const char *const plastic[] = {"flow_stress",
                                           "plastic_strain"}; /* with a strength; one that knows strains */
     size_t n_solid = model->elastic ? sizeof solid / sizeof *solid : 0;
     size_t n_plastic = model->aged ? 2 : model->plastic ? 1 : 0, n_branched = model->n_branch > 0;
+    size_t n_viscous = model->viscous ? sizeof viscous / sizeof *viscous : 0;
     size_t n_derived = (size_t)model->scene->n_derived * BULLA_FIELD_OUTPUTS, n_rigid = model->scene->n_rigid > 0;
-    model->names = mem_new(n_plain + n_solid + n_plastic + model->damaged + n_branched + n_rigid +
+    model->names = mem_new(n_plain + n_viscous + n_solid + n_plastic + model->damaged + n_branched + n_rigid +
                                (n_each + 4) * model->n_material + n_derived + 1,
                            sizeof *model->names);
     for (size_t i = 0; i < n_plain; i++) model->names[at++] = mem_text(plain[i]);
+    for (size_t i = 0; i < n_viscous; i++) model->names[at++] = mem_text(viscous[i]);
     for (size_t i = 0; i < n_solid; i++) model->names[at++] = mem_text(solid[i]);
     for (size_t i = 0; i < n_plastic; i++) model->names[at++] = mem_text(plastic[i]);
     if (model->damaged) model->names[at++] = mem_text("damage");

@@ -7,6 +7,7 @@
 #include "phys/row.h"
 #include "scheme/conduction_channel.h"
 #include "scheme/conduction_law.h"
+#include "scheme/conduction_plain.h"
 #include "scheme/conduction_wall.h"
 #include "scheme/distance.h"
 #include "scheme/swell.h"
@@ -22,6 +23,7 @@ struct conduction {
     double *rest, *width, *series, *q, *pair, *per_d;
     double *wet[2]; /* on both sides of the faces */
     struct conduction_wall_fault fault;
+    bool plain;  /* the piece is one of conduction_plain.h; T alone is made */
     bool traces; /* some material of the piece is less than CONDUCTION_CHANNEL_FELT of its cell */
 };
 
@@ -47,6 +49,15 @@ static void conduction_list(struct terms *terms, int axis, unsigned first, const
                    "heat", model->scene->material[model->first + l].name);
 }
 
+/* Conductivities that are numbers stand in their rows for good. */
+static void conduction_set(const struct model *path, struct conduction *own)
+{
+    for (unsigned l = 0; l < path->n_material; l++) {
+        if (!conduction_law_is(path, l) || path->conductivity[l].law->needs) continue;
+        for (size_t i = 0; i < FACE_ROOM; i++) own->k[l * (size_t)FACE_ROOM + i] = path->conductivity[l].k;
+    }
+}
+
 static void *conduction_open(const struct term_room *room)
 {
     struct conduction *own = mem_new(1, sizeof *own);
@@ -57,6 +68,7 @@ static void *conduction_open(const struct term_room *room)
     double *at = own->rows = mem_new(6 * block + 8 * FACE_ROOM, sizeof *own->rows);
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++, at += block) *blocks[i] = at;
     for (size_t i = 0; i < sizeof single / sizeof *single; i++, at += FACE_ROOM) *single[i] = at;
+    conduction_set(room->model, own);
     return own;
 }
 
@@ -85,11 +97,16 @@ static BULLA_KERNEL void conduction_feel_alone(size_t n, const double *restrict 
     for (size_t i = 0; i < n; i++) part[i] = T[i] > 0.0 ? 1.0 : 0.0;
 }
 
-static bool conduction_has_traces(size_t n, const double *part)
+/* How many cells hold a trace. */
+static BULLA_KERNEL double conduction_traces(size_t n, const double *restrict part)
 {
-    bool any = false;
-    for (size_t i = 0; i < n; i++) any |= (part[i] > 0.0) & (part[i] <= CONDUCTION_CHANNEL_FELT);
-    return any;
+    double count = 0.0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) {
+        double a = part[i], trace = a <= CONDUCTION_CHANNEL_FELT ? 1.0 : 0.0;
+        count += a > 0.0 ? trace : 0.0;
+    }
+    return count;
 }
 
 /* Capacities of the cells of a row. */
@@ -103,25 +120,40 @@ static void conduction_weigh(const struct model *path, size_t n, const double *w
                                     own->c + l * FACE_ROOM + from);
 }
 
-/* Temperatures and fractions of the cells beside faces, from the primitives as they were gathered. */
-static void conduction_frame(const struct term_piece *piece)
+/* Does a wall at one of the ends of a piece give heat? */
+static bool conduction_is_heated(const struct term_piece *piece, int side)
+{
+    int face = 2 * piece->frame->axis + side;
+    return scene_boundary_is_heated(piece->model->scene, face) && distance_ends(piece, side);
+}
+
+/* Fractions, conductivities and capacities of the cells beside faces. */
+static void conduction_look(const struct term_piece *piece, size_t n, const double *w, struct conduction *own)
 {
     const struct model *path = piece->model;
-    struct conduction *own = piece->own;
-    size_t n = frame_edged(piece->frame);
-    const double *w = piece->faces->frame + frame_reach(piece->frame);
-    mix_temperatures(path, n, FACE_ROOM, w, own->T);
-    own->traces = false;
     for (unsigned l = 0; l < path->n_material; l++) {
         double *T = own->T + l * FACE_ROOM, *part = own->part + l * FACE_ROOM;
         if (path->n_alpha) conduction_feel(n, w + (path->i_alpha + l) * FACE_ROOM, T, part);
         else conduction_feel_alone(n, T, part);
-        own->traces = own->traces || conduction_has_traces(n, part);
-        if (conduction_law_is(path, l))
+        own->traces = own->traces || conduction_traces(n, part) > 0.0;
+        if (conduction_law_is(path, l) && path->conductivity[l].law->needs)
             conduction_law_ask(path, l, n, T, w + path->i_E * FACE_ROOM, w + (path->i_m + l) * FACE_ROOM,
                                own->k + l * FACE_ROOM);
     }
     if (own->traces) conduction_weigh(path, n, w, own);
+}
+
+/* Temperatures, and all that is made of them, from the primitives as they were gathered. */
+static void conduction_frame(const struct term_piece *piece)
+{
+    struct conduction *own = piece->own;
+    size_t n = frame_edged(piece->frame);
+    const double *w = piece->faces->frame + frame_reach(piece->frame);
+    mix_temperatures(piece->model, n, FACE_ROOM, w, own->T);
+    own->traces = false;
+    own->plain =
+        conduction_plain_is(piece->model) && !conduction_is_heated(piece, 0) && !conduction_is_heated(piece, 1);
+    if (!own->plain) conduction_look(piece, n, w, own);
 }
 
 /* The greatest diffusivity that a trace may have, times two [m2/s]. */
@@ -197,8 +229,8 @@ static void conduction_alike(const struct term_piece *piece, const struct conduc
         size_t row = l * (size_t)FACE_ROOM;
         conduction_channel_own(at->n, own->part + row, own->part + row + at->step, own->width, own->left + row,
                                own->right + row, own->rest);
-        memset(own->q, 0, at->n * sizeof *own->q);
         if (conduction_joins(path, l, l)) conduction_through(at, l, l, own->width, own->q);
+        else memset(own->q, 0, at->n * sizeof *own->q);
         row_add(at->n, own->q, piece->faces->energy);
         if (!path->n_alpha) continue;
         memcpy(piece->faces->heat_below + row, own->q, at->n * sizeof *own->q);
@@ -217,12 +249,21 @@ static void conduction_cross(const struct term_piece *piece, const struct conduc
     row_add(at->n, q, piece->faces->heat_below + m * FACE_ROOM);
 }
 
+/* At how many faces. */
+static BULLA_KERNEL double conduction_meeting(size_t n, const double *restrict rest)
+{
+    double count = 0.0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) count += rest[i] > 0.0 ? 1.0 : 0.0;
+    return count;
+}
+
 /* What goes from each material to another. Both ways of a pair are one number, so that a mirror changes its sign. */
 static void conduction_unlike(const struct term_piece *piece, const struct conduction_piece *at)
 {
     const struct model *path = piece->model;
     struct conduction *own = at->own;
-    if (row_most(at->n, own->rest) == 0.0) return;
+    if (conduction_meeting(at->n, own->rest) == 0.0) return;
     for (unsigned l = 0; l < path->n_alpha; l++)
         for (unsigned m = l + 1; m < path->n_alpha; m++) {
             if (!conduction_joins(path, l, m)) continue;
@@ -237,11 +278,8 @@ static void conduction_walls(const struct term_piece *piece, const struct conduc
 {
     struct conduction *own = at->own;
     const struct conduction_wall_cells cells = {own->T, own->part, own->traces ? own->c : NULL, at->most};
-    for (int side = 0; side < 2; side++) {
-        int face = 2 * piece->frame->axis + side;
-        if (!scene_boundary_is_heated(piece->model->scene, face) || !distance_ends(piece, side)) continue;
-        conduction_wall_add(piece, side, &cells, &own->fault);
-    }
+    for (int side = 0; side < 2; side++)
+        if (conduction_is_heated(piece, side)) conduction_wall_add(piece, side, &cells, &own->fault);
 }
 
 static void conduction_faces(const struct term_piece *piece)
@@ -250,6 +288,10 @@ static void conduction_faces(const struct term_piece *piece)
     const struct conduction_piece at = {piece->model, own, piece->faces->faces.n, piece->frame->inner,
                                         conduction_most(piece->tile)};
     distance_faces(piece, own->per_d);
+    if (own->plain) {
+        conduction_plain_add(at.path, at.n, at.step, own->T, own->per_d, piece->faces->energy);
+        return;
+    }
     conduction_alike(piece, &at);
     conduction_unlike(piece, &at);
     conduction_walls(piece, &at);

@@ -4,6 +4,8 @@
 #include "base/mem.h"
 #include "phys/elastic.h"
 
+#include <string.h>
+
 /* What corners go by, for each way in which layers behind a boundary are filled. */
 #define PATCH_STATE_slip PATCH_MIRROR
 #define PATCH_STATE_no_slip PATCH_NO_SLIP
@@ -26,37 +28,36 @@ void patch_state_rules(const struct scene *scene, bool given, enum patch_rule re
 }
 
 /* One piece of a tile as a frame with nothing beside it but what bound_fill writes; its outer layers into the block. */
-static void patch_state_piece(struct bound *bound, unsigned local, int face, const struct frame *frame, double *w,
+static void patch_state_piece(struct bound *bound, unsigned local, int face, const struct frame *frame,
                               const struct box_block *ret)
 {
     const double *own = bound->level->w[local];
-    size_t n_cell = bound->mesh->n_cell, g = ret->size[face / 2];
+    size_t n_cell = bound->mesh->n_cell, g = ret->size[face / 2], pitch = frame->count;
+    size_t line = frame->inner * sizeof *own, run = frame->inner == frame->tile_inner ? frame->n : 1;
+    double *w = mem_new(bound->model->n_field * pitch, sizeof *w);
     for (unsigned q = 0; q < bound->model->n_field; q++)
         for (size_t o = 0; o < frame->outer; o++)
-            for (size_t i = 0; i < frame->n; i++)
-                for (size_t c = 0; c < frame->inner; c++)
-                    w[q * FRAME_CELLS + frame_at(frame, o, (int)i) + c] =
-                        own[q * n_cell + frame_tile_at(frame, o, i) + c];
-    bound_fill(bound, local, frame, face % 2, FRAME_CELLS, w);
+            for (size_t i = 0; i < frame->n; i += run)
+                memcpy(w + q * pitch + frame_at(frame, o, (int)i), own + q * n_cell + frame_tile_at(frame, o, i),
+                       run * line);
+    bound_fill(bound, local, frame, face % 2, pitch, w);
     for (unsigned q = 0; q < bound->model->n_field; q++)
         for (size_t o = 0; o < frame->outer; o++)
-            for (size_t i = 0; i < g; i++)
-                for (size_t c = 0; c < frame->inner; c++) {
-                    size_t to = ((frame->outer_from + o) * g + i) * frame->tile_inner + frame->inner_from + c;
-                    int from = face % 2 ? (int)(frame->n + i) : (int)i - (int)g;
-                    ret->data[q * ret->pitch + to] = w[q * FRAME_CELLS + frame_at(frame, o, from) + c];
-                }
+            for (size_t i = 0; i < g; i++) {
+                size_t to = ((frame->outer_from + o) * g + i) * frame->tile_inner + frame->inner_from;
+                int from = face % 2 ? (int)(frame->n + i) : (int)i - (int)g;
+                memcpy(ret->data + q * ret->pitch + to, w + q * pitch + frame_at(frame, o, from), line);
+            }
+    mem_free(w);
 }
 
 void patch_state_given(void *data, unsigned local, int face, const struct box_block *ret)
 {
     struct bound *bound = data;
-    double *w = mem_new((size_t)bound->model->n_field * FRAME_CELLS, sizeof *w);
     for (size_t piece = 0; piece < frame_pieces(bound->mesh, face / 2); piece++) {
         struct frame frame = frame_piece(bound->mesh, face / 2, piece);
-        patch_state_piece(bound, local, face, &frame, w, ret);
+        patch_state_piece(bound, local, face, &frame, ret);
     }
-    mem_free(w);
 }
 
 static void patch_state_describe(const struct model *model, struct patch_state *ret)
