@@ -18,6 +18,7 @@ enum { SATURATION_ROUNDS = 100 };
 bool saturation_of(const struct instance *liquid, const struct instance *vapour, struct saturation *ret_pair)
 {
     const struct instance *both[2] = {liquid, vapour};
+    ret_pair->jump = 0.0;
     for (int k = 0; k < 2; k++) {
         const struct bulla_eos *law = both[k]->module ? both[k]->module->table : NULL;
         if (!law || !BULLA_EOS_HAS(law, thermal)) return false;
@@ -32,8 +33,8 @@ struct saturation_state saturation_at(const struct saturation *pair, double p, d
 {
     struct saturation_state at;
     for (int k = 0; k < 2; k++) {
-        double rho = pair->rho[k], v_T, v_p, c_p;
-        pair->law[k]->thermal(pair->self[k], 1, &p, &T, &rho, &at.v[k], &at.h[k], &at.s[k], &v_T, &v_p, &c_p);
+        double rho = pair->rho[k], own = k == 0 ? p + pair->jump : p, v_T, v_p, c_p;
+        pair->law[k]->thermal(pair->self[k], 1, &own, &T, &rho, &at.v[k], &at.h[k], &at.s[k], &v_T, &v_p, &c_p);
     }
     at.drive = at.h[1] - at.h[0] - T * (at.s[1] - at.s[0]);
     return at;

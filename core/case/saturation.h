@@ -16,6 +16,7 @@ struct saturation {
     const struct bulla_eos *law[2]; /* liquid, vapour; both offer `thermal` */
     const void *self[2];
     double rho[2]; /* densities that searches of the laws may start from, or 0 */
+    double jump;   /* by how much the liquid has more pressure than the vapour, for saturation_at [Pa] */
 };
 
 struct saturation_state {
@@ -30,6 +31,7 @@ struct saturation_range {
 /* False: a law has no `thermal`. */
 bool saturation_of(const struct instance *liquid, const struct instance *vapour, struct saturation *ret_pair);
 
+/* p: that of the vapour. */
 struct saturation_state saturation_at(const struct saturation *pair, double p, double T);
 
 /* psat(T) [Pa] and Tsat(p) [K]; NaN: there is none, or the vapour is not twice as thin as the liquid there. */

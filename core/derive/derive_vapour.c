@@ -16,7 +16,7 @@ static const struct scene_phase *derive_vapour_pair(const struct derive_view *ti
 static struct saturation derive_vapour_curve(const struct derive_view *tile, const struct scene_phase *pair)
 {
     const struct scene *scene = tile->model->scene;
-    struct saturation curve = {{NULL, NULL}, {NULL, NULL}, {0.0, 0.0}};
+    struct saturation curve = {{NULL, NULL}, {NULL, NULL}, {0.0, 0.0}, 0.0};
     (void)saturation_of(&scene->material[pair->liquid].eos, &scene->material[pair->vapour].eos, &curve); /* checked */
     return curve;
 }

@@ -134,18 +134,28 @@ static void equilibrium_mix(const struct equilibrium_family *family, const struc
     }
 }
 
+/* The pressures of member k: those of the vapour, but of a liquid behind a curved surface. */
+static const double *equilibrium_pressure(const struct equilibrium_cells *cells, unsigned k, double *own)
+{
+    if (!cells->jumps || k != EQUILIBRIUM_LIQUID) return cells->p;
+    for (size_t i = 0; i < cells->n; i++) own[i] = cells->p[i] + cells->jump[i];
+    return own;
+}
+
 /* One round for all cells of a block; `energy` is without that of the others. */
 static void equilibrium_round(const struct equilibrium_family *family, struct equilibrium_cells *cells,
                               const double *energy, struct equilibrium_newton *at)
 {
     size_t n = cells->n;
+    equilibrium_row own;
     equilibrium_reset(n, cells->p, energy, at);
     for (unsigned k = 0; k < family->n; k++) {
         unsigned row = k < 2 ? k : 0;
         equilibrium_row spare[3], *v = k < 2 ? &at->v[row] : &spare[0], *h = k < 2 ? &at->h[row] : &spare[1],
                                   *s = k < 2 ? &at->s[row] : &spare[2];
         for (size_t i = 0; i < n; i++) at->rho[i] = cells->v[k][i] > 0.0 ? 1.0 / cells->v[k][i] : 0.0;
-        family->eos[k].law->thermal(family->eos[k].self, n, cells->p, cells->T, at->rho, *v, *h, *s, at->v_T, at->v_p,
+        const double *p = equilibrium_pressure(cells, k, own);
+        family->eos[k].law->thermal(family->eos[k].self, n, p, cells->T, at->rho, *v, *h, *s, at->v_T, at->v_p,
                                     at->c_p);
         memcpy(cells->v[k], *v, n * sizeof(double));
         equilibrium_add(n, cells->m[k], cells->T, *v, *h, at);
@@ -225,8 +235,9 @@ static void equilibrium_volumes(const struct equilibrium_family *family, struct 
                                 struct equilibrium_newton *at)
 {
     size_t n = cells->n;
+    equilibrium_row own;
     for (unsigned k = 0; k < family->n; k++)
-        equilibrium_volume(&family->eos[k], n, cells->p, cells->T, at, cells->v[k]);
+        equilibrium_volume(&family->eos[k], n, equilibrium_pressure(cells, k, own), cells->T, at, cells->v[k]);
     for (unsigned k = 0; k < cells->n_other; k++)
         for (size_t i = 0; i < n; i++)
             cells->v_other[k][i] = squeeze_volume(&cells->other[k], cells->v0[k][i], cells->e0[k][i], cells->p[i]);

@@ -9,6 +9,8 @@
  * entropy of mixing that one common pressure leaves out. For stable laws D grows with m_v, so there is one root, or the
  * end to which D points: all vapour (D(M) <= 0) or all liquid (D(0) >= 0).
  *
+ * With surface tension (jumps) p is that of the vapour and the liquid has p + jump; E comes with jump alpha_l added.
+ *
  * Cells iterate together (Newton's method in p, T and m_v); what does not converge is bracketed and bisected alone
  * (equilibrium_search.h), so an answer is always found where there is one, and no cell's bits depend on another cell. */
 #ifndef EQUILIBRIUM_H
@@ -43,6 +45,8 @@ struct equilibrium_cells {
     struct model_eos other[SCENE_MATERIALS];
     double m_other[SCENE_MATERIALS][EQUILIBRIUM_BLOCK], v0[SCENE_MATERIALS][EQUILIBRIUM_BLOCK],
         e0[SCENE_MATERIALS][EQUILIBRIUM_BLOCK], v_other[SCENE_MATERIALS][EQUILIBRIUM_BLOCK];
+    bool jumps; /* surface tension: the liquid has p + jump, energy is without what it has stored at the start */
+    double jump[EQUILIBRIUM_BLOCK];
     double energy[EQUILIBRIUM_BLOCK], p[EQUILIBRIUM_BLOCK], T[EQUILIBRIUM_BLOCK];
     unsigned char regime[EQUILIBRIUM_BLOCK];
 };

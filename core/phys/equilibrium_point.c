@@ -22,6 +22,7 @@ void equilibrium_point_take(const struct equilibrium_family *family, const struc
                                             .energy = cells->energy[i],
                                             .n_other = cells->n_other,
                                             .other = cells->other,
+                                            .jump = cells->jumps ? cells->jump[i] : 0.0,
                                             .p = cells->p[i],
                                             .T = cells->T[i]};
     for (unsigned k = 0; k < family->n; k++) ret_point->m[k] = cells->m[k][i];
@@ -47,7 +48,8 @@ static void equilibrium_point_look(struct equilibrium_point *point)
     }
     for (unsigned k = 0; k < family->n; k++) {
         double rho = point->v[k] > 0.0 ? 1.0 / point->v[k] : 0.0, m = point->m[k];
-        family->eos[k].law->thermal(family->eos[k].self, 1, &p, &T, &rho, &point->v[k], &point->h[k], &point->s[k],
+        double own = k == EQUILIBRIUM_LIQUID ? p + point->jump : p;
+        family->eos[k].law->thermal(family->eos[k].self, 1, &own, &T, &rho, &point->v[k], &point->h[k], &point->s[k],
                                     &point->v_T[k], &point->v_p[k], &point->c_p[k]);
         if (!(m > 0.0)) continue;
         point->heat += m * point->h[k];
@@ -104,6 +106,7 @@ static double equilibrium_point_least(const struct equilibrium_point *point)
         if (!(point->m[k] > 0.0)) continue;
         double rho = point->v[k] > 0.0 ? 1.0 / point->v[k] : family->eos[k].rho_fill;
         family->eos[k].law->p_min(family->eos[k].self, 1, &rho, &least);
+        if (k == EQUILIBRIUM_LIQUID) least -= point->jump;
         floor = least > floor ? least : floor;
     }
     for (unsigned k = 0; k < point->n_other; k++) {
@@ -157,6 +160,7 @@ double equilibrium_point_drive(const struct equilibrium_point *point)
     const double *h = point->h, *s = point->s;
     double share = equilibrium_point_share(point), T = point->T;
     double drive = h[EQUILIBRIUM_VAPOUR] - h[EQUILIBRIUM_LIQUID] - T * (s[EQUILIBRIUM_VAPOUR] - s[EQUILIBRIUM_LIQUID]);
+    if (isnan(h[EQUILIBRIUM_VAPOUR]) && !isnan(h[EQUILIBRIUM_LIQUID])) return HUGE_VAL; /* no vapour so dense */
     if (!(share > 0.0) || !isfinite(drive)) return -HUGE_VAL;
     return drive + point->family->R[EQUILIBRIUM_VAPOUR] * T * log(share);
 }

@@ -11,6 +11,7 @@ struct equilibrium_point {
     unsigned n_other;
     const struct model_eos *other;
     double m_other[SCENE_MATERIALS], v0[SCENE_MATERIALS], e0[SCENE_MATERIALS];
+    double jump;                                         /* p of the liquid over that of the others [Pa] */
     double p, T;                                         /* start and answer */
     double v[SCENE_MATERIALS], v_other[SCENE_MATERIALS]; /* answers */
     double h[SCENE_MATERIALS], s[SCENE_MATERIALS], v_T[SCENE_MATERIALS], v_p[SCENE_MATERIALS], c_p[SCENE_MATERIALS];
@@ -25,7 +26,8 @@ void equilibrium_point_take(const struct equilibrium_family *family, const struc
  * little energy). Masses may be 0. */
 bool equilibrium_point_solve(struct equilibrium_point *point);
 
-/* D = mu_v - g_l [J/kg] at a solved point; -inf for a vapour of no mass among gases, or where there can be none (p <= 0). */
+/* D = mu_v - g_l [J/kg] at a solved point; -inf for a vapour of no mass among gases, or where there is no
+ * liquid; +inf where the vapour has no state. */
 double equilibrium_point_drive(const struct equilibrium_point *point);
 
 /* Mole fraction of the vapour in vapour and gases; 1 without mixing. */

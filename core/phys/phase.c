@@ -3,6 +3,7 @@
 
 #include "phys/mix.h"
 #include "phys/phase_rate.h"
+#include "phys/traction.h"
 
 #include <float.h>
 #include <math.h>
@@ -114,6 +115,20 @@ static void phase_owe(struct equilibrium_cells *cells)
     }
 }
 
+/* Surface tension between liquid and vapour: cells->p becomes that of the vapour, the liquid has p + jump, and both with their
+ * volumes what the surface stores: sum m h = E + p + jump alpha_l of the start, since it gives jump d alpha_l (tension.c). */
+static void phase_curve(struct phase_block *block, const struct traction_pressures *parts)
+{
+    struct equilibrium_cells *cells = &block->cells;
+    unsigned liquid = block->phase->member[EQUILIBRIUM_LIQUID], vapour = block->phase->member[EQUILIBRIUM_VAPOUR];
+    cells->jumps = block->model->n_pair > 0;
+    for (size_t i = 0; i < cells->n && cells->jumps; i++) {
+        cells->jump[i] = parts->lag[liquid][i] - parts->lag[vapour][i];
+        cells->p[i] += parts->lag[vapour][i];
+        cells->energy[i] += cells->jump[i] * block->u[block->model->i_alpha + liquid][i];
+    }
+}
+
 /* Masses, temperatures and energy of the family and the others. Traces that fluxes do not see are left out of both. */
 static void phase_fill(struct phase_block *block)
 {
@@ -122,11 +137,14 @@ static void phase_fill(struct phase_block *block)
     size_t n = block->n;
     cells->n = n;
     cells->n_other = 0;
+    struct traction_pressures parts; /* large: filled as far as it is used */
+    traction_part(model, n, PHASE_BLOCK, block->w[0], &parts);
     memset(cells->energy, 0, sizeof cells->energy);
     memset(block->blur, 0, sizeof block->blur);
     for (unsigned l = 0; l < model->n_material; l++) {
         const struct model_eos *eos = &model->eos[l];
-        const double *alpha = block->w[model->i_alpha + l], *rho = block->w[model->i_m + l], *p = block->w[model->i_E];
+        const double *alpha = block->w[model->i_alpha + l], *rho = block->w[model->i_m + l];
+        const double *p = traction_pressure(model, n, l, block->w[model->i_E], &parts);
         unsigned k = phase_place(block->phase, l), o = cells->n_other;
         phase_row rho_e, rho_c2;
         eos->law->state(eos->self, n, rho, p, rho_e, rho_c2);
@@ -148,6 +166,7 @@ static void phase_fill(struct phase_block *block)
     phase_owe(cells);
     memcpy(cells->p, block->w[model->i_E], n * sizeof(double));
     memcpy(cells->T, block->T[EQUILIBRIUM_LIQUID], n * sizeof(double));
+    phase_curve(block, &parts);
 }
 
 /* D/(R T) of cell i at its pressure and liquid temperature, for an own vapour alone, shifted by what the liquid bears. */
@@ -157,7 +176,8 @@ static double phase_drive_alone(const struct phase_block *block, size_t i, doubl
     const double v_l = block->cells.v[0][i], v_v = block->cells.v[1][i];
     const struct saturation pair = {{family->eos[0].law, family->eos[1].law},
                                     {family->eos[0].self, family->eos[1].self},
-                                    {v_l > 0.0 ? 1.0 / v_l : 0.0, v_v > 0.0 ? 1.0 / v_v : 0.0}};
+                                    {v_l > 0.0 ? 1.0 / v_l : 0.0, v_v > 0.0 ? 1.0 / v_v : 0.0},
+                                    block->cells.jumps ? block->cells.jump[i] : 0.0};
     double p = block->cells.p[i] + tension, T = block->cells.T[i] - superheat;
     if (!(p > 0.0)) return -HUGE_VAL;
     return saturation_at(&pair, p, T).drive / (family->R[EQUILIBRIUM_VAPOUR] * T);
@@ -244,6 +264,7 @@ static void phase_move(struct phase_block *block, size_t i, size_t to)
         cells->e0[k][to] = cells->e0[k][i];
     }
     cells->energy[to] = cells->energy[i];
+    if (cells->jumps) cells->jump[to] = cells->jump[i];
     cells->p[to] = cells->p[i];
     cells->T[to] = cells->T[i];
 }
@@ -295,11 +316,22 @@ static void phase_limit(struct phase_block *block, size_t i, double dt)
     if (m != after) phase_hold(block, i, m);
 }
 
+/* What the surface gives when the liquid of cell i fills alpha, and the mean pressure then. */
+static void phase_pay(const struct phase_block *block, size_t i, double alpha, size_t stride, double *w, double *u)
+{
+    const struct model *model = block->model;
+    double jump = block->cells.jump[i];
+    double before = block->u[model->i_alpha + block->phase->member[EQUILIBRIUM_LIQUID]][i];
+    u[model->i_E * stride + block->at[i]] -= jump * (alpha - before);
+    w[model->i_E * stride + block->at[i]] += jump * alpha;
+}
+
 /* Into the tile. */
 static void phase_scatter(const struct phase_block *block, size_t i, size_t stride, double *w, double *u)
 {
     const struct model *model = block->model;
     const struct equilibrium_cells *cells = &block->cells;
+    unsigned liquid = block->phase->member[EQUILIBRIUM_LIQUID];
     double alpha[SCENE_MATERIALS], sum = 0.0, thin = 0.0, all = block->start.m[0][i] + block->start.m[1][i];
     double *at = u + block->at[i];
     bool same = cells->m[EQUILIBRIUM_VAPOUR][i] == block->start.m[EQUILIBRIUM_VAPOUR][i];
@@ -318,6 +350,7 @@ static void phase_scatter(const struct phase_block *block, size_t i, size_t stri
     at[(model->i_m + block->phase->member[EQUILIBRIUM_VAPOUR]) * stride] = cells->m[EQUILIBRIUM_VAPOUR][i];
     at[(model->i_m + block->phase->member[EQUILIBRIUM_LIQUID]) * stride] = all - cells->m[EQUILIBRIUM_VAPOUR][i];
     w[model->i_E * stride + block->at[i]] = cells->p[i];
+    if (cells->jumps) phase_pay(block, i, alpha[liquid] / sum, stride, w, u);
 }
 
 static void phase_run(struct phase_block *block, size_t stride, double dt, double *w, double *u,
