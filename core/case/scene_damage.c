@@ -182,26 +182,11 @@ void scene_damage_voids(struct draft *draft)
     }
 }
 
-/* In the plane and in space a gas of 1 kPa beside a solid that still bears something has a pressure of its own below 0. */
-static void scene_damage_traction(struct draft *draft, unsigned l, const struct keys_map *map)
-{
-    const struct scene *scene = draft->scene;
-    const struct keys_value *opens = keys_at(map, "opens");
-    if (!scene->material[l].damage.opens || scene->domain.dim == 1) return;
-    if (scene->scheme.traction != SCENE_TRACTION_COMMON) return;
-    diag_warn(
-        draft->keys.diag, &opens->node->mark,
-        "%s: with 'traction: common' in the plane and in space voids often end in a step that cannot be completed",
-        opens->path);
-    diag_help(draft->keys.diag, "leave 'opens' out, or scheme: {traction: pressure}");
-}
-
 void scene_damage_times(struct draft *draft)
 {
     for (unsigned l = 0; l < draft->scene->n_material; l++) {
         struct scene_material *material = &draft->scene->material[l];
         const struct keys_map *map = scene_damage_map(draft, l);
         if (map && material->eos.module && material->constitutive.module) scene_damage_time(draft, material, map);
-        if (map) scene_damage_traction(draft, l, map);
     }
 }

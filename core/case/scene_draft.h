@@ -37,6 +37,10 @@ void scene_boundary(struct draft *draft);
 void scene_tension(struct draft *draft);
 void scene_contact(struct draft *draft);
 void scene_phase(struct draft *draft);
+
+/* Gas constant of the law of a material [J/(kg K)]; 0: it becomes no ideal gas, or does not say. */
+double scene_phase_gas(const struct scene *scene, unsigned material);
+
 void scene_fick(struct draft *draft);
 void scene_initial(struct draft *draft);
 void scene_rigid(struct draft *draft);

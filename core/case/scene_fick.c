@@ -1,6 +1,8 @@
 /* scene_fick.c - gases that diffuse through each other: which, and how fast. */
 #include "case/scene_draft.h"
 
+#include "bulla/eos.h"
+
 static const struct key scene_fick_rows[] = {
     {.name = "gases",
      .type = KEYS_TEXT,
@@ -56,6 +58,12 @@ static int scene_fick_member(struct draft *draft, const struct keys_value *value
         keys_error(&draft->keys, value, "'%s' is a solid: gases diffuse through each other", value->text);
         return -1;
     }
+    const struct instance *eos = &draft->scene->material[index].eos;
+    const struct bulla_eos *law = eos->module ? eos->module->table : NULL;
+    if (law && BULLA_EOS_HAS(law, gas_constant) && !(scene_phase_gas(draft->scene, (unsigned)index) > 0.0)) {
+        keys_error(&draft->keys, value, "'%s' is a liquid: gases diffuse through each other", value->text);
+        return -1;
+    }
     return again ? -1 : index;
 }
 
@@ -80,18 +88,6 @@ static void scene_fick_mixture(struct draft *draft, const struct keys_value *val
     if (fick.n > 1) draft->scene->ficks[draft->scene->n_fick++] = fick;
 }
 
-/* Liquids do not mix with gases: a word where a name of the list is the liquid of a pair. */
-static void scene_fick_liquids(struct draft *draft, const struct keys_value *section)
-{
-    const struct scene *scene = draft->scene;
-    for (unsigned k = 0; k < scene->n_fick; k++)
-        for (unsigned g = 0; g < scene->ficks[k].n; g++)
-            for (unsigned i = 0; i < scene->n_phase; i++)
-                if (scene->phases[i].liquid == scene->ficks[k].gas[g])
-                    keys_error(&draft->keys, section, "'%s' is the liquid of a pair in phase-change, not a gas",
-                               scene->material[scene->ficks[k].gas[g]].name);
-}
-
 void scene_fick(struct draft *draft)
 {
     const struct keys_value *section = keys_at(draft->root, "gas-diffusion");
@@ -100,7 +96,6 @@ void scene_fick(struct draft *draft)
     if (section->count > SCENE_PHASES)
         keys_error(&draft->keys, section, "%u mixtures are more than %d", section->count, SCENE_PHASES);
     for (unsigned i = 0; i < section->count && i < SCENE_PHASES; i++) scene_fick_mixture(draft, &section->list[i]);
-    scene_fick_liquids(draft, section);
     if (draft->scene->scheme.closure != SCENE_ALLAIRE) return;
     keys_error(&draft->keys, closure, "with gas-diffusion volume must move with mass, which '%s' does not",
                closure->text);

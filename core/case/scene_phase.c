@@ -230,11 +230,11 @@ static int scene_phase_member(struct draft *draft, const struct keys_value *valu
     return -1;
 }
 
-static double scene_phase_gas(const struct scene *scene, unsigned material)
+double scene_phase_gas(const struct scene *scene, unsigned material)
 {
     const struct instance *eos = &scene->material[material].eos;
-    const struct bulla_eos *law = eos->module->table;
-    return BULLA_EOS_HAS(law, gas_constant) ? law->gas_constant(eos->self) : 0.0;
+    const struct bulla_eos *law = eos->module ? eos->module->table : NULL;
+    return law && BULLA_EOS_HAS(law, gas_constant) ? law->gas_constant(eos->self) : 0.0;
 }
 
 /* A member that must be a gas, or must be none. */
@@ -247,6 +247,10 @@ static int scene_phase_dilute(struct draft *draft, const struct keys_value *valu
                gas ? "'%s' is a liquid: its law becomes no ideal gas when it is thin"
                    : "'%s' is a gas: the liquid of a pair is held together by something",
                name);
+    if (gas)
+        diag_help(draft->keys.diag, "laws of gases: ideal-gas (beside iapws95, which has no vapour, with 'calibrate'), "
+                                    "helmholtz-air");
+    else diag_help(draft->keys.diag, "laws of liquids: nasg, stiffened-gas, mnasg, iapws95");
     return -1;
 }
 
@@ -399,6 +403,7 @@ static void scene_phase_company(struct draft *draft, const struct keys_value *se
     if (scene->scheme.closure == SCENE_ALLAIRE)
         keys_error(&draft->keys, closure,
                    "phase change needs the closure kapila: with allaire, mixtures are not in mechanical equilibrium");
+    if (scene->scheme.closure == SCENE_ALLAIRE) diag_help(draft->keys.diag, "'closure: kapila', the default");
     if (scene->n_tension) scene_phase_curved(draft, section);
     bool line = scene->domain.dim == 1 && scene->scheme.traction == SCENE_TRACTION_AUTO;
     if (!scene_material_solid(draft) || !(line || scene->scheme.traction == SCENE_TRACTION_COMMON)) return;

@@ -10,7 +10,6 @@
 #include "base/mem.h"
 
 #include <assert.h>
-#include <stdlib.h>
 
 struct partition_curve {
     unsigned n;
@@ -127,11 +126,30 @@ struct partition_rank {
     int rank;
 };
 
-static int partition_compare_loads(const void *a, const void *b)
+static bool partition_is_less(struct partition_rank a, struct partition_rank b)
 {
-    const struct partition_rank *x = a, *y = b;
-    if (x->load != y->load) return x->load < y->load ? -1 : 1;
-    return (x->rank > y->rank) - (x->rank < y->rank);
+    return a.load != b.load ? a.load < b.load : a.rank < b.rank;
+}
+
+/* Brings the n least of `size` ranks to the front (Hoare 1961, Commun. ACM 4, 321): sorting all of them would take most of
+ * the time of a cut on many ranks. */
+static void partition_select(struct partition_rank *ranks, int size, int n)
+{
+    for (int low = 0, high = size - 1; low < high;) {
+        struct partition_rank pivot = ranks[low + (high - low) / 2];
+        int i = low, j = high;
+        while (i <= j) {
+            while (partition_is_less(ranks[i], pivot)) i++;
+            while (partition_is_less(pivot, ranks[j])) j--;
+            if (i > j) break;
+            struct partition_rank other = ranks[i];
+            ranks[i++] = ranks[j];
+            ranks[j--] = other;
+        }
+        if (n - 1 >= i) low = i;
+        else if (n - 1 <= j) high = j;
+        else break;
+    }
 }
 
 /* One tile each to the n ranks with least load, the lower ranks where loads are equal. */
@@ -140,7 +158,7 @@ static void partition_few(struct tile *tiles, unsigned n, int size, const double
     struct partition_rank *ranks = mem_new((size_t)size, sizeof *ranks);
     bool *chosen = mem_new((size_t)size, sizeof *chosen);
     for (int rank = 0; rank < size; rank++) ranks[rank] = (struct partition_rank){load[rank], rank};
-    qsort(ranks, (size_t)size, sizeof *ranks, partition_compare_loads);
+    partition_select(ranks, size, (int)n);
     for (unsigned i = 0; i < n; i++) chosen[ranks[i].rank] = true;
     for (int rank = 0; rank < size; rank++)
         if (chosen[rank]) (tiles++)->rank = rank;

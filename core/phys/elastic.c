@@ -59,8 +59,7 @@ static BULLA_KERNEL void elastic_fill_second(size_t n, const double *restrict m,
     }
 }
 
-/* Has stretch k a constant G1 and no G2? */
-static bool elastic_is_plain(const struct model *model, unsigned k)
+bool elastic_is_plain(const struct model *model, unsigned k)
 {
     const struct bulla_constitutive *law = k < model->n_solid ? model->solids[k].law : NULL;
     return !law || (!law->second && law->first_only);
@@ -143,19 +142,38 @@ static ELASTIC_BODY struct elastic_tensor elastic_deviator(struct elastic_tensor
                                    G1 * B.xz - G2 * C.xz,          G1 * B.yz - G2 * C.yz};
 }
 
-/* s' of one stretch, or that added to what there is. Scalar points: stress is asked for by output and boundaries, not by the
- * solver's rows. */
+#define ELASTIC_STRESS(nv)                                                                                   \
+    static BULLA_KERNEL void elastic_stress_##nv(size_t n, struct elastic_rows V, const double *restrict G1, \
+                                                 const double *restrict G2, double *const *out)              \
+    {                                                                                                        \
+        double *restrict xx = out[0], *restrict yy = out[1], *restrict zz = out[2];                          \
+        double *restrict xy = out[3], *restrict xz = out[4], *restrict yz = out[5];                          \
+        ELASTIC_LOCAL(V);                                                                                    \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                   \
+        {                                                                                                    \
+            struct elastic_tensor dev = elastic_deviator(ELASTIC_AT(i, nv), G1[i], G2[i]);                   \
+            xx[i] = dev.xx;                                                                                  \
+            yy[i] = dev.yy;                                                                                  \
+            zz[i] = dev.zz;                                                                                  \
+            if ((nv) > 1) xy[i] = dev.xy;                                                                    \
+            if ((nv) > 2) xz[i] = dev.xz;                                                                    \
+            if ((nv) > 2) yz[i] = dev.yz;                                                                    \
+        }                                                                                                    \
+    }
+ELASTIC_STRESS(1)
+ELASTIC_STRESS(2)
+ELASTIC_STRESS(3)
+
+/* s' of one stretch, or that added to what there is. */
 static void elastic_stress_part(const struct model *model, bool plain, bool add, size_t n, size_t stride,
                                 const double *V, const struct elastic_batch *batch, double *s)
 {
-    for (size_t i = 0; i < n; i++) {
-        double at[6] = {0}, out[6];
-        for (unsigned c = 0; c < model->n_stretch; c++) at[c] = V[c * stride + i];
-        struct elastic_tensor here = {at[0], at[1], at[2], at[3], at[4], at[5]};
-        struct elastic_tensor dev = elastic_deviator(here, batch->G1[i], plain ? 0.0 : batch->G2[i]);
-        memcpy(out, (double[]){dev.xx, dev.yy, dev.zz, dev.xy, dev.xz, dev.yz}, sizeof out);
-        for (unsigned c = 0; c < model->n_stretch; c++) s[c * stride + i] = add ? s[c * stride + i] + out[c] : out[c];
-    }
+    static const double none[ELASTIC_BATCH];
+    double part[6][ELASTIC_BATCH], *out[6];
+    for (unsigned c = 0; c < 6; c++) out[c] = add || c >= model->n_stretch ? part[c] : s + c * stride;
+    struct elastic_rows rows = elastic_tensor_rows(V, stride, model->n_stretch);
+    ELASTIC_CHOOSE(model->n_velocity, elastic_stress, n, rows, batch->G1, plain ? none : batch->G2, out);
+    for (unsigned c = 0; add && c < model->n_stretch; c++) row_add(n, part[c], s + c * stride);
 }
 
 void elastic_stress(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,

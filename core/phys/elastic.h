@@ -40,6 +40,9 @@ void elastic_stress(const struct model *model, size_t n, size_t stride, const do
 void elastic_invariants(const struct model *model, size_t n, size_t stride, const double *V, double *restrict I1,
                         double *restrict I2);
 
+/* Has stretch k a constant G1 and no G2? */
+bool elastic_is_plain(const struct model *model, unsigned k);
+
 /* I1 alone, which is all that plain laws ask for. */
 void elastic_invariants_first(const struct model *model, size_t n, size_t stride, const double *V, double *restrict I1);
 

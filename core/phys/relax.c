@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { RELAX_FIELDS = MODEL_FIELDS, RELAX_ROUNDS = 80, RELAX_NEWTON = 30 };
+enum { RELAX_FIELDS = MODEL_FIELDS, RELAX_ROUNDS = 80, RELAX_NEWTON = 30, RELAX_AGAIN = 4 };
 
 /* Nearest to its least pressure that a material may start: this share of the distance from there to the old pressure. */
 #define RELAX_NEAR 1e-6
@@ -99,6 +99,20 @@ static void relax_lag(struct relax *relax)
     }
 }
 
+/* What the traction looks at beside densities: stretches, normals, and how far solids are broken. */
+static void relax_bear(struct relax *relax)
+{
+    const struct model *model = relax->model;
+    for (unsigned i = model_drawn(model); i < model->n_active; i++)
+        relax->w[model->active[i]] = relax->u[model->active[i]];
+    for (unsigned k = 0; k < model->n_memory; k++) {
+        unsigned q = model->memories[k].field;
+        double m = relax->m[model->solids[model->memories[k].solid].material], value = relax->u[q] / m;
+        value = value < model->memories[k].most ? value : model->memories[k].most;
+        relax->w[q] = m > ELASTIC_NOTHING ? value : 0.0;
+    }
+}
+
 /* Start states: the material's own where most of it was here before, else the density it arrived with. */
 static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
 {
@@ -118,8 +132,7 @@ static bool relax_begin(struct relax *relax, size_t stride, const double *u_old)
         bool own = before[model->i_alpha + l] > 0.0 && old[model->i_m + l] > 0.5 * m && old[model->i_m + l] < 2.0 * m;
         relax->w[model->i_m + l] = own ? before[model->i_m + l] : m / alpha;
     }
-    for (unsigned i = model_drawn(model); i < model_edged(model); i++)
-        relax->w[model->active[i]] = relax->u[model->active[i]];
+    relax_bear(relax);
     if (model->split) traction_own(model, 1, 1, relax->w, 1, relax->own);
     relax_lag(relax);
     for (unsigned l = 0; l < model->n_material; l++) {
@@ -284,7 +297,14 @@ bool relax_cell(const struct model *model, size_t stride, const double *u_old, d
     if (!(closed - relax.floor > 0.5 * (p - relax.floor)) || closed < relax_borne(&relax, closed)) {
         relax_shift(&relax, p);
         relax_normalise(&relax);
-        relax_close(&relax);
+        closed = relax_close(&relax);
+    }
+    for (int i = 0; model->split && i < RELAX_AGAIN && !(closed - relax.floor > 0.5 * (p - relax.floor)); i++) {
+        traction_own(model, 1, 1, relax.w, 1, relax.own); /* a solid of another density bears another stress */
+        relax_lag(&relax);
+        relax_shift(&relax, p);
+        relax_normalise(&relax);
+        closed = relax_close(&relax);
     }
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];

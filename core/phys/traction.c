@@ -54,14 +54,19 @@ struct traction_view {
     double I1[TRACTION_BATCH], I2[TRACTION_BATCH], e_1[TRACTION_BATCH], e_2[TRACTION_BATCH];
 };
 
-static void traction_look(const struct model *model, size_t n, size_t stride, const double *w, unsigned first,
+static void traction_look(const struct model *model, unsigned k, size_t n, size_t stride, const double *w,
                           struct traction_view *ret)
 {
-    const double *V = w + first * stride;
+    const double *V = w + model_stretch(model, k) * stride;
     for (unsigned c = 0; c < 6; c++) ret->row[c] = c < model->n_stretch ? V + c * stride : traction_zero;
     for (unsigned d = 0; d < 3; d++)
         ret->normal[d] = d < model->n_normal ? w + (model->i_normal + d) * stride : traction_zero;
-    elastic_invariants(model, n, stride, V, ret->I1, ret->I2);
+    if (!elastic_is_plain(model, k)) {
+        elastic_invariants(model, n, stride, V, ret->I1, ret->I2);
+        return;
+    }
+    elastic_invariants_first(model, n, stride, V, ret->I1);
+    memcpy(ret->I2, ret->I1, n * sizeof *ret->I2); /* nobody looks at it */
 }
 
 /* s'_nn of the slopes e_1, e_2 of a view. */
@@ -84,7 +89,7 @@ static void traction_branches(const struct model *model, size_t n, size_t stride
     for (unsigned b = 0; b < model->n_branch; b++) {
         const struct model_branch *branch = &model->branches[b];
         unsigned l = model->solids[branch->solid].material;
-        traction_look(model, n, stride, w, branch->field, &view);
+        traction_look(model, model->n_solid + b, n, stride, w, &view);
         for (size_t i = 0; i < n; i++) view.e_1[i] = branch->k, view.e_2[i] = 0.0;
         traction_of(model, n, rho[branch->solid], &view, part);
         row_add(n, part, own + l * pitch);
@@ -102,7 +107,7 @@ static void traction_batch(const struct model *model, size_t n, size_t stride, c
     for (unsigned l = 0; l < model->n_material; l++) memset(own + l * pitch, 0, n * sizeof *own);
     for (unsigned s = 0; s < model->n_solid; s++) {
         const struct model_solid *solid = &model->solids[s];
-        traction_look(model, n, stride, w, solid->stretch, &view);
+        traction_look(model, s, n, stride, w, &view);
         solid->law->energy(solid->self, n, view.I1, view.I2, e, view.e_1, view.e_2);
         traction_of(model, n, rho[s], &view, own + solid->material * pitch);
     }

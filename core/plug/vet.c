@@ -210,11 +210,24 @@ static int vet_number(const struct bulla_param *row)
     return STATUS_OK;
 }
 
-static int vet_row(const struct bulla_param *table, const struct bulla_param *row)
+/* Keys of a case that the program reads itself where it reads the parameters of a module, and those of a law of rupture. */
+#define VET_ALL "|type|preset|"
+#define VET_DAMAGE "|type|preset|time|opens|void-pressure|void-temperature|"
+
+/* Does the program read key `name` itself where it reads the parameters? */
+static bool vet_taken(const char *name, const char *taken)
+{
+    size_t length = strlen(name);
+    for (const char *at = taken; (at = strstr(at, name)); at += length)
+        if (at[-1] == '|' && at[length] == '|') return true;
+    return false;
+}
+
+static int vet_row(const struct bulla_param *table, const struct bulla_param *row, const char *taken)
 {
     if (!vet_name(row->name))
         return status_fail(STATUS_CASE, "has a parameter '%s'; names are lower case with hyphens", row->name);
-    if (strcmp(row->name, "type") == 0 || strcmp(row->name, "preset") == 0)
+    if (vet_taken(row->name, taken))
         return status_fail(STATUS_CASE, "has a parameter '%s'; that key is reserved", row->name);
     for (const struct bulla_param *other = table; other < row; other++)
         if (strcmp(other->name, row->name) == 0) return status_fail(STATUS_CASE, "has parameter '%s' twice", row->name);
@@ -233,12 +246,13 @@ static int vet_row(const struct bulla_param *table, const struct bulla_param *ro
 
 static int vet_params(const struct bulla_module *module)
 {
+    const char *taken = strcmp(module->kind, "damage") == 0 ? VET_DAMAGE : VET_ALL;
     if (!module->params) return STATUS_OK;
     const struct bulla_param *row = module->params;
     for (; row->name; row++) {
         if (row - module->params == VET_ROWS)
             return status_fail(STATUS_CASE, "has a parameter table without an end in %d rows", VET_ROWS);
-        TRY(vet_row(module->params, row));
+        TRY(vet_row(module->params, row, taken));
     }
     return STATUS_OK;
 }

@@ -89,3 +89,6 @@ sed 's/{value: "last(V)"/{value: "last(x)"/' whole.yaml | sed 's/, V: {volume: v
 refused_by none.yaml "'damage' is a field of solids that can break"
 "$BULLA" check tear.yaml --set 'materials.gel.damage.time=1 ns' >out 2>err
 grep -q 'warning: materials.gel.damage.time: a wave crosses' err || fail "no warning" err
+
+# Voids where solid and fluid share the traction: the gas needs a pressure above 0 beside stone in tension.
+"$BULLA" run "$BULLA_SOURCE/cases/tour/stone.yaml" --variant quick --set scheme.traction=common -o stone --quiet >said || fail "voids with a common traction" said

@@ -131,6 +131,26 @@ static void test_few(void **state)
     assert_memory_equal(load, after, sizeof load);
 }
 
+/* Of many ranks, with equal loads, those that come before in the order (load, rank). */
+static void test_fewer(void **state)
+{
+    (void)state;
+    enum { SIZE = 97 };
+    struct tile tiles[SIZE] = {0};
+    double cost[SIZE] = {0}, load[SIZE];
+    for (unsigned n = 1; n < SIZE; n++) {
+        unsigned next = 0;
+        for (unsigned r = 0; r < SIZE; r++) load[r] = (double)(r * r * (n + 3) % 11);
+        partition_cut(tiles, n, cost, SIZE, 1.0, load);
+        for (unsigned r = 0; r < SIZE; r++) {
+            unsigned before = 0;
+            for (unsigned q = 0; q < SIZE; q++) before += load[q] < load[r] || (load[q] == load[r] && q < r);
+            if (before < n) assert_int_equal(tiles[next++].rank, r);
+        }
+        assert_int_equal(next, n);
+    }
+}
+
 static void test_imbalance(void **state)
 {
     (void)state;
@@ -144,8 +164,8 @@ static void test_imbalance(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_best), cmocka_unit_test(test_even),      cmocka_unit_test(test_rounding),
-        cmocka_unit_test(test_few),  cmocka_unit_test(test_imbalance),
+        cmocka_unit_test(test_best), cmocka_unit_test(test_even),  cmocka_unit_test(test_rounding),
+        cmocka_unit_test(test_few),  cmocka_unit_test(test_fewer), cmocka_unit_test(test_imbalance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "plug/instance.h"
+#include "plug/vet.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -205,6 +206,22 @@ static void test_hostile(void **state)
     }
 }
 
+/* A law of rupture stands beside keys of the program's own. */
+static void test_taken(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"time", "opens", "void-pressure", "opens-at"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        struct bulla_module module = *registry_find("damage", "tension")->module;
+        struct bulla_param params[] = {module.params[0], {0}};
+        params[0].name = names[i];
+        module.params = params;
+        module.presets = NULL;
+        assert_int_equal(vet_module(&module, sizeof module), i < 3 ? STATUS_CASE : STATUS_OK);
+        if (i < 3) assert_non_null(strstr(status_text(), "that key is reserved"));
+    }
+}
+
 static void test_duplicate_names_both(void **state)
 {
     (void)state;
@@ -348,12 +365,19 @@ static void test_search_order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_builtin),    cmocka_unit_test(test_names),
-        cmocka_unit_test(test_params),     cmocka_unit_test(test_same_again),
-        cmocka_unit_test(test_hostile),    cmocka_unit_test(test_duplicate_names_both),
-        cmocka_unit_test(test_fast_math),  cmocka_unit_test(test_truncated),
-        cmocka_unit_test(test_no_file),    cmocka_unit_test(test_good),
-        cmocka_unit_test(test_open_fails), cmocka_unit_test(test_search_order),
+        cmocka_unit_test(test_builtin),
+        cmocka_unit_test(test_names),
+        cmocka_unit_test(test_params),
+        cmocka_unit_test(test_same_again),
+        cmocka_unit_test(test_hostile),
+        cmocka_unit_test(test_taken),
+        cmocka_unit_test(test_duplicate_names_both),
+        cmocka_unit_test(test_fast_math),
+        cmocka_unit_test(test_truncated),
+        cmocka_unit_test(test_no_file),
+        cmocka_unit_test(test_good),
+        cmocka_unit_test(test_open_fails),
+        cmocka_unit_test(test_search_order),
     };
     return cmocka_run_group_tests(tests, start, stop);
 }
