@@ -1,4 +1,4 @@
-/* criterion.h - what criteria share: an instance is a copy of a struct of numbers, and many of them are a ramp. */
+/* criterion.h - what criteria share: an instance is a copy of a struct of numbers. Many of them are a ramp (ramp.h). */
 #ifndef CRITERION_H
 #define CRITERION_H
 
@@ -23,37 +23,6 @@ static inline int criterion_keep(const struct bulla_host *host, const void *par,
 static void criterion_close(void *self)
 {
     free(self);
-}
-
-/* Damage is 0 up to `begins` and 1 from `ends` on, at once; `ends` 0: there, too. */
-struct criterion_ramp {
-    double begins, per_range;
-};
-
-static inline int criterion_ramp_open(const struct bulla_host *host, const struct bulla_value *begins,
-                                      const struct bulla_value *ends, void **ret_self)
-{
-    double last = ends->number == 0.0 ? begins->number : ends->number, range = last - begins->number;
-    const struct criterion_ramp ramp = {begins->number, range > 0.0 ? 1.0 / range : 1e300};
-    if (!(range >= 0.0)) {
-        host->fail("'ends' is below 'begins'");
-        return 1;
-    }
-    return criterion_keep(host, &ramp, sizeof ramp, ret_self);
-}
-
-BULLA_KERNEL static inline void criterion_ramp_grow(const struct criterion_ramp *self, size_t n,
-                                                    const double *BULLA_RESTRICT load, double *BULLA_RESTRICT aim,
-                                                    double *BULLA_RESTRICT rate)
-{
-    const double begins = self->begins, per_range = self->per_range;
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double part = (load[i] - begins) * per_range;
-        part = part > 0.0 ? part : 0.0; /* 0 for a NaN, too */
-        aim[i] = part < 1.0 ? part : 1.0;
-        rate[i] = BULLA_DAMAGE_AT_ONCE;
-    }
 }
 
 #endif

@@ -1,5 +1,5 @@
 /* energy.c - breaks with the elastic energy per volume, linearly between two values. */
-#include "criterion.h"
+#include "ramp.h"
 
 enum { BEGINS, ENDS };
 
@@ -10,13 +10,13 @@ static const struct bulla_param energy_params[] = {
 
 static int energy_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
 {
-    return criterion_ramp_open(host, &values[BEGINS], &values[ENDS], ret_self);
+    return ramp_open(host, &values[BEGINS], &values[ENDS], ret_self);
 }
 
 static void energy_grow(const void *self, size_t n, const struct bulla_damage_state *state, double *BULLA_RESTRICT aim,
                         double *BULLA_RESTRICT rate)
 {
-    criterion_ramp_grow(self, n, state->energy, aim, rate);
+    ramp_grow(self, n, state->energy, aim, rate);
 }
 
 static uint32_t energy_needs(const void *self)

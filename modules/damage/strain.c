@@ -1,5 +1,5 @@
 /* strain.c - breaks with the accumulated plastic strain, linearly between two values. */
-#include "criterion.h"
+#include "ramp.h"
 
 enum { BEGINS, ENDS };
 
@@ -11,13 +11,13 @@ static const struct bulla_param strain_params[] = {{"begins", "1", 0.0, 1e3, NAN
 
 static int strain_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
 {
-    return criterion_ramp_open(host, &values[BEGINS], &values[ENDS], ret_self);
+    return ramp_open(host, &values[BEGINS], &values[ENDS], ret_self);
 }
 
 static void strain_grow(const void *self, size_t n, const struct bulla_damage_state *state, double *BULLA_RESTRICT aim,
                         double *BULLA_RESTRICT rate)
 {
-    criterion_ramp_grow(self, n, state->strain, aim, rate);
+    ramp_grow(self, n, state->strain, aim, rate);
 }
 
 static uint32_t strain_needs(const void *self)

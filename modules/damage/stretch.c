@@ -1,5 +1,5 @@
 /* stretch.c - breaks with the largest principal elastic stretch, linearly between two values. */
-#include "criterion.h"
+#include "ramp.h"
 
 enum { BEGINS, ENDS };
 
@@ -19,13 +19,13 @@ static const struct bulla_preset stretch_presets[] = {{"liver", "liver, 0.38", (
 
 static int stretch_open(const struct bulla_host *host, const struct bulla_value *values, void **ret_self)
 {
-    return criterion_ramp_open(host, &values[BEGINS], &values[ENDS], ret_self);
+    return ramp_open(host, &values[BEGINS], &values[ENDS], ret_self);
 }
 
 static void stretch_grow(const void *self, size_t n, const struct bulla_damage_state *state, double *BULLA_RESTRICT aim,
                          double *BULLA_RESTRICT rate)
 {
-    criterion_ramp_grow(self, n, state->stretch, aim, rate);
+    ramp_grow(self, n, state->stretch, aim, rate);
 }
 
 static uint32_t stretch_needs(const void *self)
