@@ -227,8 +227,9 @@ static double relax(const struct series *series, double t, int n)
     u[model->i_E] = series->energy;
     w[model->i_E] = cells.p[0];
     for (int i = 0; i < n; i++) phase_act(model, 0, 1, 1, t / n, w, u, &(struct equilibrium_effort){0});
+    double vapour = u[model->i_m + 1];
     flow_stop(&flow);
-    return u[model->i_m + 1];
+    return vapour;
 }
 
 /* First order in dt, against the reference at a time on the way; equilibrium at its end, whatever the steps. */
