@@ -216,7 +216,7 @@ static void scene_boundary_read_window(struct draft *draft, struct scene_boundar
                                        const struct keys_value *window)
 {
     if (!window->given) return;
-    boundary->window = (int)window->integer;
+    boundary->window = (unsigned)window->integer;
     if (boundary->window == SCENE_WINDOW_NONE || boundary->cycles > 0.0) return;
     keys_error(&draft->keys, window, "a wave that never ends has no window");
     diag_help(draft->keys.diag, "say how many periods it has: 'cycles: 10'");

@@ -104,7 +104,7 @@ static BULLA_KERNEL void fick_quicken(size_t n, double D0, double T0, double p0,
         double a = alpha[i], m = rho[i], x = D[i] / (a * T0), own = D0 * (p0 / p[i]) * (x * x / sqrt(sqrt(x)));
         double density = m / a;
         rho[i] = a > 0.0 ? density : 0.0;
-        D[i] = (a > 0.0) & (x > 0.0) & (p[i] > 0.0) ? own : 0.0;
+        D[i] = ((a > 0.0) & (x > 0.0) & (p[i] > 0.0)) ? own : 0.0;
     }
 }
 
@@ -182,7 +182,7 @@ static BULLA_KERNEL void fick_open_faces(size_t n, size_t step, double most, con
         double bound = least > FICK_FELT ? HUGE_VAL : most;
         double left = rho[i] * (Da < bound ? Da : bound), right = rho[i + step] * (Db < bound ? Db : bound);
         double sum = left + right, both = 2.0 * left * right / sum, flux = least * both * per_d[i];
-        through[i] = (least > 0.0) & (sum > 0.0) ? flux : 0.0;
+        through[i] = ((least > 0.0) & (sum > 0.0)) ? flux : 0.0;
     }
 }
 
