@@ -233,8 +233,8 @@ static int scene_phase_member(struct draft *draft, const struct keys_value *valu
     if (BULLA_EOS_HAS(law, thermal)) return index;
     keys_error(&draft->keys, value, "the law '%s' of '%s' does not give its entropy and enthalpy from p and T",
                material->eos.module->name, material->name);
-    diag_help(draft->keys.diag,
-              "laws that do: ideal-gas, stiffened-gas, nasg, mnasg, iapws95 (the liquid), helmholtz-air (a gas)");
+    diag_help(draft->keys.diag, "laws that do: ideal-gas, stiffened-gas, nasg, mnasg, iapws95 (the liquid), "
+                                "iapws95-vapour, helmholtz-air (a gas)");
     return -1;
 }
 
@@ -256,8 +256,9 @@ static int scene_phase_dilute(struct draft *draft, const struct keys_value *valu
                    : "'%s' is a gas: the liquid of a pair is held together by something",
                name);
     if (gas)
-        diag_help(draft->keys.diag, "laws of gases: ideal-gas (beside iapws95, which has no vapour, with 'calibrate'), "
-                                    "helmholtz-air");
+        diag_help(draft->keys.diag,
+                  "laws of gases: iapws95-vapour (beside iapws95), ideal-gas (beside iapws95 with 'calibrate'), "
+                  "helmholtz-air");
     else diag_help(draft->keys.diag, "laws of liquids: nasg, stiffened-gas, mnasg, iapws95");
     return -1;
 }
