@@ -75,7 +75,7 @@ for n in 1 2 3 4 5; do
 done
 judge 2 trouble1.so
 grep -qE 'trouble1.so .*(signal 6|SIGABRT)' err || fail "abort while loading"
-judge 1 trouble2.so
+(unset ASAN_OPTIONS && judge 1 trouble2.so) # this crash is meant: no report of it to sanitize.sh
 grep -qE 'trouble2.so (crashes \(slopes of pairs|ends the process)' err || fail "a crash" # the second with a sanitizer
 judge 1 trouble3.so
 grep -q 'trouble3.so ends the process (slopes of pairs.*never calls exit' err || fail "exit"
