@@ -27,7 +27,7 @@ static void closure_cells(struct term_tile *tile)
 }
 
 /* alpha after K div u and the exchange. A step below the least value, or below what transport left if that is less, is
- * cut. */
+ * cut; counted is what lacks more than a trace. */
 static BULLA_KERNEL void closure_bound(size_t n, double dt, const double *restrict K, const double *restrict div,
                                        const double *restrict exchange, double *restrict alpha, double *restrict cut)
 {
@@ -37,7 +37,8 @@ static BULLA_KERNEL void closure_bound(size_t n, double dt, const double *restri
         double most = CLOSURE_SHRINK * a, kept = most > CLOSURE_LEAST ? most : CLOSURE_LEAST;
         double least = a < kept ? a : kept, wanted = a + (push + moved), next = wanted > least ? wanted : least;
         next = next < 1.0 ? next : 1.0;
-        double acted = next != wanted ? 1.0 : 0.0;
+        double over = wanted - next, under = next - wanted;
+        double acted = over > CLOSURE_TRACE || under > CLOSURE_TRACE ? 1.0 : 0.0;
         alpha[i] = next;
         cut[i] = count + acted;
     }

@@ -9,6 +9,7 @@
 
 #define CLOSURE_LEAST 1e-9
 #define CLOSURE_SHRINK 0.25
+#define CLOSURE_TRACE 1e-6 /* volume that is cut off counts as clipped from here on */
 
 /* Fills tile->K and tile->rho_c2. */
 extern const struct term closure_term;

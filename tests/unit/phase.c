@@ -274,8 +274,9 @@ static double vapour_after(const char *phase, double T, double p, double alpha)
     mix_conserved(model, 1, 1, w, u);
     double before = u[model->i_m + 1];
     phase_act(model, 0, 1, 1, 1e-6, w, u, &(struct equilibrium_effort){0});
+    double after = u[model->i_m + 1];
     flow_stop(&flow);
-    return u[model->i_m + 1] - before;
+    return after - before;
 }
 
 static void test_kinds(void **state)
