@@ -52,7 +52,8 @@ double saturation_pressure(const struct saturation *pair, double T)
     for (int i = 0; i < SATURATION_ROUNDS; i++) {
         double p = exp(x);
         struct saturation_state at = saturation_at(pair, p, T);
-        if (!saturation_thin(&at) || at.drive > 0.0) high = x;
+        if (isnan(at.v[0])) low = x; /* a liquid torn apart; a vapour without a state is too dense */
+        else if (!saturation_thin(&at) || at.drive > 0.0) high = x;
         else low = x;
         double step = -at.drive / (p * (at.v[1] - at.v[0])), next = x + step;
         if (saturation_thin(&at) && fabs(step) <= 4e-16 * (1.0 + fabs(x))) return p;

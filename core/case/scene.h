@@ -135,6 +135,7 @@ struct scene_phase {
     double tension, superheat;     /* what liquid without vapour bears [Pa, K] */
     double onset;                  /* liquid evaporates where vapour and gases fill this share of the cell */
     double wet;                    /* vapour condenses where the liquid fills this share of the cell */
+    bool apart;                    /* gases keep the heat they have: they share pressure and moles alone */
     struct saturation_range curve; /* of liquid and vapour */
 };
 

@@ -18,12 +18,6 @@ void scene_diffusion(struct draft *draft)
             "'rkl2' goes with one material: in mixed cells heat moves volume, which steps this long do not get right");
         diag_help(draft->keys.diag, "'diffusion: explicit'");
     }
-    if (scene->mesh.levels > 0) {
-        keys_error(&draft->keys, diffusion,
-                   "'rkl2' goes with one level: in steps this long fluxes are corrected by more than cells beside a "
-                   "finer level bear");
-        diag_help(draft->keys.diag, "'levels: 0', or 'diffusion: explicit'");
-    }
     if (scene->n_rigid > 0) {
         keys_error(&draft->keys, diffusion, "'rkl2' does not go with 'bodies': what diffuses knows of no cut cells");
         diag_help(draft->keys.diag, "'diffusion: explicit'");

@@ -179,6 +179,13 @@ static const struct key scene_phase_rows[] = {
          "Vapour condenses only where the liquid fills this share of a cell; wherever it is felt, if not given. 0.9 "
          "keeps vapour among gases from condensing, and gases from cooling, in all cells that the surface is smeared "
          "over."},
+    {.name = "gas-temperature",
+     .type = KEYS_CHOICE,
+     .choices = "shared|own",
+     .fallback = "shared",
+     .doc = "Of the gases in a cell that also holds liquid. shared: that of liquid and vapour. own: they keep their "
+            "heat but for "
+            "work and conduction, so that a collapse does not cool what the mesh mixes of them into the liquid."},
     {.name = "direction",
      .type = KEYS_CHOICE,
      .choices = "both|evaporation|condensation",
@@ -226,8 +233,8 @@ static int scene_phase_member(struct draft *draft, const struct keys_value *valu
     if (BULLA_EOS_HAS(law, thermal)) return index;
     keys_error(&draft->keys, value, "the law '%s' of '%s' does not give its entropy and enthalpy from p and T",
                material->eos.module->name, material->name);
-    diag_help(draft->keys.diag,
-              "laws that do: ideal-gas, stiffened-gas, nasg, mnasg, iapws95 (the liquid), helmholtz-air (a gas)");
+    diag_help(draft->keys.diag, "laws that do: ideal-gas, stiffened-gas, nasg, mnasg, iapws95 (the liquid), "
+                                "iapws95-vapour, helmholtz-air (a gas)");
     return -1;
 }
 
@@ -249,8 +256,9 @@ static int scene_phase_dilute(struct draft *draft, const struct keys_value *valu
                    : "'%s' is a gas: the liquid of a pair is held together by something",
                name);
     if (gas)
-        diag_help(draft->keys.diag, "laws of gases: ideal-gas (beside iapws95, which has no vapour, with 'calibrate'), "
-                                    "helmholtz-air");
+        diag_help(draft->keys.diag,
+                  "laws of gases: iapws95-vapour (beside iapws95), ideal-gas (beside iapws95 with 'calibrate'), "
+                  "helmholtz-air");
     else diag_help(draft->keys.diag, "laws of liquids: nasg, stiffened-gas, mnasg, iapws95");
     return -1;
 }
@@ -286,6 +294,18 @@ static void scene_phase_pace(struct draft *draft, const struct keys_map *map, st
     pair->area = keys_at(rate, "area")->number;
 }
 
+/* Do gases keep their temperature? */
+static void scene_phase_apart(struct draft *draft, const struct keys_map *map, struct scene_phase *pair)
+{
+    const struct keys_value *value = keys_at(map, "gas-temperature");
+    pair->apart = value->integer == 1;
+    if (pair->apart && !keys_at(map, "gases")->given)
+        keys_error(&draft->keys, value, "the pair has no gases: name them with 'gases: [...]', or leave this out");
+    if (pair->apart && pair->rate == SCENE_PHASE_LUA)
+        keys_error(&draft->keys, value,
+                   "a script is asked with all gases at the temperature of the liquid: 'rate: lua' needs 'shared'");
+}
+
 static void scene_phase_places(struct draft *draft, const struct keys_map *map, struct scene_phase *pair)
 {
     const struct keys_value *nucleation = keys_at(map, "nucleation");
@@ -299,6 +319,7 @@ static void scene_phase_places(struct draft *draft, const struct keys_map *map, 
     pair->wet = keys_at(map, "condense-from")->given ? keys_at(map, "condense-from")->number : 0.0;
     if (pair->direction == SCENE_PHASE_EVAPORATION && keys_at(map, "condense-from")->given)
         keys_error(&draft->keys, keys_at(map, "condense-from"), "with 'direction: evaporation' nothing condenses");
+    scene_phase_apart(draft, map, pair);
     if (!nucleation->map) return;
     const struct keys_value *tension = keys_at(nucleation->map, "tension"),
                             *superheat = keys_at(nucleation->map, "superheat");

@@ -9,6 +9,7 @@
 #include "io/start.h"
 #include "judge/norm.h"
 #include "plug/block.h"
+#include "solve/tableau.h"
 
 #include <string.h>
 
@@ -92,5 +93,7 @@ double scenes_cells(const struct scene *scene)
 double scenes_bytes(const struct scene *scene, double cells)
 {
     unsigned n_alpha = scene->n_material > 1 ? scene->n_material : 0;
-    return cells * 3 * sizeof(double) * (n_alpha + scene->n_material + (unsigned)scene->domain.dim + 1);
+    unsigned arrays = 3 + tableau_keeps(tableau_of(scene));
+    if (scene->scheme.diffusion == SCENE_DIFFUSION_RKL2) arrays += 3; /* struct rkl */
+    return cells * arrays * sizeof(double) * (n_alpha + scene->n_material + (unsigned)scene->domain.dim + 1);
 }

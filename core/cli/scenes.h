@@ -16,7 +16,8 @@ int scenes_read(const struct cli_given *given, const char *path, struct scene **
 /* Cells of the coarsest level. */
 double scenes_cells(const struct scene *scene);
 
-/* Bytes that the blocks of so many cells take: all evolved fields three times (old, new, primitive). */
+/* Bytes that the blocks of so many cells take: all evolved fields three times (old, new, primitive), and once
+ * or three times more where the integrator or super steps keep them. */
 double scenes_bytes(const struct scene *scene, double cells);
 
 #endif

@@ -192,7 +192,8 @@ static void equilibrium_begin(const struct equilibrium_family *family, struct eq
         for (unsigned k = 0; k < cells->n_other; k++) energy[i] -= cells->m_other[k][i] * cells->e0[k][i];
         if (!(cells->p[i] > 0.0)) cells->p[i] = 1e3;
         if (!(cells->T[i] > 0.0)) cells->T[i] = 300.0;
-        at->state[i] = at->gas[i] = at->share[i] = 0.0;
+        at->state[i] = at->share[i] = 0.0;
+        at->gas[i] = cells->apart && family->mixing ? cells->moles[i] : 0.0;
         for (unsigned k = EQUILIBRIUM_GAS; k < family->n && family->mixing; k++)
             at->gas[i] += cells->m[k][i] * family->R[k];
         if (!family->exchange) continue;

@@ -9,6 +9,8 @@
  * entropy of mixing that one common pressure leaves out. For stable laws D grows with m_v, so there is one root, or the
  * end to which D points: all vapour (D(M) <= 0) or all liquid (D(0) >= 0).
  *
+ * Gases that keep their heat (apart) are among the others, and lower the vapour's mole fraction all the same.
+ *
  * With surface tension (jumps) p is that of the vapour and the liquid has p + jump; E comes with jump alpha_l added.
  *
  * Cells iterate together (Newton's method in p, T and m_v); what does not converge is bracketed and bisected alone
@@ -47,6 +49,8 @@ struct equilibrium_cells {
         e0[SCENE_MATERIALS][EQUILIBRIUM_BLOCK], v_other[SCENE_MATERIALS][EQUILIBRIUM_BLOCK];
     bool jumps; /* surface tension: the liquid has p + jump, energy is without what it has stored at the start */
     double jump[EQUILIBRIUM_BLOCK];
+    bool apart; /* gases with a heat of their own are among the others, but the vapour is mixed with them */
+    double moles[EQUILIBRIUM_BLOCK]; /* sum m R of these [J/(m3 K)] */
     double energy[EQUILIBRIUM_BLOCK], p[EQUILIBRIUM_BLOCK], T[EQUILIBRIUM_BLOCK];
     unsigned char regime[EQUILIBRIUM_BLOCK];
 };

@@ -23,6 +23,7 @@ void equilibrium_point_take(const struct equilibrium_family *family, const struc
                                             .n_other = cells->n_other,
                                             .other = cells->other,
                                             .jump = cells->jumps ? cells->jump[i] : 0.0,
+                                            .moles = cells->apart ? cells->moles[i] : 0.0,
                                             .p = cells->p[i],
                                             .T = cells->T[i]};
     for (unsigned k = 0; k < family->n; k++) ret_point->m[k] = cells->m[k][i];
@@ -149,7 +150,7 @@ bool equilibrium_point_solve(struct equilibrium_point *point)
 double equilibrium_point_share(const struct equilibrium_point *point)
 {
     const struct equilibrium_family *family = point->family;
-    double sum = 0.0, vapour = point->m[EQUILIBRIUM_VAPOUR] * family->R[EQUILIBRIUM_VAPOUR];
+    double sum = point->moles, vapour = point->m[EQUILIBRIUM_VAPOUR] * family->R[EQUILIBRIUM_VAPOUR];
     if (!family->mixing) return 1.0;
     for (unsigned k = EQUILIBRIUM_GAS; k < family->n; k++) sum += point->m[k] * family->R[k];
     return sum > 0.0 ? vapour / (vapour + sum) : 1.0;

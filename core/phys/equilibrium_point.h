@@ -12,6 +12,7 @@ struct equilibrium_point {
     const struct model_eos *other;
     double m_other[SCENE_MATERIALS], v0[SCENE_MATERIALS], e0[SCENE_MATERIALS];
     double jump;                                         /* p of the liquid over that of the others [Pa] */
+    double moles;                                        /* sum m R of gases among the others [J/(m3 K)] */
     double p, T;                                         /* start and answer */
     double v[SCENE_MATERIALS], v_other[SCENE_MATERIALS]; /* answers */
     double h[SCENE_MATERIALS], s[SCENE_MATERIALS], v_T[SCENE_MATERIALS], v_p[SCENE_MATERIALS], c_p[SCENE_MATERIALS];

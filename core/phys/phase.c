@@ -31,15 +31,20 @@ struct phase_block {
     int status; /* of scripts */
 };
 
+static double phase_constant(const struct model_eos *eos)
+{
+    return BULLA_EOS_HAS(eos->law, gas_constant) ? eos->law->gas_constant(eos->self) : 0.0;
+}
+
 static void phase_family(const struct model *model, const struct model_phase *phase, struct equilibrium_family *ret)
 {
-    ret->n = phase->n;
+    ret->n = phase->scene->apart ? EQUILIBRIUM_GAS : phase->n;
     ret->mixing = phase->scene->mixing;
     ret->exchange = phase->scene->rate != SCENE_PHASE_NONE;
-    for (unsigned k = 0; k < phase->n; k++) {
+    for (unsigned k = 0; k < ret->n; k++) {
         const struct model_eos *eos = &model->eos[phase->member[k]];
         ret->eos[k] = *eos;
-        ret->R[k] = BULLA_EOS_HAS(eos->law, gas_constant) ? eos->law->gas_constant(eos->self) : 0.0;
+        ret->R[k] = phase_constant(eos);
     }
 }
 
@@ -93,12 +98,27 @@ static void phase_gather(struct phase_block *block, size_t stride, const double 
     mix_primitives(model, block->n, PHASE_BLOCK, block->u[0], block->w[0]);
 }
 
-/* Where a material is in the family; phase->n: it is none of it. */
-static unsigned phase_place(const struct model_phase *phase, unsigned l)
+/* Where a material is among those that share a temperature; family.n: it is none of them. */
+static unsigned phase_place(const struct phase_block *block, unsigned l)
 {
     unsigned k = 0;
-    while (k < phase->n && phase->member[k] != l) k++;
+    while (k < block->family.n && block->phase->member[k] != l) k++;
     return k;
+}
+
+/* What gases with a heat of their own take of the vapour's mole fraction. */
+static void phase_mingle(struct phase_block *block)
+{
+    struct equilibrium_cells *cells = &block->cells;
+    cells->apart = block->phase->scene->apart;
+    memset(cells->moles, 0, sizeof cells->moles);
+    for (unsigned k = block->family.n; k < block->phase->n; k++) {
+        unsigned l = block->phase->member[k];
+        double R = phase_constant(&block->model->eos[l]);
+        for (size_t i = 0; i < cells->n; i++)
+            cells->moles[i] +=
+                block->w[block->model->i_alpha + l][i] > 0.0 ? R * block->u[block->model->i_m + l][i] : 0.0;
+    }
 }
 
 /* Two stages may take more of a phase out of a cell than there was, vapour that the midpoint has made: what is missing is of one
@@ -145,25 +165,26 @@ static void phase_fill(struct phase_block *block)
         const struct model_eos *eos = &model->eos[l];
         const double *alpha = block->w[model->i_alpha + l], *rho = block->w[model->i_m + l];
         const double *p = traction_pressure(model, n, l, block->w[model->i_E], &parts);
-        unsigned k = phase_place(block->phase, l), o = cells->n_other;
+        unsigned k = phase_place(block, l), o = cells->n_other;
         phase_row rho_e, rho_c2;
         eos->law->state(eos->self, n, rho, p, rho_e, rho_c2);
-        if (k < block->phase->n) eos->law->temperature(eos->self, n, rho, p, block->T[k]);
+        if (k < block->family.n) eos->law->temperature(eos->self, n, rho, p, block->T[k]);
         else cells->other[cells->n_other++] = *eos;
         for (size_t i = 0; i < n; i++) {
             double there = alpha[i] > 0.0 ? 1.0 : 0.0, m = there * block->u[model->i_m + l][i];
             cells->energy[i] += there > 0.0 ? alpha[i] * rho_e[i] : 0.0;
             if (there > 0.0 && rho_c2[i] > block->blur[i]) block->blur[i] = rho_c2[i];
             if (k < 2) cells->m[k][i] = block->u[model->i_m + l][i];
-            else if (k < block->phase->n) cells->m[k][i] = m;
-            if (k < block->phase->n) cells->v[k][i] = there > 0.0 ? 1.0 / rho[i] : 0.0;
-            if (k < block->phase->n) continue;
+            else if (k < block->family.n) cells->m[k][i] = m;
+            if (k < block->family.n) cells->v[k][i] = there > 0.0 ? 1.0 / rho[i] : 0.0;
+            if (k < block->family.n) continue;
             cells->m_other[o][i] = m;
             cells->v0[o][i] = 1.0 / rho[i];
             cells->e0[o][i] = rho_e[i] / rho[i];
         }
     }
     phase_owe(cells);
+    phase_mingle(block);
     memcpy(cells->p, block->w[model->i_E], n * sizeof(double));
     memcpy(cells->T, block->T[EQUILIBRIUM_LIQUID], n * sizeof(double));
     phase_curve(block, &parts);
@@ -187,7 +208,8 @@ static double phase_drive_alone(const struct phase_block *block, size_t i, doubl
 static double phase_drive(const struct phase_block *block, size_t i)
 {
     const struct equilibrium_family *family = &block->family;
-    double moles = 0.0, vapour = block->cells.m[EQUILIBRIUM_VAPOUR][i] * family->R[EQUILIBRIUM_VAPOUR];
+    double moles = family->mixing ? block->cells.moles[i] : 0.0,
+           vapour = block->cells.m[EQUILIBRIUM_VAPOUR][i] * family->R[EQUILIBRIUM_VAPOUR];
     for (unsigned k = EQUILIBRIUM_GAS; k < family->n && family->mixing; k++)
         moles += block->cells.m[k][i] * family->R[k];
     double share = moles > 0.0 ? vapour / (vapour + moles) : 1.0;
@@ -213,7 +235,7 @@ static double phase_wet(const struct phase_block *block, size_t i)
 static bool phase_warm(const struct phase_block *block, size_t i, double near)
 {
     double T = block->T[EQUILIBRIUM_LIQUID][i];
-    for (unsigned k = EQUILIBRIUM_VAPOUR; k < block->phase->n; k++) {
+    for (unsigned k = EQUILIBRIUM_VAPOUR; k < block->family.n; k++) {
         double alpha = block->w[block->model->i_alpha + block->phase->member[k]][i];
         if (alpha > 0.0 && !(fabs(block->T[k][i] - T) <= near * T)) return false;
     }
@@ -254,7 +276,7 @@ static void phase_move(struct phase_block *block, size_t i, size_t to)
     block->alone[to] = block->alone[i];
     for (unsigned l = 0; l < block->model->n_material; l++)
         block->u[block->model->i_alpha + l][to] = block->u[block->model->i_alpha + l][i];
-    for (unsigned k = 0; k < block->phase->n; k++) {
+    for (unsigned k = 0; k < block->family.n; k++) {
         cells->m[k][to] = cells->m[k][i];
         cells->v[k][to] = cells->v[k][i];
     }
@@ -264,6 +286,7 @@ static void phase_move(struct phase_block *block, size_t i, size_t to)
         cells->e0[k][to] = cells->e0[k][i];
     }
     cells->energy[to] = cells->energy[i];
+    cells->moles[to] = cells->moles[i];
     if (cells->jumps) cells->jump[to] = cells->jump[i];
     cells->p[to] = cells->p[i];
     cells->T[to] = cells->T[i];
@@ -326,6 +349,14 @@ static void phase_pay(const struct phase_block *block, size_t i, double alpha, s
     w[model->i_E * stride + block->at[i]] += jump * alpha;
 }
 
+/* Is it one of the gases beside the vapour? */
+static bool phase_gas(const struct model_phase *phase, unsigned l)
+{
+    bool gas = false;
+    for (unsigned k = EQUILIBRIUM_GAS; k < phase->n; k++) gas = gas || phase->member[k] == l;
+    return gas;
+}
+
 /* Into the tile. */
 static void phase_scatter(const struct phase_block *block, size_t i, size_t stride, double *w, double *u)
 {
@@ -337,13 +368,13 @@ static void phase_scatter(const struct phase_block *block, size_t i, size_t stri
     bool same = cells->m[EQUILIBRIUM_VAPOUR][i] == block->start.m[EQUILIBRIUM_VAPOUR][i];
     if (cells->regime[i] == EQUILIBRIUM_NONE || (same && block->warm[i])) return;
     for (unsigned l = 0, o = 0; l < model->n_material; l++) {
-        unsigned k = phase_place(block->phase, l);
-        double m = k < block->phase->n ? cells->m[k][i] : cells->m_other[o][i];
-        double v = k < block->phase->n ? cells->v[k][i] : cells->v_other[o][i];
-        o += k == block->phase->n;
+        unsigned k = phase_place(block, l);
+        double m = k < block->family.n ? cells->m[k][i] : cells->m_other[o][i];
+        double v = k < block->family.n ? cells->v[k][i] : cells->v_other[o][i];
+        o += k == block->family.n;
         alpha[l] = m > 0.0 ? m * v : k < 2 ? 0.0 : block->u[model->i_alpha + l][i];
         sum += alpha[l];
-        thin += k > EQUILIBRIUM_LIQUID && k < block->phase->n ? alpha[l] : 0.0;
+        thin += k == EQUILIBRIUM_VAPOUR || phase_gas(block->phase, l) ? alpha[l] : 0.0;
     }
     if (block->alone[i] && !(thin > PHASE_FELT)) return; /* no bubble that would be felt */
     for (unsigned l = 0; l < model->n_material; l++) at[(model->i_alpha + l) * stride] = alpha[l] / sum;

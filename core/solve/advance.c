@@ -15,6 +15,7 @@
 #include "solve/beyond.h"
 #include "solve/blame.h"
 #include "solve/evaporate.h"
+#include "solve/flow.h"
 #include "solve/pace.h"
 #include "solve/peak.h"
 #include "solve/plan.h"
@@ -123,7 +124,8 @@ static void advance_watch(const struct state *state, struct stage *stage)
 {
     struct guard_place was = stage->guard->found;
     bool mine = comm_first(stage->guard->cause[0]) == comm_rank();
-    if (rkl_acts(stage)) return; /* a dump has the stages of the integrator alone */
+    if (rkl_acts(stage) || stage->work->part != TERM_WHOLE)
+        return; /* a dump has the integrator's stages with all terms */
     if (mine) {
         stage->blame = blame_new(stage->model, stage->guard);
         advance_stamp(state, stage, stage->blame);
@@ -318,7 +320,8 @@ static int advance_look(struct state *state, int l, double t)
 static int advance_through(struct state *state, int l, double t, double dt)
 {
     struct stage *stage = state->stages[l];
-    double done = 0.0, part = state->scene->mesh.subcycle ? 0.5 : 1.0, most = PACE_EXCESS * state->scene->scheme.cfl;
+    double done = 0.0, part = l > 0 && state->scene->mesh.subcycle ? 0.5 : 1.0;
+    double most = PACE_EXCESS * state->scene->scheme.cfl;
     int retries = 0;
     while (done < 1.0) {
         bool good;
@@ -347,21 +350,42 @@ static int advance_through(struct state *state, int l, double t, double dt)
     return STATUS_OK;
 }
 
+/* All levels have gone through dt. */
+static void advance_count(struct state *state, double dt)
+{
+    state->t += dt;
+    state->dt = dt;
+    if (dt > state->dt_longest) state->dt_longest = dt;
+    state->step++;
+    state->whole = true;
+    state->dt_shrink = state->dt_shrink * 1.1 < 1.0 ? state->dt_shrink * 1.1 : 1.0;
+}
+
 /* Level 0 has made its step: the others follow, then the mesh. */
 static int advance_follow(struct state *state)
 {
-    struct stage *stage = state->stages[0];
     state->whole = false;
     TRY(advance_finer(state, 0));
-    state->t += stage->dt;
-    state->dt = stage->dt;
-    if (state->dt > state->dt_longest) state->dt_longest = state->dt;
-    state->step++;
-    state->whole = true;
+    advance_count(state, state->stages[0]->dt);
     peak_take(state, 0, state->t);
-    state->dt_shrink = state->dt_shrink * 1.1 < 1.0 ? state->dt_shrink * 1.1 : 1.0;
     TRY(advance_regrid(state, 0, true));
     regrid_signals(state);
+    beyond_count(state);
+    return regrid_verdict(state);
+}
+
+/* A step in which what diffuses goes through half the time before all levels do the rest, and half after it. Level 0 is like
+ * a finer one here: a step that it cannot take becomes two. */
+static int advance_apart(struct state *state, double dt)
+{
+    state->whole = false;
+    TRY(flow_take(state, state->t, 0.5 * dt));
+    state->work->part = TERM_SLOW;
+    int status = advance_through(state, 0, state->t, dt);
+    state->work->part = TERM_WHOLE;
+    if (status) return status;
+    TRY(flow_take(state, state->t + 0.5 * dt, 0.5 * dt));
+    advance_count(state, dt);
     beyond_count(state);
     return regrid_verdict(state);
 }
@@ -372,6 +396,7 @@ int advance_step(struct state *state, double dt_most)
     double dt = advance_dt(state);
     if (!pace_allows(state, 0, state->t, dt)) return advance_too_slow(state, 0, state->t, dt);
     if (dt_most <= ADVANCE_STRETCH * dt) dt = dt_most;
+    if (flow_binds(state, dt)) return advance_apart(state, dt);
     for (int retry = 0; retry <= GUARD_RETRIES; retry++) {
         bool good;
         stage->t = state->t;

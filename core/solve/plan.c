@@ -80,6 +80,25 @@ static void plan_levels(const struct scene *scene, struct text *text)
              reflux[scene->mesh.reflux], scene->mesh.regrid_every, scene->mesh.n_refine);
 }
 
+/* Super steps of what diffuses. */
+static void plan_super(const struct scene *scene, struct text *text)
+{
+    if (scene->scheme.diffusion != SCENE_DIFFUSION_RKL2) return;
+    if (scene->mesh.levels)
+        text_add(
+            text,
+            "where they bind, viscosity and conduction take half of a step of level 0 before it and half after it, "
+            "on all levels\n  together, in 3 to %d stages of RKL2 with an exchange each  [core/solve/flow.c]\n",
+            RKL_MOST);
+    else
+        text_add(text,
+                 "where they bind, viscosity and conduction take part of each stage of their own: u' = u + tau L(w) of "
+                 "the others "
+                 "as a\n  constant source of a flow through tau, in 3 to %d stages of RKL2 with an exchange each  "
+                 "[core/solve/rkl.c]\n",
+                 RKL_MOST);
+}
+
 void plan_text(const struct model *model, struct text *ret_text)
 {
     const struct scene *scene = model->scene;
@@ -90,13 +109,7 @@ void plan_text(const struct model *model, struct text *ret_text)
         const struct plan_step *step = &plan->step[i];
         text_add(ret_text, "  %d  %-8s  %s%s\n", i + 1, step->name, step->formula, step->doc);
     }
-    if (scene->scheme.diffusion == SCENE_DIFFUSION_RKL2)
-        text_add(ret_text,
-                 "where they bind, viscosity and conduction take part of each stage of their own: u' = u + tau L(w) of "
-                 "the others "
-                 "as a\n  constant source of a flow through tau, in 3 to %d stages of RKL2 with an exchange each  "
-                 "[core/solve/rkl.c]\n",
-                 RKL_MOST);
+    plan_super(scene, ret_text);
     plan_faces(scene, ret_text);
     terms_say(model, ret_text);
     plan_operators(model, OPERATOR_STAGE, "after every stage, before its primitives:\n", ret_text);

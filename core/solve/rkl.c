@@ -24,13 +24,6 @@
 /* Explicit steps below which nothing is gained: the integrator bears that much. */
 #define RKL_IDLE 0.25
 
-struct rkl {
-    int s[TABLEAU_STAGES];   /* stages of each stage of the integrator; 0: none */
-    double *z, *before, *M0; /* [n_local][n_field][n_cell]: z_j-1 and z_j-2, M(u) */
-    size_t block;            /* doubles of a tile */
-    int j;                   /* stage under way: it makes z_j */
-};
-
 int rkl_stages(double steps)
 {
     double s = ceil(0.5 * (sqrt(9.0 + 8.0 * RKL_MARGIN * RKL_REAL * steps) - 1.0));
@@ -107,11 +100,17 @@ static double rkl_step(const struct stage *stage)
     return stage->tableau->stage[stage->turn].step * stage->dt;
 }
 
+double rkl_steps(const struct stage *stage, double dt)
+{
+    return rkl_pace(stage) * dt / stage->model->scene->scheme.cfl;
+}
+
+/* Several levels take super steps together (solve/flow.h). */
 void rkl_plan(struct stage *stage)
 {
     struct rkl *rkl = stage->rkl;
-    if (!rkl) return;
-    double steps = rkl_pace(stage) * stage->dt / stage->model->scene->scheme.cfl; /* explicit ones */
+    if (!rkl || stage->model->scene->mesh.levels > 0) return;
+    double steps = rkl_steps(stage, stage->dt);
     int whole = rkl_stages(steps);
     for (int turn = 0; turn < stage->tableau->n; turn++) {
         int s = rkl_stages(stage->tableau->stage[turn].step * steps);
@@ -132,8 +131,8 @@ static struct term_tile *rkl_rates(struct stage *stage, unsigned local, enum ter
     return &own->tile;
 }
 
-static BULLA_KERNEL void rkl_begin(size_t n, double a, const double *restrict M0, double *restrict z,
-                                   double *restrict before)
+static BULLA_KERNEL void rkl_begin_row(size_t n, double a, const double *restrict M0, double *restrict z,
+                                       double *restrict before)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
@@ -142,10 +141,9 @@ static BULLA_KERNEL void rkl_begin(size_t n, double a, const double *restrict M0
     }
 }
 
-/* z_j takes the place of z_j-2. */
-static BULLA_KERNEL void rkl_go_on(size_t n, const struct rkl_stage *restrict stage, double tau,
-                                   const double *restrict M0, const double *restrict M, const double *restrict z,
-                                   double *restrict before)
+static BULLA_KERNEL void rkl_go_on_row(size_t n, const struct rkl_stage *restrict stage, double tau,
+                                       const double *restrict M0, const double *restrict M, const double *restrict z,
+                                       double *restrict before)
 {
     double mu = stage->mu, nu = stage->nu, a = tau * stage->mu_tilde, b = tau * stage->gamma_tilde;
 #pragma omp simd
@@ -153,6 +151,17 @@ static BULLA_KERNEL void rkl_go_on(size_t n, const struct rkl_stage *restrict st
         double old = before[i];
         before[i] = (mu * z[i] + nu * old) + (a * M[i] + b * M0[i]);
     }
+}
+
+void rkl_begin(size_t n, double a, const double *restrict M0, double *restrict z, double *restrict before)
+{
+    rkl_begin_row(n, a, M0, z, before);
+}
+
+void rkl_go_on(size_t n, const struct rkl_stage *restrict stage, double tau, const double *restrict M0,
+               const double *restrict M, const double *restrict z, double *restrict before)
+{
+    rkl_go_on_row(n, stage, tau, M0, M, z, before);
 }
 
 /* What all but diffusion makes of a tile, M(u) in the first stage of the integrator, and z_1. */

@@ -14,7 +14,8 @@
  * with the root of what explicit steps would number. It is counted in each step, from the fastest cell of all ranks.
  *
  * Each stage is an exchange and a gathering like those of the step; boundaries are asked at its time. An attempt begins from
- * u_old; nothing of one that fails is left. On one level and with one material (docs/decisions/super-steps.md).
+ * u_old; nothing of one that fails is left. On one level and with one material (docs/decisions/super-steps.md); several levels
+ * go together (solve/flow.h).
  */
 #ifndef RKL_H
 #define RKL_H
@@ -34,6 +35,24 @@ struct rkl_stage {
     double mu, nu, mu_tilde, gamma_tilde, at;
 };
 struct rkl_stage rkl_stage(int s, int j);
+
+/* Memory of a level. Between steps it holds nothing. */
+struct rkl {
+    int s[TABLEAU_STAGES];   /* stages of each stage of the integrator; 0: none */
+    double *z, *before, *M0; /* [n_local][n_field][n_cell]: z_j-1 and z_j-2, M(u) */
+    size_t block;            /* doubles of a tile */
+    int j;                   /* stage under way: it makes z_j */
+};
+
+/* z_1 = a M(u) of n values, and z_0 = 0 into `before`. */
+void rkl_begin(size_t n, double a, const double *restrict M0, double *restrict z, double *restrict before);
+
+/* z_j of n values takes the place of z_j-2, from M(Y_j-1). */
+void rkl_go_on(size_t n, const struct rkl_stage *restrict stage, double tau, const double *restrict M0,
+               const double *restrict M, const double *restrict z, double *restrict before);
+
+/* Explicit steps that a time dt of a level stands for, from the fastest cell of all ranks. Collective. */
+double rkl_steps(const struct stage *stage, double dt);
 
 /* Memory of a level, or NULL: the scene takes explicit steps. */
 struct rkl *rkl_new(const struct stage *stage);

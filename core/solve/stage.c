@@ -250,7 +250,7 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
     struct work *work = stage->work;
     struct stage_tile_work own;
     stage->census.tiles[local].path = census_choose(&stage->census, local);
-    stage_rates(stage, local, TERM_WHOLE, row->step * stage->dt, row->weight > 0.0, &own);
+    stage_rates(stage, local, work->part, row->step * stage->dt, row->weight > 0.0, &own);
     stage->clipped += (long long)rate_apply(&own.tile, work->own, u);
     rate_mix(&own.tile, u_old, row->mix, u);
     stage->cells += (long long)stage->mesh->n_cell;

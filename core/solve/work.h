@@ -21,6 +21,7 @@ struct work {
     struct prolong *prolong;
     struct around *around;                    /* or NULL */
     struct curve *curve;                      /* or NULL */
+    enum term_part part;                      /* of the steps: TERM_SLOW while what diffuses goes apart (flow.h) */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
     double *grown;          /* [n_solid] rows of one tile (operator.h); NULL unless plastic solids can break */
     struct cost cost;       /* where the time goes, of all levels */

@@ -85,6 +85,8 @@ static const struct row rows[] = {
     {"iapws95", {"preset=water", "eval=analytic"}, 5200.0, NULL, of_water, 4, 1e-9, 1e-6},
     {"iapws95", {"preset=water", "interpolation=bicubic"}, 5200.0, NULL, of_water, 0, 1e-8, 1e-5},
     {"iapws95", {"preset=water", "interpolation=bilinear"}, 5200.0, NULL, of_water, 0, 3e-4, 0.05},
+    {"iapws95-vapour", {"preset=water-vapour", "eval=table"}, 5200.0, NULL, NULL, 0, 1e-9, 1e-6},
+    {"iapws95-vapour", {"preset=water-vapour", "eval=analytic"}, 5200.0, NULL, NULL, 4, 1e-9, 1e-6},
     {"peng-robinson", {"preset=air"}, 3 / 7.8e-4, &hard_core, of_air, 0, 1e-9, 1e-6},
     {"peng-robinson", {"preset=air", "eval=table", "table-size=256"}, 3 / 7.8e-4, NULL, of_air, 0, 2e-8, 1e-6},
     {"rkpr", {"preset=air", "eval=analytic"}, 3 / 8.8e-4, &hard_core, of_air, 0, 1e-9, 1e-6},

@@ -105,6 +105,8 @@ refused "together in one dimension" 's/^initial:/surface-tension: {water+steam: 
 refused "vapour of no pair" 's/evaporated: steam/evaporated: air/'
 refused "known of the whole domain" 's/evaporated: steam/evaporated: steam, in: air/'
 refused "nothing condenses" 's/gases: \[air\]/direction: evaporation, condense-from: 0.9/'
+refused "the pair has no gases" 's/gases: \[air\]/gas-temperature: own/'
+refused "'rate: lua' needs 'shared'" 's/gases: \[air\]/&, gas-temperature: own, rate: {type: lua, lua: "function() return 0 end"}/'
 
 # Doubts: cells that do not see the heat, superheated liquid without onset, states beyond the end of the curve.
 doubt() { # WORDS SED-EXPRESSION: the warmed case, changed so, is warned of with these words

@@ -134,6 +134,7 @@ static void test_call(void **state)
         {NASG AIR, "{liquid: water, vapour: steam, gases: [air], where: everywhere}"},
         {NASG AIR, "{liquid: water, vapour: steam, gases: [air], direction: evaporation}"},
         {NASG AIR, "{liquid: water, vapour: steam, gases: [air], direction: condensation}"},
+        {NASG AIR STONE, "{liquid: water, vapour: steam, gases: [air], gas-temperature: own}"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct flow flow;
@@ -304,6 +305,51 @@ static void test_kinds(void **state)
     assert_true(vapour_after(hot, 385.0, 101325.0, 0.0) > 0.0);
 }
 
+/* Hot air, steam and water of `T` in a cell nine tenths of which are water, brought to equilibrium: the air's temperature and the
+ * partial pressure of the vapour over that of saturation. */
+static void mixed(const char *phase, double T_air, double *ret_T, double *ret_share)
+{
+    struct flow flow;
+    open_scene(&flow, NASG AIR, phase, 8, "");
+    const struct model *model = flow.state->model;
+    const double part[] = {0.9, 0.04, 0.06}, T[] = {340.0, 340.0, T_air};
+    double u[FLOW_FIELDS] = {0}, w[FLOW_FIELDS] = {0}, p = 1e5, T_now[3];
+    for (unsigned l = 0; l < 3; l++) {
+        w[model->i_alpha + l] = part[l];
+        model->eos[l].law->density(model->eos[l].self, 1, &p, &T[l], &w[model->i_m + l]);
+    }
+    w[model->i_E] = p;
+    mix_conserved(model, 1, 1, w, u);
+    phase_act(model, 0, 1, 1, 1e-6, w, u, &(struct equilibrium_effort){0});
+    mix_primitives(model, 1, 1, u, w);
+    double moles[3] = {0};
+    for (unsigned l = 0; l < 3; l++) {
+        const struct model_eos *eos = &model->eos[l];
+        eos->law->temperature(eos->self, 1, &w[model->i_m + l], &w[model->i_E], &T_now[l]);
+        if (l) moles[l] = u[model->i_m + l] * eos->law->gas_constant(eos->self);
+    }
+    const struct saturation pair = {{model->eos[0].law, model->eos[1].law},
+                                    {model->eos[0].self, model->eos[1].self},
+                                    {w[model->i_m], w[model->i_m + 1]},
+                                    0.0};
+    double drive = saturation_at(&pair, w[model->i_E], T_now[0]).drive, R = moles[1] / u[model->i_m + 1];
+    *ret_T = T_now[2] / T_now[0];
+    *ret_share = moles[1] / (moles[1] + moles[2]) * exp(drive / (R * T_now[0]));
+    flow_stop(&flow);
+}
+
+/* Gases with a temperature of their own keep it but for the work that the change of pressure does on them, and the vapour is in
+ * equilibrium among them all the same. */
+static void test_apart(void **state)
+{
+    (void)state;
+    double T, share;
+    mixed("{liquid: water, vapour: steam, gases: [air]}", 3000.0, &T, &share);
+    assert_true(fabs(T - 1.0) < 1e-9 && fabs(share - 1.0) < 1e-8);
+    mixed("{liquid: water, vapour: steam, gases: [air], gas-temperature: own}", 3000.0, &T, &share);
+    assert_true(T > 6.0 && T < 9.0 && fabs(share - 1.0) < 1e-8);
+}
+
 /* More vapour has gone than there was (two stages): the liquid pays for it, and nothing is made. */
 static void test_owed(void **state)
 {
@@ -390,8 +436,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_call),  cmocka_unit_test(test_direction), cmocka_unit_test(test_rate),
-        cmocka_unit_test(test_kinds), cmocka_unit_test(test_owed),      cmocka_unit_test(test_left),
-        cmocka_unit_test(test_box),
+        cmocka_unit_test(test_kinds), cmocka_unit_test(test_apart),     cmocka_unit_test(test_owed),
+        cmocka_unit_test(test_left),  cmocka_unit_test(test_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

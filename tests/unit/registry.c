@@ -59,6 +59,7 @@ static const char *const builtin[][2] = {
     {"eos", "cochran-chan"},
     {"eos", "helmholtz-air"},
     {"eos", "iapws95"},
+    {"eos", "iapws95-vapour"},
     {"eos", "ideal-gas"},
     {"eos", "jwl"},
     {"eos", "mnasg"},

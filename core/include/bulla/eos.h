@@ -19,7 +19,8 @@
 extern "C" {
 #endif
 
-/* Where the formulas are backed by data; beyond it the continuation rules. */
+/* Where the formulas are backed by data; beyond it the continuation rules. A box: of a vapour the dome is cut off it, which
+ * count_outside says. */
 struct bulla_eos_range {
     double rho_min, rho_max; /* kg/m3 */
     double p_min, p_max;     /* Pa */

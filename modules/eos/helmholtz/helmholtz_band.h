@@ -2,13 +2,21 @@
  *     y = sqrt((p/rho - f0) s),
  * which runs from a constant at the cold edge of the domain to 1 at its highest temperature. f0 and s are a cubic in rho
  * per row of cells (a "band"): no division, and lines of constant y follow the edges. Near the cold edge of a liquid p
- * is nearly a parabola in T (a density maximum is not far); in y even that is smooth. */
+ * is nearly a parabola in T (a density maximum is not far); in y even that is smooth.
+ *
+ * Rows are equally spaced in rho, or, where the module defines HELMHOLTZ_SKEW [kg/m3], in ln(rho + HELMHOLTZ_SKEW): a vapour
+ * is stable in a ten thousandth of its densities. What tables say is then differentiated along that. */
 #ifndef HELMHOLTZ_BAND_H
 #define HELMHOLTZ_BAND_H
 
 #include "helmholtz_state.h"
+#include "shared/elementary.h"
 
 #include <stddef.h>
+
+#ifndef HELMHOLTZ_SKEW
+#define HELMHOLTZ_SKEW 0.0
+#endif
 
 #define HELMHOLTZ_COLD 1e-4 /* y^2 of the lower edge */
 
@@ -16,11 +24,12 @@ enum { HELMHOLTZ_BAND = 8 };
 
 /* Rows of densities, and what lies between two of them. */
 struct helmholtz_band {
-    int n;                                 /* rows of nodes */
-    double rho_0, per_rho, step_rho, last; /* first row, 1/spacing, spacing, number of the last cell */
-    double blur;                           /* rows over which the cold edge is rounded; 0: not at all */
-    double *cubic;                         /* (n - 1) x 8: f0 and s, by powers of the part x of a row */
-    double *ends;                          /* n x 2: p/rho at both ends of the domain, from which they come */
+    int n; /* rows of nodes */
+    double rho_0, per_rho, step_rho,
+        last;      /* first row, 1/spacing, spacing (of helmholtz_along), number of the last cell */
+    double blur;   /* rows over which the cold edge is rounded; 0: not at all */
+    double *cubic; /* (n - 1) x 8: f0 and s, by powers of the part x of a row */
+    double *ends;  /* n x 2: p/rho at both ends of the domain, from which they come */
 };
 
 /* A density: the row of cells, and where in it. */
@@ -29,9 +38,36 @@ struct helmholtz_row {
     double x;
 };
 
+/* The coordinate in which rows of densities are equally spaced, and back. */
+PATCH_INLINE double helmholtz_along(double rho)
+{
+    return HELMHOLTZ_SKEW > 0.0 ? elementary_log(rho + HELMHOLTZ_SKEW) : rho;
+}
+
+PATCH_INLINE double helmholtz_back(double at)
+{
+    return HELMHOLTZ_SKEW > 0.0 ? elementary_exp(at) - HELMHOLTZ_SKEW : at;
+}
+
 PATCH_INLINE double helmholtz_band_at(const struct helmholtz_band *band, double rho)
 {
-    return (rho - band->rho_0) * band->per_rho;
+    return (helmholtz_along(rho) - band->rho_0) * band->per_rho;
+}
+
+static inline double helmholtz_band_rho(const struct helmholtz_band *band, int i)
+{
+    return helmholtz_back(band->rho_0 + i * band->step_rho);
+}
+
+/* Rows per density at a density: the slope of helmholtz_band_at; and how fast that falls, relative. */
+PATCH_INLINE double helmholtz_band_per(const struct helmholtz_band *band, double per_rho)
+{
+    return HELMHOLTZ_SKEW > 0.0 ? band->per_rho * per_rho / (1.0 + HELMHOLTZ_SKEW * per_rho) : band->per_rho;
+}
+
+PATCH_INLINE double helmholtz_band_fall(double per_rho)
+{
+    return HELMHOLTZ_SKEW > 0.0 ? per_rho / (1.0 + HELMHOLTZ_SKEW * per_rho) : 0.0;
 }
 
 PATCH_INLINE struct helmholtz_row helmholtz_band_row(const struct helmholtz_band *band, double rho)
@@ -59,14 +95,15 @@ PATCH_INLINE struct helmholtz_level helmholtz_band_level(const struct helmholtz_
     return (struct helmholtz_level){per_rho, f, q, sqrt(held)};
 }
 
-/* f0 and s with their slopes in rho. */
+/* f0 and s with their slopes in rho; `per`: rows per density there. */
 struct helmholtz_lines {
     double f0, f0_r, s, s_r;
 };
 
-PATCH_INLINE struct helmholtz_lines helmholtz_band_lines(const struct helmholtz_band *band, struct helmholtz_row row)
+PATCH_INLINE struct helmholtz_lines helmholtz_band_lines(const struct helmholtz_band *band, struct helmholtz_row row,
+                                                         double per)
 {
-    const double *c = band->cubic, x = row.x, per = band->per_rho;
+    const double *c = band->cubic, x = row.x;
     int at = HELMHOLTZ_BAND * row.i;
     return (struct helmholtz_lines){
         .f0 = c[at] + x * (c[at + 1] + x * (c[at + 2] + x * c[at + 3])),

@@ -23,7 +23,7 @@ static void helmholtz_columns(const struct helmholtz_fluid *fluid, const struct 
 static void helmholtz_row_factors(const struct helmholtz_fluid *fluid, const struct helmholtz_grid *grid, int i,
                                   double *ret_f)
 {
-    double rho = grid->band.rho_0 + i * grid->band.step_rho, tiny = 1e-9 * fluid->rho_c;
+    double rho = helmholtz_band_rho(&grid->band, i), tiny = 1e-9 * fluid->rho_c;
     double delta = (rho > tiny ? rho : tiny) / fluid->rho_c;
     for (int k = 0; k < fluid->n_term; k++) helmholtz_density_part(&fluid->terms[k], delta, ret_f + k * HELMHOLTZ_R);
 }
@@ -34,7 +34,7 @@ static void helmholtz_node(const struct helmholtz_law *law, const struct helmhol
 {
     const struct helmholtz_fluid *fluid = law->fluid;
     double phi[HELMHOLTZ_R][HELMHOLTZ_L] = {{0}}, a[HELMHOLTZ_R][HELMHOLTZ_L];
-    double l = grid->l_0 + j * grid->step_l, rho = grid->band.rho_0 + i * grid->band.step_rho;
+    double l = grid->l_0 + j * grid->step_l, rho = helmholtz_band_rho(&grid->band, i);
     int m = fluid->n_term;
     const double *g = all_g + (size_t)(j * (m + 1) * HELMHOLTZ_L);
     memcpy(phi[0], g + m * HELMHOLTZ_L, sizeof phi[0]);
@@ -49,9 +49,13 @@ static void helmholtz_node(const struct helmholtz_law *law, const struct helmhol
         phi[2][0] -= 1.0 / (delta * delta);
     }
     helmholtz_energy(fluid, l, phi, a);
-    double size_l = 1.0;
+    double size_l = 1.0, stretch = HELMHOLTZ_SKEW > 0.0 ? rho + HELMHOLTZ_SKEW : 1.0;
     for (int t = 0; t < 3; t++, size_l *= grid->step_l) {
         double size = size_l;
+        if (HELMHOLTZ_SKEW > 0.0) { /* from derivatives in rho to those in its logarithm */
+            a[1][t] *= stretch;
+            a[2][t] = a[2][t] * stretch * stretch + a[1][t];
+        }
         for (int r = 0; r < 3; r++, size *= grid->band.step_rho) ret_node[3 * t + r] = size * a[r][t];
     }
 }
@@ -82,14 +86,20 @@ static void helmholtz_cell_powers(const double *row, const double *next, double 
                           (const double[3]){along[1][0][m], along[1][1][m], along[1][2][m]}, ret_cell + 6 * m);
 }
 
+/* Rows per density; rho may be 0. */
+static double helmholtz_row_per(const struct helmholtz_band *band, double rho)
+{
+    return HELMHOLTZ_SKEW > 0.0 ? band->per_rho / (rho + HELMHOLTZ_SKEW) : band->per_rho;
+}
+
 /* p/rho of the table in row i at l, and its slope in l. */
 static double helmholtz_row_f(const struct helmholtz_grid *grid, int gas, int i, double l, double *ret_slope)
 {
-    double up = (l - grid->l_0) * grid->per_l, rho = grid->band.rho_0 + i * grid->band.step_rho;
+    double up = (l - grid->l_0) * grid->per_l, rho = helmholtz_band_rho(&grid->band, i);
     int j = patch_cell(up, grid->last_cell), row = i < grid->n - 1 ? i : i - 1;
     struct helmholtz_line line = helmholtz_line(grid->cell, helmholtz_grid_cell(grid, row, j), i - row);
     struct helmholtz_jet jet = helmholtz_jet(line.r, up - j);
-    double RT = gas ? grid->R * exp(l) : 0.0, scale = rho * grid->band.per_rho;
+    double RT = gas ? grid->R * exp(l) : 0.0, scale = rho * helmholtz_row_per(&grid->band, rho);
     *ret_slope = scale * jet.f1 * grid->per_l + RT;
     return scale * jet.f0 + RT;
 }
@@ -97,8 +107,8 @@ static double helmholtz_row_f(const struct helmholtz_grid *grid, int gas, int i,
 /* Starts of one row: from the upper end down, each from the one before. */
 static void helmholtz_starts(const struct helmholtz_law *law, const struct helmholtz_grid *grid, int i)
 {
-    double unused, rho = grid->band.rho_0 + i * grid->band.step_rho;
-    double low = law->gas ? grid->l_low : helmholtz_edge(grid, rho, &unused), l = grid->l_high;
+    double unused, rho = helmholtz_band_rho(&grid->band, i);
+    double low = helmholtz_cold(grid, rho, &unused), l = grid->l_high;
     double f0 = helmholtz_band_node(&grid->band, i, 0), s = helmholtz_band_node(&grid->band, i, 1);
     double *start = grid->start + (size_t)(i * (HELMHOLTZ_STARTS + 1));
     for (int k = HELMHOLTZ_STARTS; k >= 0; k--) {
@@ -120,9 +130,9 @@ static void helmholtz_ends_fill(const struct helmholtz_law *law, const struct he
                                 const struct helmholtz_band *band, int part, int parts)
 {
     for (int i = part; i < band->n; i += parts) {
-        double unused, tiny = 1e-9 * law->fluid->rho_c, rho = band->rho_0 + i * band->step_rho;
+        double unused, tiny = 1e-9 * law->fluid->rho_c, rho = helmholtz_band_rho(band, i);
         rho = rho > tiny ? rho : tiny;
-        double low = law->gas ? log(law->T_low(law, rho)) : helmholtz_edge(grid, rho, &unused);
+        double low = HELMHOLTZ_FLAT ? log(law->T_low(law, rho)) : helmholtz_edge(grid, rho, &unused);
         band->ends[2 * i] = rho * helmholtz_exact(law->fluid, law->gas, rho, low).a_r;
         band->ends[2 * i + 1] = rho * helmholtz_exact(law->fluid, law->gas, rho, grid->l_high).a_r;
     }
@@ -138,16 +148,22 @@ static size_t helmholtz_band_count(int n)
     return (size_t)(HELMHOLTZ_BAND + 2) * (size_t)n;
 }
 
+/* From the first row of densities to the last. */
+static double helmholtz_span(const struct helmholtz_law *law)
+{
+    return helmholtz_along(law->rho_high) - helmholtz_along(law->rho_low);
+}
+
 /* A band of n rows over the densities of a law, whose numbers are in the block; bends rounded over `blur` kg/m3. */
 static struct helmholtz_band helmholtz_band_in(const struct helmholtz_law *law, int n, double blur, double *block)
 {
-    double step = (law->rho_high - law->rho_low) / (n - 1);
+    double step = helmholtz_span(law) / (n - 1);
     return (struct helmholtz_band){.n = n,
-                                   .rho_0 = law->rho_low,
+                                   .rho_0 = helmholtz_along(law->rho_low),
                                    .per_rho = 1.0 / step,
                                    .step_rho = step,
                                    .last = n - 2,
-                                   .blur = blur / step,
+                                   .blur = HELMHOLTZ_SKEW > 0.0 ? 0.0 : blur / step,
                                    .cubic = block,
                                    .ends = block + (size_t)HELMHOLTZ_BAND * (size_t)n};
 }
@@ -155,9 +171,9 @@ static struct helmholtz_band helmholtz_band_in(const struct helmholtz_law *law, 
 /* The lower edge, part by part: each point is the end of an iteration. */
 static void helmholtz_edges(const struct helmholtz_law *law, const struct helmholtz_grid *grid, int part, int parts)
 {
-    double step = (law->rho_high - law->rho_low) / HELMHOLTZ_EDGES;
+    double step = helmholtz_span(law) / HELMHOLTZ_EDGES, first = helmholtz_along(law->rho_low);
     for (int i = part; i <= HELMHOLTZ_EDGES; i += parts)
-        grid->edge[2 * i] = log(law->T_low(law, law->rho_low + i * step));
+        grid->edge[2 * i] = log(law->T_low(law, helmholtz_back(first + i * step)));
 }
 
 static void helmholtz_edge_slopes(const struct helmholtz_grid *grid)
@@ -196,8 +212,8 @@ static struct helmholtz_grid helmholtz_grid_in(const struct helmholtz_law *law, 
     grid.per_l = 1.0 / grid.step_l;
     grid.l_high = log(law->T_high);
     grid.R = law->fluid->R;
-    grid.edge_0 = law->rho_low;
-    grid.per_edge = 1.0 / ((law->rho_high - law->rho_low) / HELMHOLTZ_EDGES);
+    grid.edge_0 = helmholtz_along(law->rho_low);
+    grid.per_edge = 1.0 / (helmholtz_span(law) / HELMHOLTZ_EDGES);
     grid.l_low = grid.edge[0];
     return grid;
 }

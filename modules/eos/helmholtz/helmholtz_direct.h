@@ -35,8 +35,9 @@ PATCH_INLINE struct helmholtz_answer helmholtz_direct_answer(const struct helmho
     struct patch_weights x = patch_weights(cubic, row.x), y = patch_weights(cubic, rung.t);
     struct patch e = patch_at(cubic, table->state, at, up, size, &x, &y);
     struct patch c = patch_at(cubic, table->state + size / 2, at, up, size, &x, &y);
-    struct helmholtz_lines lines = helmholtz_band_lines(&table->band, row);
-    double half = 0.5 * table->steps.per_y / level.y, E_q = e.f_y * half, per = table->band.per_rho;
+    double half = 0.5 * table->steps.per_y / level.y, E_q = e.f_y * half;
+    double per = helmholtz_band_per(&table->band, level.per_rho);
+    struct helmholtz_lines lines = helmholtz_band_lines(&table->band, row, per);
     double W = E_q * lines.s * level.per_rho; /* dq/dp = s/rho */
     double q_r = (level.f - lines.f0) * lines.s_r - (level.f * level.per_rho + lines.f0_r) * lines.s;
     struct helmholtz_answer answer = {.e = e.f, .e_p = W, .e_r = e.f_x * per + E_q * q_r, .c2 = c.f};

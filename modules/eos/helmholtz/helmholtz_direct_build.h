@@ -33,7 +33,7 @@ static void helmholtz_direct_values(const struct helmholtz *from, const struct h
     const struct helmholtz_band *band = &table->band;
     size_t n = (size_t)table->n, nodes = n * n, row = (size_t)i * n;
     double rho[MOST], p[MOST], rho_e[MOST], rho_c2[MOST], T[MOST], side[MOST];
-    double density = helmholtz_held(&from->ends, band->rho_0 + i * band->step_rho);
+    double density = helmholtz_held(&from->ends, helmholtz_band_rho(band, i));
     double f0 = helmholtz_band_node(band, i, 0), s = helmholtz_band_node(band, i, 1);
     for (size_t first = 0; first < n; first += MOST) {
         size_t m = n - first < MOST ? n - first : MOST;

@@ -43,11 +43,12 @@ PATCH_INLINE struct helmholtz_start helmholtz_start(const struct helmholtz_grid 
 
 /* What the polynomials say at z, in units of rho and l; T is that of the cell's lower node. */
 PATCH_INLINE struct helmholtz_spot helmholtz_spot(const struct helmholtz_grid *grid, const struct helmholtz_line *line,
-                                                  int j, double z, double T)
+                                                  int j, double z, double T, double per_rho)
 {
-    double l1 = grid->per_l, l2 = 2.0 * l1 * l1, l3 = 3.0 * l2 * l1, r1 = grid->band.per_rho, r2 = 2.0 * r1 * r1;
+    double l1 = grid->per_l, l2 = 2.0 * l1 * l1, l3 = 3.0 * l2 * l1, r1 = helmholtz_band_per(&grid->band, per_rho);
+    double r2 = 2.0 * r1 * r1, fall = helmholtz_band_fall(per_rho) * r1;
     struct helmholtz_jet a = helmholtz_jet(line->a, z), r = helmholtz_jet(line->r, z), rr = helmholtz_jet(line->rr, z);
-    return (struct helmholtz_spot){
+    struct helmholtz_spot spot = {
         .l = grid->l_0 + (j + z) * grid->step_l,
         .T = T * helmholtz_exp(z * grid->step_l),
         .a = a.f0,
@@ -60,6 +61,11 @@ PATCH_INLINE struct helmholtz_spot helmholtz_spot(const struct helmholtz_grid *g
         .a_rr = rr.f0 * r2,
         .a_rrl = rr.f1 * (r2 * l1),
     };
+    if (HELMHOLTZ_SKEW > 0.0) {
+        spot.a_rr -= fall * r.f0;
+        spot.a_rrl -= fall * (r.f1 * l1);
+    }
+    return spot;
 }
 
 /* A search in one cell: p/rho^2 = a_r is a quintic r in z (per spacing of rho), and R T/rho where the gas is kept apart. */
@@ -82,18 +88,29 @@ PATCH_INLINE double helmholtz_step(const struct helmholtz_search *search, const 
     return z + step * (1.0 - bend);
 }
 
+/* Density per row. */
+PATCH_INLINE double helmholtz_find_scale(const struct helmholtz_band *band, double rho)
+{
+    return HELMHOLTZ_SKEW > 0.0 ? band->step_rho * (rho + HELMHOLTZ_SKEW) : band->step_rho;
+}
+
 /* The Helmholtz energy where p(rho, l) = p, or on the edge of the domain where that lies outside. `inside` (a constant
  * in loops): it lies well inside. */
 PATCH_INLINE struct helmholtz_spot helmholtz_find(const struct helmholtz_grid *grid, const int gas, const int inside,
                                                   struct helmholtz_row row, struct helmholtz_level level,
                                                   struct helmholtz_start start, double rho)
 {
+    double low = 0.0, high = 0.0, slope = 0.0, edge = inside ? 0.0 : helmholtz_cold(grid, rho, &slope);
+    if (!inside && HELMHOLTZ_SKEW > 0.0) { /* its edge is steep: a search that is held there has the cell of the edge */
+        struct helmholtz_start held = helmholtz_start(grid, (edge - grid->l_0) * grid->per_l);
+        start.j = level.q < HELMHOLTZ_NEAR ? held.j : start.j;
+        start.z = level.q < HELMHOLTZ_NEAR ? held.z : start.z;
+    }
     struct helmholtz_line line = helmholtz_line(grid->cell, helmholtz_grid_cell(grid, row.i, start.j), row.x);
-    double T = grid->T[start.j], z = start.z, per = grid->band.step_rho * level.per_rho, slope = 0.0;
+    double T = grid->T[start.j], z = start.z;
+    double per = helmholtz_find_scale(&grid->band, rho) * level.per_rho;
     struct helmholtz_search search = {line.r, level.f * per, gas ? grid->R * T * per : 0.0, grid->step_l};
-    double low = 0.0, high = 0.0;
     if (!inside) { /* away from an edge it is moved out of the way */
-        double edge = gas ? grid->l_low : helmholtz_edge(grid, rho, &slope);
         double free = level.q < HELMHOLTZ_NEAR ? 0.0 : 1e6, free_up = level.q > HELMHOLTZ_FAR ? 0.0 : 1e6;
         low = (edge - grid->l_0) * grid->per_l - start.j - free;
         high = (grid->l_high - grid->l_0) * grid->per_l - start.j + free_up;
@@ -109,7 +126,7 @@ PATCH_INLINE struct helmholtz_spot helmholtz_find(const struct helmholtz_grid *g
         again = again < high ? again : high;
         z = level.q < HELMHOLTZ_NEAR ? again : z;
     }
-    struct helmholtz_spot spot = helmholtz_spot(grid, &line, start.j, z, T);
+    struct helmholtz_spot spot = helmholtz_spot(grid, &line, start.j, z, T, level.per_rho);
     spot = gas ? helmholtz_with_gas(spot, level.per_rho, grid->R * spot.T) : spot;
     double off = level.f * level.per_rho - spot.a_r, below = off < 0.0 ? -1.0 : 0.0, above = off > 0.0 ? 1.0 : 0.0;
     below = z <= low ? below : 0.0;

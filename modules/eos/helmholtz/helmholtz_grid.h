@@ -18,6 +18,9 @@
 enum { HELMHOLTZ_NODE = 9, HELMHOLTZ_CELL = 36 };
 enum { HELMHOLTZ_STARTS = 256, HELMHOLTZ_EDGES = 512 };
 
+/* The lower edge of the domain is an isotherm. */
+#define HELMHOLTZ_FLAT (HELMHOLTZ_GAS && !(HELMHOLTZ_SKEW > 0.0))
+
 #define HELMHOLTZ_NEAR (2.0 * HELMHOLTZ_COLD) /* y^2 up to which a search is held on the lower edge, ... */
 #define HELMHOLTZ_FAR 0.99                    /* ... and from which on the upper one */
 
@@ -29,7 +32,7 @@ struct helmholtz_law {
     double grid_T, grid_T_high;       /* lowest and highest T of the table of a */
     double blur;                      /* kg/m3 over which the cold edge is rounded for direct tables */
     double gamma, pull, p_min, T_min; /* thin rule, lowest p and T of the continuations */
-    int gas;                          /* R T ln rho is kept apart; T_low is constant, no thin rule */
+    int gas; /* R T ln rho is kept apart, no thin rule; T_low is constant if rows are no logarithms */
     double (*T_low)(const struct helmholtz_law *law, double rho);
 };
 
@@ -97,12 +100,20 @@ PATCH_INLINE struct helmholtz_line helmholtz_line(const double *cells, int at, d
 /* Lower edge of the domain, ln T over rho (within the domain), and its slope. */
 PATCH_INLINE double helmholtz_edge(const struct helmholtz_grid *grid, double rho, double *ret_slope)
 {
-    double at = (rho - grid->edge_0) * grid->per_edge;
+    double at = (helmholtz_along(rho) - grid->edge_0) * grid->per_edge;
     int i = patch_cell(at, grid->last_edge);
+    double per = HELMHOLTZ_SKEW > 0.0 ? grid->per_edge / (rho + HELMHOLTZ_SKEW) : grid->per_edge;
     double x = at - i, y = 1.0 - x, l = grid->edge[2 * i], m = grid->edge[2 * i + 1];
     double up = grid->edge[2 * i + 2], m_up = grid->edge[2 * i + 3];
-    *ret_slope = (6.0 * x * y * (up - l) + y * (1.0 - 3.0 * x) * m + x * (3.0 * x - 2.0) * m_up) * grid->per_edge;
+    *ret_slope = (6.0 * x * y * (up - l) + y * (1.0 - 3.0 * x) * m + x * (3.0 * x - 2.0) * m_up) * per;
     return l * y * y * (1.0 + 2.0 * x) + up * x * x * (3.0 - 2.0 * x) + x * y * (y * m - x * m_up);
+}
+
+/* The same, without a table where it is an isotherm. */
+PATCH_INLINE double helmholtz_cold(const struct helmholtz_grid *grid, double rho, double *ret_slope)
+{
+    *ret_slope = 0.0;
+    return HELMHOLTZ_FLAT ? grid->l_low : helmholtz_edge(grid, rho, ret_slope);
 }
 
 #endif

@@ -31,7 +31,7 @@ enum { HELMHOLTZ_SIZE, HELMHOLTZ_EVAL, HELMHOLTZ_INTERPOLATION };
 /* Constants of the two ends in density; the cold end of the domain at the last one carries the dense rule. */
 static struct helmholtz_ends helmholtz_ends_of(const struct helmholtz_law *law, const struct helmholtz_grid *grid)
 {
-    double unused, rho = law->rho_high, l = law->gas ? grid->l_low : helmholtz_edge(grid, rho, &unused);
+    double unused, rho = law->rho_high, l = helmholtz_cold(grid, rho, &unused);
     struct helmholtz_spot spot = helmholtz_exact(law->fluid, HELMHOLTZ_GAS, rho, l);
     struct helmholtz_answer answer = helmholtz_answer(spot, 1, rho, 1.0 / rho, rho * rho * spot.a_r);
     return (struct helmholtz_ends){.thin = law->rho_low > 0.0 ? law->rho_low : 1e-9,
@@ -50,10 +50,10 @@ static struct helmholtz_ends helmholtz_ends_of(const struct helmholtz_law *law, 
 static void helmholtz_measure(const struct helmholtz *self, int i, double *ret_miss)
 {
     const struct helmholtz_law *law = self->law;
-    double unused, from = law->rho_low > 1.0 ? law->rho_low : 1.0;
+    double unused, from = HELMHOLTZ_SKEW > 0.0 ? HELMHOLTZ_SKEW : law->rho_low > 1.0 ? law->rho_low : 1.0;
     double u = (i + 0.5) / HELMHOLTZ_SAMPLES, golden = fmod(i * 0.6180339887498949, 1.0);
     double rho = HELMHOLTZ_GAS ? from * pow(law->rho_high / from, u) : from + u * (law->rho_high - from);
-    double low = HELMHOLTZ_GAS ? self->grid.l_low : helmholtz_edge(&self->grid, rho, &unused);
+    double low = helmholtz_cold(&self->grid, rho, &unused);
     double l = low + golden * golden * (self->grid.l_high - low), T, side, rho_e, rho_c2;
     struct helmholtz_spot spot = helmholtz_exact(law->fluid, HELMHOLTZ_GAS, rho, l);
     double p = rho * rho * spot.a_r;

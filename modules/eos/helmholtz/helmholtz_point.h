@@ -1,7 +1,8 @@
 /* helmholtz_point.h - an instance of a law that is given by a Helmholtz energy, and one point of it: where its tables or
  * formulas are asked, what holds beyond the densities of the domain, what rows are asked for.
  *
- * The including module first defines HELMHOLTZ_GAS: 1 keeps R T ln rho out of the table, so that densities may go to zero. */
+ * The including module first defines HELMHOLTZ_GAS: 1 keeps R T ln rho out of the table, so that densities may go to zero;
+ * and HELMHOLTZ_SKEW of helmholtz_band.h, if its rows are to be equally spaced in a logarithm. */
 #ifndef HELMHOLTZ_POINT_H
 #define HELMHOLTZ_POINT_H
 
@@ -54,7 +55,7 @@ static inline struct helmholtz_point helmholtz_exact_point(const struct helmholt
 {
     struct helmholtz_point point = helmholtz_table_point(self, rho, p);
     double slope = 0.0, square = point.rho * point.rho, high = self->grid.l_high;
-    double low = HELMHOLTZ_GAS ? self->grid.l_low : helmholtz_edge(&self->grid, point.rho, &slope);
+    double low = helmholtz_cold(&self->grid, point.rho, &slope);
     double l = point.spot.l > low ? point.spot.l : low;
     l = l < high ? l : high;
     for (int round = 0; round < 12; round++) {

@@ -3,6 +3,8 @@
  * At fixed l the root of rho^2 a_r = p by Newton's method; p is convex in the density of a liquid and nearly straight in that of a gas, so
  * a start on the dense side of a liquid's root (the thin side of a gas's) runs to it. Then, with p_l = rho^2 a_rl and p_r = (dp/drho)_T,
  *     v_p = -1/(rho^2 p_r),   v_T = p_l/(T rho^2 p_r),   c_p = e_l/T + p_l^2/(T rho^2 p_r),   h = a - a_l + p/rho,   s = -a_l/T.
+ * A vapour's start may lie beyond its spinodal, in the dome or among liquids: what comes from there does not count, and the search begins once
+ * more from the ideal gas, which is thinner than any real one: p is concave from there on.
  * All of one potential: the table's, with `eval: analytic` the formulas'. Beyond the edges of the domain there is no state, only NaN:
  * continuations in p are no potentials. */
 #ifndef HELMHOLTZ_THERMAL_H
@@ -51,7 +53,8 @@ static inline struct helmholtz_spot helmholtz_thermal_spot(const struct helmholt
         spot = helmholtz_exact(self->law->fluid, HELMHOLTZ_GAS, rho, line->l);
     } else {
         struct helmholtz_row row = helmholtz_band_row(&self->grid.band, rho);
-        double per = self->grid.band.per_rho;
+        double per_rho = 1.0 / rho, per = helmholtz_band_per(&self->grid.band, per_rho);
+        double fall = helmholtz_band_fall(per_rho);
         if (row.i != line->i) helmholtz_isotherm_row(&self->grid, row.i, line);
         struct helmholtz_jet a = helmholtz_jet(line->a, row.x), l1 = helmholtz_jet(line->l1, row.x);
         spot = (struct helmholtz_spot){.a = a.f0,
@@ -59,8 +62,8 @@ static inline struct helmholtz_spot helmholtz_thermal_spot(const struct helmholt
                                        .a_ll = helmholtz_jet(line->l2, row.x).f0,
                                        .a_r = a.f1 * per,
                                        .a_rl = l1.f1 * per,
-                                       .a_rr = 2.0 * a.f2 * per * per};
-        spot = HELMHOLTZ_GAS ? helmholtz_with_gas(spot, 1.0 / rho, line->RT) : spot;
+                                       .a_rr = 2.0 * a.f2 * per * per - fall * per * a.f1};
+        spot = HELMHOLTZ_GAS ? helmholtz_with_gas(spot, per_rho, line->RT) : spot;
     }
     spot.a += lift;
     spot.a_l += lift;
@@ -73,9 +76,9 @@ static inline double helmholtz_thermal_stiff(const struct helmholtz_spot *spot, 
     return rho * (2.0 * spot->a_r + rho * spot->a_rr);
 }
 
-/* rho at p of the isotherm from a guess, or from where a Newton iteration is safe; NaN: none in the domain. */
-static inline double helmholtz_thermal_rho(const struct helmholtz *self, struct helmholtz_isotherm *line, double p,
-                                           double guess)
+/* rho at p of the isotherm from a guess, or from where a Newton iteration is safe; NaN: none found. */
+static inline double helmholtz_thermal_root(const struct helmholtz *self, struct helmholtz_isotherm *line, double p,
+                                            double guess)
 {
     double low = self->ends.thin, high = self->ends.dense, thin = p / line->RT;
     double held = HELMHOLTZ_GAS ? thin < 0.9 * high ? thin : 0.9 * high : HELMHOLTZ_THERMAL_HELD * high;
@@ -100,8 +103,19 @@ static inline double helmholtz_thermal_rho(const struct helmholtz *self, struct 
 /* Does the domain hold (rho, l)? */
 static inline int helmholtz_thermal_holds(const struct helmholtz *self, double rho, double l)
 {
-    double unused, low = HELMHOLTZ_GAS ? self->grid.l_low : helmholtz_edge(&self->grid, rho, &unused);
+    double unused, low = helmholtz_cold(&self->grid, rho, &unused);
     return l >= low - HELMHOLTZ_THERMAL_BESIDE && l <= self->grid.l_high + HELMHOLTZ_THERMAL_BESIDE;
+}
+
+/* The same, within the domain; NaN: there is none. */
+static inline double helmholtz_thermal_rho(const struct helmholtz *self, struct helmholtz_isotherm *line, double p,
+                                           double guess)
+{
+    double rho = helmholtz_thermal_root(self, line, p, guess);
+    if (helmholtz_thermal_holds(self, rho, line->l)) return rho;
+    if (HELMHOLTZ_FLAT || !HELMHOLTZ_GAS || !(guess > 0.0)) return (double)NAN;
+    rho = helmholtz_thermal_root(self, line, p, 0.0);
+    return helmholtz_thermal_holds(self, rho, line->l) ? rho : (double)NAN;
 }
 
 static void helmholtz_thermal(const void *instance, size_t n, const double *BULLA_RESTRICT p,
@@ -113,7 +127,6 @@ static void helmholtz_thermal(const void *instance, size_t n, const double *BULL
     for (size_t i = 0; i < n; i++) {
         struct helmholtz_isotherm line = {.l = log(T[i]), .RT = self->grid.R * T[i], .i = -1};
         double at = helmholtz_thermal_rho(self, &line, p[i], rho[i]);
-        if (!helmholtz_thermal_holds(self, at, line.l)) at = (double)NAN;
         rho[i] = v[i] = h[i] = s[i] = v_T[i] = v_p[i] = c_p[i] = at;
         if (!(at > 0.0)) continue;
         struct helmholtz_spot spot = helmholtz_thermal_spot(self, &line, at);

@@ -1,0 +1,248 @@
+/* flow.c - see flow.h. */
+#include "solve/flow.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/status.h"
+#include "levels/restrict.h"
+#include "phys/elastic.h"
+#include "phys/mix.h"
+#include "phys/row.h"
+#include "solve/regrid.h"
+#include "solve/rkl.h"
+#include "solve/verdict.h"
+
+#include <math.h>
+#include <string.h>
+
+/* How often a flow that fails is halved. */
+enum { FLOW_HALVES = 6 };
+
+/* One flow. */
+struct flow {
+    struct state *state;
+    double t, tau;
+    int s; /* stages */
+};
+
+/* Explicit steps of the fastest cell of all levels in a time. */
+static double flow_steps(const struct state *state, double tau)
+{
+    double most = 0.0;
+    for (int l = 0; l < state->mesh->n_level; l++) {
+        double own = rkl_steps(state->stages[l], tau);
+        if (own > most) most = own;
+    }
+    return most;
+}
+
+bool flow_binds(const struct state *state, double dt)
+{
+    const struct scene *scene = state->scene;
+    if (scene->scheme.diffusion != SCENE_DIFFUSION_RKL2 || !scene->mesh.levels) return false;
+    for (int l = 0; l < state->mesh->n_level; l++) {
+        double own = scene->mesh.subcycle ? ldexp(dt, -l) : dt;
+        if (rkl_stages(rkl_steps(state->stages[l], own)) > 0) return true;
+    }
+    return false;
+}
+
+/* What a stage makes of a tile: z_1 and M(u), or z_j. Corrections follow. */
+static void flow_tile(struct stage *stage, unsigned local)
+{
+    struct rkl *rkl = stage->rkl;
+    size_t at = local * rkl->block;
+    const struct rkl_stage now = rkl_stage(rkl->s[0], rkl->j);
+    double *M0 = rkl->M0 + at, *z = rkl->z + at, *before = rkl->before + at;
+    struct stage_tile_work own;
+    stage_rates(stage, local, TERM_DIFFUSION, stage->dt, true, &own);
+    if (rkl->j > 1) {
+        rkl_go_on(rkl->block, &now, stage->dt, M0, stage->work->rates, z, before);
+        return;
+    }
+    memcpy(M0, stage->work->rates, rkl->block * sizeof *M0);
+    rkl_begin(rkl->block, stage->dt * now.mu_tilde, M0, z, before);
+}
+
+/* What a level shows the next finer one. */
+static void flow_down(struct stage *coarse, struct stage *fine)
+{
+    struct work *work = coarse->work;
+    prolong_strips(work->prolong, coarse->mesh, coarse->l, coarse->bound, 0);
+    around_finer(work->around, coarse->l, coarse->bound, 0);
+    link_down(fine->level->link);
+    around_down(work->around, fine->l, fine->bound);
+}
+
+static void flow_level(const struct flow *flow, int l, int j)
+{
+    struct stage *stage = flow->state->stages[l];
+    struct rkl *rkl = stage->rkl;
+    stage->t = flow->t;
+    stage->dt = flow->tau;
+    stage->from = stage->part = 0.0; /* ghosts are of this very time */
+    stage->at = j > 1 ? rkl_stage(flow->s, j - 1).at : 0.0;
+    rkl->s[0] = flow->s;
+    rkl->j = j;
+    reflux_weigh(stage->reflux, 1.0, true);
+    stage_exchange(stage);
+    stage_tiles(stage, flow_tile);
+    if (l + 1 < flow->state->mesh->n_level) flow_down(stage, flow->state->stages[l + 1]);
+    if (j == 1) return;
+    double *z = rkl->z;
+    rkl->z = rkl->before;
+    rkl->before = z;
+}
+
+/* Momentum and energy of a tile get what the fluxes of the finer level change in its rates. */
+static void flow_correct_tile(struct stage *stage, unsigned local, double *delta)
+{
+    const struct model *model = stage->model;
+    struct rkl *rkl = stage->rkl;
+    size_t n_cell = stage->mesh->n_cell, at = local * rkl->block;
+    double part = stage->dt * rkl_stage(rkl->s[0], rkl->j).mu_tilde;
+    reflux_delta(stage->reflux, local, 1.0, delta);
+    for (size_t i = model->i_u * n_cell; i < (model->i_E + 1) * n_cell; i++) {
+        rkl->z[at + i] += part * delta[i];
+        if (rkl->j == 1) rkl->M0[at + i] += delta[i];
+    }
+}
+
+static void flow_correct(struct stage *coarse, struct stage *fine)
+{
+    const struct link *link = fine->level->link;
+    if (coarse->model->scene->mesh.reflux == SCENE_REFLUX_OFF) return;
+    double *delta = mem_new(coarse->rkl->block, sizeof *delta);
+    reflux_clear(coarse->reflux);
+    reflux_commit(fine->reflux, 1.0);
+    link_up(fine->level->link);
+    for (unsigned local = 0; local < coarse->level->n_local; local++)
+        if (link->source_from[local] < link->source_from[local + 1]) flow_correct_tile(coarse, local, delta);
+    mem_free(delta);
+}
+
+/* u_old = u + z, cells under finer ones their averages. */
+static void flow_add(const struct flow *flow)
+{
+    const struct mesh *mesh = flow->state->mesh;
+    for (int l = mesh->n_level - 1; l >= 0; l--) {
+        const struct stage *stage = flow->state->stages[l];
+        const struct rkl *rkl = stage->rkl;
+        for (unsigned local = 0; local < stage->level->n_local; local++) {
+            double *u = stage->level->u_old[local];
+            memcpy(u, stage->level->u_new[local], rkl->block * sizeof *u);
+            row_add(rkl->block, rkl->z + local * rkl->block, u);
+        }
+        if (l + 1 == mesh->n_level) continue;
+        restrict_averages(mesh, l + 1);
+        link_up(mesh->levels[l + 1].link);
+        restrict_take(mesh, l + 1);
+    }
+}
+
+/* Primitives of all levels; averages of stretches are none yet. */
+static void flow_show(const struct flow *flow)
+{
+    for (int l = 0; l < flow->state->mesh->n_level; l++) {
+        struct stage *stage = flow->state->stages[l];
+        size_t n = stage->mesh->n_cell;
+        for (unsigned local = 0; local < stage->level->n_local; local++) {
+            double *u = stage->level->u_old[local];
+            if (stage_tile(stage, local)->covered) elastic_settle(stage->model, n, n, u);
+            mix_pressure_sum(&stage->effort, mix_primitives(stage->model, n, n, u, stage->level->w[local]));
+        }
+    }
+}
+
+static void flow_open(const struct flow *flow)
+{
+    for (int l = 0; l < flow->state->mesh->n_level; l++) {
+        struct stage *stage = flow->state->stages[l];
+        guard_clear(stage->guard);
+        guard_attempt(stage->guard);
+        for (unsigned local = 0; local < stage->level->n_local; local++)
+            memcpy(stage->level->u_new[local], stage->level->u_old[local], stage->rkl->block * sizeof *stage->rkl->z);
+    }
+}
+
+/* Judges what the flow has made; returns the number of inadmissible cells of the rank that has most. */
+static double flow_close(const struct flow *flow)
+{
+    double bad = 0.0;
+    for (int l = 0; l < flow->state->mesh->n_level; l++) {
+        struct stage *stage = flow->state->stages[l];
+        size_t n = stage->mesh->n_cell;
+        for (unsigned local = 0; local < stage->level->n_local; local++) {
+            if (stage_tile(stage, local)->covered) elastic_settle(stage->model, n, n, stage->level->u_old[local]);
+            verdict_touch(stage, local);
+        }
+        verdict_survey(stage);
+        bad += (double)guard_bad(stage->guard);
+    }
+    comm_max(&bad, 1);
+    return bad;
+}
+
+static void flow_undo(const struct flow *flow)
+{
+    for (int l = 0; l < flow->state->mesh->n_level; l++) {
+        struct stage *stage = flow->state->stages[l];
+        for (unsigned local = 0; local < stage->level->n_local; local++)
+            memcpy(stage->level->u_old[local], stage->level->u_new[local], stage->rkl->block * sizeof *stage->rkl->z);
+        verdict_reset(stage);
+    }
+}
+
+/* The words of the first rank and level that found a bad cell. */
+static int flow_give_up(const struct flow *flow)
+{
+    int code = STATUS_OK;
+    for (int l = 0; l < flow->state->mesh->n_level && !code; l++) {
+        const char *cause = flow->state->stages[l]->guard->cause;
+        if (cause[0])
+            code = status_fail(STATUS_RUN, "step %ld at t = %.9g s: what diffuses cannot go through %.3g s: %s",
+                               flow->state->step + 1, flow->t, flow->tau, cause);
+    }
+    return comm_agree(code);
+}
+
+/* One flow; returns what flow_close does. */
+static double flow_once(const struct flow *flow)
+{
+    int n_level = flow->state->mesh->n_level;
+    flow_open(flow);
+    for (int j = 1; j <= flow->s; j++) {
+        for (int l = 0; l < n_level; l++) flow_level(flow, l, j);
+        for (int l = n_level - 2; l >= 0; l--) flow_correct(flow->state->stages[l], flow->state->stages[l + 1]);
+        flow_add(flow);
+        if (j < flow->s) flow_show(flow);
+    }
+    return flow_close(flow);
+}
+
+/* A flow, in halves if it must be; one that asks for more than the most stages is one of them. */
+static int flow_through(struct state *state, double t, double tau, int halves)
+{
+    double steps = flow_steps(state, tau);
+    struct flow flow = {state, t, tau, rkl_stages(steps)};
+    if (steps * rkl_relief() <= 1.0 || !isfinite(steps)) { /* the guard sees what is not a number */
+        if (!flow.s) flow.s = 3;
+        if (flow_once(&flow) == 0.0) return STATUS_OK;
+        if (halves == FLOW_HALVES) return flow_give_up(&flow);
+        halves++;
+        flow_undo(&flow);
+    }
+    TRY(flow_through(state, t, 0.5 * tau, halves));
+    return flow_through(state, t + 0.5 * tau, 0.5 * tau, halves);
+}
+
+int flow_take(struct state *state, double t, double tau)
+{
+    int status = flow_through(state, t, tau, 0);
+    for (int l = 0; l < state->mesh->n_level; l++) {
+        guard_clear(state->stages[l]->guard);
+        state->stages[l]->rkl->s[0] = 0; /* the integrator's own stages take none */
+    }
+    if (!status) regrid_signals(state);
+    return status;
+}
