@@ -94,7 +94,10 @@ static void test_best(void **state)
         unsigned n = 1 + pick(12), kind = pick(4);
         int size = 1 + (int)pick(6);
         for (unsigned i = 0; i < n; i++) /* equal; any; light and heavy; cheap ones among them: sums are exact */
-            cost[i] = kind == 0 ? 1.0 : kind == 1 ? 1 + pick(9) : kind == 2 ? (pick(6) ? 1.0 : 32.0) : 0.25 * (1 + pick(3));
+            cost[i] = kind == 0   ? 1.0
+                      : kind == 1 ? 1 + pick(9)
+                      : kind == 2 ? (pick(6) ? 1.0 : 32.0)
+                                  : 0.25 * (1 + pick(3));
         check_cut(cost, n, size);
     }
 }
@@ -212,8 +215,9 @@ static void test_imbalance(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_best), cmocka_unit_test(test_even),  cmocka_unit_test(test_units),
-        cmocka_unit_test(test_runs), cmocka_unit_test(test_few),  cmocka_unit_test(test_fewer), cmocka_unit_test(test_imbalance),
+        cmocka_unit_test(test_best),      cmocka_unit_test(test_even), cmocka_unit_test(test_units),
+        cmocka_unit_test(test_runs),      cmocka_unit_test(test_few),  cmocka_unit_test(test_fewer),
+        cmocka_unit_test(test_imbalance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
