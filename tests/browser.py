@@ -2,6 +2,7 @@
 #
 #     open ADDRESS        goes there
 #     width PIXELS        of the window
+#     hurry FACTOR        what pages wait for comes so many times sooner; before `open`
 #     until EXPRESSION    of the page's script: answers when it is true
 #     value EXPRESSION    answers with it, as JSON
 #     faults              what went wrong in the page so far: errors of scripts, what its policy forbade
@@ -63,6 +64,9 @@ for line in sys.stdin:
     if word == "open": call("Page.navigate", page, url=what)
     if word == "width":
         call("Emulation.setDeviceMetricsOverride", page, width=int(what), height=800, deviceScaleFactor=1, mobile=True)
+    if word == "hurry":
+        call("Page.addScriptToEvaluateOnNewDocument", page,
+             source="{ const wait = window.setTimeout; window.setTimeout = (f, ms) => wait(f, ms / %d); }" % int(what))
     if word == "until":
         while value(what) is not True: time.sleep(0.05)
     if word == "value": answer = json.dumps(value(what))

@@ -186,12 +186,21 @@ static const double *guard_borne(const struct model *model, size_t n, size_t n_c
     return alpha;
 }
 
+/* Whole numbers: their sum is the same in any order. */
+static BULLA_KERNEL double guard_count(size_t n, const double *restrict bad)
+{
+    double count = 0.0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) count += bad[i];
+    return count;
+}
+
 /* The checks on n cells from `from`; bad[i] > 0 where one fails. Returns their sum. */
 static double guard_judge(const struct guard *guard, const struct guard_tile *tile, size_t from, size_t n, double *bad)
 {
     const struct model *model = tile->model;
     size_t n_cell = guard->mesh->n_cell;
-    double rho[GUARD_BATCH], borne[GUARD_BATCH], count = 0.0;
+    double rho[GUARD_BATCH], borne[GUARD_BATCH];
     guard_mixture(n, tile->u + model->i_E * n_cell + from, tile->w + model->i_E * n_cell + from, tile->c2 + from, bad);
     if (model->n_alpha) guard_density(model, n, n_cell, tile->u + from, rho);
     else guard_single(n, tile->u + model->i_m * n_cell + from, bad);
@@ -202,8 +211,7 @@ static double guard_judge(const struct guard *guard, const struct guard_tile *ti
                        model->eos[l].rho_fill, bad);
         guard_void(n, tile->u + (model->i_m + l) * n_cell + from, tile->u + (model->i_alpha + l) * n_cell + from, bad);
     }
-    for (size_t i = 0; i < n; i++) count += bad[i];
-    return count;
+    return guard_count(n, bad);
 }
 
 /* Speeds of one cell, anew; true if it is admissible. */

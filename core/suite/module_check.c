@@ -10,6 +10,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/system.h"
+#include "base/text.h"
 #include "plug/registry.h"
 #include "suite/contract_module.h"
 
@@ -23,8 +24,8 @@
 #include <time.h>
 #include <unistd.h>
 
-/* What one check may take: seconds of CPU time, so that a busy machine is no fault of the module; and, for one that sleeps, ticks
- * of so many milliseconds. */
+/* What one check may take: seconds of CPU time, so that a busy machine is no fault of the module (BULLA_CHECK_SECONDS sets
+ * others, for tests); and, for one that sleeps, ticks of so many milliseconds. */
 enum { MODULE_PATIENCE = 10, MODULE_SLEEP = 30000, MODULE_TICK = 20 };
 
 /* What the child says to its parent. */
@@ -89,13 +90,21 @@ static int module_check_judge(const char *path, const char *const *sets, struct 
     return code ? cli_failed(code) : failed ? STATUS_EXPECT : STATUS_OK;
 }
 
+static double module_check_patience(void)
+{
+    double seconds = MODULE_PATIENCE;
+    const char *own = getenv("BULLA_CHECK_SECONDS");
+    if (own) text_number(own, &seconds);
+    return seconds;
+}
+
 /* Waits for the child; false when one check took too long and the child had to be ended. */
 static bool module_check_wait(pid_t child, const struct module_watch *watch, int *ret_raw)
 {
     static const struct timespec tick = {.tv_nsec = MODULE_TICK * 1000000L};
     char last[CONTRACT_NAME] = "";
-    double since = system_cpu_of(child);
-    for (int still = 0; still < MODULE_SLEEP && system_cpu_of(child) - since < MODULE_PATIENCE; still++) {
+    double since = system_cpu_of(child), patience = module_check_patience();
+    for (int still = 0; still < MODULE_SLEEP && system_cpu_of(child) - since < patience; still++) {
         pid_t got = waitpid(child, ret_raw, WNOHANG);
         if (got == child || (got < 0 && errno != EINTR)) return true;
         nanosleep(&tick, NULL);
@@ -117,8 +126,8 @@ static int module_check_lost(const char *path, const struct module_watch *watch,
     const char *when = loading ? "being loaded or opened" : watch->progress;
     int code = loading ? STATUS_CASE : STATUS_EXPECT;
     if (!waited)
-        return status_fail(code, "%s does not come back (%s): a loop without end? ended after %d s", path, when,
-                           MODULE_PATIENCE);
+        return status_fail(code, "%s does not come back (%s): a loop without end? ended after %g s", path, when,
+                           module_check_patience());
     if (WIFSIGNALED(raw))
         return status_fail(code, "%s crashes (%s): signal %d, %s", path, when, WTERMSIG(raw), strsignal(WTERMSIG(raw)));
     return status_fail(code, "%s ends the process (%s); a module never calls exit", path, when);

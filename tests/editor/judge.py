@@ -21,7 +21,7 @@ PROGRAM, SOURCE = sys.argv[1:]
 DATA = os.path.join(SOURCE, "tests/data/case")
 
 
-class Core(yaml.SafeLoader):
+class Core(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
     """YAML 1.2 as editors read it: `no` is a text, 1e1 a number, a key given twice an error."""
 
     def construct_mapping(self, node, deep=False):

@@ -74,15 +74,15 @@ bodies:
   goes: {sphere: {center: [-0.53, 0.25], radius: 0.1}, velocity: [37, 3]}
   swings: {box: {lower: [0.31, 0.2], upper: [0.5, 0.31]}, displacement: ['= 0.03 * math.sin(3100 * t)', 0], angle: '= 90 * t', pivot: [0.4, 0.25]}
 initial: [{everywhere: true, material: air, density: 1.2, pressure: 1e5}]
-run: {until: 0.3 ms}
+run: {until: 0.06 ms}
 output:
   directory: out
-  checkpoints: {every: 0.1 ms}
-  snapshots: {every: 0.1 ms, fields: [pressure, body]}
+  checkpoints: {every: 0.02 ms}
+  snapshots: {every: 0.02 ms, fields: [pressure, body]}
   history: {columns: {m: {total: mass}, g: {force: goes, along: x}, s: {force: swings, along: x}}}
 END
 ran later-straight later
-ran later-first later --until 0.1ms
+ran later-first later --until 0.02ms
 mkdir later-on
 cp -r later-first/out later-on/out
 ran later-on later --restart

@@ -1,10 +1,9 @@
 # Every rank makes and checks its own piece of the tile sets: on 1, 2, 3, 4, 7 and 16 ranks the same sets, counts of unwanted
-# tiles and bits, in 2D with three levels that come, move and go, and in 3D; a run that ends on 16 ranks goes on with 5
-# and then with 1; a rank that is lost ends the run, and its checkpoint goes on.
+# tiles and bits, in 2D with three levels that come, move and go, and in 3D; a checkpoint of 16 ranks goes on with 5 and then
+# with 1; a rank that is lost ends the run, and its checkpoint goes on.
 set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
 same="$BULLA_BUILD/tests/test-unit-checkpoint"
-counts='1 2 3 4 7 16'
 
 cat >moving.yaml <<'END2'
 bulla: 1
@@ -40,19 +39,22 @@ output:
   history: {columns: {E: {total: energy}}}
   checkpoints: {every: 3 steps, keep: 9}
 END2
-for name in moving space; do
+while read -r name counts; do
     # shellcheck disable=SC2086
-    ranked $name $counts
+    ranked "$name" $counts
     for ranks in $counts; do
         for file in $name-1/out/checkpoints/*; do
             "$same" "$file" "$name-$ranks/out/checkpoints/${file##*/}"
         done
     done
     grep -q '"regrids": *[3-9]' "$name-1/refinement" || grep -q '"regrids": *[1-9][0-9]' "$name-1/refinement" || fail "$name: levels do not move"
-done
+done <<END2
+moving 1 2 4 7 16
+space 1 3 7
+END2
 
-ran chain moving -n 16 --max-steps 6
-ran chain moving -n 5 --max-steps 11 --restart
+cp -r moving-16 chain
+ran chain moving -n 5 --max-steps 11 --restart=out/checkpoints/moving_000004.chk
 ran chain moving --restart
 cmp moving-1/out/history.csv chain/out/history.csv
 

@@ -41,6 +41,7 @@ start "$BULLA" watch out >url 2>said
 page=$run
 await "the address" grep -q '/$' url
 say width 360
+say hurry 10 # it looks every 2 s, every 10 s when all is over
 say open "$(cat url)"
 comes "document.querySelector('#title').textContent === 'Nothing has run here yet'"
 say value "window.stays = true"
