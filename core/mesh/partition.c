@@ -4,125 +4,210 @@
  * with a greedy probe, where a probe that fails names the next load worth trying (Pinar & Aykanat 2004, J. Parallel
  * Distrib. Comput. 64, 974). Among the cuts that reach it, the one nearest to equal prefixes is taken: greedy
  * pieces would leave the last ranks empty.
- * The load of a piece is always the difference of two prefix sums, so that all comparisons agree. */
+ * One rank does it for all (mesh/deal.h): its time follows the runs of equal cost and the ranks, not the tiles. */
 #include "mesh/partition.h"
 
 #include "base/mem.h"
 
 #include <assert.h>
+#include <math.h>
 
 struct partition_curve {
-    unsigned n;
+    const struct partition_runs *runs;
     int size;
-    double *sum; /* [n + 1] cost of the tiles before i */
+    uint32_t *count; /* [n + 1] tiles before run i, */
+    uint64_t *sum;   /* and their cost */
 };
 
-static double partition_piece(const struct partition_curve *curve, unsigned from, unsigned to)
+/* Between two tiles, or at an end of the curve. */
+struct partition_place {
+    unsigned run; /* that begins here or before */
+    uint32_t tile;
+    uint64_t sum;
+};
+
+uint32_t partition_units(double cost)
 {
-    return curve->sum[to] - curve->sum[from];
+    double units = floor(100.0 * cost + 0.5);
+    return units < 1.0 ? 1 : units > 65535.0 ? 65535 : (uint32_t)units;
 }
 
-/* The largest end of a piece from `from` on that costs at most `most`: by steps that double, then halve. */
-static unsigned partition_reach(const struct partition_curve *curve, unsigned from, double most)
+void partition_add(struct partition_runs *runs, uint32_t n, uint32_t cost)
 {
-    unsigned to = from, step = 1;
-    while (to + step <= curve->n && partition_piece(curve, from, to + step) <= most) {
-        to += step;
+    if (runs->n && runs->list[runs->n - 1].cost == cost) {
+        runs->list[runs->n - 1].n += n;
+        return;
+    }
+    if (runs->n == runs->room) {
+        unsigned room = 2 * runs->room + 64;
+        runs->list = mem_grow(runs->list, runs->room, room, sizeof *runs->list);
+        runs->room = room;
+    }
+    runs->list[runs->n++] = (struct partition_run){n, cost};
+}
+
+void partition_free(struct partition_runs *runs)
+{
+    mem_free(runs->list);
+    *runs = (struct partition_runs){0};
+}
+
+static struct partition_curve partition_start(const struct partition_runs *runs, int size)
+{
+    struct partition_curve curve = {runs, size, mem_new(runs->n + 1, sizeof *curve.count),
+                                    mem_new(runs->n + 1, sizeof *curve.sum)};
+    for (unsigned r = 0; r < runs->n; r++) {
+        curve.count[r + 1] = curve.count[r] + runs->list[r].n;
+        curve.sum[r + 1] = curve.sum[r] + (uint64_t)runs->list[r].n * runs->list[r].cost;
+    }
+    return curve;
+}
+
+static void partition_stop(struct partition_curve *curve)
+{
+    mem_free(curve->count);
+    mem_free(curve->sum);
+}
+
+static uint64_t partition_total(const struct partition_curve *curve)
+{
+    return curve->sum[curve->runs->n];
+}
+
+/* The last run from `run` on that begins at a sum of at most `most`: by steps that double, then halve. */
+static unsigned partition_ahead(const struct partition_curve *curve, unsigned run, uint64_t most)
+{
+    unsigned step = 1, n = curve->runs->n;
+    while (run + step <= n && curve->sum[run + step] <= most) {
+        run += step;
         step *= 2;
     }
     for (; step; step /= 2)
-        if (to + step <= curve->n && partition_piece(curve, from, to + step) <= most) to += step;
-    return to;
+        if (run + step <= n && curve->sum[run + step] <= most) run += step;
+    return run;
+}
+
+static struct partition_place partition_inside(const struct partition_curve *curve, unsigned run, uint64_t tiles)
+{
+    uint64_t cost = run < curve->runs->n ? curve->runs->list[run].cost : 0;
+    return (struct partition_place){run, curve->count[run] + (uint32_t)tiles, curve->sum[run] + tiles * cost};
+}
+
+/* The largest end of a piece from `from` on that costs at most `most`. */
+static struct partition_place partition_reach(const struct partition_curve *curve, struct partition_place from,
+                                              uint64_t most)
+{
+    unsigned run = partition_ahead(curve, from.run, from.sum + most);
+    uint64_t rest = from.sum + most - curve->sum[run];
+    return partition_inside(curve, run, run < curve->runs->n ? rest / curve->runs->list[run].cost : 0);
 }
 
 /* The least begin of a piece up to `to` that costs at most `most`. */
-static unsigned partition_reach_back(const struct partition_curve *curve, unsigned to, double most)
+static struct partition_place partition_reach_back(const struct partition_curve *curve, struct partition_place to,
+                                                   uint64_t most)
 {
-    unsigned from = to, step = 1;
-    while (from >= step && partition_piece(curve, from - step, to) <= most) {
-        from -= step;
-        step *= 2;
+    unsigned run = to.run;
+    if (to.sum <= most) return (struct partition_place){0};
+    for (unsigned step = 1; curve->sum[run] > to.sum - most; step *= 2) run = run > step ? run - step : 0;
+    run = partition_ahead(curve, run, to.sum - most);
+    uint64_t rest = to.sum - most - curve->sum[run], cost = curve->runs->list[run].cost;
+    return partition_inside(curve, run, (rest + cost - 1) / cost);
+}
+
+/* The place before a tile. */
+static struct partition_place partition_before(const struct partition_curve *curve, uint32_t tile)
+{
+    unsigned low = 0, high = curve->runs->n;
+    while (high - low > 1) {
+        unsigned middle = low + (high - low) / 2;
+        if (curve->count[middle] <= tile) low = middle;
+        else high = middle;
     }
-    for (; step; step /= 2)
-        if (from >= step && partition_piece(curve, from - step, to) <= most) from -= step;
-    return from;
+    return partition_inside(curve, low, tile - curve->count[low]);
 }
 
 /* Do pieces of at most `most` suffice? Then *ret_load is the largest of them; else the least load, above `most`, with
  * which any piece would be longer. */
-static bool partition_probe(const struct partition_curve *curve, double most, double *ret_load)
+static bool partition_probe(const struct partition_curve *curve, uint64_t most, uint64_t *ret_load)
 {
-    double largest = 0.0, next = curve->sum[curve->n];
-    unsigned from = 0;
-    for (int rank = 0; rank < curve->size && from < curve->n; rank++) {
-        unsigned to = partition_reach(curve, from, most);
-        double load = partition_piece(curve, from, to);
+    uint64_t largest = 0, total = partition_total(curve), next = total;
+    struct partition_place from = {0};
+    for (int rank = 0; rank < curve->size && from.sum < total; rank++) {
+        struct partition_place to = partition_reach(curve, from, most);
+        uint64_t load = to.sum - from.sum;
         if (load > largest) largest = load;
-        if (to < curve->n && partition_piece(curve, from, to + 1) < next) next = partition_piece(curve, from, to + 1);
+        if (to.sum < total) load += curve->runs->list[to.run].cost;
+        if (to.sum < total && load < next) next = load;
         from = to;
     }
-    *ret_load = from == curve->n ? largest : next;
-    return from == curve->n;
+    *ret_load = from.sum == total ? largest : next;
+    return from.sum == total;
 }
 
 /* The least load of the most loaded rank. */
-static double partition_bottleneck(const struct partition_curve *curve)
+static uint64_t partition_bottleneck(const struct partition_curve *curve)
 {
-    double most = 0.0, load, total = curve->sum[curve->n], mean = total / curve->size;
-    for (unsigned i = 0; i < curve->n; i++) {
-        double cost = partition_piece(curve, i, i + 1);
-        if (cost > most) most = cost;
-    }
-    double low = mean > most ? mean : most;
-    double high = partition_probe(curve, mean + most, &load) ? load : total;
-    for (double middle = low; low < high;) {
+    uint64_t most = 0, load, size = (uint64_t)curve->size, total = partition_total(curve);
+    uint64_t mean = (total + size - 1) / size;
+    for (unsigned r = 0; r < curve->runs->n; r++)
+        if (curve->runs->list[r].cost > most) most = curve->runs->list[r].cost;
+    uint64_t low = mean > most ? mean : most, high = partition_probe(curve, mean + most, &load) ? load : total;
+    for (uint64_t middle = low; low < high; middle = low + (high - low) / 2) {
         if (partition_probe(curve, middle, &load)) high = load;
         else low = load;
-        middle = low + 0.5 * (high - low);
-        if (middle >= high) middle = low; /* neighbours among doubles: the mean may round up */
     }
     return high;
 }
 
 /* earliest[r]: the least first tile of rank r with which it and the ranks above can take the rest, none more than
  * `most`. */
-static unsigned *partition_earliest(const struct partition_curve *curve, double most)
+static uint32_t *partition_earliest(const struct partition_curve *curve, uint64_t most)
 {
-    unsigned *earliest = mem_new((size_t)curve->size + 1, sizeof *earliest), to = curve->n;
-    earliest[curve->size] = to;
-    for (int rank = curve->size - 1; rank > 0; rank--) earliest[rank] = to = partition_reach_back(curve, to, most);
+    uint32_t *earliest = mem_new((size_t)curve->size + 1, sizeof *earliest);
+    struct partition_place to = partition_inside(curve, curve->runs->n, 0);
+    earliest[curve->size] = to.tile;
+    for (int rank = curve->size - 1; rank > 0; rank--) {
+        to = partition_reach_back(curve, to, most);
+        earliest[rank] = to.tile;
+    }
     return earliest;
 }
 
-/* Cuts as near to equal prefixes as `most` allows; every rank gets a tile. */
-static void partition_place(const struct partition_curve *curve, double most, struct tile *tiles)
+/* The end of a piece from `from` on nearest to where the first `ranks` ranks have an equal share. */
+static struct partition_place partition_nearest(const struct partition_curve *curve, struct partition_place from,
+                                                uint64_t ranks)
 {
-    unsigned *earliest = partition_earliest(curve, most), from = 0, size = (unsigned)curve->size;
-    double share = curve->sum[curve->n] / curve->size;
-    for (unsigned rank = 0; rank < size; rank++) {
-        double target = share * (rank + 1) - curve->sum[from];
-        unsigned to = partition_reach(curve, from, target);
-        if (to < curve->n && partition_piece(curve, from, to + 1) - target < target - partition_piece(curve, from, to))
-            to++;
-        unsigned least = from + 1 > earliest[rank + 1] ? from + 1 : earliest[rank + 1];
-        unsigned limit = partition_reach(curve, from, most), rest = curve->n - (size - rank - 1);
+    uint64_t size = (uint64_t)curve->size, total = partition_total(curve), goal = total * ranks / size;
+    if (goal <= from.sum) return from;
+    struct partition_place to = partition_reach(curve, from, goal - from.sum);
+    if (to.sum == total) return to;
+    uint64_t cost = curve->runs->list[to.run].cost;
+    if ((2 * to.sum + cost) * size < 2 * total * ranks) to = partition_reach(curve, to, cost);
+    return to;
+}
+
+/* Cuts as near to equal prefixes as `most` allows; every rank gets a tile. */
+static void partition_place_all(const struct partition_curve *curve, uint64_t most, uint64_t weight, uint64_t *load,
+                                uint32_t *ret_first)
+{
+    uint32_t *earliest = partition_earliest(curve, most), n = curve->count[curve->runs->n];
+    struct partition_place from = {0};
+    for (int rank = 0; rank < curve->size; rank++) {
+        struct partition_place to = partition_nearest(curve, from, (uint64_t)rank + 1);
+        uint32_t least = from.tile + 1 > earliest[rank + 1] ? from.tile + 1 : earliest[rank + 1];
+        uint32_t limit = partition_reach(curve, from, most).tile, rest = n - (uint32_t)(curve->size - rank - 1);
         if (limit > rest) limit = rest;
-        to = to < least ? least : to > limit ? limit : to;
-        for (; from < to; from++) tiles[from].rank = (int)rank;
+        uint32_t tile = to.tile < least ? least : to.tile > limit ? limit : to.tile;
+        if (tile != to.tile) to = partition_before(curve, tile);
+        load[rank] += weight * (to.sum - from.sum);
+        ret_first[rank + 1] = tile;
+        from = to;
     }
     mem_free(earliest);
 }
 
-static void partition_contiguous(struct tile *tiles, unsigned n, const double *cost, int size)
-{
-    struct partition_curve curve = {.n = n, .size = size, .sum = mem_new((size_t)n + 1, sizeof *curve.sum)};
-    for (unsigned i = 0; i < n; i++) curve.sum[i + 1] = curve.sum[i] + cost[i];
-    partition_place(&curve, partition_bottleneck(&curve), tiles);
-    mem_free(curve.sum);
-}
-
 struct partition_rank {
-    double load;
+    uint64_t load;
     int rank;
 };
 
@@ -153,41 +238,49 @@ static void partition_select(struct partition_rank *ranks, int size, int n)
 }
 
 /* One tile each to the n ranks with least load, the lower ranks where loads are equal. */
-static void partition_few(struct tile *tiles, unsigned n, int size, const double *load)
+static void partition_few(const struct partition_curve *curve, uint64_t weight, uint64_t *load, uint32_t *ret_first)
 {
+    int size = curve->size;
+    uint32_t n = curve->count[curve->runs->n], next = 0;
     struct partition_rank *ranks = mem_new((size_t)size, sizeof *ranks);
     bool *chosen = mem_new((size_t)size, sizeof *chosen);
     for (int rank = 0; rank < size; rank++) ranks[rank] = (struct partition_rank){load[rank], rank};
     partition_select(ranks, size, (int)n);
-    for (unsigned i = 0; i < n; i++) chosen[ranks[i].rank] = true;
-    for (int rank = 0; rank < size; rank++)
-        if (chosen[rank]) (tiles++)->rank = rank;
+    for (uint32_t i = 0; i < n; i++) chosen[ranks[i].rank] = true;
+    for (int rank = 0; rank < size; rank++) {
+        if (chosen[rank]) {
+            struct partition_place from = partition_before(curve, next++);
+            load[rank] += weight * curve->runs->list[from.run].cost;
+        }
+        ret_first[rank + 1] = next;
+    }
     mem_free(chosen);
     mem_free(ranks);
 }
 
-void partition_cut(struct tile *tiles, unsigned n, const double *cost, int size, double weight, double *load)
+void partition_cut(const struct partition_runs *runs, int size, uint64_t weight, uint64_t *load, uint32_t *ret_first)
 {
     assert(size > 0);
-    if (!n) return;
-    if (n < (unsigned)size) partition_few(tiles, n, size, load);
-    else partition_contiguous(tiles, n, cost, size);
-    for (unsigned i = 0; i < n;) {
-        int rank = tiles[i].rank;
-        double sum = load[rank];
-        for (; i < n && tiles[i].rank == rank; i++) sum += weight * cost[i];
-        load[rank] = sum;
-    }
+    struct partition_curve curve = partition_start(runs, size);
+    ret_first[0] = 0;
+    if (curve.count[runs->n] < (uint32_t)size) partition_few(&curve, weight, load, ret_first);
+    else partition_place_all(&curve, partition_bottleneck(&curve), weight, load, ret_first);
+    partition_stop(&curve);
 }
 
-double partition_imbalance(const struct tile *tiles, unsigned n, const double *cost, int size)
+void partition_give(struct tile *tiles, int size, const uint32_t *first)
 {
-    double largest = 0.0, total = 0.0, load = 0.0;
-    for (unsigned i = 0; i < n; i++) {
-        load = i && tiles[i - 1].rank == tiles[i].rank ? load + cost[i] : cost[i];
-        if (load > largest) largest = load;
-        total += cost[i];
+    for (int rank = 0; rank < size; rank++)
+        for (uint32_t i = first[rank]; i < first[rank + 1]; i++) tiles[i].rank = rank;
+}
+
+double partition_imbalance(const uint64_t *load, uint32_t n, int size)
+{
+    uint64_t largest = 0, total = 0;
+    for (int rank = 0; rank < size; rank++) {
+        if (load[rank] > largest) largest = load[rank];
+        total += load[rank];
     }
-    double ranks = n < (unsigned)size ? (double)n : (double)size;
-    return total > 0.0 ? largest * ranks / total - 1.0 : 0.0;
+    double ranks = n < (uint32_t)size ? (double)n : (double)size;
+    return total ? (double)largest * ranks / (double)total - 1.0 : 0.0;
 }

@@ -9,9 +9,9 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "mesh/carry.h"
+#include "mesh/deal.h"
 #include "mesh/halo.h"
 #include "mesh/nest.h"
-#include "mesh/partition.h"
 #include "mesh/rigid.h"
 #include "paint/paint.h"
 #include "solve/adopt.h"
@@ -143,54 +143,41 @@ static double *regrid_costs(const struct stage *stage)
     return own;
 }
 
-/* Those of all ranks, in their order. */
-static double *regrid_join(const double *own, unsigned n, size_t n_all)
+/* Tells what this rank's tiles will cost, level by level: those up to `base` stay where they are; but level 0 is cut anew if
+ * it is `base` itself and its cells under finer tiles, or at rest, leave some ranks idle. */
+static void regrid_tell(const struct regrid *regrid, struct deal *deal)
 {
-    double *all = mem_new(n_all, sizeof *all);
-    comm_join(own, (int)n, all);
-    return all;
-}
-
-/* Level 0 with other owners, if those it has share the work badly and others would share it better. */
-static struct tile *regrid_recut(const struct level *level, const double *cost)
-{
-    double *load = mem_new((size_t)comm_size(), sizeof *load);
-    struct tile *tiles = mem_new(level->n_tile, sizeof *tiles);
-    double now = partition_imbalance(level->tiles, level->n_tile, cost, comm_size());
-    memcpy(tiles, level->tiles, level->n_tile * sizeof *tiles);
-    partition_cut(tiles, level->n_tile, cost, comm_size(), 1.0, load);
-    double then = partition_imbalance(tiles, level->n_tile, cost, comm_size());
-    mem_free(load);
-    if (now > PARTITION_SLACK && then < now - 0.5 * PARTITION_SLACK) return tiles;
-    mem_free(tiles);
-    return NULL;
-}
-
-/* What this rank's tiles of the levels up to `base` cost, `weight` times in a coarse step, is load. They stay where they
- * are; but level 0 is cut anew if it is `base` itself and its cells under finer tiles, or at rest, leave some ranks
- * idle. `cost`: of own tiles. */
-static void regrid_load(struct regrid *regrid, int l, const double *cost, double weight, double *load)
-{
-    const struct level *level = &regrid->state->mesh->levels[l];
-    double own = load[comm_rank()];
-    if (regrid->base == 0) {
-        double *all = regrid_join(cost, level->n_local, level->n_tile);
-        regrid->root = regrid_recut(level, all);
-        for (unsigned i = 0; regrid->root && i < level->n_tile; i++) load[regrid->root[i].rank] += weight * all[i];
-        mem_free(all);
-        if (regrid->root) return;
+    const struct state *state = regrid->state;
+    const struct mesh *mesh = state->mesh;
+    struct carry below = {0};
+    double *last = NULL; /* costs of the level below */
+    for (int l = 0; l <= mesh->most_level && (l <= regrid->base || regrid->n_tile[l]); l++) {
+        const struct level *level = &mesh->levels[l];
+        const struct nest_set *set = &regrid->sets[l];
+        bool exists = l < mesh->n_level;
+        double *costs = exists ? regrid_costs(state->stages[l]) : NULL;
+        struct carry here = {exists ? level->n_local : 0, exists ? level->tiles + level->first : NULL, costs};
+        if (l > regrid->base) {
+            double *carried = carry_values(mesh, l, set, &here, &below);
+            mem_free(costs);
+            costs = carried;
+            here = (struct carry){set->n, set->tiles, carried};
+        }
+        deal_add(deal, l, costs, here.n);
+        mem_free(last);
+        last = costs;
+        below = here;
     }
-    for (unsigned i = 0; i < level->n_local; i++) own += weight * cost[i];
-    comm_join(&own, 1, load);
+    mem_free(last);
 }
 
-/* The owners of a new set, which this rank's piece becomes all of; `cost`: of the piece. */
-static void regrid_cut(struct nest_set *set, size_t n_all, const double *cost, double weight, double *load)
+/* Tiles of level 0 with their new owners. */
+static struct tile *regrid_root(const struct level *level, const uint32_t *first)
 {
-    double *all = regrid_join(cost, set->n, n_all);
-    nest_whole(set);
-    partition_cut(set->tiles, set->n, all, comm_size(), weight, load);
-    mem_free(all);
+    struct tile *tiles = mem_new(level->n_tile, sizeof *tiles);
+    memcpy(tiles, level->tiles, level->n_tile * sizeof *tiles);
+    partition_give(tiles, comm_size(), first);
+    return tiles;
 }
 
 /* Sets the owners of all new sets, of which this rank has a piece so far. */
@@ -198,32 +185,17 @@ static void regrid_partition(struct regrid *regrid)
 {
     const struct state *state = regrid->state;
     const struct mesh *mesh = state->mesh;
+    struct deal deal = {.base = regrid->base, .subcycle = state->scene->mesh.subcycle};
     if (comm_size() == 1) return; /* rank 0 owns all */
-    double *load = mem_new((size_t)comm_size(), sizeof *load), *costs[MESH_LEVELS + 1] = {0}, weight = 1.0;
-    struct carry below = {0};
-    for (int l = 0; l <= mesh->most_level; l++, weight *= state->scene->mesh.subcycle ? 2.0 : 1.0) {
-        const struct level *level = &mesh->levels[l];
-        struct nest_set *set = &regrid->sets[l];
-        bool exists = l < mesh->n_level;
-        struct carry before = {exists ? level->n_local : 0, exists ? level->tiles + level->first : NULL, NULL};
-        before.values = costs[l] = exists ? regrid_costs(state->stages[l]) : NULL;
-        if (l <= regrid->base) regrid_load(regrid, l, before.values, weight, load);
-        if (l > regrid->base && !regrid->n_tile[l]) break;
-        if (l > regrid->base) {
-            double *carried = carry_values(mesh, l, set, &before, &below);
-            mem_free(costs[l]);
-            costs[l] = carried;
-            before = (struct carry){set->n, set->tiles, carried};
-        }
-        below = before;
+    regrid_tell(regrid, &deal);
+    deal_cut(&deal);
+    if (deal.root) regrid->root = regrid_root(&mesh->levels[0], deal_first(&deal, 0));
+    for (int l = regrid->base + 1; l <= mesh->most_level; l++) {
+        if (!regrid->n_tile[l]) continue;
+        nest_whole(&regrid->sets[l]);
+        partition_give(regrid->sets[l].tiles, comm_size(), deal_first(&deal, l));
     }
-    weight = 1.0;
-    for (int l = 0; l <= mesh->most_level; l++, weight *= state->scene->mesh.subcycle ? 2.0 : 1.0) {
-        if (l > regrid->base && regrid->n_tile[l])
-            regrid_cut(&regrid->sets[l], (size_t)regrid->n_tile[l], costs[l], weight, load);
-        mem_free(costs[l]);
-    }
-    mem_free(load);
+    deal_free(&deal);
 }
 
 /* Levels up to `base` and the new sets, against the case's limit. */

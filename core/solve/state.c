@@ -86,6 +86,21 @@ int state_new(const struct scene *scene, struct state **ret_state)
     return state_hand_over(state, state_begin(state), ret_state);
 }
 
+/* Tiles in equal pieces; few go to the lowest ranks. */
+static void state_share(struct tile *tiles, unsigned n)
+{
+    size_t size = (size_t)comm_size();
+    uint64_t *load = mem_new(size, sizeof *load);
+    uint32_t *first = mem_new(size + 1, sizeof *first);
+    struct partition_runs runs = {0};
+    if (n) partition_add(&runs, n, 1);
+    partition_cut(&runs, comm_size(), 1, load, first);
+    partition_give(tiles, comm_size(), first);
+    partition_free(&runs);
+    mem_free(first);
+    mem_free(load);
+}
+
 /* One level of a source: tiles in equal pieces (costs are not known yet), then their data. */
 static int state_load_level(struct state *state, const struct state_source *source, int l)
 {
@@ -93,12 +108,8 @@ static int state_load_level(struct state *state, const struct state_source *sour
     unsigned n = source->n_tile[l];
     size_t n_cell = mesh->n_cell;
     struct tile *tiles = mem_new(n, sizeof *tiles);
-    double *cost = mem_new(n, sizeof *cost), *load = mem_new((size_t)comm_size(), sizeof *load);
     memcpy(tiles, source->tiles[l], n * sizeof *tiles);
-    for (unsigned i = 0; i < n; i++) cost[i] = 1.0;
-    partition_cut(tiles, n, cost, comm_size(), 1.0, load);
-    mem_free(cost);
-    mem_free(load);
+    state_share(tiles, n);
     struct mesh_change change = {0};
     mesh_replace(mesh, l, tiles, n, &change);
     mesh_change_free(&change);

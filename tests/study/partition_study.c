@@ -81,8 +81,7 @@ static void study_print_efficiency(struct study *study, int n_size, const int *s
                traffic.remote_parents);
         for (int l = 0; l < study->mesh.n_level; l++) {
             const struct level *level = &study->mesh.levels[l];
-            printf("%s%.2f", l ? ", " : " ",
-                   partition_imbalance(level->tiles, level->n_tile, study->costs[l], sizes[s]));
+            printf("%s%.2f", l ? ", " : " ", study_imbalance(level->tiles, level->n_tile, study->costs[l], sizes[s]));
         }
         printf(" |\n");
     }
@@ -256,7 +255,7 @@ static double study_shared(const struct study *study, const struct pieces *piece
 {
     double regrids = study_regridded(study) / study->tiles;
     double meetings = study_rounds(study) * STUDY_MEETINGS * 2.0 * ceil(log2(size));
-    return regrids * (pieces->most + pieces->whole + (pieces->bytes + pieces->joined) * STUDY_BYTE) +
+    return regrids * (pieces->most + pieces->whole + pieces->cut + (pieces->bytes + pieces->joined) * STUDY_BYTE) +
            (regrids * pieces->messages + meetings) * STUDY_MESSAGE;
 }
 
@@ -266,11 +265,12 @@ static void study_print_pieces(struct study *study, int size)
     struct pieces pieces = pieces_regrid(study, size);
     struct study_projection p = study_project(study, size);
     double shared = study_shared(study, &pieces, size), busy = p.compute + p.wait + p.network;
-    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2g | %.2g | %.3g | %.0f | %.2g | %.2g | %.3f | %.3f | %.2f | %.2f |\n",
+    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2g | %.2g | %.3g | %.2g | %.0f | %.2g | %.2g | %.3f | %.3f | %.2f | "
+           "%.2f |\n",
            study->scene.name, study->scene.dim, study->scene.n, size, study->tiles / size,
            1e3 * study->topology * study->tiles, 1e3 * pieces.mean, 1e3 * pieces.most, 1e3 * pieces.whole,
-           pieces.messages, pieces.bytes / 1e3, pieces.held / 1e6, p.topology / p.compute, shared / p.compute,
-           p.compute / (busy + p.topology), p.compute / (busy + shared));
+           1e3 * pieces.cut, pieces.messages, pieces.bytes / 1e3, pieces.held / 1e6, p.topology / p.compute,
+           shared / p.compute, p.compute / (busy + p.topology), p.compute / (busy + shared));
 }
 
 /* Owners as before, born tiles with those before them on the curve: if that balances within the slack of what a new
@@ -285,8 +285,8 @@ static void study_keep(struct level *level, const struct level *old, const doubl
         if (j < old->n_tile && old->tiles[j].key == kept[i].key) rank = old->tiles[j].rank;
         kept[i].rank = rank;
     }
-    double anew = 1.0 + partition_imbalance(level->tiles, level->n_tile, costs, size);
-    if (1.0 + partition_imbalance(kept, level->n_tile, costs, size) <= (1.0 + PARTITION_SLACK) * anew)
+    double anew = 1.0 + study_imbalance(level->tiles, level->n_tile, costs, size);
+    if (1.0 + study_imbalance(kept, level->n_tile, costs, size) <= (1.0 + PARTITION_SLACK) * anew)
         memcpy(level->tiles, kept, level->n_tile * sizeof *kept);
     mem_free(kept);
 }
@@ -356,8 +356,9 @@ static void study_topology(struct study *studies, int n_study)
 /* What each rank does at a regrid: with a list of all tiles on all ranks, and now. */
 static void study_pieces(struct study *studies, int n_study)
 {
-    study_head("Pieces", "| set | ranks | tiles per rank | list of all, ms | piece, mean | most | rest of the list "
-                         "| messages | kB | MB held | topology / ideal, list | now | efficiency, list | now |");
+    study_head("Pieces",
+               "| set | ranks | tiles per rank | list of all, ms | piece, mean | most | rest of the list | cut "
+               "| messages | kB | MB held | topology / ideal, list | now | efficiency, list | now |");
     for (int i = 0; i < n_study; i++)
         for (int s = 0; s < STUDY_RANKS; s++) study_print_pieces(&studies[i], RANKS[s]);
 }

@@ -4,9 +4,9 @@
 
 #include "base/mem.h"
 #include "mesh/carry.h"
+#include "mesh/deal.h"
 #include "mesh/level.h"
 #include "mesh/nest_share.h"
-#include "mesh/partition.h"
 
 #include <malloc.h>
 #include <math.h>
@@ -186,32 +186,74 @@ static void pieces_check(struct pieces_world *world, int l)
     }
 }
 
-/* What is left of the lists of all tiles: joined pieces become tiles, covered octants are marked, levels are cut. */
+/* Runs of all ranks as they come to rank 0. */
+static struct deal pieces_runs(const struct study *study, int size)
+{
+    struct deal all = {0};
+    unsigned at[MESH_LEVELS] = {0};
+    for (int r = 0; r < size; r++) {
+        struct deal own = {0};
+        for (int l = 0; l < study->mesh.n_level; l++) {
+            const struct level *level = &study->mesh.levels[l];
+            unsigned from = at[l];
+            while (at[l] < level->n_tile && level->tiles[at[l]].rank == r) at[l]++;
+            deal_add(&own, l, study->costs[l] + from, at[l] - from);
+        }
+        if (all.n + own.n > all.room) {
+            all.runs = mem_grow(all.runs, all.room, 2 * (all.n + own.n), sizeof *all.runs);
+            all.room = 2 * (all.n + own.n);
+        }
+        if (own.n) memcpy(all.runs + all.n, own.runs, own.n * sizeof *own.runs);
+        all.n += own.n;
+        deal_free(&own);
+    }
+    return all;
+}
+
+/* What rank 0 does for all: they wait. */
+static void pieces_cut(const struct study *study, int size, struct pieces *pieces)
+{
+    struct deal all = pieces_runs(study, size);
+    double least = HUGE_VAL;
+    for (int repeat = 0; repeat < PIECES_REPEATS; repeat++) {
+        struct deal deal = {.subcycle = true, .n_level = study->mesh.n_level};
+        uint64_t *load = mem_new((size_t)size, sizeof *load);
+        double start = pieces_clock();
+        deal_share(&deal, all.runs, all.n, size, load);
+        least = fmin(least, pieces_clock() - start);
+        mem_free(load);
+        deal_free(&deal);
+    }
+    pieces->cut = least;
+    pieces->joined += (double)all.n * sizeof *all.runs + (double)study->mesh.n_level * size * sizeof *all.first;
+    deal_free(&all);
+}
+
+/* What is left of the lists of all tiles: joined pieces become tiles, covered octants are marked, owners set. */
 static void pieces_whole(struct study *study, int size, struct pieces *pieces)
 {
     struct mesh *mesh = &study->mesh;
     for (int l = 0; l < mesh->n_level; l++) {
-        struct nest_set all = {mesh->levels[l].n_tile, mesh->levels[l].tiles};
+        struct level *level = &mesh->levels[l];
+        struct nest_set all = {level->n_tile, level->tiles};
         struct nest_keys words = nest_pack(&all);
+        uint32_t *first = mem_new((size_t)size + 1, sizeof *first);
+        for (unsigned i = 0; i < all.n; i++) first[all.tiles[i].rank + 1]++;
+        for (int r = 0; r < size; r++) first[r + 1] += first[r];
         double least = HUGE_VAL;
         for (int repeat = 0; repeat < PIECES_REPEATS; repeat++) {
             double start = pieces_clock();
             struct nest_set set = l ? nest_unpack(&words) : (struct nest_set){0};
             level_mark(mesh, l);
+            partition_give(all.tiles, size, first);
             least = fmin(least, pieces_clock() - start);
             nest_free_set(&set);
         }
         pieces->whole += least;
-        pieces->joined += l ? 8.0 * words.n + 8.0 * all.n : 0.0; /* families and costs */
+        pieces->joined += l ? 8.0 * words.n : 0.0;
+        mem_free(first);
         nest_free_keys(&words);
     }
-    double least = HUGE_VAL;
-    for (int repeat = 0; repeat < PIECES_REPEATS; repeat++) {
-        double start = pieces_clock();
-        study_cut_levels(study, size);
-        least = fmin(least, pieces_clock() - start);
-    }
-    pieces->whole += least;
 }
 
 /* All that ranks do with their own pieces, once. */
@@ -239,6 +281,7 @@ struct pieces pieces_regrid(struct study *study, int size)
     struct nest_keys wishes[MESH_LEVELS] = {0};
     for (int l = 1; l < mesh->n_level; l++) wishes[l] = sets_wishes(&study->scene, mesh, l);
     pieces_whole(study, size, &pieces);
+    pieces_cut(study, size, &pieces);
     struct pieces_world world = pieces_start(study, size);
     mallopt(M_MXFAST, 0); /* else a rank now and then pays for sorting what thousands have freed */
     for (int repeat = 0; repeat < PIECES_REPEATS; repeat++) pieces_run(&world, study, wishes);

@@ -8,8 +8,9 @@
 struct pieces {
     double mean, most;      /* CPU seconds of a rank: its own piece of all levels */
     double whole;           /* and of what every rank still does with all tiles */
+    double cut;             /* of rank 0, which cuts all levels while the others wait */
     double bytes, messages; /* sent by the rank that sends most */
-    double joined;          /* bytes that come to every rank with the joined pieces */
+    double joined;          /* bytes that come to every rank with the joined pieces, and runs and tables of the cut */
     double held;            /* bytes of lists and tables that every rank holds */
 };
 

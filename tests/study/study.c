@@ -37,14 +37,34 @@ void study_stop(struct study *study)
     }
 }
 
+static void study_cut(struct tile *tiles, unsigned n, const double *costs, int size, uint64_t weight, uint64_t *load)
+{
+    struct partition_runs runs = {0};
+    uint32_t *first = mem_new((size_t)size + 1, sizeof *first);
+    for (unsigned i = 0; i < n; i++) partition_add(&runs, 1, partition_units(costs[i]));
+    partition_cut(&runs, size, weight, load, first);
+    partition_give(tiles, size, first);
+    partition_free(&runs);
+    mem_free(first);
+}
+
 void study_cut_levels(struct study *study, int size)
 {
-    double *load = mem_new((size_t)size, sizeof *load);
+    uint64_t *load = mem_new((size_t)size, sizeof *load);
     for (int l = 0; l < study->mesh.n_level; l++) {
         struct level *level = &study->mesh.levels[l];
-        partition_cut(level->tiles, level->n_tile, study->costs[l], size, ldexp(1.0, l), load);
+        study_cut(level->tiles, level->n_tile, study->costs[l], size, (uint64_t)1 << l, load);
     }
     mem_free(load);
+}
+
+double study_imbalance(const struct tile *tiles, unsigned n, const double *costs, int size)
+{
+    uint64_t *load = mem_new((size_t)size, sizeof *load);
+    for (unsigned i = 0; i < n; i++) load[tiles[i].rank] += partition_units(costs[i]);
+    double imbalance = partition_imbalance(load, n, size);
+    mem_free(load);
+    return imbalance;
 }
 
 /* A tile on the one curve through all levels: by its first descendant on the finest, coarser tiles first. */
@@ -66,14 +86,15 @@ void study_cut_curve(struct study *study, int size)
     size_t n = (size_t)study->tiles, count = 0;
     struct study_place *places = mem_new(n, sizeof *places);
     struct tile *tiles = mem_new(n, sizeof *tiles);
-    double *costs = mem_new(n, sizeof *costs), *load = mem_new((size_t)size, sizeof *load);
+    double *costs = mem_new(n, sizeof *costs);
+    uint64_t *load = mem_new((size_t)size, sizeof *load);
     int finest = study->mesh.n_level - 1;
     for (int l = 0; l <= finest; l++)
         for (unsigned i = 0; i < study->mesh.levels[l].n_tile; i++)
             places[count++] = (struct study_place){study->mesh.levels[l].tiles[i].key << 3 * (finest - l), l, i};
     qsort(places, n, sizeof *places, study_compare_places);
     for (size_t i = 0; i < n; i++) costs[i] = ldexp(study->costs[places[i].level][places[i].index], places[i].level);
-    partition_cut(tiles, (unsigned)n, costs, size, 1.0, load);
+    study_cut(tiles, (unsigned)n, costs, size, 1, load);
     for (size_t i = 0; i < n; i++) study->mesh.levels[places[i].level].tiles[places[i].index].rank = tiles[i].rank;
     mem_free(places);
     mem_free(tiles);

@@ -21,6 +21,9 @@ void study_stop(struct study *study);
 /* Owners by a cut of each level, as the mesh does it. */
 void study_cut_levels(struct study *study, int size);
 
+/* Largest over mean load of a level with the owners that its tiles have, less 1. */
+double study_imbalance(const struct tile *tiles, unsigned n, const double *costs, int size);
+
 /* For comparison: one curve through all levels, each tile weighted by its steps. */
 void study_cut_curve(struct study *study, int size);
 

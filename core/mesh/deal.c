@@ -1,0 +1,98 @@
+/* deal.c - see deal.h. */
+#include "mesh/deal.h"
+
+#include "base/comm.h"
+#include "base/gather.h"
+#include "base/mem.h"
+
+#include <string.h>
+
+static void deal_run(struct deal *deal, int l, uint32_t cost)
+{
+    struct deal_run *last = deal->n ? &deal->runs[deal->n - 1] : NULL;
+    if (last && last->level == l && last->cost == cost) {
+        last->n++;
+        return;
+    }
+    if (deal->n == deal->room) {
+        unsigned room = 2 * deal->room + 64;
+        deal->runs = mem_grow(deal->runs, deal->room, room, sizeof *deal->runs);
+        deal->room = room;
+    }
+    deal->runs[deal->n++] = (struct deal_run){1, (uint16_t)l, (uint16_t)cost};
+}
+
+static uint64_t deal_weight(const struct deal *deal, int l)
+{
+    return deal->subcycle ? (uint64_t)1 << l : 1;
+}
+
+void deal_add(struct deal *deal, int l, const double *cost, unsigned n)
+{
+    deal->n_level = l + 1;
+    for (unsigned i = 0; i < n; i++) {
+        uint32_t units = partition_units(cost[i]);
+        if (l <= deal->base) deal->load += deal_weight(deal, l) * units;
+        if (l > deal->base || deal->base == 0) deal_run(deal, l, units);
+    }
+}
+
+static size_t deal_room(const struct deal *deal, int size)
+{
+    return (size_t)deal->n_level * ((size_t)size + 1);
+}
+
+static uint32_t *deal_table(const struct deal *deal, int l, int size)
+{
+    return deal->first + (size_t)l * ((size_t)size + 1);
+}
+
+/* Level 0 gets other owners if those it has leave some ranks idle, which others would not: `load` becomes theirs. */
+static void deal_recut(struct deal *deal, const struct partition_runs *runs, int size, uint64_t *load)
+{
+    uint64_t *other = mem_new((size_t)size, sizeof *other);
+    uint32_t *first = deal_table(deal, 0, size);
+    partition_cut(runs, size, 1, other, first);
+    double now = partition_imbalance(load, first[size], size), then = partition_imbalance(other, first[size], size);
+    deal->root = now > PARTITION_SLACK && then < now - 0.5 * PARTITION_SLACK;
+    if (deal->root) memcpy(load, other, (size_t)size * sizeof *load);
+    mem_free(other);
+}
+
+void deal_share(struct deal *deal, const struct deal_run *runs, unsigned n, int size, uint64_t *load)
+{
+    struct partition_runs levels[MESH_LEVELS + 1] = {0};
+    deal->first = mem_new(deal_room(deal, size), sizeof *deal->first);
+    for (unsigned i = 0; i < n; i++) partition_add(&levels[runs[i].level], runs[i].n, runs[i].cost);
+    if (deal->base == 0) deal_recut(deal, &levels[0], size, load);
+    for (int l = deal->base + 1; l < deal->n_level; l++)
+        partition_cut(&levels[l], size, deal_weight(deal, l), load, deal_table(deal, l, size));
+    for (int l = 0; l < deal->n_level; l++) partition_free(&levels[l]);
+}
+
+void deal_cut(struct deal *deal)
+{
+    int size = comm_size();
+    unsigned n, n_load;
+    struct deal_run *runs = gather_items(deal->runs, sizeof *runs, deal->n, &n);
+    uint64_t *load = gather_items(&deal->load, sizeof *load, 1, &n_load);
+    if (comm_rank() == 0) deal_share(deal, runs, n, size, load);
+    else deal->first = mem_new(deal_room(deal, size), sizeof *deal->first);
+    comm_bcast(&deal->root, sizeof deal->root);
+    comm_bcast(deal->first, deal_room(deal, size) * sizeof *deal->first);
+    mem_free(runs);
+    mem_free(load);
+}
+
+const uint32_t *deal_first(const struct deal *deal, int l)
+{
+    return deal_table(deal, l, comm_size());
+}
+
+void deal_free(struct deal *deal)
+{
+    mem_free(deal->runs);
+    mem_free(deal->first);
+    deal->runs = NULL;
+    deal->first = NULL;
+}
