@@ -45,19 +45,32 @@ static struct transport_fluid transport_fluid(const struct model *model, unsigne
     return fluid;
 }
 
+/* Stages of rkl2 where steps of sound are so many times those of a diffusivity: of each stage of the integrator, or with levels
+ * of the flows of all levels together, half a step of level 0 each, which the finest level asks for (solve/flow.h). */
+static void transport_print_stages(const struct scene *scene, double times)
+{
+    int levels = scene->mesh.levels, own = rkl_stages(times);
+    if (scene->scheme.diffusion != SCENE_DIFFUSION_RKL2) return;
+    double half = 0.5 * ldexp(times, scene->mesh.subcycle ? levels : 0);
+    if (levels && own) printf("; rkl2 takes %d stages of all levels before and after each step", rkl_stages(half));
+    else printf(", rkl2 takes %d stages", own);
+}
+
 /* Steps that a diffusivity allows against those of sound, by level: what does not bind stands below 1. */
 static void transport_print_limits(const struct scene *scene, double rate, double c)
 {
     char step[HUMAN_ROOM];
+    double times = 0;
     printf("  %-12s its steps:", "");
     for (int level = 0; level <= scene->mesh.levels; level++) {
         const struct transport_cells cells = transport_cells(scene, level);
         double own = 1 / (rate * cells.squares), sound = scene->scheme.cfl / (c * cells.sum);
+        times = sound / own;
         printf("%s %s", level ? "," : "", human_si(own, "s", step));
         if (scene->mesh.levels) printf(" on level %d", level);
-        printf(" (sound allows %.3g of that)", sound / own);
-        if (scene->scheme.diffusion == SCENE_DIFFUSION_RKL2) printf(", rkl2 takes %d stages", rkl_stages(sound / own));
+        printf(" (sound allows %.3g of that)", times);
     }
+    transport_print_stages(scene, times);
     putchar('\n');
 }
 

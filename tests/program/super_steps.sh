@@ -133,6 +133,8 @@ done
 awk "BEGIN { r = $(cat memory-rkl2) / $(cat memory-explicit); exit !(r > 1.95 && r < 2.05) }" || fail "check does not count the arrays" memory-rkl2
 "$BULLA" plan spot.yaml >plan-2
 grep -q 'half of a step of level 0 before it.*on all levels' plan-2 || fail "not in the plan with levels" plan-2
+"$BULLA" check spot.yaml --set scheme.diffusion=rkl2 >check-2
+grep -q 'rkl2 takes [0-9]* stages of all levels before and after each step' check-2 || fail "check counts no flows" check-2
 said() { # WORDS ARGS...
     words=$1
     shift
