@@ -15,6 +15,9 @@ count=$2 load=$3
 shift 3
 [ $# -gt 0 ] || set -- checkpoint_killed checkpoint_faults checkpoint_full output_full output_killed restart restart_stop \
     run_codes run_ranks run_stop run_twice sweep sweep_stop
+for test; do
+    [ -f "$BULLA_SOURCE/tests/program/$test.sh" ] || { echo "repeat: there is no tests/program/$test.sh" >&2; exit 2; }
+done
 
 test=
 say() { [ -z "$test" ] || echo "$test: $held of $tried"; }
