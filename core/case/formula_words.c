@@ -10,8 +10,9 @@
 /* Bytes of "[[", "[==[" and so on with what they enclose; 0: none begins here. */
 static size_t formula_words_long(const char *at)
 {
+    if (*at != '[') return 0;
     size_t level = strspn(at + 1, "=");
-    if (*at != '[' || at[1 + level] != '[') return 0;
+    if (at[1 + level] != '[') return 0;
     for (const char *end = at + 2 + level; (end = strchr(end, ']')) != NULL; end++)
         if (strspn(end + 1, "=") == level && end[1 + level] == ']') return (size_t)(end - at) + 2 + level;
     return strlen(at);

@@ -46,6 +46,8 @@ grep -q '^  memory .* TiB: more than this machine has, ' said || fail "check doe
 
 # Nor does a limit of the process end in the middle of something.
 code=0
-(ulimit -v 1000000 && "$BULLA" run grow.yaml -o vast --set 'domain.cells=[8000, 8000]' >said 2>&1) || code=$?
-[ "$code" -eq 2 ] || fail "a domain beyond ulimit -v ended with $code: $(cat said)"
-grep -q 'there are only 977 MiB here' said || fail "$(cat said)"
+if case ${ASAN_OPTIONS-} in *log_path*) false ;; esac; then # sanitizers ask for terabytes of addresses
+    (ulimit -v 1000000 && "$BULLA" run grow.yaml -o vast --set 'domain.cells=[8000, 8000]' >said 2>&1) || code=$?
+    [ "$code" -eq 2 ] || fail "a domain beyond ulimit -v ended with $code: $(cat said)"
+    grep -q 'there are only 977 MiB here' said || fail "$(cat said)"
+fi
