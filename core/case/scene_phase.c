@@ -183,9 +183,9 @@ static const struct key scene_phase_rows[] = {
      .type = KEYS_CHOICE,
      .choices = "shared|own",
      .fallback = "shared",
-     .doc = "Of the gases in a cell that also holds liquid. shared: that of liquid and vapour. own: they keep their "
-            "heat but for "
-            "work and conduction, so that a collapse does not cool what the mesh mixes of them into the liquid."},
+     .doc =
+         "Of the gases in a cell that also holds liquid. shared: that of liquid and vapour. own: they keep their heat "
+         "but for work and conduction, so that a collapse does not cool what the mesh mixes of them into the liquid."},
     {.name = "direction",
      .type = KEYS_CHOICE,
      .choices = "both|evaporation|condensation",

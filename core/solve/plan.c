@@ -93,8 +93,8 @@ static void plan_super(const struct scene *scene, struct text *text)
     else
         text_add(text,
                  "where they bind, viscosity and conduction take part of each stage of their own: u' = u + tau L(w) of "
-                 "the others "
-                 "as a\n  constant source of a flow through tau, in 3 to %d stages of RKL2 with an exchange each  "
+                 "the others as a\n  constant source of a flow through tau, in 3 to %d stages of RKL2 with an exchange "
+                 "each  "
                  "[core/solve/rkl.c]\n",
                  RKL_MOST);
 }

@@ -68,6 +68,19 @@ static void test_none(void **state)
     instance_done(&law.instance);
 }
 
+/* The laws as a family of liquid and vapour, and its curve. */
+static void open_family(struct phase_laws *laws, struct saturation *ret_both)
+{
+    assert_true(saturation_of(&laws->law[0].instance, &laws->law[1].instance, ret_both));
+    laws->family = (struct equilibrium_family){.n = 2, .exchange = true, .mixing = true};
+    for (unsigned k = 0; k < 2; k++) {
+        const struct law *law = &laws->law[k];
+        laws->family.eos[k] =
+            (struct model_eos){.law = law->eos, .self = law->instance.self, .rho_fill = 1.0, .rho_most = 1e4};
+        laws->family.R[k] = law->eos->gas_constant(law->instance.self);
+    }
+}
+
 /* Water by IAPWS-95 and an ideal vapour with the boiling point and latent heat of IAPWS-95 at 1 atm. */
 static void open_pair(struct phase_laws *laws, struct saturation *ret_both)
 {
@@ -83,14 +96,7 @@ static void open_pair(struct phase_laws *laws, struct saturation *ret_both)
     sets[2] = heat;
     sets[3] = order;
     laws->law[1] = law_open("ideal-gas", sets);
-    assert_true(saturation_of(&laws->law[0].instance, &laws->law[1].instance, ret_both));
-    laws->family = (struct equilibrium_family){.n = 2, .exchange = true, .mixing = true};
-    for (unsigned k = 0; k < 2; k++) {
-        const struct law *law = &laws->law[k];
-        laws->family.eos[k] =
-            (struct model_eos){.law = law->eos, .self = law->instance.self, .rho_fill = 1.0, .rho_most = 1e4};
-        laws->family.R[k] = law->eos->gas_constant(law->instance.self);
-    }
+    open_family(laws, ret_both);
 }
 
 /* Cells on the curve, some heated a little: they come back to it with their volume and energy. */
@@ -144,14 +150,7 @@ static void open_real(struct phase_laws *laws, struct saturation *ret_both)
     *laws = (struct phase_laws){.law = {[0] = open_water("table"),
                                         [1] = law_preset("iapws95-vapour", "water-vapour"),
                                         [2] = law_preset("ideal-gas", "air")}};
-    assert_true(saturation_of(&laws->law[0].instance, &laws->law[1].instance, ret_both));
-    laws->family = (struct equilibrium_family){.n = 2, .exchange = true, .mixing = true};
-    for (unsigned k = 0; k < 2; k++) {
-        const struct law *law = &laws->law[k];
-        laws->family.eos[k] =
-            (struct model_eos){.law = law->eos, .self = law->instance.self, .rho_fill = 1.0, .rho_most = 1e4};
-        laws->family.R[k] = law->eos->gas_constant(law->instance.self);
-    }
+    open_family(laws, ret_both);
 }
 
 /* saturation_iapws95.csv where the liquid's table reaches (281 to 617 K): pressure, and the vapour on the curve. */
