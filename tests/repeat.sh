@@ -1,8 +1,8 @@
 #!/bin/sh
 # repeat.sh BUILD COUNT LOAD [TEST...] - runs tests of tests/program (their names without .sh) COUNT times each, each time
-# with another seed, while LOAD processes keep the machine busy. Without TEST: those that kill, stop, lock and wait. Says
-# how often each held; what failed stays in BUILD/tests/runs/repeat/TEST-SEED, with its output
-# in `output`. A process that a test leaves behind counts as a failure. Ends with 1 if anything failed.
+# with another seed, while LOAD processes keep the machine busy. Without TEST: those of one night of eight, number
+# BULLA_NIGHT, the day of the year. Says how often each held; what failed stays in BUILD/tests/runs/repeat/TEST-SEED, with
+# its output in `output`. A process that a test leaves behind counts as a failure. Ends with 1 if anything failed.
 # Ended by a signal (`timeout 300 tests/repeat.sh ...`), it says what has been seen so far.
 set -eu
 [ $# -ge 3 ] || { sed -n '2,6s/^# //p' "$0"; exit 2; }
@@ -13,8 +13,14 @@ BULLA_MODULE_PATH=$BULLA_BUILD/lib/bulla/modules
 export BULLA_SOURCE BULLA_BUILD BULLA BULLA_MODULE_PATH
 count=$2 load=$3
 shift 3
-[ $# -gt 0 ] || set -- checkpoint_killed checkpoint_faults checkpoint_full output_full output_killed restart restart_stop \
-    run_codes run_ranks run_stop run_twice sweep sweep_stop
+tonight() {
+    night=${BULLA_NIGHT:-$(date +%j)}
+    echo "night $night of eight (BULLA_NIGHT)" >&2
+    for file in "$BULLA_SOURCE"/tests/program/*.sh; do basename "$file" .sh; done | LC_ALL=C sort |
+        awk -v night="$night" 'NR % 8 == night % 8'
+}
+# shellcheck disable=SC2046
+[ $# -gt 0 ] || set -- $(tonight)
 for test; do
     [ -f "$BULLA_SOURCE/tests/program/$test.sh" ] || { echo "repeat: there is no tests/program/$test.sh" >&2; exit 2; }
 done

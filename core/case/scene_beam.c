@@ -126,7 +126,7 @@ static const char *scene_beam_lost(const struct draft *draft, const double point
     if (domain->dim < 2) return "in one dimension waves leave along the axis";
     if (domain->geometry == SCENE_AXISYMMETRIC && point[0] != 0.0)
         return "waves around an axis come from a point on it";
-    if (scene_material_solid(draft)) return "in scenes with a solid waves leave as plane ones";
+    if (scene_matter_solid(draft)) return "in scenes with a solid waves leave as plane ones";
     return inwards > 0.0 ? NULL : "this point lies behind the face, so waves from there would come in";
 }
 
@@ -142,7 +142,7 @@ void scene_beam_origin(struct draft *draft, struct scene_boundary *boundary, con
     beam->path = SCENE_BEAM_ORIGIN;
     if (!lost) return;
     keys_error(&draft->keys, origin, "%s", lost);
-    diag_help(draft->keys.diag, draft->scene->domain.dim < 2 || scene_material_solid(draft)
+    diag_help(draft->keys.diag, draft->scene->domain.dim < 2 || scene_matter_solid(draft)
                                     ? "leave 'origin' out"
                                     : "give the middle of what sends them out, 'origin: [0, 1 mm]', or leave it out");
 }

@@ -201,7 +201,7 @@ static void scene_boundary_read_wall(struct draft *draft, struct scene_boundary 
     const struct keys_value *last = flux->node ? flux : temperature;
     if (temperature->node && flux->node)
         keys_error(&draft->keys, flux, "a wall has a temperature or gives a flux of heat, not both");
-    if (scene_material_conducts(draft)) return;
+    if (scene_matter_conducts(draft)) return;
     keys_error(&draft->keys, last, "no material conducts heat, so the wall gives none");
     diag_help(draft->keys.diag, "give a material its 'conductivity: 0.607 W/m/K', or leave this out");
 }
@@ -317,7 +317,7 @@ static unsigned scene_boundary_traits(const struct bulla_boundary *law)
 static void scene_boundary_read_module(struct draft *draft, struct scene_boundary *boundary, const struct keys_map *map)
 {
     const struct keys_value here = {.node = map->node, .path = map->path, .map = (struct keys_map *)map};
-    scene_material_open(draft, &here, &boundary->law);
+    scene_matter_open(draft, &here, &boundary->law);
     if (boundary->law.module) boundary->traits = scene_boundary_traits(boundary->law.module->table);
 }
 

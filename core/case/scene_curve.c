@@ -132,8 +132,8 @@ void scene_curve_read_circle(struct draft *draft, struct scene_map *map, const s
     if (!scene_domain_vector(draft, keys_at(value->map, "center"), center)) return;
     int axis = scene_curve_has_axes(draft, value) ? scene_curve_axis(draft, value->map) : -1;
     if (!scene_curve_angles(draft, value->map, angles) || axis < 0 || !radius->given) return;
-    double first = scene_map_width(draft->scene, (axis + 1) % SCENE_AXES);
-    double second = scene_map_width(draft->scene, (axis + 2) % SCENE_AXES);
+    double first = scene_domain_width(draft->scene, (axis + 1) % SCENE_AXES);
+    double second = scene_domain_width(draft->scene, (axis + 2) % SCENE_AXES);
     double cells = fabs(angles[1] - angles[0]) * radius->number / (first < second ? first : second);
     scene_curve_room(map, scene_map_count(keys_at(rows, "points"), cells + 1.0));
     scene_curve_arc(draft, map, radius, center, axis, angles);
@@ -153,7 +153,7 @@ static bool scene_curve_vertices(struct draft *draft, const struct keys_value *v
         double length = 0.0, cells = 0.0;
         for (int d = 0; good && i > 0 && d < draft->scene->domain.dim; d++) {
             length = hypot(length, x[i][d] - x[i - 1][d]);
-            cells = hypot(cells, (x[i][d] - x[i - 1][d]) / scene_map_width(draft->scene, d));
+            cells = hypot(cells, (x[i][d] - x[i - 1][d]) / scene_domain_width(draft->scene, d));
         }
         along[i] = i > 0 ? along[i - 1] + length : 0.0;
         *ret_cells += cells;

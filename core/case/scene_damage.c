@@ -69,7 +69,7 @@ static void scene_damage_fits(struct draft *draft, const struct keys_value *valu
                    law->module->name, material->name);
         diag_help(draft->keys.diag, "'strain: always' in a von-mises law keeps it");
     }
-    if (needs & BULLA_DAMAGE_TEMPERATURE) scene_material_warm(draft, value, material, law->module->name);
+    if (needs & BULLA_DAMAGE_TEMPERATURE) scene_matter_warm(draft, value, material, law->module->name);
 }
 
 void scene_damage(struct draft *draft, const struct keys_map *entry, struct scene_material *material)
@@ -83,7 +83,7 @@ void scene_damage(struct draft *draft, const struct keys_map *entry, struct scen
                   "liquid that cavitates, 'phase-change'");
         return;
     }
-    scene_material_open(draft, value, &material->damage.law);
+    scene_matter_open(draft, value, &material->damage.law);
     if (material->damage.law.module && value->map) scene_damage_fits(draft, value, material);
 }
 
@@ -108,10 +108,10 @@ static void scene_damage_opens(struct draft *draft, unsigned l, const struct key
 {
     const struct keys_value *opens = keys_at(map, "opens");
     struct scene_damage *damage = &draft->scene->material[l].damage;
-    int gas = scene_material_index(draft, opens);
+    int gas = scene_matter_index(draft, opens);
     if (gas < 0) return;
     const struct scene_material *filling = &draft->scene->material[gas];
-    if (scene_material_is_solid(draft, (unsigned)gas)) {
+    if (scene_matter_is_solid(draft, (unsigned)gas)) {
         keys_error(&draft->keys, opens, "'%s' is a solid: a void is filled by a gas", filling->name);
         return;
     }

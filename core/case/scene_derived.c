@@ -40,7 +40,7 @@ static void scene_derived_read(struct draft *draft, const struct keys_value *ent
 {
     struct scene *scene = draft->scene;
     struct scene_derived derived = {0};
-    scene_material_open(draft, entry, &derived.law);
+    scene_matter_open(draft, entry, &derived.law);
     if (!derived.law.module) return;
     const struct bulla_field *law = derived.law.module->table;
     bool good = true;

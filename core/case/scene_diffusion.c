@@ -5,7 +5,7 @@ void scene_diffusion(struct draft *draft)
 {
     const struct scene *scene = draft->scene;
     const struct keys_value *diffusion = keys_at(keys_at(draft->root, "scheme")->map, "diffusion");
-    bool diffuses = scene_material_conducts(draft);
+    bool diffuses = scene_matter_conducts(draft);
     if (scene->scheme.diffusion != SCENE_DIFFUSION_RKL2) return;
     for (unsigned l = 0; l < scene->n_material; l++) diffuses = diffuses || scene->material[l].viscosity.module;
     if (scene->scheme.integrator != SCENE_MIDPOINT) {

@@ -192,6 +192,26 @@ static void scene_domain_velocity(struct draft *draft, const struct keys_map *do
     else scene->domain.n_velocity = (int)velocity->integer;
 }
 
+int scene_domain_axis(struct draft *draft, const struct keys_value *along)
+{
+    const struct scene *scene = draft->scene;
+    if (!along->given || scene->domain.dim == 0) return -1;
+    bool axial = along->integer > 2;
+    int axis = along->integer == 3 ? 0 : along->integer == 4 ? 1 : (int)along->integer;
+    if (axial && scene->domain.geometry == SCENE_CARTESIAN)
+        keys_error(&draft->keys, along, "cartesian domains have no '%s': use x, y or z", along->text);
+    else if (axis >= scene->domain.dim)
+        keys_error(&draft->keys, along, "the domain has only %d ax%s", scene->domain.dim,
+                   scene->domain.dim == 1 ? "is" : "es");
+    return axis;
+}
+
+double scene_domain_width(const struct scene *scene, int axis)
+{
+    return ldexp((scene->domain.upper[axis] - scene->domain.lower[axis]) / scene->domain.cells[axis],
+                 -scene->mesh.levels);
+}
+
 void scene_domain(struct draft *draft)
 {
     const struct keys_map *domain = keys_at(draft->root, "domain")->map;

@@ -74,13 +74,9 @@ void scene_pulse(struct draft *draft, struct scene_boundary *boundary, const str
 /* Is it a key of a pulse, which goes when the pulse changes? Those of all incoming waves are not. */
 bool scene_pulse_owns(const char *key);
 
-/* Axis 0..2 that an `along:` names, or -1, perhaps after a recorded error. */
-int scene_history_axis(struct draft *draft, const struct keys_value *along);
-
-/* Of space-time maps: the width of the cells of the finest level; how many places there are if there could be `fine`, one
- * per such cell; whether a point, a list of numbers, is in the domain, else an error is recorded. */
+/* Of space-time maps: how many places there are if there could be `fine`, one per cell of the finest level; whether a
+ * point, a list of numbers, is in the domain, else an error is recorded. */
 enum { SCENE_MAP_MOST = 100000 }; /* places */
-double scene_map_width(const struct scene *scene, int axis);
 unsigned scene_map_count(const struct keys_value *points, double fine);
 bool scene_map_inside(struct draft *draft, const struct keys_value *value, const double *x);
 
@@ -114,6 +110,12 @@ void scene_idle(struct draft *draft, const struct node *root);
 void scene_coarse(struct draft *draft);
 void scene_boil(struct draft *draft);
 
+/* Width of the cells of the finest level along an axis [m]. */
+double scene_domain_width(const struct scene *scene, int axis);
+
+/* Axis 0..2 that an `along:` names, or -1, perhaps after a recorded error. */
+int scene_domain_axis(struct draft *draft, const struct keys_value *along);
+
 /* A list of `dim` numbers into ret[3] (rest 0); false after a recorded error. */
 bool scene_domain_vector(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES]);
 
@@ -121,21 +123,21 @@ bool scene_domain_vector(struct draft *draft, const struct keys_value *value, do
 bool scene_domain_direction(struct draft *draft, const struct keys_value *value, double ret[SCENE_AXES]);
 
 /* Index of a material, or -1 after a recorded error with a suggestion. */
-int scene_material_index(struct draft *draft, const struct keys_value *value);
+int scene_matter_index(struct draft *draft, const struct keys_value *value);
 
 /* Has a material a constitutive law, be it right or wrong? The name of the first one that has, or NULL. */
-bool scene_material_is_solid(const struct draft *draft, unsigned material);
-const char *scene_material_solid(const struct draft *draft);
+bool scene_matter_is_solid(const struct draft *draft, unsigned material);
+const char *scene_matter_solid(const struct draft *draft);
 
 /* 0: no material has a strength; 1: some has; 2: and it knows its plastic strain. */
-unsigned scene_material_strength(const struct draft *draft);
+unsigned scene_matter_strength(const struct draft *draft);
 
 /* Refuses what looks at temperatures (`what`, at `asking`) of a material of whose specific heat nothing is said. */
-void scene_material_warm(struct draft *draft, const struct keys_value *asking, const struct scene_material *material,
-                         const char *what);
+void scene_matter_warm(struct draft *draft, const struct keys_value *asking, const struct scene_material *material,
+                       const char *what);
 
 /* Can any material break? */
-bool scene_material_breaks(const struct draft *draft);
+bool scene_matter_breaks(const struct draft *draft);
 
 /* How the material that `entry` describes breaks, whose other laws are open; its keys. */
 void scene_damage(struct draft *draft, const struct keys_map *entry, struct scene_material *material);
@@ -146,11 +148,11 @@ void scene_damage_voids(struct draft *draft);
 void scene_damage_times(struct draft *draft);
 
 /* Has any material a Maxwell branch? */
-bool scene_material_branched(const struct draft *draft);
+bool scene_matter_branched(const struct draft *draft);
 
 /* Has any material a conductivity of heat? */
-bool scene_material_conducts(const struct draft *draft);
-bool scene_material_viscous(const struct draft *draft);
+bool scene_matter_conducts(const struct draft *draft);
+bool scene_matter_viscous(const struct draft *draft);
 
 /* The Maxwell branches of the material that `entry` describes, whose elastic law is open; keys of one branch. */
 void scene_branch(struct draft *draft, const struct keys_map *entry, struct scene_material *material);
@@ -161,7 +163,7 @@ extern const struct keys_section scene_branch_keys;
 void scene_branch_times(struct draft *draft);
 
 /* Opens the module that a section names; nothing happens if the section is wrong. */
-void scene_material_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);
+void scene_matter_open(struct draft *draft, const struct keys_value *value, struct instance *ret_instance);
 
 /* A file name as seen from the file it stands in: absolute if that exists; in the forest. */
 const char *scene_file_beside(struct forest *forest, const struct source *source, const char *name);

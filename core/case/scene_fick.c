@@ -46,7 +46,7 @@ const struct keys_section scene_fick_keys = {.name = "gas-diffusion",
 /* A gas of a mixture, or -1 after an error. */
 static int scene_fick_member(struct draft *draft, const struct keys_value *value, const struct scene_fick *fick)
 {
-    int index = scene_material_index(draft, value);
+    int index = scene_matter_index(draft, value);
     bool again = false;
     if (index < 0) return -1;
     for (unsigned g = 0; g < fick->n; g++) again = again || fick->gas[g] == (unsigned)index;
@@ -54,7 +54,7 @@ static int scene_fick_member(struct draft *draft, const struct keys_value *value
         for (unsigned g = 0; g < draft->scene->ficks[k].n; g++)
             again = again || draft->scene->ficks[k].gas[g] == (unsigned)index;
     if (again) keys_error(&draft->keys, value, "'%s' is named already", value->text);
-    if (scene_material_is_solid(draft, (unsigned)index)) {
+    if (scene_matter_is_solid(draft, (unsigned)index)) {
         keys_error(&draft->keys, value, "'%s' is a solid: gases diffuse through each other", value->text);
         return -1;
     }

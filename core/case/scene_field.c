@@ -143,7 +143,7 @@ static bool scene_field_miss_viscosity(struct draft *draft, const struct keys_va
 static bool scene_field_miss_strength(struct draft *draft, const struct keys_value *value)
 {
     if (!scene_field_is_plastic(value->text)) return false;
-    if (scene_material_strength(draft) == 0) {
+    if (scene_matter_strength(draft) == 0) {
         keys_error(&draft->keys, value,
                    "'%s' is a field of solids with a strength, and no material has a 'plastic' law", value->text);
     } else {
@@ -214,15 +214,15 @@ const struct scene_field *scene_field_all(struct draft *draft)
     most += 4 * scene->output.n_peak;
     struct scene_field *list = tree_take(forest, (most + 1) * sizeof *list);
     memcpy(list, scene_field_plain, sizeof scene_field_plain);
-    if (scene_material_solid(draft)) {
+    if (scene_matter_solid(draft)) {
         memcpy(list + count, scene_field_solid, sizeof scene_field_solid);
         count += SCENE_FIELD_SOLID;
     }
-    for (unsigned i = 0; i < scene_material_strength(draft); i++) list[count++] = scene_field_plastic[i];
-    if (scene_material_branched(draft)) list[count++] = scene_field_branched;
-    if (scene_material_breaks(draft)) list[count++] = scene_field_breaking;
+    for (unsigned i = 0; i < scene_matter_strength(draft); i++) list[count++] = scene_field_plastic[i];
+    if (scene_matter_branched(draft)) list[count++] = scene_field_branched;
+    if (scene_matter_breaks(draft)) list[count++] = scene_field_breaking;
     if (keys_at(draft->root, "bodies")->count) list[count++] = scene_field_body;
-    for (unsigned i = 0; scene_material_viscous(draft) && i < SCENE_FIELD_VISCOUS; i++)
+    for (unsigned i = 0; scene_matter_viscous(draft) && i < SCENE_FIELD_VISCOUS; i++)
         list[count++] = scene_field_viscous[i];
     for (unsigned i = 0; i < scene->n_material; i++)
         for (unsigned k = 0; k < SCENE_FIELD_EACH; k++) {
@@ -289,7 +289,7 @@ const char *scene_field_constant(struct draft *draft, const char *name)
     if (scene->domain.n_velocity < scene_field_shear(name)) return "0 everywhere: nothing moves across these axes";
     if (strcmp(name, "vorticity") == 0 && scene->domain.n_velocity == 1)
         return "0 everywhere: velocities have one component";
-    if (strcmp(name, "heat_flux") == 0 && !scene_material_conducts(draft)) return "0 everywhere: no material conducts";
+    if (strcmp(name, "heat_flux") == 0 && !scene_matter_conducts(draft)) return "0 everywhere: no material conducts";
     if (one && (strcmp(name, "cost") == 0 || strncmp(name, "alpha_", 6) == 0))
         return "1 everywhere: there is one material";
     if (strcmp(name, "surface_energy") == 0 && scene->n_tension == 0)

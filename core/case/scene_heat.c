@@ -108,7 +108,7 @@ static void scene_heat_scheme(struct draft *draft)
 void scene_heat(struct draft *draft)
 {
     const struct keys_value *materials = keys_at(draft->root, "materials");
-    if (!scene_material_conducts(draft)) return;
+    if (!scene_matter_conducts(draft)) return;
     for (unsigned l = 0; l < draft->scene->n_material && l < materials->count; l++) {
         const struct keys_map *map = materials->list[l].map;
         const struct keys_value *conductivity = map ? keys_at(map, "conductivity") : NULL;

@@ -106,20 +106,6 @@ static bool scene_history_of_body(enum scene_measure measure)
     return measure >= SCENE_FORCE && measure <= SCENE_BODY_ANGLE;
 }
 
-int scene_history_axis(struct draft *draft, const struct keys_value *along)
-{
-    const struct scene *scene = draft->scene;
-    if (!along->given || scene->domain.dim == 0) return -1;
-    bool axial = along->integer > 2;
-    int axis = along->integer == 3 ? 0 : along->integer == 4 ? 1 : (int)along->integer;
-    if (axial && scene->domain.geometry == SCENE_CARTESIAN)
-        keys_error(&draft->keys, along, "cartesian domains have no '%s': use x, y or z", along->text);
-    else if (axis >= scene->domain.dim)
-        keys_error(&draft->keys, along, "the domain has only %d ax%s", scene->domain.dim,
-                   scene->domain.dim == 1 ? "is" : "es");
-    return axis;
-}
-
 /* The arguments of a value expression: t and the columns further up that it mentions. */
 static const char *scene_history_uses(struct draft *draft, struct scene_column *column, const struct keys_value *value)
 {
@@ -205,7 +191,7 @@ static void scene_history_alone(struct draft *draft, const struct keys_map *map,
 static void scene_history_vapour(struct draft *draft, struct scene_column *column, const struct keys_value *value)
 {
     const struct scene *scene = draft->scene;
-    column->material = scene_material_index(draft, value);
+    column->material = scene_matter_index(draft, value);
     if (column->material < 0 || scene_phase_of(scene, (unsigned)column->material)) return;
     keys_error(&draft->keys, value, "'%s' is the vapour of no pair of 'phase-change'", value->text);
     for (unsigned k = 0; k < scene->n_phase; k++)
@@ -214,7 +200,7 @@ static void scene_history_vapour(struct draft *draft, struct scene_column *colum
 
 static void scene_history_measure(struct draft *draft, struct scene_column *column, const struct keys_value *value)
 {
-    if (scene_history_of_material(column->measure)) column->material = scene_material_index(draft, value);
+    if (scene_history_of_material(column->measure)) column->material = scene_matter_index(draft, value);
     else if (column->measure == SCENE_TOTAL) snprintf(column->field, SCENE_NAME, "%s", value->given ? value->text : "");
     else if (column->measure == SCENE_VALUE) scene_history_value(draft, column, value);
     else if (scene_history_between(column->measure)) scene_history_of(draft, column, value);
@@ -253,7 +239,7 @@ static void scene_history_along(struct draft *draft, struct scene_column *column
                                 const struct keys_map *map)
 {
     const struct scene *scene = draft->scene;
-    column->along = scene_history_axis(draft, keys_at(map, "along"));
+    column->along = scene_domain_axis(draft, keys_at(map, "along"));
     if (column->along >= 0 || !scene_history_directed(column->measure) || keys_at(map, "along")->node) return;
     if (scene->domain.dim == 1) column->along = 0;
     else if (scene->domain.geometry == SCENE_AXISYMMETRIC) column->along = 1;
@@ -276,7 +262,7 @@ static void scene_history_column(struct draft *draft, struct scene_column *colum
             keys_error(&draft->keys, entry, "every history has a column '%s' already", taken[i]);
     const struct keys_value *measure = map ? scene_history_chosen(draft, map, column) : NULL;
     if (!measure) return;
-    if (in->given) column->in = scene_material_index(draft, in);
+    if (in->given) column->in = scene_matter_index(draft, in);
     if (where->given) column->where = scene_shape(draft, where->map, true, &which);
     scene_history_measure(draft, column, measure);
     scene_history_along(draft, column, measure, map);

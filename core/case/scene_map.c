@@ -97,12 +97,6 @@ const struct keys_section scene_map_list_keys = {.name = "maps",
                                                           "{0,62}$', 'patternErrorMessage': 'The name of a map "
                                                           "is an identifier (letters, digits and _).'}}"};
 
-double scene_map_width(const struct scene *scene, int axis)
-{
-    return ldexp((scene->domain.upper[axis] - scene->domain.lower[axis]) / scene->domain.cells[axis],
-                 -scene->mesh.levels);
-}
-
 unsigned scene_map_count(const struct keys_value *points, double fine)
 {
     if (points->given) return (unsigned)points->integer;
@@ -145,7 +139,7 @@ static void scene_map_read_line(struct draft *draft, struct scene_map *map, cons
     if (!good) return;
     for (int d = 0; d < scene->domain.dim; d++) {
         length = hypot(length, x[1][d] - x[0][d]);
-        cells = hypot(cells, (x[1][d] - x[0][d]) / scene_map_width(scene, d));
+        cells = hypot(cells, (x[1][d] - x[0][d]) / scene_domain_width(scene, d));
     }
     if (length == 0.0) keys_error(&draft->keys, ends[1], "the line has no length: 'to' is 'from'");
     map->axis = scene_map_axis(x[0], x[1]);
@@ -173,7 +167,7 @@ static bool scene_map_span(struct draft *draft, struct scene_map *map, const str
         keys_error(&draft->keys, outside, "%g m is outside of the domain, %g to %g m", outside->number, lower, upper);
     else if (!(a < b)) keys_error(&draft->keys, to->given ? to : from, "'to' must lie above 'from'");
     if (outside || !(a < b)) return false;
-    map->n_point = scene_map_count(keys_at(rows, "points"), (b - a) / scene_map_width(scene, map->axis));
+    map->n_point = scene_map_count(keys_at(rows, "points"), (b - a) / scene_domain_width(scene, map->axis));
     map->width = (b - a) / map->n_point;
     map->place = mem_new(map->n_point, sizeof *map->place);
     for (unsigned i = 0; i < map->n_point; i++) map->place[i] = a + (i + 0.5) * map->width;
@@ -205,11 +199,11 @@ static void scene_map_read_surface(struct draft *draft, struct scene_map *map, c
     const struct scene *scene = draft->scene;
     const struct keys_value *material = keys_at(rows, "isosurface"), *along = keys_at(rows, "along");
     const struct keys_value *where = keys_at(rows, "where"), *which = NULL;
-    map->material = scene_material_index(draft, material);
+    map->material = scene_matter_index(draft, material);
     if (scene->domain.dim == 1)
         keys_error(&draft->keys, material, "on one axis a surface is a point: use the history's isosurface-mean");
     if (where->given) map->where = scene_shape(draft, where->map, true, &which);
-    map->axis = along->given ? scene_history_axis(draft, along) : 0;
+    map->axis = along->given ? scene_domain_axis(draft, along) : 0;
     if (scene->domain.dim < 2 || map->axis < 0 || map->axis >= scene->domain.dim) return;
     scene_map_span(draft, map, rows);
 }

@@ -217,11 +217,11 @@ static bool scene_phase_taken(const struct scene *scene, unsigned material)
 /* A material of a family, or -1 after an error. */
 static int scene_phase_member(struct draft *draft, const struct keys_value *value)
 {
-    int index = scene_material_index(draft, value);
+    int index = scene_matter_index(draft, value);
     if (index < 0) return -1;
     const struct scene_material *material = &draft->scene->material[index];
     const struct bulla_eos *law = material->eos.module ? material->eos.module->table : NULL;
-    if (scene_material_is_solid(draft, (unsigned)index)) {
+    if (scene_matter_is_solid(draft, (unsigned)index)) {
         keys_error(&draft->keys, value, "'%s' is a solid: it can neither boil nor condense", material->name);
         return -1;
     }
@@ -428,7 +428,7 @@ static void scene_phase_company(struct draft *draft, const struct keys_value *se
     if (scene->scheme.closure == SCENE_ALLAIRE) diag_help(draft->keys.diag, "'closure: kapila', the default");
     if (scene->n_tension) scene_phase_curved(draft, section);
     bool line = scene->domain.dim == 1 && scene->scheme.traction == SCENE_TRACTION_AUTO;
-    if (!scene_material_solid(draft) || !(line || scene->scheme.traction == SCENE_TRACTION_COMMON)) return;
+    if (!scene_matter_solid(draft) || !(line || scene->scheme.traction == SCENE_TRACTION_COMMON)) return;
     keys_error(
         &draft->keys, section,
         "phase change beside a solid needs one pressure in a cell; here its materials have pressures of their own");
@@ -442,7 +442,7 @@ static void scene_phase_warn(struct draft *draft, const struct keys_value *secti
     for (unsigned k = 0; k < draft->scene->n_phase; k++)
         instant =
             instant || (draft->scene->phases[k].rate == SCENE_PHASE_EQUILIBRIUM && !draft->scene->phases[k].everywhere);
-    if (!instant || scene_material_conducts(draft)) return;
+    if (!instant || scene_matter_conducts(draft)) return;
     diag_warn(
         draft->keys.diag, &section->node->mark,
         "%s: 'rate: equilibrium' without conduction: what evaporates at a resolved surface depends on the cell size",

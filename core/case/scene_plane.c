@@ -103,7 +103,7 @@ static bool scene_plane_counts(struct draft *draft, const struct keys_value *poi
     for (int k = 0; k < 2; k++) {
         double cells = 0.0;
         for (int d = 0; d < draft->scene->domain.dim; d++)
-            cells = hypot(cells, map->side[k][d] / scene_map_width(draft->scene, d));
+            cells = hypot(cells, map->side[k][d] / scene_domain_width(draft->scene, d));
         unsigned fine = cells + 1.0 < SCENE_PLANE_FINE ? (unsigned)lround(cells + 1.0) : SCENE_PLANE_FINE;
         map->n_side[k] = points->given ? (unsigned)points->list[k].integer : fine > 2 ? fine : 2;
     }

@@ -238,7 +238,7 @@ static void scene_refine_threshold(struct draft *draft, struct scene_refine *ref
 
 static void scene_refine_surface(struct draft *draft, struct scene_refine *refine, const struct keys_value *chosen)
 {
-    refine->material = scene_material_index(draft, chosen);
+    refine->material = scene_matter_index(draft, chosen);
     if (refine->material < 0 || draft->scene->n_material > 1) return;
     keys_error(&draft->keys, chosen, "'%s' is the only material, so it has no surface", chosen->text);
 }

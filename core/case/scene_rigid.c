@@ -73,7 +73,7 @@ static void scene_rigid_smooth(struct draft *draft, const struct keys_value *sec
 static void scene_rigid_beside(struct draft *draft, const struct keys_value *section)
 {
     const struct scene *scene = draft->scene;
-    const char *solid = scene_material_solid(draft);
+    const char *solid = scene_matter_solid(draft);
     if (solid) {
         keys_error(&draft->keys, section, "'%s' is an elastic solid: beside rigid bodies only fluids are computed",
                    solid);
@@ -126,7 +126,7 @@ static double scene_rigid_brief(const struct scene *scene)
     double least = INFINITY;
     int exponent;
     for (int d = 0; d < scene->domain.dim; d++) {
-        double width = scene_map_width(scene, d);
+        double width = scene_domain_width(scene, d);
         least = width < least ? width : least;
     }
     frexp(least / SCENE_RIGID_BRISK, &exponent);

@@ -193,8 +193,8 @@ static void scene_scheme_riemann_open(struct draft *draft, const struct keys_map
     if (!scheme) return;
     if (!riemann->node && !riemann->meant)
         value =
-            scene_scheme_default(draft, riemann, &scene_scheme_riemann, scene_material_solid(draft) ? "hlld" : "hllc");
-    scene_material_open(draft, &value, &draft->scene->scheme.riemann);
+            scene_scheme_default(draft, riemann, &scene_scheme_riemann, scene_matter_solid(draft) ? "hlld" : "hllc");
+    scene_matter_open(draft, &value, &draft->scene->scheme.riemann);
     scene_scheme_solid(draft, &value);
 }
 
@@ -204,12 +204,12 @@ static void scene_scheme_slopes(struct draft *draft, const struct keys_map *sche
     static const char *const wrong[] = {"mc", "van-leer", "superbee"};
     const struct keys_value *limiter = keys_at(scheme, "limiter");
     struct keys_value value = *limiter;
-    unsigned strong = scene_material_strength(draft);
+    unsigned strong = scene_matter_strength(draft);
     struct instance *instance = &draft->scene->scheme.limiter;
     if (!scheme) return;
     if (!limiter->node && !limiter->meant)
         value = scene_scheme_default(draft, limiter, &scene_scheme_limiter, strong ? "van-albada" : "mc");
-    scene_material_open(draft, &value, instance);
+    scene_matter_open(draft, &value, instance);
     for (size_t i = 0; strong && instance->module && i < sizeof wrong / sizeof *wrong; i++)
         if (strcmp(instance->module->name, wrong[i]) == 0)
             diag_warn(draft->keys.diag, &value.node->mark,
@@ -225,7 +225,7 @@ static void scene_scheme_limit(struct draft *draft, const struct keys_map *schem
     const struct keys_value *limiter = keys_at(scheme, "limiter"), *surface = keys_at(scheme, "interface-limiter");
     struct scene *scene = draft->scene;
     scene_scheme_slopes(draft, scheme);
-    scene_material_open(draft, surface, &scene->scheme.interface_limiter);
+    scene_matter_open(draft, surface, &scene->scheme.interface_limiter);
     const struct bulla_module *plain = scene->scheme.limiter.module, *sharp = scene->scheme.interface_limiter.module;
     if (plain && vet_surfaces(plain->table)) {
         keys_error(&draft->keys, limiter, "'%s' is for volume fractions", plain->name);
@@ -245,7 +245,7 @@ static void scene_scheme_limit(struct draft *draft, const struct keys_map *schem
 static void scene_scheme_reconstruct(struct draft *draft, const struct keys_map *scheme)
 {
     struct scene *scene = draft->scene;
-    scene_material_open(draft, keys_at(scheme, "reconstruction"), &scene->scheme.reconstruction);
+    scene_matter_open(draft, keys_at(scheme, "reconstruction"), &scene->scheme.reconstruction);
     const struct bulla_module *module = scene->scheme.reconstruction.module;
     scene->scheme.ghosts = module ? (int)((const struct bulla_reconstruction *)module->table)->layers : SCENE_GHOSTS;
 }
@@ -293,7 +293,7 @@ static bool scene_scheme_wood(struct draft *draft, const struct keys_map *scheme
 {
     const struct keys_value *speed = keys_at(scheme, "mixture-speed");
     bool wood = speed->integer == 1;
-    if (wood && scene_material_solid(draft)) {
+    if (wood && scene_matter_solid(draft)) {
         keys_error(&draft->keys, speed,
                    "'wood' is for mixtures of fluids: with solids the speeds of shear would be lost");
         diag_help(draft->keys.diag, "'mixture-speed: frozen', the default");

@@ -81,7 +81,7 @@ static void scene_source_by_material(struct draft *draft, const struct keys_valu
         return;
     }
     for (unsigned i = 0; i < value->count; i++) {
-        int material = scene_material_index(draft, &value->list[i]);
+        int material = scene_matter_index(draft, &value->list[i]);
         if (material >= 0) ret[material] = scene_state_value(&value->list[i]);
     }
 }
@@ -97,7 +97,7 @@ static void scene_source_stretches(struct draft *draft, const struct keys_value 
 {
     const struct scene *scene = draft->scene;
     if (!value->node) return;
-    if (!scene_material_solid(draft)) {
+    if (!scene_matter_solid(draft)) {
         keys_error(&draft->keys, value, "a stretch is for solids, and no material has a 'constitutive' law");
         return;
     }

@@ -48,7 +48,7 @@ static double *scene_state_shares(struct draft *draft, const struct keys_value *
     double *shares = mem_new(draft->scene->n_material + 1, sizeof *shares), sum = 0.0;
     bool good = fractions->given;
     for (unsigned i = 0; i < fractions->count; i++) {
-        int material = scene_material_index(draft, &fractions->list[i]);
+        int material = scene_matter_index(draft, &fractions->list[i]);
         good &= material >= 0;
         if (material >= 0) shares[material] = fractions->list[i].number;
         sum += fractions->list[i].number;
@@ -70,7 +70,7 @@ double *scene_state_fractions(struct draft *draft, const struct keys_map *map)
         return NULL;
     }
     if (fractions->node) return scene_state_shares(draft, fractions);
-    int material = name->node ? scene_material_index(draft, name) : -1;
+    int material = name->node ? scene_matter_index(draft, name) : -1;
     if (material < 0) return NULL;
     double *shares = mem_new(draft->scene->n_material, sizeof *shares);
     shares[material] = 1.0;
@@ -114,7 +114,7 @@ struct scene_value *scene_state_density(struct draft *draft, const struct keys_m
         return values;
     }
     for (unsigned i = 0; i < density->count; i++) {
-        int material = scene_material_index(draft, &density->list[i]);
+        int material = scene_matter_index(draft, &density->list[i]);
         if (material >= 0) values[material] = scene_state_value(&density->list[i]);
     }
     for (unsigned i = 0; density->given && fractions && i < scene->n_material; i++)

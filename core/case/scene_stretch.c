@@ -59,7 +59,7 @@ static const char *scene_stretch_fluid(const struct draft *draft, const struct s
     const char *fluid = NULL;
     for (unsigned l = 0; layer->fractions && l < scene->n_material; l++) {
         if (layer->fractions[l] <= 0.0) continue;
-        if (scene_material_is_solid(draft, l)) return NULL;
+        if (scene_matter_is_solid(draft, l)) return NULL;
         fluid = scene->material[l].name;
     }
     return fluid;
@@ -101,7 +101,7 @@ static void scene_stretch_judge(struct draft *draft, const struct scene_layer *l
 void scene_stretch(struct draft *draft, struct scene_layer *layer, const struct keys_value *value)
 {
     if (!value->node) return;
-    if (!scene_material_solid(draft)) {
+    if (!scene_matter_solid(draft)) {
         keys_error(&draft->keys, value, "a stretch is for solids, and no material has a 'constitutive' law");
         return;
     }

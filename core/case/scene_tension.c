@@ -10,7 +10,7 @@ static int scene_tension_material(struct draft *draft, const struct keys_value *
 {
     struct keys_value named = *pair;
     named.name = name;
-    return scene_material_index(draft, &named);
+    return scene_matter_index(draft, &named);
 }
 
 bool scene_tension_split(struct draft *draft, const struct keys_value *pair, unsigned *ret_one, unsigned *ret_other)

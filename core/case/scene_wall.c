@@ -26,12 +26,12 @@ static void scene_wall_drags(struct draft *draft, int axis, const struct keys_ma
     bool along = false;
     for (int d = 0; boundary->moves && d < scene->domain.n_velocity; d++)
         along = along || (d != axis && scene_wall_has(&boundary->velocity[d]));
-    if (boundary->type != SCENE_NO_SLIP || scene->domain.n_velocity < 2 || scene_material_viscous(draft)) return;
+    if (boundary->type != SCENE_NO_SLIP || scene->domain.n_velocity < 2 || scene_matter_viscous(draft)) return;
     if (along)
         diag_warn(draft->keys.diag, &keys_at(map, "velocity")->node->mark,
                   "%s: the wall drags nothing along, because no material has a viscosity",
                   keys_at(map, "velocity")->path);
-    if (boundary->moves || scene_material_solid(draft)) return;
+    if (boundary->moves || scene_matter_solid(draft)) return;
     const struct keys_value *type = keys_at(map, "type");
     diag_warn(draft->keys.diag, &type->node->mark,
               "%s: without any viscosity a no-slip wall stops only what the faces of the scheme smear", type->path);

@@ -2,7 +2,7 @@
 # run.sh [NAME...] - seeds the mistakes of seeds.txt (or those of these names), one at a time, into a copy of the tree,
 # builds what has changed and runs the tests that should see it. The copy and its build are in build-mutants/, or in
 # $BULLA_MUTANTS_BUILD; they stay, and the next run builds little. -n says what would be run; -a runs all unit tests, too,
-# for what its own tests miss.
+# for what its own tests miss; -s SHARES takes the seeds of one night of so many: number BULLA_NIGHT, the day of the year.
 #
 # One line per seed: `killed` by a test, `survived` them all, `elsewhere` if only -a finds it, `known` to survive for the
 # reason in the table, `found` though it was known to survive, or `broken` if it does not compile or its tests do not exist.
@@ -16,10 +16,12 @@ case $build in /*) ;; *) build=$root/$build ;; esac
 tree=$build/tree
 everything=
 plan=
-while getopts an option; do
+shares=1
+while getopts ans: option; do
     case $option in
     a) everything='^(unit|module)-' ;;
     n) plan=1 ;;
+    s) shares=$OPTARG ;;
     *) exit 2 ;;
     esac
 done
@@ -31,7 +33,10 @@ sources() { find core modules -name '*.[ch]' | LC_ALL=C sort; }
 mkdir -p "$build/results"
 sources >"$build/sources"
 table=$build/table
-awk -f tests/mutants/seeds.awk tests/mutants/seeds.txt "$build/sources" >"$table" || exit 1
+night=${BULLA_NIGHT:-$(date +%j)}
+awk -f tests/mutants/seeds.awk tests/mutants/seeds.txt "$build/sources" >"$build/all" || exit 1
+awk -v shares="$shares" -v night="$night" 'NR % shares == night % shares' "$build/all" >"$table"
+[ "$shares" = 1 ] || echo "night $night (BULLA_NIGHT): $(wc -l <"$table") of $(wc -l <"$build/all") seeds"
 [ -z "$plan" ] || { cat "$table"; exit 0; }
 
 # A fresh copy, with the times of the files, so that what was built of it stays; but files that a run has spoilt are new.
