@@ -93,6 +93,8 @@ struct scene_material {
     struct instance plastic;      /* strength of a solid; module NULL: none */
     struct instance viscosity;    /* module NULL: none */
     struct instance conductivity; /* of heat; module NULL: none (scheme/conduction.h) */
+    const char *real;             /* the fluid that the conductivity is of, NULL: not known ... */
+    double real_cp;               /* ... and its heat capacity at 25 C and 1 atm [J/(kg K)] */
     unsigned n_branch;            /* Maxwell branches beside its elastic law (scheme/viscoelastic.h) */
     struct scene_branch {
         double modulus, density, time; /* G [Pa] at that density [kg/m3]; of relaxation [s] */

@@ -62,9 +62,11 @@ static double scene_heat_k(const struct scene_material *material)
 /* A conductivity that is as many times smaller as the heat capacity is right: heat spreads by their ratio. */
 static void scene_heat_capacity(struct draft *draft, unsigned l, const struct keys_value *conductivity)
 {
-    const struct scene_material *material = &draft->scene->material[l];
+    struct scene_material *material = &draft->scene->material[l];
     const struct scene_heat_fluid *fluid = scene_heat_real(conductivity, material->name);
     if (!fluid || !material->eos.module || !material->conductivity.module) return;
+    material->real = fluid->name;
+    material->real_cp = fluid->cp;
     double cp = scene_heat_cp(&material->eos), ratio = fluid->cp / cp;
     if (!scene_heat_is_far(ratio) || !scene_heat_is_far(scene_heat_k(material) * ratio / fluid->k)) return;
     diag_warn(draft->keys.diag, &conductivity->node->mark,

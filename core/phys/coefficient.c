@@ -6,6 +6,20 @@ static void coefficient_fill(size_t n, double number, double *value)
     for (size_t i = 0; i < n; i++) value[i] = number;
 }
 
+static BULLA_KERNEL void coefficient_temper_row(size_t n, const double *restrict T, double *restrict tempered)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double t = T[i], low = t < COEFFICIENT_COLDEST ? COEFFICIENT_COLDEST : t;
+        tempered[i] = low > COEFFICIENT_HOTTEST ? COEFFICIENT_HOTTEST : low;
+    }
+}
+
+void coefficient_temper(size_t n, const double *T, double *tempered)
+{
+    coefficient_temper_row(n, T, tempered);
+}
+
 /* The rows that a law has asked for. */
 struct coefficient_rows {
     const double *T, *p, *rho;
@@ -15,8 +29,10 @@ static struct coefficient_rows coefficient_rows(const struct bulla_coefficient *
                                                 const struct coefficient_points *points, double *T)
 {
     struct coefficient_rows rows = {NULL, NULL, NULL};
+    double own[COEFFICIENT_BATCH];
     if (law->needs & BULLA_NEEDS_TEMPERATURE) {
-        eos->law->temperature(eos->self, points->n, points->rho, points->p, T);
+        eos->law->temperature(eos->self, points->n, points->rho, points->p, own);
+        coefficient_temper(points->n, own, T);
         rows.T = T;
     }
     if (law->needs & BULLA_NEEDS_PRESSURE) rows.p = points->p;

@@ -6,6 +6,15 @@
 
 enum { COEFFICIENT_BATCH = 256 };
 
+/* Between these temperatures laws are asked [K]. Beside a liquid in tension a gas has none above 0, and a trace of gas in an
+ * interface may have any: heated by its own viscosity it would, with a law that grows with T, become hotter and more
+ * viscous still. */
+#define COEFFICIENT_COLDEST 1.0
+#define COEFFICIENT_HOTTEST 1e4
+
+/* T[n] within these bounds. */
+void coefficient_temper(size_t n, const double *T, double *tempered);
+
 /* States of one material: rate of shear [1/s], p, rho. Rows that its law does not need may be NULL. At most
  * COEFFICIENT_BATCH points. */
 struct coefficient_points {

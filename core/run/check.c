@@ -75,7 +75,7 @@ static void check_print_jump(const struct scene *scene, int index, unsigned insi
            human_si(layer->pressure.number - scene->layers[below].pressure.number, "Pa", given));
 }
 
-static void check_print_tension(const struct scene *scene)
+static void check_print_tension(const struct scene *scene, const struct model *model)
 {
     for (unsigned k = 0; k < scene->n_tension; k++) {
         const struct scene_tension *pair = &scene->tension[k];
@@ -86,6 +86,7 @@ static void check_print_tension(const struct scene *scene)
             check_print_jump(scene, i, pair->one, pair->other, pair->sigma);
             check_print_jump(scene, i, pair->other, pair->one, pair->sigma);
         }
+        transport_print_tension(scene, model, k);
     }
 }
 
@@ -347,7 +348,8 @@ static void check_print(const struct scene *scene, const struct model *model, co
     check_print_module("limiter", &scene->scheme.limiter);
     check_print_modules(scene);
     check_print_sources(scene);
-    check_print_tension(scene);
+    check_print_tension(scene, model);
+    transport_print_sticks(scene, model);
     travel_print(scene);
     check_phase_print(scene);
     transport_print_gases(scene, model);
@@ -425,6 +427,7 @@ static int check_one(const struct cli_given *given, const char *path)
         printf("%s: good\n", scene->path);
         check_print(scene, coarse->model, &mesh);
         transport_print_reynolds(scene, coarse->model, cost.speed);
+        transport_print_slow(scene, coarse->model, cost.speed);
         check_print_cost(scene, &cost);
     }
     state_free(coarse);

@@ -1,6 +1,8 @@
 /* conduction_law.c - see conduction_law.h. */
 #include "scheme/conduction_law.h"
 
+#include "phys/coefficient.h"
+
 #include <float.h>
 
 /* A difference of pressure, against rho c^2, over which a law tells its rho cv. */
@@ -11,10 +13,15 @@ void conduction_law_ask(const struct model *path, unsigned l, size_t n, const do
 {
     const struct model_conductivity *conductivity = &path->conductivity[l];
     uint32_t needs = conductivity->law->needs;
+    double tempered[CONDUCTION_LAW_BATCH];
     for (size_t i = 0; !needs && i < n; i++) k[i] = conductivity->k;
-    if (needs)
-        conductivity->law->value(conductivity->self, n, NULL, needs & BULLA_NEEDS_TEMPERATURE ? T : NULL,
-                                 needs & BULLA_NEEDS_PRESSURE ? p : NULL, needs & BULLA_NEEDS_DENSITY ? rho : NULL, k);
+    for (size_t from = 0; needs && from < n; from += CONDUCTION_LAW_BATCH) {
+        size_t some = n - from < CONDUCTION_LAW_BATCH ? n - from : CONDUCTION_LAW_BATCH;
+        if (needs & BULLA_NEEDS_TEMPERATURE) coefficient_temper(some, T + from, tempered);
+        conductivity->law->value(conductivity->self, some, NULL, needs & BULLA_NEEDS_TEMPERATURE ? tempered : NULL,
+                                 needs & BULLA_NEEDS_PRESSURE ? p + from : NULL,
+                                 needs & BULLA_NEEDS_DENSITY ? rho + from : NULL, k + from);
+    }
 }
 
 static BULLA_KERNEL void conduction_law_nudge(size_t n, const double *restrict p, const double *restrict rho_c2,
