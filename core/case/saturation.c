@@ -84,6 +84,14 @@ double saturation_temperature(const struct saturation *pair, double p)
     return saturation_thin(&at) && fabs(at.drive) <= 1e-9 * p * at.v[1] ? T : (double)NAN;
 }
 
+double saturation_water(double T)
+{
+    double rest = 1.0 - T / 647.096, root = sqrt(rest), cube = rest * rest * rest;
+    double sum = rest * (-7.85951783 + 1.84408259 * root) + cube * (-11.7866497 + 22.6807411 * root) -
+                 15.9618719 * cube * rest + 1.80122502 * cube * cube * rest * root;
+    return T > 273.0 && T < 647.0 ? 22.064e6 * exp(647.096 / T * sum) : (double)NAN;
+}
+
 bool saturation_ends(const struct saturation *pair, struct saturation_range *ret_range)
 {
     *ret_range = (struct saturation_range){.T_min = NAN};

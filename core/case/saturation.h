@@ -38,6 +38,10 @@ struct saturation_state saturation_at(const struct saturation *pair, double p, d
 double saturation_pressure(const struct saturation *pair, double T);
 double saturation_temperature(const struct saturation *pair, double p);
 
+/* psat of water by the auxiliary equation of IAPWS (Wagner & Pruss, J. Phys. Chem. Ref. Data 31 (2002) 387, eq. 2.5) [Pa]; NaN
+ * outside of 273 to 647 K. */
+double saturation_water(double T);
+
 /* The part of the curve between 200 and 2000 K. False: there is none, or none that reaches 10 kPa. */
 bool saturation_ends(const struct saturation *pair, struct saturation_range *ret_range);
 

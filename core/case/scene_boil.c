@@ -57,9 +57,8 @@ static void scene_boil_heat(struct draft *draft, const struct keys_value *value,
     diag_help(draft->keys.diag, "%g cells per layer are needed, or a finite rate", scene_boil_cells);
 }
 
-/* The first temperature and pressure of a layer's material as numbers; false: scripts give them, or there are none. */
-static bool scene_boil_state(const struct scene *scene, const struct scene_layer *layer, unsigned l, double *ret_p,
-                             double *ret_T)
+bool scene_boil_state(const struct scene *scene, const struct scene_layer *layer, unsigned l, double *ret_p,
+                      double *ret_T)
 {
     const struct instance *eos = &scene->material[l].eos;
     const struct bulla_eos *law = eos->module->table;

@@ -109,6 +109,11 @@ void scene_spare(struct draft *draft, const struct node *root);
 void scene_idle(struct draft *draft, const struct node *root);
 void scene_coarse(struct draft *draft);
 void scene_boil(struct draft *draft);
+void scene_condense(struct draft *draft);
+
+/* The pressure and temperature of material l of an initial layer as numbers; false: scripts give them, or there are none. */
+bool scene_boil_state(const struct scene *scene, const struct scene_layer *layer, unsigned l, double *ret_p,
+                      double *ret_T);
 
 /* Width of the cells of the finest level along an axis [m]. */
 double scene_domain_width(const struct scene *scene, int axis);

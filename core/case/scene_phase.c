@@ -364,6 +364,22 @@ static void scene_phase_set(struct draft *draft, const struct keys_value *value,
         keys_error(&draft->keys, value, "%s", status_text());
 }
 
+/* Among gases a vapour is asked at the pressure of all, where it would have condensed if it were alone: ideal gases have a state
+ * there, a real one ends at its spinodal. */
+static void scene_phase_thick(struct draft *draft, const struct keys_value *value, const struct scene_phase *pair)
+{
+    const struct scene_material *vapour = &draft->scene->material[pair->vapour];
+    const struct bulla_eos *law = vapour->eos.module->table;
+    double p = 100.0 * pair->curve.p_min, T = pair->curve.T_min, rho = 0.0, v, h, s, v_T, v_p, c_p;
+    if (pair->n_gas == 0 || !pair->mixing) return;
+    law->thermal(vapour->eos.self, 1, &p, &T, &rho, &v, &h, &s, &v_T, &v_p, &c_p);
+    if (isfinite(v)) return;
+    keys_error(&draft->keys, value,
+               "'%s' has no state at %.4g K and %.4g Pa, beyond its spinodal, where gases at that pressure bring it",
+               vapour->name, T, p);
+    diag_help(draft->keys.diag, "beside gases take an 'ideal-gas' with 'calibrate' for the vapour");
+}
+
 /* The curve of a pair: there must be one. */
 static void scene_phase_curve(struct draft *draft, const struct keys_value *value, struct scene_phase *pair)
 {
@@ -371,7 +387,10 @@ static void scene_phase_curve(struct draft *draft, const struct keys_value *valu
     const struct scene_material *liquid = &draft->scene->material[pair->liquid],
                                 *vapour = &draft->scene->material[pair->vapour];
     if (!saturation_of(&liquid->eos, &vapour->eos, &both)) return;
-    if (saturation_ends(&both, &pair->curve)) return;
+    if (saturation_ends(&both, &pair->curve)) {
+        scene_phase_thick(draft, value, pair);
+        return;
+    }
     keys_error(
         &draft->keys, value,
         "'%s' and '%s' have no saturation curve: between 200 and 2000 K their Gibbs energies are nowhere equal above "

@@ -131,6 +131,7 @@ static void scene_read_tree(struct draft *draft, struct node *root)
     scene_idle(draft, root);
     scene_coarse(draft);
     scene_boil(draft);
+    scene_condense(draft);
     scene_branch_times(draft);
     scene_damage_times(draft);
     scene_spare(draft, root);

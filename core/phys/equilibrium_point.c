@@ -161,6 +161,7 @@ double equilibrium_point_drive(const struct equilibrium_point *point)
     const double *h = point->h, *s = point->s;
     double share = equilibrium_point_share(point), T = point->T;
     double drive = h[EQUILIBRIUM_VAPOUR] - h[EQUILIBRIUM_LIQUID] - T * (s[EQUILIBRIUM_VAPOUR] - s[EQUILIBRIUM_LIQUID]);
+    if (!(point->p > 0.0)) return -HUGE_VAL;                                            /* stretched liquid */
     if (isnan(h[EQUILIBRIUM_VAPOUR]) && !isnan(h[EQUILIBRIUM_LIQUID])) return HUGE_VAL; /* no vapour so dense */
     if (!(share > 0.0) || !isfinite(drive)) return -HUGE_VAL;
     return drive + point->family->R[EQUILIBRIUM_VAPOUR] * T * log(share);

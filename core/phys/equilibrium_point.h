@@ -27,8 +27,8 @@ void equilibrium_point_take(const struct equilibrium_family *family, const struc
  * little energy). Masses may be 0. */
 bool equilibrium_point_solve(struct equilibrium_point *point);
 
-/* D = mu_v - g_l [J/kg] at a solved point; -inf for a vapour of no mass among gases, or where there is no
- * liquid; +inf where the vapour has no state. */
+/* D = mu_v - g_l [J/kg] at a solved point; -inf for a vapour of no mass among gases, for a stretched liquid (p <= 0), or where there
+ * is no liquid; +inf where the vapour has no state. */
 double equilibrium_point_drive(const struct equilibrium_point *point);
 
 /* Mole fraction of the vapour in vapour and gases; 1 without mixing. */

@@ -33,7 +33,7 @@ static double phase_rate_script(const struct equilibrium_point *point, double p_
     return rate->status ? 0.0 : flux;
 }
 
-/* dm_v/dt at a solved point; liquid in tension without vapour: as fast as can be. */
+/* dm_v/dt at a solved point; as fast as can be where a liquid is in tension, or the vapour denser than any. */
 static double phase_rate_flux(const struct equilibrium_point *point, struct phase_rate *rate)
 {
     const double *h = point->h, *s = point->s;
@@ -41,6 +41,7 @@ static double phase_rate_flux(const struct equilibrium_point *point, struct phas
     double K = 2.0 * part / (2.0 - part) / sqrt(2.0 * PHASE_RATE_PI * RT);
     double drive = h[EQUILIBRIUM_VAPOUR] - h[EQUILIBRIUM_LIQUID] - T * (s[EQUILIBRIUM_VAPOUR] - s[EQUILIBRIUM_LIQUID]);
     if (!(point->p > 0.0)) return HUGE_VAL;
+    if (isnan(drive)) return -HUGE_VAL;
     if (rate->scene->script) return phase_rate_script(point, point->p * exp(-drive / RT), rate);
     return rate->scene->area * K * point->p * (exp(-drive / RT) - equilibrium_point_share(point));
 }

@@ -12,15 +12,6 @@
 #define CHECK_PHASE_MOST 1e12
 #define CHECK_PHASE_STEP 1.002
 
-/* psat of water by the auxiliary equation of IAPWS (Wagner & Pruss, J. Phys. Chem. Ref. Data 31 (2002) 387, eq. 2.5), 273 to 647 K. */
-static double check_phase_water(double T)
-{
-    double rest = 1.0 - T / 647.096, root = sqrt(rest), cube = rest * rest * rest;
-    double sum = rest * (-7.85951783 + 1.84408259 * root) + cube * (-11.7866497 + 22.6807411 * root) -
-                 15.9618719 * cube * rest + 1.80122502 * cube * cube * rest * root;
-    return 22.064e6 * exp(647.096 / T * sum);
-}
-
 static bool check_phase_is_water(const struct scene *scene, const struct scene_phase *pair)
 {
     return strcmp(scene->material[pair->liquid].name, "water") == 0;
@@ -61,7 +52,7 @@ static void check_phase_layer(const struct scene *scene, const struct scene_phas
     if (isnan(psat)) return;
     printf("  %-12s initial[%u]: %.6g K, saturation pressure %s", "", index, T, human_si(psat, "Pa", text));
     if (check_phase_is_water(scene, pair) && T > 273.0 && T < 647.0)
-        printf(" (%+.2g %% of IAPWS-95)", 100.0 * (psat / check_phase_water(T) - 1.0));
+        printf(" (%+.2g %% of IAPWS-95)", 100.0 * (psat / saturation_water(T) - 1.0));
     double p = vapour ? check_phase_partial(scene, pair, layer) : layer->pressure.number;
     if (vapour && p > 1.001 * psat) printf("; its vapour at %s condenses at once", human_si(p, "Pa", own));
     if (vapour && liquid && p < 0.999 * psat) printf("; its vapour at %s takes up more", human_si(p, "Pa", own));

@@ -1,71 +1,8 @@
 /* phase.c - liquids and vapours in the cells of a tile (phys/phase.h): what is kept and what is not touched, that a second call
  * changes no bit, entropy, rates against the reference (finite_rate.csv), thresholds and directions; and runs in closed boxes. */
-#include "flow.h"
-
-#include "phys/phase.h"
+#include "phase_box.h"
 
 enum { CELLS = 256 };
-
-#define NASG "  water: {eos: {type: nasg, preset: water-2016}}\n  steam: {eos: {type: ideal-gas, preset: water-2016}}\n"
-#define SG                                                                                                 \
-    "  water: {eos: {type: stiffened-gas, preset: water-2004}}\n  steam: {eos: {type: ideal-gas, preset: " \
-    "water-2004}}\n"
-#define AIR "  air: {eos: {type: ideal-gas, preset: air}}\n"
-#define STONE "  stone: {eos: {type: stiffened-gas, preset: begostone}}\n"
-
-static void open_scene(struct flow *flow, const char *materials, const char *phase, int cells, const char *scheme)
-{
-    flow_start(flow, mem_print("bulla: 1\ndomain: {lower: [0], upper: [1], cells: [%d], boundaries: {x-: periodic, x+: "
-                               "periodic}}\nmesh: {tile: %d}\nmaterials:\n%sphase-change:\n  - %s\ninitial:\n"
-                               "  - {everywhere: true, material: water, temperature: 300, pressure: 1 bar}\n"
-                               "scheme: {%s}\nrun: {until: 1}\n",
-                               cells, cells, materials, phase, scheme));
-}
-
-static uint64_t seed;
-
-static double between(double low, double high)
-{
-    return low * pow(high / low, flow_random(&seed));
-}
-
-/* All materials at one pressure, with temperatures of their own; some cells hold traces, or one material alone. */
-static void scatter(const struct model *model, const double x[3], double *w)
-{
-    double p = between(1e3, 1e7), sum = 0.0;
-    (void)x;
-    for (unsigned l = 0; l < model->n_material; l++) {
-        const struct model_eos *eos = &model->eos[l];
-        double T = between(300.0, l ? 900.0 : 500.0), draw = flow_random(&seed);
-        w[model->i_alpha + l] = l && draw < 0.2 ? 0.0 : l && draw < 0.3 ? 1e-8 : between(1e-5, 1.0);
-        sum += w[model->i_alpha + l];
-        eos->law->density(eos->self, 1, &p, &T, &w[model->i_m + l]);
-    }
-    for (unsigned l = 0; l < model->n_material; l++) w[model->i_alpha + l] /= sum;
-    w[model->i_u] = 50.0;
-    w[model->i_E] = p;
-}
-
-/* Entropy of all materials of a cell, with that of mixing vapour and air; components at `stride`. */
-static double entropy(const struct model *model, size_t stride, const double *u, const double *w)
-{
-    const struct model_phase *phase = &model->phases[0];
-    double sum = 0.0, moles = 0.0, part[SCENE_MATERIALS] = {0};
-    for (unsigned l = 0; l < model->n_material; l++) {
-        double rho = w[(model->i_m + l) * stride], s, m = u[(model->i_m + l) * stride];
-        if (!(w[(model->i_alpha + l) * stride] > 0.0)) continue;
-        model->eos[l].law->entropy(model->eos[l].self, 1, &rho, &w[model->i_E * stride], &s);
-        sum += m * s;
-    }
-    for (unsigned k = EQUILIBRIUM_VAPOUR; k < phase->n; k++) {
-        const struct model_eos *eos = &model->eos[phase->member[k]];
-        part[k] = u[(model->i_m + phase->member[k]) * stride] * eos->law->gas_constant(eos->self);
-        moles += part[k];
-    }
-    for (unsigned k = EQUILIBRIUM_VAPOUR; k < phase->n; k++)
-        if (part[k] > 0.0 && phase->scene->mixing) sum -= part[k] * log(part[k] / moles);
-    return sum;
-}
 
 /* What one call leaves alone: masses of others, momentum, energy; the sum of liquid and vapour. */
 static void check_kept(const struct model *model, const double *before, const double *u, size_t i)
@@ -105,8 +42,9 @@ static void check_call(struct flow *flow, struct checked *checked)
         if (!moved) continue;
         double off = fabs(w[model->i_E * CELLS + i] - p[i]) / (fabs(p[i]) + 1e4);
         checked->p = off > checked->p ? off : checked->p;
-        double gain = entropy(model, CELLS, u + i, w + i) - entropy(model, CELLS, before + i, w_before + i);
-        assert_true(gain >= -1e-12 * fabs(entropy(model, CELLS, u + i, w + i)));
+        double gain =
+            phase_box_entropy(model, CELLS, u + i, w + i) - phase_box_entropy(model, CELLS, before + i, w_before + i);
+        assert_true(gain >= -1e-12 * fabs(phase_box_entropy(model, CELLS, u + i, w + i)));
     }
     memcpy(after, u, size);
     phase_act(model, 0, CELLS, CELLS, 1e-6, w, u, &effort);
@@ -127,21 +65,22 @@ static void test_call(void **state)
     static const struct {
         const char *materials, *phase;
     } cases[] = {
-        {NASG, "{liquid: water, vapour: steam}"},
-        {SG AIR, "{liquid: water, vapour: steam, gases: [air]}"},
-        {NASG AIR STONE, "{liquid: water, vapour: steam, gases: [air]}"},
-        {NASG AIR, "{liquid: water, vapour: steam, gases: [air], mixing: none}"},
-        {NASG AIR, "{liquid: water, vapour: steam, gases: [air], where: everywhere}"},
-        {NASG AIR, "{liquid: water, vapour: steam, gases: [air], direction: evaporation}"},
-        {NASG AIR, "{liquid: water, vapour: steam, gases: [air], direction: condensation}"},
-        {NASG AIR STONE, "{liquid: water, vapour: steam, gases: [air], gas-temperature: own}"},
+        {PHASE_BOX_NASG, "{liquid: water, vapour: steam}"},
+        {PHASE_BOX_SG PHASE_BOX_AIR, "{liquid: water, vapour: steam, gases: [air]}"},
+        {PHASE_BOX_NASG PHASE_BOX_AIR PHASE_BOX_STONE, "{liquid: water, vapour: steam, gases: [air]}"},
+        {PHASE_BOX_NASG PHASE_BOX_AIR, "{liquid: water, vapour: steam, gases: [air], mixing: none}"},
+        {PHASE_BOX_NASG PHASE_BOX_AIR, "{liquid: water, vapour: steam, gases: [air], where: everywhere}"},
+        {PHASE_BOX_NASG PHASE_BOX_AIR, "{liquid: water, vapour: steam, gases: [air], direction: evaporation}"},
+        {PHASE_BOX_NASG PHASE_BOX_AIR, "{liquid: water, vapour: steam, gases: [air], direction: condensation}"},
+        {PHASE_BOX_NASG PHASE_BOX_AIR PHASE_BOX_STONE,
+         "{liquid: water, vapour: steam, gases: [air], gas-temperature: own}"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct flow flow;
         struct checked checked = {0};
-        seed = 17;
-        open_scene(&flow, cases[i].materials, cases[i].phase, CELLS, "");
-        flow_set(&flow, scatter);
+        phase_box_seed = 17;
+        phase_box_open(&flow, cases[i].materials, cases[i].phase, CELLS, "");
+        flow_set(&flow, phase_box_scatter);
         check_call(&flow, &checked);
         print_message("%s: %d of %d changed, p off by %.2g\n", cases[i].phase, checked.moved, CELLS, checked.p);
         assert_true(checked.moved > CELLS / 8 && checked.p < 1e-9);
@@ -158,9 +97,9 @@ static void test_direction(void **state)
         struct flow flow;
         char phase[128];
         snprintf(phase, sizeof phase, "{liquid: water, vapour: steam, direction: %s}", ways[way]);
-        open_scene(&flow, NASG, phase, CELLS, "");
-        seed = 23;
-        flow_set(&flow, scatter);
+        phase_box_open(&flow, PHASE_BOX_NASG, phase, CELLS, "");
+        phase_box_seed = 23;
+        flow_set(&flow, phase_box_scatter);
         const struct model *model = flow.state->model;
         double *u = flow_level(&flow)->u_old[0], before[CELLS];
         memcpy(before, u + (model->i_m + 1) * CELLS, sizeof before);
@@ -206,11 +145,12 @@ static double relax(const struct series *series, double t, int n)
     snprintf(phase, sizeof phase,
              "{liquid: water, vapour: steam%s, rate: {type: hertz-knudsen, accommodation: %.17g, area: %.17g}}",
              series->m_a > 0.0 ? ", gases: [air]" : "", series->s, series->A);
-    open_scene(&flow,
-               strncmp(series->pair, "nasg", 4) == 0 ? series->m_a > 0.0 ? NASG AIR : NASG
-               : series->m_a > 0.0                   ? SG AIR
-                                                     : SG,
-               phase, 8, "");
+    phase_box_open(&flow,
+                   strncmp(series->pair, "nasg", 4) == 0
+                       ? series->m_a > 0.0 ? PHASE_BOX_NASG PHASE_BOX_AIR : PHASE_BOX_NASG
+                   : series->m_a > 0.0 ? PHASE_BOX_SG PHASE_BOX_AIR
+                                       : PHASE_BOX_SG,
+                   phase, 8, "");
     const struct model *model = flow.state->model;
     double u[FLOW_FIELDS] = {0}, w[FLOW_FIELDS] = {0};
     struct equilibrium_family family = {.n = series->m_a > 0.0 ? 3 : 2};
@@ -263,7 +203,7 @@ static void test_rate(void **state)
 static double vapour_after(const char *phase, double T, double p, double alpha)
 {
     struct flow flow;
-    open_scene(&flow, NASG, phase, 8, "");
+    phase_box_open(&flow, PHASE_BOX_NASG, phase, 8, "");
     const struct model *model = flow.state->model;
     double u[FLOW_FIELDS] = {0}, w[FLOW_FIELDS] = {0};
     for (unsigned l = 0; l < 2; l++) {
@@ -310,7 +250,7 @@ static void test_kinds(void **state)
 static void mixed(const char *phase, double T_air, double *ret_T, double *ret_share)
 {
     struct flow flow;
-    open_scene(&flow, NASG AIR, phase, 8, "");
+    phase_box_open(&flow, PHASE_BOX_NASG PHASE_BOX_AIR, phase, 8, "");
     const struct model *model = flow.state->model;
     const double part[] = {0.9, 0.04, 0.06}, T[] = {340.0, 340.0, T_air};
     double u[FLOW_FIELDS] = {0}, w[FLOW_FIELDS] = {0}, p = 1e5, T_now[3];
@@ -355,7 +295,7 @@ static void test_owed(void **state)
 {
     (void)state;
     struct flow flow;
-    open_scene(&flow, NASG, "{liquid: water, vapour: steam}", 8, "");
+    phase_box_open(&flow, PHASE_BOX_NASG, "{liquid: water, vapour: steam}", 8, "");
     const struct model *model = flow.state->model;
     for (unsigned owes = 0; owes < 2; owes++) {
         double u[FLOW_FIELDS] = {0}, w[FLOW_FIELDS] = {0}, p = 1e5, T = 400.0;
@@ -379,7 +319,8 @@ static void test_left(void **state)
 {
     (void)state;
     struct flow flow;
-    open_scene(&flow, NASG, "{liquid: water, vapour: steam, where: everywhere, nucleation: {tension: 8 MPa}}", 8, "");
+    phase_box_open(&flow, PHASE_BOX_NASG,
+                   "{liquid: water, vapour: steam, where: everywhere, nucleation: {tension: 8 MPa}}", 8, "");
     const struct model *model = flow.state->model;
     double u[FLOW_FIELDS] = {0}, w[FLOW_FIELDS] = {0}, p = -1e6, T = 300.0, mass;
     w[model->i_alpha] = 1.0;
@@ -415,7 +356,7 @@ static void test_box(void **state)
     (void)state;
     struct flow flow;
     double size, water, energy, air, vapour;
-    open_scene(&flow, NASG AIR, "{liquid: water, vapour: steam, gases: [air]}", 64, "cfl: 0.4");
+    phase_box_open(&flow, PHASE_BOX_NASG PHASE_BOX_AIR, "{liquid: water, vapour: steam, gases: [air]}", 64, "cfl: 0.4");
     flow_set(&flow, wave);
     const struct model *model = flow.state->model;
     water = (double)(flow_total(&flow, model->i_m, &size) + flow_total(&flow, model->i_m + 1, &size));
