@@ -398,6 +398,13 @@ static bool model_is_split(const struct model *model)
     return wanted && model->elastic && model->n_alpha > 0;
 }
 
+/* Does a solver resist shear? Tables of older modules end before they say so. */
+static bool model_resists(const struct bulla_riemann *riemann)
+{
+    bool told = riemann->size >= offsetof(struct bulla_riemann, resists) + sizeof riemann->resists;
+    return told && riemann->resists;
+}
+
 struct model *model_new(const struct scene *scene)
 {
     struct model *model = mem_new(1, sizeof *model);
@@ -449,6 +456,7 @@ struct model *model_new(const struct scene *scene)
     model->reconstruction_self = scene->scheme.reconstruction.self;
     model->riemann = scene->scheme.riemann.module->table;
     model->riemann_self = scene->scheme.riemann.self;
+    model->resists = model_resists(model->riemann);
     const struct registry_entry *robust = registry_find("riemann", "rusanov");
     model->robust = robust ? robust->module->table : model->riemann;
     model->mixed = model->n_alpha > 0;

@@ -183,6 +183,7 @@ struct model {
     const void *reconstruction_self;
     const struct bulla_riemann *riemann;
     const void *riemann_self;
+    bool resists;                       /* it diffuses jumps of u_t between fluids (bulla/riemann.h) */
     const struct bulla_riemann *robust; /* rusanov: faces of troubled cells (solve/guard.h) */
     char **names;                       /* derived field names, NULL-terminated (derive.h) */
     char **field_names;                 /* names of the evolved fields, for messages and ledgers */

@@ -261,6 +261,13 @@ static const double *face_pressure(const struct face_work *work, const struct fr
     return own->lagged;
 }
 
+/* Velocity d at the edges, 0: that normal to the faces. */
+static double *face_velocity(const struct face_work *work, const struct frame *frame, unsigned d)
+{
+    const struct face_own *own = work->own;
+    return own->state + 2 * (work->model->i_u + axis_component(frame->axis, d)) * FACE_ROOM;
+}
+
 /* Velocities at the faces of a row of cells, before they have an energy; rho c^2 is still that in own->c. */
 static void face_calm(struct face_work *work, const struct frame *frame, const double *rho, bool masked)
 {
@@ -279,7 +286,12 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
                                    .mask = mask ? mask + frame_reach(frame) : NULL,
                                    .step = frame->inner,
                                    .part = own->term};
-    low_mach_draw(&faces, own->state + 2 * (model->i_u + (unsigned)frame->axis) * FACE_ROOM);
+    double *normal = face_velocity(work, frame, 0);
+    low_mach_weigh(&faces, normal);
+    low_mach_draw(&faces, normal);
+    if (!model->resists || model->n_stretch) return; /* shear of solids is a wave of its own */
+    low_mach_lighten(&faces);
+    for (unsigned d = 1; d < model->n_velocity; d++) low_mach_draw(&faces, face_velocity(work, frame, d));
 }
 
 /* Speeds of mixtures that expand. */

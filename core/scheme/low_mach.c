@@ -44,11 +44,31 @@ static BULLA_KERNEL void low_mach_blend(size_t n, const double *restrict part, d
     }
 }
 
-void low_mach_draw(const struct low_mach *faces, double *u)
+/* 1 - (1 - z) times the lighter density over the heavier one. */
+static BULLA_KERNEL void low_mach_light(size_t n, const double *restrict rho_l, const double *restrict rho_r,
+                                        double *restrict part)
 {
-    const size_t n = faces->n, right = faces->right;
-    low_mach_part(n, faces->step, faces->least, faces->rho, faces->rho_c2, u, right, faces->p, faces->part);
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = rho_l[i], b = rho_r[i], z = part[i], light = a < b ? a : b, heavy = a < b ? b : a;
+        part[i] = 1.0 - (1.0 - z) * (light / heavy);
+    }
+}
+
+void low_mach_weigh(const struct low_mach *faces, const double *u)
+{
+    const size_t n = faces->n;
+    low_mach_part(n, faces->step, faces->least, faces->rho, faces->rho_c2, u, faces->right, faces->p, faces->part);
     for (size_t i = 0; faces->mask && i < n; i++)
         if (faces->mask[i] + faces->mask[i + faces->step] != 0.0) faces->part[i] = 1.0;
-    low_mach_blend(n, faces->part, u, u + right);
+}
+
+void low_mach_lighten(const struct low_mach *faces)
+{
+    low_mach_light(faces->n, faces->rho, faces->rho + faces->right, faces->part);
+}
+
+void low_mach_draw(const struct low_mach *faces, double *u)
+{
+    low_mach_blend(faces->n, faces->part, u, u + faces->right);
 }

@@ -7,6 +7,12 @@
  * after Thornber, Mosedale, Drikakis, Youngs & Williams, J. Comput. Phys. 227 (2008) 4873-4894, who have z = max(M_L, M_R).
  * b is the larger second difference of pressure of the two cells of the face: a shock wants its jump of velocity whole,
  * and so do the cells behind it, where the jump of pressure is small again; a pressure that rises evenly is no shock.
+ * Solvers that resist shear (bulla/riemann.h) answer a jump of velocities along the face, too, by half of rho c times it. There
+ * those are drawn together as well, by
+ *     z_t = 1 - (1 - z) min(rho_L, rho_R)/max(rho_L, rho_R):
+ * what is left of the resistance is at least that of the upwind side, z rho c >= |rho u|, in a liquid and in a gas; between
+ * them, where the lighter side resists and the heavier one carries, the jump stays. Other solvers carry u_t from the upwind
+ * side, and keep it.
  * Faces of troubled cells and of those beside boundaries that waves cross keep their jumps: what leaves there is a wave,
  * and with two means in place of its invariants it would not. */
 #ifndef LOW_MACH_H
@@ -25,7 +31,13 @@ struct low_mach {
     double *part;               /* [n] z: work space */
 };
 
-/* Draws the velocities `u` normal to the faces together. Equal ones keep their bits; mirror images give mirror images. */
+/* z of all faces, from the velocities `u` normal to them. */
+void low_mach_weigh(const struct low_mach *faces, const double *u);
+
+/* z of velocities along the faces, from that of low_mach_weigh. */
+void low_mach_lighten(const struct low_mach *faces);
+
+/* Draws a component of velocity together. Equal ones keep their bits; mirror images give mirror images. */
 void low_mach_draw(const struct low_mach *faces, double *u);
 
 #endif

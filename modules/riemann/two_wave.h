@@ -148,6 +148,7 @@ static void two_wave_solve(const void *self, const struct bulla_faces *faces)
 
 static const struct bulla_riemann two_wave_table = {.size = sizeof(struct bulla_riemann),
                                                     .solve = two_wave_solve,
-                                                    .solids = 1};
+                                                    .solids = 1,
+                                                    .resists = 1};
 
 #endif

@@ -303,7 +303,7 @@ static void test_sides(void **state)
 /* Riemann solvers. */
 
 /* What is spoilt, and how. */
-static enum spoil { MASS, ENERGY, FACE, FRACTION, LEAK, TANGENT, TILT, ALONE } spoil;
+static enum spoil { MASS, ENERGY, FACE, FRACTION, LEAK, TANGENT, TILT, ALONE, NOTHING } spoil;
 
 static void spoilt(const void *self, const struct bulla_faces *faces)
 {
@@ -336,10 +336,13 @@ static void test_riemann(void **state)
         {LEAK, "with several"}, {LEAK, "mass fluxes sum"},      {TANGENT, "shear"},
         {TILT, "mirrored"},     {ALONE, "one material listed"}, {FRACTION, "supersonic"},
     };
+    static const struct bulla_riemann boast = {.size = sizeof boast, .solve = spoilt, .resists = 1};
     for (size_t i = 0; i < sizeof mutants / sizeof *mutants; i++) {
         spoil = mutants[i].spoil;
         finds("riemann", "hllc", &table, mutants[i].check);
     }
+    spoil = NOTHING;
+    finds("riemann", "hllc", &boast, "resists: shear");
 }
 
 /* The classic mistake: values in a global, where the second material's replace the first one's. */

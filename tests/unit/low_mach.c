@@ -40,6 +40,12 @@ static struct low_mach water(struct edges_of *row, double least)
                              .part = row->part};
 }
 
+static void draw(const struct low_mach *faces, double *u)
+{
+    low_mach_weigh(faces, u);
+    low_mach_draw(faces, u);
+}
+
 /* The jump becomes `least` and the Mach number of the faster side of it, the mean stays. */
 static void test_jump(void **state)
 {
@@ -47,7 +53,7 @@ static void test_jump(void **state)
     struct edges_of row, old;
     struct low_mach faces = water(&row, 0.05);
     old = row;
-    low_mach_draw(&faces, row.u);
+    draw(&faces, row.u);
     for (int i = 0; i < FACES; i++) {
         double left = old.u[i], right = old.u[FACES + i];
         double mach = fmax(fabs(left), fabs(right)) / sqrt(2.6e9 / 1000.0), jump = right - left;
@@ -69,7 +75,7 @@ static void test_sides(void **state)
     }
     for (int i = 0; i < FACES + 3; i++) row.p[i] = 1e5 + i * i * i * 100.0; /* bends by 600 i about cell i */
     old = row;
-    low_mach_draw(&faces, row.u);
+    draw(&faces, row.u);
     for (int i = 0; i < FACES; i++) {
         double jump = old.u[FACES + i] - old.u[i];
         double air = fabs(old.u[i]) / sqrt(1.4e5 / 1.2), deep = fabs(old.u[FACES + i]) / sqrt(2.6e9 / 1000.0);
@@ -91,7 +97,7 @@ static void test_kept(void **state)
         if (i % 4 == 3) row.mask[i + i / 4 % 2] = 1.0;
     }
     old = row;
-    low_mach_draw(&faces, row.u);
+    draw(&faces, row.u);
     assert_memory_equal(row.u, old.u, sizeof row.u);
 }
 
@@ -103,9 +109,29 @@ static void test_mirror(void **state)
     for (int i = 0; i < FACES + 3; i++) row.p[i] += 1e6 * flow_random(&seed);
     for (int i = 0; i < FACES + 3; i++) back.p[i] = row.p[FACES + 2 - i];
     for (int i = 0; i < 2 * FACES; i++) back.u[i] = -row.u[2 * FACES - 1 - i];
-    low_mach_draw(&faces, row.u);
-    low_mach_draw(&mirrored, back.u);
+    draw(&faces, row.u);
+    draw(&mirrored, back.u);
     for (int i = 0; i < 2 * FACES; i++) assert_true(back.u[i] == -row.u[2 * FACES - 1 - i]);
+}
+
+/* Along the faces, of a solver that resists shear: the same z in one liquid, all of the jump where the light side could
+ * not diffuse what the heavy one carries. */
+static void test_along(void **state)
+{
+    (void)state;
+    struct edges_of row, along;
+    struct low_mach faces = water(&row, 0.05);
+    for (int i = 0; i < FACES; i += 2) row.rho[FACES + i] = 4.0; /* and gas behind every other face */
+    for (int i = 0; i < FACES; i++) row.rho_c2[FACES + i] = row.rho[FACES + i] * 2.6e6;
+    along = row;
+    low_mach_weigh(&faces, row.u);
+    for (int i = 0; i < FACES; i++) row.part[i] = 0.25;
+    low_mach_lighten(&faces);
+    low_mach_draw(&faces, along.u);
+    for (int i = 0; i < FACES; i++) {
+        double jump = row.u[FACES + i] - row.u[i], z = i % 2 ? 0.25 : 1.0 - 0.75 * 0.004;
+        assert_true(fabs(along.u[FACES + i] - along.u[i] - z * jump) <= 1e-14);
+    }
 }
 
 /* Water that comes and goes from cell to cell by 1 m/s at one pressure: limiters leave the jumps to the faces. */
@@ -154,10 +180,50 @@ static void test_solvers(void **state)
     }
 }
 
+/* Water that moves along the faces, to and fro from cell to cell. */
+static void shear(const struct model *model, const double x[3], double *w)
+{
+    w[model->i_u + 1] = (int)(x[0] * 32.0) % 2 ? 1.0 : -1.0;
+}
+
+/* The largest shear stress at inner faces of the sheared water, in rho c/2 times the jump. */
+static double sheared(const char *solver, double least)
+{
+    struct flow flow;
+    flow_start(&flow, mem_print("bulla: 1\ntitle: sheared\ndomain: {lower: [0], upper: [1], cells: [32], "
+                                "velocity-components: 2, boundaries: {x-: periodic, x+: periodic}}\nmesh: {tile: 32}\n"
+                                "materials:\n" FLOW_WATER
+                                "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: 1e5}\n"
+                                "scheme: {riemann: %s, low-mach: %g}\nrun: {until: 1}\n",
+                                solver, least));
+    flow_set(&flow, shear);
+    const struct frame_source source = flow_source(&flow);
+    struct face_work *work = face_new(flow.state->model);
+    struct frame frame = frame_piece(flow.state->mesh, 0, 0);
+    frame_gather(&source, 0, &frame, FACE_ROOM, work->frame);
+    face_solve(work, &frame, false);
+    double most = 0.0, c = sqrt(4.4 * (1e5 + 6e8) / 1000.0);
+    for (size_t i = 1; i < 31; i++) most = fmax(most, fabs(work->momentum[FACE_ROOM + face_at(&frame, 0, i)]));
+    face_free(work);
+    flow_stop(&flow);
+    return most / (1000.0 * c);
+}
+
+/* Only solvers that resist shear have anything to be drawn along the faces. */
+static void test_shear(void **state)
+{
+    (void)state;
+    assert_true(fabs(sheared("hll", 1.0) - 1.0) < 1e-9);
+    assert_true(fabs(sheared("hll", 0.05) - 0.05) < 1e-9);
+    assert_true(fabs(sheared("rusanov", 0.05) - 0.05) < 1e-9);
+    assert_true(sheared("hllc", 0.05) == 0.0);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_jump), cmocka_unit_test(test_sides),
-                                       cmocka_unit_test(test_kept), cmocka_unit_test(test_mirror),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_jump),   cmocka_unit_test(test_sides),
+                                       cmocka_unit_test(test_kept),   cmocka_unit_test(test_mirror),
+                                       cmocka_unit_test(test_along),  cmocka_unit_test(test_shear),
                                        cmocka_unit_test(test_solvers)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,7 +73,9 @@ struct bulla_faces {
 struct bulla_riemann {
     uint32_t size; /* sizeof(struct bulla_riemann) */
     void (*solve)(const void *self, const struct bulla_faces *faces);
-    uint32_t solids; /* 1: understands `solid`; a solver without is refused in scenes with a solid */
+    uint32_t solids;  /* 1: understands `solid`; a solver without is refused in scenes with a solid */
+    uint32_t resists; /* 1: diffuses jumps of u_t between fluids as fast as sound. In slow flow core then draws u_t
+                         together at the faces as it does u_n (`scheme.low-mach`) */
 };
 
 #ifdef __cplusplus
