@@ -12,10 +12,9 @@ void scene_diffusion(struct draft *draft)
         keys_error(&draft->keys, diffusion, "'rkl2' goes with the midpoint rule alone");
         diag_help(draft->keys.diag, "'integrator: midpoint'");
     }
-    if (scene->n_material > 1) {
-        keys_error(
-            &draft->keys, diffusion,
-            "'rkl2' goes with one material: in mixed cells heat moves volume, which steps this long do not get right");
+    if (scene->n_phase + scene->n_fick > 0) {
+        keys_error(&draft->keys, diffusion, "'rkl2' does not go with '%s': masses stay while heat flows",
+                   scene->n_phase ? "phase-change" : "gas-diffusion");
         diag_help(draft->keys.diag, "'diffusion: explicit'");
     }
     if (scene->n_rigid > 0) {

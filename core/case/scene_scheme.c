@@ -111,8 +111,8 @@ static const struct key scene_scheme_rows[] = {
          "How viscosity and conduction are stepped. explicit: with all else, in steps of h^2 where they are the "
          "shorter ones. rkl2: in s stages of their own per stage of the integrator, whose number grows with the root "
          "of the steps that are saved, and none where explicit steps do; for gels and gas at low pressure, with "
-         "one material and three arrays more. With finer levels: all levels together, half before and half after each "
-         "step of the coarsest."},
+         "three arrays more. With finer levels or several materials: all levels together, half before and half after "
+         "each step of the coarsest."},
     {.name = "cfl",
      .type = KEYS_NUMBER,
      .unit = "1",

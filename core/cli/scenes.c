@@ -9,6 +9,7 @@
 #include "io/start.h"
 #include "judge/norm.h"
 #include "plug/block.h"
+#include "solve/rkl.h"
 #include "solve/tableau.h"
 
 #include <string.h>
@@ -94,6 +95,6 @@ double scenes_bytes(const struct scene *scene, double cells)
 {
     unsigned n_alpha = scene->n_material > 1 ? scene->n_material : 0;
     unsigned arrays = 3 + tableau_keeps(tableau_of(scene));
-    if (scene->scheme.diffusion == SCENE_DIFFUSION_RKL2) arrays += 3; /* struct rkl */
+    if (scene->scheme.diffusion == SCENE_DIFFUSION_RKL2) arrays += rkl_flows(scene) ? 4 : 3; /* at most (rkl.h) */
     return cells * arrays * sizeof(double) * (n_alpha + scene->n_material + (unsigned)scene->domain.dim + 1);
 }

@@ -359,6 +359,7 @@ static void model_pull_all(struct model *model)
 {
     const struct scene *scene = model->scene;
     if (model->dim > 1 || !model->beta || !model->kapila || model->elastic || model->n_phase) return;
+    if (scene->scheme.diffusion == SCENE_DIFFUSION_RKL2) return; /* pulls are made of the strain of each stage */
     for (unsigned l = 0; l < model->n_material; l++)
         if (scene->material[l].viscosity.module)
             model->pulls[model->n_pull++] = (struct model_pull){.material = l, .field = model->n_field++};

@@ -64,7 +64,9 @@ static void transport_print_stages(const struct scene *scene, double times)
     int levels = scene->mesh.levels, own = rkl_stages(times);
     if (scene->scheme.diffusion != SCENE_DIFFUSION_RKL2) return;
     double half = 0.5 * ldexp(times, scene->mesh.subcycle ? levels : 0);
-    if (levels && own) printf("; rkl2 takes %d stages of all levels before and after each step", rkl_stages(half));
+    if (rkl_flows(scene) && own)
+        printf("; rkl2 takes %d stages of %s before and after each step", rkl_stages(half),
+               levels ? "all levels" : "its own");
     else printf(", rkl2 takes %d stages", own);
 }
 

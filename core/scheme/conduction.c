@@ -334,9 +334,21 @@ static void conduction_swell(const struct term_tile *tile, size_t from, size_t n
     swell_share(&swell, tile, from);
 }
 
+/* What each material gets, for warm.h. */
+static void conduction_tell(const struct term_tile *tile)
+{
+    size_t n = tile->n_cell;
+    const double *power = tile->rates + terms_first(tile->terms, &conduction_term) * n;
+    row_add(tile->model->n_alpha * n, power, tile->rates + tile->model->i_alpha * n);
+}
+
 static void conduction_cells(struct term_tile *tile)
 {
     if (!tile->model->kapila) return;
+    if (swell_waits(tile)) {
+        conduction_tell(tile);
+        return;
+    }
     for (size_t from = 0; from < tile->n_cell; from += CONDUCTION_LAW_BATCH)
         conduction_swell(tile, from,
                          tile->n_cell - from < CONDUCTION_LAW_BATCH ? tile->n_cell - from : CONDUCTION_LAW_BATCH);

@@ -12,6 +12,13 @@
 
 enum { SWELL_BATCH = 256 };
 
+/* In super steps (TERM_DIFFUSION, solve/flow.h) no volume moves: the rows of fractions get the power of each material [W/m3 of the
+ * cell], and phys/warm.h makes the fractions of a stage from its sum. */
+static inline bool swell_waits(const struct term_tile *tile)
+{
+    return tile->part == TERM_DIFFUSION;
+}
+
 /* A batch of cells of one tile. */
 struct swell {
     const struct model *path;

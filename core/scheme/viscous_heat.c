@@ -129,6 +129,21 @@ static void viscous_heat_begin(struct viscous_heat *at)
                             at->compliance);
 }
 
+/* What each material gets, for warm.h. */
+static void viscous_heat_tell(const struct viscous_heat *at)
+{
+    const struct term_tile *tile = at->tile;
+    const struct model *path = tile->model;
+    double heat[STRAIN_POINTS];
+    struct viscous_mix_number room;
+    for (unsigned l = 0; l < path->n_material; l++) {
+        const struct viscous_mix_rows rows = viscous_heat_ask(at, l, &room);
+        viscous_heat_own(at, l, &rows, heat);
+        row_add_product(at->strain->n, viscous_heat_row(at, path->i_alpha + l), heat,
+                        tile->rates + (path->i_alpha + l) * tile->n_cell + at->from);
+    }
+}
+
 /* Heat of each material moves volume. */
 static void viscous_heat_swell(struct viscous_heat *at)
 {
@@ -137,6 +152,10 @@ static void viscous_heat_swell(struct viscous_heat *at)
     struct swell swell; /* large: filled as far as it is used */
     struct viscous_mix_number room;
     viscous_heat_begin(at);
+    if (swell_waits(at->tile)) {
+        viscous_heat_tell(at);
+        return;
+    }
     swell_begin(&swell, path, at->strain->n);
     for (unsigned l = 0; l < path->n_material; l++) {
         const struct viscous_mix_rows rows = viscous_heat_ask(at, l, &room);

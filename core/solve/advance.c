@@ -378,13 +378,14 @@ static int advance_follow(struct state *state)
  * a finer one here: a step that it cannot take becomes two. */
 static int advance_apart(struct state *state, double dt)
 {
+    int parts = 0;
     state->whole = false;
-    TRY(flow_take(state, state->t, 0.5 * dt));
+    TRY(flow_take(state, state->t, 0.5 * dt, &parts));
     state->work->part = TERM_SLOW;
     int status = advance_through(state, 0, state->t, dt);
     state->work->part = TERM_WHOLE;
     if (status) return status;
-    TRY(flow_take(state, state->t + 0.5 * dt, 0.5 * dt));
+    TRY(flow_take(state, state->t + 0.5 * dt, 0.5 * dt, &parts));
     advance_count(state, dt);
     beyond_count(state);
     return regrid_verdict(state);

@@ -84,7 +84,7 @@ static void plan_levels(const struct scene *scene, struct text *text)
 static void plan_super(const struct scene *scene, struct text *text)
 {
     if (scene->scheme.diffusion != SCENE_DIFFUSION_RKL2) return;
-    if (scene->mesh.levels)
+    if (rkl_flows(scene))
         text_add(
             text,
             "where they bind, viscosity and conduction take half of a step of level 0 before it and half after it, "

@@ -33,7 +33,17 @@ int rkl_stages(double steps)
 
 double rkl_relief(void)
 {
-    return 2.0 * RKL_MARGIN * RKL_REAL / (RKL_MOST * RKL_MOST + RKL_MOST - 2);
+    return rkl_bears(RKL_MOST);
+}
+
+double rkl_bears(int s)
+{
+    return 2.0 * RKL_MARGIN * RKL_REAL / (s * s + s - 2);
+}
+
+bool rkl_flows(const struct scene *scene)
+{
+    return scene->mesh.levels > 0 || scene->n_material > 1;
 }
 
 static double rkl_b(int j)
@@ -53,6 +63,11 @@ struct rkl_stage rkl_stage(int s, int j)
     return stage;
 }
 
+size_t rkl_half(const struct stage *stage)
+{
+    return (stage->model->n_velocity + 1) * stage->mesh->n_cell;
+}
+
 struct rkl *rkl_new(const struct stage *stage)
 {
     if (stage->model->scene->scheme.diffusion != SCENE_DIFFUSION_RKL2) return NULL;
@@ -62,6 +77,7 @@ struct rkl *rkl_new(const struct stage *stage)
     rkl->z = mem_new(all, sizeof *rkl->z);
     rkl->before = mem_new(all, sizeof *rkl->before);
     rkl->M0 = mem_new(all, sizeof *rkl->M0);
+    if (rkl_flows(stage->model->scene)) rkl->half = mem_new(stage->level->n_local * rkl_half(stage), sizeof *rkl->half);
     return rkl;
 }
 
@@ -71,6 +87,7 @@ void rkl_free(struct rkl *rkl)
     mem_free(rkl->z);
     mem_free(rkl->before);
     mem_free(rkl->M0);
+    mem_free(rkl->half);
     mem_free(rkl);
 }
 
@@ -105,11 +122,11 @@ double rkl_steps(const struct stage *stage, double dt)
     return rkl_pace(stage) * dt / stage->model->scene->scheme.cfl;
 }
 
-/* Several levels take super steps together (solve/flow.h). */
+/* Flows of the whole step are not planned here (solve/flow.h). */
 void rkl_plan(struct stage *stage)
 {
     struct rkl *rkl = stage->rkl;
-    if (!rkl || stage->model->scene->mesh.levels > 0) return;
+    if (!rkl || rkl_flows(stage->model->scene)) return;
     double steps = rkl_steps(stage, stage->dt);
     int whole = rkl_stages(steps);
     for (int turn = 0; turn < stage->tableau->n; turn++) {

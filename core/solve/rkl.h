@@ -14,8 +14,8 @@
  * with the root of what explicit steps would number. It is counted in each step, from the fastest cell of all ranks.
  *
  * Each stage is an exchange and a gathering like those of the step; boundaries are asked at its time. An attempt begins from
- * u_old; nothing of one that fails is left. On one level and with one material (docs/decisions/super-steps.md); several levels
- * go together (solve/flow.h).
+ * u_old; nothing of one that fails is left. On one level and with one material (docs/decisions/super-steps.md); several levels, or
+ * materials, go by solve/flow.h.
  */
 #ifndef RKL_H
 #define RKL_H
@@ -26,6 +26,12 @@ enum { RKL_MOST = 63 }; /* stages: beyond, the time step gives in */
 
 /* Stages of a flow that is as long as so many explicit steps: odd, from 3 to RKL_MOST; 0: the integrator bears it. */
 int rkl_stages(double steps);
+
+/* Of scenes with rkl2: does what diffuses flow before and after each step (flow.h), and not within its stages? */
+bool rkl_flows(const struct scene *scene);
+
+/* The part of a flow of s stages that explicit steps could be as long as: bounds that go by the step go by it. */
+double rkl_bears(int s);
 
 /* What of the pace of explicit steps remains with super steps of RKL_MOST stages. */
 double rkl_relief(void);
@@ -40,9 +46,13 @@ struct rkl_stage rkl_stage(int s, int j);
 struct rkl {
     int s[TABLEAU_STAGES];   /* stages of each stage of the integrator; 0: none */
     double *z, *before, *M0; /* [n_local][n_field][n_cell]: z_j-1 and z_j-2, M(u) */
-    size_t block;            /* doubles of a tile */
-    int j;                   /* stage under way: it makes z_j */
+    double *half; /* [n_local][n_velocity + 1][n_cell]: of z in the middle of a flow; NULL: the scene has none */
+    size_t block; /* doubles of a tile */
+    int j;        /* stage under way: it makes z_j */
 };
+
+/* Doubles of a tile in struct rkl, half. */
+size_t rkl_half(const struct stage *stage);
 
 /* z_1 = a M(u) of n values, and z_0 = 0 into `before`. */
 void rkl_begin(size_t n, double a, const double *restrict M0, double *restrict z, double *restrict before);
