@@ -145,6 +145,16 @@ void comm_sum_counts(long long *values, int count)
     comm_reduce(values, count, MPI_LONG_LONG, MPI_SUM);
 }
 
+void comm_sum_before(long long *values, int count)
+{
+    MPI_Request request;
+    if (comm_is_active) {
+        MPI_Iexscan(MPI_IN_PLACE, values, count, MPI_LONG_LONG, MPI_SUM, MPI_COMM_WORLD, &request);
+        comm_wait(1, &request, MPI_STATUSES_IGNORE);
+    }
+    for (int i = 0; i < count && comm_rank() == 0; i++) values[i] = 0; /* nobody has written them */
+}
+
 /* Copies the recorded message of the lowest rank with `has` to all. */
 static void comm_share_message(bool has)
 {

@@ -45,6 +45,9 @@ void comm_min(double *values, int count);
 void comm_max(double *values, int count);
 void comm_sum_counts(long long *values, int count);
 
+/* In place, over the ranks below this one; 0 on rank 0. */
+void comm_sum_before(long long *values, int count);
+
 /* The first rank on which `here` is true; comm_size() where there is none. */
 int comm_first(bool here);
 

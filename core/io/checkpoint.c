@@ -13,8 +13,8 @@
 #include "io/place.h"
 #include "io/room.h"
 #include "io/seal.h"
+#include "io/whole.h"
 #include "io/writers.h"
-#include "mesh/nest.h"
 #include "solve/evaporate.h"
 #include "solve/peak.h"
 
@@ -285,12 +285,12 @@ static void checkpoint_put_tiles(struct checkpoint *point)
     const struct mesh *mesh = point->state->mesh;
     int32_t *rows = mem_new(point->n_tile * CHECKPOINT_TILE, sizeof *rows), *row = rows;
     for (int l = 0; l < mesh->n_level; l++) {
-        struct nest_set all = nest_of(mesh, l);
-        for (const struct tile *tile = all.tiles; tile < all.tiles + all.n; tile++, row += CHECKPOINT_TILE) {
+        const struct level *level = &mesh->levels[l];
+        for (unsigned i = 0; i < level->n_tile; i++, row += CHECKPOINT_TILE) {
+            const struct tile *tile = &level->tiles[i];
             const int32_t values[CHECKPOINT_TILE] = {l, tile->at[0], tile->at[1], tile->at[2], tile->unwanted};
             memcpy(row, values, sizeof values);
         }
-        nest_free_set(&all);
     }
     h5out_array(point->file, "/tiles", H5_I32, point->n_tile, CHECKPOINT_TILE, rows);
     checkpoint_list_part(point->file, &point->seal, "/tiles",
@@ -408,7 +408,9 @@ static int checkpoint_put(struct checkpoints *checkpoints, const struct state *s
     char *draft = place_draft(path);
     struct parts *parts = parts_new(path, checkpoints->writers, false);
     struct checkpoint point = {.state = state};
+    struct whole *whole = whole_begin(state->mesh);
     int code = checkpoint_draft(&point, parts, outputs);
+    whole_end(whole, state->mesh);
     if (!code) code = parts_accept(parts);
     if (!code) code = comm_agree(comm_rank() == 0 ? checkpoint_accept(checkpoints, &point.seal, draft, path) : 0);
     if (code) place_reject(path);

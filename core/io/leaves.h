@@ -3,7 +3,7 @@
  * By level; in a level first the tiles of which nothing lies under finer ones, along the Morton curve, then the
  * others, of which the open octants remain, one after the other. In a tile, and in an octant, x is fastest. So a
  * block (a tile or an octant) is a box of the level, and the local ones of each kind follow each other. Made from
- * the replicated tile lists: equal on all ranks. */
+ * the lists of all tiles (whole.h): equal on all ranks. */
 #ifndef LEAVES_H
 #define LEAVES_H
 

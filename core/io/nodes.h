@@ -2,8 +2,8 @@
  *
  * Tiles that touch share their corner points; if each tile brought its own, contours would break
  * at every tile. A point belongs to the first tile (level, then Morton order) that has a leaf there, and
- * points are numbered tile by tile, x fastest within a tile. All of this follows from the replicated
- * tile lists, so that numbers do not depend on the ranks and nobody has to ask a neighbour. Coarse and fine
+ * points are numbered tile by tile, x fastest within a tile. All of this follows from the lists of
+ * all tiles (whole.h), so that numbers do not depend on the ranks and nobody has to ask a neighbour. Coarse and fine
  * cells share the corners of the coarse ones; the others of the fine ones hang on their faces. */
 #ifndef NODES_H
 #define NODES_H

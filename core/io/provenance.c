@@ -196,28 +196,33 @@ struct provenance_cost {
     struct state_counts counts;
     struct ledger now;
     struct balance_level share[MESH_LEVELS];
+    double leaves[MESH_LEVELS];
 };
 
-/* Leaves of a level. */
-static double provenance_leaves(const struct mesh *mesh, const struct level *level)
+/* Leaves of each level. Collective. */
+static void provenance_leaves(const struct mesh *mesh, double ret_leaves[MESH_LEVELS])
 {
-    unsigned octants = 1u << mesh->dim;
-    double open = 0.0;
-    for (unsigned i = 0; i < level->n_tile; i++)
-        open += (double)octants - (double)__builtin_popcount(level->tiles[i].covered);
-    return open * (double)mesh->n_cell / (double)octants;
+    long long open[MESH_LEVELS] = {0}, octants = 1ll << mesh->dim;
+    for (int l = 0; l < mesh->n_level; l++) {
+        const struct level *level = &mesh->levels[l];
+        for (unsigned i = level->first; i < level->first + level->n_local; i++)
+            open[l] += octants - __builtin_popcount(level->tiles[i].covered);
+    }
+    comm_sum_counts(open, MESH_LEVELS);
+    for (int l = 0; l < MESH_LEVELS; l++) ret_leaves[l] = (double)open[l] * (double)mesh->n_cell / (double)octants;
 }
 
 /* What there is of each level now, and was at most. */
 static json_t *provenance_levels(const struct provenance *provenance, const struct state *state,
-                                 const struct balance_level share[MESH_LEVELS])
+                                 const struct provenance_cost *cost)
 {
+    const struct balance_level *share = cost->share;
     const struct mesh *mesh = state->mesh;
     json_t *levels = json_array();
     for (int l = 0; l < MESH_LEVELS && provenance->peak[l]; l++) {
         const struct level *level = &mesh->levels[l];
         unsigned tiles = l < mesh->n_level ? level->n_tile : 0;
-        double leaves = tiles ? provenance_leaves(mesh, level) : 0.0, n_cell = (double)mesh->n_cell;
+        double leaves = cost->leaves[l], n_cell = (double)mesh->n_cell;
         json_array_append_new(levels,
                               json_pack("{s:i, s:f, s:I, s:I, s:I, s:I, s:I, s:I, s:{s:o, s:o}}", "level", l, "width",
                                         level->h[0], "tiles", (json_int_t)tiles, "cells", (json_int_t)(tiles * n_cell),
@@ -246,7 +251,7 @@ static json_t *provenance_work(const struct provenance *provenance, const struct
     double cells = 0.0, leaves = 0.0;
     for (int l = 0; l < mesh->n_level; l++) {
         cells += (double)mesh->levels[l].n_tile * (double)mesh->n_cell;
-        leaves += provenance_leaves(mesh, &mesh->levels[l]);
+        leaves += cost->leaves[l];
     }
     json_object_set_new(work, "cells", json_integer((json_int_t)cells)); /* of all levels, covered ones too */
     json_object_set_new(work, "leaves", json_integer((json_int_t)leaves));
@@ -312,7 +317,7 @@ static char *provenance_compose(const struct provenance *provenance, const struc
     json_object_set_new(root, "guard", provenance_guard(&cost->counts));
     json_object_set_new(root, "closures", provenance_laws_closures(&cost->counts));
     json_object_set_new(root, "outside", provenance_laws_outside(state->model, &cost->counts));
-    json_object_set_new(root, "levels", provenance_levels(provenance, state, cost->share));
+    json_object_set_new(root, "levels", provenance_levels(provenance, state, cost));
     json_object_set_new(root, "cpu_split_s", provenance_split(cost));
     json_object_set_new(root, "refinement", provenance_refinement(cost));
     json_object_set_new(root, "exit_reason", json_string(reason));
@@ -379,6 +384,7 @@ int provenance_write(struct provenance *provenance, const struct state *state, c
     provenance_parts(provenance, state, cost.split);
     ledger_take(state, &cost.now);
     balance_take(&state->work->balance, cost.share);
+    provenance_leaves(state->mesh, cost.leaves);
     char *text = comm_rank() == 0 ? provenance_compose(provenance, state, &cost, reason, exit_code) : NULL;
     mem_free(provenance->text);
     provenance->text = provenance_share(text);

@@ -200,6 +200,8 @@ static int rebuild_nests(const struct rebuild *rebuild, int n_level)
     for (int l = 0; l < n_level; l++) {
         struct level *level = &mesh->levels[l];
         level->n_tile = resume->n_tile[l];
+        level->n_known = level->n_local = level->n_tile; /* every rank looks at all of it */
+        level->n_rank = 1;
         level->tiles = tiles;
         tiles += level->n_tile;
         for (int d = 0; d < 3; d++)

@@ -1,5 +1,6 @@
-/* sample.c - see sample.h. The cells around a point are found once per mesh; each rank fills in those that it holds, a
- * maximum over the ranks brings them together, and every rank interpolates the same numbers in the same way. */
+/* sample.c - see sample.h. The cells around a point are found once per mesh: the rank that holds the point says of which
+ * level they are. Each rank fills in those that it holds, a maximum over the ranks brings them together, and every rank
+ * interpolates the same numbers in the same way. */
 #include "io/sample.h"
 
 #include "base/comm.h"
@@ -37,7 +38,7 @@ static int sample_bracket(const struct mesh *mesh, const struct level *level, in
     return below < 0.0 ? 0 : below >= cells - 1 ? cells - 1 : (int)below;
 }
 
-/* The tile of a level that holds a cell, or -1; ret_cell: the cell in it. */
+/* The tile of a level that holds a cell, or -1 (there is none, or nothing of it is here); ret_cell: the cell in it. */
 static int sample_tile(const struct mesh *mesh, const struct level *level, const int at[3], size_t *ret_cell)
 {
     const int *n = mesh->n, tile[3] = {at[0] / n[0], at[1] / n[1], at[2] / n[2]};
@@ -45,7 +46,7 @@ static int sample_tile(const struct mesh *mesh, const struct level *level, const
     return mesh_find(mesh, level, tile);
 }
 
-/* The cells of a level around x; false if one of them is not there. */
+/* The cells of a level around x; false if one of them is not there (or, where x is on another rank, not known). */
 static bool sample_surround(const struct mesh *mesh, int l, const double x[3], struct sample_point *point)
 {
     const struct level *level = &mesh->levels[l];
@@ -69,17 +70,25 @@ static bool sample_surround(const struct mesh *mesh, int l, const double x[3], s
     return there;
 }
 
-/* Finds the cells around every point: at the start, and again when tiles have come or gone. */
+/* The finest level that has all cells around x, if x is on this rank; else -1. */
+static double sample_level(const struct mesh *mesh, const double x[3], struct sample_point *point)
+{
+    size_t cell;
+    unsigned local;
+    int l;
+    if (!mesh_locate(mesh, x, &l, &local, &cell)) return -1.0;
+    return sample_surround(mesh, l, x, point) ? l : l - 1;
+}
+
+/* Finds the cells around every point: at the start, and again when tiles have come or gone. Collective. */
 static void sample_look(struct sample *sample, const struct mesh *mesh)
 {
-    for (unsigned i = 0; i < sample->n; i++) {
-        size_t cell;
-        int l;
-        mesh_locate(mesh, sample->at[i], &l, &cell);
-        if (!sample_surround(mesh, l, sample->at[i], &sample->points[i]))
-            sample_surround(mesh, l - 1, sample->at[i], &sample->points[i]);
-    }
+    double *levels = mem_new(sample->n, sizeof *levels);
+    for (unsigned i = 0; i < sample->n; i++) levels[i] = sample_level(mesh, sample->at[i], &sample->points[i]);
+    comm_max(levels, (int)sample->n);
+    for (unsigned i = 0; i < sample->n; i++) sample_surround(mesh, (int)levels[i], sample->at[i], &sample->points[i]);
     sample->revision = mesh->revision;
+    mem_free(levels);
 }
 
 struct sample *sample_new(const struct mesh *mesh, unsigned n, const double (*at)[3])
@@ -142,7 +151,7 @@ void sample_collect(struct sample *sample, const struct state *state, const stru
         for (unsigned corner = 0; corner < sample->n_corner; corner++) {
             size_t cell;
             int tile = sample_tile(mesh, level, point->at[corner], &cell);
-            if (level->tiles[tile].rank != comm_rank()) continue;
+            if (tile < 0 || level->tiles[tile].rank != comm_rank()) continue;
             unsigned local = (unsigned)tile - level->first;
             if (tile != at_tile || point->level != at_level)
                 derive_tile(state->model, mesh, point->level, local, state->t, field, sample->tile);

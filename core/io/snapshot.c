@@ -12,6 +12,7 @@
 #include "io/filelist.h"
 #include "io/h5out.h"
 #include "io/leaves.h"
+#include "io/whole.h"
 #include "io/parts.h"
 #include "io/place.h"
 #include "io/vtkhdf.h"
@@ -199,11 +200,13 @@ static int snapshot_fill(struct h5 *file, const struct state *state, const struc
     int32_t step = (int32_t)state->step;
     h5_attribute(file, "/", "time", H5_F64, 0, &state->t);
     h5_attribute(file, "/", "iteration", H5_I32, 0, &step);
+    struct whole *whole = whole_begin(state->mesh);
     struct leaves *leaves = leaves_new(state->mesh);
     int code = vtkhdf_write(file, state, leaves, fields, cells);
     if (!code && state->mesh->dim > 1) chombo_write(file, state, leaves, fields);
     if (!code) snapshot_write_bulla(file, state, provenance);
     leaves_free(leaves);
+    whole_end(whole, state->mesh);
     return code;
 }
 

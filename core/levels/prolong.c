@@ -324,12 +324,12 @@ static unsigned prolong_list(const struct mesh *mesh, int l, const bool *born, s
 {
     const struct level *level = &mesh->levels[l], *coarse = &mesh->levels[l - 1];
     unsigned count = 0, items[2] = {0, 0};
-    for (unsigned i = 0; i < level->n_tile; i++) {
+    for (unsigned i = 0; i < level->n_known; i++) {
         if (!born[i]) continue;
         const int *at = level->tiles[i].at, above[3] = {at[0] >> 1, at[1] >> 1, at[2] >> 1};
-        unsigned parent = (unsigned)mesh_find(mesh, coarse, above);
-        struct prolong_birth birth = {i, parent, coarse->tiles[parent].rank, level->tiles[i].rank, 0};
-        if (birth.from != comm_rank() && birth.to != comm_rank()) continue;
+        int parent = mesh_find(mesh, coarse, above), from = parent < 0 ? -1 : coarse->tiles[parent].rank;
+        struct prolong_birth birth = {i, (unsigned)parent, from, level->tiles[i].rank, 0};
+        if (from != comm_rank() && birth.to != comm_rank()) continue;
         if (birth.from != birth.to) birth.item = items[birth.to == comm_rank()]++;
         births[count++] = birth;
     }
@@ -471,8 +471,8 @@ long long prolong_tiles(struct prolong *prolong, struct mesh *mesh, int l, struc
 {
     const struct level *coarse = &mesh->levels[l - 1];
     struct level *fine = &mesh->levels[l];
-    struct prolong_birth *births = mem_new(fine->n_tile, sizeof *births);
-    unsigned n = prolong_list(mesh, l, born, births), prepared = coarse->n_tile;
+    struct prolong_birth *births = mem_new(fine->n_known, sizeof *births);
+    unsigned n = prolong_list(mesh, l, born, births), prepared = coarse->n_known;
     struct post *post = prolong_post(mesh, births, n);
     size_t block = mesh->n_field * mesh->n_cell, i_p = prolong->model->i_E * mesh->n_cell;
     long long limited = 0;

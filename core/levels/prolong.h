@@ -30,7 +30,7 @@ void prolong_free(struct prolong *prolong);
 void prolong_strips(struct prolong *prolong, const struct mesh *mesh, int l, struct bound *bound, int slot);
 
 /* Fills u_old, and the pressure in w (where iterated closures start), of the tiles of level l >= 1 that are marked in
- * born[n_tile] (all tiles of the level, replicated), from u_old and w of level l - 1 (halo of w exchanged and
+ * born[n_known] (of the level), from u_old and w of level l - 1 (halo of w exchanged and
  * finished; `bound` of level l - 1). Returns the number of coarse cells of this rank where phi was below 1.
  * Collective. */
 long long prolong_tiles(struct prolong *prolong, struct mesh *mesh, int l, struct bound *bound, const bool *born);

@@ -106,7 +106,7 @@ static size_t restrict_origin(const struct mesh *mesh, int octant)
 static double *restrict_target(const struct mesh *mesh, int l, const struct link_child *child)
 {
     const struct level *coarse = &mesh->levels[l - 1];
-    return coarse->u_old[child->coarse - coarse->first] + restrict_origin(mesh, child->octant);
+    return coarse->u_old[child->coarse] + restrict_origin(mesh, child->octant);
 }
 
 void restrict_averages(const struct mesh *mesh, int l)
@@ -122,12 +122,12 @@ void restrict_averages(const struct mesh *mesh, int l)
     }
     for (unsigned i = 0; i < link->n_child; i++) {
         const struct link_child *child = &link->children[i];
-        const double *fine = level->u_old[child->fine - level->first];
+        const double *fine = level->u_old[child->fine];
         bool away = child->average != NULL;
         double *to = away ? child->average : restrict_target(mesh, l, child);
         size_t pitch = away ? link->octant_cells : mesh->n_cell, step = away ? n[0] : box.n[0];
         size_t plane = away ? n[0] * n[1] : box.n[0] * box.n[1];
-        if (mesh->beta) restrict_shares(mesh, level, &level->tiles[child->fine], share);
+        if (mesh->beta) restrict_shares(mesh, level, &level->tiles[level->first + child->fine], share);
         for (unsigned q = 0; q < mesh->n_field; q++)
             restrict_box(&box, fine + q * mesh->n_cell, step, plane, to + q * pitch);
     }

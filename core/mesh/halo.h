@@ -2,7 +2,7 @@
  *
  * A slab is the mesh's ghosts layers next to a face, of all fields: [n_field][outer][ghosts][inner],
  * where inner and outer are the products of the tile's extents before and after the axis.
- * Both sides derive the list of slabs from the replicated topology; there is one message per
+ * Both sides derive the list of slabs from what they know of each other's tiles; there is one message per
  * pair of ranks, with persistent requests made once per topology. */
 #ifndef HALO_H
 #define HALO_H

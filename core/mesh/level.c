@@ -1,12 +1,11 @@
 /* level.c - see level.h. Own tiles are found by a table of slots: a build asks some ten times per tile, and
  * bisection of a long list costs several times as much. Those of others, which only tiles at the rim of the own piece
- * ask for, are found by bisection: a table of all would cost each rank more than it saves. */
+ * ask for, are found by bisection. */
 #include "mesh/level.h"
 
 #include "base/comm.h"
 #include "base/mem.h"
 #include "mesh/morton.h"
-#include "mesh/span.h"
 
 void level_local(const struct tile *tiles, unsigned n_tile, unsigned *ret_first, unsigned *ret_n_local)
 {
@@ -31,15 +30,12 @@ void level_tabulate(struct level *level)
         *slots_find(&level->slots, own[i].key, level_has, own, &own[i].key) = i + 1;
 }
 
-void level_adopt(struct level *level, struct tile *tiles, unsigned n_tile)
+void level_adopt(struct level *level, struct tile *tiles, unsigned n_known)
 {
     mem_free(level->tiles);
     level->tiles = tiles;
-    level->n_tile = n_tile;
-    level_local(tiles, n_tile, &level->first, &level->n_local);
-    mem_free(level->first_keys);
-    level->n_rank = comm_size();
-    level->first_keys = span_first(tiles, n_tile, level->n_rank);
+    level->n_known = n_known;
+    level_local(tiles, n_known, &level->first, &level->n_local);
     level_tabulate(level);
 }
 
@@ -52,7 +48,7 @@ void level_drop(struct level *level)
     level->first_keys = NULL;
     level->neighbours = NULL;
     level->tiles = NULL;
-    level->n_tile = level->first = level->n_local = 0;
+    level->n_tile = level->n_known = level->first = level->n_local = 0;
 }
 
 /* A tile in one of the pieces before or after the own one. */
@@ -60,13 +56,13 @@ static int level_find_far(const struct level *level, uint64_t key)
 {
     unsigned end = level->first + level->n_local;
     bool before = level->first > 0 && key <= level->tiles[level->first - 1].key;
-    unsigned low = before ? 0 : end, high = before ? level->first : level->n_tile;
+    unsigned low = before ? 0 : end, high = before ? level->first : level->n_known;
     while (low < high) {
         unsigned middle = low + (high - low) / 2;
         if (level->tiles[middle].key < key) low = middle + 1;
         else high = middle;
     }
-    return low < level->n_tile && level->tiles[low].key == key ? (int)low : -1;
+    return low < level->n_known && level->tiles[low].key == key ? (int)low : -1;
 }
 
 int level_find(const struct level *level, uint64_t key)
@@ -125,11 +121,11 @@ void level_mark(struct mesh *mesh, int l)
     const struct level none = {0}, *finer = l + 1 < mesh->n_level ? &mesh->levels[l + 1] : &none;
     struct level *level = &mesh->levels[l];
     unsigned i = 0;
-    for (unsigned t = 0; t < level->n_tile; t++) level->tiles[t].covered = 0;
-    for (unsigned t = 0; t < finer->n_tile; t++) {
+    for (unsigned t = 0; t < level->n_known; t++) level->tiles[t].covered = 0;
+    for (unsigned t = 0; t < finer->n_known; t++) {
         uint64_t key = finer->tiles[t].key;
-        while (i < level->n_tile && level->tiles[i].key < key >> 3) i++;
-        if (i < level->n_tile && level->tiles[i].key == key >> 3)
+        while (i < level->n_known && level->tiles[i].key < key >> 3) i++;
+        if (i < level->n_known && level->tiles[i].key == key >> 3)
             level->tiles[i].covered = (unsigned char)(level->tiles[i].covered | 1u << (key & 7u));
     }
 }

@@ -40,12 +40,24 @@ static void link_patch(const struct mesh *mesh, int octant, struct link_face *fa
     face->from[axis] = face->layer + 1 - link_depth(mesh);
 }
 
+/* Lists of known tiles change with other levels than those of a link: what it keeps is counted from the first local tile
+ * on. */
+static unsigned link_local(const struct level *level, int tile)
+{
+    return (unsigned)tile - level->first;
+}
+
+static const struct tile *link_tile(const struct level *level, unsigned local)
+{
+    return &level->tiles[level->first + local];
+}
+
 /* The coarse tile above a place of the fine level. */
 static unsigned link_above(struct link_draft *draft, uint64_t key)
 {
     int coarse = level_find(draft->coarse, key >> 3);
     if (coarse < 0) draft->nested = false;
-    return (unsigned)coarse;
+    return link_local(draft->coarse, coarse);
 }
 
 static void link_list_faces(struct link_draft *draft)
@@ -61,10 +73,13 @@ static void link_list_faces(struct link_draft *draft)
             const struct neighbour *neighbour = &fine->neighbours[t][face];
             if (neighbour->kind != NEIGHBOUR_COARSE) continue;
             int at[3];
-            level_step(draft->mesh, fine, &fine->tiles[fine->first + t], face, at);
+            level_step(draft->mesh, fine, link_tile(fine, t), face, at);
             uint64_t key = morton_key(at);
             struct link_face *entry = &link->faces[neighbour->index];
-            *entry = (struct link_face){.fine = fine->first + t, .coarse = link_above(draft, key), .face = face};
+            *entry = (struct link_face){.key = link_tile(fine, t)->key,
+                                        .fine = t,
+                                        .coarse = link_above(draft, key),
+                                        .face = face};
             link_patch(draft->mesh, (int)(key & 7u), entry);
         }
 }
@@ -76,9 +91,8 @@ static void link_list_children(struct link_draft *draft)
     link->n_child = fine->n_local;
     link->children = mem_new(fine->n_local, sizeof *link->children);
     for (unsigned t = 0; t < fine->n_local; t++) {
-        uint64_t key = fine->tiles[fine->first + t].key;
-        link->children[t] =
-            (struct link_child){.fine = fine->first + t, .coarse = link_above(draft, key), .octant = (int)(key & 7u)};
+        uint64_t key = link_tile(fine, t)->key;
+        link->children[t] = (struct link_child){.fine = t, .coarse = link_above(draft, key), .octant = (int)(key & 7u)};
     }
 }
 
@@ -88,19 +102,19 @@ static void link_list_octants(struct link_draft *draft)
     struct link *link = draft->link;
     link->octant_from = mem_new(coarse->n_local + 1, sizeof *link->octant_from);
     for (unsigned c = 0; c < coarse->n_local; c++) {
-        unsigned covered = coarse->tiles[coarse->first + c].covered;
+        unsigned covered = link_tile(coarse, c)->covered;
         link->octant_from[c + 1] = link->octant_from[c] + (unsigned)__builtin_popcount(covered);
     }
     link->n_octant = link->octant_from[coarse->n_local];
     link->octants = mem_new(link->n_octant, sizeof *link->octants);
     unsigned count = 0;
     for (unsigned c = 0; c < coarse->n_local; c++) {
-        const struct tile *tile = &coarse->tiles[coarse->first + c];
+        const struct tile *tile = link_tile(coarse, c);
         for (unsigned o = 0; o < MESH_OCTANTS; o++)
             if (tile->covered >> o & 1u)
                 link->octants[count++] =
-                    (struct link_child){.fine = (unsigned)level_find(draft->fine, tile->key << 3 | o),
-                                        .coarse = coarse->first + c,
+                    (struct link_child){.fine = link_local(draft->fine, level_find(draft->fine, tile->key << 3 | o)),
+                                        .coarse = c,
                                         .octant = (int)o};
     }
 }
@@ -108,7 +122,7 @@ static void link_list_octants(struct link_draft *draft)
 static int link_compare_faces(const void *a, const void *b)
 {
     const struct link_face *x = a, *y = b;
-    if (x->fine != y->fine) return x->fine < y->fine ? -1 : 1;
+    if (x->key != y->key) return x->key < y->key ? -1 : 1;
     return x->face - y->face;
 }
 
@@ -128,16 +142,16 @@ static const struct tile *link_beside(const struct link_draft *draft, unsigned c
 {
     const struct level *coarse = draft->coarse;
     const struct neighbour *neighbour = &coarse->neighbours[c][face];
-    if (neighbour->kind == NEIGHBOUR_LOCAL) return &coarse->tiles[coarse->first + neighbour->index];
+    if (neighbour->kind == NEIGHBOUR_LOCAL) return link_tile(coarse, neighbour->index);
     if (neighbour->kind != NEIGHBOUR_REMOTE) return NULL;
-    return &coarse->tiles[level_behind(draft->mesh, coarse, &coarse->tiles[coarse->first + c], face)];
+    return &coarse->tiles[level_behind(draft->mesh, coarse, link_tile(coarse, c), face)];
 }
 
 /* Faces of fine tiles, on the side `face` of each, that look at octants of local coarse tile c which no fine tile
  * covers. The octant that holds the fine tile differs along the axis: in the same tile or in the one beside it. */
 static void link_look(struct link_draft *draft, unsigned c, int face)
 {
-    const struct tile *tile = &draft->coarse->tiles[draft->coarse->first + c];
+    const struct tile *tile = link_tile(draft->coarse, c);
     const struct tile *beside = link_beside(draft, c, face ^ 1);
     unsigned bit = 1u << face / 2;
     for (unsigned o = 0; o < 1u << draft->mesh->dim; o++) {
@@ -145,10 +159,9 @@ static void link_look(struct link_draft *draft, unsigned c, int face)
         bool inside = ((o & bit) != 0) == (face % 2 == 1); /* looking up at an upper octant, or down at a lower one */
         const struct tile *holder = inside ? tile : beside;
         if (!holder || !(holder->covered >> (o ^ bit) & 1u)) continue;
-        int fine = level_find(draft->fine, holder->key << 3 | (o ^ bit));
-        link_add_source(draft,
-                        (struct link_face){.fine = (unsigned)fine, .coarse = draft->coarse->first + c, .face = face},
-                        (int)o);
+        uint64_t key = holder->key << 3 | (o ^ bit);
+        unsigned fine = link_local(draft->fine, level_find(draft->fine, key));
+        link_add_source(draft, (struct link_face){.key = key, .fine = fine, .coarse = c, .face = face}, (int)o);
     }
 }
 
@@ -160,7 +173,7 @@ static void link_list_sources(struct link_draft *draft)
     link->source_from = mem_new(coarse->n_local + 1, sizeof *link->source_from);
     for (unsigned c = 0; c < coarse->n_local; c++) {
         unsigned from = link->source_from[c];
-        if (coarse->tiles[coarse->first + c].covered != whole)
+        if (link_tile(coarse, c)->covered != whole)
             for (int face = 0; face < 2 * draft->mesh->dim; face++) link_look(draft, c, face);
         link->source_from[c + 1] = link->n_source;
         if (link->n_source > from)
@@ -168,9 +181,9 @@ static void link_list_sources(struct link_draft *draft)
     }
 }
 
-static bool link_here(const struct level *level, unsigned tile)
+static bool link_here(const struct level *level, unsigned local)
 {
-    return tile - level->first < level->n_local;
+    return local < level->n_local;
 }
 
 static void link_sort_away(struct link_draft *draft)
@@ -189,14 +202,14 @@ static void link_sort_away(struct link_draft *draft)
     mem_free(list);
 }
 
-static void link_add_out(struct link_draft *draft, const struct tile *to, size_t doubles)
+static void link_add_out(struct link_draft *draft, const struct level *level, unsigned local, size_t doubles)
 {
-    draft->out[draft->n_out++] = (struct post_item){.rank = to->rank, .doubles = doubles};
+    draft->out[draft->n_out++] = (struct post_item){.rank = link_tile(level, local)->rank, .doubles = doubles};
 }
 
-static void link_add_in(struct link_draft *draft, const struct tile *from, size_t doubles)
+static void link_add_in(struct link_draft *draft, const struct level *level, unsigned local, size_t doubles)
 {
-    draft->in[draft->n_in++] = (struct post_item){.rank = from->rank, .doubles = doubles};
+    draft->in[draft->n_in++] = (struct post_item){.rank = link_tile(level, local)->rank, .doubles = doubles};
 }
 
 static struct post *link_post(struct link_draft *draft, int tag)
@@ -209,24 +222,24 @@ static struct post *link_post(struct link_draft *draft, int tag)
 static void link_connect(struct link_draft *draft, struct link_own *own)
 {
     const struct link *link = draft->link;
-    const struct tile *fine = draft->fine->tiles, *coarse = draft->coarse->tiles;
+    const struct level *fine = draft->fine, *coarse = draft->coarse;
     size_t flux = link->n_register * link->face_cells, average = draft->mesh->n_field * link->octant_cells;
     draft->out = mem_new((size_t)link->n_face + link->n_child + draft->n_away, sizeof *draft->out);
     draft->in = mem_new((size_t)link->n_face + link->n_octant + draft->n_away, sizeof *draft->in);
     for (unsigned i = 0; i < draft->n_away; i++)
-        link_add_out(draft, &fine[link->sources[draft->away[i]].fine], 2 * link->strip_doubles);
+        link_add_out(draft, fine, link->sources[draft->away[i]].fine, 2 * link->strip_doubles);
     for (unsigned i = 0; i < link->n_face; i++)
         if (!link_here(draft->coarse, link->faces[i].coarse))
-            link_add_in(draft, &coarse[link->faces[i].coarse], 2 * link->strip_doubles);
+            link_add_in(draft, coarse, link->faces[i].coarse, 2 * link->strip_doubles);
     own->down = link_post(draft, POST_DOWN);
     for (unsigned i = 0; i < link->n_face; i++)
-        if (!link_here(draft->coarse, link->faces[i].coarse)) link_add_out(draft, &coarse[link->faces[i].coarse], flux);
+        if (!link_here(draft->coarse, link->faces[i].coarse)) link_add_out(draft, coarse, link->faces[i].coarse, flux);
     for (unsigned i = 0; i < link->n_child; i++)
         if (!link_here(draft->coarse, link->children[i].coarse))
-            link_add_out(draft, &coarse[link->children[i].coarse], average);
-    for (unsigned i = 0; i < draft->n_away; i++) link_add_in(draft, &fine[link->sources[draft->away[i]].fine], flux);
+            link_add_out(draft, coarse, link->children[i].coarse, average);
+    for (unsigned i = 0; i < draft->n_away; i++) link_add_in(draft, fine, link->sources[draft->away[i]].fine, flux);
     for (unsigned i = 0; i < link->n_octant; i++)
-        if (!link_here(draft->fine, link->octants[i].fine)) link_add_in(draft, &fine[link->octants[i].fine], average);
+        if (!link_here(draft->fine, link->octants[i].fine)) link_add_in(draft, fine, link->octants[i].fine, average);
     own->up = link_post(draft, POST_UP);
     mem_free(draft->out);
     mem_free(draft->in);
@@ -262,7 +275,7 @@ static void link_store_faces(struct link_draft *draft, struct link_own *own)
     for (unsigned i = 0; i < link->n_source; i++) {
         struct link_face *source = &link->sources[i];
         if (!link_here(draft->fine, source->fine)) continue;
-        unsigned index = draft->fine->neighbours[source->fine - draft->fine->first][source->face].index;
+        unsigned index = draft->fine->neighbours[source->fine][source->face].index;
         link_place(link, source, link->faces[index].strip[0], link->faces[index].flux);
     }
 }

@@ -13,7 +13,8 @@
 
 /* One end of a coarse-fine face. */
 struct link_face {
-    unsigned fine, coarse; /* tiles: indices in the lists of the levels */
+    uint64_t key;          /* of the fine tile */
+    unsigned fine, coarse; /* local tiles; an end that is on another rank: at least n_local */
     int face;              /* 2 * axis + side of the fine tile */
     int layer;             /* along the axis: the layer of coarse cells next to the face, in the coarse tile */
     int from[3];           /* first cell of the patch that strips are made from, in the coarse tile: link_depth cells
@@ -24,7 +25,7 @@ struct link_face {
 
 /* A fine tile and the octant under which it lies. */
 struct link_child {
-    unsigned fine, coarse;
+    unsigned fine, coarse; /* as above */
     int octant;
     double *average; /* [n_field][(n/2)^d]: of the fine tile, x fastest; NULL where both tiles are local */
 };

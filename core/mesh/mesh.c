@@ -1,9 +1,9 @@
 /* mesh.c - the mesh as a whole: tile size, level 0, replacing the tiles of a level, and where a point lies. What
  * follows from a list of tiles is made in level.c, halo.c and link.c, blocks are moved in move.c.
  *
- * Main invariant: tiles are sorted by key and every rank holds the whole list, so that who
- * owns what, and what must be exchanged, follows on every rank from the same data without a
- * message. Storage is three arrays per tile (u_old, u_new, w), component-major and without
+ * Main invariant: tiles are sorted by key, and every rank knows all tiles that anything of its own touches
+ * (mesh/fringe.h), so that who owns these, and what must be exchanged with whom, follows on both ranks from the same data
+ * without a message. Storage is three arrays per tile (u_old, u_new, w), component-major and without
  * ghosts: measured cheaper than stored ghost frames (docs/decisions). */
 #include "mesh/mesh.h"
 
@@ -11,6 +11,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "mesh/fringe.h"
 #include "mesh/halo.h"
 #include "mesh/level.h"
 #include "mesh/link.h"
@@ -19,6 +20,7 @@
 #include "mesh/pool.h"
 #include "mesh/rigid.h"
 #include "mesh/rim.h"
+#include "mesh/span.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -82,30 +84,68 @@ int mesh_tile_size(const struct scene *scene)
     return n;
 }
 
-static int mesh_compare_tiles(const void *a, const void *b)
+/* A cube of the curve, `size` tiles along each axis, from `key` on. */
+struct mesh_cube {
+    uint64_t key;
+    int size;
+};
+
+/* Its tiles in the domain. */
+static unsigned mesh_cube_tiles(const int extent[3], struct mesh_cube cube)
 {
-    uint64_t ka = ((const struct tile *)a)->key, kb = ((const struct tile *)b)->key;
-    return (ka > kb) - (ka < kb);
+    int at[3], count = 1;
+    morton_at(cube.key, at);
+    for (int d = 0; d < 3; d++) {
+        int rest = extent[d] - at[d];
+        count *= rest < 0 ? 0 : rest < cube.size ? rest : cube.size;
+    }
+    return (unsigned)count;
+}
+
+/* The tiles `from` to `to` - 1 of those of the domain in a cube, along the curve: into `tiles`; returns their end. */
+static struct tile *mesh_fill_cube(const int extent[3], struct mesh_cube cube, unsigned from, unsigned to,
+                                   struct tile *tiles)
+{
+    unsigned n = mesh_cube_tiles(extent, cube);
+    if (from >= n || from >= to) return tiles;
+    if (cube.size == 1) {
+        *tiles = (struct tile){.key = cube.key};
+        morton_at(cube.key, tiles->at);
+        return tiles + 1;
+    }
+    for (uint64_t octant = 0; octant < MESH_OCTANTS; octant++) {
+        int half = cube.size / 2;
+        uint64_t volume = (uint64_t)half * (uint64_t)half * (uint64_t)half;
+        struct mesh_cube part = {cube.key + octant * volume, half};
+        n = mesh_cube_tiles(extent, part);
+        tiles = mesh_fill_cube(extent, part, from, to, tiles);
+        from = from > n ? from - n : 0;
+        to = to > n ? to - n : 0;
+    }
+    return tiles;
 }
 
 /* All tiles of the domain, cut into equal pieces of the curve. */
-static struct tile *mesh_fill(const int extent[3], unsigned *ret_n_tile)
+static struct mesh_set mesh_fill(const int extent[3])
 {
-    unsigned n_tile = (unsigned)(extent[0] * extent[1] * extent[2]), count = 0;
-    struct tile *tiles = mem_new(n_tile, sizeof *tiles);
-    for (int k = 0; k < extent[2]; k++)
-        for (int j = 0; j < extent[1]; j++)
-            for (int i = 0; i < extent[0]; i++) {
-                struct tile *tile = &tiles[count++];
-                *tile = (struct tile){.at = {i, j, k}};
-                tile->key = morton_key(tile->at);
-            }
-    qsort(tiles, n_tile, sizeof *tiles, mesh_compare_tiles);
-    uint64_t size = (uint64_t)comm_size();
-    for (uint64_t rank = 0; rank < size; rank++)
-        for (uint64_t i = n_tile * rank / size; i < n_tile * (rank + 1) / size; i++) tiles[i].rank = (int)rank;
-    *ret_n_tile = n_tile;
-    return tiles;
+    struct mesh_set set = {.n_tile = (unsigned)(extent[0] * extent[1] * extent[2])};
+    struct mesh_cube all = {0, 1};
+    uint64_t size = (uint64_t)comm_size(), rank = (uint64_t)comm_rank();
+    while (all.size < extent[0] || all.size < extent[1] || all.size < extent[2]) all.size *= 2;
+    unsigned first = (unsigned)(set.n_tile * rank / size), end = (unsigned)(set.n_tile * (rank + 1) / size);
+    set.n = end - first;
+    set.tiles = mem_new(set.n, sizeof *set.tiles);
+    mesh_fill_cube(extent, all, first, end, set.tiles);
+    set.from = mem_new(set.n, sizeof *set.from);
+    for (unsigned i = 0; i < set.n; i++) set.from[i] = -1;
+    set.first_keys = mem_new(size, sizeof *set.first_keys);
+    for (uint64_t r = 0; r < size; r++) {
+        struct tile tile;
+        first = (unsigned)(set.n_tile * r / size);
+        bool any = mesh_fill_cube(extent, all, first, first + 1, &tile) != &tile;
+        set.first_keys[r] = any ? tile.key : UINT64_MAX;
+    }
+    return set;
 }
 
 static void mesh_measure(struct mesh *mesh, const struct scene *scene, int n)
@@ -150,10 +190,9 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
     if (mesh->n_kept) mesh->kept_pool = pool_new(mesh->n_kept * mesh->n_cell);
     mesh->rims = rim_shelf_new();
     mesh->rigid = rigid_new(scene);
-    unsigned n_tile;
-    struct tile *tiles = mesh_fill(mesh->levels[0].extent, &n_tile);
+    struct mesh_set set = mesh_fill(mesh->levels[0].extent);
     struct mesh_change change;
-    mesh_replace(mesh, 0, tiles, n_tile, &change);
+    mesh_replace(mesh, 0, 0, &set, &change);
     mesh_change_free(&change);
     *ret_mesh = mesh;
     return STATUS_OK;
@@ -192,33 +231,58 @@ static void mesh_link(struct mesh *mesh, int l)
     mesh->levels[l].link = link_new(mesh, l);
 }
 
-/* All that hangs on the tiles of level l. */
-static void mesh_connect(struct mesh *mesh, int l)
+/* Gives a level its own piece of the new set; takes over what is left of it. */
+static void mesh_enter(struct level *level, struct mesh_set *set)
 {
-    struct level *level = &mesh->levels[l];
-    if (l > 0) level_cover(mesh, l - 1);
-    if (l >= mesh->n_level) return;
-    level_cover(mesh, l);
-    level_connect(mesh, level);
-    halo_free(level->halo);
-    level->halo = halo_new(mesh, level, mesh->n_field);
-    mesh_link(mesh, l);
-    mesh_link(mesh, l + 1);
+    for (unsigned i = 0; i < set->n; i++) {
+        set->tiles[i].rank = comm_rank();
+        set->tiles[i].born = set->from[i] < 0;
+    }
+    mem_free(level->first_keys);
+    level->n_tile = set->n_tile;
+    level->n_rank = comm_size();
+    level->first_keys = set->first_keys;
+    level_adopt(level, set->tiles, set->n);
+    mem_free(set->from);
+    mem_free(set->to);
+    *set = (struct mesh_set){0};
 }
 
-void mesh_replace(struct mesh *mesh, int l, struct tile *tiles, unsigned n_tile, struct mesh_change *ret_change)
+static bool *mesh_born(const struct level *level)
 {
-    struct level *level = &mesh->levels[l];
+    bool *born = mem_new(level->n_known, sizeof *born);
+    for (unsigned i = 0; i < level->n_known; i++) born[i] = level->tiles[i].born;
+    return born;
+}
+
+/* All that hangs on the tiles of the levels `lowest` to `highest`. */
+static void mesh_connect(struct mesh *mesh, int lowest, int highest)
+{
+    int below = lowest > 0 ? lowest - 1 : 0, above = highest + 1 < mesh->n_level ? highest + 1 : mesh->n_level - 1;
+    fringe_learn(mesh, below, above);
+    for (int l = below; l <= above; l++) level_cover(mesh, l);
+    for (int l = lowest; l <= highest && l < mesh->n_level; l++) {
+        struct level *level = &mesh->levels[l];
+        level_connect(mesh, level);
+        halo_free(level->halo);
+        level->halo = halo_new(mesh, level, mesh->n_field);
+    }
+    for (int l = lowest; l <= above; l++) mesh_link(mesh, l);
+}
+
+void mesh_replace(struct mesh *mesh, int lowest, int highest, struct mesh_set *sets, struct mesh_change *ret_changes)
+{
     mesh->revision++;
-    rim_shelf_drop(mesh->rims, l);
-    rim_shelf_drop(mesh->rims, l + 1);
-    move_blocks(mesh, l, tiles, n_tile, ret_change);
-    level_adopt(level, tiles, n_tile);
-    if (!n_tile) {
-        mesh_drop(level);
-        mesh->n_level = l;
-    } else if (l == mesh->n_level) mesh->n_level++;
-    mesh_connect(mesh, l);
+    for (int l = lowest; l <= highest + 1; l++) rim_shelf_drop(mesh->rims, l);
+    for (int l = lowest; l <= highest; l++) {
+        struct level *level = &mesh->levels[l];
+        move_blocks(mesh, l, &sets[l], &ret_changes[l]);
+        mesh_enter(level, &sets[l]);
+        if (level->n_tile && l == mesh->n_level) mesh->n_level++;
+    }
+    while (!mesh->levels[mesh->n_level - 1].n_tile) mesh_drop(&mesh->levels[--mesh->n_level]);
+    mesh_connect(mesh, lowest, highest);
+    for (int l = lowest; l <= highest; l++) ret_changes[l].born = mesh_born(&mesh->levels[l]);
 }
 
 void mesh_change_free(struct mesh_change *change)
@@ -244,25 +308,34 @@ int mesh_find(const struct mesh *mesh, const struct level *level, const int at[3
     return level_find(level, morton_key(wrapped));
 }
 
-unsigned mesh_locate(const struct mesh *mesh, const double x[3], int *ret_level, size_t *ret_cell)
+/* The cell of a level that holds x: the place of its tile, and which of its cells. */
+static size_t mesh_cell_at(const struct mesh *mesh, const struct level *level, const double x[3], int ret_at[3])
 {
-    for (int l = mesh->n_level - 1;; l--) {
-        const struct level *level = &mesh->levels[l];
-        int at[3] = {0, 0, 0}, tile;
-        size_t cell = 0;
-        for (int d = mesh->dim - 1; d >= 0; d--) {
-            int n = mesh->n[d], last = level->extent[d] * n - 1;
-            double place = floor((x[d] - mesh->lower[d]) / level->h[d]);
-            int i = place >= last ? last : place > 0.0 ? (int)place : 0;
-            at[d] = i / n;
-            cell = cell * (size_t)n + (size_t)(i % n);
-        }
-        tile = mesh_find(mesh, level, at);
-        if (tile < 0 && l > 0) continue; /* level 0 covers the domain */
-        *ret_level = l;
-        *ret_cell = cell;
-        return (unsigned)tile;
+    size_t cell = 0;
+    for (int d = 0; d < 3; d++) ret_at[d] = 0;
+    for (int d = mesh->dim - 1; d >= 0; d--) {
+        int n = mesh->n[d], last = level->extent[d] * n - 1;
+        double place = floor((x[d] - mesh->lower[d]) / level->h[d]);
+        int i = place >= last ? last : place > 0.0 ? (int)place : 0;
+        ret_at[d] = i / n;
+        cell = cell * (size_t)n + (size_t)(i % n);
     }
+    return cell;
+}
+
+bool mesh_locate(const struct mesh *mesh, const double x[3], int *ret_level, unsigned *ret_local, size_t *ret_cell)
+{
+    for (int l = mesh->n_level - 1; l >= 0; l--) {
+        const struct level *level = &mesh->levels[l];
+        int at[3];
+        *ret_level = l;
+        *ret_cell = mesh_cell_at(mesh, level, x, at);
+        *ret_local = (unsigned)mesh_find(mesh, level, at) - level->first;
+        if (*ret_local >= level->n_local) continue;
+        unsigned covered = level->tiles[level->first + *ret_local].covered;
+        return !(covered >> mesh_octant(mesh, *ret_cell) & 1u);
+    }
+    return false;
 }
 
 int mesh_octant(const struct mesh *mesh, size_t cell)

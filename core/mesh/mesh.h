@@ -1,8 +1,8 @@
 /* mesh.h - the mesh as data: levels of equal tiles, and where each tile's numbers live.
  *
  * A level is a set of tiles of n^d cells (n the same everywhere), sorted along the Morton
- * curve. The list is replicated on all ranks; the curve is cut into one contiguous piece per
- * rank, ranks ascending, so the local tiles of a level are tiles[first .. first + n_local).
+ * curve, which is cut into one contiguous piece per rank, ranks ascending. A rank knows its own piece, what lies
+ * around it on its level and the two next to it (mesh/fringe.h), and the first key of every rank, no more.
  * Arrays are always 3D: extents beyond `dim` are 1. Tiles store no ghosts; primitives of
  * neighbours are gathered into a frame when needed (scheme/frame.h), remote ones come through
  * mesh/halo.h, those of the next coarser level through mesh/link.h.
@@ -29,8 +29,10 @@ struct tile {
     uint64_t key; /* Morton key of `at` */
     int at[3];    /* tile coordinates; cell (i, j, k) of the tile is cell at * n + (i, j, k) of the level */
     int rank;
-    unsigned char covered;  /* bit o: octant o = ox + 2 oy + 4 oz lies under a tile of the next level */
+    unsigned char covered;  /* bit o: octant o = ox + 2 oy + 4 oz lies under a tile of the next level (right for the own
+                               tiles and those around them) */
     unsigned char unwanted; /* regrids in a row that found no use for the tile: its owner knows */
+    bool born;              /* made by the last change of its level: see mesh_change */
     bool hidden;            /* wholly covered, and so are its neighbours: nobody reads its cells between averages of the
                                finer level, so they are not advanced; its owner knows */
 };
@@ -48,10 +50,11 @@ struct rigid;
 struct rim;
 
 struct level {
-    double h[3];   /* cell size [m]; 1 beyond dim */
-    int extent[3]; /* tiles per axis if the level covered the domain */
-    unsigned n_tile, first, n_local;
-    struct tile *tiles; /* [n_tile], replicated, Morton order */
+    double h[3];     /* cell size [m]; 1 beyond dim */
+    int extent[3];   /* tiles per axis if the level covered the domain */
+    unsigned n_tile; /* of all ranks */
+    unsigned n_known, first, n_local;
+    struct tile *tiles; /* [n_known] that this rank knows, Morton order; its own: tiles[first .. first + n_local) */
     int n_rank;
     uint64_t *first_keys;                       /* [n_rank] of each rank's piece (mesh/span.h) */
     struct slots slots;                         /* for mesh_find: local tiles by their keys */
@@ -98,32 +101,41 @@ void mesh_free(struct mesh *mesh);
 /* The tile size that mesh_new would use, or 0 with a recorded message. */
 int mesh_tile_size(const struct scene *scene);
 
+/* What a level is to become: each rank tells it for its own tiles. */
+struct mesh_set {
+    unsigned n_tile;      /* of all ranks; 0: the level goes */
+    unsigned n;           /* this rank's */
+    struct tile *tiles;   /* [n] sorted; key, at and unwanted are set */
+    int *from;            /* [n] the rank that a tile comes from; -1: it was on none */
+    int *to;              /* [n_local of the level as it is] the rank that a tile goes to; -1: it ends */
+    uint64_t *first_keys; /* [ranks] where their pieces will begin (mesh/span.h) */
+};
+
 /* What mesh_replace did with the tiles of a level. */
 struct mesh_change {
     int *from;         /* [n_local] of the new level: local index the tile had before on this rank, or -1: new here */
-    bool *born;        /* [n_tile] of the whole new level, replicated: the tile did not exist on any rank, its blocks
-                          hold nothing yet */
+    bool *born;        /* [n_known] of the new level: the tile did not exist on any rank, its blocks hold nothing yet */
     unsigned n_before; /* local tiles before */
 };
 
-/* Gives level l (1 .. n_level: the next new one is allowed) the sorted tile set `tiles` (taken over; rank and
- * unwanted are set, covered and hidden are not). Tiles that stay on a rank keep their blocks, tiles that move bring
- * u_old, w and kept along, born ones get blocks for the caller to fill. n_tile 0 removes the level (it must be the
- * finest). Neighbours, halo and links of l and l + 1, and the covered and hidden flags of l - 1 and l are made anew;
- * the link of l + 1 is NULL as long as that level does not nest in the new tiles (then it must be replaced next).
- * Level 0 may be given its own tiles with other ranks. Collective; *ret_change is freed by mesh_change_free. */
-void mesh_replace(struct mesh *mesh, int l, struct tile *tiles, unsigned n_tile, struct mesh_change *ret_change);
+/* Gives the levels `lowest` to `highest` the sets sets[l] (taken over; levels that are not there yet follow those that
+ * are). Tiles that stay on a rank keep their blocks, tiles that move bring u_old, w and kept along, born ones get blocks
+ * for the caller to fill. Levels without tiles go; none may be left above them. Neighbours, halo and links of these
+ * levels, the link of the next finer one, and flags of all and of the next coarser one are made anew; a link is NULL as
+ * long as its level does not nest (then that one must be replaced next). Level 0 may be given its own tiles with other
+ * ranks. Collective; ret_changes[l] are freed by mesh_change_free. */
+void mesh_replace(struct mesh *mesh, int lowest, int highest, struct mesh_set *sets, struct mesh_change *ret_changes);
 void mesh_change_free(struct mesh_change *change);
 
 /* Lower corner of a tile [m]. */
 void mesh_corner(const struct mesh *mesh, const struct level *level, const struct tile *tile, double ret_corner[3]);
 
-/* The tile of a level at tile coordinates, or -1. Periodic axes wrap. */
+/* The tile of a level at tile coordinates, if this rank knows it, or -1. Periodic axes wrap. */
 int mesh_find(const struct mesh *mesh, const struct level *level, const int at[3]);
 
-/* The finest tile that holds the point x (in the domain; upper faces belong to the last tile): its index in the
- * level's list, the level, and the cell in the tile. */
-unsigned mesh_locate(const struct mesh *mesh, const double x[3], int *ret_level, size_t *ret_cell);
+/* Is the leaf that holds the point x (in the domain; upper faces belong to the last tile) on this rank? Then its level,
+ * local tile and cell. */
+bool mesh_locate(const struct mesh *mesh, const double x[3], int *ret_level, unsigned *ret_local, size_t *ret_cell);
 
 /* Which cells of a tile are leaves: ret_leaf[n_cell], 0 under finer tiles and 1 elsewhere. */
 void mesh_leaves(const struct mesh *mesh, const struct tile *tile, double *ret_leaf);

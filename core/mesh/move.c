@@ -1,10 +1,9 @@
-/* move.c - see move.h. One walk over both sorted lists tells every rank what stays, goes and comes; the items of a
- * message are in the order of the keys. */
+/* move.c - see move.h. The set says where each tile of this rank comes from, and where each that was here goes; the items of
+ * a message are in the order of the keys. */
 #include "mesh/move.h"
 
 #include "base/comm.h"
 #include "base/mem.h"
-#include "mesh/level.h"
 #include "mesh/pool.h"
 #include "mesh/post.h"
 
@@ -14,7 +13,7 @@
 struct move {
     struct pool *pool, *kept_pool;
     struct level *level; /* as it was */
-    unsigned first, n_local;
+    unsigned n_local;
     size_t doubles, kept; /* of a block, and of what outputs keep */
     unsigned n_out, n_in;
     unsigned *out, *in; /* local tiles: of the old list that leave, of the new one that arrive */
@@ -26,31 +25,25 @@ static struct post_item move_item(const struct move *move, int rank)
     return (struct post_item){.rank = rank, .doubles = 2 * move->doubles + move->kept};
 }
 
-/* Tile `i` of the new list was tile `old` on rank `from` (both -1: it was not there) and belongs to rank `to`. */
-static void move_tile(struct move *move, unsigned i, int old, int from, int to, struct mesh_change *change)
-{
-    int rank = comm_rank();
-    change->born[i] = old < 0;
-    if (to == rank) change->from[i - move->first] = from == rank ? old - (int)move->level->first : -1;
-    if (old < 0 || from == to) return;
-    if (from == rank) {
-        move->out[move->n_out] = (unsigned)old - move->level->first;
-        move->out_items[move->n_out++] = move_item(move, to);
-    }
-    if (to == rank) {
-        move->in[move->n_in] = i - move->first;
-        move->in_items[move->n_in++] = move_item(move, from);
-    }
-}
-
-static void move_plan(struct move *move, const struct tile *tiles, unsigned n_tile, struct mesh_change *change)
+static void move_plan(struct move *move, const struct mesh_set *set, struct mesh_change *change)
 {
     const struct level *level = move->level;
-    unsigned old = 0;
-    for (unsigned i = 0; i < n_tile; i++) {
-        while (old < level->n_tile && level->tiles[old].key < tiles[i].key) old++;
-        bool was = old < level->n_tile && level->tiles[old].key == tiles[i].key;
-        move_tile(move, i, was ? (int)old : -1, was ? level->tiles[old].rank : -1, tiles[i].rank, change);
+    const struct tile *was = level->tiles + level->first;
+    int rank = comm_rank();
+    for (unsigned i = 0, old = 0; i < set->n; i++) {
+        change->from[i] = -1;
+        if (set->from[i] == rank) {
+            while (was[old].key != set->tiles[i].key) old++;
+            change->from[i] = (int)old;
+        } else if (set->from[i] >= 0) {
+            move->in[move->n_in] = i;
+            move->in_items[move->n_in++] = move_item(move, set->from[i]);
+        }
+    }
+    for (unsigned t = 0; set->to && t < level->n_local; t++) {
+        if (set->to[t] < 0 || set->to[t] == rank) continue;
+        move->out[move->n_out] = t;
+        move->out_items[move->n_out++] = move_item(move, set->to[t]);
     }
 }
 
@@ -118,23 +111,22 @@ static void move_data(struct move *move, int tag, const int *from)
     post_free(post);
 }
 
-void move_blocks(struct mesh *mesh, int l, const struct tile *tiles, unsigned n_tile, struct mesh_change *ret_change)
+void move_blocks(struct mesh *mesh, int l, const struct mesh_set *set, struct mesh_change *ret_change)
 {
     struct level *level = &mesh->levels[l];
     struct move move = {.pool = mesh->pool,
                         .kept_pool = mesh->kept_pool,
                         .level = level,
+                        .n_local = set->n,
                         .doubles = mesh->n_field * mesh->n_cell,
                         .kept = mesh->n_kept * mesh->n_cell};
-    level_local(tiles, n_tile, &move.first, &move.n_local);
     move.out = mem_new(level->n_local, sizeof *move.out);
     move.out_items = mem_new(level->n_local, sizeof *move.out_items);
     move.in = mem_new(move.n_local, sizeof *move.in);
     move.in_items = mem_new(move.n_local, sizeof *move.in_items);
-    *ret_change = (struct mesh_change){.from = mem_new(move.n_local, sizeof *ret_change->from),
-                                       .born = mem_new(n_tile, sizeof *ret_change->born),
-                                       .n_before = level->n_local};
-    move_plan(&move, tiles, n_tile, ret_change);
+    *ret_change =
+        (struct mesh_change){.from = mem_new(move.n_local, sizeof *ret_change->from), .n_before = level->n_local};
+    move_plan(&move, set, ret_change);
     move_data(&move, POST_MOVE + l, ret_change->from);
     mem_free(move.in_items);
     mem_free(move.in);

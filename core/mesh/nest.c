@@ -17,23 +17,6 @@
 #include <assert.h>
 #include <string.h>
 
-/* Takes every third bit out, the inverse of morton_spread. */
-static int nest_gather(uint64_t x)
-{
-    x &= 0x1249249249249249u;
-    x = (x | x >> 2) & 0x10c30c30c30c30c3u;
-    x = (x | x >> 4) & 0x100f00f00f00f00fu;
-    x = (x | x >> 8) & 0x1f0000ff0000ffu;
-    x = (x | x >> 16) & 0x1f00000000ffffu;
-    x = (x | x >> 32) & 0x1fffffu;
-    return (int)x;
-}
-
-void nest_at(uint64_t key, int ret_at[3])
-{
-    for (int d = 0; d < 3; d++) ret_at[d] = nest_gather(key >> d);
-}
-
 static void nest_push(struct nest_keys *keys, uint64_t key)
 {
     if (keys->n == keys->room) {
@@ -147,7 +130,7 @@ void nest_join(const struct mesh *mesh, int l, struct nest_keys *keys)
 static bool nest_is_allowed(const struct mesh *mesh, int base, int l, uint64_t key, uint32_t there)
 {
     int lo[3], hi[3], at[3];
-    nest_at(key, at);
+    morton_at(key, at);
     for (int d = 0; d < 3; d++) {
         lo[d] = hi[d] = at[d];
         if (d < mesh->dim)
@@ -188,7 +171,7 @@ static void nest_add_wishes(const struct mesh *mesh, int base, int l, const stru
 static struct tile nest_tile(uint64_t key, unsigned unwanted)
 {
     struct tile tile = {.key = key, .unwanted = (unsigned char)(unwanted < UINT8_MAX ? unwanted : UINT8_MAX)};
-    nest_at(key, tile.at);
+    morton_at(key, tile.at);
     return tile;
 }
 
@@ -234,59 +217,6 @@ void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes
         ret_sets[l] = nest_piece(mesh, l, &families, patience);
         nest_family_free(&families);
     }
-}
-
-struct nest_keys nest_pack(const struct nest_set *set)
-{
-    struct nest_keys words = {.keys = mem_new(2 * (size_t)set->n, sizeof *words.keys)};
-    for (unsigned i = 0; i < set->n; i++) {
-        uint64_t family = set->tiles[i].key >> 3, octant = set->tiles[i].key & 7u, unwanted = set->tiles[i].unwanted;
-        if (!words.n || words.keys[words.n - 2] != family) {
-            words.keys[words.n] = family;
-            words.n += 2;
-        }
-        if (unwanted > NEST_UNWANTED) unwanted = NEST_UNWANTED;
-        words.keys[words.n - 1] |= 1u << octant | unwanted << (MESH_OCTANTS + 7 * octant);
-    }
-    return words;
-}
-
-struct nest_set nest_unpack(const struct nest_keys *words)
-{
-    struct nest_set set = {0};
-    for (unsigned i = 1; i < words->n; i += 2) set.n += (unsigned)__builtin_popcount(words->keys[i] & 0xffu);
-    struct tile *to = set.tiles = mem_new(set.n, sizeof *set.tiles);
-    for (unsigned i = 0; i < words->n; i += 2) {
-        int at[3];
-        nest_at(words->keys[i], at);
-        for (unsigned mask = words->keys[i + 1] & 0xffu; mask; mask &= mask - 1, to++) {
-            unsigned octant = (unsigned)__builtin_ctz(mask);
-            to->key = words->keys[i] << 3 | octant;
-            for (int d = 0; d < 3; d++) to->at[d] = 2 * at[d] + (int)(octant >> d & 1u);
-            to->unwanted = words->keys[i + 1] >> (MESH_OCTANTS + 7 * octant) & NEST_UNWANTED;
-        }
-    }
-    return set;
-}
-
-void nest_whole(struct nest_set *set)
-{
-    if (comm_size() == 1) return;
-    struct nest_keys own = nest_pack(set), all = {0};
-    all.keys = comm_join_keys(own.keys, own.n, &all.n);
-    nest_free_set(set);
-    *set = nest_unpack(&all);
-    nest_free_keys(&own);
-    nest_free_keys(&all);
-}
-
-struct nest_set nest_of(const struct mesh *mesh, int l)
-{
-    const struct level *level = &mesh->levels[l];
-    struct nest_set set = {level->n_local, mem_new(level->n_local, sizeof *set.tiles)};
-    if (set.n) memcpy(set.tiles, level->tiles + level->first, set.n * sizeof *set.tiles);
-    nest_whole(&set);
-    return set;
 }
 
 bool nest_same(const struct mesh *mesh, int l, const struct nest_set *set)
@@ -335,7 +265,7 @@ static int nest_fail(const struct mesh *mesh, int l, uint64_t missing)
 {
     const struct level *level = &mesh->levels[l];
     int at[3];
-    nest_at(missing, at);
+    morton_at(missing, at);
     for (const struct tile *tile = level->tiles + level->first; tile < level->tiles + level->first + level->n_local;
          tile++)
         if (nest_is_needed_by(mesh, l, tile, missing))

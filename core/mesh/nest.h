@@ -37,18 +37,6 @@ void nest_join(const struct mesh *mesh, int l, struct nest_keys *keys);
 void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes, int patience,
                struct nest_set *ret_sets);
 
-/* All pieces of a set, in place of this rank's. Collective. */
-void nest_whole(struct nest_set *set);
-
-/* What travels for that, two words per family: its key (that of the tile below); which octants are there (8 bits) and
- * their counts (7 bits each: more than any patience). */
-enum { NEST_UNWANTED = 127 };
-struct nest_keys nest_pack(const struct nest_set *set);
-struct nest_set nest_unpack(const struct nest_keys *words);
-
-/* All tiles of level l as they are, with their counts, which only owners keep. Collective. */
-struct nest_set nest_of(const struct mesh *mesh, int l);
-
 /* Is the piece `set` what this rank's piece of level l already is (keys; not owners)? */
 bool nest_same(const struct mesh *mesh, int l, const struct nest_set *set);
 
@@ -63,9 +51,6 @@ struct nest_set nest_piece(const struct mesh *mesh, int l, struct nest_families 
 
 /* Is a tile of the piece needed that is not there? */
 bool nest_lacks(const struct mesh *mesh, int l, struct nest_families *needs, uint64_t *ret_missing);
-
-/* Tile coordinates of a key. */
-void nest_at(uint64_t key, int ret_at[3]);
 
 void nest_free_keys(struct nest_keys *keys);
 void nest_free_set(struct nest_set *set);

@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/swap.h"
 #include "mesh/level.h"
+#include "mesh/morton.h"
 
 /* Owners of sorted keys. */
 static int *nest_share_owners(const struct span *span, const struct nest_keys *keys)
@@ -108,7 +109,7 @@ static uint32_t nest_share_look(const struct mesh *mesh, const struct level *lev
     uint32_t there = 0;
     int at[3];
     if (level_find(level, key) < 0) return 0;
-    nest_at(key, at);
+    morton_at(key, at);
     for (int a = 0; a < NEST_FAMILY_AROUND; a++) {
         int place[3] = {at[0] + a % 3 - 1, at[1] + a / 3 % 3 - 1, at[2] + a / 9 - 1};
         uint64_t around;

@@ -268,12 +268,6 @@ void partition_cut(const struct partition_runs *runs, int size, uint64_t weight,
     partition_stop(&curve);
 }
 
-void partition_give(struct tile *tiles, int size, const uint32_t *first)
-{
-    for (int rank = 0; rank < size; rank++)
-        for (uint32_t i = first[rank]; i < first[rank + 1]; i++) tiles[i].rank = rank;
-}
-
 double partition_imbalance(const uint64_t *load, uint32_t n, int size)
 {
     uint64_t largest = 0, total = 0;

@@ -35,9 +35,6 @@ void partition_free(struct partition_runs *runs);
  * so far, `weight` * cost is added. */
 void partition_cut(const struct partition_runs *runs, int size, uint64_t weight, uint64_t *load, uint32_t *ret_first);
 
-/* Sets tiles[i].rank by such a table. */
-void partition_give(struct tile *tiles, int size, const uint32_t *first);
-
 /* Largest over mean of the loads that a level gives the ranks, less 1. The mean is over as many ranks as can have one of
  * its n tiles: 0 is reached with fewer tiles than ranks, too. */
 double partition_imbalance(const uint64_t *load, uint32_t n, int size);

@@ -5,6 +5,8 @@
 #include "base/comm.h"
 #include "base/mem.h"
 
+#include <stdlib.h>
+
 /* One direction: all items in one buffer, peer by peer. */
 struct post_way {
     unsigned n;
@@ -34,43 +36,67 @@ static int post_receive(void *buffer, int count, MPI_Datatype type, int peer, in
     return MPI_Recv_init(buffer, count, type, peer, tag, comm, ret_request);
 }
 
-/* Places the items; starts[r] .. starts[r + 1] becomes what belongs to peer r. */
-static void post_place(struct post_way *way, unsigned n, const struct post_item *items, size_t *starts)
+/* Items of a peer side by side in the buffer. */
+struct post_peer {
+    int rank;
+    size_t from, to; /* doubles */
+};
+
+struct post_sorted {
+    int rank;
+    unsigned item;
+};
+
+static int post_compare(const void *a, const void *b)
 {
-    int size = comm_size();
-    for (int rank = 0; rank <= size; rank++) starts[rank] = 0;
-    for (unsigned i = 0; i < n; i++) starts[items[i].rank + 1] += items[i].doubles;
-    for (int rank = 0; rank < size; rank++) starts[rank + 1] += starts[rank];
-    way->n = n;
-    way->total = starts[size];
-    way->at = mem_new(n, sizeof *way->at);
-    way->buffer = mem_new_large(way->total, sizeof *way->buffer);
-    for (unsigned i = 0; i < n; i++) {
-        way->at[i] = starts[items[i].rank];
-        starts[items[i].rank] += items[i].doubles; /* ends where the next peer began */
-    }
-    for (int rank = size; rank > 0; rank--) starts[rank] = starts[rank - 1];
-    starts[0] = 0;
+    const struct post_sorted *x = a, *y = b;
+    if (x->rank != y->rank) return x->rank < y->rank ? -1 : 1;
+    return (x->item > y->item) - (x->item < y->item);
 }
 
-static void post_connect(struct post *post, const struct post_way *way, const size_t *starts, int tag, post_init *init)
+/* Places the items; returns the peers, *ret_n of them: work and memory follow them, not all ranks. */
+static struct post_peer *post_place(struct post_way *way, unsigned n, const struct post_item *items, unsigned *ret_n)
 {
-    for (int rank = 0; rank < comm_size(); rank++)
-        if (starts[rank + 1] > starts[rank])
-            init(way->buffer + starts[rank], (int)(starts[rank + 1] - starts[rank]), MPI_DOUBLE, rank, tag,
+    struct post_sorted *sorted = mem_new(n, sizeof *sorted);
+    struct post_peer *peers = mem_new(n, sizeof *peers);
+    unsigned count = 0;
+    for (unsigned i = 0; i < n; i++) sorted[i] = (struct post_sorted){items[i].rank, i};
+    if (n) qsort(sorted, n, sizeof *sorted, post_compare);
+    way->n = n;
+    way->at = mem_new(n, sizeof *way->at);
+    for (unsigned i = 0; i < n; i++) {
+        if (!count || peers[count - 1].rank != sorted[i].rank)
+            peers[count++] = (struct post_peer){sorted[i].rank, way->total, way->total};
+        way->at[sorted[i].item] = way->total;
+        way->total += items[sorted[i].item].doubles;
+        peers[count - 1].to = way->total;
+    }
+    way->buffer = mem_new_large(way->total, sizeof *way->buffer);
+    mem_free(sorted);
+    *ret_n = count;
+    return peers;
+}
+
+static void post_connect(struct post *post, const struct post_way *way, const struct post_peer *peers, unsigned n,
+                         int tag, post_init *init)
+{
+    for (unsigned p = 0; p < n; p++)
+        if (peers[p].to > peers[p].from)
+            init(way->buffer + peers[p].from, (int)(peers[p].to - peers[p].from), MPI_DOUBLE, peers[p].rank, tag,
                  comm_world(), &post->requests[post->n_request++]);
 }
 
 struct post *post_new(int tag, unsigned n_out, const struct post_item *out, unsigned n_in, const struct post_item *in)
 {
     struct post *post = mem_new(1, sizeof *post);
-    size_t ranks = (size_t)comm_size(), *starts = mem_new(ranks + 1, sizeof *starts);
-    post->requests = mem_new(2 * ranks, sizeof *post->requests);
-    post_place(&post->in, n_in, in, starts);
-    post_connect(post, &post->in, starts, tag, post_receive);
-    post_place(&post->out, n_out, out, starts);
-    post_connect(post, &post->out, starts, tag, post_send);
-    mem_free(starts);
+    unsigned to, from;
+    struct post_peer *senders = post_place(&post->in, n_in, in, &from);
+    struct post_peer *receivers = post_place(&post->out, n_out, out, &to);
+    post->requests = mem_new((size_t)from + to, sizeof *post->requests);
+    post_connect(post, &post->in, senders, from, tag, post_receive);
+    post_connect(post, &post->out, receivers, to, tag, post_send);
+    mem_free(senders);
+    mem_free(receivers);
     return post;
 }
 

@@ -2,7 +2,7 @@
  *
  * A post is a list of items to send and a list to receive, each with a peer rank and a size. The
  * items of one pair of ranks must be listed in the same order on both sides; who lists them derives
- * them from the replicated topology, so there is no handshake. Items for the own rank are not allowed:
+ * them from what both know of the mesh, so there is no handshake. Items for the own rank are not allowed:
  * those are copied by whoever knows both ends. Without items no MPI call is made. */
 #ifndef POST_H
 #define POST_H

@@ -142,7 +142,7 @@ static void rim_list_way(struct rim *rim, unsigned t, int way)
         int coarse = level_find(&rim->mesh->levels[rim->l - 1], morton_key(place.at) >> 3);
         piece->kind = RIM_COARSE;
         piece->index = rim->n_coarse;
-        rim_add_coarse(rim, level->first + t, way, &place, (unsigned)coarse, &rim->coarse[rim->n_coarse++]);
+        rim_add_coarse(rim, t, way, &place, (unsigned)coarse - rim_level(rim)[-1].first, &rim->coarse[rim->n_coarse++]);
     } else if (level->tiles[other].rank == comm_rank()) {
         piece->kind = RIM_LOCAL;
         piece->index = (unsigned)other - level->first;
@@ -195,7 +195,8 @@ static void rim_list_octant(struct rim *rim, unsigned coarse, const int at[3])
             if ((rim->n_source & (rim->n_source - 1)) == 0)
                 rim->sources = mem_grow(rim->sources, rim->n_source, 2 * rim->n_source + 1, sizeof *rim->sources);
             struct rim_place place = rim_look(mesh, rim_level(rim), &rim_level(rim)->tiles[fine], way);
-            rim_add_coarse(rim, (unsigned)fine, way, &place, coarse, &rim->sources[rim->n_source++]);
+            rim_add_coarse(rim, (unsigned)fine - rim_level(rim)->first, way, &place, coarse,
+                           &rim->sources[rim->n_source++]);
         }
 }
 
@@ -210,7 +211,7 @@ static void rim_list_sources(struct rim *rim)
         for (int o = 0; o < 1 << mesh->dim; o++) {
             int at[3] = {0};
             for (int d = 0; d < mesh->dim; d++) at[d] = 2 * tile->at[d] + (o >> d & 1);
-            if (!(tile->covered >> o & 1)) rim_list_octant(rim, coarse->first + c, at);
+            if (!(tile->covered >> o & 1)) rim_list_octant(rim, c, at);
         }
         rim->source_from[c + 1] = rim->n_source;
     }
@@ -223,6 +224,7 @@ static int rim_compare_sends(const void *a, const void *b)
     return x->way - y->way;
 }
 
+/* Tiles of one rank, which lie on one side of the own piece: their numbers rise along the curve. */
 static int rim_compare_sources(const void *a, const void *b)
 {
     const struct rim_coarse *x = *(struct rim_coarse *const *)a, *y = *(struct rim_coarse *const *)b;
@@ -250,9 +252,9 @@ static void rim_connect_same(struct rim *rim)
     mem_free(out);
 }
 
-static bool rim_is_here(const struct level *level, unsigned tile)
+static bool rim_is_here(const struct level *level, unsigned local)
 {
-    return tile - level->first < level->n_local;
+    return local < level->n_local;
 }
 
 /* Data of a piece, slot after slot. */
@@ -278,8 +280,9 @@ static struct post_item *rim_items(const struct rim *rim, const struct level *ot
 {
     struct post_item *items = mem_new(n, sizeof *items);
     for (unsigned i = 0; i < n; i++)
-        items[i] = (struct post_item){.rank = other->tiles[fine ? list[i]->fine : list[i]->coarse].rank,
-                                      .doubles = (size_t)rim->form.slots * rim_doubles(rim, list[i]->way)};
+        items[i] =
+            (struct post_item){.rank = other->tiles[other->first + (fine ? list[i]->fine : list[i]->coarse)].rank,
+                               .doubles = (size_t)rim->form.slots * rim_doubles(rim, list[i]->way)};
     return items;
 }
 
@@ -343,7 +346,7 @@ static void rim_share(struct rim *rim)
     for (unsigned i = 0; i < rim->n_source; i++) {
         struct rim_coarse *source = &rim->sources[i];
         if (!rim_is_here(level, source->fine)) continue;
-        const struct rim_piece *piece = &rim->pieces[source->fine - level->first][source->way];
+        const struct rim_piece *piece = &rim->pieces[source->fine][source->way];
         memcpy(source->data, rim->coarse[piece->index].data, sizeof source->data);
     }
 }

@@ -37,7 +37,7 @@ struct rim_piece {
 
 /* One end of a piece that lies on the coarser level. */
 struct rim_coarse {
-    unsigned fine, coarse; /* tiles: indices in the lists of the levels */
+    unsigned fine, coarse; /* local tiles; an end that is on another rank: at least n_local */
     int way;
     int base[3];     /* cell i of the fine tile along an axis lies in cell base + floor(i / 2) of the coarse one */
     int outer;       /* axis across which the coarse cells are outer layers, or -1 */

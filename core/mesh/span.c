@@ -1,8 +1,6 @@
 /* span.c - see span.h. Keys have 63 bits, so that no tile lies behind the end. */
 #include "mesh/span.h"
 
-#include "base/mem.h"
-
 struct span span_of(const struct mesh *mesh, int l)
 {
     int m = l < mesh->n_level ? l : mesh->n_level - 1;
@@ -18,21 +16,4 @@ int span_owner(const struct span *span, uint64_t key)
         else high = middle;
     }
     return low;
-}
-
-uint64_t *span_first(const struct tile *tiles, unsigned n_tile, int size)
-{
-    uint64_t *first = mem_new((size_t)size, sizeof *first);
-    unsigned i = n_tile;
-    for (int rank = size - 1; rank >= 0; rank--) {
-        unsigned low = 0, high = i; /* the first tile of this rank or a higher one */
-        while (low < high) {
-            unsigned middle = low + (high - low) / 2;
-            if (tiles[middle].rank < rank) low = middle + 1;
-            else high = middle;
-        }
-        i = low;
-        first[rank] = i < n_tile ? tiles[i].key : UINT64_MAX;
-    }
-    return first;
 }

@@ -26,7 +26,4 @@ static inline bool span_holds(const struct span *span, int rank, uint64_t key)
     return (rank == 0 || span->first[rank] <= key) && (rank + 1 == span->size || key < span->first[rank + 1]);
 }
 
-/* The table for tiles (sorted, ranks ascending): a new array (mem_free). */
-uint64_t *span_first(const struct tile *tiles, unsigned n_tile, int size);
-
 #endif

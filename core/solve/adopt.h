@@ -5,7 +5,7 @@
 #include "solve/stage.h"
 
 /* After mesh_replace of this level or a neighbour of it: `from` as in mesh_change (NULL: the tiles are the same, only
- * links have changed); `born` (mesh_change, all tiles of the level). Tiles that came from other ranks are counted
+ * links have changed); `born` (mesh_change, known tiles of the level). Tiles that came from other ranks are counted
  * anew, born ones get their primitives. Not collective. */
 void adopt_level(struct stage *stage, const int *from, const bool *born);
 

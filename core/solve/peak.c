@@ -104,13 +104,15 @@ static struct peak_pass peak_pass(const struct mesh *mesh, const struct scene_ou
 static struct peak_pair peak_pair(const struct peak_pass *pass, unsigned fine)
 {
     const struct level *finer = &pass->mesh->levels[pass->l], *level = finer - 1;
-    struct peak_pair pair = {.fine = fine};
+    struct peak_pair pair = {.fine = fine, .from = -1, .to = -1};
     int at[3] = {0};
     for (int d = 0; d < pass->mesh->dim; d++) {
         at[d] = finer->tiles[fine].at[d] >> 1;
         pair.octant |= (finer->tiles[fine].at[d] & 1) << d;
     }
-    pair.coarse = (unsigned)mesh_find(pass->mesh, level, at);
+    int coarse = mesh_find(pass->mesh, level, at);
+    if (coarse < 0) return pair; /* neither tile is of this rank */
+    pair.coarse = (unsigned)coarse;
     int above = finer->tiles[fine].rank, below = level->tiles[pair.coarse].rank;
     pair.from = pass->up ? above : below;
     pair.to = pass->up ? below : above;
@@ -235,10 +237,10 @@ struct peak_lists {
 /* Makes the lists; what stays on this rank is passed at once. */
 static void peak_plan(const struct peak_pass *pass, const bool *which, size_t doubles, struct peak_lists *lists)
 {
-    unsigned n_tile = pass->mesh->levels[pass->l].n_tile;
+    unsigned n_known = pass->mesh->levels[pass->l].n_known;
     int rank = comm_rank();
     double *packed = mem_new(doubles, sizeof *packed);
-    for (unsigned fine = 0; fine < n_tile; fine++) {
+    for (unsigned fine = 0; fine < n_known; fine++) {
         if (which && !which[fine]) continue;
         struct peak_pair pair = peak_pair(pass, fine);
         if (pair.from == rank && pair.to == rank) {
@@ -258,7 +260,7 @@ static void peak_plan(const struct peak_pass *pass, const bool *which, size_t do
 /* Passes the tiles of a level that are marked; `which` NULL: all of them. */
 static void peak_send(const struct peak_pass *pass, const bool *which)
 {
-    unsigned n = pass->mesh->levels[pass->l].n_tile + 1;
+    unsigned n = pass->mesh->levels[pass->l].n_known + 1;
     struct peak_lists lists = {.out = mem_new(n, sizeof *lists.out),
                                .in = mem_new(n, sizeof *lists.in),
                                .out_items = mem_new(n, sizeof *lists.out_items),

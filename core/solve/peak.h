@@ -15,7 +15,7 @@ void peak_take(const struct state *state, int l, double t);
 /* Gives the cells of levels `base` and finer that lie under finer tiles what those have kept: before they go. */
 void peak_up(const struct mesh *mesh, const struct scene_output *output, int base);
 
-/* Gives the tiles of level l that are marked in born[n_tile] what the cells below them have kept. */
+/* Gives the tiles of level l that are marked in born[n_known] what the cells below them have kept. */
 void peak_down(const struct mesh *mesh, int l, const bool *born);
 
 #endif

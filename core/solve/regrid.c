@@ -1,7 +1,8 @@
 /* regrid.c - see regrid.h.
  *
- * Every rank makes its piece of the new sets; where they differ from what is there, the pieces are joined. A level is
- * replaced after the coarser one, so that new tiles find the final state they are made from. */
+ * Every rank makes its piece of the new sets; where they differ from what is there, tiles go to their new owners and all
+ * levels are replaced at once. Then they are filled, coarse before fine: new tiles find the final state they are made
+ * from. */
 #include "solve/regrid.h"
 
 #include "base/comm.h"
@@ -11,6 +12,7 @@
 #include "mesh/carry.h"
 #include "mesh/deal.h"
 #include "mesh/halo.h"
+#include "mesh/hand.h"
 #include "mesh/nest.h"
 #include "mesh/rigid.h"
 #include "paint/paint.h"
@@ -32,9 +34,9 @@ enum regrid_origin { REGRID_PAINTED, REGRID_INTERPOLATED };
 struct regrid {
     struct state *state;
     int base;
-    struct tile *root; /* tiles of level 0 with other owners, where those they have share the work badly */
+    bool root; /* level 0 gets other owners, too: those it has share the work badly */
     struct nest_keys wishes[MESH_LEVELS + 1];
-    struct nest_set sets[MESH_LEVELS + 1]; /* this rank's pieces, until a new mesh is made of them */
+    struct nest_set sets[MESH_LEVELS + 1]; /* this rank's pieces */
     long long n_tile[MESH_LEVELS + 1];     /* of the sets, on all ranks */
 };
 
@@ -171,30 +173,30 @@ static void regrid_tell(const struct regrid *regrid, struct deal *deal)
     mem_free(last);
 }
 
-/* Tiles of level 0 with their new owners. */
-static struct tile *regrid_root(const struct level *level, const uint32_t *first)
+/* The piece of level 0 as it is. */
+static void regrid_take_root(struct regrid *regrid)
 {
-    struct tile *tiles = mem_new(level->n_tile, sizeof *tiles);
-    memcpy(tiles, level->tiles, level->n_tile * sizeof *tiles);
-    partition_give(tiles, comm_size(), first);
-    return tiles;
+    const struct level *level = &regrid->state->mesh->levels[0];
+    struct nest_set *set = &regrid->sets[0];
+    *set = (struct nest_set){level->n_local, mem_new(level->n_local, sizeof *set->tiles)};
+    if (set->n) memcpy(set->tiles, level->tiles + level->first, set->n * sizeof *set->tiles);
+    regrid->n_tile[0] = level->n_tile;
 }
 
-/* Sets the owners of all new sets, of which this rank has a piece so far. */
-static void regrid_partition(struct regrid *regrid)
+/* The new sets in the hands of their owners: of the levels from *ret_lowest to `highest`. */
+static void regrid_deal(struct regrid *regrid, int highest, int *ret_lowest, struct mesh_set *ret_sets)
 {
     const struct state *state = regrid->state;
     const struct mesh *mesh = state->mesh;
     struct deal deal = {.base = regrid->base, .subcycle = state->scene->mesh.subcycle};
-    if (comm_size() == 1) return; /* rank 0 owns all */
-    regrid_tell(regrid, &deal);
-    deal_cut(&deal);
-    if (deal.root) regrid->root = regrid_root(&mesh->levels[0], deal_first(&deal, 0));
-    for (int l = regrid->base + 1; l <= mesh->most_level; l++) {
-        if (!regrid->n_tile[l]) continue;
-        nest_whole(&regrid->sets[l]);
-        partition_give(regrid->sets[l].tiles, comm_size(), deal_first(&deal, l));
+    if (comm_size() > 1) { /* rank 0 owns all otherwise */
+        regrid_tell(regrid, &deal);
+        deal_cut(&deal);
+        regrid->root = deal.root;
     }
+    *ret_lowest = regrid->root ? 0 : regrid->base + 1;
+    if (regrid->root) regrid_take_root(regrid);
+    hand_sets(mesh, *ret_lowest, highest, regrid->sets, regrid->n_tile, &deal, ret_sets);
     deal_free(&deal);
 }
 
@@ -245,41 +247,20 @@ static void regrid_interpolate(struct state *state, int l, const bool *born)
     state->counts.limited += prolong_tiles(state->work->prolong, state->mesh, l, coarse->bound, born);
 }
 
-/* Gives level l its new set (taken over). */
-static int regrid_replace(struct regrid *regrid, int l, enum regrid_origin origin)
+/* Gives the tiles of a level that has been replaced their state. */
+static int regrid_fill(struct regrid *regrid, int l, enum regrid_origin origin, const struct mesh_change *change)
 {
     struct state *state = regrid->state;
-    struct nest_set *set = &regrid->sets[l];
-    struct mesh_change change = {0};
     int status = STATUS_OK;
-    if (!state->stages[l]) state->stages[l] = stage_new(state->model, state->mesh, l, state->work);
-    mesh_replace(state->mesh, l, set->tiles, set->n, &change);
-    *set = (struct nest_set){0};
-    if (origin == REGRID_PAINTED) status = regrid_paint(state, l, change.born);
-    else regrid_interpolate(state, l, change.born);
-    peak_down(state->mesh, l, change.born);
-    if (!status) adopt_level(state->stages[l], change.from, change.born);
-    mesh_change_free(&change);
+    if (l > 0 && origin == REGRID_PAINTED) status = regrid_paint(state, l, change->born);
+    else if (l > 0) regrid_interpolate(state, l, change->born);
+    if (l > 0) peak_down(state->mesh, l, change->born);
+    if (!status) adopt_level(state->stages[l], change->from, change->born);
     return status;
-}
-
-/* Moves the tiles of level 0 to their new owners. */
-static void regrid_share(struct regrid *regrid)
-{
-    struct state *state = regrid->state;
-    struct mesh_change change = {0};
-    if (!regrid->root) return;
-    mesh_replace(state->mesh, 0, regrid->root, state->mesh->levels[0].n_tile, &change);
-    regrid->root = NULL;
-    adopt_level(state->stages[0], change.from, change.born);
-    mesh_change_free(&change);
 }
 
 static void regrid_drop(struct state *state, int l)
 {
-    struct mesh_change change = {0};
-    mesh_replace(state->mesh, l, NULL, 0, &change);
-    mesh_change_free(&change);
     stage_free(state->stages[l]);
     state->stages[l] = NULL;
     state->level_steps[l] = 0;
@@ -290,13 +271,19 @@ static int regrid_apply(struct regrid *regrid, enum regrid_origin origin)
 {
     struct state *state = regrid->state;
     struct mesh *mesh = state->mesh;
-    int finest = regrid->base;
-    regrid_partition(regrid);
-    while (finest < mesh->most_level && regrid->sets[finest + 1].n) finest++;
+    struct mesh_set sets[MESH_LEVELS + 1];
+    struct mesh_change changes[MESH_LEVELS + 1];
+    int finest = regrid->base, before = mesh->n_level - 1, lowest, status = STATUS_OK;
+    while (finest < mesh->most_level && regrid->n_tile[finest + 1]) finest++;
+    int highest = finest > before ? finest : before;
+    regrid_deal(regrid, highest, &lowest, sets);
     peak_up(mesh, &state->scene->output, regrid->base);
-    for (int l = mesh->n_level - 1; l > finest; l--) regrid_drop(state, l);
-    regrid_share(regrid);
-    for (int l = regrid->base + 1; l <= finest; l++) TRY(regrid_replace(regrid, l, origin));
+    for (int l = before + 1; l <= finest; l++) state->stages[l] = stage_new(state->model, mesh, l, state->work);
+    mesh_replace(mesh, lowest, highest, sets, changes);
+    for (int l = before; l > finest; l--) regrid_drop(state, l);
+    for (int l = lowest; l <= finest && !status; l++) status = regrid_fill(regrid, l, origin, &changes[l]);
+    for (int l = lowest; l <= highest; l++) mesh_change_free(&changes[l]);
+    if (status) return status;
     for (int l = regrid->base; l < mesh->n_level; l++) adopt_level(state->stages[l], NULL, NULL);
     TRY(nest_check(mesh));
     state->counts.regrids++;

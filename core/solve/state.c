@@ -31,7 +31,7 @@ static int state_enter(struct state *state, int l)
 {
     const struct level *level = &state->mesh->levels[l];
     int *from = mem_new(level->n_local + 1, sizeof *from);
-    bool *born = mem_new(level->n_tile + 1, sizeof *born);
+    bool *born = mem_new(level->n_known + 1, sizeof *born);
     for (unsigned t = 0; t < level->n_local; t++) from[t] = -1;
     if (!state->stages[l]) state->stages[l] = stage_new(state->model, state->mesh, l, state->work);
     adopt_level(state->stages[l], from, born);
@@ -86,39 +86,45 @@ int state_new(const struct scene *scene, struct state **ret_state)
     return state_hand_over(state, state_begin(state), ret_state);
 }
 
-/* Tiles in equal pieces; few go to the lowest ranks. */
-static void state_share(struct tile *tiles, unsigned n)
+/* This rank's piece of sorted tiles: equal ones; few go to the lowest ranks. */
+static struct mesh_set state_share(const struct tile *tiles, unsigned n, unsigned *ret_first)
 {
-    size_t size = (size_t)comm_size();
+    size_t size = (size_t)comm_size(), rank = (size_t)comm_rank();
     uint64_t *load = mem_new(size, sizeof *load);
     uint32_t *first = mem_new(size + 1, sizeof *first);
     struct partition_runs runs = {0};
     if (n) partition_add(&runs, n, 1);
     partition_cut(&runs, comm_size(), 1, load, first);
-    partition_give(tiles, comm_size(), first);
+    *ret_first = first[rank];
+    struct mesh_set set = {.n_tile = n, .n = first[rank + 1] - first[rank]};
+    set.tiles = mem_new(set.n, sizeof *set.tiles);
+    set.from = mem_new(set.n, sizeof *set.from);
+    set.first_keys = mem_new(size, sizeof *set.first_keys);
+    if (set.n) memcpy(set.tiles, tiles + first[rank], set.n * sizeof *tiles);
+    for (unsigned i = 0; i < set.n; i++) set.from[i] = -1;
+    for (size_t r = 0; r < size; r++) set.first_keys[r] = first[r] < n ? tiles[first[r]].key : UINT64_MAX;
     partition_free(&runs);
     mem_free(first);
     mem_free(load);
+    return set;
 }
 
 /* One level of a source: tiles in equal pieces (costs are not known yet), then their data. */
 static int state_load_level(struct state *state, const struct state_source *source, int l)
 {
     struct mesh *mesh = state->mesh;
-    unsigned n = source->n_tile[l];
+    struct mesh_set sets[MESH_LEVELS];
+    struct mesh_change changes[MESH_LEVELS];
     size_t n_cell = mesh->n_cell;
-    struct tile *tiles = mem_new(n, sizeof *tiles);
-    memcpy(tiles, source->tiles[l], n * sizeof *tiles);
-    state_share(tiles, n);
-    struct mesh_change change = {0};
-    mesh_replace(mesh, l, tiles, n, &change);
-    mesh_change_free(&change);
+    unsigned first;
+    sets[l] = state_share(source->tiles[l], source->n_tile[l], &first);
+    mesh_replace(mesh, l, l, sets, changes);
+    mesh_change_free(&changes[l]);
     const struct level *level = &mesh->levels[l];
     double *p = mem_new(n_cell, sizeof *p);
     int status = STATUS_OK;
     for (unsigned t = 0; t < level->n_local && !status; t++) {
-        status =
-            source->fill(source->data, l, level->first + t, level->u_old[t], p, level->kept ? level->kept[t] : NULL);
+        status = source->fill(source->data, l, first + t, level->u_old[t], p, level->kept ? level->kept[t] : NULL);
         memcpy(level->w[t] + state->model->i_E * n_cell, p, n_cell * sizeof *p);
         mix_primitives(state->model, n_cell, n_cell, level->u_old[t], level->w[t]);
     }

@@ -1,6 +1,7 @@
 /* patches.c - what gathering tiles with edges and corners costs beside frames: `mpirun -n 2 bulla-bench-patches`. CPU
  * time per cell of a tile, the best of several passes over a periodic domain that no cache holds; messages and
  * memory per tile; and the making of a rim. Rank 0 prints. No test: times are those of the machine. */
+#include "../unit/replicated.h"
 #include "base/abort.h"
 #include "base/comm.h"
 #include "base/mem.h"
@@ -112,19 +113,24 @@ static int compare(const void *a, const void *b)
 static void refine(struct mesh *mesh)
 {
     const struct level *coarse = &mesh->levels[0];
-    struct tile *tiles = mem_new((size_t)coarse->n_tile << mesh->dim, sizeof *tiles);
+    const struct span span = {coarse->n_rank, 0, coarse->first_keys};
+    struct nest_set all = {coarse->n_local, mem_new(coarse->n_local, sizeof *all.tiles)};
+    if (all.n) memcpy(all.tiles, coarse->tiles + coarse->first, all.n * sizeof *all.tiles);
+    replicated_join(&all);
+    struct tile *tiles = mem_new((size_t)all.n << mesh->dim, sizeof *tiles);
     struct mesh_change change;
     unsigned n = 0;
-    for (unsigned i = 0; i < coarse->n_tile << mesh->dim; i++) {
-        const struct tile *above = &coarse->tiles[i >> mesh->dim];
+    for (unsigned i = 0; i < all.n << mesh->dim; i++) {
+        const struct tile *above = &all.tiles[i >> mesh->dim];
         if (above->at[0] % 4) continue;
-        tiles[n].rank = above->rank;
+        tiles[n].rank = span_owner(&span, above->key);
         for (int d = 0; d < mesh->dim; d++) tiles[n].at[d] = 2 * above->at[d] + (int)(i >> d & 1);
         tiles[n].key = morton_key(tiles[n].at);
         n++;
     }
+    nest_free_set(&all);
     qsort(tiles, n, sizeof *tiles, compare);
-    mesh_replace(mesh, 1, tiles, n, &change);
+    replicated_replace(mesh, 1, tiles, n, &change);
     mesh_change_free(&change);
 }
 

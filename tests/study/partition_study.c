@@ -7,6 +7,7 @@
 #include "pieces.h"
 #include "study.h"
 
+#include "../unit/replicated.h"
 #include "base/mem.h"
 #include "mesh/level.h"
 #include "mesh/partition.h"
@@ -128,7 +129,7 @@ static struct study_times study_regrid(struct study *study, int size)
     times.sets = study_clock() - start;
     start = study_clock();
     for (int l = 1; l < mesh->n_level; l++) {
-        level_adopt(&mesh->levels[l], sets[l].tiles, sets[l].n); /* of one rank */
+        replicated_adopt(&mesh->levels[l], sets[l].tiles, sets[l].n); /* of one rank */
         nest_free_keys(&wishes[l]);
     }
     times.list = study_clock() - start;
@@ -255,7 +256,7 @@ static double study_shared(const struct study *study, const struct pieces *piece
 {
     double regrids = study_regridded(study) / study->tiles;
     double meetings = study_rounds(study) * STUDY_MEETINGS * 2.0 * ceil(log2(size));
-    return regrids * (pieces->most + pieces->whole + pieces->cut + (pieces->bytes + pieces->joined) * STUDY_BYTE) +
+    return regrids * (pieces->most + pieces->cut + (pieces->bytes + pieces->joined) * STUDY_BYTE) +
            (regrids * pieces->messages + meetings) * STUDY_MESSAGE;
 }
 
@@ -265,11 +266,11 @@ static void study_print_pieces(struct study *study, int size)
     struct pieces pieces = pieces_regrid(study, size);
     struct study_projection p = study_project(study, size);
     double shared = study_shared(study, &pieces, size), busy = p.compute + p.wait + p.network;
-    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2g | %.2g | %.3g | %.2g | %.0f | %.2g | %.2g | %.3f | %.3f | %.2f | "
+    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2g | %.2g | %.2g | %.0f | %.2g | %.2g | %.2g | %.3f | %.3f | %.2f | "
            "%.2f |\n",
            study->scene.name, study->scene.dim, study->scene.n, size, study->tiles / size,
-           1e3 * study->topology * study->tiles, 1e3 * pieces.mean, 1e3 * pieces.most, 1e3 * pieces.whole,
-           1e3 * pieces.cut, pieces.messages, pieces.bytes / 1e3, pieces.held / 1e6, p.topology / p.compute,
+           1e3 * study->topology * study->tiles, 1e3 * pieces.mean, 1e3 * pieces.most, 1e3 * pieces.cut,
+           pieces.messages, pieces.bytes / 1e3, pieces.held / 1e3, pieces.table / 1e3, p.topology / p.compute,
            shared / p.compute, p.compute / (busy + p.topology), p.compute / (busy + shared));
 }
 

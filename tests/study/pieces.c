@@ -2,9 +2,12 @@
  * receiver, as in core/mesh/nest_share.c. */
 #include "pieces.h"
 
+#include "../unit/replicated.h"
 #include "base/mem.h"
+#include "base/swap.h"
 #include "mesh/carry.h"
 #include "mesh/deal.h"
+#include "mesh/fringe.h"
 #include "mesh/level.h"
 #include "mesh/nest_share.h"
 
@@ -25,7 +28,7 @@ struct pieces_mail {
 struct pieces_rank {
     struct nest_set sets[MESH_LEVELS];
     struct pieces_mail mail;
-    double seconds, least, bytes, messages;
+    double seconds, least, bytes, messages, held;
 };
 
 enum { PIECES_REPEATS = 3 }; /* the machine is shared: the least counts */
@@ -61,7 +64,7 @@ static struct pieces_world pieces_start(struct study *study, int size)
         struct level *level = &study->mesh.levels[l];
         mem_free(level->first_keys);
         level->n_rank = size;
-        level->first_keys = span_first(level->tiles, level->n_tile, size);
+        level->first_keys = replicated_first(level->tiles, level->n_tile, size);
         unsigned i = 0;
         for (int r = 0; r <= size; r++) {
             while (i < level->n_tile && level->tiles[i].rank < r) i++;
@@ -154,7 +157,7 @@ static void pieces_sets(struct pieces_world *world, int l, const struct nest_key
     }
 }
 
-/* Costs carried, the own table made, flags of own tiles. */
+/* Costs carried. */
 static void pieces_list(struct pieces_world *world, const struct study *study, int l)
 {
     struct level *level = &world->mesh->levels[l];
@@ -163,8 +166,6 @@ static void pieces_list(struct pieces_world *world, const struct study *study, i
         struct carry before = {level->n_local, level->tiles + level->first, study->costs[l] + level->first};
         double start = pieces_clock();
         mem_free(carry_values(world->mesh, l, &world->ranks[r].sets[l], &before, &before));
-        level_tabulate(level);
-        level_hide(world->mesh, l);
         world->ranks[r].seconds += pieces_clock() - start;
     }
 }
@@ -225,35 +226,98 @@ static void pieces_cut(const struct study *study, int size, struct pieces *piece
         deal_free(&deal);
     }
     pieces->cut = least;
-    pieces->joined += (double)all.n * sizeof *all.runs + (double)study->mesh.n_level * size * sizeof *all.first;
+    pieces->joined =
+        (double)all.n * sizeof *all.runs + (double)study->mesh.n_level * size * (sizeof *all.first + sizeof(uint64_t));
     deal_free(&all);
 }
 
-/* What is left of the lists of all tiles: joined pieces become tiles, covered octants are marked, owners set. */
-static void pieces_whole(struct study *study, int size, struct pieces *pieces)
+/* What the ranks tell each other of their tiles, by who gets it. */
+struct pieces_fringe {
+    struct swap *got; /* [size] */
+    unsigned *room;   /* of items */
+};
+
+static void pieces_deliver(struct pieces_fringe *all, int from, int to, const struct fringe_item *item)
 {
-    struct mesh *mesh = &study->mesh;
-    for (int l = 0; l < mesh->n_level; l++) {
-        struct level *level = &mesh->levels[l];
-        struct nest_set all = {level->n_tile, level->tiles};
-        struct nest_keys words = nest_pack(&all);
-        uint32_t *first = mem_new((size_t)size + 1, sizeof *first);
-        for (unsigned i = 0; i < all.n; i++) first[all.tiles[i].rank + 1]++;
-        for (int r = 0; r < size; r++) first[r + 1] += first[r];
-        double least = HUGE_VAL;
-        for (int repeat = 0; repeat < PIECES_REPEATS; repeat++) {
-            double start = pieces_clock();
-            struct nest_set set = l ? nest_unpack(&words) : (struct nest_set){0};
-            level_mark(mesh, l);
-            partition_give(all.tiles, size, first);
-            least = fmin(least, pieces_clock() - start);
-            nest_free_set(&set);
-        }
-        pieces->whole += least;
-        pieces->joined += l ? 8.0 * words.n : 0.0;
-        mem_free(first);
-        nest_free_keys(&words);
+    struct swap *got = &all->got[to];
+    if (got->n == all->room[to]) {
+        all->room[to] = 2 * got->n + 8;
+        got->items = mem_grow(got->items, got->n, all->room[to], sizeof *item);
     }
+    ((struct fringe_item *)got->items)[got->n++] = *item;
+    if (got->n_piece && got->pieces[got->n_piece - 1].rank == from) {
+        got->pieces[got->n_piece - 1].n++;
+        return;
+    }
+    if ((got->n_piece & (got->n_piece - 1)) == 0)
+        got->pieces = mem_grow(got->pieces, got->n_piece, 2 * got->n_piece + 1, sizeof *got->pieces);
+    got->pieces[got->n_piece++] = (struct swap_piece){from, 1};
+}
+
+static struct pieces_fringe pieces_tell(struct pieces_world *world)
+{
+    struct pieces_fringe all = {mem_new((size_t)world->size, sizeof *all.got),
+                                mem_new((size_t)world->size, sizeof *all.room)};
+    for (int r = 0; r < world->size; r++) {
+        struct pieces_rank *rank = &world->ranks[r];
+        struct fringe fringe = {0};
+        pieces_be(world, r);
+        double start = pieces_clock();
+        for (int l = 0; l < world->mesh->n_level; l++) fringe_list(world->mesh, l, r, &fringe);
+        fringe_sort(&fringe);
+        rank->seconds += pieces_clock() - start;
+        for (unsigned i = 0; i < fringe.n; i++) {
+            pieces_deliver(&all, r, fringe.to[i], &fringe.items[i]);
+            rank->messages += !i || fringe.to[i] != fringe.to[i - 1];
+        }
+        rank->bytes += (double)fringe.n * sizeof *fringe.items;
+        fringe_free(&fringe);
+    }
+    return all;
+}
+
+/* Lists of what a rank knows, and the flags that follow. They must be those that a rank has which knows all. */
+static void pieces_know(struct pieces_world *world, int r, const struct swap *got)
+{
+    struct pieces_rank *rank = &world->ranks[r];
+    struct mesh known = *world->mesh;
+    pieces_be(world, r);
+    double start = pieces_clock();
+    rank->held = 0.0;
+    for (int l = 0; l < known.n_level; l++) {
+        struct level *level = &known.levels[l];
+        *level = world->mesh->levels[l];
+        level->slots = (struct slots){0};
+        level->tiles = fringe_merge(&world->mesh->levels[l], l, r, got, &level->n_known);
+        level->first = 0;
+        while (level->n_local && level->tiles[level->first].rank < r) level->first++;
+        level_tabulate(level);
+        rank->held += (double)level->n_known * sizeof *level->tiles;
+    }
+    for (int l = 0; l < known.n_level; l++) level_cover(&known, l);
+    rank->seconds += pieces_clock() - start;
+    for (int l = 0; l < known.n_level; l++) {
+        const struct level *level = &known.levels[l], *all = &world->mesh->levels[l];
+        for (unsigned t = 0; t < level->n_local; t++) {
+            const struct tile *own = &level->tiles[level->first + t], *same = &all->tiles[all->first + t];
+            if (own->covered == same->covered && own->hidden == same->hidden) continue;
+            printf("rank %d knows too little of level %d\n", r, l);
+            exit(1);
+        }
+        slots_done(&known.levels[l].slots);
+        mem_free(level->tiles);
+    }
+}
+
+static void pieces_fringes(struct pieces_world *world)
+{
+    struct pieces_fringe all = pieces_tell(world);
+    for (int r = 0; r < world->size; r++) {
+        pieces_know(world, r, &all.got[r]);
+        swap_done(&all.got[r]);
+    }
+    mem_free(all.got);
+    mem_free(all.room);
 }
 
 /* All that ranks do with their own pieces, once. */
@@ -267,6 +331,7 @@ static void pieces_run(struct pieces_world *world, const struct study *study, co
         pieces_list(world, study, l);
         pieces_check(world, l);
     }
+    pieces_fringes(world);
     for (int r = 0; r < world->size; r++) {
         struct pieces_rank *rank = &world->ranks[r];
         if (rank->least == 0.0 || rank->seconds < rank->least) rank->least = rank->seconds;
@@ -280,7 +345,6 @@ struct pieces pieces_regrid(struct study *study, int size)
     struct pieces pieces = {0};
     struct nest_keys wishes[MESH_LEVELS] = {0};
     for (int l = 1; l < mesh->n_level; l++) wishes[l] = sets_wishes(&study->scene, mesh, l);
-    pieces_whole(study, size, &pieces);
     pieces_cut(study, size, &pieces);
     struct pieces_world world = pieces_start(study, size);
     mallopt(M_MXFAST, 0); /* else a rank now and then pays for sorting what thousands have freed */
@@ -291,11 +355,12 @@ struct pieces pieces_regrid(struct study *study, int size)
         pieces.most = fmax(pieces.most, rank->least);
         pieces.bytes = fmax(pieces.bytes, rank->bytes);
         pieces.messages = fmax(pieces.messages, rank->messages);
+        pieces.held = fmax(pieces.held, rank->held);
         mem_free(rank->mail.list);
     }
     for (int l = 0; l < mesh->n_level; l++) {
         nest_free_keys(&wishes[l]);
-        pieces.held += (double)mesh->levels[l].n_tile * sizeof *mesh->levels[l].tiles + (double)size * sizeof(uint64_t);
+        pieces.table += (double)size * sizeof(uint64_t);
     }
     pieces_stop(&world);
     return pieces;

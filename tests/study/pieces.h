@@ -6,12 +6,12 @@
 #include "study.h"
 
 struct pieces {
-    double mean, most;      /* CPU seconds of a rank: its own piece of all levels */
-    double whole;           /* and of what every rank still does with all tiles */
+    double mean, most;      /* CPU seconds of a rank: its own piece of all levels, and what it knows around it */
     double cut;             /* of rank 0, which cuts all levels while the others wait */
     double bytes, messages; /* sent by the rank that sends most */
-    double joined;          /* bytes that come to every rank with the joined pieces, and runs and tables of the cut */
-    double held;            /* bytes of lists and tables that every rank holds */
+    double joined;          /* bytes that come to every rank: runs and tables of the cut, first keys */
+    double held;            /* bytes of the lists of the rank that knows most */
+    double table;           /* and of the first keys that every rank holds */
 };
 
 /* A regrid from level 0 that replaces all levels by what they are, on `size` ranks. */

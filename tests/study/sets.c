@@ -1,6 +1,7 @@
 /* sets.c - see sets.h. Wishes are found by descent: only boxes that meet a feature are divided further. */
 #include "sets.h"
 
+#include "../unit/replicated.h"
 #include "base/mem.h"
 #include "mesh/level.h"
 #include "mesh/morton.h"
@@ -90,12 +91,12 @@ static void sets_begin(const struct sets_scene *scene, struct mesh *mesh)
     struct tile *tiles = mem_new(n_tile, sizeof *tiles);
     for (uint64_t key = 0; count < n_tile; key++) {
         struct tile tile = {.key = key};
-        nest_at(key, tile.at);
+        morton_at(key, tile.at);
         bool inside = true;
         for (int d = 0; d < 3; d++) inside &= tile.at[d] < mesh->levels[0].extent[d];
         if (inside) tiles[count++] = tile;
     }
-    level_adopt(&mesh->levels[0], tiles, n_tile);
+    replicated_adopt(&mesh->levels[0], tiles, n_tile);
 }
 
 void sets_make(const struct sets_scene *scene, struct mesh *ret_mesh)
@@ -106,7 +107,7 @@ void sets_make(const struct sets_scene *scene, struct mesh *ret_mesh)
     for (int l = 1; l <= scene->levels; l++) wishes[l] = sets_wishes(scene, ret_mesh, l);
     nest_sets(ret_mesh, 0, wishes, 2, sets);
     for (int l = 1; l <= scene->levels; l++) {
-        level_adopt(&ret_mesh->levels[l], sets[l].tiles, sets[l].n);
+        replicated_adopt(&ret_mesh->levels[l], sets[l].tiles, sets[l].n);
         if (sets[l].n) ret_mesh->n_level = l + 1;
         nest_free_keys(&wishes[l]);
     }

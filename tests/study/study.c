@@ -1,6 +1,7 @@
 /* study.c - see study.h. */
 #include "study.h"
 
+#include "../unit/replicated.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "mesh/level.h"
@@ -43,7 +44,7 @@ static void study_cut(struct tile *tiles, unsigned n, const double *costs, int s
     uint32_t *first = mem_new((size_t)size + 1, sizeof *first);
     for (unsigned i = 0; i < n; i++) partition_add(&runs, 1, partition_units(costs[i]));
     partition_cut(&runs, size, weight, load, first);
-    partition_give(tiles, size, first);
+    replicated_give(tiles, size, first);
     partition_free(&runs);
     mem_free(first);
 }

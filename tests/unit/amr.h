@@ -124,7 +124,7 @@ static inline double amr_fraction_fault(const struct flow *flow)
 static inline double amr_value(const struct flow *flow, const double x[3], unsigned q)
 {
     struct amr_leaf leaf = {0};
-    leaf.tile = mesh_locate(flow->state->mesh, x, &leaf.l, &leaf.cell);
+    mesh_locate(flow->state->mesh, x, &leaf.l, &leaf.tile, &leaf.cell);
     return amr_primitive(flow, &leaf, q);
 }
 

@@ -14,7 +14,7 @@ static double half_difference(const struct flow *half, const struct flow *whole)
     for (size_t i = 0; i < leaves.n; i++)
         for (unsigned q = 0; q < model->n_field; q++) {
             struct amr_leaf other = {0};
-            other.tile = mesh_locate(whole->state->mesh, leaves.all[i].x, &other.l, &other.cell);
+            mesh_locate(whole->state->mesh, leaves.all[i].x, &other.l, &other.tile, &other.cell);
             if (other.l != leaves.all[i].l) worst = HUGE_VAL;
             else if (amr_conserved(half, &leaves.all[i], q) != amr_conserved(whole, &other, q)) worst = HUGE_VAL;
         }

@@ -41,7 +41,7 @@ static double image(const struct flow *flow, const struct amr_leaf *leaf, const 
     double x[3] = {0};
     struct amr_leaf other = {0};
     for (int d = 0; d < flow->scene->domain.dim; d++) x[d] = sign[d] * leaf->x[axis[d]];
-    other.tile = mesh_locate(flow->state->mesh, x, &other.l, &other.cell);
+    mesh_locate(flow->state->mesh, x, &other.l, &other.tile, &other.cell);
     return other.l == leaf->l ? amr_conserved(flow, &other, q) : NAN;
 }
 

@@ -104,7 +104,8 @@ static void put_air(struct small *small, double x, double y, double alpha, doubl
     const struct model *model = small->state->model;
     size_t cell, n = mesh->n_cell;
     int l;
-    unsigned tile = mesh_locate(mesh, (const double[3]){x, y, 0}, &l, &cell);
+    unsigned tile;
+    mesh_locate(mesh, (const double[3]){x, y, 0}, &l, &tile, &cell);
     for (int k = 0; k < 2; k++) {
         double *to = k ? mesh->levels[0].w[tile] : mesh->levels[0].u_old[tile];
         to[(model->i_alpha + 1) * n + cell] = alpha;
@@ -140,7 +141,8 @@ static void test_massless(void **state)
     struct mesh *mesh = small.state->mesh;
     size_t n = mesh->n_cell, cell;
     int l;
-    unsigned tile = mesh_locate(mesh, (const double[3]){0.1e-3, 0.1e-3, 0}, &l, &cell);
+    unsigned tile;
+    mesh_locate(mesh, (const double[3]){0.1e-3, 0.1e-3, 0}, &l, &tile, &cell);
     mesh->levels[0].w[tile][small.state->model->i_E * n + cell] = -1e6;
     measure_take(measures, small.state, SMALL_NOW(small.state), NULL, after);
     close_to(after[0], before[0], 1e-3);

@@ -18,33 +18,58 @@ static void each_mesh(void (*check)(struct levels *))
     }
 }
 
+/* Own tiles and those around them are found, others may be; what is found is right. */
 static void check_find(struct levels *levels)
 {
     const struct mesh *mesh = levels->mesh;
     for (int l = 0; l < mesh->n_level; l++) {
         const struct level *level = &mesh->levels[l];
-        unsigned found = 0, inside = 0;
+        unsigned found = 0, inside = 0, known = 0;
+        assert_int_equal(level->n_tile, levels->counts[l]);
         for (unsigned t = 0; t < level->n_tile; t++) {
-            const struct tile *tile = &level->tiles[t];
-            assert_int_equal(mesh_find(mesh, level, tile->at), t);
+            const struct tile *tile = &levels->lists[l][t];
+            int index = mesh_find(mesh, level, tile->at);
+            known += index >= 0;
             assert_true(levels_has(levels, l, tile->at));
-            assert_true(tile->key == morton_key(tile->at) && (!t || tile[-1].key < tile->key));
-            inside += tile->rank == comm_rank();
+            if (levels_known(levels, l, tile->at)) assert_true(index >= 0);
+            if (tile->rank == comm_rank()) assert_int_equal(index, level->first + inside++);
+            if (index < 0) continue;
+            assert_true(level->tiles[index].key == tile->key && level->tiles[index].rank == tile->rank);
+            assert_true(!index || level->tiles[index - 1].key < tile->key);
         }
         for (size_t i = 0; i < levels_places(levels, l); i++) found += levels->maps[l][i];
         assert_int_equal(found, level->n_tile);
+        assert_int_equal(known, level->n_known);
         assert_int_equal(inside, level->n_local);
-        if (inside) assert_int_equal(level->tiles[level->first].rank, comm_rank());
         for (int i = 0; i < 200; i++) {
             int at[3] = {0, 0, 0};
             for (int d = 0; d < mesh->dim; d++)
                 at[d] = (int)(levels_random(levels) % (3u * (unsigned)level->extent[d])) - level->extent[d];
             int tile = mesh_find(mesh, level, at);
-            assert_int_equal(tile >= 0, levels_has(levels, l, at));
+            if (comm_size() == 1) assert_int_equal(tile >= 0, levels_has(levels, l, at));
+            if (tile >= 0) assert_true(levels_has(levels, l, at));
             if (tile >= 0) assert_true(levels_index(levels, l, at) >= 0); /* wraps at */
             if (tile >= 0) assert_memory_equal(level->tiles[tile].at, at, sizeof at);
         }
     }
+}
+
+/* A rank of many knows little: of a plain domain in four pieces the tiles within one of its own. */
+static void test_few(void **state)
+{
+    (void)state;
+    const struct levels_shape shape = {2, {32, 32, 1}, 4, 0, {false}};
+    struct levels levels;
+    struct mesh_change change;
+    levels_open(&levels, &shape, 7);
+    unsigned n;
+    struct tile *tiles = levels_list(&levels, 0, &n);
+    for (unsigned i = 0; i < n; i++) tiles[i].rank = comm_size() < 4 ? 0 : (int)(4 * i / n);
+    levels_give(&levels, 0, tiles, n, &change);
+    mesh_change_free(&change);
+    const struct level *level = &levels.mesh->levels[0];
+    if (comm_size() >= 4) assert_int_equal(level->n_known, comm_rank() < 4 ? 17 * 17 : 0);
+    levels_close_all(&levels);
 }
 
 static void test_find(void **state)
@@ -67,8 +92,9 @@ static void check_flags(struct levels *levels)
 {
     const struct mesh *mesh = levels->mesh;
     for (int l = 0; l < mesh->n_level; l++)
-        for (unsigned t = 0; t < mesh->levels[l].n_tile; t++) {
+        for (unsigned t = 0; t < mesh->levels[l].n_known; t++) {
             const struct tile *tile = &mesh->levels[l].tiles[t];
+            if (!levels_near(levels, l, tile->at, -1, 1)) continue; /* nobody here reads them */
             for (int o = 0; o < MESH_OCTANTS; o++) {
                 const int below[3] = {2 * tile->at[0] + (o & 1), 2 * tile->at[1] + (o >> 1 & 1),
                                       2 * tile->at[2] + (o >> 2)};
@@ -166,13 +192,16 @@ static void check_leaves(struct levels *levels)
         double volume = level->h[0] * level->h[1] * level->h[2];
         assert_true(level->h[0] == mesh->levels[0].h[0] / (1 << l));
         for (unsigned t = 0; t < level->n_tile; t++) {
-            const struct tile *tile = &level->tiles[t];
+            const struct tile *tile = &levels->lists[l][t];
             double corner[3], x[3] = {0.0, 0.0, 0.0};
-            mesh_leaves(mesh, tile, leaf);
+            int index = mesh_find(mesh, level, tile->at);
+            bool own = tile->rank == comm_rank();
+            if (own) mesh_leaves(mesh, &level->tiles[index], leaf);
             mesh_corner(mesh, level, tile, corner);
             for (size_t c = 0; c < mesh->n_cell; c++) {
                 size_t rest = c, cell;
                 int found, octant = 0;
+                unsigned local;
                 for (int d = 0; d < mesh->dim; d++) {
                     size_t i = rest % (size_t)mesh->n[d];
                     x[d] = corner[d] + ((double)i + 0.5) * level->h[d];
@@ -180,11 +209,14 @@ static void check_leaves(struct levels *levels)
                     rest /= (size_t)mesh->n[d];
                 }
                 assert_int_equal(mesh_octant(mesh, c), octant);
-                assert_true(leaf[c] == (tile->covered >> octant & 1 ? 0.0 : 1.0));
-                covered += leaf[c] * volume;
-                unsigned at = mesh_locate(mesh, x, &found, &cell);
-                if (leaf[c] > 0.0) assert_true(found == l && at == t && cell == c);
-                if (leaf[c] < 1.0) assert_true(found > l);
+                const int below[3] = {2 * tile->at[0] + (octant & 1), 2 * tile->at[1] + (octant >> 1 & 1),
+                                      2 * tile->at[2] + (octant >> 2)};
+                bool open = !levels_has(levels, l + 1, below), here = mesh_locate(mesh, x, &found, &local, &cell);
+                if (own) assert_true(leaf[c] == (open ? 1.0 : 0.0));
+                if (open) covered += volume;
+                if (open) assert_int_equal(here, own);
+                if (open && own) assert_true(found == l && local == (unsigned)index - level->first && cell == c);
+                if (!open && here) assert_true(found > l);
             }
         }
     }
@@ -208,12 +240,15 @@ static void test_corners(void **state)
     const struct level *level = &mesh->levels[0];
     int found;
     size_t cell;
-    unsigned last = mesh_locate(mesh, mesh->upper, &found, &cell);
-    assert_int_equal(level->tiles[last].at[0], level->extent[0] - 1);
-    assert_int_equal(level->tiles[last].at[1], level->extent[1] - 1);
-    assert_true(found == 0 && cell == mesh->n_cell - 1);
-    assert_int_equal(mesh_locate(mesh, (double[3]){mesh->lower[0] - 1e-9, mesh->lower[1], 0.0}, &found, &cell), 0);
-    assert_int_equal(cell, 0);
+    unsigned local;
+    if (mesh_locate(mesh, mesh->upper, &found, &local, &cell)) {
+        assert_int_equal(level->tiles[level->first + local].at[0], level->extent[0] - 1);
+        assert_int_equal(level->tiles[level->first + local].at[1], level->extent[1] - 1);
+        assert_true(found == 0 && cell == mesh->n_cell - 1);
+    } else assert_true(comm_rank() < comm_size() - 1);
+    const double below[3] = {mesh->lower[0] - 1e-9, mesh->lower[1], 0.0};
+    assert_int_equal(mesh_locate(mesh, below, &found, &local, &cell), comm_rank() == 0);
+    if (comm_rank() == 0) assert_true(local == 0 && cell == 0);
     levels_close_all(&levels);
 }
 
@@ -222,7 +257,7 @@ static void check_change(struct levels *levels, int l, const unsigned char *befo
 {
     const struct level *level = &levels->mesh->levels[l];
     size_t n = levels->mesh->n_cell;
-    for (unsigned i = 0; i < level->n_tile; i++) {
+    for (unsigned i = 0; i < level->n_known; i++) {
         int at[3] = {level->tiles[i].at[0], level->tiles[i].at[1], level->tiles[i].at[2]};
         assert_int_equal(change->born[i], !before[levels_index(levels, l, at)]);
     }
@@ -270,7 +305,7 @@ static void replace(struct levels *levels, int l)
     unsigned n, revision = mesh->revision;
     struct tile *tiles = levels_list(levels, l, &n);
     struct mesh_change change;
-    mesh_replace(mesh, l, tiles, n, &change);
+    levels_give(levels, l, tiles, n, &change);
     assert_true(mesh->revision != revision);
     check_change(levels, l, before, &change);
     for (unsigned t = 0; t < level->n_local; t++)
@@ -316,10 +351,10 @@ static void test_removal(void **state)
         memset(levels.maps[1], 1, levels_places(&levels, 1));
         struct tile *tiles = levels_list(&levels, 1, &n);
         for (unsigned i = 0; i < n; i++) tiles[i].rank = (int)(i * (unsigned)comm_size() / n);
-        mesh_replace(mesh, 1, tiles, n, &change);
+        levels_give(&levels, 1, tiles, n, &change);
         assert_int_equal(mesh->n_level, 2);
         assert_non_null(mesh->levels[1].link);
-        for (unsigned i = 0; i < n; i++) assert_true(change.born[i]);
+        for (unsigned i = 0; i < mesh->levels[1].n_known; i++) assert_true(change.born[i]);
         for (unsigned t = 0; t < mesh->levels[0].n_local; t++)
             assert_true(mesh->levels[0].tiles[mesh->levels[0].first + t].hidden);
         mesh_change_free(&change);
@@ -328,7 +363,7 @@ static void test_removal(void **state)
         assert_int_equal(pool_used(mesh->pool), size);
         memset(levels.maps[1], 0, levels_places(&levels, 1));
         unsigned before = mesh->levels[1].n_local;
-        mesh_replace(mesh, 1, NULL, 0, &change);
+        levels_give(&levels, 1, NULL, 0, &change);
         assert_int_equal(change.n_before, before);
         mesh_change_free(&change);
         assert_int_equal(mesh->n_level, 1);
@@ -367,9 +402,9 @@ static void test_sides(void **state)
 static int run(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_find),    cmocka_unit_test(test_flags), cmocka_unit_test(test_neighbours),
-        cmocka_unit_test(test_leaves),  cmocka_unit_test(test_moves), cmocka_unit_test(test_corners),
-        cmocka_unit_test(test_removal), cmocka_unit_test(test_sides),
+        cmocka_unit_test(test_find),       cmocka_unit_test(test_few),     cmocka_unit_test(test_flags),
+        cmocka_unit_test(test_neighbours), cmocka_unit_test(test_leaves),  cmocka_unit_test(test_moves),
+        cmocka_unit_test(test_corners),    cmocka_unit_test(test_removal), cmocka_unit_test(test_sides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,6 +11,7 @@
 #include "mesh/mesh.h"
 #include "mesh/morton.h"
 #include "mesh/pool.h"
+#include "replicated.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -41,12 +42,14 @@ static const struct levels_shape LEVELS_SHAPES[] = {
 };
 enum { LEVELS_SHAPE_COUNT = sizeof LEVELS_SHAPES / sizeof *LEVELS_SHAPES };
 
-/* maps[l][index of a place]: is there a tile of level l? */
+/* maps[l][index of a place]: is there a tile of level l? lists[l]: all tiles that the mesh was given, with their owners. */
 struct levels {
     struct levels_shape shape;
     struct mesh *mesh;
     uint64_t seed;
     unsigned char *maps[LEVELS_MOST];
+    struct tile *lists[LEVELS_MOST];
+    unsigned counts[LEVELS_MOST];
 };
 
 static inline uint64_t levels_random(struct levels *levels)
@@ -164,6 +167,55 @@ static inline struct tile *levels_list(struct levels *levels, int l, unsigned *r
     return tiles;
 }
 
+/* Gives level l such a list (taken over), and keeps a copy. n 0: takes it away. */
+static inline void levels_give(struct levels *levels, int l, struct tile *tiles, unsigned n,
+                               struct mesh_change *ret_change)
+{
+    mem_free(levels->lists[l]);
+    levels->lists[l] = mem_new(n, sizeof *tiles);
+    levels->counts[l] = n;
+    if (n) memcpy(levels->lists[l], tiles, n * sizeof *tiles);
+    replicated_replace(levels->mesh, l, tiles, n, ret_change);
+}
+
+/* The owner of a place; -1: there is no tile. */
+static inline int levels_owner(const struct levels *levels, int l, const int at[3])
+{
+    int wrapped[3] = {at[0], at[1], at[2]};
+    if (!levels_has(levels, l, at)) return -1;
+    levels_index(levels, l, wrapped);
+    for (unsigned i = 0; i < levels->counts[l]; i++)
+        if (levels->lists[l][i].key == morton_key(wrapped)) return levels->lists[l][i].rank;
+    return -1;
+}
+
+/* Is a tile of this rank among the places `from` to `to` around at, of level l? */
+static inline bool levels_near(const struct levels *levels, int l, const int at[3], int from, int to)
+{
+    int step[3];
+    for (step[2] = from; step[2] <= to; step[2]++)
+        for (step[1] = from; step[1] <= to; step[1]++)
+            for (step[0] = from; step[0] <= to; step[0]++) {
+                int there[3] = {at[0], at[1], at[2]};
+                bool used = true;
+                for (int d = 0; d < 3; d++) {
+                    used = used && (d < levels->shape.dim || step[d] == 0);
+                    there[d] += step[d];
+                }
+                if (used && levels_owner(levels, l, there) == comm_rank()) return true;
+            }
+    return false;
+}
+
+/* Must this rank know the tile of level l at `at`? See mesh/fringe.h. */
+static inline bool levels_known(const struct levels *levels, int l, const int at[3])
+{
+    const int above[3] = {at[0] >> 1, at[1] >> 1, at[2] >> 1}, below[3] = {2 * at[0], 2 * at[1], 2 * at[2]};
+    if (levels_near(levels, l, at, -1, 1)) return true;
+    if (l > 0 && levels_near(levels, l - 1, above, -1, 1)) return true;
+    return l + 1 < levels->mesh->n_level && levels_near(levels, l + 1, below, -1, 2);
+}
+
 /* A number that tells a value of a cell from any other: field q of a cell of level l, exact in a double. */
 static inline double levels_value(const struct levels *levels, int l, const struct tile *tile, unsigned q, size_t cell)
 {
@@ -189,6 +241,19 @@ static inline void levels_fill(struct levels *levels, int l)
         }
 }
 
+/* The list of level 0 as mesh_new has cut it: equal pieces. */
+static inline void levels_begin(struct levels *levels)
+{
+    uint64_t seed = levels->seed;
+    unsigned n;
+    struct tile *tiles = levels_list(levels, 0, &n);
+    for (uint64_t rank = 0, size = (uint64_t)comm_size(); rank < size; rank++)
+        for (uint64_t i = n * rank / size; i < n * (rank + 1) / size; i++) tiles[i].rank = (int)rank;
+    levels->lists[0] = tiles;
+    levels->counts[0] = n;
+    levels->seed = seed;
+}
+
 static inline void levels_open(struct levels *levels, const struct levels_shape *shape, uint64_t seed)
 {
     struct scene scene = {.domain = {.dim = shape->dim, .cells_place = "case.yaml:1:1"},
@@ -205,13 +270,17 @@ static inline void levels_open(struct levels *levels, const struct levels_shape 
     assert_int_equal(mesh_new(&scene, LEVELS_FIELDS, 1, &levels->mesh), STATUS_OK);
     for (int l = 0; l <= shape->levels; l++) levels->maps[l] = mem_new(levels_places(levels, l), 1);
     memset(levels->maps[0], 1, levels_places(levels, 0));
+    levels_begin(levels);
     levels_fill(levels, 0);
 }
 
 static inline void levels_close_all(struct levels *levels)
 {
     mesh_free(levels->mesh);
-    for (int l = 0; l < LEVELS_MOST; l++) mem_free(levels->maps[l]);
+    for (int l = 0; l < LEVELS_MOST; l++) {
+        mem_free(levels->maps[l]);
+        mem_free(levels->lists[l]);
+    }
 }
 
 /* Gives the mesh new random levels, coarse before fine; levels that end empty are taken away first. */
@@ -224,13 +293,13 @@ static inline void levels_refine(struct levels *levels)
     int last = levels->shape.levels;
     while (!memchr(levels->maps[last], 1, levels_places(levels, last))) last--;
     while (mesh->n_level - 1 > last) {
-        mesh_replace(mesh, mesh->n_level - 1, NULL, 0, &change);
+        levels_give(levels, mesh->n_level - 1, NULL, 0, &change);
         mesh_change_free(&change);
     }
     for (int l = 1; l <= last; l++) {
         unsigned n;
         struct tile *tiles = levels_list(levels, l, &n);
-        mesh_replace(mesh, l, tiles, n, &change);
+        levels_give(levels, l, tiles, n, &change);
         mesh_change_free(&change);
         levels_fill(levels, l);
     }

@@ -228,7 +228,8 @@ static void expect_cells(const struct snapshot *snapshot, const struct state *st
             size *= snapshot->upper[i][axis] - snapshot->lower[i][axis];
         }
         volume += size;
-        unsigned at = mesh_locate(mesh, x, &l, &cell);
+        unsigned at;
+        assert_true(mesh_locate(mesh, x, &l, &at, &cell));
         const double *w = mesh->levels[l].w[at];
         for (unsigned m = 0; m < 2; m++)
             rho +=

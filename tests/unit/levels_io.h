@@ -8,6 +8,7 @@
 #include "mesh/nest.h"
 #include "paint/paint.h"
 #include "phys/mix.h"
+#include "replicated.h"
 #include "small.h"
 
 static inline int levels_compare(const void *a, const void *b)
@@ -90,7 +91,7 @@ static inline void levels_add(struct state *state, bool (*wanted)(const double *
     struct tile *tiles = mem_new(((size_t)mesh->levels[l - 1].n_tile << mesh->dim) + 1, sizeof *tiles);
     struct mesh_change change;
     unsigned n = levels_choose(mesh, l - 1, wanted, tiles);
-    mesh_replace(mesh, l, tiles, n, &change);
+    replicated_replace(mesh, l, tiles, n, &change);
     mesh_change_free(&change);
     struct level *level = &mesh->levels[l];
     for (unsigned t = 0; t < level->n_tile; t++)

@@ -18,20 +18,33 @@ static void each_link(void (*check)(struct levels *, int))
     }
 }
 
-static bool here(const struct level *level, unsigned tile)
+static bool here(const struct levels *levels, int l, const int at[3])
 {
-    return level->tiles[tile].rank == comm_rank();
+    return levels_owner(levels, l, at) == comm_rank();
+}
+
+/* The local number of an own tile. */
+static unsigned local(const struct levels *levels, int l, const int at[3])
+{
+    const struct level *level = &levels->mesh->levels[l];
+    return (unsigned)mesh_find(levels->mesh, level, at) - level->first;
 }
 
 /* The cells of the patch, in cells of the coarse level, are those under the first layer behind the fine face. */
 static void check_patch(const struct levels *levels, int l, const struct link_face *face)
 {
     const struct mesh *mesh = levels->mesh;
-    const struct tile *fine = &mesh->levels[l].tiles[face->fine], *coarse = &mesh->levels[l - 1].tiles[face->coarse];
+    const struct level *coarser = &mesh->levels[l - 1];
+    struct tile fine = {.key = face->key};
+    int behind[3];
+    morton_at(face->key, fine.at);
+    assert_true(levels_behind(levels, l, &fine, face->face, behind));
+    const int above[3] = {behind[0] >> 1, behind[1] >> 1, behind[2] >> 1};
+    const struct tile *coarse = &coarser->tiles[mesh_find(mesh, coarser, above)];
     int axis = face->face / 2, octant = 0;
     assert_int_equal(face->layer, face->from[axis] + (face->face % 2 ? 0 : link_depth(mesh) - 1));
     for (int d = 0; d < 3; d++) {
-        int n = mesh->n[d], first = fine->at[d] * n, half = d < mesh->dim ? 2 : 1;
+        int n = mesh->n[d], first = fine.at[d] * n, half = d < mesh->dim ? 2 : 1;
         int cells = mesh->levels[l].extent[d] * n;
         if (d == axis) first += face->face % 2 ? n : -1;
         first = (first + cells) % cells; /* wraps: only a periodic face looks over the end */
@@ -44,10 +57,10 @@ static void check_patch(const struct levels *levels, int l, const struct link_fa
 }
 
 /* Number of entries of a list for a face of a fine tile. */
-static unsigned count(const struct link_face *faces, unsigned from, unsigned to, unsigned fine, int face)
+static unsigned count(const struct link_face *faces, unsigned from, unsigned to, uint64_t fine, int face)
 {
     unsigned n = 0;
-    for (unsigned i = from; i < to; i++) n += faces[i].fine == fine && faces[i].face == face;
+    for (unsigned i = from; i < to; i++) n += faces[i].key == fine && faces[i].face == face;
     return n;
 }
 
@@ -60,18 +73,24 @@ static void check_faces(struct levels *levels, int l)
     assert_non_null(link);
     for (unsigned t = 0; t < fine->n_tile; t++)
         for (int face = 0; face < 2 * mesh->dim; face++) {
+            const struct tile *tile = &levels->lists[l][t];
             int at[3];
-            if (!levels_behind(levels, l, &fine->tiles[t], face, at) || levels_has(levels, l, at)) continue;
+            if (!levels_behind(levels, l, tile, face, at) || levels_has(levels, l, at)) continue;
             const int above[3] = {at[0] >> 1, at[1] >> 1, at[2] >> 1};
-            unsigned c = (unsigned)mesh_find(mesh, coarse, above), from = c - coarse->first;
-            if (here(fine, t)) {
-                unsigned index = fine->neighbours[t - fine->first][face].index;
-                assert_true(link->faces[index].fine == t && link->faces[index].face == face);
-                assert_true(link->faces[index].coarse == c && index == n_face++);
+            bool both = here(levels, l - 1, above);
+            if (here(levels, l, tile->at)) {
+                unsigned own = local(levels, l, tile->at), index = fine->neighbours[own][face].index;
+                assert_true(link->faces[index].fine == own && link->faces[index].key == tile->key);
+                assert_true(link->faces[index].face == face && index == n_face++);
+                if (both) assert_int_equal(link->faces[index].coarse, local(levels, l - 1, above));
+                else assert_true(link->faces[index].coarse >= coarse->n_local);
                 check_patch(levels, l, &link->faces[index]);
             }
-            if (!here(coarse, c)) continue;
-            assert_int_equal(count(link->sources, link->source_from[from], link->source_from[from + 1], t, face), 1);
+            if (!both) continue;
+            unsigned from = local(levels, l - 1, above);
+            assert_int_equal(count(link->sources, link->source_from[from], link->source_from[from + 1], tile->key,
+                                   face),
+                             1);
             n_source++;
         }
     assert_int_equal(link->n_face, n_face);
@@ -80,11 +99,11 @@ static void check_faces(struct levels *levels, int l)
     for (unsigned c = 0; c < coarse->n_local; c++)
         for (unsigned i = link->source_from[c]; i < link->source_from[c + 1]; i++) {
             const struct link_face *source = &link->sources[i];
-            assert_int_equal(source->coarse, coarse->first + c);
+            assert_int_equal(source->coarse, c);
             check_patch(levels, l, source);
             if (i > link->source_from[c])
-                assert_true(source[-1].fine < source->fine ||
-                            (source[-1].fine == source->fine && source[-1].face < source->face));
+                assert_true(source[-1].key < source->key ||
+                            (source[-1].key == source->key && source[-1].face < source->face));
         }
 }
 
@@ -96,25 +115,28 @@ static void check_children(struct levels *levels, int l)
     unsigned n_octant = 0;
     assert_int_equal(link->n_child, fine->n_local);
     for (unsigned t = 0; t < fine->n_tile; t++) {
-        const struct tile *tile = &fine->tiles[t];
+        const struct tile *tile = &levels->lists[l][t];
         const int above[3] = {tile->at[0] >> 1, tile->at[1] >> 1, tile->at[2] >> 1};
         int octant = (tile->at[0] & 1) + 2 * (tile->at[1] & 1) + 4 * (tile->at[2] & 1);
-        unsigned c = (unsigned)mesh_find(mesh, coarse, above);
-        bool both = here(fine, t) && here(coarse, c);
-        if (here(fine, t)) {
-            const struct link_child *child = &link->children[t - fine->first];
-            assert_true(child->fine == t && child->coarse == c && child->octant == octant);
+        bool below = here(levels, l - 1, above), both = here(levels, l, tile->at) && below;
+        if (here(levels, l, tile->at)) {
+            unsigned own = local(levels, l, tile->at);
+            const struct link_child *child = &link->children[own];
+            assert_true(child->fine == own && child->octant == octant);
+            if (both) assert_int_equal(child->coarse, local(levels, l - 1, above));
+            else assert_true(child->coarse >= coarse->n_local);
             assert_int_equal(child->average == NULL, both);
         }
-        if (!here(coarse, c)) continue;
-        unsigned found = 0;
-        for (unsigned i = link->octant_from[c - coarse->first]; i < link->octant_from[c - coarse->first + 1]; i++) {
+        if (!below) continue;
+        unsigned found = 0, c = local(levels, l - 1, above);
+        for (unsigned i = link->octant_from[c]; i < link->octant_from[c + 1]; i++) {
             const struct link_child *child = &link->octants[i];
             assert_int_equal(child->coarse, c);
-            if (i > link->octant_from[c - coarse->first]) assert_true(child[-1].octant < child->octant);
+            if (i > link->octant_from[c]) assert_true(child[-1].octant < child->octant);
             if (child->octant != octant) continue;
             found++;
-            assert_int_equal(child->fine, t);
+            if (both) assert_int_equal(child->fine, local(levels, l, tile->at));
+            else assert_true(child->fine >= fine->n_local);
             assert_int_equal(child->average == NULL, both);
         }
         assert_int_equal(found, 1);
@@ -151,10 +173,10 @@ static void test_lists(void **state)
 }
 
 /* Numbers that say what they belong to: `kind` 0 and 1 strips, 2 register, 3 average; writes or compares. */
-static void stamp(bool write, double *at, size_t doubles, int kind, unsigned fine, int place, int round)
+static void stamp(bool write, double *at, size_t doubles, int kind, uint64_t fine, int place, int round)
 {
     for (size_t i = 0; i < doubles; i++) {
-        double value = kind + 10.0 * place + 100.0 * round + 1e4 * (double)i + 1e9 * fine;
+        double value = kind + 10.0 * place + 100.0 * round + 1e4 * (double)i + 1e9 * (double)fine;
         if (write) at[i] = value;
         else assert_true(at[i] == value);
     }
@@ -163,36 +185,42 @@ static void stamp(bool write, double *at, size_t doubles, int kind, unsigned fin
 static void stamp_fluxes(const struct link *link, const struct link_face *faces, unsigned n, bool write, int round)
 {
     for (unsigned i = 0; i < n; i++)
-        stamp(write, faces[i].flux, link->n_register * link->face_cells, 2, faces[i].fine, faces[i].face, round);
+        stamp(write, faces[i].flux, link->n_register * link->face_cells, 2, faces[i].key, faces[i].face, round);
 }
 
 static void stamp_strips(const struct link *link, const struct link_face *faces, unsigned n, bool write, int round)
 {
     for (unsigned i = 0; i < n; i++)
         for (int slot = 0; slot < 2; slot++)
-            stamp(write, faces[i].strip[slot], link->strip_doubles, slot, faces[i].fine, faces[i].face, round);
+            stamp(write, faces[i].strip[slot], link->strip_doubles, slot, faces[i].key, faces[i].face, round);
 }
 
-static void stamp_averages(const struct link *link, const struct link_child *list, unsigned n, bool write, int round)
+/* Told apart by the fine tile: by its own end on level `fine`, or by the octant above on the coarser one (NULL). */
+static void stamp_averages(const struct link *link, const struct level *fine, const struct level *coarse,
+                           const struct link_child *list, unsigned n, int round)
 {
-    for (unsigned i = 0; i < n; i++)
+    for (unsigned i = 0; i < n; i++) {
+        uint64_t key = fine ? fine->tiles[fine->first + list[i].fine].key
+                            : coarse->tiles[coarse->first + list[i].coarse].key << 3 | (unsigned)list[i].octant;
         if (list[i].average)
-            stamp(write, list[i].average, LEVELS_FIELDS * link->octant_cells, 3, list[i].fine, list[i].octant, round);
+            stamp(fine, list[i].average, LEVELS_FIELDS * link->octant_cells, 3, key, list[i].octant, round);
+    }
 }
 
 /* Strips go down, registers and averages up; neither disturbs the other. */
 static void check_traffic(struct levels *levels, int l)
 {
     struct link *link = levels->mesh->levels[l].link;
+    const struct level *fine = &levels->mesh->levels[l], *coarse = fine - 1;
     for (int round = 0; round < 2; round++) {
         stamp_strips(link, link->sources, link->n_source, true, round);
         link_down(link);
         stamp_fluxes(link, link->faces, link->n_face, true, round);
-        stamp_averages(link, link->children, link->n_child, true, round);
+        stamp_averages(link, fine, NULL, link->children, link->n_child, round);
         stamp_strips(link, link->faces, link->n_face, false, round);
         link_up(link);
         stamp_fluxes(link, link->sources, link->n_source, false, round);
-        stamp_averages(link, link->octants, link->n_octant, false, round);
+        stamp_averages(link, NULL, coarse, link->octants, link->n_octant, round);
         stamp_strips(link, link->faces, link->n_face, false, round);
     }
 }
@@ -209,7 +237,7 @@ static void replace(struct levels *levels, int l)
     unsigned n;
     struct mesh_change change;
     struct tile *tiles = levels_list(levels, l, &n);
-    mesh_replace(levels->mesh, l, tiles, n, &change);
+    levels_give(levels, l, tiles, n, &change);
     mesh_change_free(&change);
     for (int finer = 1; finer < levels->mesh->n_level; finer++) {
         check_lists(levels, finer);

@@ -156,7 +156,7 @@ static void regrid(struct mesh *mesh, int base, int patience, char *const *wishe
     for (int l = base + 1; l <= mesh->most_level; l++) wishes[l] = keys_of(mesh, l, wished[l]);
     nest_sets(mesh, base, wishes, patience, ret_sets);
     compare_carried(mesh, base, ret_sets);
-    for (int l = base + 1; l <= mesh->most_level; l++) nest_whole(&ret_sets[l]);
+    for (int l = base + 1; l <= mesh->most_level; l++) replicated_join(&ret_sets[l]);
     for (int l = base + 1; l <= mesh->most_level; l++) nest_free_keys(&wishes[l]);
 }
 
@@ -334,7 +334,7 @@ static void check_wishes(int dim, const int extent[3], int n, unsigned periodic,
     assert_int_equal(keys.n, count);
     for (unsigned i = 0; i < keys.n; i++) {
         int at[3];
-        nest_at(keys.keys[i], at);
+        morton_at(keys.keys[i], at);
         assert_true(expected[place_of(&mesh, 1, at)]);
     }
     nest_free_keys(&keys);

@@ -6,7 +6,8 @@
 
 #include "base/comm.h"
 #include "base/mem.h"
-#include "mesh/level.h"
+#include "mesh/morton.h"
+#include "replicated.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -57,13 +58,13 @@ static void mesh_make(struct mesh *mesh, int dim, const int extent[3], int n, un
     struct tile *tiles = mem_new(n_tile, sizeof *tiles);
     for (uint64_t key = 0; count < n_tile; key++) {
         struct tile tile = {.key = key};
-        nest_at(key, tile.at);
+        morton_at(key, tile.at);
         bool inside = true;
         for (int d = 0; d < 3; d++) inside &= tile.at[d] < level->extent[d];
         if (inside) tiles[count++] = tile;
     }
     owners(tiles, n_tile);
-    level_adopt(level, tiles, n_tile);
+    replicated_adopt(level, tiles, n_tile);
 }
 
 static void mesh_drop(struct mesh *mesh)
@@ -77,7 +78,7 @@ static void mesh_take(struct mesh *mesh, int base, struct nest_set *sets)
     for (int l = base + 1; l <= mesh->most_level; l++) {
         struct level *level = &mesh->levels[l];
         owners(sets[l].tiles, sets[l].n);
-        level_adopt(level, sets[l].tiles, sets[l].n);
+        replicated_adopt(level, sets[l].tiles, sets[l].n);
         if (level->n_tile) mesh->n_level = l + 1;
     }
 }

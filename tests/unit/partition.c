@@ -2,6 +2,7 @@
 #include "mesh/partition.h"
 
 #include "base/mem.h"
+#include "replicated.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -48,7 +49,7 @@ static void cut(struct tile *tiles, unsigned n, const double *cost, int size, ui
     partition_cut(&runs, size, weight, load, first);
     assert_int_equal(first[0], 0);
     assert_int_equal(first[size], n);
-    partition_give(tiles, size, first);
+    replicated_give(tiles, size, first);
     partition_free(&runs);
     mem_free(first);
 }

@@ -326,7 +326,6 @@ static void test_linear(void **state)
 /* Levels that do not change when x and y are exchanged. */
 static void refine_symmetric(struct levels *levels)
 {
-    struct mesh *mesh = levels->mesh;
     struct mesh_change change;
     levels_draw(levels);
     for (int l = 1; l <= levels->shape.levels; l++) {
@@ -339,7 +338,7 @@ static void refine_symmetric(struct levels *levels)
         unsigned n;
         if (!memchr(levels->maps[l], 1, levels_places(levels, l))) return;
         struct tile *tiles = levels_list(levels, l, &n);
-        mesh_replace(mesh, l, tiles, n, &change);
+        levels_give(levels, l, tiles, n, &change);
         mesh_change_free(&change);
     }
 }

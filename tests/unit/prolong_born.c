@@ -71,7 +71,7 @@ static void start_third(struct twolevel *two, int dim, struct mesh_change *ret_c
         third->extent[d] = two->fine->extent[d] * (d < dim ? 2 : 1);
     }
     qsort(tiles, (size_t)1 << 2 * dim, sizeof *tiles, twolevel_compare);
-    mesh_replace(mesh, 2, tiles, 1u << 2 * dim, ret_change);
+    replicated_replace(mesh, 2, tiles, 1u << 2 * dim, ret_change);
 }
 
 /* Linear fields are at rest: densities and pressures tell. */

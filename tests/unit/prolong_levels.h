@@ -5,6 +5,7 @@
 #define PROLONG_LEVELS_H
 
 #include "flow.h"
+#include "replicated.h"
 
 #include "levels/prolong.h"
 #include "levels/restrict.h"
@@ -29,17 +30,24 @@ static inline int twolevel_compare(const void *a, const void *b)
 /* Which tiles the fine level has; NULL: all. */
 typedef bool twolevel_chooser(const int at[3]);
 
+/* Those of all ranks; fine tiles belong to the owner of the coarse one. */
 static inline struct tile *twolevel_tiles(const struct level *coarse, int dim, twolevel_chooser *chosen,
                                           unsigned *ret_count)
 {
-    struct tile *tiles = mem_new((size_t)coarse->n_tile << dim, sizeof *tiles);
+    const struct span span = {coarse->n_rank, 0, coarse->first_keys};
+    struct nest_set all = {coarse->n_local, mem_new(coarse->n_local, sizeof *all.tiles)};
+    if (all.n) memcpy(all.tiles, coarse->tiles + coarse->first, all.n * sizeof *all.tiles);
+    replicated_join(&all);
+    struct tile *tiles = mem_new((size_t)all.n << dim, sizeof *tiles);
     *ret_count = 0;
-    for (unsigned i = 0; i < coarse->n_tile << dim; i++) {
-        struct tile tile = {.rank = coarse->tiles[i >> dim].rank};
-        for (int d = 0; d < dim; d++) tile.at[d] = 2 * coarse->tiles[i >> dim].at[d] + (int)(i >> d & 1);
+    for (unsigned i = 0; i < all.n << dim; i++) {
+        const struct tile *below = &all.tiles[i >> dim];
+        struct tile tile = {.rank = span_owner(&span, below->key)};
+        for (int d = 0; d < dim; d++) tile.at[d] = 2 * below->at[d] + (int)(i >> d & 1);
         tile.key = morton_key(tile.at);
         if (!chosen || chosen(tile.at)) tiles[(*ret_count)++] = tile;
     }
+    nest_free_set(&all);
     qsort(tiles, *ret_count, sizeof *tiles, twolevel_compare);
     return tiles;
 }
@@ -59,7 +67,7 @@ static inline void twolevel_start(struct twolevel *two, char *text, flow_setter 
         two->fine->extent[d] = d < mesh->dim ? two->coarse->extent[d] * 2 : 1;
     }
     struct tile *tiles = twolevel_tiles(two->coarse, mesh->dim, chosen, &count);
-    mesh_replace(mesh, 1, tiles, count, &two->change);
+    replicated_replace(mesh, 1, tiles, count, &two->change);
     two->bound = bound_new(two->model, mesh, two->coarse);
 }
 

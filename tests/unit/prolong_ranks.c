@@ -26,14 +26,17 @@ static uint64_t digest(const double *values, size_t n)
 static void scatter(struct twolevel *two)
 {
     struct mesh_change change;
-    unsigned n = two->fine->n_tile, size = (unsigned)comm_size();
-    struct tile *tiles = mem_new(n, sizeof *tiles);
-    memcpy(tiles, two->fine->tiles, n * sizeof *tiles);
+    unsigned size = (unsigned)comm_size();
+    struct nest_set set = {two->fine->n_local, mem_new(two->fine->n_local, sizeof *set.tiles)};
+    if (set.n) memcpy(set.tiles, two->fine->tiles + two->fine->first, set.n * sizeof *set.tiles);
+    replicated_join(&set);
+    struct tile *tiles = set.tiles;
+    unsigned n = set.n;
     for (unsigned i = 0; i < n; i++) {
         unsigned rank = i < n / 8 ? 0 : 1 + (i - n / 8) * (size - 1) / (n - n / 8);
         tiles[i].rank = (int)(rank < size ? rank : size - 1);
     }
-    mesh_replace(two->mesh, 1, tiles, n, &change);
+    replicated_replace(two->mesh, 1, tiles, n, &change);
     mesh_change_free(&change);
 }
 
@@ -43,15 +46,15 @@ static void write_state(const struct twolevel *two, int dim, FILE *out)
     const struct link *link = two->fine->link;
     size_t block = mesh->n_field * mesh->n_cell;
     for (unsigned t = 0; t < two->fine->n_local; t++)
-        fprintf(out, "%d fine %u %016" PRIx64 " %016" PRIx64 "\n", dim, two->fine->first + t,
-                digest(two->fine->u_old[t], block),
+        fprintf(out, "%d fine %" PRIu64 " %016" PRIx64 " %016" PRIx64 "\n", dim,
+                two->fine->tiles[two->fine->first + t].key, digest(two->fine->u_old[t], block),
                 digest(two->fine->w[t] + two->model->i_E * mesh->n_cell, mesh->n_cell));
     for (unsigned f = 0; f < link->n_face; f++)
-        fprintf(out, "%d strip %u %d %016" PRIx64 " %016" PRIx64 "\n", dim, link->faces[f].fine, link->faces[f].face,
-                digest(link->faces[f].strip[0], link->strip_doubles),
+        fprintf(out, "%d strip %" PRIu64 " %d %016" PRIx64 " %016" PRIx64 "\n", dim, link->faces[f].key,
+                link->faces[f].face, digest(link->faces[f].strip[0], link->strip_doubles),
                 digest(link->faces[f].strip[1], link->strip_doubles));
     for (unsigned t = 0; t < two->coarse->n_local; t++)
-        fprintf(out, "%d coarse %u %016" PRIx64 "\n", dim, two->coarse->first + t,
+        fprintf(out, "%d coarse %" PRIu64 " %016" PRIx64 "\n", dim, two->coarse->tiles[two->coarse->first + t].key,
                 digest(two->coarse->u_old[t], block));
 }
 
@@ -69,8 +72,8 @@ static void play(const char *path)
         halo_start(two.coarse->halo, two.coarse->w);
         halo_finish(two.coarse->halo);
         struct prolong *prolong = prolong_new(two.model, two.mesh);
-        bool *born = mem_new(two.fine->n_tile, sizeof *born);
-        memset(born, 1, two.fine->n_tile * sizeof *born);
+        bool *born = mem_new(two.fine->n_known, sizeof *born);
+        memset(born, 1, two.fine->n_known * sizeof *born);
         prolong_tiles(prolong, two.mesh, 1, two.bound, born);
         prolong_strips(prolong, two.mesh, 0, two.bound, 0);
         prolong_strips(prolong, two.mesh, 0, two.bound, 1);

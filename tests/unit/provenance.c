@@ -3,6 +3,7 @@
 
 #include "io/ledger.h"
 #include "levels_io.h"
+#include "replicated.h"
 #include "solve/cost.h"
 #include "solve/stage.h"
 
@@ -225,7 +226,7 @@ static void test_levels(void **state)
     assert_true(json_real_value(json_object_get(fine, "width")) == small.state->mesh->levels[1].h[0]);
     assert_int_equal(json_integer_value(json_object_get(root, "cells_carried")), 256);
     json_decref(root);
-    mesh_replace(small.state->mesh, 1, NULL, 0, &change); /* gone again */
+    replicated_replace(small.state->mesh, 1, NULL, 0, &change); /* gone again */
     mesh_change_free(&change);
     assert_int_equal(provenance_write(provenance, small.state, "finished", 0), 0);
     root = load(&small);

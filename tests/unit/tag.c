@@ -1,5 +1,6 @@
 /* Tags against brute force over the whole domain: differences, surfaces, values, scripts, regions, limits, symmetry. The
  * expected marks are computed from the numbers of the whole domain on every rank, so it also runs under mpirun. */
+#include "replicated.h"
 #include "tag_world.h"
 
 /* Fields. Random, but the same on all ranks. */
@@ -374,7 +375,7 @@ static void coarse_fine_faces_are_no_jumps(void **state)
     struct tile *tiles = mem_new(1, sizeof *tiles);
     struct mesh_change change;
     tiles[0] = (struct tile){.key = 12, .at = {2, 2, 0}};
-    mesh_replace(world.mesh, 1, tiles, 1, &change);
+    replicated_replace(world.mesh, 1, tiles, 1, &change);
     mesh_change_free(&change);
     const struct level *fine = &world.mesh->levels[1];
     double *marks[1] = {mem_new(world.mesh->n_cell, sizeof **marks)};

@@ -38,7 +38,8 @@ static void test_locate(void **state)
     for (int i = 0; i <= 64; i++) {
         size_t cell;
         int l;
-        unsigned tile = mesh_locate(flow.state->mesh, (const double[3]){i / 64.0}, &l, &cell);
+        unsigned tile;
+        assert_true(mesh_locate(flow.state->mesh, (const double[3]){i / 64.0}, &l, &tile, &cell));
         assert_int_equal(8 * tile + cell, i < 64 ? i : 63);
         assert_int_equal(l, 0);
     }

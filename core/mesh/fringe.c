@@ -1,0 +1,172 @@
+/* fringe.c - see fringe.h. */
+#include "mesh/fringe.h"
+
+#include "base/comm.h"
+#include "base/mem.h"
+#include "base/swap.h"
+#include "mesh/level.h"
+#include "mesh/morton.h"
+#include "mesh/span.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Tile coordinates of a level, both ends included. */
+struct fringe_box {
+    int from[3], to[3];
+};
+
+static void fringe_add(struct fringe *fringe, const struct fringe_item *item, int to)
+{
+    if (fringe->n == fringe->room) {
+        unsigned room = 2 * fringe->room + 64;
+        fringe->items = mem_grow(fringe->items, fringe->room, room, sizeof *fringe->items);
+        fringe->to = mem_grow(fringe->to, fringe->room, room, sizeof *fringe->to);
+        fringe->room = room;
+    }
+    fringe->items[fringe->n] = *item;
+    fringe->to[fringe->n++] = to;
+}
+
+/* The box as far as it is in the domain; false where it goes round a periodic axis. */
+static bool fringe_clip(const struct mesh *mesh, const struct level *level, struct fringe_box *box)
+{
+    bool plain = true;
+    for (int d = 0; d < 3; d++) {
+        int last = level->extent[d] - 1;
+        bool out = box->from[d] < 0 || box->to[d] > last;
+        if (out && mesh->periodic[d]) {
+            plain = false;
+            continue;
+        }
+        if (box->from[d] < 0) box->from[d] = 0;
+        if (box->to[d] > last) box->to[d] = last;
+    }
+    return plain;
+}
+
+/* Sends a tile to whoever answers for a place of the box, each once. */
+static void fringe_reach(const struct mesh *mesh, int l, int rank, struct fringe_box box,
+                         const struct fringe_item *item, struct fringe *fringe)
+{
+    const struct level *level = &mesh->levels[l];
+    const struct span span = span_of(mesh, l);
+    bool plain = fringe_clip(mesh, level, &box);
+    if (plain && span_holds(&span, rank, morton_key(box.from)) && span_holds(&span, rank, morton_key(box.to))) return;
+    int last = rank, at[3], place[3];
+    for (at[2] = box.from[2]; at[2] <= box.to[2]; at[2]++)
+        for (at[1] = box.from[1]; at[1] <= box.to[1]; at[1]++)
+            for (at[0] = box.from[0]; at[0] <= box.to[0]; at[0]++) {
+                for (int d = 0; d < 3; d++) place[d] = (at[d] + level->extent[d]) % level->extent[d];
+                uint64_t key = morton_key(place);
+                if (span_holds(&span, rank, key) || (last != rank && span_holds(&span, last, key))) continue;
+                last = span_owner(&span, key);
+                fringe_add(fringe, item, last);
+            }
+}
+
+/* Places that lie `below` before and `above` after a tile, of the level `finer` (1: the next one, -1: the one below). */
+static struct fringe_box fringe_box(const struct mesh *mesh, const struct tile *tile, int finer)
+{
+    struct fringe_box box = {{0}, {0}};
+    for (int d = 0; d < mesh->dim; d++) {
+        int at = tile->at[d];
+        box.from[d] = (finer > 0 ? 2 * at : finer < 0 ? at >> 1 : at) - 1;
+        box.to[d] = (finer > 0 ? 2 * at + 1 : finer < 0 ? at >> 1 : at) + 1;
+    }
+    return box;
+}
+
+void fringe_list(const struct mesh *mesh, int l, int rank, struct fringe *fringe)
+{
+    const struct level *level = &mesh->levels[l];
+    for (unsigned t = level->first; t < level->first + level->n_local; t++) {
+        const struct tile *tile = &level->tiles[t];
+        const struct fringe_item item = {tile->key, (uint32_t)l, tile->born};
+        for (int finer = -1; finer <= 1; finer++)
+            if (l + finer >= 0 && l + finer < mesh->n_level)
+                fringe_reach(mesh, l + finer, rank, fringe_box(mesh, tile, finer), &item, fringe);
+    }
+}
+
+struct fringe_sorted {
+    struct fringe_item item;
+    int to;
+};
+
+static int fringe_compare(const void *a, const void *b)
+{
+    const struct fringe_sorted *x = a, *y = b;
+    if (x->to != y->to) return x->to < y->to ? -1 : 1;
+    if (x->item.level != y->item.level) return x->item.level < y->item.level ? -1 : 1;
+    return (x->item.key > y->item.key) - (x->item.key < y->item.key);
+}
+
+void fringe_sort(struct fringe *fringe)
+{
+    struct fringe_sorted *sorted = mem_new(fringe->n, sizeof *sorted);
+    unsigned n = fringe->n;
+    for (unsigned i = 0; i < n; i++) sorted[i] = (struct fringe_sorted){fringe->items[i], fringe->to[i]};
+    if (n) qsort(sorted, n, sizeof *sorted, fringe_compare);
+    fringe->n = 0;
+    for (unsigned i = 0; i < n; i++)
+        if (!i || fringe_compare(&sorted[i - 1], &sorted[i]) != 0) fringe_add(fringe, &sorted[i].item, sorted[i].to);
+    mem_free(sorted);
+}
+
+void fringe_free(struct fringe *fringe)
+{
+    mem_free(fringe->items);
+    mem_free(fringe->to);
+    *fringe = (struct fringe){0};
+}
+
+static void fringe_take(struct tile **to, const struct fringe_item *item, int rank)
+{
+    **to = (struct tile){.key = item->key, .rank = rank, .born = item->born};
+    morton_at(item->key, (*to)->at);
+    ++*to;
+}
+
+static void fringe_own(const struct level *level, int rank, struct tile **to)
+{
+    if (level->n_local) memcpy(*to, level->tiles + level->first, level->n_local * sizeof **to);
+    for (unsigned i = 0; i < level->n_local; i++) (*to)++->rank = rank;
+}
+
+/* Of lower ranks, own, of higher ranks: what ranks send follows them along the curve. */
+struct tile *fringe_merge(const struct level *level, int l, int rank, const struct swap *got, unsigned *ret_n)
+{
+    const struct fringe_item *items = got->items;
+    unsigned n = level->n_local;
+    for (unsigned i = 0; i < got->n; i++) n += items[i].level == (uint32_t)l;
+    struct tile *tiles = mem_new(n, sizeof *tiles), *to = tiles;
+    bool own = false;
+    for (unsigned p = 0; p < got->n_piece; items += got->pieces[p++].n) {
+        if (!own && got->pieces[p].rank > rank) {
+            fringe_own(level, rank, &to);
+            own = true;
+        }
+        for (unsigned i = 0; i < got->pieces[p].n; i++)
+            if (items[i].level == (uint32_t)l) fringe_take(&to, &items[i], got->pieces[p].rank);
+    }
+    if (!own) fringe_own(level, rank, &to);
+    *ret_n = n;
+    return tiles;
+}
+
+void fringe_learn(struct mesh *mesh, int lowest, int highest)
+{
+    struct fringe fringe = {0};
+    struct swap got;
+    for (int l = lowest; l <= highest; l++) fringe_list(mesh, l, comm_rank(), &fringe);
+    fringe_sort(&fringe);
+    swap_items(fringe.items, sizeof *fringe.items, fringe.n, fringe.to, &got);
+    for (int l = lowest; l <= highest; l++) {
+        unsigned n;
+        struct tile *tiles = fringe_merge(&mesh->levels[l], l, comm_rank(), &got, &n);
+        level_adopt(&mesh->levels[l], tiles, n);
+    }
+    swap_done(&got);
+    fringe_free(&fringe);
+}
