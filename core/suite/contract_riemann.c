@@ -212,9 +212,11 @@ static void contract_riemann_fractions(struct contract *contract, struct contrac
     contract_near(contract, sum, 1.0, 1.0, where);
 }
 
-/* The same fluid seen as one material of a mixed scene: the sum of the masses, the rest alike. */
+/* The same fluid seen as one material of a mixed scene: the sum of the masses, the rest alike. Fractions do not jump:
+ * signals may depend on it. */
 static void contract_riemann_sum(struct contract *contract, struct contract_face face)
 {
+    memcpy(face.right.alpha, face.left.alpha, sizeof face.right.alpha);
     struct contract_face single = face;
     single.shape.n_material = 1;
     single.shape.mixed = true;

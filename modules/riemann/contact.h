@@ -9,11 +9,18 @@
  *
  * The including module defines CONTACT_SPEEDS, one of the functions of wave.h, and CONTACT_SHEAR:
  * 1 to diffuse jumps of tangential velocity as the two-wave average does (a remedy against the
- * carbuncle), 0 to keep them sharp; and CONTACT_SLOW for solids (shear.h). */
+ * carbuncle), 0 to keep them sharp; and CONTACT_SLOW for solids (shear.h). With CONTACT_RELEASE 1, of fluids alone, signals
+ * between unlike mixtures are those of wave_release. */
 #ifndef CONTACT_H
 #define CONTACT_H
 
 #include "shear.h"
+
+#include <string.h>
+
+#ifndef CONTACT_RELEASE
+#define CONTACT_RELEASE 0
+#endif
 
 /* What a face carries: densities of side K go through with velocity `carrier`. */
 struct contact {
@@ -36,6 +43,21 @@ static inline struct contact contact_at(struct wave wave, struct wave_side left,
                             .carrier = inside ? chi * wave.s_contact : u_k};
 }
 
+/* Jumps of fractions that count in full. */
+#define CONTACT_ALIEN 0.01
+
+/* How unlike the mixtures of both sides are, 0 to 1, into work[3]; material by material. */
+BULLA_KERNEL static void contact_alien(size_t n, const double *restrict alpha_l, const double *restrict alpha_r,
+                                       double *restrict alien)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double most = alien[i], jump = fabs(alpha_r[i] - alpha_l[i]) * (1.0 / CONTACT_ALIEN);
+        jump = jump < 1.0 ? jump : 1.0;
+        alien[i] = jump > most ? jump : most;
+    }
+}
+
 /* Normal momentum, energy and face velocity. Leaves the carrier in work[0], the mass flux in
  * work[1] and in work[2] what resists shear: the diffusion speed times the lighter density. */
 BULLA_KERNEL static void contact_normal(const struct bulla_faces *faces)
@@ -48,12 +70,15 @@ BULLA_KERNEL static void contact_normal(const struct bulla_faces *faces)
     double *restrict momentum = faces->flux.momentum[0], *restrict energy = faces->flux.rho_E;
     double *restrict u = faces->flux.u, *restrict carrier = faces->work[0];
     double *restrict mass = faces->work[1], *restrict resist = faces->work[2];
+    const double *restrict alien = faces->work[3];
     const size_t n = faces->n;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         struct wave_side left = {rho_l[i], u_l[i], p_l[i], c_l[i], e_l[i]};
         struct wave_side right = {rho_r[i], u_r[i], p_r[i], c_r[i], e_r[i]};
-        struct wave wave = wave_contact(CONTACT_SPEEDS(left, right), left, right);
+        struct wave wave = CONTACT_SPEEDS(left, right);
+        if (CONTACT_RELEASE) wave = wave_release(wave, left, right, alien[i]);
+        wave = wave_contact(wave, left, right);
         struct contact face = contact_at(wave, left, right);
         carrier[i] = face.carrier;
         mass[i] = face.rho * face.carrier;
@@ -148,6 +173,9 @@ static void contact_solve(const struct bulla_faces *faces)
 {
     const struct bulla_side *left = &faces->left, *right = &faces->right;
     const struct bulla_flux *flux = &faces->flux;
+    if (CONTACT_RELEASE) memset(faces->work[3], 0, faces->n * sizeof(double));
+    for (unsigned l = 0; CONTACT_RELEASE && l < faces->n_alpha; l++)
+        contact_alien(faces->n, left->alpha[l], right->alpha[l], faces->work[3]);
     contact_normal(faces);
     for (unsigned l = 0; l < faces->n_material; l++)
         contact_mass(faces->n, left->m[l], right->m[l], flux->u, faces->work[0], flux->m[l]);

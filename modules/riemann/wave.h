@@ -47,6 +47,31 @@ static inline struct wave wave_rusanov(struct wave_side left, struct wave_side r
     return (struct wave){.s_left = -s, .s_right = s};
 }
 
+/* How slow the signal of a rarefaction may get, in the speed of sound. */
+#define WAVE_RELEASED 0.5
+
+/* Signals of a face between unlike mixtures, `alien` from 0 (alike) to 1. A side that lets go of pressure keeps the jump
+ * conditions of its signal, and those of speed c are not met by any state of its material: its pressure by density and
+ * energy is far from p*. They are met by the "rarefaction shock" of speed c - k (u_K - u*) along the Hugoniot, which strong
+ * rarefactions follow closely in density, velocity and energy. k = (gamma + 1)/4 for weak waves, 0.6 in air and 1.35 in
+ * water; 1 is taken for all (docs/decisions/cut-cells.md). u* is that of the two impedances, three times. Sides that are
+ * compressed keep their signals, to the bit. */
+static inline struct wave wave_release(struct wave wave, struct wave_side left, struct wave_side right, double alien)
+{
+    double c_left = left.c, c_right = right.c;
+    for (int round = 0; round < 3; round++) {
+        double z_left = left.rho * c_left, z_right = right.rho * c_right;
+        double u = (z_left * left.u + z_right * right.u + (left.p - right.p)) / (z_left + z_right);
+        c_left = wave_most(left.c + (left.u - u), WAVE_RELEASED * left.c);
+        c_right = wave_most(right.c + (u - right.u), WAVE_RELEASED * right.c);
+    }
+    double q_left = 1.0 - alien * (1.0 - c_left / left.c), q_right = 1.0 - alien * (1.0 - c_right / right.c);
+    double s_left = left.u - (left.u - wave.s_left) * q_left, s_right = right.u + (wave.s_right - right.u) * q_right;
+    wave.s_left = q_left < 1.0 ? s_left : wave.s_left;
+    wave.s_right = q_right < 1.0 ? s_right : wave.s_right;
+    return wave;
+}
+
 /* Adds velocity and pressure between the signals. */
 static inline struct wave wave_contact(struct wave wave, struct wave_side left, struct wave_side right)
 {
