@@ -115,7 +115,7 @@ static double scene_branch_step(const struct scene *scene, const struct scene_ma
     return ldexp(step, -level);
 }
 
-/* A branch that relaxes within a step bears less than it should, and damps less than G tau. */
+/* A branch that relaxes within a step damps more than G tau: 1 % if in one step, 5 % if in half of one. */
 static void scene_branch_resolve(struct draft *draft, const struct scene_material *material, unsigned b,
                                  const struct keys_value *value)
 {
@@ -132,14 +132,28 @@ static void scene_branch_resolve(struct draft *draft, const struct scene_materia
                   G * tau, G * tau);
     } else if (tau < 2.0 * coarse) {
         diag_warn(draft->keys.diag, &time->node->mark,
-                  "%s: a time step is about %.3g s on the coarsest level: the branch damps less than it should there",
+                  "%s: a time step is about %.3g s on the coarsest level: the branch damps more than it should there",
                   time->path, coarse);
     }
+}
+
+/* Stages that are mixed hold means of what has relaxed for different times: of first order (docs/numerics.md 6e). */
+static void scene_branch_stages(struct draft *draft)
+{
+    const struct keys_value *scheme = keys_at(draft->root, "scheme");
+    const struct keys_value *integrator = scheme->map ? keys_at(scheme->map, "integrator") : NULL;
+    unsigned n_branch = 0;
+    for (unsigned l = 0; l < draft->scene->n_material; l++) n_branch += draft->scene->material[l].n_branch;
+    if (!n_branch || draft->scene->scheme.integrator != SCENE_SSPRK3 || !integrator || !integrator->node) return;
+    diag_warn(draft->keys.diag, &integrator->node->mark,
+              "%s: the branches of solids relax to first order in time with 'ssprk3'", integrator->path);
+    diag_help(draft->keys.diag, "'midpoint', the default, is of second order there");
 }
 
 void scene_branch_times(struct draft *draft)
 {
     const struct keys_value *materials = keys_at(draft->root, "materials");
+    scene_branch_stages(draft);
     for (unsigned l = 0; l < draft->scene->n_material; l++) {
         const struct scene_material *material = &draft->scene->material[l];
         const struct keys_value *list = keys_at(materials->list[l].map, "viscoelastic");

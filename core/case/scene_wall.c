@@ -18,7 +18,7 @@ static void scene_wall_slides(struct draft *draft, int axis, const struct keys_m
     }
 }
 
-/* A no-slip wall without viscosity: nothing sticks to it but what the scheme smears, or a solid. */
+/* A no-slip wall without viscosity: nothing sticks to it but what the scheme smears, or a solid, which it shears. */
 static void scene_wall_drags(struct draft *draft, int axis, const struct keys_map *map,
                              const struct scene_boundary *boundary)
 {
@@ -27,7 +27,7 @@ static void scene_wall_drags(struct draft *draft, int axis, const struct keys_ma
     for (int d = 0; boundary->moves && d < scene->domain.n_velocity; d++)
         along = along || (d != axis && scene_wall_has(&boundary->velocity[d]));
     if (boundary->type != SCENE_NO_SLIP || scene->domain.n_velocity < 2 || scene_matter_viscous(draft)) return;
-    if (along)
+    if (along && !scene_matter_solid(draft))
         diag_warn(draft->keys.diag, &keys_at(map, "velocity")->node->mark,
                   "%s: the wall drags nothing along, because no material has a viscosity",
                   keys_at(map, "velocity")->path);

@@ -74,8 +74,9 @@ void elastic_speed2(const struct model *model, size_t n, size_t stride, const do
 struct elastic_rates {
     const double *carried, *m_old, *m_new, *div, *gradient;
     const double *squeeze,
-        *slope; /* in mixtures (else NULL): -(K_s/alpha_s) div u of the solids, and the block [dim] of
+        *slope;     /* in mixtures (else NULL): -(K_s/alpha_s) div u of the solids, and the block [dim] of
                                       -d_k alpha_s, of which only the direction n matters */
+    double relaxes; /* relaxation times (flow_relax.h) that the stretch of a branch spends in the middle of the step */
 };
 
 /* V_new from V_old after dt (model.md 2): half of the deformation, the transport, the other half,
@@ -85,7 +86,8 @@ struct elastic_rates {
  * together, across it each is compressed as its stiffness says (the closure's K), and what the gas gives way by is no
  * strain of the solid: without this the layer next to a bubble would be stretched too little
  * (docs/decisions/solid-gradient.md). The Cayley form turns a rigid rotation into an exact one. det V = 1 is left to
- * elastic_unimodular, which also stands for the trace of L. V_new and V_old may not overlap. */
+ * elastic_unimodular, which also stands for the trace of L. V_new and V_old may not overlap. A branch relaxes between the
+ * transport and the other half, by rates->relaxes. */
 void elastic_advance(const struct model *model, size_t n, size_t stride, double dt, const double *V_old,
                      const struct elastic_rates *rates, double *V_new);
 

@@ -9,6 +9,7 @@
 #include "phys/elastic.h"
 
 #include "phys/elastic_tensor.h"
+#include "phys/flow_relax.h"
 
 #include <math.h>
 
@@ -144,81 +145,107 @@ static ELASTIC_BODY struct elastic_tensor elastic_advance_blend(struct elastic_t
                                    keep * V.xy + come.xy, keep * V.xz + come.xz, keep * V.yz + come.yz};
 }
 
+/* What a kernel takes of a step: all, what comes before its middle, what comes after; the latter two with half of the transport. */
+enum { MOVE_WHOLE, MOVE_BEGIN, MOVE_END };
+
 /* One point: half of the deformation, the transport, the other half. */
-static ELASTIC_BODY struct elastic_tensor elastic_advance_point(struct move_matrix A, struct elastic_tensor old,
-                                                                double keep, struct elastic_tensor come, int nv)
+static ELASTIC_BODY struct elastic_tensor elastic_advance_point(struct move_matrix A, struct elastic_tensor V,
+                                                                double keep, struct elastic_tensor come, int nv,
+                                                                int part)
 {
     struct move_matrix E = elastic_advance_cayley(A);
-    struct elastic_tensor half = elastic_advance_polar(elastic_advance_product(E, elastic_advance_general(old)), nv);
-    struct elastic_tensor mean = elastic_tensor_nearest(elastic_advance_blend(half, keep, come));
-    return elastic_advance_polar(elastic_advance_product(E, elastic_advance_general(mean)), nv);
+    if (part != MOVE_END) V = elastic_advance_polar(elastic_advance_product(E, elastic_advance_general(V)), nv);
+    V = elastic_tensor_nearest(elastic_advance_blend(V, keep, come));
+    if (part == MOVE_BEGIN) return V;
+    return elastic_advance_polar(elastic_advance_product(E, elastic_advance_general(V)), nv);
 }
 
 /* Value of an optional row. */
 #define MOVE_IF(there, row) ((there) ? (row)[(there) ? i : 0] : 0.0)
 
-#define MOVE_KERNEL(nv)                                                                                          \
-    static BULLA_KERNEL void move_##nv(size_t n, double dt, struct move_hoop hoop, const struct move_rows *rows) \
-    {                                                                                                            \
-        const double *restrict g0 = rows->gradient[0], *restrict g1 = rows->gradient[1],                         \
-                               *restrict g2 = rows->gradient[2];                                                 \
-        const double *restrict g3 = rows->gradient[3], *restrict g4 = rows->gradient[4],                         \
-                               *restrict g5 = rows->gradient[5];                                                 \
-        const double *restrict g6 = rows->gradient[6], *restrict g7 = rows->gradient[7],                         \
-                               *restrict g8 = rows->gradient[8];                                                 \
-        const double *restrict o0 = rows->old[0], *restrict o1 = rows->old[1], *restrict o2 = rows->old[2];      \
-        const double *restrict o3 = rows->old[3], *restrict o4 = rows->old[4], *restrict o5 = rows->old[5];      \
-        const double *restrict m_old = rows->m_old, *restrict m_new = rows->m_new;                               \
-        const double *restrict c0 = rows->carried[0], *restrict c1 = rows->carried[1],                           \
-                               *restrict c2 = rows->carried[2];                                                  \
-        const double *restrict c3 = rows->carried[3], *restrict c4 = rows->carried[4],                           \
-                               *restrict c5 = rows->carried[5];                                                  \
-        double *restrict r0 = rows->out[0], *restrict r1 = rows->out[1], *restrict r2 = rows->out[2];            \
-        double *restrict r3 = rows->out[3], *restrict r4 = rows->out[4], *restrict r5 = rows->out[5];            \
-        const double *restrict q = rows->squeeze, *restrict n0 = rows->slope[0], *restrict n1 = rows->slope[1],  \
-                               *restrict n2 = rows->slope[2];                                                    \
-        const double *restrict div = rows->div;                                                                  \
-        const double quarter = 0.25 * dt;                                                                        \
-        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                       \
-        {                                                                                                        \
-            double d = div[i];                                                                                   \
-            struct move_matrix G = {g0[i],                                                                       \
-                                    MOVE_IF((nv) > 1, g1),                                                       \
-                                    MOVE_IF((nv) > 2, g2),                                                       \
-                                    MOVE_IF((nv) > 1, g3),                                                       \
-                                    MOVE_IF((nv) > 1, g4),                                                       \
-                                    MOVE_IF((nv) > 2, g5),                                                       \
-                                    MOVE_IF((nv) > 2, g6),                                                       \
-                                    MOVE_IF((nv) > 2, g7),                                                       \
-                                    MOVE_IF((nv) > 2, g8)};                                                      \
-            struct elastic_tensor old = {                                                                        \
-                o0[i], o1[i], o2[i], MOVE_IF((nv) > 1, o3), MOVE_IF((nv) > 2, o4), MOVE_IF((nv) > 2, o5)};       \
-            double now = m_new[i], before = m_old[i], least = MOVE_LEFT * before;                                \
-            double mass = now > least ? now : least, per = 1.0 / mass;                                           \
-            per = mass > ELASTIC_NOTHING ? per : 0.0;                                                            \
-            double keep = 1.0 - (now - before) * per, take = dt * per;                                           \
-            struct elastic_tensor come = {take * c0[i],                                                          \
-                                          take * c1[i],                                                          \
-                                          take * c2[i],                                                          \
-                                          take * MOVE_IF((nv) > 1, c3),                                          \
-                                          take * MOVE_IF((nv) > 2, c4),                                          \
-                                          take * MOVE_IF((nv) > 2, c5)};                                         \
-            struct elastic_tensor Q =                                                                            \
-                elastic_advance_squeeze(q[i], n0[i], MOVE_IF((nv) > 1, n1), MOVE_IF((nv) > 2, n2));              \
-            struct elastic_tensor V =                                                                            \
-                elastic_advance_point(elastic_advance_strain(G, Q, d, quarter, hoop, nv), old, keep, come, nv);  \
-            r0[i] = V.xx, r1[i] = V.yy, r2[i] = V.zz;                                                            \
-            if ((nv) > 1) r3[i] = V.xy;                                                                          \
-            if ((nv) > 2) r4[i] = V.xz, r5[i] = V.yz;                                                            \
-        }                                                                                                        \
+#define MOVE_KERNEL(name, nv, part)                                                                                   \
+    static BULLA_KERNEL void name##_##nv(size_t n, double dt, struct move_hoop hoop, const struct move_rows *rows)    \
+    {                                                                                                                 \
+        const double *restrict g0 = rows->gradient[0], *restrict g1 = rows->gradient[1],                              \
+                               *restrict g2 = rows->gradient[2];                                                      \
+        const double *restrict g3 = rows->gradient[3], *restrict g4 = rows->gradient[4],                              \
+                               *restrict g5 = rows->gradient[5];                                                      \
+        const double *restrict g6 = rows->gradient[6], *restrict g7 = rows->gradient[7],                              \
+                               *restrict g8 = rows->gradient[8];                                                      \
+        const double *restrict o0 = rows->old[0], *restrict o1 = rows->old[1], *restrict o2 = rows->old[2];           \
+        const double *restrict o3 = rows->old[3], *restrict o4 = rows->old[4], *restrict o5 = rows->old[5];           \
+        const double *restrict m_old = rows->m_old, *restrict m_new = rows->m_new;                                    \
+        const double *restrict c0 = rows->carried[0], *restrict c1 = rows->carried[1],                                \
+                               *restrict c2 = rows->carried[2];                                                       \
+        const double *restrict c3 = rows->carried[3], *restrict c4 = rows->carried[4],                                \
+                               *restrict c5 = rows->carried[5];                                                       \
+        double *restrict r0 = rows->out[0], *restrict r1 = rows->out[1], *restrict r2 = rows->out[2];                 \
+        double *restrict r3 = rows->out[3], *restrict r4 = rows->out[4], *restrict r5 = rows->out[5];                 \
+        const double *restrict q = rows->squeeze, *restrict n0 = rows->slope[0], *restrict n1 = rows->slope[1],       \
+                               *restrict n2 = rows->slope[2];                                                         \
+        const double *restrict div = rows->div;                                                                       \
+        const double quarter = 0.25 * dt, come_in = (part) == MOVE_WHOLE ? dt : 0.5 * dt;                             \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                            \
+        {                                                                                                             \
+            double d = div[i];                                                                                        \
+            struct move_matrix G = {g0[i],                                                                            \
+                                    MOVE_IF((nv) > 1, g1),                                                            \
+                                    MOVE_IF((nv) > 2, g2),                                                            \
+                                    MOVE_IF((nv) > 1, g3),                                                            \
+                                    MOVE_IF((nv) > 1, g4),                                                            \
+                                    MOVE_IF((nv) > 2, g5),                                                            \
+                                    MOVE_IF((nv) > 2, g6),                                                            \
+                                    MOVE_IF((nv) > 2, g7),                                                            \
+                                    MOVE_IF((nv) > 2, g8)};                                                           \
+            struct elastic_tensor old = {                                                                             \
+                o0[i], o1[i], o2[i], MOVE_IF((nv) > 1, o3), MOVE_IF((nv) > 2, o4), MOVE_IF((nv) > 2, o5)};            \
+            double now = m_new[i], before = m_old[i], least = MOVE_LEFT * before;                                     \
+            double mass = now > least ? now : least, per = 1.0 / mass;                                                \
+            per = mass > ELASTIC_NOTHING ? per : 0.0;                                                                 \
+            double keep = 1.0 - (now - before) * per, take = come_in * per;                                           \
+            struct elastic_tensor come = {take * c0[i],                                                               \
+                                          take * c1[i],                                                               \
+                                          take * c2[i],                                                               \
+                                          take * MOVE_IF((nv) > 1, c3),                                               \
+                                          take * MOVE_IF((nv) > 2, c4),                                               \
+                                          take * MOVE_IF((nv) > 2, c5)};                                              \
+            struct elastic_tensor Q =                                                                                 \
+                elastic_advance_squeeze(q[i], n0[i], MOVE_IF((nv) > 1, n1), MOVE_IF((nv) > 2, n2));                   \
+            struct elastic_tensor V =                                                                                 \
+                elastic_advance_point(elastic_advance_strain(G, Q, d, quarter, hoop, nv), old, keep, come, nv, part); \
+            r0[i] = V.xx, r1[i] = V.yy, r2[i] = V.zz;                                                                 \
+            if ((nv) > 1) r3[i] = V.xy;                                                                               \
+            if ((nv) > 2) r4[i] = V.xz, r5[i] = V.yz;                                                                 \
+        }                                                                                                             \
     }
-MOVE_KERNEL(1)
-MOVE_KERNEL(2)
-MOVE_KERNEL(3)
+MOVE_KERNEL(move, 1, MOVE_WHOLE)
+MOVE_KERNEL(move, 2, MOVE_WHOLE)
+MOVE_KERNEL(move, 3, MOVE_WHOLE)
+MOVE_KERNEL(move_begin, 1, MOVE_BEGIN)
+MOVE_KERNEL(move_begin, 2, MOVE_BEGIN)
+MOVE_KERNEL(move_begin, 3, MOVE_BEGIN)
+MOVE_KERNEL(move_end, 1, MOVE_END)
+MOVE_KERNEL(move_end, 2, MOVE_END)
+MOVE_KERNEL(move_end, 3, MOVE_END)
 
 enum { MOVE_BATCH = 512 };
 
 static const double elastic_advance_zero[MOVE_BATCH];
+
+/* The same with a relaxation in the middle; rows of n <= MOVE_BATCH points. What comes in is of the middle of the step, has
+ * relaxed for half of it and has the other half before it: half of it comes in before the relaxation here, half after. */
+static void elastic_advance_relaxing(const struct model *model, size_t n, double dt, struct move_hoop hoop,
+                                     double relaxes, const struct move_rows *rows)
+{
+    double mean[6][MOVE_BATCH], mass[MOVE_BATCH];
+    struct move_rows begin = *rows, end = *rows;
+    for (unsigned c = 0; c < 6; c++) end.old[c] = begin.out[c] = mean[c];
+    for (size_t i = 0; i < n; i++) mass[i] = 0.5 * (rows->m_old[i] + rows->m_new[i]);
+    begin.m_new = end.m_old = mass;
+    ELASTIC_CHOOSE(model->n_velocity, move_begin, n, dt, hoop, &begin);
+    flow_relax(model, n, MOVE_BATCH, relaxes, mean[0]);
+    ELASTIC_CHOOSE(model->n_velocity, move_end, n, dt, hoop, &end);
+}
 
 void elastic_advance(const struct model *model, size_t n, size_t stride, double dt, const double *V_old,
                      const struct elastic_rates *rates, double *V_new)
@@ -244,8 +271,7 @@ void elastic_advance(const struct model *model, size_t n, size_t stride, double 
             rows.carried[c] = rates->carried + at;
             rows.out[c] = V_new + at;
         }
-        if (model->n_velocity == 1) move_1(part, dt, hoop, &rows);
-        else if (model->n_velocity == 2) move_2(part, dt, hoop, &rows);
-        else move_3(part, dt, hoop, &rows);
+        if (rates->relaxes > 0.0) elastic_advance_relaxing(model, part, dt, hoop, rates->relaxes, &rows);
+        else ELASTIC_CHOOSE(model->n_velocity, move, part, dt, hoop, &rows);
     }
 }

@@ -71,8 +71,8 @@ static BULLA_KERNEL void strain_squeeze(size_t n, const double *restrict K, cons
 }
 
 /* Stretch k in n cells from `from`. */
-static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, size_t n, const double *V_old,
-                         double *u_new)
+static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, size_t n, double relaxes,
+                         const double *V_old, double *u_new)
 {
     const struct model *model = tile->model;
     size_t n_cell = tile->n_cell, first = model_stretch(model, k) * n_cell + from;
@@ -81,8 +81,12 @@ static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, 
     const double *gradient = tile->rates + terms_first(tile->terms, &strain_term) * n_cell + from;
     double solid[STRAIN_BATCH], K[STRAIN_BATCH], squeeze[STRAIN_BATCH], m_old[STRAIN_BATCH], m_new[STRAIN_BATCH];
     double *V = u_new + first;
-    struct elastic_rates rates = {
-        .carried = tile->rates + first, .m_old = m_old, .m_new = m_new, .div = div, .gradient = gradient};
+    struct elastic_rates rates = {.carried = tile->rates + first,
+                                  .m_old = m_old,
+                                  .m_new = m_new,
+                                  .div = div,
+                                  .gradient = gradient,
+                                  .relaxes = relaxes};
     elastic_carriers(model, k, n, n_cell, tile->u + mass, m_old);
     elastic_carriers(model, k, n, n_cell, u_new + mass, m_new);
     if (model->kapila) {
@@ -97,11 +101,11 @@ static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, 
     if (model->n_alpha) elastic_fade(model, n, n_cell, solid, V);
 }
 
-void strain_move(const struct term_tile *tile, unsigned k, const double *V_old, double *u_new)
+void strain_move(const struct term_tile *tile, unsigned k, double relaxes, const double *V_old, double *u_new)
 {
     for (size_t from = 0; from < tile->n_cell; from += STRAIN_BATCH) {
         size_t rest = tile->n_cell - from;
-        strain_batch(tile, k, from, rest < STRAIN_BATCH ? rest : STRAIN_BATCH, V_old, u_new);
+        strain_batch(tile, k, from, rest < STRAIN_BATCH ? rest : STRAIN_BATCH, relaxes, V_old, u_new);
     }
     elastic_unimodular(tile->model, tile->n_cell, tile->n_cell, u_new + model_stretch(tile->model, k) * tile->n_cell);
 }
@@ -112,7 +116,7 @@ static size_t strain_apply(const struct term_tile *tile, double *u_new)
     const struct model *model = tile->model;
     for (unsigned s = 0; s < model->n_solid; s++) {
         size_t first = model->solids[s].stretch * tile->n_cell;
-        if (model_carries(model, s, s)) strain_move(tile, s, tile->u + first, u_new);
+        if (model_carries(model, s, s)) strain_move(tile, s, 0.0, tile->u + first, u_new);
         else elastic_identity(model, tile->n_cell, tile->n_cell, u_new + first);
     }
     return 0;

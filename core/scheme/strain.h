@@ -11,7 +11,7 @@ extern const struct term strain_term;
 
 /* Stretch k of a tile (model_stretches()) from V_old, [n_stretch][n_cell], into the new state: moved with the mass of the
  * solid that carries it, faded where there is little of them, unimodular. For terms behind this one in the list. */
-void strain_move(const struct term_tile *tile, unsigned k, const double *V_old, double *u_new);
+void strain_move(const struct term_tile *tile, unsigned k, double relaxes, const double *V_old, double *u_new);
 
 /* Lists the fluxes of stretch k; stretch: of the faces (face.h), or NULL. Likewise for other terms. */
 void strain_carry(struct terms *terms, int axis, unsigned k, const double *stretch);

@@ -1,8 +1,8 @@
 /* viscoelastic.c - see viscoelastic.h.
  *
- * Relaxation F and motion A make a step F(dt/2) A(dt) F(dt/2), which is of second order (Strang, SIAM J. Numer. Anal. 5
- * (1968) 506-517). F is exact (phys/flow_relax.h), so a step may be longer than tau. What flows in through the faces is that
- * of the middle of the step, and is added in the middle. */
+ * Relaxation F and motion A make a step F(dt/6) A(dt/2) F(2 dt/3) A(dt/2) F(dt/6), which is of second order
+ * (phys/flow_relax.h). F is exact, so a step may be longer than tau. What flows in through the faces is that of the middle
+ * of the step, and is added in the middle. */
 #include "scheme/viscoelastic.h"
 
 #include "base/mem.h"
@@ -38,11 +38,11 @@ static size_t viscoelastic_apply(const struct term_tile *tile, double *u_new)
     double *half = tile->own;
     for (unsigned b = 0; b < model->n_branch; b++) {
         const struct model_branch *branch = &model->branches[b];
-        double part = 0.5 * tile->dt / branch->time;
+        double time = tile->dt / branch->time, ends = FLOW_RELAX_ENDS * time;
         memcpy(half, tile->u + branch->field * n_cell, model->n_stretch * n_cell * sizeof *half);
-        flow_relax(model, n_cell, n_cell, part, half);
-        strain_move(tile, model->n_solid + b, half, u_new);
-        flow_relax(model, n_cell, n_cell, part, u_new + branch->field * n_cell);
+        flow_relax(model, n_cell, n_cell, ends, half);
+        strain_move(tile, model->n_solid + b, FLOW_RELAX_MIDDLE * time, half, u_new);
+        flow_relax(model, n_cell, n_cell, ends, u_new + branch->field * n_cell);
     }
     return 0;
 }
