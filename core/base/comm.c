@@ -217,6 +217,15 @@ uint64_t *comm_join_keys(const uint64_t *keys, unsigned count, unsigned *ret_cou
     return all;
 }
 
+void comm_join_rows(const uint64_t *keys, int count, uint64_t *ret_all)
+{
+    MPI_Request request;
+    memcpy(ret_all, keys, (size_t)count * sizeof *keys);
+    if (!comm_is_active) return;
+    MPI_Iallgather(keys, count, MPI_UINT64_T, ret_all, count, MPI_UINT64_T, MPI_COMM_WORLD, &request);
+    comm_wait(1, &request, MPI_STATUSES_IGNORE);
+}
+
 void comm_bcast(void *data, size_t bytes)
 {
     comm_bcast_from(data, bytes, 0);

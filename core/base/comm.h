@@ -62,6 +62,9 @@ void comm_join(const double *values, int count, double *ret_all);
  * *ret_count keys, in rank order. */
 uint64_t *comm_join_keys(const uint64_t *keys, unsigned count, unsigned *ret_count);
 
+/* The same number of keys of each rank: ret_all[ranks * count]. */
+void comm_join_rows(const uint64_t *keys, int count, uint64_t *ret_all);
+
 /* From rank 0, or another one, to all. */
 void comm_bcast(void *data, size_t bytes);
 void comm_bcast_from(void *data, size_t bytes, int rank);

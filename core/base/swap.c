@@ -115,6 +115,36 @@ void swap_items(const void *items, size_t size, unsigned n, const int *to, struc
     mem_free(box.mail);
 }
 
+struct swap_place {
+    int to;
+    unsigned at;
+};
+
+static int swap_compare_places(const void *a, const void *b)
+{
+    const struct swap_place *x = a, *y = b;
+    if (x->to != y->to) return x->to < y->to ? -1 : 1;
+    return (x->at > y->at) - (x->at < y->at);
+}
+
+void swap_sort(void *items, size_t size, unsigned n, int *to)
+{
+    unsigned sorted = 1;
+    while (sorted < n && to[sorted - 1] <= to[sorted]) sorted++;
+    if (sorted >= n) return;
+    struct swap_place *places = mem_new(n, sizeof *places);
+    char *copy = mem_new(n, size);
+    memcpy(copy, items, n * size);
+    for (unsigned i = 0; i < n; i++) places[i] = (struct swap_place){to[i], i};
+    qsort(places, n, sizeof *places, swap_compare_places);
+    for (unsigned i = 0; i < n; i++) {
+        to[i] = places[i].to;
+        memcpy((char *)items + i * size, copy + places[i].at * size, size);
+    }
+    mem_free(copy);
+    mem_free(places);
+}
+
 void *swap_answer(const struct swap *asked, const void *answers, size_t size)
 {
     struct swap got;

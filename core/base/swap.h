@@ -25,6 +25,9 @@ struct swap {
  * *ret is freed by swap_done. Collective. */
 void swap_items(const void *items, size_t size, unsigned n, const int *to, struct swap *ret);
 
+/* Brings items into the order of the ranks that get them; those of one rank keep theirs. */
+void swap_sort(void *items, size_t size, unsigned n, int *to);
+
 /* Answers to what has come: item i of `answers` (of `size` bytes) belongs to item i of `asked`. Returns the answers
  * to what this rank had asked, in the order it had asked (mem_free). Collective. */
 void *swap_answer(const struct swap *asked, const void *answers, size_t size);

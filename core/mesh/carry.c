@@ -1,5 +1,5 @@
-/* carry.c - see carry.h. All lists follow the curve, and the key of a parent is that of its child without the last digit:
- * each is walked once. */
+/* carry.c - see carry.h. Lists follow the curve, and the key of a parent is that of its child without the last digit: born
+ * tiles of one parent follow each other and ask once. */
 #include "mesh/carry.h"
 
 #include "base/mem.h"
@@ -8,63 +8,123 @@
 
 #include <math.h>
 
-/* Numbers of tiles that were there; NAN: it is born. Counts the parents of born ones. */
-static double *carry_kept(const struct nest_set *set, const struct carry *before, unsigned *ret_parents)
+/* What is the number of this tile, if it was there? */
+struct carry_question {
+    uint64_t key;
+    uint32_t level, born; /* born: which of those who ask */
+};
+
+/* Who asks: born tiles of one parent, from tile `first` of a level on. */
+struct carry_questions {
+    unsigned n, room, n_born;
+    struct carry_question *list;
+    int *to;
+};
+
+static void carry_ask(struct carry_questions *questions, const struct carry_question *question, int to)
+{
+    if (questions->n == questions->room) {
+        unsigned room = 2 * questions->room + 64;
+        questions->list = mem_grow(questions->list, questions->room, room, sizeof *questions->list);
+        questions->to = mem_grow(questions->to, questions->room, room, sizeof *questions->to);
+        questions->room = room;
+    }
+    questions->list[questions->n] = *question;
+    questions->to[questions->n++] = to;
+}
+
+/* Numbers of tiles that were there; NAN: it is born. */
+static double *carry_kept(const struct nest_set *set, const struct carry *before)
 {
     double *values = mem_new(set->n, sizeof *values);
-    uint64_t parent = UINT64_MAX;
-    *ret_parents = 0;
     for (unsigned i = 0, old = 0; i < set->n; i++) {
         uint64_t key = set->tiles[i].key;
         while (old < before->n && before->tiles[old].key < key) old++;
         bool there = old < before->n && before->tiles[old].key == key;
         values[i] = there ? before->values[old] : NAN;
-        if (there || key >> 3 == parent) continue;
-        parent = key >> 3;
-        ++*ret_parents;
     }
     return values;
 }
 
-/* What the ranks have asked for. Within a piece keys ascend. */
-static double *carry_answers(const struct swap *asked, const struct carry *below)
+/* Is tile i born, and the first of its parent that is? Then *parent becomes its parent. */
+static bool carry_first(const struct nest_set *set, const double *values, unsigned i, uint64_t *parent)
 {
-    const uint64_t *keys = asked->items;
-    double *answers = mem_new(asked->n, sizeof *answers);
-    for (unsigned p = 0, i = 0; p < asked->n_piece; p++)
-        for (unsigned k = 0, tile = 0; k < asked->pieces[p].n; k++, i++) {
-            while (tile < below->n && below->tiles[tile].key < keys[i]) tile++;
-            answers[i] = below->values[tile];
-        }
-    return answers;
+    if (!isnan(values[i]) || set->tiles[i].key >> 3 == *parent) return false;
+    *parent = set->tiles[i].key >> 3;
+    return true;
 }
 
-double *carry_values(const struct mesh *mesh, int l, const struct nest_set *set, const struct carry *before,
-                     const struct carry *below)
+/* Born tiles ask for all that may be below them: which of it was there, only its owner knows. */
+static void carry_list(const struct mesh *mesh, int base, int l, const struct nest_set *set, const double *values,
+                       struct carry_questions *questions)
 {
-    struct span span = span_of(mesh, l - 1);
-    struct swap asked;
-    unsigned n, count = 0;
-    double *values = carry_kept(set, before, &n);
-    uint64_t *parents = mem_new(n, sizeof *parents);
-    int *to = mem_new(n, sizeof *to);
+    uint64_t parent = UINT64_MAX;
     for (unsigned i = 0; i < set->n; i++) {
-        uint64_t parent = set->tiles[i].key >> 3;
-        if (!isnan(values[i]) || (count && parents[count - 1] == parent)) continue;
-        to[count] = count && span_holds(&span, to[count - 1], parent) ? to[count - 1] : span_owner(&span, parent);
-        parents[count++] = parent;
+        if (!carry_first(set, values, i, &parent)) continue;
+        for (int m = l - 1 < mesh->n_level ? l - 1 : mesh->n_level - 1; m >= base; m--) {
+            struct span span = span_of(mesh, m);
+            const struct carry_question question = {set->tiles[i].key >> 3 * (l - m), (uint32_t)m, questions->n_born};
+            carry_ask(questions, &question, span_owner(&span, question.key));
+        }
+        questions->n_born++;
     }
-    swap_items(parents, sizeof *parents, count, to, &asked);
-    double *found = carry_answers(&asked, below), *answers = swap_answer(&asked, found, sizeof *found);
-    for (unsigned i = 0, parent = 0; i < set->n; i++) {
-        if (!isnan(values[i])) continue;
-        while (parents[parent] != set->tiles[i].key >> 3) parent++;
-        values[i] = answers[parent];
+}
+
+/* NAN: no such tile was there. */
+static double carry_look(const struct carry *before, uint64_t key)
+{
+    unsigned low = 0, high = before->n;
+    while (low < high) {
+        unsigned middle = low + (high - low) / 2;
+        if (before->tiles[middle].key < key) low = middle + 1;
+        else high = middle;
+    }
+    return low < before->n && before->tiles[low].key == key ? before->values[low] : (double)NAN;
+}
+
+/* For each of those who ask the number of the finest tile that was there. */
+static double *carry_answers(struct carry_questions *questions, const struct carry *before)
+{
+    struct swap asked;
+    swap_sort(questions->list, sizeof *questions->list, questions->n, questions->to);
+    swap_items(questions->list, sizeof *questions->list, questions->n, questions->to, &asked);
+    const struct carry_question *question = asked.items;
+    double *found = mem_new(asked.n, sizeof *found), *best = mem_new(questions->n_born, sizeof *best);
+    int *level = mem_new(questions->n_born, sizeof *level);
+    for (unsigned i = 0; i < asked.n; i++) found[i] = carry_look(&before[question[i].level], question[i].key);
+    double *answers = swap_answer(&asked, found, sizeof *found);
+    for (unsigned i = 0; i < questions->n_born; i++) level[i] = -1;
+    for (unsigned i = 0; i < questions->n; i++) {
+        const struct carry_question *own = &questions->list[i];
+        if (isnan(answers[i]) || (int)own->level <= level[own->born]) continue;
+        level[own->born] = (int)own->level;
+        best[own->born] = answers[i];
     }
     mem_free(answers);
+    mem_free(level);
     mem_free(found);
     swap_done(&asked);
-    mem_free(to);
-    mem_free(parents);
-    return values;
+    return best;
+}
+
+void carry_values(const struct mesh *mesh, int base, int highest, const struct nest_set *sets,
+                  const struct carry *before, double **ret_values)
+{
+    struct carry_questions questions = {0};
+    for (int l = base + 1; l <= highest; l++) {
+        ret_values[l] = carry_kept(&sets[l], &before[l]);
+        carry_list(mesh, base, l, &sets[l], ret_values[l], &questions);
+    }
+    double *answers = carry_answers(&questions, before);
+    unsigned next = 0; /* of those who have asked */
+    for (int l = base + 1; l <= highest; l++) {
+        uint64_t parent = UINT64_MAX;
+        for (unsigned i = 0; i < sets[l].n; i++) {
+            next += carry_first(&sets[l], ret_values[l], i, &parent);
+            if (isnan(ret_values[l][i])) ret_values[l][i] = answers[next - 1];
+        }
+    }
+    mem_free(answers);
+    mem_free(questions.list);
+    mem_free(questions.to);
 }

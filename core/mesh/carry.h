@@ -1,20 +1,22 @@
-/* carry.h - one number per tile, carried from a level to a new set of its tiles: those that were there keep theirs, born
- * ones get that of the tile below. Every rank has the numbers of its own pieces and asks the others for what is below. */
+/* carry.h - one number per tile, carried from levels to new sets of their tiles: those that were there keep theirs, born
+ * ones get that of the finest tile below them that was there. Every rank has the numbers of its own pieces and asks the
+ * others for what is below, of all levels at once. */
 #ifndef CARRY_H
 #define CARRY_H
 
 #include "mesh/nest.h"
 
-/* The numbers of this rank's piece of a level or of a new set; tiles sorted. */
+/* The numbers of this rank's piece of a level as it is; tiles sorted. */
 struct carry {
     unsigned n;
     const struct tile *tiles;
     const double *values;
 };
 
-/* Numbers for this rank's piece `set` of a new level l: new array (mem_free). `before`: of level l as it is (n 0: it is
- * not there); `below`: of level l - 1 as it will be, in which the set nests. Collective. */
-double *carry_values(const struct mesh *mesh, int l, const struct nest_set *set, const struct carry *before,
-                     const struct carry *below);
+/* Numbers for this rank's pieces sets[l] of the new levels base + 1 to `highest`: new arrays ret_values[l] (mem_free).
+ * before[l]: of the levels as they are, from `base` on (n 0: not there). The new sets nest in each other and in level
+ * `base`. Collective. */
+void carry_values(const struct mesh *mesh, int base, int highest, const struct nest_set *sets,
+                  const struct carry *before, double **ret_values);
 
 #endif

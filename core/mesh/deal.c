@@ -39,7 +39,7 @@ void deal_add(struct deal *deal, int l, const double *cost, unsigned n)
 
 static size_t deal_room(const struct deal *deal, int size)
 {
-    return (size_t)deal->n_level * ((size_t)size + 1);
+    return (size_t)deal->n_level * ((size_t)size + 1) + 1; /* the last one says whether level 0 is cut, too */
 }
 
 static uint32_t *deal_table(const struct deal *deal, int l, int size)
@@ -78,8 +78,10 @@ void deal_cut(struct deal *deal)
     uint64_t *load = gather_items(&deal->load, sizeof *load, 1, &n_load);
     if (comm_rank() == 0) deal_share(deal, runs, n, size, load);
     else deal->first = mem_new(deal_room(deal, size), sizeof *deal->first);
-    comm_bcast(&deal->root, sizeof deal->root);
-    comm_bcast(deal->first, deal_room(deal, size) * sizeof *deal->first);
+    size_t room = deal_room(deal, size);
+    deal->first[room - 1] = deal->root;
+    comm_bcast(deal->first, room * sizeof *deal->first);
+    deal->root = deal->first[room - 1];
     mem_free(runs);
     mem_free(load);
 }

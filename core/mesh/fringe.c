@@ -8,7 +8,6 @@
 #include "mesh/morton.h"
 #include "mesh/span.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Tile coordinates of a level, both ends included. */
@@ -89,29 +88,19 @@ void fringe_list(const struct mesh *mesh, int l, int rank, struct fringe *fringe
     }
 }
 
-struct fringe_sorted {
-    struct fringe_item item;
-    int to;
-};
-
-static int fringe_compare(const void *a, const void *b)
-{
-    const struct fringe_sorted *x = a, *y = b;
-    if (x->to != y->to) return x->to < y->to ? -1 : 1;
-    if (x->item.level != y->item.level) return x->item.level < y->item.level ? -1 : 1;
-    return (x->item.key > y->item.key) - (x->item.key < y->item.key);
-}
-
+/* Tiles were listed level by level along the curve, each for several ranks. */
 void fringe_sort(struct fringe *fringe)
 {
-    struct fringe_sorted *sorted = mem_new(fringe->n, sizeof *sorted);
     unsigned n = fringe->n;
-    for (unsigned i = 0; i < n; i++) sorted[i] = (struct fringe_sorted){fringe->items[i], fringe->to[i]};
-    if (n) qsort(sorted, n, sizeof *sorted, fringe_compare);
+    swap_sort(fringe->items, sizeof *fringe->items, n, fringe->to);
     fringe->n = 0;
-    for (unsigned i = 0; i < n; i++)
-        if (!i || fringe_compare(&sorted[i - 1], &sorted[i]) != 0) fringe_add(fringe, &sorted[i].item, sorted[i].to);
-    mem_free(sorted);
+    for (unsigned i = 0; i < n; i++) {
+        const struct fringe_item item = fringe->items[i];
+        const struct fringe_item *last = fringe->n ? &fringe->items[fringe->n - 1] : NULL;
+        bool again =
+            last && fringe->to[fringe->n - 1] == fringe->to[i] && last->level == item.level && last->key == item.key;
+        if (!again) fringe_add(fringe, &item, fringe->to[i]);
+    }
 }
 
 void fringe_free(struct fringe *fringe)

@@ -68,18 +68,14 @@ static int *hand_leave(struct hand *hand, int l)
 static struct hand_item *hand_pack(const struct hand *hand, unsigned n, int *ret_to)
 {
     struct hand_item *items = mem_new(n, sizeof *items);
-    unsigned at[MESH_LEVELS + 1] = {0};
-    for (unsigned count = 0; count < n;) {
-        int next = comm_size();
-        for (int l = hand->lowest; l <= hand->highest; l++)
-            if (at[l] < hand->made[l].n && hand->to[l][at[l]] < next) next = hand->to[l][at[l]];
-        for (int l = hand->lowest; l <= hand->highest; l++)
-            for (; at[l] < hand->made[l].n && hand->to[l][at[l]] == next; at[l]++) {
-                const struct tile *tile = &hand->made[l].tiles[at[l]];
-                ret_to[count] = next;
-                items[count++] = (struct hand_item){tile->key, (uint16_t)l, hand->was[l][at[l]], tile->unwanted};
-            }
-    }
+    unsigned count = 0;
+    for (int l = hand->lowest; l <= hand->highest; l++)
+        for (unsigned i = 0; i < hand->made[l].n; i++) {
+            const struct tile *tile = &hand->made[l].tiles[i];
+            ret_to[count] = hand->to[l][i];
+            items[count++] = (struct hand_item){tile->key, (uint16_t)l, hand->was[l][i], tile->unwanted};
+        }
+    swap_sort(items, sizeof *items, n, ret_to);
     return items;
 }
 
@@ -109,17 +105,17 @@ void hand_fill(uint64_t *first_keys, int size)
 /* All ranks tell where their new pieces begin. */
 static void hand_firsts(int lowest, int highest, struct mesh_set *sets)
 {
-    unsigned levels = (unsigned)(highest - lowest + 1), n;
-    uint64_t own[MESH_LEVELS + 1];
+    unsigned levels = (unsigned)(highest - lowest + 1), size = (unsigned)comm_size();
+    uint64_t own[MESH_LEVELS + 1], *all = mem_new((size_t)size * levels, sizeof *all);
     for (unsigned l = 0; l < levels; l++) {
         const struct mesh_set *set = &sets[lowest + (int)l];
         own[l] = set->n ? set->tiles[0].key : UINT64_MAX;
     }
-    uint64_t *all = comm_join_keys(own, levels, &n);
+    comm_join_rows(own, (int)levels, all);
     for (unsigned l = 0; l < levels; l++) {
-        uint64_t *first = mem_new((size_t)comm_size(), sizeof *first);
-        for (unsigned rank = 0; rank < n / levels; rank++) first[rank] = all[rank * levels + l];
-        hand_fill(first, comm_size());
+        uint64_t *first = mem_new(size, sizeof *first);
+        for (unsigned rank = 0; rank < size; rank++) first[rank] = all[rank * levels + l];
+        hand_fill(first, (int)size);
         sets[lowest + (int)l].first_keys = first;
     }
     mem_free(all);

@@ -17,7 +17,7 @@
 #include <assert.h>
 #include <string.h>
 
-static void nest_push(struct nest_keys *keys, uint64_t key)
+void nest_push(struct nest_keys *keys, uint64_t key)
 {
     if (keys->n == keys->room) {
         unsigned room = keys->room ? 2 * keys->room : 256;
@@ -118,10 +118,11 @@ static void nest_sort(struct nest_keys *keys)
     nest_family_free(&families);
 }
 
-void nest_join(const struct mesh *mesh, int l, struct nest_keys *keys)
+void nest_join(const struct mesh *mesh, int lowest, int count, struct nest_keys *keys)
 {
-    nest_sort(keys);
-    if (nest_share_keys(mesh, l, keys)) nest_sort(keys);
+    for (int i = 0; i < count; i++) nest_sort(&keys[i]);
+    bool mixed = nest_share_keys(mesh, lowest, count, keys);
+    for (int i = 0; mixed && i < count; i++) nest_sort(&keys[i]);
 }
 
 /* May a tile of level l exist over the fixed level `base`? What it needs on the way down, and what that needs, is a
@@ -149,23 +150,36 @@ static bool nest_is_allowed(const struct mesh *mesh, int base, int l, uint64_t k
     return true;
 }
 
-/* Wishes come sorted: those in one tile of the fixed level follow each other, and its owner is asked once. */
+/* The tiles of the fixed level in which wishes lie, and what is around these. */
+struct nest_ground {
+    struct nest_keys places; /* sorted */
+    uint32_t *there;
+};
+
+/* Their owners are asked once, for the wishes of all levels. */
+static struct nest_ground nest_ground(const struct mesh *mesh, int base, const struct nest_keys *wishes)
+{
+    struct nest_ground ground = {0};
+    for (int l = base + 1; l <= mesh->most_level; l++)
+        for (unsigned i = 0; i < wishes[l].n; i++) {
+            uint64_t place = wishes[l].keys[i] >> 3 * (l - base);
+            if (!ground.places.n || ground.places.keys[ground.places.n - 1] != place) nest_push(&ground.places, place);
+        }
+    nest_sort(&ground.places);
+    ground.there = nest_share_around(mesh, base, &ground.places);
+    return ground;
+}
+
+/* Wishes and places come sorted. */
 static void nest_add_wishes(const struct mesh *mesh, int base, int l, const struct nest_keys *wishes,
-                            struct nest_families *families)
+                            const struct nest_ground *ground, struct nest_families *families)
 {
     int shift = 3 * (l - base);
-    struct nest_keys places = {.n = 0, .keys = mem_new(wishes->n, sizeof *places.keys)};
-    for (unsigned i = 0; base > 0 && i < wishes->n; i++)
-        if (!places.n || places.keys[places.n - 1] != wishes->keys[i] >> shift)
-            places.keys[places.n++] = wishes->keys[i] >> shift;
-    uint32_t *there = base > 0 ? nest_share_around(mesh, base, &places) : NULL;
     for (unsigned i = 0, place = 0; i < wishes->n; i++) {
         uint64_t key = wishes->keys[i];
-        while (base > 0 && places.keys[place] != key >> shift) place++;
-        if (base == 0 || nest_is_allowed(mesh, base, l, key, there[place])) nest_family_add_tile(families, key);
+        while (base > 0 && ground->places.keys[place] != key >> shift) place++;
+        if (base == 0 || nest_is_allowed(mesh, base, l, key, ground->there[place])) nest_family_add_tile(families, key);
     }
-    mem_free(there);
-    nest_free_keys(&places);
 }
 
 static struct tile nest_tile(uint64_t key, unsigned unwanted)
@@ -210,13 +224,17 @@ struct nest_set nest_piece(const struct mesh *mesh, int l, struct nest_families 
 void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes, int patience,
                struct nest_set *ret_sets)
 {
+    struct nest_ground ground = {0};
+    if (base > 0) ground = nest_ground(mesh, base, wishes);
     for (int l = mesh->most_level; l > base; l--) {
         struct nest_families families = {0};
-        nest_add_wishes(mesh, base, l, &wishes[l], &families);
-        if (l < mesh->most_level) nest_share_needs(mesh, l + 1, ret_sets[l + 1].tiles, ret_sets[l + 1].n, &families);
+        nest_add_wishes(mesh, base, l, &wishes[l], &ground, &families);
+        if (l < mesh->most_level) nest_share_needs(mesh, l + 1, 1, &ret_sets[l + 1], &families);
         ret_sets[l] = nest_piece(mesh, l, &families, patience);
         nest_family_free(&families);
     }
+    mem_free(ground.there);
+    nest_free_keys(&ground.places);
 }
 
 bool nest_same(const struct mesh *mesh, int l, const struct nest_set *set)
@@ -292,24 +310,26 @@ bool nest_lacks(const struct mesh *mesh, int l, struct nest_families *needs, uin
     return missing != 0;
 }
 
-/* The first tile in this rank's piece of level l - 1 that one of level l needs and that is not there. */
-static bool nest_misses(const struct mesh *mesh, int l, uint64_t *ret_missing)
-{
-    const struct level *level = &mesh->levels[l];
-    struct nest_families needs = {0};
-    nest_share_needs(mesh, l, level->tiles + level->first, level->n_local, &needs);
-    bool lacks = nest_lacks(mesh, l - 1, &needs, ret_missing);
-    nest_family_free(&needs);
-    return lacks;
-}
+/* A tile that is not there. */
+struct nest_hole {
+    uint64_t key;
+    int l; /* of the tile that needs it */
+};
 
-static int nest_check_needs(const struct mesh *mesh, int l)
+/* The first tile in this rank's pieces that one of the next finer level needs and that is not there. */
+static bool nest_misses(const struct mesh *mesh, struct nest_hole *ret_hole)
 {
-    uint64_t missing = 0;
-    int first = comm_first(nest_misses(mesh, l, &missing));
-    if (first == comm_size()) return STATUS_OK;
-    comm_bcast_from(&missing, sizeof missing, first);
-    return comm_agree(nest_fail(mesh, l, missing));
+    struct nest_set pieces[MESH_LEVELS];
+    struct nest_families *needs = mem_new(MESH_LEVELS, sizeof *needs);
+    for (int l = 0; l < mesh->n_level; l++)
+        pieces[l] = (struct nest_set){mesh->levels[l].n_local, mesh->levels[l].tiles + mesh->levels[l].first};
+    nest_share_needs(mesh, 1, mesh->n_level - 1, pieces + 1, needs);
+    int l = 1;
+    while (l < mesh->n_level && !nest_lacks(mesh, l - 1, &needs[l - 1], &ret_hole->key)) l++;
+    ret_hole->l = l;
+    for (int k = 0; k < MESH_LEVELS; k++) nest_family_free(&needs[k]);
+    mem_free(needs);
+    return l < mesh->n_level;
 }
 
 static int nest_check_cover(const struct mesh *mesh)
@@ -323,11 +343,14 @@ static int nest_check_cover(const struct mesh *mesh)
 
 int nest_check(const struct mesh *mesh)
 {
+    struct nest_hole hole = {0};
     int code = nest_check_cover(mesh);
     for (int l = 0; l < mesh->n_level && !code; l++) code = nest_check_order(mesh, l);
+    int first = comm_first(nest_misses(mesh, &hole) || code);
+    if (first == comm_size()) return STATUS_OK;
     TRY(comm_agree(code));
-    for (int l = 1; l < mesh->n_level; l++) TRY(nest_check_needs(mesh, l));
-    return STATUS_OK;
+    comm_bcast_from(&hole, sizeof hole, first);
+    return comm_agree(nest_fail(mesh, hole.l, hole.key));
 }
 
 void nest_free_keys(struct nest_keys *keys)

@@ -24,13 +24,16 @@ struct nest_set {
     struct tile *tiles; /* sorted; rank not set; `unwanted` counted on */
 };
 
+/* Adds a key. */
+void nest_push(struct nest_keys *keys, uint64_t key);
+
 /* Adds the octants (tiles of the next level) within `buffer` cells of the tagged cells (mark != 0) of a tile. */
 void nest_wish(const struct mesh *mesh, const struct level *level, const struct tile *tile, const double *marks,
                int buffer, struct nest_keys *keys);
 
-/* Takes keys of level l to the ranks that answer for them: what is left here is what all ranks have brought to this
- * one, sorted and without repetition. Collective. */
-void nest_join(const struct mesh *mesh, int l, struct nest_keys *keys);
+/* Takes keys of `count` levels from `lowest` on (keys[0] first) to the ranks that answer for them: what is left here is
+ * what all ranks have brought to this one, sorted and without repetition. Collective. */
+void nest_join(const struct mesh *mesh, int lowest, int count, struct nest_keys *keys);
 
 /* This rank's pieces of the new sets of levels base + 1 .. most_level, ret_sets[l] for level l from the joined keys
  * wishes[l]; they are the caller's (nest_free_set). Collective. */

@@ -8,13 +8,13 @@
 #include "mesh/nest_family.h"
 #include "mesh/span.h"
 
-/* Sends sorted keys of level l to those who answer for them and leaves what has come for this rank: false if that is
- * still sorted. Collective. */
-bool nest_share_keys(const struct mesh *mesh, int l, struct nest_keys *keys);
+/* Sends sorted keys of `count` levels from `lowest` on to those who answer for them and leaves what has come for this
+ * rank: false if that is still sorted. Collective. */
+bool nest_share_keys(const struct mesh *mesh, int lowest, int count, struct nest_keys *keys);
 
-/* Adds what the tiles of level l of all ranks need of level l - 1 in this rank's piece; `tiles` are this rank's.
- * Collective. */
-void nest_share_needs(const struct mesh *mesh, int l, const struct tile *tiles, unsigned n,
+/* Adds what the tiles of `count` levels of all ranks, from `lowest` on, need of the next coarser ones in this rank's
+ * pieces: families[0] of level lowest - 1; sets[0] is this rank's piece of level `lowest`. Collective. */
+void nest_share_needs(const struct mesh *mesh, int lowest, int count, const struct nest_set *sets,
                       struct nest_families *families);
 
 /* Of the 3^d tiles around each of `places` (sorted keys of level l), which exist or lie outside the domain: new

@@ -88,10 +88,12 @@ static int regrid_sets(struct regrid *regrid, int patience)
     const struct mesh *mesh = regrid->state->mesh;
     struct derive_moment moment = derive_moment(regrid->state->model, mesh, regrid->state->t);
     moment.base = regrid->base; /* ghosts of this level are those of a step that is under way */
+    int count = 0;
     for (int l = regrid->base; l < mesh->most_level && l < mesh->n_level; l++) {
         TRY(regrid_tag(regrid, &moment, l));
-        nest_join(mesh, l + 1, &regrid->wishes[l + 1]);
+        count++;
     }
+    nest_join(mesh, regrid->base + 1, count, regrid->wishes + regrid->base + 1);
     nest_sets(mesh, regrid->base, regrid->wishes, patience, regrid->sets);
     return STATUS_OK;
 }
@@ -151,26 +153,24 @@ static void regrid_tell(const struct regrid *regrid, struct deal *deal)
 {
     const struct state *state = regrid->state;
     const struct mesh *mesh = state->mesh;
-    struct carry below = {0};
-    double *last = NULL; /* costs of the level below */
-    for (int l = 0; l <= mesh->most_level && (l <= regrid->base || regrid->n_tile[l]); l++) {
+    struct carry before[MESH_LEVELS + 1] = {0};
+    double *costs[MESH_LEVELS] = {0}, *carried[MESH_LEVELS + 1] = {0};
+    int highest = regrid->base;
+    while (highest < mesh->most_level && regrid->n_tile[highest + 1]) highest++;
+    for (int l = 0; l < mesh->n_level; l++) {
         const struct level *level = &mesh->levels[l];
-        const struct nest_set *set = &regrid->sets[l];
-        bool exists = l < mesh->n_level;
-        double *costs = exists ? regrid_costs(state->stages[l]) : NULL;
-        struct carry here = {exists ? level->n_local : 0, exists ? level->tiles + level->first : NULL, costs};
-        if (l > regrid->base) {
-            double *carried = carry_values(mesh, l, set, &here, &below);
-            mem_free(costs);
-            costs = carried;
-            here = (struct carry){set->n, set->tiles, carried};
-        }
-        deal_add(deal, l, costs, here.n);
-        mem_free(last);
-        last = costs;
-        below = here;
+        costs[l] = regrid_costs(state->stages[l]);
+        before[l] = (struct carry){level->n_local, level->tiles + level->first, costs[l]};
     }
-    mem_free(last);
+    carry_values(mesh, regrid->base, highest, regrid->sets, before, carried);
+    for (int l = 0; l <= highest; l++) {
+        if (l <= regrid->base) deal_add(deal, l, costs[l], before[l].n);
+        else deal_add(deal, l, carried[l], regrid->sets[l].n);
+    }
+    for (int l = 0; l < MESH_LEVELS; l++) {
+        mem_free(costs[l]);
+        mem_free(carried[l]);
+    }
 }
 
 /* The piece of level 0 as it is. */

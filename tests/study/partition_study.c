@@ -18,7 +18,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { STUDY_REGRID = 4, STUDY_RANKS = 6, STUDY_REPEATS = 5, STUDY_REGRIDS = 6, STUDY_MEETINGS = 7 };
+enum { STUDY_REGRID = 4, STUDY_RANKS = 6, STUDY_REPEATS = 5, STUDY_REGRIDS = 6, STUDY_MEETINGS = 15, STUDY_RIPPLE = 2 };
 
 /* The machine of the projection: seconds per cell and stage of cost 1, per message, per byte. */
 static const double STUDY_CELL = 45e-9, STUDY_MESSAGE = 2e-6, STUDY_BYTE = 1e-10;
@@ -241,21 +241,23 @@ static void study_print_projection(struct study *study, int size)
            p.compute / (busy + p.network + p.topology), p.topology / p.compute);
 }
 
-/* Levels made anew in all regrids of a coarse step. */
-static double study_rounds(const struct study *study)
+/* Meetings of all ranks in all regrids of a coarse step: of a regrid STUDY_MEETINGS, and STUDY_RIPPLE for each level that
+ * is made anew. */
+static double study_meetings(const struct study *study)
 {
     int finest = study->mesh.n_level - 1;
-    double rounds = 0.0;
-    for (int b = 0; b < finest; b++) rounds += (finest - b) * ldexp(1.0, b) / STUDY_REGRID * (b ? 0.5 : 1.0);
-    return rounds;
+    double meetings = 0.0;
+    for (int b = 0; b < finest; b++)
+        meetings += (STUDY_MEETINGS + STUDY_RIPPLE * (finest - b)) * ldexp(1.0, b) / STUDY_REGRID * (b ? 0.5 : 1.0);
+    return meetings;
 }
 
-/* Seconds of a rank in all regrids of a coarse step: its piece, what it does with all tiles, and messages. All meet
- * STUDY_MEETINGS times per level: two messages, there and back, for each doubling of the ranks. */
+/* Seconds of a rank in all regrids of a coarse step: its piece, waiting for the cut, and messages. To meet takes two
+ * messages, there and back, for each doubling of the ranks. */
 static double study_shared(const struct study *study, const struct pieces *pieces, int size)
 {
     double regrids = study_regridded(study) / study->tiles;
-    double meetings = study_rounds(study) * STUDY_MEETINGS * 2.0 * ceil(log2(size));
+    double meetings = study_meetings(study) * 2.0 * ceil(log2(size));
     return regrids * (pieces->most + pieces->cut + (pieces->bytes + pieces->joined) * STUDY_BYTE) +
            (regrids * pieces->messages + meetings) * STUDY_MESSAGE;
 }
@@ -358,8 +360,8 @@ static void study_topology(struct study *studies, int n_study)
 static void study_pieces(struct study *studies, int n_study)
 {
     study_head("Pieces",
-               "| set | ranks | tiles per rank | list of all, ms | piece, mean | most | rest of the list | cut "
-               "| messages | kB | MB held | topology / ideal, list | now | efficiency, list | now |");
+               "| set | ranks | tiles per rank | list of all, ms | piece, mean | most | cut "
+               "| messages | kB | kB known | kB of keys | topology / ideal, list | now | efficiency, list | now |");
     for (int i = 0; i < n_study; i++)
         for (int s = 0; s < STUDY_RANKS; s++) study_print_pieces(&studies[i], RANKS[s]);
 }

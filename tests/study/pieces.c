@@ -118,7 +118,7 @@ static void pieces_needs(struct pieces_world *world, int l, bool check)
         for (unsigned i = 0; i < dealt.n; i++) {
             pieces_post(&world->ranks[to[i]].mail, &dealt.list[i]);
             rank->bytes += to[i] != r ? sizeof *dealt.list : 0.0;
-            rank->messages += to[i] != r && to[i] != last;
+            rank->messages += !check && to[i] != r && to[i] != last;
             last = to[i];
         }
         mem_free(to);
@@ -158,16 +158,48 @@ static void pieces_sets(struct pieces_world *world, int l, const struct nest_key
 }
 
 /* Costs carried. */
-static void pieces_list(struct pieces_world *world, const struct study *study, int l)
+static void pieces_carry(struct pieces_world *world, const struct study *study)
 {
-    struct level *level = &world->mesh->levels[l];
+    int n_level = world->mesh->n_level;
     for (int r = 0; r < world->size; r++) {
+        struct carry before[MESH_LEVELS] = {0};
+        double *carried[MESH_LEVELS] = {0};
         pieces_be(world, r);
-        struct carry before = {level->n_local, level->tiles + level->first, study->costs[l] + level->first};
         double start = pieces_clock();
-        mem_free(carry_values(world->mesh, l, &world->ranks[r].sets[l], &before, &before));
+        for (int l = 0; l < n_level; l++) {
+            const struct level *level = &world->mesh->levels[l];
+            before[l] = (struct carry){level->n_local, level->tiles + level->first, study->costs[l] + level->first};
+        }
+        carry_values(world->mesh, 0, n_level - 1, world->ranks[r].sets, before, carried);
+        for (int l = 0; l < n_level; l++) mem_free(carried[l]);
         world->ranks[r].seconds += pieces_clock() - start;
     }
+}
+
+/* The check of all levels is one exchange: one message for each rank that any level needs something of. */
+static void pieces_check_messages(struct pieces_world *world)
+{
+    int *seen = mem_new((size_t)world->size, sizeof *seen);
+    for (int r = 0; r < world->size; r++) {
+        pieces_be(world, r);
+        for (int l = 1; l < world->mesh->n_level; l++) {
+            const struct level *level = &world->mesh->levels[l];
+            struct span span = span_of(world->mesh, l - 1);
+            struct nest_families needs = {0};
+            int *to;
+            nest_family_needs(world->mesh, l, level->tiles + level->first, level->n_local, &needs);
+            nest_family_sort(&needs);
+            struct nest_families dealt = nest_share_deal(&span, &needs, &to);
+            for (unsigned i = 0; i < dealt.n; i++) {
+                world->ranks[r].messages += to[i] != r && seen[to[i]] != r + 1;
+                seen[to[i]] = r + 1;
+            }
+            mem_free(to);
+            nest_family_free(&dealt);
+            nest_family_free(&needs);
+        }
+    }
+    mem_free(seen);
 }
 
 static void pieces_check(struct pieces_world *world, int l)
@@ -327,10 +359,9 @@ static void pieces_run(struct pieces_world *world, const struct study *study, co
     for (int r = 0; r < world->size; r++)
         world->ranks[r].seconds = world->ranks[r].bytes = world->ranks[r].messages = 0.0;
     for (int l = n_level - 1; l > 0; l--) pieces_sets(world, l, &wishes[l]);
-    for (int l = 1; l < n_level; l++) {
-        pieces_list(world, study, l);
-        pieces_check(world, l);
-    }
+    pieces_carry(world, study);
+    for (int l = 1; l < n_level; l++) pieces_check(world, l);
+    pieces_check_messages(world);
     pieces_fringes(world);
     for (int r = 0; r < world->size; r++) {
         struct pieces_rank *rank = &world->ranks[r];

@@ -72,7 +72,7 @@ struct nest_keys sets_wishes(const struct sets_scene *scene, const struct mesh *
 {
     struct sets_descent descent = {.scene = scene, .wanted = l};
     for (unsigned i = 0; i < mesh->levels[0].n_tile; i++) sets_descend(&descent, 0, mesh->levels[0].tiles[i].at);
-    nest_join(mesh, l, &descent.keys);
+    nest_join(mesh, l, 1, &descent.keys);
     return descent.keys;
 }
 

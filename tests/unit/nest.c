@@ -95,7 +95,7 @@ static struct nest_keys keys_of(const struct mesh *mesh, int l, const char *wish
         at_of(mesh, l, p, at);
         if (wished[p]) keys.keys[keys.n++] = morton_key(at);
     }
-    nest_join(mesh, l, &keys);
+    nest_join(mesh, l, 1, &keys);
     return keys;
 }
 
@@ -129,25 +129,22 @@ static double number_under(const struct mesh *mesh, int l, uint64_t key)
 /* Numbers carried to the pieces of new sets are those of the whole lists. */
 static void compare_carried(const struct mesh *mesh, int base, const struct nest_set *pieces)
 {
-    struct carry below = {0};
-    double *carried[MOST + 1] = {0};
-    for (int l = base; l <= mesh->most_level; l++) {
+    struct carry before[MOST + 1] = {0};
+    double *values[MOST + 1] = {0}, *carried[MOST + 1] = {0};
+    for (int l = 0; l < mesh->n_level; l++) {
         const struct level *level = &mesh->levels[l];
-        struct carry before = {0};
-        if (l < mesh->n_level) before = (struct carry){level->n_local, level->tiles + level->first, NULL};
-        double *values = mem_new(before.n, sizeof *values);
-        for (unsigned i = 0; i < before.n; i++) values[i] = number(l, before.tiles[i].key);
-        before.values = values;
-        if (l > base) {
-            carried[l] = carry_values(mesh, l, &pieces[l], &before, &below);
-            for (unsigned i = 0; i < pieces[l].n; i++)
-                assert_true(carried[l][i] == number_under(mesh, l, pieces[l].tiles[i].key));
-            before = (struct carry){pieces[l].n, pieces[l].tiles, carried[l]};
-            mem_free(values);
-        } else carried[l] = values;
-        below = before;
+        values[l] = mem_new(level->n_local, sizeof *values[l]);
+        before[l] = (struct carry){level->n_local, level->tiles + level->first, values[l]};
+        for (unsigned i = 0; i < before[l].n; i++) values[l][i] = number(l, before[l].tiles[i].key);
     }
-    for (int l = base; l <= mesh->most_level; l++) mem_free(carried[l]);
+    carry_values(mesh, base, mesh->most_level, pieces, before, carried);
+    for (int l = base + 1; l <= mesh->most_level; l++)
+        for (unsigned i = 0; i < pieces[l].n; i++)
+            assert_true(carried[l][i] == number_under(mesh, l, pieces[l].tiles[i].key));
+    for (int l = 0; l <= MOST; l++) {
+        mem_free(values[l]);
+        mem_free(carried[l]);
+    }
 }
 
 static void regrid(struct mesh *mesh, int base, int patience, char *const *wished, struct nest_set *ret_sets)
@@ -327,7 +324,7 @@ static void check_wishes(int dim, const int extent[3], int n, unsigned periodic,
         }
         nest_wish(&mesh, level, &level->tiles[t], marks, buffer, &keys);
     }
-    nest_join(&mesh, 1, &keys);
+    nest_join(&mesh, 1, 1, &keys);
     whole(&keys);
     unsigned count = 0;
     for (size_t p = 0; p < places(&mesh, 1); p++) count += expected[p] != 0;
@@ -412,7 +409,7 @@ static void test_join(void **state)
     mesh.levels[0].n_rank = (int)size;
     mesh.levels[0].first_keys = mem_new(size, sizeof *mesh.levels[0].first_keys);
     for (unsigned r = 1; r < size; r++) mesh.levels[0].first_keys[r] = ((1ull << 60) - 1 + 2 * (r - 1)) >> 3;
-    nest_join(&mesh, 1, &keys);
+    nest_join(&mesh, 1, 1, &keys);
     whole(&keys);
     unsigned count = 1, most = (size - 1) * (size - 1);
     for (unsigned key = 0; key <= most; key++) {
@@ -425,7 +422,7 @@ static void test_join(void **state)
     assert_int_equal(keys.n, count);
     assert_true(keys.keys[0] == 5);
     nest_free_keys(&keys);
-    nest_join(&mesh, 1, &keys);
+    nest_join(&mesh, 1, 1, &keys);
     assert_int_equal(keys.n, 0);
     nest_free_keys(&keys);
     level_drop(&mesh.levels[0]);
