@@ -190,7 +190,7 @@ struct scene_sources {
 enum scene_closure { SCENE_KAPILA, SCENE_ALLAIRE };
 enum scene_traction { SCENE_TRACTION_AUTO, SCENE_TRACTION_COMMON, SCENE_TRACTION_PRESSURE };
 enum scene_exchange { SCENE_EXCHANGE_AUTO, SCENE_EXCHANGE_FAST, SCENE_EXCHANGE_FULL };
-enum scene_integrator { SCENE_MIDPOINT, SCENE_SSPRK3 }; /* rows of solve/tableau.c */
+enum scene_integrator { SCENE_MIDPOINT, SCENE_SSPRK3, SCENE_HANCOCK }; /* rows of solve/tableau.c */
 enum scene_diffusion { SCENE_DIFFUSION_EXPLICIT, SCENE_DIFFUSION_RKL2 };
 enum scene_guard { SCENE_GUARD_NORMAL, SCENE_GUARD_STRICT };
 

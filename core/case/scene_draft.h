@@ -50,6 +50,7 @@ void scene_diffusion(struct draft *draft);
 int scene_rigid_index(struct draft *draft, const struct keys_value *value);
 
 void scene_source(struct draft *draft);
+void scene_hancock(struct draft *draft);
 void scene_output(struct draft *draft);
 void scene_peak(struct draft *draft);
 void scene_history(struct draft *draft);

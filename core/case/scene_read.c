@@ -95,6 +95,7 @@ static void scene_read_sections(struct draft *draft)
     scene_rigid(draft);
     scene_diffusion(draft);
     scene_source(draft);
+    scene_hancock(draft);
     scene_output(draft);
     scene_history(draft);
     scene_map(draft);

@@ -99,10 +99,13 @@ static const struct key scene_scheme_rows[] = {
             "(no carbuncle) with any Riemann solver; contacts stay as sharp. In two and three dimensions, for fluids."},
     {.name = "integrator",
      .type = KEYS_CHOICE,
-     .choices = "midpoint|ssprk3",
+     .choices = "midpoint|ssprk3|hancock",
      .fallback = "midpoint",
      .doc = "The time integrator. midpoint: two stages, second order. ssprk3: the three stages of Shu and Osher, third "
-            "order in time; half as dear again, and one array more."},
+            "order in time; half as dear again, and one array more. hancock: the first of the two stages from the "
+            "slopes of "
+            "the cells alone, second order and cheaper; for fluids that neither conduct nor are viscous, without phase "
+            "change, tension and bodies."},
     {.name = "diffusion",
      .type = KEYS_CHOICE,
      .choices = "explicit|rkl2",

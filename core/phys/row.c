@@ -40,6 +40,16 @@ static BULLA_KERNEL void row_kernel_step(size_t n, double dt, const double *rest
     for (size_t i = 0; i < n; i++) now[i] = u[i] + dt * rate[i];
 }
 
+static BULLA_KERNEL void row_kernel_mean(size_t n, const double *restrict a, const double *restrict b,
+                                         double *restrict mean)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double x = a[i], y = b[i];
+        mean[i] = 0.5 * (x + y);
+    }
+}
+
 void row_add(size_t n, const double *restrict a, double *restrict sum)
 {
     row_kernel_add(n, a, sum);
@@ -63,6 +73,11 @@ void row_divide(size_t n, const double *restrict by, double *restrict a)
 void row_step(size_t n, double dt, const double *restrict u, const double *restrict rate, double *restrict now)
 {
     row_kernel_step(n, dt, u, rate, now);
+}
+
+void row_mean(size_t n, const double *restrict a, const double *restrict b, double *restrict mean)
+{
+    row_kernel_mean(n, a, b, mean);
 }
 
 double row_most(size_t n, const double *row)

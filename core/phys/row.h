@@ -12,7 +12,8 @@ void row_add_product(size_t n, const double *restrict a, const double *restrict 
 void row_take(size_t n, const double *restrict a, double *restrict from); /* from -= a */
 void row_divide(size_t n, const double *restrict by, double *restrict a); /* a /= by */
 void row_step(size_t n, double dt, const double *restrict u, const double *restrict rate,
-              double *restrict now);          /* now = u + dt rate */
+              double *restrict now); /* now = u + dt rate */
+void row_mean(size_t n, const double *restrict a, const double *restrict b, double *restrict mean); /* (a + b)/2 */
 double row_most(size_t n, const double *row); /* the largest value, at least 0 */
 
 #endif

@@ -3,19 +3,14 @@
 
 #include "scheme/terms.h"
 
-/* Rows of consecutive cells of a piece: how many, how long, and how far apart those of faces and of the tile's cells. */
-struct divergence_lines {
-    size_t count, n, face, cell;
-};
-
 /* rate -= a (upper - lower) */
-static BULLA_KERNEL void divergence_rows(const struct divergence_lines *lines, double a, const double *lower,
+static BULLA_KERNEL void divergence_rows(const struct frame_runs *lines, double a, const double *lower,
                                          const double *upper, double *rate)
 {
     size_t n = lines->n;
     for (size_t k = 0; k < lines->count; k++) {
-        const double *restrict below = lower + k * lines->face, *restrict above = upper + k * lines->face;
-        double *restrict row = rate + k * lines->cell;
+        const double *restrict below = lower + k * lines->row, *restrict above = upper + k * lines->row;
+        double *restrict row = rate + k * lines->tile;
 #pragma omp simd
         for (size_t i = 0; i < n; i++) {
             double low = below[i], up = above[i], old = row[i];
@@ -26,16 +21,16 @@ static BULLA_KERNEL void divergence_rows(const struct divergence_lines *lines, d
 
 /* Rows along axis 0 in curved coordinates: rate -= (A+ (F+ - q) - A- (F- - q)) / V; q is the cell's pressure for the
  * radial momentum, else a row of zeros for all lines. */
-static BULLA_KERNEL void divergence_curved(const struct divergence_lines *lines, const struct metric *metric,
+static BULLA_KERNEL void divergence_curved(const struct frame_runs *lines, const struct metric *metric,
                                            const double *lower, const double *upper, const double *q, size_t q_step,
                                            double *rate)
 {
     const double *restrict area = metric->area, *restrict volume = metric->volume;
     size_t n = lines->n;
     for (size_t k = 0; k < lines->count; k++) {
-        const double *restrict below = lower + k * lines->face, *restrict above = upper + k * lines->face;
+        const double *restrict below = lower + k * lines->row, *restrict above = upper + k * lines->row;
         const double *restrict taken = q + k * q_step;
-        double *restrict row = rate + k * lines->cell;
+        double *restrict row = rate + k * lines->tile;
 #pragma omp simd
         for (size_t i = 0; i < n; i++) {
             double low = below[i], up = above[i], inside = taken[i], old = row[i];
@@ -45,13 +40,13 @@ static BULLA_KERNEL void divergence_curved(const struct divergence_lines *lines,
 }
 
 /* A force at faces, half of it to the cell on either side: rate += a (upper + lower) */
-static BULLA_KERNEL void divergence_mean(const struct divergence_lines *lines, double a, const double *lower,
+static BULLA_KERNEL void divergence_mean(const struct frame_runs *lines, double a, const double *lower,
                                          const double *upper, double *rate)
 {
     size_t n = lines->n;
     for (size_t k = 0; k < lines->count; k++) {
-        const double *restrict below = lower + k * lines->face, *restrict above = upper + k * lines->face;
-        double *restrict row = rate + k * lines->cell;
+        const double *restrict below = lower + k * lines->row, *restrict above = upper + k * lines->row;
+        double *restrict row = rate + k * lines->tile;
 #pragma omp simd
         for (size_t i = 0; i < n; i++) {
             double low = below[i], up = above[i], old = row[i];
@@ -61,14 +56,14 @@ static BULLA_KERNEL void divergence_mean(const struct divergence_lines *lines, d
 }
 
 /* The same along axis 0 in curved coordinates: rate += (A+ F+ + A- F-) / 2V. */
-static BULLA_KERNEL void divergence_mean_curved(const struct divergence_lines *lines, const struct metric *metric,
+static BULLA_KERNEL void divergence_mean_curved(const struct frame_runs *lines, const struct metric *metric,
                                                 const double *force, double *rate)
 {
     const double *restrict area = metric->area, *restrict volume = metric->volume;
     size_t n = lines->n;
     for (size_t k = 0; k < lines->count; k++) {
-        const double *restrict at = force + k * lines->face;
-        double *restrict row = rate + k * lines->cell;
+        const double *restrict at = force + k * lines->row;
+        double *restrict row = rate + k * lines->tile;
 #pragma omp simd
         for (size_t i = 0; i < n; i++) {
             double low = at[i], up = at[i + 1], old = row[i];
@@ -82,7 +77,7 @@ static const double divergence_zero[METRIC_CELLS];
 
 /* Lines whose first face and cell are these. */
 struct divergence_span {
-    const struct divergence_lines *lines;
+    const struct frame_runs *lines;
     size_t face, next, cell; /* next: from a face to the upper one of its cell */
     double per_h;            /* of the axis [1/m] */
     bool curved;             /* axis 0 of a curved geometry */
@@ -105,7 +100,7 @@ static void divergence_flux(const struct term_tile *tile, const struct divergenc
     bool balanced = flux->kind == TERM_BALANCED && tile->hoop;
     if (span->curved && flux->kind != TERM_DIFFERENCE)
         divergence_curved(span->lines, tile->metric, below, above, balanced ? tile->hoop + span->cell : divergence_zero,
-                          balanced ? span->lines->cell : 0, rate);
+                          balanced ? span->lines->tile : 0, rate);
     else divergence_rows(span->lines, span->per_h, below, above, rate);
 }
 
@@ -121,16 +116,7 @@ static void divergence_span(const struct term_tile *tile, int axis, const struct
 
 void divergence_add(const struct term_tile *tile, const struct frame *frame)
 {
-    bool whole = frame->inner == frame->tile_inner; /* then the rows of an outer slice follow each other */
-    struct divergence_lines lines = {.count = frame->n,
-                                     .n = frame->inner,
-                                     .face = frame->inner,
-                                     .cell = frame->tile_inner};
-    if (whole) /* else there is one slice, and a line is one of its rows */
-        lines = (struct divergence_lines){.count = frame->outer,
-                                          .n = frame->n * frame->inner,
-                                          .face = frame_layers(frame) * frame->inner,
-                                          .cell = frame->n * frame->tile_inner};
+    const struct frame_runs lines = frame_runs(frame);
     const struct divergence_span span = {.lines = &lines,
                                          .face = face_at(frame, 0, 0),
                                          .next = frame->inner,

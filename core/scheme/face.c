@@ -419,17 +419,6 @@ static BULLA_KERNEL void face_carry(size_t n, const double *restrict u, const do
     }
 }
 
-/* Mean of the two sides. */
-static BULLA_KERNEL void face_mean(size_t n, const double *restrict left, const double *restrict right,
-                                   double *restrict mean)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double a = left[i], b = right[i];
-        mean[i] = 0.5 * (a + b);
-    }
-}
-
 /* Fractions of the solids at the faces. Not alpha*, which takes a side even where nothing moves. */
 static void face_blend(struct face_work *work)
 {
@@ -437,7 +426,7 @@ static void face_blend(struct face_work *work)
     const struct bulla_faces *faces = &work->faces;
     for (unsigned s = 0; s < model->n_solid; s++) {
         unsigned l = model->solids[s].material;
-        face_mean(faces->n, faces->left.alpha[l], faces->right.alpha[l], work->solid + s * FACE_ROOM);
+        row_mean(faces->n, faces->left.alpha[l], faces->right.alpha[l], work->solid + s * FACE_ROOM);
     }
 }
 
@@ -482,15 +471,22 @@ void face_rest(struct face_work *work, const struct frame *frame)
     memset(work->alpha, 0, own->n_flux * (size_t)FACE_ROOM * sizeof *work->alpha);
 }
 
-void face_solve(struct face_work *work, const struct frame *frame, bool masked)
+const double *face_edges(struct face_work *work, const struct frame *frame, bool masked)
 {
     const struct model *model = work->model;
-    struct face_own *own = work->own;
-    size_t cells = frame_edged(frame);
+    const struct face_own *own = work->own;
     struct edges_cells in = {work->frame, face_flat(work, frame, masked), {work->rise[0], work->rise[1]}, {NULL, NULL}};
     if (model->n_normal) in.lean[0] = work->lean[0], in.lean[1] = work->lean[1];
     edges_fill(own->edges, model, frame, &in, own->state);
     if (model->n_normal) tilt_aim(model, frame, work->frame, own->state);
+    return own->state;
+}
+
+void face_solve(struct face_work *work, const struct frame *frame, bool masked)
+{
+    const struct model *model = work->model;
+    size_t cells = frame_edged(frame);
+    face_edges(work, frame, masked);
     face_complete(work, frame, 2 * cells, masked);
     face_point(work, frame, cells);
     model->riemann->solve(model->riemann_self, &work->faces);

@@ -57,6 +57,10 @@ void face_begin(struct face_work *work, const struct frame *frame);
 /* No fluxes of mass, momentum and energy: what terms that diffuse add to is 0. */
 void face_rest(struct face_work *work, const struct frame *frame);
 
+/* Values at the edges of the cells of the frame in work->frame, by the reconstruction of the scheme: component q at 2 q
+ * FACE_ROOM of what is returned, as edges_fill() leaves it. They last until the next call. */
+const double *face_edges(struct face_work *work, const struct frame *frame, bool masked);
+
 /* Fills the flux arrays for the frame in work->frame. Face index f of the row is the lower face of
  * frame cell f + ghosts inner. With `masked`, faces of cells marked in work->mask get first-order
  * states and the robust solver. */

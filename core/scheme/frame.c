@@ -51,6 +51,19 @@ struct frame frame_piece(const struct mesh *mesh, int axis, size_t index)
     return frame;
 }
 
+struct frame_runs frame_runs(const struct frame *frame)
+{
+    if (frame->inner == frame->tile_inner) /* the rows of an outer slice follow each other */
+        return (struct frame_runs){.count = frame->outer,
+                                   .n = frame->n * frame->inner,
+                                   .row = frame_layers(frame) * frame->inner,
+                                   .tile = frame->n * frame->tile_inner};
+    return (struct frame_runs){.count = frame->n,
+                               .n = frame->inner,
+                               .row = frame->inner,
+                               .tile = frame->tile_inner}; /* one slice */
+}
+
 /* Copies a row; short rows, the usual case, without a call. */
 static inline void frame_row(size_t n, const double *restrict source, double *restrict target)
 {

@@ -41,6 +41,13 @@ struct frame_source {
     void *data;
 };
 
+/* Cells of a piece as runs that follow each other in its row and in the tile: how many runs, how long, and how far apart. The
+ * first begins at frame_at(frame, 0, 0) and frame_tile_at(frame, 0, 0). */
+struct frame_runs {
+    size_t count, n, row, tile;
+};
+struct frame_runs frame_runs(const struct frame *frame);
+
 /* Number of pieces a tile is swept in along an axis, and the piece `index`. */
 size_t frame_pieces(const struct mesh *mesh, int axis);
 struct frame frame_piece(const struct mesh *mesh, int axis, size_t index);

@@ -27,18 +27,26 @@ static void rate_each(struct term_piece *piece, void *const *own, bool faces)
     }
 }
 
+struct term_piece rate_gather(const struct term_tile *tile, void *const *own, const struct frame *frame,
+                              const struct rate_watch *watch)
+{
+    struct face_work *faces = tile->terms->faces;
+    struct term_piece piece = {
+        .tile = tile, .terms = tile->terms, .model = tile->model, .frame = frame, .faces = faces};
+    watch->gather(watch->data, frame, faces);
+    face_begin(faces, frame);
+    rate_each(&piece, own, false);
+    return piece;
+}
+
 static void rate_sweep(const struct term_tile *tile, void *const *own, int axis, const struct rate_watch *watch,
                        bool masked)
 {
-    const struct terms *terms = tile->terms;
-    struct face_work *faces = terms->faces;
+    struct face_work *faces = tile->terms->faces;
     size_t pieces = frame_pieces(tile->mesh, axis);
     for (size_t index = 0; index < pieces; index++) {
         struct frame frame = frame_piece(tile->mesh, axis, index);
-        struct term_piece piece = {.tile = tile, .terms = terms, .model = tile->model, .frame = &frame, .faces = faces};
-        watch->gather(watch->data, &frame, faces);
-        face_begin(faces, &frame);
-        rate_each(&piece, own, false);
+        struct term_piece piece = rate_gather(tile, own, &frame, watch);
         if (tile->part == TERM_DIFFUSION) face_rest(faces, &frame);
         else face_solve(faces, &frame, masked);
         rate_each(&piece, own, true);

@@ -17,6 +17,10 @@ struct rate_watch {
     void (*swept)(void *data, int axis); /* all pieces of an axis are done; or NULL */
 };
 
+/* A piece of a tile as the terms of tile->part want it before it is reconstructed: gathered, with what they do to frames. */
+struct term_piece rate_gather(const struct term_tile *tile, void *const *own, const struct frame *frame,
+                              const struct rate_watch *watch);
+
 /* tile->rates from tile->w, of the terms of tile->part; without those that move there are no Riemann problems. own: [TERMS_MOST]
  * memory of the terms (terms_open). masked: some cells are marked; their faces are first order. */
 void rate_take(struct term_tile *tile, void *const *own, const struct rate_watch *watch, bool masked);

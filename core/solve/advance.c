@@ -81,6 +81,7 @@ static double advance_rounds(struct state *state, struct stage *stage, double *r
     bool strict = state->scene->scheme.guard == SCENE_GUARD_STRICT;
     stage->cells = stage->carried = stage->clipped = 0;
     stage->effort = (struct mix_effort){0};
+    stage->steps = state->level_steps[stage->l];
     guard_clear(stage->guard);
     for (int round = 0;; round++) {
         stage->guard->last = strict || round == GUARD_ROUNDS;

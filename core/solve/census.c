@@ -117,6 +117,13 @@ void census_note(struct census *census, unsigned local, const double *u, const d
     tile->still_next = census_is_still(tile->path, n_cell, w);
 }
 
+void census_note_primitives(struct census *census, unsigned local, const double *w)
+{
+    struct census_tile *tile = &census->tiles[local];
+    tile->present_next = tile->present;
+    tile->still_next = census_is_still(tile->path, census->mesh->n_cell, w);
+}
+
 void census_turn(struct census_tile *tile)
 {
     tile->present = tile->present_next;

@@ -40,6 +40,9 @@ bool census_rests(const struct census *census, unsigned local);
 /* Notes what a tile holds after a stage: its conserved fields and primitives, made with tiles[local].path. */
 void census_note(struct census *census, unsigned local, const double *u, const double *w);
 
+/* The same after a stage that makes primitives alone and brings no material to where there was none. */
+void census_note_primitives(struct census *census, unsigned local, const double *w);
+
 /* The notes of a stage become what is so now. */
 void census_turn(struct census_tile *tile);
 

@@ -16,12 +16,15 @@ static void plan_make(const struct tableau *tableau, struct plan *plan)
         "with finer levels: what they see behind their edges at the beginning of the step";
     static const char *const close = "w = primitives of u, admissibility, signal speed for the next dt";
     static const char *const then[] = {": the terms below", ": the terms below; w = primitives of it, admissibility"};
+    static const char *const slopes =
+        ": of the cells alone [core/scheme/hancock.h]; the first steps: u* = u + dt/2 L(w)";
     plan->n = 0;
     for (int s = 0; s < tableau->n; s++) {
         const struct tableau_stage *stage = &tableau->stage[s];
         plan_add(plan, (struct plan_step){"exchange", "", exchange, stage_exchange, s});
         if (s == 0) plan_add(plan, (struct plan_step){"ghosts", "", ghosts, stage_ghosts, s});
-        plan_add(plan, (struct plan_step){stage->name, stage->doc, then[s + 1 < tableau->n], stage_take, s});
+        plan_add(plan, (struct plan_step){stage->name, stage->doc, stage->slopes ? slopes : then[s + 1 < tableau->n],
+                                          stage_take, s});
     }
     plan_add(plan, (struct plan_step){"close", "", close, stage_close, tableau->n - 1});
 }

@@ -269,6 +269,29 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
     cost_lap(&work->cost, COST_UPDATE);
 }
 
+/* A tile in a stage of slopes: primitives alone. */
+static void stage_slope_tile(struct stage *stage, unsigned local, double *w_next)
+{
+    struct work *work = stage->work;
+    struct census_tile *tile = &stage->census.tiles[local];
+    struct stage_tile_work own;
+    struct stage_sweep sweep = {.stage = stage, .local = local};
+    const struct rate_watch watch = {.data = &sweep, .gather = stage_gather};
+    tile->path = census_choose(&stage->census, local);
+    stage_tile_open(stage, local, work->part, stage->tableau->stage[stage->turn].step * stage->dt, &own);
+    sweep.terms = own.tile.terms;
+    hancock_take(work->hancock, &own.tile, work->own, &watch, w_next);
+    stage->cells += (long long)stage->mesh->n_cell;
+    census_note_primitives(&stage->census, local, w_next);
+    cost_lap(&work->cost, COST_UPDATE);
+}
+
+/* Does the stage under way take slopes? */
+static bool stage_slopes(const struct stage *stage)
+{
+    return stage->tableau->stage[stage->turn].slopes && !stage->guard->masked && stage->steps >= HANCOCK_AFTER;
+}
+
 /* A tile in a stage that is not the last: from w to the primitives of the next stage. */
 static void stage_inner_tile(struct stage *stage, unsigned local)
 {
@@ -280,6 +303,11 @@ static void stage_inner_tile(struct stage *stage, unsigned local)
     if (tile->skipped) {
         stage_carry(stage, local, w, w_next);
         stage_remember(stage, local, NULL);
+        return;
+    }
+    if (stage_slopes(stage)) {
+        stage_slope_tile(stage, local, w_next);
+        stage_keep(stage, local, w, w_next);
         return;
     }
     stage_advance_tile(stage, local, stage->work->u_star);

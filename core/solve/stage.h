@@ -42,6 +42,7 @@ struct stage {
     struct blame *blame; /* a tile being watched while a failed attempt is repeated, and what was seen; or NULL */
     double t, dt;        /* of the step under way */
     double from, part;   /* where it begins in the step of the coarser level, and how much of that it takes */
+    long steps;          /* that the level took before the one under way */
     double signal;       /* largest of the local tiles */
     long long cells, carried, clipped; /* work done, rank-local */
     struct mix_effort effort;          /* of iterated closures, likewise */

@@ -15,6 +15,11 @@ static const struct tableau tableau_all[] = {
                       .stage = {{"first", "u1 = u + dt L(w)", false, 1.0, 1.0, 0.0, 1.0 / 6.0},
                                 {"second", "u2 = u + 1/4 (u1 + dt L(w1) - u)", true, 1.0, 0.25, 1.0, 1.0 / 6.0},
                                 {"third", "u = u + 2/3 (u2 + dt L(w2) - u)", true, 1.0, 2.0 / 3.0, 0.5, 2.0 / 3.0}}},
+    [SCENE_HANCOCK] = {.name = "hancock",
+                       .doc = "Hancock's first stage, then that of the midpoint rule; second order",
+                       .n = 2,
+                       .stage = {{"slopes", "w* = w - dt/2 A(w) s(w)", false, 0.5, 1.0, 0.0, 0.0, .slopes = true},
+                                 {"full", "u = u + dt L(w*)", false, 1.0, 1.0, 0.5, 1.0}}},
 };
 
 const struct tableau *tableau_numbered(int integrator)
@@ -45,6 +50,13 @@ bool tableau_keeps(const struct tableau *tableau)
     bool keeps = false;
     for (int s = 0; s < tableau->n; s++) keeps = keeps || tableau->stage[s].previous;
     return keeps;
+}
+
+bool tableau_slopes(const struct tableau *tableau)
+{
+    bool slopes = false;
+    for (int s = 0; s < tableau->n; s++) slopes = slopes || tableau->stage[s].slopes;
+    return slopes;
 }
 
 bool tableau_is_first_weight(const struct tableau *tableau, int stage)

@@ -20,6 +20,8 @@ struct tableau_stage {
     double mix;
     double at;     /* time of the primitives within the step, in dt: boundaries and ghosts are asked there */
     double weight; /* of the fluxes of this stage in the whole step: they sum to 1 */
+    bool
+        slopes; /* no explicit step: primitives from the slopes of the cells (scheme/hancock.h), where no cell is troubled */
 };
 
 struct tableau {
@@ -40,6 +42,9 @@ double tableau_reach(const struct tableau *tableau, int stage);
 
 /* Does a stage need the conserved fields of the one before? */
 bool tableau_keeps(const struct tableau *tableau);
+
+/* Has it a stage of slopes? */
+bool tableau_slopes(const struct tableau *tableau);
 
 /* Is a stage the first whose fluxes count? */
 bool tableau_is_first_weight(const struct tableau *tableau, int stage);

@@ -2,6 +2,7 @@
 #include "solve/work.h"
 
 #include "base/mem.h"
+#include "solve/tableau.h"
 
 static void work_add_terms(struct work *work, const struct model *path, struct face_work *faces)
 {
@@ -24,6 +25,7 @@ struct work *work_new(const struct model *model, const struct mesh *mesh)
     work->prolong = prolong_new(model, mesh);
     work->around = around_new(model, mesh);
     work->curve = curve_new(model, mesh);
+    if (tableau_slopes(tableau_of(model->scene))) work->hancock = hancock_new(model, mesh);
     work->rates = mem_new(work->terms[0]->n_rates * mesh->n_cell, sizeof(double));
     work->K = mem_new(model->n_material * mesh->n_cell, sizeof(double));
     work->rho_c2 = mem_new(model->n_material * mesh->n_cell, sizeof(double));
@@ -44,6 +46,7 @@ void work_free(struct work *work)
     prolong_free(work->prolong);
     around_free(work->around);
     curve_free(work->curve);
+    hancock_free(work->hancock);
     mem_free(work->rates);
     mem_free(work->K);
     mem_free(work->rho_c2);

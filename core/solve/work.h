@@ -3,6 +3,7 @@
 #define WORK_H
 
 #include "levels/prolong.h"
+#include "scheme/hancock.h"
 #include "scheme/operators.h"
 #include "scheme/rate.h"
 #include "solve/around.h"
@@ -21,6 +22,7 @@ struct work {
     struct prolong *prolong;
     struct around *around;                    /* or NULL */
     struct curve *curve;                      /* or NULL */
+    struct hancock *hancock;                  /* of integrators with a stage of slopes, or NULL */
     enum term_part part;                      /* of the steps: TERM_SLOW while what diffuses goes apart (flow.h) */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
     double *grown;          /* [n_solid] rows of one tile (operator.h); NULL unless plastic solids can break */
