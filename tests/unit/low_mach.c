@@ -180,9 +180,10 @@ static void test_solvers(void **state)
     }
 }
 
-/* Water that moves along the faces, to and fro from cell to cell. */
+/* Water that moves slowly across the faces, and along them to and fro from cell to cell. */
 static void shear(const struct model *model, const double x[3], double *w)
 {
+    w[model->i_u] = 1e-3;
     w[model->i_u + 1] = (int)(x[0] * 32.0) % 2 ? 1.0 : -1.0;
 }
 
@@ -213,10 +214,10 @@ static double sheared(const char *solver, double least)
 static void test_shear(void **state)
 {
     (void)state;
-    assert_true(fabs(sheared("hll", 1.0) - 1.0) < 1e-9);
-    assert_true(fabs(sheared("hll", 0.05) - 0.05) < 1e-9);
-    assert_true(fabs(sheared("rusanov", 0.05) - 0.05) < 1e-9);
-    assert_true(sheared("hllc", 0.05) == 0.0);
+    assert_true(fabs(sheared("hll", 1.0) - 1.0) < 1e-5);
+    assert_true(fabs(sheared("hll", 0.05) - 0.05) < 1e-5);
+    assert_true(fabs(sheared("rusanov", 0.05) - 0.05) < 1e-5);
+    assert_true(sheared("hllc", 0.05) > 0.0 && sheared("hllc", 0.05) == sheared("hllc", 1.0)); /* the upwind side */
 }
 
 int main(void)
