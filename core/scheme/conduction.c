@@ -23,7 +23,7 @@ struct conduction {
     double *rest, *width, *series, *q, *pair, *per_d;
     double *wet[2]; /* on both sides of the faces */
     struct conduction_wall_fault fault;
-    bool plain;  /* the piece is one of conduction_plain.h; T alone is made */
+    int plain;   /* the piece is one of conduction_plain.h, of this material, whose T alone is made; or -1 */
     bool traces; /* some material of the piece is less than CONDUCTION_CHANNEL_FELT of its cell */
 };
 
@@ -143,17 +143,30 @@ static void conduction_look(const struct term_piece *piece, size_t n, const doub
     if (own->traces) conduction_weigh(path, n, w, own);
 }
 
+/* Temperatures of the only material of a piece. */
+static void conduction_warmth(const struct model *path, unsigned l, size_t n, const double *w, struct conduction *own)
+{
+    const struct model_eos *eos = &path->eos[l];
+    eos->law->temperature(eos->self, n, w + (path->i_m + l) * FACE_ROOM, w + path->i_E * FACE_ROOM,
+                          own->T + l * FACE_ROOM);
+}
+
 /* Temperatures, and all that is made of them, from the primitives as they were gathered. */
 static void conduction_frame(const struct term_piece *piece)
 {
     struct conduction *own = piece->own;
     size_t n = frame_edged(piece->frame);
     const double *w = piece->faces->frame + frame_reach(piece->frame);
-    mix_temperatures(piece->model, n, FACE_ROOM, w, own->T);
     own->traces = false;
-    own->plain =
-        conduction_plain_is(piece->model) && !conduction_is_heated(piece, 0) && !conduction_is_heated(piece, 1);
-    if (!own->plain) conduction_look(piece, n, w, own);
+    own->plain = -1;
+    if (!conduction_is_heated(piece, 0) && !conduction_is_heated(piece, 1))
+        own->plain = conduction_plain_find(piece->model, n, FACE_ROOM, w);
+    if (own->plain >= 0) {
+        conduction_warmth(piece->model, (unsigned)own->plain, n, w, own);
+        return;
+    }
+    mix_temperatures(piece->model, n, FACE_ROOM, w, own->T);
+    conduction_look(piece, n, w, own);
 }
 
 /* The greatest diffusivity that a trace may have, times two [m2/s]. */
@@ -282,14 +295,28 @@ static void conduction_walls(const struct term_piece *piece, const struct conduc
         if (conduction_is_heated(piece, side)) conduction_wall_add(piece, side, &cells, &own->fault);
 }
 
+/* Material l is alone: all heat is its own. */
+static void conduction_only(const struct term_piece *piece, const struct conduction_piece *at, unsigned l)
+{
+    struct conduction *own = at->own;
+    size_t bytes = at->n * sizeof *own->q;
+    conduction_plain_flux(at->path, l, at->n, at->step, own->T + l * FACE_ROOM, own->per_d, own->q);
+    row_add(at->n, own->q, piece->faces->energy);
+    for (unsigned m = 0; m < at->path->n_alpha; m++) {
+        double *below = piece->faces->heat_below + m * FACE_ROOM, *above = piece->faces->heat_above + m * FACE_ROOM;
+        if (m == l) memcpy(below, own->q, bytes), memcpy(above, own->q, bytes);
+        else memset(below, 0, bytes), memset(above, 0, bytes);
+    }
+}
+
 static void conduction_faces(const struct term_piece *piece)
 {
     struct conduction *own = piece->own;
     const struct conduction_piece at = {piece->model, own, piece->faces->faces.n, piece->frame->inner,
                                         conduction_most(piece->tile)};
     distance_faces(piece, own->per_d);
-    if (own->plain) {
-        conduction_plain_add(at.path, at.n, at.step, own->T, own->per_d, piece->faces->energy);
+    if (own->plain >= 0) {
+        conduction_only(piece, &at, (unsigned)own->plain);
         return;
     }
     conduction_alike(piece, &at);
@@ -314,6 +341,28 @@ static BULLA_KERNEL void conduction_own_volume(size_t n, const double *restrict 
         double a = alpha[i], own = power[i] / a;
         heat[i] = a > MIX_ABSENT ? own : 0.0;
     }
+}
+
+/* Cells that are looked at together for mixed ones: in the others heat moves no volume. */
+enum { CONDUCTION_SWELLS = 64 };
+_Static_assert(CONDUCTION_SWELLS <= (int)CONDUCTION_LAW_BATCH, "a batch is asked of a law at once");
+
+/* At how many cells a material is there and not alone. */
+static BULLA_KERNEL double conduction_mixtures(size_t n, const double *restrict alpha)
+{
+    double count = 0.0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) count += ((alpha[i] > MIX_ABSENT) & (alpha[i] < 1.0)) ? 1.0 : 0.0;
+    return count;
+}
+
+static bool conduction_is_mixed(const struct term_tile *tile, size_t from, size_t n)
+{
+    const double *alpha = tile->w + tile->model->i_alpha * tile->n_cell + from;
+    double count = 0.0;
+    for (unsigned l = 0; l < tile->model->n_alpha && count == 0.0; l++)
+        count = conduction_mixtures(n, alpha + l * tile->n_cell);
+    return count > 0.0;
 }
 
 static void conduction_swell(const struct term_tile *tile, size_t from, size_t n)
@@ -349,9 +398,10 @@ static void conduction_cells(struct term_tile *tile)
         conduction_tell(tile);
         return;
     }
-    for (size_t from = 0; from < tile->n_cell; from += CONDUCTION_LAW_BATCH)
-        conduction_swell(tile, from,
-                         tile->n_cell - from < CONDUCTION_LAW_BATCH ? tile->n_cell - from : CONDUCTION_LAW_BATCH);
+    for (size_t from = 0; from < tile->n_cell; from += CONDUCTION_SWELLS) {
+        size_t n = tile->n_cell - from < CONDUCTION_SWELLS ? tile->n_cell - from : CONDUCTION_SWELLS;
+        if (conduction_is_mixed(tile, from, n)) conduction_swell(tile, from, n);
+    }
 }
 
 /* The largest diffusivity k_l/c_l of the materials that count. */

@@ -88,17 +88,32 @@ static void viscous_batch(const struct term_piece *piece, const struct viscous_b
     }
 }
 
+/* Takes the first rows off a block that lie in one material, or those until the next such row; returns it, or -1. */
+static int viscous_part(const struct term_piece *piece, struct viscous_block *rest, struct viscous_block *ret)
+{
+    struct viscous_block row = *rest;
+    int alone = viscous_plain_alone(piece->model, piece->frame, &row, piece->faces);
+    size_t rows = 1;
+    for (; rows < rest->rows && piece->model->n_alpha; rows++) {
+        row.face += row.face_row;
+        if (viscous_plain_alone(piece->model, piece->frame, &row, piece->faces) != alone) break;
+    }
+    viscous_slopes_part(rest, piece->model->n_alpha ? rows : rest->rows, ret);
+    return alone;
+}
+
 static void viscous_faces(const struct term_piece *piece)
 {
     struct viscous *viscous = piece->own;
     struct viscous_walk walk = {&viscous->slopes, piece->frame, 0, 0};
-    struct viscous_block rest, block;
-    if (viscous_plain_is(piece->model)) {
-        viscous_plain_faces(&viscous->slopes, piece->frame, piece->faces);
-        return;
-    }
+    struct viscous_block rest, part, block;
     while (viscous_slopes_next(&walk, &rest))
-        while (viscous_slopes_batch(&rest, &block)) viscous_batch(piece, &block, viscous);
+        while (rest.rows) {
+            int alone = viscous_part(piece, &rest, &part);
+            if (alone >= 0) viscous_plain_faces(&viscous->slopes, piece->frame, (unsigned)alone, &part, piece->faces);
+            else
+                while (viscous_slopes_batch(&part, &block)) viscous_batch(piece, &block, viscous);
+        }
 }
 
 /* Directions beyond the axes go around the axis or the centre. */

@@ -8,6 +8,9 @@
 
 #include <string.h>
 
+/* Lines of cells that are looked at together for mixed cells. */
+enum { VISCOUS_HEAT_LINES = 4 };
+
 /* The hoop stress pulls inwards: as divergence.h does with the pressure. */
 static void viscous_heat_hoop(const struct term_tile *tile, const struct viscous_block *block, const double *tau)
 {
@@ -194,10 +197,11 @@ static void viscous_heat_block(const struct term_tile *tile, const struct viscou
 void viscous_heat_cells(const struct term_tile *tile, const struct viscous_slopes *slopes,
                         struct viscous_strain *strain, struct viscous_mix *mix)
 {
-    size_t length = (size_t)tile->mesh->n[0], all = tile->n_cell / length;
+    size_t length = (size_t)tile->mesh->n[0], all = tile->n_cell / length, most = STRAIN_POINTS / length;
     if (!tile->model->beta && !tile->model->kapila) return;
+    if (!tile->model->beta && most > VISCOUS_HEAT_LINES) most = VISCOUS_HEAT_LINES; /* many hold one material */
     for (size_t first = 0; first < all;) {
-        const struct viscous_block block = viscous_slopes_cells(slopes, first, STRAIN_POINTS / length);
+        const struct viscous_block block = viscous_slopes_cells(slopes, first, most);
         viscous_heat_block(tile, slopes, &block, strain, mix);
         first += block.rows;
     }

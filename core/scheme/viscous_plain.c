@@ -4,9 +4,25 @@
 
 #include "phys/coefficient.h"
 
-bool viscous_plain_is(const struct model *path)
+/* At how many faces a fraction is not 1 on both sides. */
+static BULLA_KERNEL double viscous_plain_less(size_t n, const double *restrict left, const double *restrict right)
 {
-    return path->n_material == 1 && !path->beta && coefficient_is_number(&path->viscosity[0].mu);
+    double count = 0.0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) count += ((left[i] != 1.0) | (right[i] != 1.0)) ? 1.0 : 0.0;
+    return count;
+}
+
+int viscous_plain_alone(const struct model *path, const struct frame *frame, const struct viscous_block *block,
+                        const struct face_work *faces)
+{
+    const double *alpha = faces->frame + path->i_alpha * FACE_ROOM + block->face + frame_reach(frame);
+    unsigned l = 0;
+    while (l < path->n_alpha && alpha[l * FACE_ROOM] != 1.0) l++;
+    if (l == path->n_material || path->beta || !coefficient_is_number(&path->viscosity[l].mu)) return -1;
+    if (!path->n_alpha) return 0;
+    alpha += l * FACE_ROOM;
+    return viscous_plain_less(block->n, alpha, alpha + frame->inner) == 0.0 ? (int)l : -1;
 }
 
 /* Of a block of faces; pointers to where it begins in the patch. */
@@ -92,13 +108,12 @@ static void viscous_plain_block(const struct viscous_slopes *slopes, const struc
                             momentum + k * FACE_ROOM, energy);
 }
 
-void viscous_plain_faces(const struct viscous_slopes *slopes, const struct frame *frame, struct face_work *faces)
+void viscous_plain_faces(const struct viscous_slopes *slopes, const struct frame *frame, unsigned l,
+                         const struct viscous_block *block, struct face_work *faces)
 {
     const struct model *path = slopes->tile->model;
-    const struct model_viscosity *law = &path->viscosity[0];
+    const struct model_viscosity *law = &path->viscosity[l];
     const double *h = slopes->tile->level->h;
-    struct viscous_walk walk = {slopes, frame, 0, 0};
-    struct viscous_block block;
     struct viscous_plain work = {.per_h = 1.0 / h[frame->axis],
                                  .mu2 = 2.0 * law->mu.number,
                                  .iso = law->zeta - 2.0 / 3.0 * law->mu.number,
@@ -108,5 +123,5 @@ void viscous_plain_faces(const struct viscous_slopes *slopes, const struct frame
         work.aside[k] = i < (unsigned)path->dim ? slopes->stride[i] : 0;
         work.per_2h[k] = i < (unsigned)path->dim ? 0.5 / h[i] : 0.0;
     }
-    while (viscous_slopes_next(&walk, &block)) viscous_plain_block(slopes, &block, &work, faces);
+    viscous_plain_block(slopes, block, &work, faces);
 }

@@ -138,15 +138,20 @@ bool viscous_slopes_next(struct viscous_walk *walk, struct viscous_block *ret)
     return true;
 }
 
+void viscous_slopes_part(struct viscous_block *rest, size_t rows, struct viscous_block *ret)
+{
+    *ret = *rest;
+    ret->rows = rows;
+    rest->rows -= rows;
+    rest->patch += rows * rest->patch_row;
+    rest->face += rows * rest->face_row;
+}
+
 bool viscous_slopes_batch(struct viscous_block *rest, struct viscous_block *ret)
 {
     size_t most = STRAIN_POINTS / rest->n, parts = (rest->rows + most - 1) / most;
     if (!rest->rows) return false;
-    *ret = *rest;
-    ret->rows = (rest->rows + parts - 1) / parts; /* parts of one size */
-    rest->rows -= ret->rows;
-    rest->patch += ret->rows * rest->patch_row;
-    rest->face += ret->rows * rest->face_row;
+    viscous_slopes_part(rest, (rest->rows + parts - 1) / parts, ret); /* parts of one size */
     return true;
 }
 

@@ -52,6 +52,9 @@ struct viscous_walk {
 /* The next block; false: there is none. Rows are no longer than STRAIN_POINTS. */
 bool viscous_slopes_next(struct viscous_walk *walk, struct viscous_block *ret);
 
+/* Takes so many first rows off a block. */
+void viscous_slopes_part(struct viscous_block *rest, size_t rows, struct viscous_block *ret);
+
 /* Takes the first rows off a block, of at most STRAIN_POINTS points; false: there are none left. */
 bool viscous_slopes_batch(struct viscous_block *rest, struct viscous_block *ret);
 

@@ -55,8 +55,9 @@ static double verdict_pace(const struct stage *stage, struct term_pace pace)
 void verdict_measure(struct stage *stage, unsigned local, const double *w)
 {
     size_t n_cell = stage->mesh->n_cell;
+    const struct model *path = stage->census.tiles[local].path; /* what a tile lacks cannot hold up its steps */
     const struct term_pace pace = {
-        .model = stage->model, .level = stage->level, .n_cell = n_cell, .w = w, .c2 = stage->work->c2};
+        .model = path, .level = stage->level, .n_cell = n_cell, .w = w, .c2 = stage->work->c2};
     stage->census.tiles[local].signal = verdict_pace(stage, pace);
 }
 
