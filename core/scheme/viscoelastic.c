@@ -1,7 +1,7 @@
 /* viscoelastic.c - see viscoelastic.h.
  *
- * Relaxation F and motion A make a step F(dt/6) A(dt/2) F(2 dt/3) A(dt/2) F(dt/6), which is of second order
- * (phys/flow_relax.h). F is exact, so a step may be longer than tau. What flows in through the faces is that of the middle
+ * Relaxation F and motion A make a step F(dt/6) A(dt/2) F(2 dt/3) A(dt/2) F(dt/6), or in short ones F(dt/2) A(dt) F(dt/2), of
+ * second order (phys/flow_relax.h). F is exact, so a step may be longer than tau. What flows in through the faces is that of the middle
  * of the step, and is added in the middle. */
 #include "scheme/viscoelastic.h"
 
@@ -38,11 +38,11 @@ static size_t viscoelastic_apply(const struct term_tile *tile, double *u_new)
     double *half = tile->own;
     for (unsigned b = 0; b < model->n_branch; b++) {
         const struct model_branch *branch = &model->branches[b];
-        double time = tile->dt / branch->time, ends = FLOW_RELAX_ENDS * time;
+        struct flow_relax_parts parts = flow_relax_split(tile->dt / branch->time);
         memcpy(half, tile->u + branch->field * n_cell, model->n_stretch * n_cell * sizeof *half);
-        flow_relax(model, n_cell, n_cell, ends, half);
-        strain_move(tile, model->n_solid + b, FLOW_RELAX_MIDDLE * time, half, u_new);
-        flow_relax(model, n_cell, n_cell, ends, u_new + branch->field * n_cell);
+        flow_relax(model, n_cell, n_cell, parts.ends, half);
+        strain_move(tile, model->n_solid + b, parts.middle, half, u_new);
+        flow_relax(model, n_cell, n_cell, parts.ends, u_new + branch->field * n_cell);
     }
     return 0;
 }
