@@ -10,13 +10,11 @@
  * The including module defines CONTACT_SPEEDS, one of the functions of wave.h, and CONTACT_SHEAR:
  * 1 to diffuse jumps of tangential velocity as the two-wave average does (a remedy against the
  * carbuncle), 0 to keep them sharp; and CONTACT_SLOW for solids (shear.h). With CONTACT_RELEASE 1, of fluids alone, signals
- * between unlike mixtures are those of wave_release. */
+ * between unlike mixtures are those of wave_release: the module says in work[3] how unlike, 0 to 1. */
 #ifndef CONTACT_H
 #define CONTACT_H
 
 #include "shear.h"
-
-#include <string.h>
 
 #ifndef CONTACT_RELEASE
 #define CONTACT_RELEASE 0
@@ -41,21 +39,6 @@ static inline struct contact contact_at(struct wave wave, struct wave_side left,
                             .rho = rho,
                             .rho_E = inside ? rho_E_star : rho_E,
                             .carrier = inside ? chi * wave.s_contact : u_k};
-}
-
-/* Jumps of fractions that count in full. */
-#define CONTACT_ALIEN 0.01
-
-/* How unlike the mixtures of both sides are, 0 to 1, into work[3]; material by material. */
-BULLA_KERNEL static void contact_alien(size_t n, const double *restrict alpha_l, const double *restrict alpha_r,
-                                       double *restrict alien)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double most = alien[i], jump = fabs(alpha_r[i] - alpha_l[i]) * (1.0 / CONTACT_ALIEN);
-        jump = jump < 1.0 ? jump : 1.0;
-        alien[i] = jump > most ? jump : most;
-    }
 }
 
 /* Normal momentum, energy and face velocity. Leaves the carrier in work[0], the mass flux in
@@ -173,9 +156,6 @@ static void contact_solve(const struct bulla_faces *faces)
 {
     const struct bulla_side *left = &faces->left, *right = &faces->right;
     const struct bulla_flux *flux = &faces->flux;
-    if (CONTACT_RELEASE) memset(faces->work[3], 0, faces->n * sizeof(double));
-    for (unsigned l = 0; CONTACT_RELEASE && l < faces->n_alpha; l++)
-        contact_alien(faces->n, left->alpha[l], right->alpha[l], faces->work[3]);
     contact_normal(faces);
     for (unsigned l = 0; l < faces->n_material; l++)
         contact_mass(faces->n, left->m[l], right->m[l], flux->u, faces->work[0], flux->m[l]);

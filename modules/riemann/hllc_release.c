@@ -5,9 +5,29 @@
 #define CONTACT_RELEASE 1
 #include "contact.h"
 
+#include <string.h>
+
+/* Jumps of fractions that count in full. */
+#define RELEASE_ALIEN 0.01
+
+/* How unlike the mixtures of both sides are, 0 to 1; material by material. */
+BULLA_KERNEL static void hllc_release_alien(size_t n, const double *restrict alpha_l, const double *restrict alpha_r,
+                                            double *restrict alien)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double most = alien[i], jump = fabs(alpha_r[i] - alpha_l[i]) * (1.0 / RELEASE_ALIEN);
+        jump = jump < 1.0 ? jump : 1.0;
+        alien[i] = jump > most ? jump : most;
+    }
+}
+
 static void hllc_release_solve(const void *self, const struct bulla_faces *faces)
 {
     (void)self;
+    memset(faces->work[3], 0, faces->n * sizeof(double));
+    for (unsigned l = 0; l < faces->n_alpha; l++)
+        hllc_release_alien(faces->n, faces->left.alpha[l], faces->right.alpha[l], faces->work[3]);
     contact_solve(faces);
 }
 
