@@ -6,55 +6,27 @@
 
 #include "base/mem.h"
 #include "mesh/metric.h"
+#include "scheme/curvature_room.h"
+#include "scheme/heights.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Least difference of psi over a cell that says where the surface looks. */
-#define CURVATURE_FLAT 1e-3
-
 /* Least part along a wall of the unit normal at it: a surface that lies flatter does not meet the wall here. */
 #define CURVATURE_LYING 0.1
+
+/* Weight of a cell whose columns say nothing, in means with others. */
+#define CURVATURE_DOUBT 1e-3
 
 /* Where a block counts as empty: no quotient is taken. */
 #define CURVATURE_NONE 1e-300
 
-struct curvature {
-    const struct mesh *mesh;
-    int g;
-    double *rows, *psi, *other, *kappa, *kept, *spare;
-    double *normal[3];
-};
-
-/* A block of numbers, x fastest; a stride is 0 along axes that are not used. */
-struct curvature_grid {
-    size_t n[3], stride[3];
-};
-
-/* `more` places more along each axis than a tile has cells. */
-static struct curvature_grid curvature_grid(const struct mesh *mesh, int more)
-{
-    struct curvature_grid grid = {{1, 1, 1}, {0, 0, 0}};
-    size_t stride = 1;
-    for (int d = 0; d < mesh->dim; d++) {
-        grid.n[d] = (size_t)(mesh->n[d] + more);
-        grid.stride[d] = stride;
-        stride *= grid.n[d];
-    }
-    return grid;
-}
-
-static size_t curvature_cells(const struct mesh *mesh, int more)
-{
-    const struct curvature_grid grid = curvature_grid(mesh, more);
-    return grid.n[0] * grid.n[1] * grid.n[2];
-}
-
 struct curvature *curvature_new(const struct mesh *mesh, int g)
 {
-    enum { BLOCKS = 8 };
+    enum { BLOCKS = 9, ROWS = 11 };
     struct curvature *room = mem_new(1, sizeof *room);
-    size_t cells = curvature_cells(mesh, 2 * g);
+    size_t row = (size_t)(mesh->n[0] + 2 * g), all = curvature_room_cells(mesh, 2 * g), rows = ROWS * row;
+    size_t cells = all > rows ? all : rows; /* spare has rows, too */
     room->mesh = mesh;
     room->g = g;
     room->rows = mem_new(BLOCKS * cells, sizeof *room->rows);
@@ -62,7 +34,8 @@ struct curvature *curvature_new(const struct mesh *mesh, int g)
     room->other = room->psi + cells;
     room->kappa = room->other + cells;
     room->kept = room->kappa + cells;
-    room->spare = room->kept + cells;
+    room->trust = room->kept + cells;
+    room->spare = room->trust + cells;
     for (size_t d = 0; d < 3; d++) room->normal[d] = room->spare + (d + 1) * cells;
     return room;
 }
@@ -84,17 +57,6 @@ bool curvature_is_mixed(size_t n, const double *a, double least)
     return high >= least && low <= 1.0 - least;
 }
 
-/* The four rows along x around a place: those one step along y, along z and along both. */
-struct curvature_around {
-    const double *here, *y, *z, *yz;
-};
-
-static struct curvature_around curvature_around(const struct curvature_grid *of, const double *from, size_t j, size_t k)
-{
-    const double *at = from + j * of->stride[1] + k * of->stride[2];
-    return (struct curvature_around){at, at + of->stride[1], at + of->stride[2], at + of->stride[1] + of->stride[2]};
-}
-
 static BULLA_KERNEL void curvature_mean_row(size_t n, const struct curvature_around *around, double *restrict ret)
 {
     const double *restrict a = around->here, *restrict b = around->y, *restrict c = around->z, *restrict d = around->yz;
@@ -106,13 +68,12 @@ static BULLA_KERNEL void curvature_mean_row(size_t n, const struct curvature_aro
     }
 }
 
-/* Means of what lies around each place of a block with one place less: from cells to corners, from corners to cells. */
-static void curvature_between(const struct mesh *mesh, int more, const double *from, double *ret)
+void curvature_room_between(const struct mesh *mesh, int more, const double *from, double *ret)
 {
     const struct curvature_grid of = curvature_grid(mesh, more), to = curvature_grid(mesh, more - 1);
     for (size_t k = 0; k < to.n[2]; k++)
         for (size_t j = 0; j < to.n[1]; j++) {
-            const struct curvature_around around = curvature_around(&of, from, j, k);
+            const struct curvature_around around = curvature_room_around(&of, from, j, k);
             curvature_mean_row(to.n[0], &around, ret + j * to.stride[1] + k * to.stride[2]);
         }
 }
@@ -129,19 +90,32 @@ static BULLA_KERNEL void curvature_straighten(size_t n, const double *restrict b
     }
 }
 
-/* Unit vectors along the differences of psi, [n] rows; per: h_0/h_d. */
-static BULLA_KERNEL void curvature_normal_row(size_t n, const struct curvature_around *around, const double per[3],
-                                              double *restrict x, double *restrict y, double *restrict z)
+static BULLA_KERNEL void curvature_rise_row(size_t n, const struct curvature_around *around, const double per[3],
+                                            double *restrict x, double *restrict y, double *restrict z)
 {
     const double *restrict a = around->here, *restrict b = around->y, *restrict c = around->z, *restrict d = around->yz;
     double per_y = per[1], per_z = per[2];
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a0 = a[i], a1 = a[i + 1], b0 = b[i], b1 = b[i + 1], c0 = c[i], c1 = c[i + 1], d0 = d[i], d1 = d[i + 1];
-        double gx = 0.25 * (((a1 + d1) + (b1 + c1)) - ((a0 + d0) + (b0 + c0)));
-        double gy = 0.25 * (((b0 + d1) + (b1 + d0)) - ((a0 + c1) + (a1 + c0))) * per_y;
-        double gz = 0.25 * (((c0 + d1) + (c1 + d0)) - ((a0 + b1) + (a1 + b0))) * per_z;
-        double length2 = (gx * gx + gy * gy) + gz * gz;
+        x[i] = 0.25 * (((a1 + d1) + (b1 + c1)) - ((a0 + d0) + (b0 + c0)));
+        y[i] = 0.25 * (((b0 + d1) + (b1 + d0)) - ((a0 + c1) + (a1 + c0))) * per_y;
+        z[i] = 0.25 * (((c0 + d1) + (c1 + d0)) - ((a0 + b1) + (a1 + b0))) * per_z;
+    }
+}
+
+void curvature_room_rise(size_t n, const struct curvature_around *around, const double per[3], double *restrict x,
+                         double *restrict y, double *restrict z)
+{
+    curvature_rise_row(n, around, per, x, y, z);
+}
+
+/* Vectors made as long as 1; 0 where they say nothing. */
+static BULLA_KERNEL void curvature_unit_row(size_t n, double *restrict x, double *restrict y, double *restrict z)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double gx = x[i], gy = y[i], gz = z[i], length2 = (gx * gx + gy * gy) + gz * gz;
         double length = length2 > CURVATURE_FLAT * CURVATURE_FLAT ? sqrt(length2) : (double)INFINITY;
         x[i] = gx / length; /* exactly 1 in one dimension */
         y[i] = gy / length;
@@ -149,19 +123,25 @@ static BULLA_KERNEL void curvature_normal_row(size_t n, const struct curvature_a
     }
 }
 
+void curvature_room_per(const struct mesh *mesh, const struct level *level, double ret_per[3])
+{
+    for (int d = 0; d < 3; d++) ret_per[d] = d < mesh->dim ? level->h[0] / level->h[d] : 0.0;
+}
+
 /* At the corners of the block of psi. */
 static void curvature_normals(struct curvature *room, const struct level *level, int more)
 {
     const struct mesh *mesh = room->mesh;
     const struct curvature_grid of = curvature_grid(mesh, more), to = curvature_grid(mesh, more - 1);
-    double per[3] = {0.0};
-    for (int d = 0; d < mesh->dim; d++) per[d] = level->h[0] / level->h[d];
+    double per[3];
+    curvature_room_per(mesh, level, per);
     for (size_t k = 0; k < to.n[2]; k++)
         for (size_t j = 0; j < to.n[1]; j++) {
-            const struct curvature_around around = curvature_around(&of, room->psi, j, k);
+            const struct curvature_around around = curvature_room_around(&of, room->psi, j, k);
             size_t at = j * to.stride[1] + k * to.stride[2];
-            curvature_normal_row(to.n[0], &around, per, room->normal[0] + at, room->normal[1] + at,
-                                 room->normal[2] + at);
+            double *x = room->normal[0] + at, *y = room->normal[1] + at, *z = room->normal[2] + at;
+            curvature_room_rise(to.n[0], &around, per, x, y, z);
+            curvature_unit_row(to.n[0], x, y, z);
         }
 }
 
@@ -212,12 +192,12 @@ static void curvature_divide(struct curvature *room, const struct level *level, 
     for (size_t k = 0; k < to.n[2]; k++)
         for (size_t j = 0; j < to.n[1]; j++) {
             double *ret = room->kappa + j * to.stride[1] + k * to.stride[2];
-            struct curvature_around around = curvature_around(&of, room->normal[0], j, k);
+            struct curvature_around around = curvature_room_around(&of, room->normal[0], j, k);
             curvature_face_row(of.n[0], &around, room->spare);
             curvature_row_x(to.n[0], room->spare, &metric, ret);
-            around = curvature_around(&of, room->normal[1], j, k);
+            around = curvature_room_around(&of, room->normal[1], j, k);
             if (mesh->dim > 1) curvature_row(to.n[0], around.here, around.z, around.y, around.yz, level->h[1], ret);
-            around = curvature_around(&of, room->normal[2], j, k);
+            around = curvature_room_around(&of, room->normal[2], j, k);
             if (mesh->dim > 2) curvature_row(to.n[0], around.here, around.y, around.z, around.yz, level->h[2], ret);
             curvature_turn(to.n[0], ret);
         }
@@ -250,7 +230,7 @@ static const double *curvature_straight(const struct curvature *room, const doub
     const struct mesh *mesh = room->mesh;
     size_t g = (size_t)room->g;
     if (!cosine) return a;
-    memcpy(ret, a, curvature_cells(mesh, 2 * room->g) * sizeof *ret);
+    memcpy(ret, a, curvature_room_cells(mesh, 2 * room->g) * sizeof *ret);
     const struct curvature_grid grid = curvature_grid(mesh, 2 * room->g);
     for (int face = 0; face < 2 * mesh->dim; face++) {
         struct curvature_plane to = curvature_plane(&grid, face / 2, curvature_layer(mesh, g, face, 0)),
@@ -329,26 +309,70 @@ const double *curvature_take(struct curvature *room, const struct level *level, 
 {
     const struct mesh *mesh = room->mesh;
     int more = 2 * room->g;
-    curvature_between(mesh, more, curvature_straight(room, cosine, a, room->normal[0]), room->spare);
-    curvature_between(mesh, more - 1, room->spare, room->psi);
-    curvature_between(mesh, more, curvature_straight(room, cosine, b, room->normal[0]), room->spare);
-    curvature_between(mesh, more - 1, room->spare, room->other);
-    curvature_straighten(curvature_cells(mesh, more - 2), room->other, room->psi);
+    curvature_room_between(mesh, more, curvature_straight(room, cosine, a, room->normal[0]), room->spare);
+    curvature_room_between(mesh, more - 1, room->spare, room->psi);
+    curvature_room_between(mesh, more, curvature_straight(room, cosine, b, room->normal[0]), room->spare);
+    curvature_room_between(mesh, more - 1, room->spare, room->other);
+    curvature_straighten(curvature_room_cells(mesh, more - 2), room->other, room->psi);
     curvature_normals(room, level, more - 2);
     if (cosine) curvature_lean(room, cosine);
     curvature_divide(room, level, tile, more - 3);
     if (cosine) curvature_behind(room, cosine);
+    memset(room->trust, 0, curvature_room_cells(mesh, 2 * HEIGHTS_AROUND) * sizeof *room->trust);
     return room->kappa;
+}
+
+/* Where columns cross such a face, or stand beside it. */
+static void curvature_doubt(struct curvature *room, const bool *poor)
+{
+    const struct mesh *mesh = room->mesh;
+    const struct curvature_grid grid = curvature_grid(mesh, 2 * HEIGHTS_AROUND);
+    for (int face = 0; face < 2 * mesh->dim; face++)
+        for (int layer = -HEIGHTS_AROUND; poor[face] && layer < 3 && layer < mesh->n[face / 2]; layer++) {
+            size_t at = curvature_layer(mesh, HEIGHTS_AROUND, face, -1 - layer);
+            const struct curvature_plane plane = curvature_plane(&grid, face / 2, at);
+            for (size_t v = 0; v < plane.n[1]; v++)
+                for (size_t u = 0; u < plane.n[0]; u++)
+                    room->trust[plane.from + u * plane.stride[0] + v * plane.stride[1]] = 0.0;
+        }
+}
+
+static BULLA_KERNEL void curvature_merge_row(size_t n, const double *restrict heights, const double *restrict trust,
+                                             double *restrict kappa)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double k = kappa[i], h = heights[i];
+        kappa[i] = trust[i] > 0.0 ? k + trust[i] * (h - k) : k;
+    }
+}
+
+void curvature_heights(struct curvature *room, const struct level *level, const struct tile *tile, const double *a,
+                       const bool poor[MESH_FACES])
+{
+    const struct mesh *mesh = room->mesh;
+    const struct curvature_grid wide = curvature_grid(mesh, 2 * room->g - 4),
+                                to = curvature_grid(mesh, 2 * HEIGHTS_AROUND);
+    double *normal[3] = {room->spare, room->normal[0], room->normal[1]}, *heights = room->normal[2];
+    for (int d = 0; d < mesh->dim; d++) curvature_room_between(mesh, 2 * room->g - 3, room->normal[d], normal[d]);
+    heights_take(mesh, level, tile, a, normal, heights, room->trust);
+    curvature_doubt(room, poor);
+    for (size_t k = 0; k < to.n[2]; k++)
+        for (size_t j = 0; j < to.n[1]; j++) {
+            size_t at = j * to.stride[1] + k * to.stride[2];
+            curvature_merge_row(to.n[0], heights + at, room->trust + at,
+                                room->kappa + curvature_grid_at(&wide, HEIGHTS_AROUND, j, k));
+        }
 }
 
 void curvature_keep(struct curvature *room)
 {
-    memcpy(room->kept, room->kappa, curvature_cells(room->mesh, 2 * room->g - 4) * sizeof *room->kept);
+    memcpy(room->kept, room->kappa, curvature_room_cells(room->mesh, 2 * room->g - 4) * sizeof *room->kept);
 }
 
 void curvature_oppose(struct curvature *room, double part)
 {
-    size_t n = curvature_cells(room->mesh, 2 * room->g - 4);
+    size_t n = curvature_room_cells(room->mesh, 2 * room->g - 4);
     for (size_t c = 0; c < n; c++) room->kappa[c] = part * room->kept[c] - (1.0 - part) * room->kappa[c];
 }
 
@@ -365,55 +389,59 @@ double curvature_psi_of(double a)
 }
 
 static BULLA_KERNEL void curvature_weigh_row(size_t n, const double *restrict a, const double *restrict b,
-                                             double *restrict kappa, double *restrict weight)
+                                             const double *restrict trust, const double *restrict kappa,
+                                             double *restrict sum, double *restrict weight)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double both = a[i] * b[i], part = both > 0.0 ? both * both : 0.0, k = kappa[i];
-        weight[i] = part;
-        kappa[i] = part * k;
+        double both = a[i] * b[i], part = both > 0.0 ? both * both : 0.0, with = part * (CURVATURE_DOUBT + trust[i]);
+        weight[i] = with;
+        sum[i] = with * kappa[i];
     }
 }
 
 static BULLA_KERNEL void curvature_mean_of(size_t n, double least, const double *restrict a, const double *restrict b,
                                            const double *restrict sum, const double *restrict weight,
-                                           double *restrict kappa)
+                                           const double *restrict trust, double *restrict kappa)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double w = weight[i], s = sum[i], k = s / (w > CURVATURE_NONE ? w : 1.0);
-        kappa[i] = a[i] * b[i] > least ? k : 0.0;
+        double w = weight[i], s = sum[i], mean = s / (w > CURVATURE_NONE ? w : 1.0), own = kappa[i];
+        kappa[i] = a[i] * b[i] > least ? mean + trust[i] * (own - mean) : 0.0;
     }
 }
 
-/* First number of row (j, k) of the tile, without the layers around it. */
 static const double *curvature_inside(const struct curvature_grid *grid, const double *of, size_t layers, size_t j,
                                       size_t k)
 {
-    return of + layers * (grid->stride[0] + grid->stride[1] + grid->stride[2]) + j * grid->stride[1] +
-           k * grid->stride[2];
+    return of + curvature_grid_at(grid, layers, j, k);
 }
 
 void curvature_mean(struct curvature *room, const double *a, const double *b, double least, double *kappa)
 {
     const struct mesh *mesh = room->mesh;
-    const struct curvature_grid patch = curvature_grid(mesh, 6), wide = curvature_grid(mesh, 2),
+    size_t g = (size_t)room->g;
+    const struct curvature_grid patch = curvature_grid(mesh, 2 * room->g),
+                                known = curvature_grid(mesh, 2 * room->g - 4), wide = curvature_grid(mesh, 2),
                                 own = curvature_grid(mesh, 0);
     double *weight = room->other, *sums = room->psi;
     for (size_t k = 0; k < wide.n[2]; k++)
         for (size_t j = 0; j < wide.n[1]; j++) {
             size_t at = j * wide.stride[1] + k * wide.stride[2];
-            curvature_weigh_row(wide.n[0], curvature_inside(&patch, a, 2, j, k), curvature_inside(&patch, b, 2, j, k),
-                                room->kappa + at, weight + at);
+            curvature_weigh_row(wide.n[0], curvature_inside(&patch, a, g - 1, j, k),
+                                curvature_inside(&patch, b, g - 1, j, k), room->trust + at,
+                                curvature_inside(&known, room->kappa, g - 3, j, k), room->normal[0] + at, weight + at);
         }
-    curvature_between(mesh, 2, room->kappa, room->spare);
-    curvature_between(mesh, 1, room->spare, sums);
-    curvature_between(mesh, 2, weight, room->spare);
-    curvature_between(mesh, 1, room->spare, weight);
+    curvature_room_between(mesh, 2, room->normal[0], room->spare);
+    curvature_room_between(mesh, 1, room->spare, sums);
+    curvature_room_between(mesh, 2, weight, room->spare);
+    curvature_room_between(mesh, 1, room->spare, weight);
     for (size_t k = 0; k < own.n[2]; k++)
         for (size_t j = 0; j < own.n[1]; j++) {
             size_t at = j * own.stride[1] + k * own.stride[2];
-            curvature_mean_of(own.n[0], least, curvature_inside(&patch, a, 3, j, k),
-                              curvature_inside(&patch, b, 3, j, k), sums + at, weight + at, kappa + at);
+            memcpy(kappa + at, curvature_inside(&known, room->kappa, g - 2, j, k), own.n[0] * sizeof *kappa);
+            curvature_mean_of(own.n[0], least, curvature_inside(&patch, a, g, j, k),
+                              curvature_inside(&patch, b, g, j, k), sums + at, weight + at,
+                              curvature_inside(&wide, room->trust, 1, j, k), kappa + at);
         }
 }

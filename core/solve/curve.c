@@ -4,12 +4,13 @@
 #include "base/mem.h"
 #include "levels/prolong_rim.h"
 #include "scheme/curvature.h"
+#include "scheme/heights.h"
 #include "scheme/patch_state.h"
 
 #include <string.h>
 
-/* Two for a cell's own curvature, one for the mean with its neighbours'. */
-enum { CURVE_LAYERS = 3 };
+/* Three for columns through a cell, one for the mean with its neighbours. */
+enum { CURVE_LAYERS = HEIGHTS_LAYERS };
 
 /* Least product of the fractions of a pair that makes a surface: below it its force is some 1e-6 of the whole one. */
 #define CURVE_LEAST 1e-6
@@ -72,6 +73,14 @@ static bool curve_walls(const struct curve *curve, const struct patch_source *so
     return some;
 }
 
+/* Behind walls with an angle, and on a coarser level, lies nothing that heights can be taken of. */
+static void curve_poor(const struct level *level, unsigned local, const double cosine[MESH_FACES],
+                       bool ret_poor[MESH_FACES])
+{
+    for (int face = 0; face < MESH_FACES; face++)
+        ret_poor[face] = cosine[face] != 0.0 || level->neighbours[local][face].kind == NEIGHBOUR_COARSE;
+}
+
 /* All fractions but that of material l. */
 static const double *curve_rest(const struct curve *curve, unsigned l)
 {
@@ -106,14 +115,21 @@ static double curve_part(const struct model *model, const struct model_pair *pai
 }
 
 /* kappa of a pair, in the room. Where there are others, each of the two has its surface against all others, with its part of
- * the tension: at a line where three meet the pulls of their corners are in balance at Neumann's angles. */
-static void curve_pair(const struct curve *curve, const struct level *level, const struct tile *tile,
-                       const struct model_pair *pair, const double *cosine)
+ * the tension: at a line where three meet the pulls of their corners are in balance at Neumann's angles. The turn of a corner
+ * is the sum of the kappa of its layers, so there none is carried, and columns see no corners. */
+static void curve_pair(const struct curve *curve, const struct level *level, unsigned local,
+                       const struct model_pair *pair, const double cosines[MESH_FACES], bool leans)
 {
+    const struct tile *tile = &level->tiles[level->first + local];
+    const double *cosine = leans ? cosines : NULL;
     const double *a = curve->patch + pair->inside * curve->pitch, *b = curve->patch + pair->outside * curve->pitch;
     double other[MESH_FACES];
+    bool poor[MESH_FACES];
     if (curve->model->n_alpha < 3) {
         curvature_take(curve->room, level, tile, a, b, cosine);
+        curvature_carry(curve->room, level, tile);
+        curve_poor(level, local, cosines, poor);
+        curvature_heights(curve->room, level, tile, a, poor);
         return;
     }
     for (int face = 0; cosine && face < MESH_FACES; face++) other[face] = -cosine[face];
@@ -142,7 +158,7 @@ static void curve_tile(struct curve *curve, const struct patch_source *source, u
         gathered = true;
         double cosine[MESH_FACES];
         bool leans = curve_walls(curve, source, local, k, cosine);
-        curve_pair(curve, level, &level->tiles[level->first + local], pair, leans ? cosine : NULL);
+        curve_pair(curve, level, local, pair, cosine, leans);
         curvature_mean(curve->room, a, b, CURVE_LEAST, kappa);
     }
 }

@@ -1,0 +1,284 @@
+/* heights.c - see heights.h. A row of cells along x at a time, with the columns through them and those beside. Sums begin with
+ * pairs that lie opposite, so that mirrors and the exchange of x and y keep all bits. */
+#include "scheme/heights.h"
+
+#include "mesh/metric.h"
+#include "scheme/curvature_grid.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+/* Cells of a column on each side of its middle. */
+enum { HEIGHTS_REACH = 3 };
+
+/* Least n_d^2 of columns along d. */
+#define HEIGHTS_STEEP 0.2
+
+/* Tails of fronts: least and most of a material, slowest fall. */
+#define HEIGHTS_TRACE 1e-9
+#define HEIGHTS_FULL 0.999
+#define HEIGHTS_SLOW 0.7
+
+/* What the ends of three (nine) columns may lack of being pure, and from where on they count for nothing. */
+#define HEIGHTS_PURE 0.05
+#define HEIGHTS_MIXED 0.5
+
+/* A row of cells and the columns through its cells along one axis. */
+struct heights_row {
+    const struct mesh *mesh;
+    const struct level *level;
+    const struct metric *metric; /* of the row's cells */
+    const double *a;             /* fraction of its first cell, in the patch */
+    const struct curvature_grid *patch;
+    size_t n;
+};
+
+/* Heights in cells along the column's axis, of the columns through a row, from a cell before it to one behind it; `turn`: how far
+ * a column goes from one material, -1 or 1, to the other. */
+struct heights_columns {
+    double height[METRIC_CELLS + 2], turn[METRIC_CELLS + 2];
+};
+
+/* What the axes have said of a row so far. */
+struct heights_sum {
+    double kappa[METRIC_CELLS], weight[METRIC_CELLS], all[METRIC_CELLS];
+};
+
+/* What lies beyond the end of a column, where the last of its cells has e of a material and the one before it e2: odds e/(1 - e)
+ * of a front that is a tanh fall by the same factor from cell to cell. Three cells one by one, then a geometric series. */
+static inline double heights_tail(double e, double e2)
+{
+    double last = e > 0.0 ? e : 0.0, before = e2 > HEIGHTS_TRACE ? e2 : HEIGHTS_TRACE;
+    last = last < HEIGHTS_FULL ? last : HEIGHTS_FULL;
+    before = before < HEIGHTS_FULL ? before : HEIGHTS_FULL;
+    double odds = last / (1.0 - last), factor = odds * (1.0 - before) / before;
+    factor = factor < HEIGHTS_SLOW ? factor : HEIGHTS_SLOW;
+    double one = odds * factor, two = one * factor, three = two * factor, end = three / (1.0 + three);
+    return (one / (1.0 + one) + two / (1.0 + two)) + (end + end * factor / (1.0 - factor));
+}
+
+/* What a column lacks: what lies beyond its empty end less what lacks beyond its full one. From its lower end on. */
+static inline double heights_beyond(double first, double second, double sixth, double last)
+{
+    bool rises = last > first;
+    double empty = rises ? first : last, empty2 = rises ? second : sixth, full = rises ? last : first,
+           full2 = rises ? sixth : second;
+    return heights_tail(empty, empty2) - heights_tail(1.0 - full, 1.0 - full2);
+}
+
+static BULLA_KERNEL void heights_columns_row(size_t n, size_t step, const double *restrict low, double *restrict height,
+                                             double *restrict turn)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double first = low[i], last = low[i + 6 * step];
+        double outer = (first + last) + (low[i + step] + low[i + 5 * step]);
+        double sum = (outer + (low[i + 2 * step] + low[i + 4 * step])) + low[i + 3 * step];
+        height[i] = sum + heights_beyond(first, low[i + step], low[i + 5 * step], last);
+        turn[i] = last - first;
+    }
+}
+
+/* Columns along the radius: +-the radius of a cylinder of the same volume, in cells; r: of the first cell's middle. */
+static BULLA_KERNEL void heights_radius_row(size_t n, double r, const double *restrict low, double *restrict height,
+                                            double *restrict turn)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double here = r + (double)i, sum = 0.0, change = low[i + 6] - low[i], side = change > 0.0 ? -1.0 : 1.0;
+        for (size_t c = 0; c < 7; c++) sum += low[i + c] * (here + ((double)c - 3.0));
+        sum += here * heights_beyond(low[i], low[i + 1], low[i + 5], low[i + 6]);
+        double from = here - side * 3.5, square = from * from + side * (sum + sum);
+        height[i] = side * sqrt(square > 0.0 ? square : 0.0);
+        turn[i] = change;
+    }
+}
+
+/* The columns along `axis` through the cells of a row that lies some steps beside. */
+static void heights_columns(const struct heights_row *row, int axis, const double *beside, struct heights_columns *ret)
+{
+    size_t step = row->patch->stride[axis];
+    const double *low = beside - HEIGHTS_REACH * step - 1;
+    if (axis == 0 && row->mesh->beta == 1)
+        heights_radius_row(row->n + 2, row->metric->centre[0] / row->level->h[0] - 1.0, low, ret->height, ret->turn);
+    else heights_columns_row(row->n + 2, step, low, ret->height, ret->turn);
+}
+
+/* Three columns beside each other: how far the worst of them goes where the middle one goes. */
+static BULLA_KERNEL void heights_least(size_t n, const double *restrict below, const double *restrict here,
+                                       const double *restrict above, const double *restrict of, double *restrict ret)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double side = of[i] < 0.0 ? -1.0 : 1.0, a = below[i] * side, b = here[i] * side, c = above[i] * side,
+               r = ret[i];
+        double low = a < c ? a : c, all = low < b ? low : b;
+        ret[i] = all < r ? all : r;
+    }
+}
+
+/* Adds what columns along an axis say, with the squares of the normal. */
+static BULLA_KERNEL void heights_add(size_t n, const double *restrict kappa, const double *restrict least,
+                                     const double *restrict normal, struct heights_sum *sum)
+{
+    double *restrict k = sum->kappa, *restrict w = sum->weight, *restrict all = sum->all;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double steep = normal[i] * normal[i] - HEIGHTS_STEEP, q = 1.0 - least[i], have = k[i], with = w[i],
+               whole = all[i];
+        double trust = (HEIGHTS_MIXED - q) / (HEIGHTS_MIXED - HEIGHTS_PURE), weight = steep > 0.0 ? steep * steep : 0.0;
+        trust = trust < 1.0 ? trust : 1.0;
+        trust = trust > 0.0 ? trust * weight : 0.0;
+        k[i] = have + trust * kappa[i];
+        w[i] = with + trust;
+        all[i] = whole + weight;
+    }
+}
+
+/* kappa of a plane: -(upper n_upper - lower n_lower), n = H'/sqrt(1 + H'^2) at the faces; per: h of the column over that between
+ * columns. */
+static BULLA_KERNEL void heights_plane_row(size_t n, const double *restrict below, const double *restrict here,
+                                           const double *restrict above, const double *restrict lower,
+                                           const double *restrict upper, double per, double *restrict kappa)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double down = (here[i] - below[i]) * per, up = (above[i] - here[i]) * per;
+        kappa[i] = lower[i] * (down / sqrt(1.0 + down * down)) - upper[i] * (up / sqrt(1.0 + up * up));
+    }
+}
+
+/* The second curvature of columns along a radius. */
+static BULLA_KERNEL void heights_ring_row(size_t n, const double *restrict below, const double *restrict here,
+                                          const double *restrict above, double per, double h, double *restrict kappa)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double slope = 0.5 * (above[i] - below[i]) * per, k = kappa[i], r = here[i] * h;
+        double ring = 1.0 / (r * sqrt(1.0 + slope * slope));
+        kappa[i] = k + (r < 0.0 || r > 0.0 ? ring : 0.0);
+    }
+}
+
+/* kappa in space, from nine columns: t, u: one step along the transverse axes; per: h of the column over theirs. */
+static BULLA_KERNEL void heights_space_row(size_t n, const double *const at[3][3], double per_t, double per_u, double h,
+                                           double *restrict kappa)
+{
+    const double *restrict o = at[1][1], *restrict b = at[0][1], *restrict t = at[2][1], *restrict l = at[1][0],
+                           *restrict r = at[1][2], *restrict bl = at[0][0], *restrict br = at[0][2],
+                           *restrict tl = at[2][0], *restrict tr = at[2][2];
+    double tt = per_t * per_t / h, uu = per_u * per_u / h, tu = 0.25 * per_t * per_u / h;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double ht = 0.5 * (t[i] - b[i]) * per_t, hu = 0.5 * (r[i] - l[i]) * per_u;
+        double two = o[i] + o[i], htt = ((t[i] + b[i]) - two) * tt, huu = ((r[i] + l[i]) - two) * uu;
+        double htu = ((tr[i] + bl[i]) - (tl[i] + br[i])) * tu, length2 = 1.0 + (ht * ht + hu * hu);
+        double sum = (htt * (1.0 + hu * hu) + huu * (1.0 + ht * ht)) - 2.0 * (htu * (ht * hu));
+        kappa[i] = -sum / (length2 * sqrt(length2));
+    }
+}
+
+/* Areas over volume of the faces between columns beside each other along an axis. */
+static void heights_faces(const struct heights_row *row, int across, double *lower, double *upper)
+{
+    const struct metric *metric = row->metric;
+    double h = row->level->h[across];
+    for (size_t i = 0; i < row->n; i++) {
+        lower[i] = across ? 1.0 / h : metric->area[i] / metric->volume[i];
+        upper[i] = across ? 1.0 / h : metric->area[i + 1] / metric->volume[i];
+    }
+}
+
+/* In the plane and around an axis: columns along `axis`, three rows of them, or one where they stand beside each other in it. */
+static void heights_plane(const struct heights_row *row, int axis, const double *normal, struct heights_sum *sum)
+{
+    int across = 1 - axis;
+    size_t step = row->patch->stride[across], n = row->n;
+    struct heights_columns columns[3], *here = &columns[1], *below = across ? &columns[0] : here,
+                                       *above = across ? &columns[2] : here;
+    size_t off = across ? 1 : 0, on = across ? 1 : 2;
+    double lower[METRIC_CELLS], upper[METRIC_CELLS], kappa[METRIC_CELLS], least[METRIC_CELLS];
+    double per = row->level->h[axis] / row->level->h[across];
+    heights_columns(row, axis, row->a, here);
+    if (across) heights_columns(row, axis, row->a - step, below);
+    if (across) heights_columns(row, axis, row->a + step, above);
+    heights_faces(row, across, lower, upper);
+    for (size_t i = 0; i < n; i++) least[i] = 1.0;
+    heights_least(n, below->turn + off, here->turn + 1, above->turn + on, here->turn + 1, least);
+    heights_plane_row(n, below->height + off, here->height + 1, above->height + on, lower, upper, per, kappa);
+    if (axis == 0 && row->mesh->beta == 1)
+        heights_ring_row(n, below->height + off, here->height + 1, above->height + on, per, row->level->h[0], kappa);
+    heights_add(n, kappa, least, normal, sum);
+}
+
+/* In space: columns along `axis`, nine rows of them, or three where they stand beside each other in these. */
+static void heights_space(const struct heights_row *row, int axis, const double *normal, struct heights_sum *sum)
+{
+    int t = (axis + 1) % 3, u = (axis + 2) % 3;
+    const size_t *stride = row->patch->stride, n = row->n;
+    struct heights_columns columns[3][3];
+    const double *at[3][3];
+    double kappa[METRIC_CELLS], least[METRIC_CELLS];
+    for (size_t i = 0; i < n; i++) least[i] = 1.0;
+    for (size_t i = 0; i < 3; i++)
+        for (size_t j = 0; j < 3; j++) {
+            size_t row_t = t ? i : 1, row_u = u ? j : 1, along = t ? (u ? 1 : j) : i;
+            struct heights_columns *of = &columns[row_t][row_u];
+            if (row_t == i && row_u == j)
+                heights_columns(row, axis, row->a + i * stride[t] + j * stride[u] - stride[t] - stride[u], of);
+            at[i][j] = of->height + along;
+        }
+    for (size_t i = 0; i < 3; i++)
+        for (size_t j = 0; j < 3; j++) {
+            const double *turn = columns[t ? i : 1][u ? j : 1].turn + (t ? (u ? 1 : j) : i);
+            heights_least(n, turn, turn, turn, columns[1][1].turn + 1, least);
+        }
+    heights_space_row(n, at, row->level->h[axis] / row->level->h[t], row->level->h[axis] / row->level->h[u],
+                      row->level->h[axis], kappa);
+    heights_add(n, kappa, least, normal, sum);
+}
+
+/* What is trusted, over all that surfaces of this direction could have. */
+static BULLA_KERNEL void heights_end(size_t n, const struct heights_sum *sum, double *restrict kappa,
+                                     double *restrict trust)
+{
+    const double *restrict k = sum->kappa, *restrict w = sum->weight, *restrict all = sum->all;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        bool some = w[i] > 0.0;
+        kappa[i] = some ? k[i] / w[i] : 0.0;
+        trust[i] = some ? w[i] / all[i] : 0.0;
+    }
+}
+
+static void heights_one(const struct heights_row *row, const double *const normal[3], double *kappa, double *trust)
+{
+    struct heights_sum sum;
+    for (size_t i = 0; i < row->n; i++) sum.kappa[i] = sum.weight[i] = sum.all[i] = 0.0;
+    for (int axis = 0; axis < row->mesh->dim; axis++)
+        (row->mesh->dim == 2 ? heights_plane : heights_space)(row, axis, normal[axis], &sum);
+    heights_end(row->n, &sum, kappa, trust);
+}
+
+void heights_take(const struct mesh *mesh, const struct level *level, const struct tile *tile, const double *a,
+                  double *const normal[3], double *ret_kappa, double *ret_trust)
+{
+    const struct curvature_grid patch = curvature_grid(mesh, 2 * HEIGHTS_LAYERS),
+                                to = curvature_grid(mesh, 2 * HEIGHTS_AROUND),
+                                normals = curvature_grid(mesh, 2 * HEIGHTS_NORMALS);
+    struct metric metric;
+    metric_of_cells(mesh, level, tile->at[0] * mesh->n[0] - HEIGHTS_AROUND, (int)to.n[0], &metric);
+    for (size_t k = 0; k < to.n[2]; k++)
+        for (size_t j = 0; j < to.n[1]; j++) {
+            const struct heights_row row = {.mesh = mesh,
+                                            .level = level,
+                                            .metric = &metric,
+                                            .a = a + curvature_grid_at(&patch, HEIGHTS_LAYERS - HEIGHTS_AROUND, j, k),
+                                            .patch = &patch,
+                                            .n = to.n[0]};
+            size_t at = j * to.stride[1] + k * to.stride[2],
+                   from = curvature_grid_at(&normals, HEIGHTS_NORMALS - HEIGHTS_AROUND, j, k);
+            const double *n[3] = {normal[0] + from, normal[1] + from, normal[2] + from};
+            heights_one(&row, n, ret_kappa + at, ret_trust + at);
+        }
+}
