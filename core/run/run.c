@@ -166,13 +166,14 @@ static void run_say_how_to_go_on(const struct run *run, const char *time)
 static void run_say_what_is_left(const struct run *run, const char *time)
 {
     const char *saved = record_saved(run->record);
+    const char *what = run->state->scene->mesh.levels ? "a finer level" : "what diffuses"; /* solve/flow.h */
     long step = run->state->step;
     if (run->state->whole) log_error("the last good state (t = %s, step %ld) is saved as %s", time, step, saved);
     else if (saved || run->from)
-        log_error("a finer level failed half way through step %ld; the newest checkpoint is %s", step + 1,
+        log_error("%s failed half way through step %ld; the newest checkpoint is %s", what, step + 1,
                   saved ? saved : run->from->path);
     else
-        log_error("a finer level failed half way through step %ld, and output.checkpoints has asked for no checkpoint",
+        log_error("%s failed half way through step %ld, and output.checkpoints has asked for no checkpoint", what,
                   step + 1);
 }
 
