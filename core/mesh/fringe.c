@@ -10,6 +10,8 @@
 
 #include <string.h>
 
+enum { FRINGE_REACH = 4 }; /* places along an axis */
+
 /* Tile coordinates of a level, both ends included. */
 struct fringe_box {
     int from[3], to[3];
@@ -44,7 +46,16 @@ static bool fringe_clip(const struct mesh *mesh, const struct level *level, stru
     return plain;
 }
 
-/* Sends a tile to whoever answers for a place of the box, each once. */
+/* What the places of a box along an axis give to keys; returns their number. */
+static int fringe_digits(const struct level *level, const struct fringe_box *box, int d,
+                         uint64_t ret_digits[FRINGE_REACH])
+{
+    int n = box->to[d] - box->from[d] + 1, extent = level->extent[d];
+    for (int i = 0; i < n; i++) ret_digits[i] = morton_spread((uint64_t)((box->from[d] + i + extent) % extent)) << d;
+    return n;
+}
+
+/* Sends a tile to whoever answers for a place of the box. */
 static void fringe_reach(const struct mesh *mesh, int l, int rank, struct fringe_box box,
                          const struct fringe_item *item, struct fringe *fringe)
 {
@@ -52,19 +63,21 @@ static void fringe_reach(const struct mesh *mesh, int l, int rank, struct fringe
     const struct span span = span_of(mesh, l);
     bool plain = fringe_clip(mesh, level, &box);
     if (plain && span_holds(&span, rank, morton_key(box.from)) && span_holds(&span, rank, morton_key(box.to))) return;
-    int last = rank, at[3], place[3];
-    for (at[2] = box.from[2]; at[2] <= box.to[2]; at[2]++)
-        for (at[1] = box.from[1]; at[1] <= box.to[1]; at[1]++)
-            for (at[0] = box.from[0]; at[0] <= box.to[0]; at[0]++) {
-                for (int d = 0; d < 3; d++) place[d] = (at[d] + level->extent[d]) % level->extent[d];
-                uint64_t key = morton_key(place);
+    uint64_t digits[3][FRINGE_REACH];
+    int last = rank, n[3];
+    for (int d = 0; d < 3; d++) n[d] = fringe_digits(level, &box, d, digits[d]);
+    for (int k = 0; k < n[2]; k++)
+        for (int j = 0; j < n[1]; j++)
+            for (int i = 0; i < n[0]; i++) {
+                uint64_t key = digits[0][i] | digits[1][j] | digits[2][k];
                 if (span_holds(&span, rank, key) || (last != rank && span_holds(&span, last, key))) continue;
                 last = span_owner(&span, key);
                 fringe_add(fringe, item, last);
             }
 }
 
-/* Places that lie `below` before and `above` after a tile, of the level `finer` (1: the next one, -1: the one below). */
+/* The places within one of a tile on its level; of its children on the next finer one (finer 1), of its parent on the
+ * next coarser one (-1). */
 static struct fringe_box fringe_box(const struct mesh *mesh, const struct tile *tile, int finer)
 {
     struct fringe_box box = {{0}, {0}};
