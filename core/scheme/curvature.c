@@ -15,6 +15,9 @@
 /* Least part along a wall of the unit normal at it: a surface that lies flatter does not meet the wall here. */
 #define CURVATURE_LYING 0.1
 
+/* Product of fractions below which columns count less. */
+#define CURVATURE_TRACE 1e-2
+
 /* Weight of a cell whose columns say nothing, in means with others. */
 #define CURVATURE_DOUBT 1e-3
 
@@ -337,6 +340,17 @@ static void curvature_doubt(struct curvature *room, const bool *poor)
         }
 }
 
+/* Traces beside a surface are no part of it. */
+static BULLA_KERNEL void curvature_trace_row(size_t n, const double *restrict a, double *restrict trust)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double part = a[i] * (1.0 - a[i]) / CURVATURE_TRACE, t = trust[i];
+        part = part < 1.0 ? part : 1.0;
+        trust[i] = part > 0.0 ? t * part : 0.0;
+    }
+}
+
 static BULLA_KERNEL void curvature_merge_row(size_t n, const double *restrict heights, const double *restrict trust,
                                              double *restrict kappa)
 {
@@ -352,7 +366,8 @@ void curvature_heights(struct curvature *room, const struct level *level, const 
 {
     const struct mesh *mesh = room->mesh;
     const struct curvature_grid wide = curvature_grid(mesh, 2 * room->g - 4),
-                                to = curvature_grid(mesh, 2 * HEIGHTS_AROUND);
+                                to = curvature_grid(mesh, 2 * HEIGHTS_AROUND),
+                                patch = curvature_grid(mesh, 2 * room->g);
     double *normal[3] = {room->spare, room->normal[0], room->normal[1]}, *heights = room->normal[2];
     for (int d = 0; d < mesh->dim; d++) curvature_room_between(mesh, 2 * room->g - 3, room->normal[d], normal[d]);
     heights_take(mesh, level, tile, a, normal, heights, room->trust);
@@ -360,6 +375,8 @@ void curvature_heights(struct curvature *room, const struct level *level, const 
     for (size_t k = 0; k < to.n[2]; k++)
         for (size_t j = 0; j < to.n[1]; j++) {
             size_t at = j * to.stride[1] + k * to.stride[2];
+            curvature_trace_row(to.n[0], a + curvature_grid_at(&patch, (size_t)room->g - HEIGHTS_AROUND, j, k),
+                                room->trust + at);
             curvature_merge_row(to.n[0], heights + at, room->trust + at,
                                 room->kappa + curvature_grid_at(&wide, HEIGHTS_AROUND, j, k));
         }
