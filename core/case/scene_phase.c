@@ -234,7 +234,7 @@ static int scene_phase_member(struct draft *draft, const struct keys_value *valu
     keys_error(&draft->keys, value, "the law '%s' of '%s' does not give its entropy and enthalpy from p and T",
                material->eos.module->name, material->name);
     diag_help(draft->keys.diag, "laws that do: ideal-gas, stiffened-gas, nasg, mnasg, iapws95 (the liquid), "
-                                "iapws95-vapour, helmholtz-air (a gas)");
+                                "iapws95-vapour, and of gases helmholtz-air, rkpr, peng-robinson");
     return -1;
 }
 
@@ -258,7 +258,7 @@ static int scene_phase_dilute(struct draft *draft, const struct keys_value *valu
     if (gas)
         diag_help(draft->keys.diag,
                   "laws of gases: iapws95-vapour (beside iapws95), ideal-gas (beside iapws95 with 'calibrate'), "
-                  "helmholtz-air");
+                  "helmholtz-air, rkpr, peng-robinson");
     else diag_help(draft->keys.diag, "laws of liquids: nasg, stiffened-gas, mnasg, iapws95");
     return -1;
 }
@@ -420,20 +420,15 @@ static void scene_phase_pair(struct draft *draft, const struct keys_value *value
     scene->phases[scene->n_phase++] = pair;
 }
 
-/* Surface tension: one pressure for the vapour, one for the liquid, which a round surface in one dimension knows exactly. */
+/* Surface tension: one pressure for the vapour, one for the liquid, and one curvature between them. */
 static void scene_phase_curved(struct draft *draft, const struct keys_value *section)
 {
     const struct scene *scene = draft->scene;
-    if (scene->domain.dim > 1) {
-        keys_error(&draft->keys, section,
-                   "phase change and surface tension go together in one dimension around a centre or an axis only");
-        diag_help(draft->keys.diag, "'geometry: spherical', or leave one of them out");
-    } else if (scene->n_material > 2) {
-        keys_error(&draft->keys, section,
-                   "phase change and surface tension go together for a liquid and its vapour alone, without a third "
-                   "material");
-        diag_help(draft->keys.diag, "leave '%s' out, or the surface tension", scene->material[2].name);
-    }
+    if (scene->n_material <= 2) return;
+    keys_error(&draft->keys, section,
+               "phase change and surface tension go together for a liquid and its vapour alone, without a third "
+               "material");
+    diag_help(draft->keys.diag, "leave '%s' out, or the surface tension", scene->material[2].name);
 }
 
 /* What does not go together with it. */

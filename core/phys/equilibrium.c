@@ -20,6 +20,7 @@ typedef double equilibrium_row[EQUILIBRIUM_BLOCK];
 struct equilibrium_newton {
     equilibrium_row V, V_p, V_T, V_m, H, H_p, H_T, H_m, D, D_p, D_T, D_m;
     equilibrium_row rho, v[2], h[2], s[2], v_T, v_p, c_p; /* of the phases; later laws go over the second ones */
+    equilibrium_row lead_T[2], lead_p[2];                 /* v_T and v_p of phases that search their volumes */
     equilibrium_row gas, share;                           /* sum m R of the gases; ln x_v */
     equilibrium_row fixed_v, fixed_h;                     /* others: volume, and sum m v0 */
     equilibrium_row state;                                /* 0 moves, EQUILIBRIUM_LAST, EQUILIBRIUM_DONE */
@@ -142,29 +143,75 @@ static const double *equilibrium_pressure(const struct equilibrium_cells *cells,
     return own;
 }
 
+/* A row of pressures and temperatures asked of a law that has formulas; volumes are answers alone. */
+static void equilibrium_row_of(const struct model_eos *eos, size_t n, const double *p, const double *T, double *v,
+                               double *h, double *s, struct equilibrium_newton *at)
+{
+    memset(at->rho, 0, n * sizeof(double));
+    eos->law->thermal(eos->self, n, p, T, at->rho, v, h, s, at->v_T, at->v_p, at->c_p);
+}
+
+/* A law that searches is asked only about cells that move, each from the volume it has: those that are done neither cost, nor change with
+ * the rounds that others take. */
+static void equilibrium_seek(const struct model_eos *eos, size_t n, const double *p, const double *T, double *v,
+                             double *h, double *s, struct equilibrium_newton *at)
+{
+    size_t place[EQUILIBRIUM_BLOCK], count = 0;
+    equilibrium_row from_p, from_T, rho, to[6];
+    double *const into[6] = {v, h, s, at->v_T, at->v_p, at->c_p};
+    for (size_t i = 0; i < n; i++) {
+        if (at->state[i] >= EQUILIBRIUM_DONE) continue;
+        place[count] = i;
+        from_p[count] = p[i];
+        from_T[count] = T[i];
+        rho[count++] = v[i] > 0.0 ? 1.0 / v[i] : 0.0;
+    }
+    eos->law->thermal(eos->self, count, from_p, from_T, rho, to[0], to[1], to[2], to[3], to[4], to[5]);
+    for (int q = 0; q < 6; q++)
+        for (size_t i = 0; i < count; i++) into[q][place[i]] = to[q][i];
+}
+
+/* Where the volumes of phases that search will be after the step from (p, T): the next search begins there. */
+static void equilibrium_lead(const struct equilibrium_family *family, const double *p, const double *T,
+                             struct equilibrium_cells *cells, const struct equilibrium_newton *at)
+{
+    for (unsigned k = 0; k < 2; k++) {
+        if (family->eos[k].law->linear) continue;
+        for (size_t i = 0; i < cells->n; i++) {
+            double v = cells->v[k][i], dv = at->lead_p[k][i] * (cells->p[i] - p[i]);
+            dv += at->lead_T[k][i] * (cells->T[i] - T[i]);
+            cells->v[k][i] = v + equilibrium_within(dv, -0.5 * v, v);
+        }
+    }
+}
+
 /* One round for all cells of a block; `energy` is without that of the others. */
 static void equilibrium_round(const struct equilibrium_family *family, struct equilibrium_cells *cells,
                               const double *energy, struct equilibrium_newton *at)
 {
     size_t n = cells->n;
-    equilibrium_row own;
+    equilibrium_row own, p_from, T_from;
+    memcpy(p_from, cells->p, n * sizeof(double));
+    memcpy(T_from, cells->T, n * sizeof(double));
     equilibrium_reset(n, cells->p, energy, at);
     for (unsigned k = 0; k < family->n; k++) {
-        unsigned row = k < 2 ? k : 0;
-        equilibrium_row spare[3], *v = k < 2 ? &at->v[row] : &spare[0], *h = k < 2 ? &at->h[row] : &spare[1],
-                                  *s = k < 2 ? &at->s[row] : &spare[2];
-        for (size_t i = 0; i < n; i++) at->rho[i] = cells->v[k][i] > 0.0 ? 1.0 / cells->v[k][i] : 0.0;
+        equilibrium_row spare[2];
+        double *v = cells->v[k], *h = k < 2 ? at->h[k] : spare[0], *s = k < 2 ? at->s[k] : spare[1];
         const double *p = equilibrium_pressure(cells, k, own);
-        family->eos[k].law->thermal(family->eos[k].self, n, p, cells->T, at->rho, *v, *h, *s, at->v_T, at->v_p,
-                                    at->c_p);
-        memcpy(cells->v[k], *v, n * sizeof(double));
-        equilibrium_add(n, cells->m[k], cells->T, *v, *h, at);
+        if (family->eos[k].law->linear) equilibrium_row_of(&family->eos[k], n, p, cells->T, v, h, s, at);
+        else equilibrium_seek(&family->eos[k], n, p, cells->T, v, h, s, at);
+        equilibrium_add(n, cells->m[k], cells->T, v, h, at);
+        if (k >= 2) continue;
+        memcpy(at->v[k], v, n * sizeof(double));
+        memcpy(at->lead_T[k], at->v_T, n * sizeof(double));
+        memcpy(at->lead_p[k], at->v_p, n * sizeof(double));
     }
     equilibrium_others(cells, at);
     equilibrium_mix(family, cells, at);
     equilibrium_differ(n, family->R[EQUILIBRIUM_VAPOUR], cells->T, cells->m[EQUILIBRIUM_VAPOUR], at);
     equilibrium_step(n, family->exchange ? 1.0 : 0.0, at, cells->p, cells->T, cells->m[EQUILIBRIUM_LIQUID],
                      cells->m[EQUILIBRIUM_VAPOUR]);
+    equilibrium_lead(family, p_from, T_from, cells, at);
 }
 
 /* What cells came with, of what the steps change. */

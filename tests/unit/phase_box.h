@@ -16,6 +16,7 @@
     "  water: {eos: {type: iapws95, preset: water}}\n" \
     "  steam: {eos: {type: iapws95-vapour, preset: water-vapour}}\n"
 #define PHASE_BOX_AIR "  air: {eos: {type: ideal-gas, preset: air}}\n"
+#define PHASE_BOX_CUBIC_AIR "  air: {eos: {type: rkpr, preset: air}}\n"
 #define PHASE_BOX_STONE "  stone: {eos: {type: stiffened-gas, preset: begostone}}\n"
 
 /* A periodic box of `cells` cells of these materials and this pair. */

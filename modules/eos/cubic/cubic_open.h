@@ -4,6 +4,7 @@
 #define CUBIC_OPEN_H
 
 #include "cubic_tabled.h"
+#include "cubic_thermal.h"
 
 /* Behind a law's own parameters. */
 enum { CUBIC_EVAL, CUBIC_INTERPOLATION, CUBIC_SIZE };
@@ -74,7 +75,7 @@ static int cubic_tabled_open(const struct bulla_host *host, struct cubic par, co
         .size = sizeof(struct bulla_eos), .state = cubic_tabled_state, .derivatives = cubic_tabled_derivatives,  \
         .temperature = cubic_tabled_temperature, .entropy = cubic_rows_entropy, .density = cubic_tabled_density, \
         .p_min = cubic_rows_p_min, .range = cubic_rows_range, .energy = cubic_tabled_energy,                     \
-        .count_outside = cubic_rows_count_outside                                                                \
+        .count_outside = cubic_rows_count_outside, .thermal = cubic_thermal, .gas_constant = cubic_thermal_gas   \
     }
 
 #endif

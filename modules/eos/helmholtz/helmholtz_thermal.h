@@ -5,6 +5,8 @@
  *     v_p = -1/(rho^2 p_r),   v_T = p_l/(T rho^2 p_r),   c_p = e_l/T + p_l^2/(T rho^2 p_r),   h = a - a_l + p/rho,   s = -a_l/T.
  * A vapour's start may lie beyond its spinodal, in the dome or among liquids: what comes from there does not count, and the search begins once
  * more from the ideal gas, which is thinner than any real one: p is concave from there on.
+ * Close to the root, at P = rho^2 a_r, Taylor's series in p - P gives the same as another look at the potential:
+ *     g = a + P/rho + v (p - P) + v_p (p - P)^2/2,   s = -a_l/T - v_T (p - P),   h = g + T s.
  * All of one potential: the table's, with `eval: analytic` the formulas'. Beyond the edges of the domain there is no state, only NaN:
  * continuations in p are no potentials. */
 #ifndef HELMHOLTZ_THERMAL_H
@@ -15,7 +17,7 @@
 enum { HELMHOLTZ_THERMAL_ROUNDS = 60 };
 
 #define HELMHOLTZ_THERMAL_HELD 0.64   /* of the last density: a start for liquids, beyond all but compressed ones */
-#define HELMHOLTZ_THERMAL_NEAR 1e-12  /* relative step of rho after which one more is exact */
+#define HELMHOLTZ_THERMAL_NEAR 1e-9   /* relative step of rho whose square is nothing */
 #define HELMHOLTZ_THERMAL_BESIDE 1e-3 /* of T beyond an edge that is still the domain */
 
 /* One isotherm: a and its first two derivatives in l over the density within one cell, as polynomials. A search stays in a cell or two. */
@@ -43,12 +45,12 @@ static inline void helmholtz_isotherm_row(const struct helmholtz_grid *grid, int
     line->l2 = (struct helmholtz_six){f[2][0], f[2][1], f[2][2], f[2][3], f[2][4], f[2][5]};
 }
 
-/* The potential at a density of the isotherm, R T ln rho and all; no third derivatives. */
+/* The potential at a density of the isotherm, without third derivatives; a, a_l and a_ll of a gas without R T ln(rho/rho_c), which
+ * only the root is asked for. */
 static inline struct helmholtz_spot helmholtz_thermal_spot(const struct helmholtz *self,
                                                            struct helmholtz_isotherm *line, double rho)
 {
     struct helmholtz_spot spot;
-    double lift = HELMHOLTZ_GAS ? line->RT * log(rho / self->law->fluid->rho_c) : 0.0;
     if (self->analytic) {
         spot = helmholtz_exact(self->law->fluid, HELMHOLTZ_GAS, rho, line->l);
     } else {
@@ -65,9 +67,6 @@ static inline struct helmholtz_spot helmholtz_thermal_spot(const struct helmholt
                                        .a_rr = 2.0 * a.f2 * per * per - fall * per * a.f1};
         spot = HELMHOLTZ_GAS ? helmholtz_with_gas(spot, per_rho, line->RT) : spot;
     }
-    spot.a += lift;
-    spot.a_l += lift;
-    spot.a_ll += lift;
     return spot;
 }
 
@@ -76,10 +75,17 @@ static inline double helmholtz_thermal_stiff(const struct helmholtz_spot *spot, 
     return rho * (2.0 * spot->a_r + rho * spot->a_rr);
 }
 
-/* rho at p of the isotherm from a guess, or from where a Newton iteration is safe; NaN: none found. */
-static inline double helmholtz_thermal_root(const struct helmholtz *self, struct helmholtz_isotherm *line, double p,
-                                            double guess)
+/* The potential close to a root, which lies `step` further; rho NaN: none found. */
+struct helmholtz_root {
+    double rho, step, stiff;
+    struct helmholtz_spot spot;
+};
+
+/* The root at p of the isotherm from a guess, or from where a Newton iteration is safe. */
+static inline struct helmholtz_root helmholtz_thermal_root(const struct helmholtz *self,
+                                                           struct helmholtz_isotherm *line, double p, double guess)
 {
+    const struct helmholtz_root none = {.rho = (double)NAN};
     double low = self->ends.thin, high = self->ends.dense, thin = p / line->RT;
     double held = HELMHOLTZ_GAS ? thin < 0.9 * high ? thin : 0.9 * high : HELMHOLTZ_THERMAL_HELD * high;
     double rho = guess > low && guess < high ? guess : held;
@@ -87,17 +93,17 @@ static inline double helmholtz_thermal_root(const struct helmholtz *self, struct
         struct helmholtz_spot spot = helmholtz_thermal_spot(self, line, rho);
         double stiff = helmholtz_thermal_stiff(&spot, rho), step = (p - rho * rho * spot.a_r) / stiff;
         if (!(stiff > 0.0)) { /* beyond the spinodal: once more from the safe side, if that is not where it came from */
-            if (HELMHOLTZ_GAS || !(rho < held) || !(guess > 0.0)) return (double)NAN;
+            if (HELMHOLTZ_GAS || !(rho < held) || !(guess > 0.0)) return none;
             rho = held;
             guess = 0.0;
             continue;
         }
         double next = rho + step;
-        if (fabs(step) <= HELMHOLTZ_THERMAL_NEAR * rho) return next;
+        if (fabs(step) <= HELMHOLTZ_THERMAL_NEAR * rho) return (struct helmholtz_root){rho, step, stiff, spot};
         next = next < high ? next : 0.5 * (rho + high);
         rho = next > low ? next : 0.5 * (rho + low);
     }
-    return (double)NAN;
+    return none;
 }
 
 /* Does the domain hold (rho, l)? */
@@ -107,15 +113,17 @@ static inline int helmholtz_thermal_holds(const struct helmholtz *self, double r
     return l >= low - HELMHOLTZ_THERMAL_BESIDE && l <= self->grid.l_high + HELMHOLTZ_THERMAL_BESIDE;
 }
 
-/* The same, within the domain; NaN: there is none. */
-static inline double helmholtz_thermal_rho(const struct helmholtz *self, struct helmholtz_isotherm *line, double p,
-                                           double guess)
+/* The same, within the domain. */
+static inline struct helmholtz_root helmholtz_thermal_find(const struct helmholtz *self,
+                                                           struct helmholtz_isotherm *line, double p, double guess)
 {
-    double rho = helmholtz_thermal_root(self, line, p, guess);
-    if (helmholtz_thermal_holds(self, rho, line->l)) return rho;
-    if (HELMHOLTZ_FLAT || !HELMHOLTZ_GAS || !(guess > 0.0)) return (double)NAN;
-    rho = helmholtz_thermal_root(self, line, p, 0.0);
-    return helmholtz_thermal_holds(self, rho, line->l) ? rho : (double)NAN;
+    struct helmholtz_root root = helmholtz_thermal_root(self, line, p, guess);
+    if (helmholtz_thermal_holds(self, root.rho, line->l)) return root;
+    root.rho = (double)NAN;
+    if (HELMHOLTZ_FLAT || !HELMHOLTZ_GAS || !(guess > 0.0)) return root;
+    root = helmholtz_thermal_root(self, line, p, 0.0);
+    if (!helmholtz_thermal_holds(self, root.rho, line->l)) root.rho = (double)NAN;
+    return root;
 }
 
 static void helmholtz_thermal(const void *instance, size_t n, const double *BULLA_RESTRICT p,
@@ -126,17 +134,21 @@ static void helmholtz_thermal(const void *instance, size_t n, const double *BULL
     const struct helmholtz *self = instance;
     for (size_t i = 0; i < n; i++) {
         struct helmholtz_isotherm line = {.l = log(T[i]), .RT = self->grid.R * T[i], .i = -1};
-        double at = helmholtz_thermal_rho(self, &line, p[i], rho[i]);
+        struct helmholtz_root root = helmholtz_thermal_find(self, &line, p[i], rho[i]);
+        double at = root.rho, per_T = 1.0 / T[i];
         rho[i] = v[i] = h[i] = s[i] = v_T[i] = v_p[i] = c_p[i] = at;
         if (!(at > 0.0)) continue;
-        struct helmholtz_spot spot = helmholtz_thermal_spot(self, &line, at);
-        double square = at * at, p_l = square * spot.a_rl, soft = 1.0 / (square * helmholtz_thermal_stiff(&spot, at));
-        v[i] = 1.0 / at;
-        h[i] = spot.a - spot.a_l + p[i] / at;
-        s[i] = -spot.a_l / T[i];
-        v_T[i] = p_l * soft / T[i];
+        double square = at * at, p_l = square * root.spot.a_rl, soft = 1.0 / (square * root.stiff);
+        double lift = HELMHOLTZ_GAS ? line.RT * log(at / self->law->fluid->rho_c) : 0.0;
+        double grows = p_l * soft * per_T, over = p[i] - square * root.spot.a_r;
+        double warm = root.spot.a_l + lift; /* a_l, whole */
+        rho[i] = at + root.step;
+        v[i] = 1.0 / rho[i];
+        v_T[i] = grows;
         v_p[i] = -soft;
-        c_p[i] = (spot.a_l - spot.a_ll + p_l * p_l * soft) / T[i];
+        h[i] = root.spot.a - root.spot.a_l + at * root.spot.a_r + over * (1.0 / at - T[i] * grows - 0.5 * over * soft);
+        s[i] = -warm * per_T - grows * over;
+        c_p[i] = (root.spot.a_l - root.spot.a_ll + p_l * p_l * soft) * per_T;
     }
 }
 
