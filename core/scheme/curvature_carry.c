@@ -14,7 +14,7 @@
 
 /* psi along a row and beside it, of the cells whose kappa is carried. */
 struct curvature_carry_beside {
-    const double *here, *low_y, *high_y, *low_z, *high_z;
+    const double *low_x, *here, *high_x, *low_y, *high_y, *low_z, *high_z;
 };
 
 /* From a layer of a smeared front to the sharp surface that holds the same volume [m]: ret. psi = (1 + tanh(m x/w))/2 gives
@@ -24,18 +24,21 @@ static BULLA_KERNEL void curvature_carry_way(size_t n, const struct curvature_ca
                                              double h, const double *restrict kappa, double *restrict ret)
 {
     const double variance = M_PI * M_PI * CURVATURE_POWER * CURVATURE_POWER / 96.0;
-    const double *restrict p = psi->here, *restrict b = psi->low_y, *restrict c = psi->high_y, *restrict d = psi->low_z,
-                           *restrict e = psi->high_z;
+    const double *restrict a = psi->low_x, *restrict p = psi->here, *restrict z = psi->high_x, *restrict b = psi->low_y,
+                           *restrict c = psi->high_y, *restrict d = psi->low_z, *restrict e = psi->high_z;
     double half_y = 0.5 * per[1], half_z = 0.5 * per[2];
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double gx = 0.5 * (p[i + 2] - p[i]), gy = half_y * (c[i] - b[i]), gz = half_z * (e[i] - d[i]), here = p[i + 1];
+        double gx = 0.5 * (z[i] - a[i]), gy = half_y * (c[i] - b[i]), gz = half_z * (e[i] - d[i]), here = p[i];
         double length2 = (gx * gx + gy * gy) + gz * gz, straight = 4.0 * here * (1.0 - here), k = kappa[i] * h;
-        double slope = sqrt(length2) / (straight > 0.25 ? straight : 0.25), slope2 = slope * slope;
-        double way = (here - 0.5) / slope + k * variance / slope2;
-        double part = (straight - CARRY_NONE) / (CARRY_ALL - CARRY_NONE), size = way * h;
+        double slope = sqrt(length2) / (straight > 0.25 ? straight : 0.25);
+        double steep = length2 > CURVATURE_FLAT * CURVATURE_FLAT ? slope : 1.0; /* else there is no front */
+        double way = (here - 0.5) / steep + k * variance / (steep * steep);
+        double part = (straight - CARRY_NONE) / (CARRY_ALL - CARRY_NONE);
         part = part < 1.0 ? part : 1.0;
-        ret[i] = length2 > CURVATURE_FLAT * CURVATURE_FLAT && part > 0.0 ? size * part : 0.0;
+        part = part > 0.0 ? part : 0.0;
+        part = length2 > CURVATURE_FLAT * CURVATURE_FLAT ? part : 0.0;
+        ret[i] = way * h * part;
     }
 }
 
@@ -118,8 +121,13 @@ void curvature_carry(struct curvature *room, const struct level *level, const st
             double *kappa = room->kappa + j * to.stride[1] + k * to.stride[2];
             const double *row = room->psi + (j + 1) * of.stride[1] + (k + 1) * of.stride[2],
                          *middle = row + of.stride[0];
-            const struct curvature_carry_beside psi = {row, middle - of.stride[1], middle + of.stride[1],
-                                                       middle - of.stride[2], middle + of.stride[2]};
+            const struct curvature_carry_beside psi = {row,
+                                                       middle,
+                                                       middle + of.stride[0],
+                                                       middle - of.stride[1],
+                                                       middle + of.stride[1],
+                                                       middle - of.stride[2],
+                                                       middle + of.stride[2]};
             curvature_carry_way(to.n[0], &psi, per, level->h[0], kappa, way);
             curvature_carry_row(to.n[0], way, curvature_carry_product(room, level, j, k, &metric, kappa, room->spare),
                                 kappa);

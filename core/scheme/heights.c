@@ -80,17 +80,20 @@ static BULLA_KERNEL void heights_columns_row(size_t n, size_t step, const double
 }
 
 /* Columns along the radius: +-the radius of a cylinder of the same volume, in cells; r: of the first cell's middle. */
-static BULLA_KERNEL void heights_radius_row(size_t n, double r, const double *restrict low, double *restrict height,
-                                            double *restrict turn)
+static BULLA_KERNEL void heights_radius_row(size_t n, double r, size_t step, const double *restrict low,
+                                            double *restrict height, double *restrict turn)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double here = r + (double)i, sum = 0.0, change = low[i + 6] - low[i], side = change > 0.0 ? -1.0 : 1.0;
-        for (size_t c = 0; c < 7; c++) sum += low[i + c] * (here + ((double)c - 3.0));
-        sum += here * heights_beyond(low[i], low[i + 1], low[i + 5], low[i + 6]);
+        double here = r + (double)(int)i, first = low[i], last = low[i + 6 * step];
+        double second = low[i + step], sixth = low[i + 5 * step], side = last - first > 0.0 ? -1.0 : 1.0;
+        double sum = first * (here - 3.0) + second * (here - 2.0) + low[i + 2 * step] * (here - 1.0) +
+                     low[i + 3 * step] * here + low[i + 4 * step] * (here + 1.0) + sixth * (here + 2.0) +
+                     last * (here + 3.0);
+        sum += here * heights_beyond(first, second, sixth, last);
         double from = here - side * 3.5, square = from * from + side * (sum + sum);
         height[i] = side * sqrt(square > 0.0 ? square : 0.0);
-        turn[i] = change;
+        turn[i] = last - first;
     }
 }
 
@@ -100,7 +103,8 @@ static void heights_columns(const struct heights_row *row, int axis, const doubl
     size_t step = row->patch->stride[axis];
     const double *low = beside - HEIGHTS_REACH * step - 1;
     if (axis == 0 && row->mesh->beta == 1)
-        heights_radius_row(row->n + 2, row->metric->centre[0] / row->level->h[0] - 1.0, low, ret->height, ret->turn);
+        heights_radius_row(row->n + 2, row->metric->centre[0] / row->level->h[0] - 1.0, step, low, ret->height,
+                           ret->turn);
     else heights_columns_row(row->n + 2, step, low, ret->height, ret->turn);
 }
 
