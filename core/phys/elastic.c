@@ -7,6 +7,7 @@
 #include "phys/elastic.h"
 
 #include "mesh/axis.h"
+#include "phys/elastic_slopes.h"
 #include "phys/elastic_tensor.h"
 #include "phys/row.h"
 
@@ -253,17 +254,6 @@ static ELASTIC_BODY struct elastic_face elastic_plain(struct elastic_tensor V, d
                                  .rigid = d};
 }
 
-struct elastic_slopes {
-    double G1, G2, H11, H12, H22, I1;
-};
-
-/* Change of s'_ij and of the moduli with it, for the part that all directions share: changes of I1, I2 at dev B, dev C. */
-static ELASTIC_BODY double elastic_stiffen(struct elastic_slopes g, double dI1, double dI2, double dev_B, double dev_C)
-{
-    double k1 = g.H11 + g.I1 * g.H12 + g.G2, k2 = g.H12 + g.I1 * g.H22; /* d G1 = k1 d I1 + k2 d I2 */
-    return (k1 * dI1 + k2 * dI2) * dev_B - (g.H12 * dI1 + g.H22 * dI2) * dev_C;
-}
-
 /* Any law. A strain a (x) n changes B by a b' + b a' - (2/3)(a.n) B with b = B n, C = B^2 by the product rule, the
  * invariants with them, densities by -(a.n); what the traction on n changes by along a' is rho A_aa'. Tensors in
  * the frame of the face. A bound of the tangential block (its larger diagonal entry plus the other one) stands for d. */
@@ -276,14 +266,14 @@ static ELASTIC_BODY struct elastic_face elastic_general(struct elastic_tensor V,
     double p1 = 2.0 * B.xy, p2 = g.I1 * p1 - 2.0 * C.xy, q1 = 2.0 * B.xz, q2 = g.I1 * q1 - 2.0 * C.xz; /* t1, t2 */
     double dC = (2.0 / 3.0) * C.xx + 2.0 * B.xx * B.xx, dtrace = 4.0 * C.xx - (4.0 / 3.0) * trace;
     double nn = g.G1 * ((4.0 / 3.0) * B.xx - n1 / 3.0) - g.G2 * (dC - dtrace / 3.0) +
-                elastic_stiffen(g, n1, n2, dev_B, dev_C) - normal;
-    double np =
-        -g.G1 * (p1 / 3.0) - g.G2 * (2.0 * B.xx * B.xy - (4.0 / 3.0) * C.xy) + elastic_stiffen(g, p1, p2, dev_B, dev_C);
-    double nq =
-        -g.G1 * (q1 / 3.0) - g.G2 * (2.0 * B.xx * B.xz - (4.0 / 3.0) * C.xz) + elastic_stiffen(g, q1, q2, dev_B, dev_C);
-    double pp = g.G1 * B.xx - g.G2 * (C.xx + B.xx * B.yy + B.xy * B.xy) + elastic_stiffen(g, p1, p2, B.xy, C.xy);
-    double qq = g.G1 * B.xx - g.G2 * (C.xx + B.xx * B.zz + B.xz * B.xz) + elastic_stiffen(g, q1, q2, B.xz, C.xz);
-    double pq = -g.G2 * (B.xx * B.yz + B.xy * B.xz) + elastic_stiffen(g, q1, q2, B.xy, C.xy);
+                elastic_slopes_stiffen(g, n1, n2, dev_B, dev_C) - normal;
+    double np = -g.G1 * (p1 / 3.0) - g.G2 * (2.0 * B.xx * B.xy - (4.0 / 3.0) * C.xy) +
+                elastic_slopes_stiffen(g, p1, p2, dev_B, dev_C);
+    double nq = -g.G1 * (q1 / 3.0) - g.G2 * (2.0 * B.xx * B.xz - (4.0 / 3.0) * C.xz) +
+                elastic_slopes_stiffen(g, q1, q2, dev_B, dev_C);
+    double pp = g.G1 * B.xx - g.G2 * (C.xx + B.xx * B.yy + B.xy * B.xy) + elastic_slopes_stiffen(g, p1, p2, B.xy, C.xy);
+    double qq = g.G1 * B.xx - g.G2 * (C.xx + B.xx * B.zz + B.xz * B.xz) + elastic_slopes_stiffen(g, q1, q2, B.xz, C.xz);
+    double pq = -g.G2 * (B.xx * B.yz + B.xy * B.xz) + elastic_slopes_stiffen(g, q1, q2, B.xy, C.xy);
     double d = (pp > qq ? pp : qq), a = fluid + nn, bound = d + fabs(pq);
     return (struct elastic_face){.normal = normal,
                                  .shear_1 = g.G1 * B.xy - g.G2 * C.xy,

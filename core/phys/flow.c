@@ -400,7 +400,6 @@ void flow_return(const struct model *model, size_t n, size_t stride, double dt, 
     flow.dt = dt;
     for (unsigned s = 0; s < model->n_solid; s++) {
         double *own = grown ? grown + s * stride : NULL;
-        if (own) memset(own, 0, n * sizeof *own);
         if (!model->solids[s].strength) continue;
         flow.own.solid = &model->solids[s];
         flow.own.eos = &model->eos[model->solids[s].material];

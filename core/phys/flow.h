@@ -18,7 +18,8 @@
 bool flow_reads(const struct model *path);
 
 /* Lets the stretches, and the plastic strains where they are fields, of n points flow for dt. u: conserved fields; w: their primitives where
- * flow_reads(). Points at which nothing yields keep their bits. grown: [n_solid] rows, what the plastic strains grow by, or NULL. */
+ * flow_reads(). Points at which nothing yields keep their bits. grown: [n_solid] rows, what the plastic strains grow by
+ * (points at which nothing yields keep what is there), or NULL. */
 void flow_return(const struct model *model, size_t n, size_t stride, double dt, const double *w, double *u,
                  double *grown);
 

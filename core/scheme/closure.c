@@ -4,6 +4,7 @@
 #include "phys/mix.h"
 #include "scheme/convection.h"
 #include "scheme/exchange.h"
+#include "scheme/response.h"
 #include "scheme/terms.h"
 
 #include <string.h>
@@ -23,7 +24,7 @@ static void closure_begin(struct term_tile *tile)
 
 static void closure_cells(struct term_tile *tile)
 {
-    mix_closure(tile->model, tile->n_cell, tile->n_cell, tile->w, tile->rho_c2, tile->K);
+    mix_closure(tile->model, tile->n_cell, tile->n_cell, tile->w, response_stiffness(tile), tile->K);
 }
 
 /* alpha after K div u and the exchange. A step below the least value, or below what transport left if that is less, is

@@ -4,6 +4,7 @@
 #include "phys/row.h"
 #include "phys/traction.h"
 #include "scheme/closure.h"
+#include "scheme/response.h"
 #include "scheme/terms.h"
 
 #include <float.h>
@@ -46,8 +47,8 @@ struct exchange_misfit {
 struct exchange_batch {
     const struct model *model;
     size_t n, stride;
-    double dt, h;                     /* h: size of a cell, the longest side [m] */
-    const double *w, *rho_c2, *moved; /* moved: rates of the fractions by transport */
+    double dt, h;                              /* h: size of a cell, the longest side [m] */
+    const double *w, *rho_c2, *own_c2, *moved; /* moved: rates of the fractions by transport */
     double *carried, *strained;
     const double *alpha; /* after transport */
 };
@@ -55,12 +56,13 @@ struct exchange_batch {
 /* One material's misfit: from the pressure and from the strain that its volume carried. */
 static BULLA_KERNEL void exchange_own(size_t n, double dt, const double *restrict carried,
                                       const double *restrict strained, const double *restrict rate,
-                                      const double *restrict p, const double *restrict rho_c2, double *restrict own,
-                                      double *restrict sum)
+                                      const double *restrict p, const double *restrict rho_c2,
+                                      const double *restrict stiff, double *restrict own, double *restrict sum)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double s = rho_c2[i], q = dt * (carried[i] - p[i] * rate[i]), strain = dt * strained[i], m = sum[i];
+        double s = stiff[i], q = dt * (carried[i] - p[i] * rate[i]), strain = dt * strained[i] * (rho_c2[i] / s),
+               m = sum[i];
         double volume = s > 0.0 ? q / s + strain : 0.0;
         own[i] = volume;
         sum[i] = m + volume;
@@ -195,7 +197,7 @@ static void exchange_judge(const struct exchange_batch *in, struct exchange_misf
     for (unsigned l = 0; l < model->n_alpha; l++) {
         const double *rho_c2 = in->rho_c2 + l * stride;
         exchange_own(n, in->dt, in->carried + l * stride, in->strained + l * stride, in->moved + l * stride, misfit->p,
-                     rho_c2, misfit->own[l], misfit->sum);
+                     in->own_c2 + l * stride, rho_c2, misfit->own[l], misfit->sum);
         exchange_mixture(n, in->alpha + l * stride, in->w + (model->i_m + l) * stride, rho_c2, misfit->rho,
                          misfit->stiffness, misfit->compliance);
     }
@@ -222,7 +224,8 @@ static size_t exchange_apply(const struct term_tile *tile, double *u_new)
                                           .dt = tile->dt,
                                           .h = exchange_length(tile->level, model->dim),
                                           .w = tile->w + from,
-                                          .rho_c2 = tile->rho_c2 + from,
+                                          .rho_c2 = response_stiffness(tile) + from,
+                                          .own_c2 = tile->rho_c2 + from,
                                           .moved = tile->rates + model->i_alpha * tile->n_cell + from,
                                           .carried = carried + from,
                                           .strained = carried + model->n_alpha * tile->n_cell + from,

@@ -1,8 +1,9 @@
-/* operator.h - what acts on a state beside the rates of the terms: after every stage, or after the step.
+/* operator.h - what acts on a state beside the rates of the terms: after every stage, after the step, or between the stages.
  *
  * A term (term.h) says how fast a state changes; an operator changes it at once, cell by cell: plastic flow that puts a
  * stretch back on its yield surface, a reaction, a relaxation. Where it stands in the step:
  *     every stage:  rates, the new conserved fields; OPERATOR_STAGE; primitives, the guard
+ *     all but the last: OPERATOR_STAGE, OPERATOR_BETWEEN
  *     the last one: rates, the new conserved fields; OPERATOR_STAGE, OPERATOR_STEP; primitives, the guard, the signal
  * It acts on what the attempt makes, never on the state that the step began with: an attempt that is repeated or
  * halved begins again from that, so what an operator did is undone with everything else, to the bit. Each level calls it
@@ -17,7 +18,7 @@
 #include "mesh/metric.h"
 #include "phys/model.h"
 
-enum operator_when { OPERATOR_STAGE, OPERATOR_STEP, OPERATOR_TIMES };
+enum operator_when { OPERATOR_STAGE, OPERATOR_BETWEEN, OPERATOR_STEP, OPERATOR_TIMES };
 
 /* The first failure of a script that an operator asked. */
 struct operator_fault {

@@ -10,8 +10,9 @@
 
 const struct operator* operators_all[OPERATORS_MOST + 1] = {
     &phase_change_operator, /* liquids evaporate, vapours condense */
-    &plastic_operator,      /* stresses beyond the strength of solids flow off */
-    &rupture_operator,      /* solids break */
+    &plastic_between_operator,
+    &plastic_operator, /* stresses beyond the strength of solids flow off */
+    &rupture_operator, /* solids break */
     NULL,
 };
 
@@ -56,7 +57,7 @@ static struct mix_effort operators_act_when(const struct operators *operators, e
 struct mix_effort operators_act(const struct operators *operators, bool last, const struct operator_tile *tile)
 {
     struct mix_effort effort = operators_act_when(operators, OPERATOR_STAGE, tile);
-    if (last) mix_pressure_sum(&effort, operators_act_when(operators, OPERATOR_STEP, tile));
+    mix_pressure_sum(&effort, operators_act_when(operators, last ? OPERATOR_STEP : OPERATOR_BETWEEN, tile));
     return effort;
 }
 

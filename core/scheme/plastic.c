@@ -2,15 +2,33 @@
 #include "scheme/plastic.h"
 
 #include "phys/flow.h"
+#include "phys/settle.h"
+
+#include <string.h>
 
 static bool plastic_wanted(const struct model *path)
 {
     return path->plastic;
 }
 
+static bool plastic_reads(const struct model *path)
+{
+    return flow_reads(path) || settle_wanted(path);
+}
+
+/* Where the middle of a step is only looked at: what flows there is not counted. On a line: planes are not measured yet. */
+static bool plastic_wanted_between(const struct model *path)
+{
+    return path->plastic && path->dim == 1 && path->scene->scheme.integrator == SCENE_MIDPOINT;
+}
+
 static void plastic_acts(const struct operator_tile *tile)
 {
-    flow_return(tile->model, tile->n_cell, tile->n_cell, tile->dt, tile->w, tile->u, tile->grown);
+    const struct model *model = tile->model;
+    size_t n = tile->n_cell;
+    if (tile->grown) memset(tile->grown, 0, model->n_solid * n * sizeof *tile->grown);
+    if (settle_wanted(model)) settle_flow(model, n, n, tile->dt, tile->w, tile->u, tile->grown);
+    flow_return(model, n, n, tile->dt, tile->w, tile->u, tile->grown);
 }
 
 static void plastic_say(const struct scene *scene, struct text *text)
@@ -30,7 +48,17 @@ const struct operator plastic_operator = {
     .equation = "dV/dt = -Dp V until sqrt(3/2 s':s') = Y; the work is heat",
     .when = OPERATOR_STEP,
     .wanted = plastic_wanted,
-    .reads = flow_reads,
+    .reads = plastic_reads,
     .acts = plastic_acts,
     .say = plastic_say,
+};
+
+const struct operator plastic_between_operator = {
+    .name = "plastic",
+    .owner = "core/scheme/plastic.c",
+    .equation = "the same in the middle of the step: the stress that does work is bounded by the strength",
+    .when = OPERATOR_BETWEEN,
+    .wanted = plastic_wanted_between,
+    .reads = plastic_reads,
+    .acts = plastic_acts,
 };

@@ -2,7 +2,10 @@
 #include "scheme/strain.h"
 
 #include "phys/elastic.h"
+#include "phys/row.h"
 #include "scheme/convection.h"
+#include "scheme/exchange.h"
+#include "scheme/response.h"
 #include "scheme/terms.h"
 
 enum { STRAIN_BATCH = 512 };
@@ -70,6 +73,17 @@ static BULLA_KERNEL void strain_squeeze(size_t n, const double *restrict K, cons
     }
 }
 
+/* Volume that is moved besides: what the solid gains is a strain across the interface. */
+static BULLA_KERNEL void strain_moved(size_t n, double per_dt, const double *restrict volume,
+                                      const double *restrict alpha, double *restrict squeeze)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], rate = per_dt * volume[i] / a, s = squeeze[i];
+        squeeze[i] = s - (a > 0.0 ? rate : 0.0);
+    }
+}
+
 /* Stretch k in n cells from `from`. */
 static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, size_t n, double relaxes,
                          const double *V_old, double *u_new)
@@ -93,6 +107,10 @@ static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, 
         elastic_carriers(model, k, n, n_cell, tile->K + from, K);
         elastic_carriers(model, k, n, n_cell, tile->w + fraction, solid);
         strain_squeeze(n, K, solid, div, squeeze);
+        if (response_own(tile)) {
+            elastic_carriers(model, k, n, n_cell, exchange_volume(tile) + from, K);
+            strain_moved(n, 1.0 / tile->dt, K, solid, squeeze);
+        }
         rates.squeeze = squeeze;
         rates.slope = gradient + (model->n_velocity + model_bearer(model, k)) * (unsigned)model->dim * n_cell;
     }

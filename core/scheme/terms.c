@@ -17,6 +17,8 @@
 #include "scheme/hoop.h"
 #include "scheme/lag.h"
 #include "scheme/normal.h"
+#include "scheme/response.h"
+#include "scheme/settling.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
 #include "scheme/tension.h"
@@ -43,6 +45,7 @@ const struct term *const terms_all[] = {
     &calm_term,         /* shear beside strong shocks */
     &fraction_term,     /* volume fractions move with the flow */
     &exchange_term,     /* volume that brings materials back to one pressure */
+    &response_term,     /* what solids resist and pull with, where the traction is common */
     &closure_term,      /* K div u, and what was exchanged */
     &fraction_sum,      /* fractions sum to 1 */
     &lag_term,          /* pressures that materials have in an interface travel with them */
@@ -52,6 +55,7 @@ const struct term *const terms_all[] = {
     &strain_term,       /* the stretch of solids */
     &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */
     &weld_term,         /* where they meet solids share their shear traction */
+    &settling_term,     /* the heat of solids is their own */
     &cut_flux_term,     /* rigid bodies: what they leave of fluxes */
     NULL,
 };

@@ -116,6 +116,7 @@ void plan_text(const struct model *model, struct text *ret_text)
     plan_faces(scene, ret_text);
     terms_say(model, ret_text);
     plan_operators(model, OPERATOR_STAGE, "after every stage, before its primitives:\n", ret_text);
+    plan_operators(model, OPERATOR_BETWEEN, "after every stage but the last:\n", ret_text);
     plan_operators(model, OPERATOR_STEP, "after the last stage, before close:\n", ret_text);
     if (scene->mesh.levels) plan_levels(scene, ret_text);
     text_add(ret_text,

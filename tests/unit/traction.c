@@ -4,6 +4,7 @@
 
 #include "phys/elastic.h"
 #include "phys/traction.h"
+#include "phys/traction_rate.h"
 
 enum { POINTS = 40, STEPS = 200 };
 
@@ -85,6 +86,58 @@ static void test_pressures(void **state)
     flow_stop(&flow);
 }
 
+/* s'_xx of material l when all is strained by h times the gradient. */
+static void strained(const struct model *model, const double *w, const struct traction_strain *strain, double h,
+                     double *own)
+{
+    static double moved[FLOW_FIELDS * POINTS], none[6 * POINTS], one[POINTS];
+    for (size_t i = 0; i < POINTS; i++) one[i] = 1.0;
+    memcpy(moved, w, sizeof moved);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        size_t V = model->solids[s].stretch * POINTS, rho = (model->i_m + model->solids[s].material) * POINTS;
+        const struct elastic_rates rates = {
+            .carried = none, .m_old = one, .m_new = one, .div = strain->div, .gradient = strain->gradient};
+        elastic_advance(model, POINTS, POINTS, h, w + V, &rates, moved + V);
+        elastic_unimodular(model, POINTS, POINTS, moved + V);
+        for (size_t i = 0; i < POINTS; i++) moved[rho + i] *= 1.0 + h * strain->div[i];
+    }
+    traction_own(model, POINTS, POINTS, moved, POINTS, own);
+}
+
+/* Stiffness along the normal and pull of any strain are the slopes of the traction itself. */
+static void test_slopes(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow, line_case(FLOW_WATER GEL STEEL,
+                                "  - {everywhere: true, material: water, density: 998, pressure: 1e5}\n"));
+    const struct model *model = flow.state->model;
+    static double w[FLOW_FIELDS * POINTS], gradient[3 * POINTS], along[3 * POINTS], stiff[3 * POINTS], pull[3 * POINTS];
+    static double more[3 * POINTS], less[3 * POINTS], further[3 * POINTS], nearer[3 * POINTS];
+    const double h = 1e-5;
+    unsigned seed = 11;
+    draw(model, w);
+    for (size_t i = 0; i < 3 * POINTS; i++) {
+        gradient[i] = any(&seed, -1.0, 1.0);
+        along[i] = i < POINTS ? -1.0 : 0.0;
+    }
+    const struct traction_strain given = {gradient, gradient}, normal = {along, along};
+    traction_rate(model, POINTS, POINTS, w, &given, POINTS, stiff, pull);
+    strained(model, w, &given, h, more);
+    strained(model, w, &given, -h, less);
+    strained(model, w, &normal, h, further);
+    strained(model, w, &normal, -h, nearer);
+    for (unsigned l = 0; l < 3; l++)
+        for (size_t i = 0; i < POINTS; i++) {
+            size_t at = l * POINTS + i;
+            double slope = (further[at] - nearer[at]) / (2.0 * h), rate = (more[at] - less[at]) / (2.0 * h);
+            if (l == 0) assert_true(stiff[at] == 0.0 && pull[at] == 0.0);
+            assert_true(fabs(stiff[at] - slope) <= 1e-6 * stiff[at]);
+            assert_true(fabs(pull[at] - (stiff[at] * gradient[i] + rate)) <= 1e-6 * stiff[at]);
+        }
+    flow_stop(&flow);
+}
+
 /* Steel pressed to half a per cent, in water at 1 bar at the same traction, all at 20 m/s. */
 static void test_contact(void **state)
 {
@@ -125,6 +178,7 @@ static void test_contact(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pressures), cmocka_unit_test(test_contact)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pressures), cmocka_unit_test(test_slopes),
+                                       cmocka_unit_test(test_contact)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
