@@ -85,6 +85,7 @@ static const char *const builtin[][2] = {
     {"reconstruction", "weno5-z"},
     {"riemann", "hll"},
     {"riemann", "hllc"},
+    {"riemann", "hllc-release"},
     {"riemann", "hlld"},
     {"riemann", "rusanov"},
     {"viscosity", "carreau"},
@@ -122,9 +123,10 @@ static void test_names(void **state)
     const char *const *names = registry_names("riemann");
     assert_string_equal(names[0], "hll");
     assert_string_equal(names[1], "hllc");
-    assert_string_equal(names[2], "hlld");
-    assert_string_equal(names[3], "rusanov");
-    assert_null(names[4]);
+    assert_string_equal(names[2], "hllc-release");
+    assert_string_equal(names[3], "hlld");
+    assert_string_equal(names[4], "rusanov");
+    assert_null(names[5]);
     assert_null(registry_names("weather")[0]);
 }
 

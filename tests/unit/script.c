@@ -293,7 +293,8 @@ static void compiles_functions(void **state)
     assert_int_equal(script_compile_function(host, "x = = 1", "f.lua", 5, &script), STATUS_CASE);
     assert_says("f.lua:5: unexpected symbol");
     assert_int_equal(script_compile_function(host, "while true do end", "f.lua", 5, &script), STATUS_CASE);
-    assert_says("f.lua:5: the script ran for too long");
+    assert_says("f.lua:5: the script"); /* or all of them, where the machine is so slow that they have spent the time */
+    assert_says("ran for too long");
 }
 
 static int call_table(const char *text, double *out)
