@@ -140,6 +140,43 @@ resumed() { # CASE STEPS FOLDER: ends CASE.yaml after STEPS on two ranks, goes o
 # --- numbers ---
 lib_random=${BULLA_SEED:-1}
 echo "seed $lib_random (BULLA_SEED)"
+# Scenes that several tests run, each with an `output:` of its own, which follows.
+
+parting() { # SCHEME STEPS: streams that part too fast for an explicit step: cells are marked and repaired, steps repeated
+    cat <<END
+bulla: 1
+title: Streams that part too fast for an explicit step
+domain: {lower: [-1, -1], upper: [1, 1], cells: [32, 32], boundaries: {x-: periodic, x+: periodic, y-: periodic, y+: periodic}}
+mesh: {tile: 8}
+materials:
+  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
+  air: {eos: {type: ideal-gas, gamma: 1.4}}
+initial:
+  - everywhere: true
+    material: water
+    density: 1000
+    pressure: 1 bar
+    velocity: ['= x > 0 and 700 or -700', '= y > 0 and 700 or -700']
+  - {sphere: {center: [0.1, 0.1], radius: 0.3}, material: air, density: 1, pressure: 1 bar, velocity: [0, 0]}
+scheme: {$1, limiter: mc, dt: 20 us} # too long
+run: {until: 1, max-steps: $2, smallest-step: 0} # it creeps: what counts is that all ranks do
+END
+}
+resting() { # INTEGRATOR STEPS: nothing moves where nothing happens, and it is all skipped
+    cat <<END
+bulla: 1
+title: At rest
+domain: {lower: [0, 0], upper: [1, 1], cells: [32, 32], boundaries: {x-: reflecting, x+: outflow, y-: reflecting, y+: outflow}}
+mesh: {tile: 8}
+materials: {water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}}
+initial: [{everywhere: true, material: water, density: 1000, pressure: 1 bar}]
+scheme: {integrator: $1}
+run: {until: 1, max-steps: $2}
+output: {history: {columns: {p: {max: pressure}, q: {min: pressure}, u: {max: velocity_x}}}}
+expect: [{value: "max(p) - min(q)", at-most: 0}, {value: max(u), at-most: 0}]
+END
+}
+
 draw() { # MOST: sets $drawn, 0 to MOST - 1
     lib_random=$(((lib_random * 1103515245 + 12345) % 2147483648))
     drawn=$((lib_random / 64 % $1))
