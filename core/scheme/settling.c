@@ -36,7 +36,7 @@ static void settling_cells(struct term_tile *tile)
     memcpy(settling_row(tile), carried, tile->model->n_alpha * tile->n_cell * sizeof *carried);
 }
 
-/* The pressure of fluid l of a cell after the stage; `old`: before it. */
+/* The pressure of fluid l of a cell after the stage, by its own motion; `old`: before it. */
 static double settling_pressure(const struct term_tile *tile, unsigned l, size_t cell, double old, double p,
                                 const double *u_new)
 {
@@ -48,10 +48,22 @@ static double settling_pressure(const struct term_tile *tile, unsigned l, size_t
     double moved = alpha + dt * (tile->rates[at] + here * div), K = tile->rho_c2[l * n + cell];
     double brought = alpha * old + dt * (settling_row(tile)[l * n + cell] + here * p * div);
     double strain = dt * div - dt * strained / moved + (u_new[at] - moved) / moved;
-    double now = brought / moved - K * (strain < 0.0 ? strain / (1.0 + strain) : strain);
-    double rho = u_new[(model->i_m + l) * n + cell] / u_new[at], least;
-    model->eos[l].law->p_min(model->eos[l].self, 1, &rho, &least);
-    return now > least ? now : old;
+    return brought / moved - K * (strain < 0.0 ? strain / (1.0 + strain) : strain);
+}
+
+/* Of n cells, into the rows of the term: the old pressure where the law has no such state. */
+static void settling_pressures(const struct term_tile *tile, unsigned l, size_t n, const size_t *cell,
+                               const double *old, const double *p, const double *u_new)
+{
+    const struct model *model = tile->model;
+    const double *m = u_new + (model->i_m + l) * tile->n_cell, *alpha = u_new + (model->i_alpha + l) * tile->n_cell;
+    double rho[SETTLING_BATCH], least[SETTLING_BATCH], *row = settling_row(tile) + l * tile->n_cell;
+    for (size_t i = 0; i < n; i++) rho[i] = m[cell[i]] / alpha[cell[i]];
+    model->eos[l].law->p_min(model->eos[l].self, n, rho, least);
+    for (size_t i = 0; i < n; i++) {
+        double now = settling_pressure(tile, l, cell[i], old[i], p[i], u_new);
+        row[cell[i]] = now > least[i] ? now : old[i];
+    }
 }
 
 /* Pressures of all materials of n cells of a block of fields: conserved ones or primitives. */
@@ -82,10 +94,7 @@ static size_t settling_apply(const struct term_tile *tile, double *u_new)
         if (!n || (n < SETTLING_BATCH && c + 1 < tile->n_cell)) continue;
         settling_own(tile, n, cell, true, tile->u, old);
         settling_own(tile, n, cell, false, tile->w, p);
-        for (unsigned l = 0; l < model->n_alpha; l++)
-            for (size_t i = 0; i < n; i++)
-                settling_row(tile)[l * tile->n_cell + cell[i]] =
-                    settling_pressure(tile, l, cell[i], old[l][i], p[l][i], u_new);
+        for (unsigned l = 0; l < model->n_alpha; l++) settling_pressures(tile, l, n, cell, old[l], p[l], u_new);
         n = 0;
     }
     settle_fluids(model, tile->n_cell, tile->n_cell, settling_row(tile), response_stiffness(tile), u_new);
