@@ -86,3 +86,10 @@ double row_most(size_t n, const double *row)
     for (size_t i = 0; i < n; i++) most = row[i] > most ? row[i] : most;
     return most;
 }
+
+void row_ask(size_t count, size_t pitch, size_t length, const double *row)
+{
+    enum { LINE = 8, SECOND = 2 }; /* doubles of a line of caches; their first level is full of frames */
+    for (size_t i = 0; i < count; i++, row += pitch)
+        for (size_t c = 0; c < length; c += LINE) __builtin_prefetch(row + c, 0, SECOND);
+}

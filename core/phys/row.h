@@ -16,4 +16,7 @@ void row_step(size_t n, double dt, const double *restrict u, const double *restr
 void row_mean(size_t n, const double *restrict a, const double *restrict b, double *restrict mean); /* (a + b)/2 */
 double row_most(size_t n, const double *row); /* the largest value, at least 0 */
 
+/* Asks the second level of caches for `count` rows of `length` doubles, `pitch` apart. No value changes. */
+void row_ask(size_t count, size_t pitch, size_t length, const double *row);
+
 #endif

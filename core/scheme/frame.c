@@ -3,6 +3,7 @@
 
 #include "bulla/module.h"
 #include "mesh/link.h"
+#include "phys/row.h"
 #include "scheme/blend.h"
 
 #include <string.h>
@@ -223,6 +224,28 @@ void frame_gather(const struct frame_source *source, unsigned local, const struc
     }
     for (int side = 0; side < 2; side++)
         if (!behind[side]) frame_beyond(source, local, frame, side, pitch, w);
+}
+
+/* The layers behind a side, if they are cells of this rank. */
+static void frame_foresee_side(const struct frame_source *source, unsigned local, const struct frame *frame, int side)
+{
+    struct frame_cells cells;
+    if (source->level->neighbours[local][2 * frame->axis + side].kind != NEIGHBOUR_LOCAL) return;
+    frame_behind(source, local, frame, side, &cells);
+    for (unsigned i = 0; i < source->n_field; i++)
+        row_ask(frame->tile_outer, frame->n * frame->tile_inner, frame->ghosts * frame->tile_inner,
+                cells.data + frame_field(source, i) * cells.block + cells.from * frame->tile_inner);
+}
+
+void frame_foresee(const struct frame_source *source, unsigned local)
+{
+    const struct mesh *mesh = source->mesh;
+    for (unsigned i = 0; i < source->n_field; i++)
+        row_ask(1, 0, mesh->n_cell, source->arrays[local] + frame_field(source, i) * mesh->n_cell);
+    for (int axis = 0; axis < mesh->dim; axis++) {
+        struct frame frame = frame_first(mesh, axis);
+        for (int side = 0; side < 2; side++) frame_foresee_side(source, local, &frame, side);
+    }
 }
 
 void frame_place(const struct frame *frame, const struct mesh *mesh, const struct level *level, const struct tile *tile,

@@ -57,6 +57,9 @@ struct frame frame_piece(const struct mesh *mesh, int axis, size_t index);
 void frame_gather(const struct frame_source *source, unsigned local, const struct frame *frame, size_t pitch,
                   double *w);
 
+/* Asks caches for what all gathers of a tile will read from cells of this rank. */
+void frame_foresee(const struct frame_source *source, unsigned local);
+
 /* Centre of face c (outer, then inner) of a piece at the domain's boundary, `side` of the frame's axis. */
 void frame_place(const struct frame *frame, const struct mesh *mesh, const struct level *level, const struct tile *tile,
                  int side, size_t c, double ret_x[3]);

@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "mesh/halo.h"
 #include "phys/elastic.h"
+#include "solve/foresee.h"
 #include "solve/operate.h"
 #include "solve/rkl.h"
 #include "solve/verdict.h"
@@ -106,6 +107,7 @@ static void stage_gather(void *data, const struct frame *frame, struct face_work
     if (guard->masked) frame_gather(&marks, sweep->local, frame, FACE_ROOM, faces->mask);
     if (stage->bound->status && stage->blind < 0) stage->blind = 3 * (int)sweep->local + frame->axis;
     if (blame_concerns(stage->blame, sweep->local)) blame_frame(stage->blame, path, frame, faces);
+    foresee_gather(stage, frame, sweep->local + 1);
     cost_lap(&stage->work->cost, COST_GATHER);
 }
 
@@ -242,15 +244,6 @@ void stage_rates(struct stage *stage, unsigned local, enum term_part part, doubl
     if (sweep.concerned) reflux_keep(stage->reflux, path, local, ret->tile.w, path->kapila ? ret->tile.K : NULL);
 }
 
-/* Asks for the active rows of a block that are needed once the rates are there: tiles do not follow each other in memory as
- * the sweep meets them, so hardware does not foresee it. */
-static void stage_foresee(const struct model *path, size_t n_cell, const double *block)
-{
-    enum { LINE = 8, INTO_L2 = 2 }; /* doubles of a line of caches; the first level is full of frames */
-    for (unsigned i = 0; i < path->n_active; i++)
-        for (size_t c = 0; c < n_cell; c += LINE) __builtin_prefetch(block + path->active[i] * n_cell + c, 0, INTO_L2);
-}
-
 /* u = the state of this stage of one tile; of a narrowed path the active components only. */
 static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
 {
@@ -259,8 +252,8 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
     struct work *work = stage->work;
     struct stage_tile_work own;
     stage->census.tiles[local].path = census_choose(&stage->census, local);
-    stage_foresee(stage->census.tiles[local].path, stage->mesh->n_cell, u_old);
-    if (u != work->u_star) stage_foresee(stage->census.tiles[local].path, stage->mesh->n_cell, u);
+    foresee_block(stage, local, u_old);
+    if (u != work->u_star) foresee_block(stage, local, u);
     stage_rates(stage, local, work->part, row->step * stage->dt, row->weight > 0.0, &own);
     stage->clipped += (long long)rate_apply(&own.tile, work->own, u);
     rate_mix(&own.tile, u_old, row->mix, u);
@@ -378,6 +371,7 @@ void stage_close(struct stage *stage)
     const struct level *level = stage->level;
     for (unsigned tile = 0; tile < level->n_local; tile++) {
         if (!stage->census.tiles[tile].skipped) {
+            foresee_close(stage, tile + 1);
             operate_tile(stage, tile, level->u_new[tile], level->w[tile]);
             verdict_judge(stage, tile, stage->turn, level->u_old[tile], level->u_new[tile], level->w[tile]);
             verdict_measure(stage, tile, level->w[tile]);

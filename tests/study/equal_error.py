@@ -32,6 +32,7 @@ OWN = {
     "koren + thinc": {"limiter": "koren", "interface-limiter": "thinc"},
     "koren + thinc 2": {"limiter": "koren", "interface-limiter": "{type: thinc, beta: 2}"},
     "koren + thinc + low-mach": {"limiter": "koren", "interface-limiter": "thinc", "low-mach": "0.05"},
+    "koren + thinc 2 + hancock": {"limiter": "koren", "interface-limiter": "{type: thinc, beta: 2}", "integrator": "hancock"},
 }
 OWN_AXIS = {"limiter": "koren", "interface-limiter": "{type: thinc, beta: 2}", "low-mach": "0.05"}
 CALIBRATION = [  # scheme, cells, until, L1(rho) and L1(u) that the code itself has

@@ -91,15 +91,16 @@ static void family_rows_p_min(const void *self, size_t n, const double *BULLA_RE
     for (size_t i = 0; i < n; i++) p[i] = -par->p_inf;
 }
 
-/* Beyond the edge of the co-volume. */
-static size_t family_rows_count_outside(const void *self, size_t n, const double *BULLA_RESTRICT rho,
-                                        const double *BULLA_RESTRICT p)
+/* Beyond the edge of the co-volume, where there is one. */
+BULLA_KERNEL static size_t family_rows_count_outside(const void *self, size_t n, const double *BULLA_RESTRICT rho,
+                                                     const double *BULLA_RESTRICT p)
 {
-    const struct family *par = self;
-    size_t count = 0;
+    double b = ((const struct family *)self)->b, count = 0.0;
     (void)p;
-    for (size_t i = 0; i < n; i++) count += par->b * rho[i] > FAMILY_EDGE;
-    return count;
+    if (b == 0.0) return 0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) count += b * rho[i] > FAMILY_EDGE ? 1.0 : 0.0;
+    return (size_t)count;
 }
 
 BULLA_KERNEL static void family_rows_thermal(const void *self, size_t n, const double *BULLA_RESTRICT p,
