@@ -8,7 +8,7 @@
 
 #include <cairo.h>
 
-enum { CHART_SERIES = 8, CHART_PANELS = 12 };
+enum { CHART_SERIES = 9, CHART_PANELS = 12 };
 
 struct chart_series {
     const char *name; /* in the legend of a panel with several */

@@ -151,8 +151,9 @@ uint32_t colormap_at(const struct colormap *map, double value)
 
 uint32_t colormap_line(unsigned index)
 {
-    static const struct colormap_point strong[] = {{42, 52, 272}, {52, 66, 48},  {50, 44, 160}, {48, 58, 345},
-                                                   {64, 62, 80},  {36, 36, 320}, {60, 34, 225}, {30, 0, 0}};
+    static const struct colormap_point strong[] = {{42, 52, 272}, {52, 66, 48}, {50, 44, 160},
+                                                   {48, 58, 345}, {64, 62, 80}, {36, 36, 320},
+                                                   {60, 34, 225}, {30, 0, 0},   {76, 40, 30}};
     const struct colormap_point *point = &strong[index % (sizeof strong / sizeof *strong)];
     double angle = point->hue * M_PI / 180.0;
     return colormap_lab(point->lightness, point->chroma * cos(angle), point->chroma * sin(angle));

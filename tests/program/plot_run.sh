@@ -98,7 +98,7 @@ cp -r line other/line # of one name: told apart by their paths
 written same.png "$BULLA" plot line other/line history V -o same.png
 refused "ring: no column 'W'; there are: step, dt, V, pmax" "$BULLA" plot ring line history W
 refused "which columns of the 2 runs" "$BULLA" plot line ring history
-refused "9 runs in one picture: at most 8" "$BULLA" plot line line line line line line line line line history V
+refused "10 runs in one picture: at most 9" "$BULLA" plot line line line line line line line line line line history V
 refused "no history.csv and no probes.csv in other" "$BULLA" plot ring other history V
 refused "bulla plot line ring history COLUMN" "$BULLA" plot line ring pressure
 refused "no directory nowhere" "$BULLA" plot nowhere line history V
