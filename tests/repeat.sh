@@ -1,6 +1,6 @@
 #!/bin/sh
 # repeat.sh BUILD COUNT LOAD [TEST...] - runs tests of tests/program (their names without .sh) COUNT times each, each time
-# with another seed, while LOAD processes keep the machine busy. Without TEST: those of one night of eight, number
+# with another seed, while LOAD processes keep the machine busy. Without TEST: those of one night of sixteen, number
 # BULLA_NIGHT, the day of the year. Says how often each held; what failed stays in BUILD/tests/runs/repeat/TEST-SEED, with
 # its output in `output`. A process that a test leaves behind counts as a failure. Ends with 1 if anything failed.
 # Ended by a signal (`timeout 300 tests/repeat.sh ...`), it says what has been seen so far.
@@ -15,9 +15,9 @@ count=$2 load=$3
 shift 3
 tonight() {
     night=${BULLA_NIGHT:-$(date +%j)}
-    echo "night $night of eight (BULLA_NIGHT)" >&2
+    echo "night $night of sixteen (BULLA_NIGHT)" >&2
     for file in "$BULLA_SOURCE"/tests/program/*.sh; do basename "$file" .sh; done | LC_ALL=C sort |
-        awk -v night="$night" 'NR % 8 == night % 8'
+        awk -v night="$night" 'NR % 16 == night % 16'
 }
 # shellcheck disable=SC2046
 [ $# -gt 0 ] || set -- $(tonight)

@@ -22,9 +22,9 @@ foreach(row ${fuzz_counts})
 endforeach()
 if(BULLA_FUZZ)
   add_custom_target(fuzz DEPENDS ${fuzz_targets} program)
-elseif(NOT BULLA_SANITIZE) # hunts, which build the tree once more: 2000 inputs each, the same ones every time, and 5 minutes each
+elseif(NOT BULLA_SANITIZE) # hunts, which build the tree once more: 2000 inputs each, the same ones every time, and 2 minutes each
   add_test(NAME nightly-fuzz-short CONFIGURATIONS Nightly COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/run.sh 2000x)
-  add_test(NAME nightly-fuzz CONFIGURATIONS Nightly COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/run.sh 300)
+  add_test(NAME nightly-fuzz CONFIGURATIONS Nightly COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/run.sh 120)
   set_tests_properties(nightly-fuzz-short nightly-fuzz PROPERTIES ENVIRONMENT "BULLA_FUZZ_BUILD=${CMAKE_BINARY_DIR}/fuzz-short"
                        TIMEOUT 5400 SKIP_RETURN_CODE 77 COST 1000 RESOURCE_LOCK fuzz-build)
 endif()
