@@ -275,7 +275,8 @@ static int check_measure(struct state *coarse, double ratio, const struct scene 
                          struct check_cost *ret)
 {
     double begin = cost_cpu(), spent = 0, dt = advance_dt(coarse), longest = dt, shortest = dt;
-    while (coarse->step < CHECK_STEPS && coarse->t < scene->run.until && spent < check_moment) {
+    long most = scene->run.max_steps, steps = most > 0 && most < CHECK_STEPS ? most : CHECK_STEPS;
+    while (coarse->step < steps && coarse->t < scene->run.until && spent < check_moment) {
         dt = advance_dt(coarse);
         longest = fmax(longest, dt);
         shortest = fmin(shortest, dt);
