@@ -12,6 +12,7 @@
 enum { PHASE_BLOCK = EQUILIBRIUM_BLOCK };
 
 #define PHASE_NEAR 1e-9 /* temperatures and D/(R T) that differ by less fit */
+#define PHASE_TORN 0.1  /* of the saturation pressure: liquid below evaporates whatever `onset` says */
 
 typedef double phase_row[PHASE_BLOCK];
 
@@ -225,6 +226,13 @@ static double phase_thin(const struct phase_block *block, size_t i)
     return thin;
 }
 
+/* Would liquid evaporate that `onset` holds back? What is stretched to below PHASE_TORN of its saturation pressure is not held:
+ * the vapour of such cells would else thin out without end as they are pulled. */
+static bool phase_held(const struct phase_block *block, size_t i)
+{
+    return phase_drive(block, i) < 0.0 && phase_drive_alone(block, i, 0.0, 0.0) > log(PHASE_TORN);
+}
+
 /* Volume fraction of the liquid. */
 static double phase_wet(const struct phase_block *block, size_t i)
 {
@@ -253,7 +261,7 @@ static bool phase_fits(struct phase_block *block, size_t i)
     block->alone[i] = !(phase_thin(block, i) > PHASE_FELT);
     if (block->alone[i])
         return block->thermal[i] || !(phase_drive_alone(block, i, scene->tension, scene->superheat) < 0.0);
-    if (phase_thin(block, i) < scene->onset && phase_drive(block, i) < 0.0) return true;
+    if (phase_thin(block, i) < scene->onset && phase_held(block, i)) return true;
     if (phase_wet(block, i) < scene->wet && phase_drive(block, i) > 0.0) return true;
     block->warm[i] = phase_warm(block, i, near);
     if (!block->warm[i]) return false;
