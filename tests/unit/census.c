@@ -74,9 +74,26 @@ static void test_beside(void **state)
     flow_stop(&flow);
 }
 
+/* What flows in comes into a tile that holds nothing of it. */
+static void test_inflow(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow, mem_print("bulla: 1\ntitle: inflow\ndomain: {lower: [0], upper: [1], cells: [16], boundaries: "
+                                "{x-: {type: inflow, material: air, density: 1.2, pressure: 1e5, velocity: [10]}, "
+                                "x+: outflow}}\nmesh: {tile: 8}\nmaterials:\n" FLOW_WATER FLOW_AIR
+                                "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: 1e5, "
+                                "velocity: [10]}\nrun: {until: 1}\n"));
+    flow_steps(&flow, 1);
+    double *air = flow_primitive(&flow, flow.state->model->i_alpha + 1), wanted = 10.0 * flow.state->dt * 16.0;
+    assert_true(fabs(air[0] / wanted - 1.0) < 0.02);
+    mem_free(air);
+    flow_stop(&flow);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_stretched), cmocka_unit_test(test_level),
-                                       cmocka_unit_test(test_beside)};
+                                       cmocka_unit_test(test_beside), cmocka_unit_test(test_inflow)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
  * have pressures that differ by it, and tiles do not matter. */
 #include "flow.h"
 
+#include "paint/paint_curvature.h"
 #include "phys/traction.h"
 
 static const double SIGMA = 0.0728, RADIUS = 2e-6, P = 101325.0;
@@ -128,13 +129,26 @@ static void test_tiles(void **state)
     flow_stop(&many);
 }
 
+/* The painted curvature is positive around what lies inside, negative around what surrounds it, and nothing where nothing changes. */
+static void test_sign(void **state)
+{
+    (void)state;
+    static const double size[3] = {2.0, 2.0, 2.0}, falls[5] = {1.0, 1.0, 0.5, 0.0, 0.0},
+                        rises[5] = {0.0, 0.0, 0.5, 1.0, 1.0}, even[5] = {0.5, 0.5, 0.5, 0.5, 0.5};
+    double kappa[3];
+    paint_curvature_cells(3, size, falls, rises, kappa);
+    assert_true(kappa[1] == 2.0);
+    paint_curvature_cells(3, size, rises, falls, kappa);
+    assert_true(kappa[1] == -2.0);
+    paint_curvature_cells(3, size, even, even, kappa);
+    assert_true(kappa[1] == 0.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rest),
-        cmocka_unit_test(test_energy),
-        cmocka_unit_test(test_lags),
-        cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_rest),  cmocka_unit_test(test_energy), cmocka_unit_test(test_lags),
+        cmocka_unit_test(test_tiles), cmocka_unit_test(test_sign),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

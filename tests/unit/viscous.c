@@ -311,11 +311,41 @@ static void test_fields(void **state)
     same(field("stress_viscous_zz", set_swell) / (ZETA * div - 2.0 / 3.0 * MU * div));
 }
 
+/* Gas that moves in the upper right quarter alone. */
+static void set_quarter(const struct model *model, const double x[3], double *w)
+{
+    w[model->i_u] = x[0] > 0.0 && x[1] > 0.0 ? 100.0 * x[0] : 0.0;
+    w[model->i_u + 1] = x[0] > 0.0 && x[1] > 0.0 ? 50.0 * x[1] : 0.0;
+}
+
+/* A tile at rest whose neighbours rest, but not the one across its corner: what shears there reaches it in the first step. */
+static void test_corner(void **state)
+{
+    (void)state;
+    struct flow flows[2];
+    for (int k = 0; k < 2; k++) {
+        flow_start(&flows[k], mem_print("bulla: 1\ntitle: corner\ndomain: " BOX2 "\nmesh: {tile: %d}\nmaterials:\n"
+                                        "  air: {eos: {type: ideal-gas, gamma: 1.4}, viscosity: {type: newtonian, mu: "
+                                        "10}}\ninitial:\n  - {everywhere: true, material: air, density: 1.2, "
+                                        "pressure: 1e5}\nscheme: {dt: 1 ns}\nrun: {until: 1}\n",
+                                        k ? 16 : 8));
+        flow_set(&flows[k], set_quarter);
+        flow_steps(&flows[k], 1);
+    }
+    double *u = flow_primitive(&flows[0], flows[0].state->model->i_u);
+    assert_true(u[7 * 16 + 7] != 0.0);
+    mem_free(u);
+    assert_true(flow_equal(&flows[0], &flows[1]));
+    flow_stop(&flows[0]);
+    flow_stop(&flows[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_dilatation), cmocka_unit_test(test_rotation),
                                        cmocka_unit_test(test_shear),      cmocka_unit_test(test_foam),
                                        cmocka_unit_test(test_tiles),      cmocka_unit_test(test_symmetry),
-                                       cmocka_unit_test(test_pace),       cmocka_unit_test(test_fields)};
+                                       cmocka_unit_test(test_pace),       cmocka_unit_test(test_fields),
+                                       cmocka_unit_test(test_corner)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
