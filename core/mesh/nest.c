@@ -17,16 +17,6 @@
 #include <assert.h>
 #include <string.h>
 
-void nest_push(struct nest_keys *keys, uint64_t key)
-{
-    if (keys->n == keys->room) {
-        unsigned room = keys->room ? 2 * keys->room : 256;
-        keys->keys = mem_grow(keys->keys, keys->room, room, sizeof *keys->keys);
-        keys->room = room;
-    }
-    keys->keys[keys->n++] = key;
-}
-
 /* The octants along one axis that a tag in cell i of a tile reaches: first[i] .. last[i], counted from `from`, the
  * first that any cell of the tile reaches; `count` of them in all. */
 struct nest_reach {
@@ -101,7 +91,7 @@ void nest_wish(const struct mesh *mesh, const struct level *level, const struct 
     for (int o = 0; o < nx * ny * nz; o++) {
         int at[3] = {reach[0].from + o % nx, reach[1].from + o / nx % ny, reach[2].from + o / nx / ny};
         uint64_t key;
-        if (octants[o] && nest_family_place(mesh, level + 1, at, &key)) nest_push(keys, key);
+        if (octants[o] && nest_family_place(mesh, level + 1, at, &key)) nest_keys_push(keys, key);
     }
     mem_free(octants);
 }
@@ -163,7 +153,8 @@ static struct nest_ground nest_ground(const struct mesh *mesh, int base, const s
     for (int l = base + 1; l <= mesh->most_level; l++)
         for (unsigned i = 0; i < wishes[l].n; i++) {
             uint64_t place = wishes[l].keys[i] >> 3 * (l - base);
-            if (!ground.places.n || ground.places.keys[ground.places.n - 1] != place) nest_push(&ground.places, place);
+            if (!ground.places.n || ground.places.keys[ground.places.n - 1] != place)
+                nest_keys_push(&ground.places, place);
         }
     nest_sort(&ground.places);
     ground.there = nest_share_around(mesh, base, &ground.places);
@@ -217,7 +208,7 @@ struct nest_set nest_piece(const struct mesh *mesh, int l, struct nest_families 
     keys.keys = nest_family_keys(used, &keys.n);
     struct nest_set set =
         nest_merge(&keys, exists ? level->tiles + level->first : NULL, exists ? level->n_local : 0, patience);
-    nest_free_keys(&keys);
+    nest_keys_free(&keys);
     return set;
 }
 
@@ -234,7 +225,7 @@ void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes
         nest_family_free(&families);
     }
     mem_free(ground.there);
-    nest_free_keys(&ground.places);
+    nest_keys_free(&ground.places);
 }
 
 bool nest_same(const struct mesh *mesh, int l, const struct nest_set *set)
@@ -351,16 +342,4 @@ int nest_check(const struct mesh *mesh)
     TRY(comm_agree(code));
     comm_bcast_from(&hole, sizeof hole, first);
     return comm_agree(nest_fail(mesh, hole.l, hole.key));
-}
-
-void nest_free_keys(struct nest_keys *keys)
-{
-    mem_free(keys->keys);
-    *keys = (struct nest_keys){0};
-}
-
-void nest_free_set(struct nest_set *set)
-{
-    mem_free(set->tiles);
-    *set = (struct nest_set){0};
 }

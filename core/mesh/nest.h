@@ -11,21 +11,7 @@
 #define NEST_H
 
 #include "mesh/mesh.h"
-
-/* A growing list of Morton keys of tiles of one level. */
-struct nest_keys {
-    unsigned n, room;
-    uint64_t *keys;
-};
-
-/* A piece of a set, or all of it. */
-struct nest_set {
-    unsigned n;
-    struct tile *tiles; /* sorted; rank not set; `unwanted` counted on */
-};
-
-/* Adds a key. */
-void nest_push(struct nest_keys *keys, uint64_t key);
+#include "mesh/nest_keys.h"
 
 /* Adds the octants (tiles of the next level) within `buffer` cells of the tagged cells (mark != 0) of a tile. */
 void nest_wish(const struct mesh *mesh, const struct level *level, const struct tile *tile, const double *marks,
@@ -36,7 +22,7 @@ void nest_wish(const struct mesh *mesh, const struct level *level, const struct 
 void nest_join(const struct mesh *mesh, int lowest, int count, struct nest_keys *keys);
 
 /* This rank's pieces of the new sets of levels base + 1 .. most_level, ret_sets[l] for level l from the joined keys
- * wishes[l]; they are the caller's (nest_free_set). Collective. */
+ * wishes[l]; they are the caller's (nest_keys_free_set). Collective. */
 void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes, int patience,
                struct nest_set *ret_sets);
 
@@ -54,8 +40,5 @@ struct nest_set nest_piece(const struct mesh *mesh, int l, struct nest_families 
 
 /* Is a tile of the piece needed that is not there? */
 bool nest_lacks(const struct mesh *mesh, int l, struct nest_families *needs, uint64_t *ret_missing);
-
-void nest_free_keys(struct nest_keys *keys);
-void nest_free_set(struct nest_set *set);
 
 #endif

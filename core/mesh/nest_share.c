@@ -45,7 +45,7 @@ bool nest_share_keys(const struct mesh *mesh, int lowest, int count, struct nest
     swap_sort(items, sizeof *items, n, to);
     swap_items(items, sizeof *items, n, to, &got);
     const struct nest_share_item *item = got.items;
-    for (unsigned i = 0; i < got.n; i++) nest_push(&keys[item[i].level], item[i].key);
+    for (unsigned i = 0; i < got.n; i++) nest_keys_push(&keys[item[i].level], item[i].key);
     swap_done(&got);
     mem_free(items);
     mem_free(to);

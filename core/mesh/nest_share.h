@@ -4,8 +4,8 @@
 #ifndef NEST_SHARE_H
 #define NEST_SHARE_H
 
-#include "mesh/nest.h"
 #include "mesh/nest_family.h"
+#include "mesh/nest_keys.h"
 #include "mesh/span.h"
 
 /* Sends sorted keys of `count` levels from `lowest` on to those who answer for them and leaves what has come for this

@@ -101,8 +101,8 @@ static int regrid_sets(struct regrid *regrid, int patience)
 static void regrid_free(struct regrid *regrid)
 {
     for (int l = 0; l <= MESH_LEVELS; l++) {
-        nest_free_keys(&regrid->wishes[l]);
-        nest_free_set(&regrid->sets[l]);
+        nest_keys_free(&regrid->wishes[l]);
+        nest_keys_free_set(&regrid->sets[l]);
     }
 }
 

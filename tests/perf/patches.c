@@ -128,7 +128,7 @@ static void refine(struct mesh *mesh)
         tiles[n].key = morton_key(tiles[n].at);
         n++;
     }
-    nest_free_set(&all);
+    nest_keys_free_set(&all);
     qsort(tiles, n, sizeof *tiles, compare);
     replicated_replace(mesh, 1, tiles, n, &change);
     mesh_change_free(&change);

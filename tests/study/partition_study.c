@@ -130,7 +130,7 @@ static struct study_times study_regrid(struct study *study, int size)
     start = study_clock();
     for (int l = 1; l < mesh->n_level; l++) {
         replicated_adopt(&mesh->levels[l], sets[l].tiles, sets[l].n); /* of one rank */
-        nest_free_keys(&wishes[l]);
+        nest_keys_free(&wishes[l]);
     }
     times.list = study_clock() - start;
     start = study_clock();

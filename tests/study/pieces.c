@@ -366,7 +366,7 @@ static void pieces_run(struct pieces_world *world, const struct study *study, co
     for (int r = 0; r < world->size; r++) {
         struct pieces_rank *rank = &world->ranks[r];
         if (rank->least == 0.0 || rank->seconds < rank->least) rank->least = rank->seconds;
-        for (int l = 1; l < n_level; l++) nest_free_set(&rank->sets[l]);
+        for (int l = 1; l < n_level; l++) nest_keys_free_set(&rank->sets[l]);
     }
 }
 
@@ -390,7 +390,7 @@ struct pieces pieces_regrid(struct study *study, int size)
         mem_free(rank->mail.list);
     }
     for (int l = 0; l < mesh->n_level; l++) {
-        nest_free_keys(&wishes[l]);
+        nest_keys_free(&wishes[l]);
         pieces.table += (double)size * sizeof(uint64_t);
     }
     pieces_stop(&world);

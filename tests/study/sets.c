@@ -109,7 +109,7 @@ void sets_make(const struct sets_scene *scene, struct mesh *ret_mesh)
     for (int l = 1; l <= scene->levels; l++) {
         replicated_adopt(&ret_mesh->levels[l], sets[l].tiles, sets[l].n);
         if (sets[l].n) ret_mesh->n_level = l + 1;
-        nest_free_keys(&wishes[l]);
+        nest_keys_free(&wishes[l]);
     }
     for (int l = 0; l < ret_mesh->n_level; l++) level_cover(ret_mesh, l);
 }

@@ -154,7 +154,7 @@ static void regrid(struct mesh *mesh, int base, int patience, char *const *wishe
     nest_sets(mesh, base, wishes, patience, ret_sets);
     compare_carried(mesh, base, ret_sets);
     for (int l = base + 1; l <= mesh->most_level; l++) replicated_join(&ret_sets[l]);
-    for (int l = base + 1; l <= mesh->most_level; l++) nest_free_keys(&wishes[l]);
+    for (int l = base + 1; l <= mesh->most_level; l++) nest_keys_free(&wishes[l]);
 }
 
 static void check_definition(int dim, const int extent[3], unsigned periodic, int most_level)
@@ -334,7 +334,7 @@ static void check_wishes(int dim, const int extent[3], int n, unsigned periodic,
         morton_at(keys.keys[i], at);
         assert_true(expected[place_of(&mesh, 1, at)]);
     }
-    nest_free_keys(&keys);
+    nest_keys_free(&keys);
     mem_free(expected);
     mem_free(marks);
     mesh_drop(&mesh);
@@ -421,10 +421,10 @@ static void test_join(void **state)
     }
     assert_int_equal(keys.n, count);
     assert_true(keys.keys[0] == 5);
-    nest_free_keys(&keys);
+    nest_keys_free(&keys);
     nest_join(&mesh, 1, 1, &keys);
     assert_int_equal(keys.n, 0);
-    nest_free_keys(&keys);
+    nest_keys_free(&keys);
     level_drop(&mesh.levels[0]);
 }
 

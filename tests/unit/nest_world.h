@@ -39,7 +39,7 @@ static void whole(struct nest_keys *keys)
 {
     struct nest_keys all = {0};
     all.keys = comm_join_keys(keys->keys, keys->n, &all.n);
-    nest_free_keys(keys);
+    nest_keys_free(keys);
     *keys = all;
 }
 

@@ -47,7 +47,7 @@ static inline struct tile *twolevel_tiles(const struct level *coarse, int dim, t
         tile.key = morton_key(tile.at);
         if (!chosen || chosen(tile.at)) tiles[(*ret_count)++] = tile;
     }
-    nest_free_set(&all);
+    nest_keys_free_set(&all);
     qsort(tiles, *ret_count, sizeof *tiles, twolevel_compare);
     return tiles;
 }

@@ -53,7 +53,7 @@ static inline void replicated_join(struct nest_set *set)
         own[WORDS * i + 1] = set->tiles[i].unwanted;
     }
     uint64_t *all = comm_join_keys(own, WORDS * set->n, &n);
-    nest_free_set(set);
+    nest_keys_free_set(set);
     *set = (struct nest_set){n / WORDS, mem_new(n / WORDS, sizeof *set->tiles)};
     for (unsigned i = 0; i < set->n; i++) {
         set->tiles[i] = (struct tile){.key = all[WORDS * i], .unwanted = all[WORDS * i + 1] & 0xffu};
