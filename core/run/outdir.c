@@ -151,6 +151,11 @@ static int outdir_lock(const char *path)
     return status_fail(STATUS_CASE, "another run is at work in %s; -o DIR writes elsewhere", path);
 }
 
+int outdir_claim(const char *path)
+{
+    return comm_agree(comm_rank() == 0 ? outdir_lock(path) : 0);
+}
+
 static int outdir_prepare_here(const char *path)
 {
     TRY(outdir_make(path));

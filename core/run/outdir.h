@@ -8,6 +8,10 @@
  * STATUS_CASE with a message that lists what is there. Collective, as all calls here; rank 0 acts. */
 int outdir_check(const char *path, bool overwrite);
 
+/* Takes the directory, if there is one, for this process, before what lies there is read: a run at work would remove it
+ * meanwhile. STATUS_CASE: another run is at work there. */
+int outdir_claim(const char *path);
+
 /* Makes the directory (and its parents), takes it for this process and removes the output of an older run. Files that
  * are not ours are never touched. STATUS_CASE: another run is at work there. */
 int outdir_prepare(const char *path);

@@ -361,6 +361,7 @@ static int run_find(struct run *run, const struct cli_given *given)
 {
     const char *file = cli_value(given, "--restart"), *directory = run->scene->output.directory;
     if (!file) return 0;
+    if (!*file) TRY(outdir_claim(directory));
     TRY(*file ? resume_open(file, &run->from) : resume_newest(directory, &run->from));
     double in_place = outdir_holds(directory, "checkpoints", run->from->path) ? 1.0 : 0.0;
     comm_max(&in_place, 1);
