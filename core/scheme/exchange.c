@@ -103,15 +103,15 @@ static BULLA_KERNEL void exchange_fast(size_t n, const double *restrict speed2, 
     }
 }
 
-/* One material's part of the pressure and the strain that volume brings to a cell. */
+/* One material's part of the pressure and the strain that volume brings to a cell; one that is not there is not stiff. */
 static BULLA_KERNEL void exchange_bring(size_t n, const double *restrict carried, const double *restrict strained,
                                         const double *restrict rate, const double *restrict p,
-                                        const double *restrict rho_c2, double *restrict push, double *restrict strain,
-                                        double *restrict stiffest)
+                                        const double *restrict rho_c2, const double *restrict alpha,
+                                        double *restrict push, double *restrict strain, double *restrict stiffest)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double q = carried[i] - p[i] * rate[i], e = strained[i], s = rho_c2[i];
+        double q = carried[i] - p[i] * rate[i], e = strained[i], s = alpha[i] > 0.0 ? rho_c2[i] : 0.0;
         double all = push[i], stretched = strain[i], most = stiffest[i];
         push[i] = all + q;
         strain[i] = stretched + e;
@@ -178,7 +178,7 @@ static void exchange_shares(const struct exchange_batch *in, struct exchange_mis
     for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) memset(sums[i], 0, n * sizeof **sums);
     for (unsigned l = 0; l < model->n_alpha; l++)
         exchange_bring(n, in->carried + l * stride, in->strained + l * stride, in->moved + l * stride, misfit->p,
-                       in->rho_c2 + l * stride, misfit->push, misfit->strain, misfit->stiffest);
+                       in->rho_c2 + l * stride, in->alpha + l * stride, misfit->push, misfit->strain, misfit->stiffest);
     exchange_gentle(n, in->h, misfit->speed2, misfit->push, misfit->strain, misfit->stiffest, misfit->share);
 }
 
