@@ -9,6 +9,7 @@
 #include "run/check.h"
 
 #include "base/comm.h"
+#include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "case/shape.h"
@@ -275,12 +276,18 @@ static int check_measure(struct state *coarse, double ratio, const struct scene 
                          struct check_cost *ret)
 {
     double begin = cost_cpu(), spent = 0, dt = advance_dt(coarse), longest = dt, shortest = dt;
+    bool coarser = ratio > 1.0 || scene->mesh.levels > 0; /* what a copy cannot do, the case may */
     long most = scene->run.max_steps, steps = most > 0 && most < CHECK_STEPS ? most : CHECK_STEPS;
     while (coarse->step < steps && coarse->t < scene->run.until && spent < check_moment) {
         dt = advance_dt(coarse);
         longest = fmax(longest, dt);
         shortest = fmin(shortest, dt);
-        TRY(advance_step(coarse, scene->run.until - coarse->t));
+        int code = advance_step(coarse, scene->run.until - coarse->t);
+        if (code == STATUS_RUN && coarse->step > 0 && coarser) {
+            log_warn("on a coarse copy of the mesh, %s", status_text());
+            break;
+        }
+        TRY(code);
         spent = cost_cpu() - begin;
         comm_max(&spent, 1);
         ret->speed = fmax(ret->speed, check_speed(coarse));

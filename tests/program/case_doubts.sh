@@ -1,6 +1,7 @@
 # What runs, but is probably not what was meant: `check` says it before the run, with file, line, column and the numbers,
 # and does not change its exit code. Beside every doubt stands the same case without it, which is silent.
 set -eu
+. "$BULLA_SOURCE/tests/lib.sh"
 cat >base.yaml <<'END'
 bulla: 1
 title: A bubble in front of a wall
@@ -166,3 +167,23 @@ changed 's/radius: 50 um/radius: 20 um/'
 grep -q '^{"severity":"warning","file":"base.yaml","line":17,"column":14,"message":"initial\[1\].sphere: a radius of 2e-05 m has' said
 "$BULLA" run base.yaml -o out --max-steps 1 --quiet 2>said
 grep -q '^base.yaml:17:14: warning: ' said
+
+# What the coarse copy cannot do is said, and refuses no case: how far it comes is the machine's. Where it is the case's own mesh
+# the run would end there.
+cat >long.yaml <<'END'
+bulla: 1
+title: Steps that are too long
+domain: {lower: [0], upper: [1], cells: [320], boundaries: {x-: outflow, x+: outflow}}
+materials: {air: {eos: {type: ideal-gas, gamma: 1.4}}}
+initial:
+  - {everywhere: true, material: air, density: 1, pressure: 1 bar}
+  - {half-space: {point: [0.5], normal: [1]}, material: air, density: 0.125, pressure: 0.1 bar}
+scheme: {dt: 15 us, guard: strict}
+run: {until: 0.1}
+END
+"$BULLA" check long.yaml >told 2>said || fail "a copy is not the case" said
+grep -q '^warning: on a coarse copy of the mesh, step [2-9] at t' said || fail "not said" said
+grep -q '(from [1-8] steps on a coarse copy' told || fail "no time" told
+code=0
+"$BULLA" check long.yaml --set 'domain.cells=[32]' --set 'scheme.dt=150 us' >told 2>said || code=$?
+[ $code = 2 ] && grep -q '^error: step 2 at t' said || fail "exit code $code" said
