@@ -361,11 +361,11 @@ static int run_find(struct run *run, const struct cli_given *given)
 {
     const char *file = cli_value(given, "--restart"), *directory = run->scene->output.directory;
     if (!file) return 0;
-    if (!*file) TRY(outdir_claim(directory));
-    TRY(*file ? resume_open(file, &run->from) : resume_newest(directory, &run->from));
-    double in_place = outdir_holds(directory, "checkpoints", run->from->path) ? 1.0 : 0.0;
+    double in_place = !*file || outdir_holds(directory, "checkpoints", file) ? 1.0 : 0.0;
     comm_max(&in_place, 1);
     run->in_place = in_place > 0.0;
+    if (run->in_place) TRY(outdir_claim(directory));
+    TRY(*file ? resume_open(file, &run->from) : resume_newest(directory, &run->from));
     if (run->in_place && cli_value(given, "--overwrite"))
         return status_fail(STATUS_CASE, "--restart goes on with the run in %s, which --overwrite would remove",
                            directory);

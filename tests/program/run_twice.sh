@@ -21,7 +21,8 @@ for ranks in 1 2; do
     rm -rf out
     start "$BULLA" run tube.yaml -n $ranks --overwrite >said 2>&1
     await "a checkpoint" saved
-    for how in --overwrite --restart "--restart -n 2"; do
+    some=$(ls out/checkpoints/*.chk | tail -n 1)
+    for how in --overwrite --restart "--restart -n 2" "--restart=$some"; do
         code=0
         # shellcheck disable=SC2086
         "$BULLA" run tube.yaml $how >refused 2>&1 || code=$?
