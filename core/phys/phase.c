@@ -205,15 +205,21 @@ static double phase_drive_alone(const struct phase_block *block, size_t i, doubl
     return saturation_at(&pair, p, T).drive / (family->R[EQUILIBRIUM_VAPOUR] * T);
 }
 
-/* The same for the vapour that is there, among gases. */
-static double phase_drive(const struct phase_block *block, size_t i)
+/* What the vapour that is there has of the moles of the gases. */
+static double phase_share(const struct phase_block *block, size_t i)
 {
     const struct equilibrium_family *family = &block->family;
     double moles = family->mixing ? block->cells.moles[i] : 0.0,
            vapour = block->cells.m[EQUILIBRIUM_VAPOUR][i] * family->R[EQUILIBRIUM_VAPOUR];
     for (unsigned k = EQUILIBRIUM_GAS; k < family->n && family->mixing; k++)
         moles += block->cells.m[k][i] * family->R[k];
-    double share = moles > 0.0 ? vapour / (vapour + moles) : 1.0;
+    return moles > 0.0 ? vapour / (vapour + moles) : 1.0;
+}
+
+/* D/(R T) for the vapour that is there, among gases. */
+static double phase_drive(const struct phase_block *block, size_t i)
+{
+    double share = phase_share(block, i);
     return share > 0.0 ? phase_drive_alone(block, i, 0.0, 0.0) + log(share) : -HUGE_VAL;
 }
 
@@ -230,7 +236,9 @@ static double phase_thin(const struct phase_block *block, size_t i)
  * the vapour of such cells would else thin out without end as they are pulled. */
 static bool phase_held(const struct phase_block *block, size_t i)
 {
-    return phase_drive(block, i) < 0.0 && phase_drive_alone(block, i, 0.0, 0.0) > log(PHASE_TORN);
+    double share = phase_share(block, i), alone = phase_drive_alone(block, i, 0.0, 0.0);
+    bool evaporates = !(share > 0.0) || alone + log(share) < 0.0;
+    return evaporates && alone > log(PHASE_TORN);
 }
 
 /* Volume fraction of the liquid. */

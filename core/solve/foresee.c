@@ -29,17 +29,15 @@ void foresee_block(const struct stage *stage, unsigned local, const double *bloc
     if (foresee_pays(stage)) foresee_rows(stage, stage->census.tiles[local].path, block);
 }
 
-void foresee_gather(const struct stage *stage, const struct frame *frame, unsigned local)
+void foresee_gather(const struct stage *stage, const struct frame_source *source, const struct frame *frame,
+                    unsigned local)
 {
     const struct model *path = foresee_path(stage, local);
     if (!path || frame->axis + 1 < stage->mesh->dim || frame->outer_from || frame->inner_from) return;
-    const struct frame_source source = {.mesh = stage->mesh,
-                                        .level = stage->level,
-                                        .arrays = stage->level->w,
-                                        .halo = stage->level->halo,
-                                        .n_field = path->n_active,
-                                        .fields = path->active};
-    frame_foresee(&source, local);
+    struct frame_source next = *source;
+    next.n_field = path->n_active;
+    next.fields = path->active;
+    frame_foresee(&next, local);
 }
 
 void foresee_close(const struct stage *stage, unsigned local)

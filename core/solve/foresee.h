@@ -11,9 +11,10 @@
 /* Active rows of a block of a tile, such as its old state, which is needed when the rates are there. */
 void foresee_block(const struct stage *stage, unsigned local, const double *block);
 
-/* Primitives that the gathers of tile `local` read, its own and its neighbours', once the first piece of the tile before, along the
- * last axis, is gathered; nothing beyond the last tile. */
-void foresee_gather(const struct stage *stage, const struct frame *frame, unsigned local);
+/* Primitives that the gathers of tile `local` read, its own and its neighbours', from where `source` reads those of the tile before:
+ * once the first piece of that one, along the last axis, is gathered; nothing beyond the last tile. */
+void foresee_gather(const struct stage *stage, const struct frame_source *source, const struct frame *frame,
+                    unsigned local);
 
 /* What stage_close reads of tile `local`; nothing beyond the last. */
 void foresee_close(const struct stage *stage, unsigned local);

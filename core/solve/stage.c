@@ -107,7 +107,7 @@ static void stage_gather(void *data, const struct frame *frame, struct face_work
     if (guard->masked) frame_gather(&marks, sweep->local, frame, FACE_ROOM, faces->mask);
     if (stage->bound->status && stage->blind < 0) stage->blind = 3 * (int)sweep->local + frame->axis;
     if (blame_concerns(stage->blame, sweep->local)) blame_frame(stage->blame, path, frame, faces);
-    foresee_gather(stage, frame, sweep->local + 1);
+    foresee_gather(stage, &fields, frame, sweep->local + 1);
     cost_lap(&stage->work->cost, COST_GATHER);
 }
 
