@@ -1,5 +1,5 @@
-/* viewer.h - hands the commands that draw, and the one that shows runs at work, to the programs beside this one (view/view.h,
- * watch/watch.h). */
+/* viewer.h - hands the commands that draw, and the one that shows runs at work, to the programs beside this one
+ * (view/view.h, watch/watch.h). */
 #ifndef VIEWER_H
 #define VIEWER_H
 

@@ -1,4 +1,5 @@
-/* abort.h - the end of all ranks at once: for what cannot be told to them any more, such as memory that is not there. */
+/* abort.h - the end of all ranks at once: for what cannot be told to them any more, such as memory that is not
+ * there. */
 #ifndef ABORT_H
 #define ABORT_H
 

@@ -1,8 +1,8 @@
 /* account.h - sums of numbers that come in any order and in any pieces: the same bits, whoever adds what, and when.
  *
- * What is added goes, without rounding, into a fixed-point number that is wide enough for every double (Kulisch, Advanced
- * arithmetic for the digital computer, Springer 2002): whole numbers know no order. Ranks keep accounts of their own and
- * add them up where the sum is looked at; a run that is ended and goes on has the same sum, too. */
+ * What is added goes, without rounding, into a fixed-point number that is wide enough for every double (Kulisch,
+ * Advanced arithmetic for the digital computer, Springer 2002): whole numbers know no order. Ranks keep accounts of
+ * their own and add them up where the sum is looked at; a run that is ended and goes on has the same sum, too. */
 #ifndef ACCOUNT_H
 #define ACCOUNT_H
 

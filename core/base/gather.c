@@ -1,5 +1,5 @@
-/* gather.c - see gather.h. In round k, of two pieces of 2^k ranks beside each other the upper one goes to the lower one,
- * its length first. */
+/* gather.c - see gather.h. In round k, of two pieces of 2^k ranks beside each other the upper one goes to the lower
+ * one, its length first. */
 #include "base/gather.h"
 
 #include "base/comm.h"

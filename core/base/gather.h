@@ -1,5 +1,5 @@
-/* gather.h - what all ranks have, on rank 0, in the order of the ranks: a tree, so that it takes as many messages as there
- * are doublings of the ranks. */
+/* gather.h - what all ranks have, on rank 0, in the order of the ranks: a tree, so that it takes as many messages as
+ * there are doublings of the ranks. */
 #ifndef GATHER_H
 #define GATHER_H
 

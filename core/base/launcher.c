@@ -1,5 +1,5 @@
-/* launcher.c - see launcher.h. Sources: sbatch(1), srun(1) and slurm.h of Slurm, flux-environment(7), pbs_job_environment,
- * the LSF reference, the simple PMI of MPICH, mpirun(1) of Open MPI, the PMIx standard. */
+/* launcher.c - see launcher.h. Sources: sbatch(1), srun(1) and slurm.h of Slurm, flux-environment(7),
+ * pbs_job_environment, the LSF reference, the simple PMI of MPICH, mpirun(1) of Open MPI, the PMIx standard. */
 #include "base/launcher.h"
 
 #include <stddef.h>
@@ -13,8 +13,9 @@ extern char **environ;
 
 enum launcher_value { LAUNCHER_ANY, LAUNCHER_STEP };
 
-/* The first row decides whose `mark` is set to a value of this kind. Inner launchers come before outer ones: mpirun in a
- * step of srun, a Flux in a job of Slurm. The shell that salloc opens may carry PMIX_RANK, so PMIx comes after Slurm. */
+/* The first row decides whose `mark` is set to a value of this kind. Inner launchers come before outer ones: mpirun in
+ * a step of srun, a Flux in a job of Slurm. The shell that salloc opens may carry PMIX_RANK, so PMIx comes after
+ * Slurm. */
 static const struct launcher_row {
     const char *name;
     const char *mark;

@@ -1,8 +1,9 @@
-/* slots.h - a hash table of indices: who holds a list finds the items of it by a key that he makes and compares himself.
+/* slots.h - a hash table of indices: who holds a list finds the items of it by a key that he makes and compares
+ * himself.
  *
- * Open addressing, never more than half full if `n` was right, nothing is ever taken out. Fibonacci hashing: the highest
- * bits of a product with 2^64 / golden ratio (Knuth, The Art of Computer Programming 3, 6.4). The search is inline, so
- * that the comparison is, too: levels look up some ten tiles for each they have. */
+ * Open addressing, never more than half full if `n` was right, nothing is ever taken out. Fibonacci hashing: the
+ * highest bits of a product with 2^64 / golden ratio (Knuth, The Art of Computer Programming 3, 6.4). The search is
+ * inline, so that the comparison is, too: levels look up some ten tiles for each they have. */
 #ifndef SLOTS_H
 #define SLOTS_H
 
@@ -32,7 +33,8 @@ static inline uint64_t slots_hash(uint64_t hash, uint64_t word)
     return hash ^ hash >> 32;
 }
 
-/* The slot of the item with a key: 1 + its index, or 0, to be written, if it is not there. The table must have been started. */
+/* The slot of the item with a key: 1 + its index, or 0, to be written, if it is not there. The table must have been
+ * started. */
 static inline unsigned *slots_find(const struct slots *slots, uint64_t hash, slots_same *same, const void *list,
                                    const void *key)
 {

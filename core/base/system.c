@@ -164,8 +164,8 @@ size_t system_symbol_size(const void *symbol)
     return 0;
 }
 
-/* Lines of /proc/locks: "7: FLOCK  ADVISORY  WRITE 4711 fe:00:1234 0 EOF". Some file systems number their devices in two
- * ways, so the file's own number decides. */
+/* Lines of /proc/locks: "7: FLOCK  ADVISORY  WRITE 4711 fe:00:1234 0 EOF". Some file systems number their devices in
+ * two ways, so the file's own number decides. */
 int system_locked(const char *path)
 {
     char line[256];

@@ -1,8 +1,8 @@
 /* system.h - what only some systems have: Linux first, and what stands in for it elsewhere.
  *
- * The build looks for each call (packaging/system.cmake); -DBULLA_PLAIN_SYSTEM=ON takes the stand-ins on Linux, too, so that
- * they are tested. What is lost with them: a run started by another one outlives it when that is killed; ranks of a
- * machine have large tables each for itself; provenance does not name the processor. */
+ * The build looks for each call (packaging/system.cmake); -DBULLA_PLAIN_SYSTEM=ON takes the stand-ins on Linux, too, so
+ * that they are tested. What is lost with them: a run started by another one outlives it when that is killed; ranks of
+ * a machine have large tables each for itself; provenance does not name the processor. */
 #ifndef SYSTEM_H
 #define SYSTEM_H
 
@@ -13,8 +13,8 @@
 /* Notes how the program was called; first thing in main(). */
 void system_begin(const char *name);
 
-/* Absolute path of the running program; "" if it cannot be found. Valid until the end. Stand-in: the name it was called by,
- * looked for in PATH. */
+/* Absolute path of the running program; "" if it cannot be found. Valid until the end. Stand-in: the name it was called
+ * by, looked for in PATH. */
 const char *system_program(void);
 
 /* Becomes the program itself once more, in the place of a child; returns only if that fails (errno). */
@@ -44,8 +44,8 @@ void system_processor(size_t room, char *ret_name);
 /* Bytes that the object file gives a symbol; 0: not known. */
 size_t system_symbol_size(const void *symbol);
 
-/* Does a process of this machine hold a file or folder for itself (flock)? 1, 0; -1: nobody knows. Looks only: takes no lock
- * that could be in the way of another. Stand-in: -1. */
+/* Does a process of this machine hold a file or folder for itself (flock)? 1, 0; -1: nobody knows. Looks only: takes no
+ * lock that could be in the way of another. Stand-in: -1. */
 int system_locked(const char *path);
 
 /* CPU time that a process of this user has taken so far [s]. Stand-in: the time on the wall. */

@@ -38,8 +38,8 @@ struct study_row {
 void study_row_read(const char *directory, int code, struct study_row *row);
 void study_row_done(struct study_row *row);
 
-/* How far the value is from the truth: a norm, or the distance to what it should equal, over that where it is not 0. NaN:
- * no truth is known to it (a bound, a mirror image). */
+/* How far the value is from the truth: a norm, or the distance to what it should equal, over that where it is not 0.
+ * NaN: no truth is known to it (a bound, a mirror image). */
 double study_row_error(const struct study_value *value);
 
 /* The exit code with which the run in `directory` ended, by its provenance.json; -1: none has ended there. */

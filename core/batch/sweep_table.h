@@ -24,7 +24,8 @@ struct sweep_table {
     const struct sweep_table_row *rows; /* [plan->matrix.n_row] */
 };
 
-/* CSV: settings that are quantities in SI units, others as texts; 1 or 0 for expectations; what there is not is empty. */
+/* CSV: settings that are quantities in SI units, others as texts; 1 or 0 for expectations; what there is not is
+ * empty. */
 void sweep_table_csv(const struct sweep_table *table, struct text *out);
 
 /* For people: settings as they stand in the matrix, columns one under the other. */

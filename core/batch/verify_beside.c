@@ -1,5 +1,5 @@
-/* verify_beside.c - see verify_beside.h. Scenes in which no value changes by a bit (a setting that says nothing to them)
- * are counted, not listed. */
+/* verify_beside.c - see verify_beside.h. Scenes in which no value changes by a bit (a setting that says nothing to
+ * them) are counted, not listed. */
 #include "batch/verify_beside.h"
 
 #include "base/mem.h"

@@ -1,5 +1,5 @@
-/* verify_cost.c - see verify_cost.h. CPU time is that of the steps: starting a run takes 0.03 s, which says nothing of a
- * scheme, and output is the scene's own affair. */
+/* verify_cost.c - see verify_cost.h. CPU time is that of the steps: starting a run takes 0.03 s, which says nothing of
+ * a scheme, and output is the scene's own affair. */
 #include "batch/verify_cost.h"
 
 #include "base/mem.h"

@@ -1,8 +1,8 @@
 /* verify_cost.h - `bulla verify --cost ID`: error against CPU seconds, of schemes, cell counts and levels.
  *
- * cases/cost.yaml lists schemes (a scene may have its own), and for each scene its cells, levels, the expectation that is
- * the error, and the rows of other codes. Out come DIRECTORY/cost/ID.csv, a row for each run, those that no other run beats
- * in both marked as the front; the picture of it, ID.png, by `bulla plot ID.csv cost`; and a table. */
+ * cases/cost.yaml lists schemes (a scene may have its own), and for each scene its cells, levels, the expectation that
+ * is the error, and the rows of other codes. Out come DIRECTORY/cost/ID.csv, a row for each run, those that no other
+ * run beats in both marked as the front; the picture of it, ID.png, by `bulla plot ID.csv cost`; and a table. */
 #ifndef VERIFY_COST_H
 #define VERIFY_COST_H
 

@@ -2,8 +2,8 @@
 #ifndef VERIFY_FILE_H
 #define VERIFY_FILE_H
 
-/* The folder above cases/verify: the working directory, or the one the program was built or installed in; NULL: there is
- * none. The caller frees it. */
+/* The folder above cases/verify: the working directory, or the one the program was built or installed in; NULL: there
+ * is none. The caller frees it. */
 char *verify_file_source(void);
 
 /* Replaces what stands between the markers of `id` in a file by `table`, or adds both at its end, under the title; all

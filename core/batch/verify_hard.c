@@ -256,7 +256,8 @@ static void verify_hard_combinations(struct text *out, const struct verify_hard_
     for (unsigned k = 0; k < run->matrix.n_row; k++) verify_hard_combination(out, run, k);
 }
 
-/* One cell: the error over that of the first combination, or "ok" where no truth is known; then what the guard repaired. */
+/* One cell: the error over that of the first combination, or "ok" where no truth is known; then what the guard
+ * repaired. */
 static void verify_hard_cell(struct text *out, const struct study_row *row, double first)
 {
     double ratio = verify_hard_error(row) / first, repairs = row->guard.fallback + row->guard.relaxed;

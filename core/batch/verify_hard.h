@@ -1,7 +1,7 @@
 /* verify_hard.h - `bulla verify hard`: every scene of cases/hard, coarse, with every combination of cases/hard.yaml.
  *
- * One table says of each combination how many scenes finish, hold and stay symmetric to the bit, how errors compare with
- * those of the first one, what the guard did and what it cost; another has the scenes one by one. */
+ * One table says of each combination how many scenes finish, hold and stay symmetric to the bit, how errors compare
+ * with those of the first one, what the guard did and what it cost; another has the scenes one by one. */
 #ifndef VERIFY_HARD_H
 #define VERIFY_HARD_H
 

@@ -1,10 +1,11 @@
-/* beam.h - the way of an incoming wave: along the normal of its face, under an angle, or from a transducer to its focus.
+/* beam.h - the way of an incoming wave: along the normal of its face, under an angle, or from a transducer to its
+ * focus.
  *
  * A plane wave along the unit vector e is f(t - e (x - x0)/c); x0 is met first. A wave to a focus at the distance r is
- * (F/r)^n f(t - (F - r)/c), F the radius of the transducer, where its amplitude is that of the pulse; n = 1 in space (exact
- * for sound), 1/2 in the plane (far from the focus). Only the part of it within the aperture comes in. At a face it brings
- * p' and, with Z = rho c, the velocity u' = e p'/Z, to a focus u' = e (p' - (c/r) int p' dt)/Z, so that the entering
- * invariant of the boundary is p' + Z u' cos, cos between e and the inward normal. */
+ * (F/r)^n f(t - (F - r)/c), F the radius of the transducer, where its amplitude is that of the pulse; n = 1 in space
+ * (exact for sound), 1/2 in the plane (far from the focus). Only the part of it within the aperture comes in. At a face
+ * it brings p' and, with Z = rho c, the velocity u' = e p'/Z, to a focus u' = e (p' - (c/r) int p' dt)/Z, so that the
+ * entering invariant of the boundary is p' + Z u' cos, cos between e and the inward normal. */
 #ifndef BEAM_H
 #define BEAM_H
 

@@ -24,8 +24,8 @@ struct mark {
     int line, column, width;
 };
 
-/* The place of `length` bytes from `at` on in the text of a scalar that begins at `mark`: where the same piece stands for
- * the same time in the source, whatever quotes and line breaks are around it; `mark` if it does not. */
+/* The place of `length` bytes from `at` on in the text of a scalar that begins at `mark`: where the same piece stands
+ * for the same time in the source, whatever quotes and line breaks are around it; `mark` if it does not. */
 struct mark diag_within(const struct mark *mark, const char *text, size_t at, size_t length);
 
 struct diag;

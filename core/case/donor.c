@@ -11,8 +11,8 @@ struct donor_box {
     const struct donor *donor;
     const double *at, *lower, *upper;
     int dim, beta;
-    double away
-        [3]; /* unit vector from the origin of a spherical donor, or the axis of rings in space, to the middle of the box */
+    double away[3]; /* unit vector from the origin of a spherical donor, or the axis of rings in space, to the middle of
+                       the box */
     double covered;
     double *sum; /* [n_model] */
 };
@@ -156,8 +156,8 @@ static double donor_ring(const struct donor_box *box, const struct donor_cell *c
                  : 0.0;
 }
 
-/* Where the box is in the donor's coordinates; of rings in space the distances from the axis between which it lies, and its span
- * along it. */
+/* Where the box is in the donor's coordinates; of rings in space the distances from the axis between which it lies, and
+ * its span along it. */
 static void donor_span(struct donor_box *box, double ret_lower[3], double ret_upper[3])
 {
     double near = 0.0, far = 0.0, length = 0.0;

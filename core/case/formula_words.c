@@ -1,5 +1,5 @@
-/* formula_words.c - see formula_words.h. As coarse as Lua's own reader allows: what is no word of Lua is a word here, and
- * left to it to complain about. */
+/* formula_words.c - see formula_words.h. As coarse as Lua's own reader allows: what is no word of Lua is a word here,
+ * and left to it to complain about. */
 #include "case/formula_words.h"
 
 #include "base/mem.h"

@@ -18,7 +18,8 @@ struct formula_words {
     struct formula_word *list;
 };
 
-/* Takes a text apart; white space and comments are left out. The words point into it. Release with formula_words_done. */
+/* Takes a text apart; white space and comments are left out. The words point into it. Release with
+ * formula_words_done. */
 struct formula_words formula_words(const char *text);
 void formula_words_done(struct formula_words *words);
 

@@ -1,7 +1,7 @@
 /* keys_read.c - see keys_read.h: maps, lists and what may stand in them; single scalars are in scalar.c.
  *
- * Reading a map: collect the rows that apply (keys_rows.c), read what is there, name what is not known or missing, write
- * the defaults into the tree, and put the keys in the order of the rows. */
+ * Reading a map: collect the rows that apply (keys_rows.c), read what is there, name what is not known or missing,
+ * write the defaults into the tree, and put the keys in the order of the rows. */
 #include "case/keys_read.h"
 
 #include "case/family.h"

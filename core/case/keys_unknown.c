@@ -48,7 +48,8 @@ static const char *keys_unknown_other(struct keys *keys, const struct keys_rows 
     return NULL;
 }
 
-/* At the left margin: is it a key of one of the sections, to the letter? Then that is meant, not one that is spelled like it. */
+/* At the left margin: is it a key of one of the sections, to the letter? Then that is meant, not one that is spelled
+ * like it. */
 static bool keys_unknown_below(const struct keys *keys, const struct keys_rows *rows, const char *name)
 {
     struct text path = {0};

@@ -5,7 +5,8 @@
 
 #include "case/keys_rows.h"
 
-/* Records an error with a suggestion for every key of the map that is in no row; the row that was probably meant is noted. */
+/* Records an error with a suggestion for every key of the map that is in no row; the row that was probably meant is
+ * noted. */
 void keys_unknown(struct keys *keys, const struct keys_map *map, struct keys_rows *rows);
 
 #endif

@@ -21,8 +21,8 @@ void pose_back(const struct pose *pose, const double x[3], double ret[3]);
 /* How far a point of space that moves with the body goes from one pose to the other [m]. */
 void pose_way(const struct pose *from, const struct pose *to, const double x[3], double ret[3]);
 
-/* A pose, and those a little later that tell how fast a body goes: exactly where its velocity is given, else as one-sided
- * differences of second order over scene_rigid.brief; functions of the time alone. */
+/* A pose, and those a little later that tell how fast a body goes: exactly where its velocity is given, else as
+ * one-sided differences of second order over scene_rigid.brief; functions of the time alone. */
 struct pose_rate {
     struct pose now, soon, later;
 };

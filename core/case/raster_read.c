@@ -1,5 +1,5 @@
-/* raster_read.c - the files of raster.h: PNG by libpng, and the header of NumPy's arrays (numpy.lib.format, version 1 to 3: a
- * magic word, the length of a Python dictionary, the dictionary, the values). */
+/* raster_read.c - the files of raster.h: PNG by libpng, and the header of NumPy's arrays (numpy.lib.format, version 1
+ * to 3: a magic word, the length of a Python dictionary, the dictionary, the values). */
 #include "case/raster.h"
 
 #include "base/file.h"

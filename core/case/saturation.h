@@ -1,8 +1,8 @@
 /* saturation.h - where a liquid and its vapour are in equilibrium: g_l(p, T) = g_v(p, T), g = h - T s of their laws.
  *
  * The difference D = g_v - g_l grows with p as long as the vapour is the thinner one (D_p = v_v - v_l) and falls with T
- * (D_T = s_l - s_v), so each pressure has one temperature and back. Stiffened gases have a second root where the vapour would
- * be denser than the liquid; the curve ends where v_v < 2 v_l, before that. */
+ * (D_T = s_l - s_v), so each pressure has one temperature and back. Stiffened gases have a second root where the vapour
+ * would be denser than the liquid; the curve ends where v_v < 2 v_l, before that. */
 #ifndef SATURATION_H
 #define SATURATION_H
 
@@ -38,8 +38,8 @@ struct saturation_state saturation_at(const struct saturation *pair, double p, d
 double saturation_pressure(const struct saturation *pair, double T);
 double saturation_temperature(const struct saturation *pair, double p);
 
-/* psat of water by the auxiliary equation of IAPWS (Wagner & Pruss, J. Phys. Chem. Ref. Data 31 (2002) 387, eq. 2.5) [Pa]; NaN
- * outside of 273 to 647 K. */
+/* psat of water by the auxiliary equation of IAPWS (Wagner & Pruss, J. Phys. Chem. Ref. Data 31 (2002) 387, eq. 2.5)
+ * [Pa]; NaN outside of 273 to 647 K. */
 double saturation_water(double T);
 
 /* The part of the curve between 200 and 2000 K. False: there is none, or none that reaches 10 kPa. */

@@ -265,8 +265,8 @@ struct scene_derived {
     char names[BULLA_FIELD_OUTPUTS][SCENE_NAME];
 };
 
-/* What is kept of a field over the run, cell by cell: rows of what a cell keeps, or -1 where nobody asks. A row of a time
- * goes with that of its value. */
+/* What is kept of a field over the run, cell by cell: rows of what a cell keeps, or -1 where nobody asks. A row of a
+ * time goes with that of its value. */
 struct scene_peak {
     char field[SCENE_NAME];
     int most, least, when_most, when_least;
@@ -322,8 +322,8 @@ struct scene_rigid {
     double velocity[SCENE_AXES];
     double pivot[SCENE_AXES]; /* the angle turns it about this point, which moves along; from x to y */
     double reach;             /* farthest that the domain goes from the pivot [m] */
-    double
-        brief; /* so little of time that no run follows what changes in it, a power of two [s]: speeds of what a script moves */
+    double brief; /* so little of time that no run follows what changes in it, a power of two [s]: speeds of what a
+                     script moves */
 };
 
 /* A criterion of refinement. All of them are limited by where, levels and time. */
@@ -474,8 +474,8 @@ int scene_mesh_tile(const struct scene *scene);
 
 void scene_free(struct scene *scene);
 
-/* The instances of a scene, one after the other from 0: of materials, scheme, boundaries, fields. Some have no module. NULL
- * after the last. */
+/* The instances of a scene, one after the other from 0: of materials, scheme, boundaries, fields. Some have no module.
+ * NULL after the last. */
 struct instance *scene_instance(struct scene *scene, unsigned index);
 
 /* The pair whose vapour a material is, or NULL. */

@@ -1,5 +1,5 @@
-/* scene_boil.c - doubts about pairs of a liquid and its vapour: cells that the heat which feeds their surface does not see, superheated
- * liquid without `onset`, states beyond the end of the curve. */
+/* scene_boil.c - doubts about pairs of a liquid and its vapour: cells that the heat which feeds their surface does not
+ * see, superheated liquid without `onset`, states beyond the end of the curve. */
 #include "case/saturation.h"
 #include "case/scene_draft.h"
 

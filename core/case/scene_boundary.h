@@ -13,9 +13,10 @@ struct scene;
 /* What a type means to others. */
 enum scene_boundary_trait {
     SCENE_BOUNDARY_RESTS = 1, /* behind it lies a mirror image or a copy of what is inside: beside rest there is rest */
-    SCENE_BOUNDARY_BRINGS = 2,  /* may bring in materials that are not inside */
-    SCENE_BOUNDARY_REFERS = 4,  /* goes by pressure and velocity at the start of the run, which the solver alone keeps:
-                                    who looks at a finished state (slopes of derived fields) goes on with what is inside */
+    SCENE_BOUNDARY_BRINGS = 2, /* may bring in materials that are not inside */
+    /* Goes by pressure and velocity at the start of the run, which the solver alone keeps: who looks at a finished
+     * state (slopes of derived fields) goes on with what is inside. */
+    SCENE_BOUNDARY_REFERS = 4,
     SCENE_BOUNDARY_WRAPS = 8,   /* the cells of the opposite face lie behind it: to the mesh there is no boundary */
     SCENE_BOUNDARY_MIDDLE = 16, /* the other half of what is inside lies behind it: may stand at r = 0 */
     SCENE_BOUNDARY_CENTRE = 32, /* stands at r = 0 alone */

@@ -100,7 +100,8 @@ void scene_branch(struct draft *draft, const struct keys_map *entry, struct scen
     scene_branch_slack(draft, entry, material);
 }
 
-/* A bound of the time step of a level where a material fills its cells, from its fastest unrelaxed wave [s]; NAN: unknown. */
+/* A bound of the time step of a level where a material fills its cells, from its fastest unrelaxed wave [s]; NAN:
+ * unknown. */
 static double scene_branch_step(const struct scene *scene, const struct scene_material *material, int level)
 {
     const struct bulla_eos *law = material->eos.module->table;

@@ -1,8 +1,9 @@
 /* scene_cloud.c - clouds of bubbles, drops, grains: a layer `cloud:` becomes as many layers with a sphere as it has.
  *
- * Places are drawn one after the other, the largest sphere first, until one is free: inside the region and the domain, and
- * not closer to another than the gap (random sequential addition; Widom 1966, J. Chem. Phys. 44, 3888). Numbers come from
- * splitmix64 (Steele, Lea & Flood 2014), so that a seed means the same cloud everywhere. The resolved case has the spheres. */
+ * Places are drawn one after the other, the largest sphere first, until one is free: inside the region and the domain,
+ * and not closer to another than the gap (random sequential addition; Widom 1966, J. Chem. Phys. 44, 3888). Numbers
+ * come from splitmix64 (Steele, Lea & Flood 2014), so that a seed means the same cloud everywhere. The resolved case
+ * has the spheres. */
 #include "case/scene_draft.h"
 
 #include "base/mem.h"

@@ -1,8 +1,9 @@
-/* scene_coarse.c - what the cells are too coarse for: waves that come in, bubbles; and pulses that last much longer than
- * the run or much shorter than a step, whose times are probably in another unit.
+/* scene_coarse.c - what the cells are too coarse for: waves that come in, bubbles; and pulses that last much longer
+ * than the run or much shorter than a step, whose times are probably in another unit.
  *
- * Limits: 8 cells per wave length (below, a wave dies within a few lengths), 4 per radius of a body (below, it is a cloud
- * of mixed cells). Cells count on the finest level that the criteria may put there; where Lua decides, nothing is said. */
+ * Limits: 8 cells per wave length (below, a wave dies within a few lengths), 4 per radius of a body (below, it is a
+ * cloud of mixed cells). Cells count on the finest level that the criteria may put there; where Lua decides, nothing is
+ * said. */
 #include "case/scene_draft.h"
 
 #include "bulla/eos.h"

@@ -5,7 +5,8 @@
 #include "case/formula.h"
 #include "case/scene.h"
 
-/* The language of expressions over a run of the scene, before there is one. Release with formula_free, before the scene. */
+/* The language of expressions over a run of the scene, before there is one. Release with formula_free, before the
+ * scene. */
 struct formula *scene_columns_plan(const struct scene *scene);
 
 #endif

@@ -1,5 +1,5 @@
-/* scene_condense.c - doubts about what a pair of a liquid and its vapour starts from: vapour that condenses or liquid that boils at
- * once, traces from which nothing grows, saturation pressures that are not those of water. */
+/* scene_condense.c - doubts about what a pair of a liquid and its vapour starts from: vapour that condenses or liquid
+ * that boils at once, traces from which nothing grows, saturation pressures that are not those of water. */
 #include "case/saturation.h"
 #include "case/scene_draft.h"
 

@@ -112,7 +112,8 @@ void scene_coarse(struct draft *draft);
 void scene_boil(struct draft *draft);
 void scene_condense(struct draft *draft);
 
-/* The pressure and temperature of material l of an initial layer as numbers; false: scripts give them, or there are none. */
+/* The pressure and temperature of material l of an initial layer as numbers; false: scripts give them, or there are
+ * none. */
 bool scene_boil_state(const struct scene *scene, const struct scene_layer *layer, unsigned l, double *ret_p,
                       double *ret_T);
 
@@ -164,8 +165,8 @@ bool scene_matter_viscous(const struct draft *draft);
 void scene_branch(struct draft *draft, const struct keys_map *entry, struct scene_material *material);
 extern const struct keys_section scene_branch_keys;
 
-/* Refuses branches that relax within a step of the finest level, warns of those of the coarsest one: once mesh and scheme
- * are known. */
+/* Refuses branches that relax within a step of the finest level, warns of those of the coarsest one: once mesh and
+ * scheme are known. */
 void scene_branch_times(struct draft *draft);
 
 /* Opens the module that a section names; nothing happens if the section is wrong. */
@@ -196,8 +197,8 @@ struct scene_value *scene_state_density(struct draft *draft, const struct keys_m
 void scene_state_check(struct draft *draft, const struct keys_map *map, const double *fractions,
                        const struct scene_value *density);
 
-/* Warns if a state of one material is far from all that its law is stated for. `temperature`: the given one, or 0; `value`:
- * what says the density, for the place. */
+/* Warns if a state of one material is far from all that its law is stated for. `temperature`: the given one, or 0;
+ * `value`: what says the density, for the place. */
 void scene_far(struct draft *draft, unsigned material, double rho, double p, double temperature,
                const struct keys_value *value);
 
@@ -210,8 +211,8 @@ int scene_stretch_needs(unsigned component);
 /* stretch: of a layer whose fractions are known. */
 void scene_stretch(struct draft *draft, struct scene_layer *layer, const struct keys_value *value);
 
-/* Shapes from files and turned ones, read into a zeroed shape; false after a recorded error. `part`, which must be a shape,
- * becomes part of it, or is freed. */
+/* Shapes from files and turned ones, read into a zeroed shape; false after a recorded error. `part`, which must be a
+ * shape, becomes part of it, or is freed. */
 extern const struct keys_section scene_body_surface_keys, scene_body_image_keys, scene_body_array_keys,
     scene_body_turned_keys, scene_body_prism_keys;
 bool scene_body_surface(struct draft *draft, struct shape *shape, const struct keys_map *map);
@@ -262,15 +263,16 @@ const struct scene_field *scene_field_find(struct draft *draft, const char *name
 /* Has a field three components, each with a column of its own? */
 bool scene_field_is_vector(const char *name);
 
-/* For the schema: the fields of every case and of those with a solid, and what with _MATERIAL is one. NULL-terminated, in the forest. */
+/* For the schema: the fields of every case and of those with a solid, and what with _MATERIAL is one. NULL-terminated,
+ * in the forest. */
 const char *const *scene_field_always(struct forest *forest);
 const char *const *scene_field_each(struct forest *forest);
 
 /* Why a field has one value in all cells of a level: "0 everywhere: ..."; NULL: it varies. */
 const char *scene_field_constant(struct draft *draft, const char *name);
 
-/* Of `max_pressure`: notes that it is to be kept, and what kind of field it is; false if the name is none of a peak, or of
- * none of the fields that the scene has by itself (`names`). */
+/* Of `max_pressure`: notes that it is to be kept, and what kind of field it is; false if the name is none of a peak, or
+ * of none of the fields that the scene has by itself (`names`). */
 bool scene_peak_find(struct draft *draft, const char *name, const char *const *names);
 
 /* May a name be one of a peak? */
@@ -290,7 +292,8 @@ bool scene_formula_use(struct draft *draft, const struct keys_value *value, cons
 bool scene_formula_argument(struct draft *draft, const char *name);
 void scene_formula_help(struct draft *draft);
 
-/* Is the value an expression? Then a field of the case is made of it. `name`: of one that has none; NULL: it needs one. */
+/* Is the value an expression? Then a field of the case is made of it. `name`: of one that has none; NULL: it needs
+ * one. */
 bool scene_formula_is(const struct keys_value *value);
 bool scene_formula(struct draft *draft, const struct keys_value *value, const char *name, char ret_name[SCENE_NAME]);
 

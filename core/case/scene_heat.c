@@ -1,7 +1,9 @@
-/* scene_heat.c - what conduction of heat asks of a scene: temperatures that mean something, volume that moves with heat.
+/* scene_heat.c - what conduction of heat asks of a scene: temperatures that mean something, volume that moves with
+ * heat.
  *
- * Laws of which only the temperature depends on cv have a value for it that is nobody's; with conduction it is asked for.
- * The heat capacity of a law can be far from that of the fluid whose conductivity is given: then heat spreads wrongly. */
+ * Laws of which only the temperature depends on cv have a value for it that is nobody's; with conduction it is asked
+ * for. The heat capacity of a law can be far from that of the fluid whose conductivity is given: then heat spreads
+ * wrongly. */
 #include "case/scene_draft.h"
 
 #include "bulla/conductivity.h"
@@ -12,8 +14,8 @@
 
 static const double scene_heat_far = 1.1; /* a ratio of heat capacities that is worth a word */
 
-/* cp [J/(kg K)] and conductivity [W/(m K)] of water and air at 25 C and 1 atm (IAPWS-95; Lemmon et al., J. Phys. Chem. Ref.
- * Data 29 (2000) 331). */
+/* cp [J/(kg K)] and conductivity [W/(m K)] of water and air at 25 C and 1 atm (IAPWS-95; Lemmon et al., J. Phys. Chem.
+ * Ref. Data 29 (2000) 331). */
 static const struct scene_heat_fluid {
     const char *name;
     double cp, k;

@@ -1,7 +1,8 @@
-/* scene_idle.c - what a case asks for and never gets: materials that are nowhere, outputs after the end, regions outside.
+/* scene_idle.c - what a case asks for and never gets: materials that are nowhere, outputs after the end, regions
+ * outside.
  *
- * All of it runs, so it is no error; but it costs, or somebody waits for numbers that do not come. A material may be there
- * for a variant or a row of the matrix alone. */
+ * All of it runs, so it is no error; but it costs, or somebody waits for numbers that do not come. A material may be
+ * there for a variant or a row of the matrix alone. */
 #include "case/scene_draft.h"
 
 #include <string.h>

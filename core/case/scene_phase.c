@@ -365,8 +365,8 @@ static void scene_phase_set(struct draft *draft, const struct keys_value *value,
         keys_error(&draft->keys, value, "%s", status_text());
 }
 
-/* Among gases a vapour is asked at the pressure of all, where it would have condensed if it were alone: ideal gases have a state
- * there, a real one ends at its spinodal. */
+/* Among gases a vapour is asked at the pressure of all, where it would have condensed if it were alone: ideal gases
+ * have a state there, a real one ends at its spinodal. */
 static void scene_phase_thick(struct draft *draft, const struct keys_value *value, const struct scene_phase *pair)
 {
     const struct scene_material *vapour = &draft->scene->material[pair->vapour];

@@ -1,5 +1,5 @@
-/* scene_read.c - from a case file to a scene: merge, modules, parameters, keys, sections, in this order; what each section
- * means is in scene_*.c. */
+/* scene_read.c - from a case file to a scene: merge, modules, parameters, keys, sections, in this order; what each
+ * section means is in scene_*.c. */
 #include "case/scene_read.h"
 
 #include "base/comm.h"

@@ -1,6 +1,7 @@
 /* scene_repeat.c - rows of layers: a layer `repeat: {i: 5}` becomes five, with i = 0 to 4 in its expressions.
  *
- * It happens before the layers are read, in the tree: the name is replaced by its number wherever an expression uses it. */
+ * It happens before the layers are read, in the tree: the name is replaced by its number wherever an expression uses
+ * it. */
 #include "case/scene_draft.h"
 
 #include "base/text.h"

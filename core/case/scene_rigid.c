@@ -1,5 +1,5 @@
-/* scene_rigid.c - rigid bodies: `bodies:`. Where they are is looked at on a lattice of points, at the start and, where they
- * move, at some times of the run. */
+/* scene_rigid.c - rigid bodies: `bodies:`. Where they are is looked at on a lattice of points, at the start and, where
+ * they move, at some times of the run. */
 #include "case/scene_draft.h"
 
 #include "base/mem.h"
@@ -120,7 +120,8 @@ static bool scene_rigid_unknown(struct draft *draft, const struct keys_value *va
     return false;
 }
 
-/* A finest cell, the smallest of its sides, at a speed that nothing has, rounded to a power of two: sums of times are exact. */
+/* A finest cell, the smallest of its sides, at a speed that nothing has, rounded to a power of two: sums of times are
+ * exact. */
 static double scene_rigid_brief(const struct scene *scene)
 {
     double least = INFINITY;

@@ -221,8 +221,8 @@ static void scene_scheme_slopes(struct draft *draft, const struct keys_map *sche
                       wrong[i]);
 }
 
-/* Some limiters are for the surfaces of fluids: elsewhere they make steps of waves, and slip and traction at the surface
- * of a solid come out wrong. */
+/* Some limiters are for the surfaces of fluids: elsewhere they make steps of waves, and slip and traction at the
+ * surface of a solid come out wrong. */
 static void scene_scheme_limit(struct draft *draft, const struct keys_map *scheme)
 {
     const struct keys_value *limiter = keys_at(scheme, "limiter"), *surface = keys_at(scheme, "interface-limiter");
@@ -253,8 +253,8 @@ static void scene_scheme_reconstruct(struct draft *draft, const struct keys_map 
     scene->scheme.ghosts = module ? (int)((const struct bulla_reconstruction *)module->table)->layers : SCENE_GHOSTS;
 }
 
-/* Errors follow the Courant number of an axis, costs the sum: what is 0.4 on a line is 0.8 as soon as there are two axes.
- * Where short steps are known to be better they stay (docs/decisions/courant.md). */
+/* Errors follow the Courant number of an axis, costs the sum: what is 0.4 on a line is 0.8 as soon as there are two
+ * axes. Where short steps are known to be better they stay (docs/decisions/courant.md). */
 static bool scene_scheme_long(struct draft *draft)
 {
     const struct scene *scene = draft->scene;

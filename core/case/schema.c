@@ -314,8 +314,8 @@ static bool schema_is_word(const struct keys_section *one)
     return word;
 }
 
-/* A text in the place of a map: {"enum": [...]} with a sentence that tells of the map, too. Where there is no such word a
- * map is asked for: editors refuse a whole schema for one list without a word. */
+/* A text in the place of a map: {"enum": [...]} with a sentence that tells of the map, too. Where there is no such word
+ * a map is asked for: editors refuse a whole schema for one list without a word. */
 static json_t *schema_alone(struct schema *schema, const struct keys_section *section)
 {
     json_t *list = json_array();

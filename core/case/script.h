@@ -29,7 +29,8 @@ void script_numbers(struct script_host *host, void (*visit)(void *context, const
  * stands. Errors: STATUS_CASE. A non-finite result is an error. */
 int script_evaluate(struct script_host *host, const char *text, const char *file, int line, double *ret_value);
 
-/* Compiles an expression of the named arguments ("x,y,z,r,t"; at most SCRIPT_ARGUMENTS). `text` without the leading "=". */
+/* Compiles an expression of the named arguments ("x,y,z,r,t"; at most SCRIPT_ARGUMENTS). `text` without the leading
+ * "=". */
 int script_compile(struct script_host *host, const char *text, const char *arguments, const char *file, int line,
                    const struct script **ret_script);
 

@@ -286,7 +286,8 @@ static void script_column_open_type(lua_State *lua)
     lua_pop(lua, 1);
 }
 
-/* Adds to the table on top of the stack the functions that go over columns row by row; the library math is at `math`. */
+/* Adds to the table on top of the stack the functions that go over columns row by row; the library math is at
+ * `math`. */
 static void script_column_open_maps(lua_State *lua, int math, const char *const *names)
 {
     for (; *names; names++) {

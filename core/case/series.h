@@ -3,8 +3,8 @@
  * Lines that begin with '#' are comments; empty lines are skipped. Cells are separated by ';',
  * or ',', or white space: the first of these that the first line has. The first line may hold
  * names; else a comment "# columns: t, p[Pa], ..." gives them (what follows a blank or bracket is
- * cut off); what stands in brackets, p[Pa] or p (Pa), is the unit; else columns are known by their number alone, from 1. Every other cell is a finite
- * decimal number. Failures are STATUS_CASE and begin with file:line. */
+ * cut off); what stands in brackets, p[Pa] or p (Pa), is the unit; else columns are known by their number alone,
+ * from 1. Every other cell is a finite decimal number. Failures are STATUS_CASE and begin with file:line. */
 #ifndef SERIES_H
 #define SERIES_H
 

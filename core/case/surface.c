@@ -172,8 +172,9 @@ static double surface_nearest(const struct surface *surface, const struct surfac
 
 /* Inside or not */
 
-/* How often the shadow of a triangle on the (y, z) plane runs around that of the point: 1, 0, -1. Each edge is computed from
- * its lower vertex number, and ends count on one side only, so that the triangles around a point share out the plane. */
+/* How often the shadow of a triangle on the (y, z) plane runs around that of the point: 1, 0, -1. Each edge is computed
+ * from its lower vertex number, and ends count on one side only, so that the triangles around a point share out the
+ * plane. */
 static int surface_turns(const struct surface *surface, const size_t corner[3], const double x[3])
 {
     int turns = 0;

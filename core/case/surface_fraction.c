@@ -11,8 +11,8 @@ struct surface_fraction_patch {
     double x[SURFACE_CORNERS][3];
 };
 
-/* Keeps what lies on one side of a plane across an axis: above `at` for sign 1, below it for -1 (Sutherland & Hodgman 1974,
- * Commun. ACM 17, 32). */
+/* Keeps what lies on one side of a plane across an axis: above `at` for sign 1, below it for -1 (Sutherland & Hodgman
+ * 1974, Commun. ACM 17, 32). */
 static void surface_fraction_cut(struct surface_fraction_patch *patch, int axis, double at, double sign)
 {
     struct surface_fraction_patch kept = {0};
@@ -27,7 +27,8 @@ static void surface_fraction_cut(struct surface_fraction_patch *patch, int axis,
     *patch = kept;
 }
 
-/* The integral of max(x - from, 0) over the patch's shadow on the (y, z) plane; positive if x points out of its front. */
+/* The integral of max(x - from, 0) over the patch's shadow on the (y, z) plane; positive if x points out of its
+ * front. */
 static double surface_fraction_column(const struct surface_fraction_patch *patch, double from)
 {
     struct surface_fraction_patch above = *patch;

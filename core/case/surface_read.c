@@ -1,6 +1,6 @@
 /* surface_read.c - STL files, see surface.h: text (`solid NAME`, `facet normal`, `vertex x y z`) or binary (80 bytes, a
- * count, 50 bytes a triangle, little-endian). Binary files may begin with "solid", too: their length tells them. Normals of
- * the file are not read: the order of the corners says the same, and is right more often. */
+ * count, 50 bytes a triangle, little-endian). Binary files may begin with "solid", too: their length tells them.
+ * Normals of the file are not read: the order of the corners says the same, and is right more often. */
 #include "case/surface.h"
 
 #include "base/file.h"

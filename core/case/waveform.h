@@ -11,8 +11,8 @@ double waveform_lithotripter(double t, double amplitude, double decay, double fr
 /* amplitude sin(2 pi frequency t) for 0 <= t <= cycles / frequency (cycles 0: for ever), else 0. */
 double waveform_sine(double t, double amplitude, double frequency, double cycles);
 
-/* Of a burst, s periods after its beginning, in [0, 1]: window 0: 1; 1: Hann, half a cosine up and down over the whole; 2:
- * Tukey, over an eighth at each end. 1 if it never ends. */
+/* Of a burst, s periods after its beginning, in [0, 1]: window 0: 1; 1: Hann, half a cosine up and down over the whole;
+ * 2: Tukey, over an eighth at each end. 1 if it never ends. */
 double waveform_window(double s, double cycles, int window);
 
 /* amplitude exp(-((t - centre) / width)^2). */

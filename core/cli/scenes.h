@@ -7,7 +7,8 @@
 
 /* Reads `path` with --set, --variant, -o, --until, --max-steps and --max-memory of the command line; --until and
  * --max-steps are settings of the case like any other, so that the resolved case has them. A coarsest level that
- * takes more than --max-memory, or is to be run and takes more than the machine has, is STATUS_CASE. Errors have been printed when this returns. */
+ * takes more than --max-memory, or is to be run and takes more than the machine has, is STATUS_CASE. Errors have been
+ * printed when this returns. */
 int scenes_read(const struct cli_given *given, const char *path, struct scene **ret_scene);
 
 /* What a run takes beside the blocks of its cells, frames and messages, as a factor. */

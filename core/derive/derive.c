@@ -23,8 +23,8 @@
 #include <math.h>
 #include <string.h>
 
-/* What a name stands for: DERIVE_STRONG needs a solid with a strength, DERIVE_STRAINED one whose strength knows strains, DERIVE_BREAKING one that can break;
- * DERIVE_OF_SCENE is a name of the case's own. */
+/* What a name stands for: DERIVE_STRONG needs a solid with a strength, DERIVE_STRAINED one whose strength knows
+ * strains, DERIVE_BREAKING one that can break; DERIVE_OF_SCENE is a name of the case's own. */
 enum derive_form {
     DERIVE_ONE,
     DERIVE_VECTOR,

@@ -20,9 +20,9 @@ struct derive {
  * (velocity_x) are fields of one component. */
 int derive_find(const struct model *model, const char *name, struct derive *ret_field);
 
-/* The material of a field that says nothing where the material is absent, so that between cells it counts with the volume
- * fraction; -1: other fields. It is 0 there: density_M where there is none at all, temperature_M where the material is
- * not felt (presence.h). */
+/* The material of a field that says nothing where the material is absent, so that between cells it counts with the
+ * volume fraction; -1: other fields. It is 0 there: density_M where there is none at all, temperature_M where the
+ * material is not felt (presence.h). */
 int derive_material(const struct derive *field);
 
 /* NULL-terminated list of all names this scene offers; valid as long as the model. */

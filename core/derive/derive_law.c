@@ -1,5 +1,5 @@
-/* derive_law.c - see derive_law.h. A module gets a whole tile as one row: primitives as they lie, what it needs beside them
- * in rows made for it. All of its outputs are computed, one is kept. */
+/* derive_law.c - see derive_law.h. A module gets a whole tile as one row: primitives as they lie, what it needs beside
+ * them in rows made for it. All of its outputs are computed, one is kept. */
 #include "derive/derive_law.h"
 
 #include "base/mem.h"

@@ -3,7 +3,8 @@
  * Everything starts from the deviatoric stress s' or the stretch V of all cells of a tile, as blocks of the
  * components that the scene has. Principal values are found for s' and shifted by -p, so that a pressure of 1e8 Pa
  * does not eat the digits of a soft tissue's stress. With up to four components (xx, yy, zz, xy) zz is a principal
- * value and the other two come from a root; with six, from Jacobi rotations, which stay exact where two of them meet. */
+ * value and the other two come from a root; with six, from Jacobi rotations, which stay exact where two of them
+ * meet. */
 #include "derive/derive_stress.h"
 
 #include "base/mem.h"

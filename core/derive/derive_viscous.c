@@ -1,5 +1,5 @@
-/* derive_viscous.c - see derive_viscous.h. The term itself is asked (scheme/viscous.h), in the cells of the tile, of whose
- * surroundings it needs what lies across faces. */
+/* derive_viscous.c - see derive_viscous.h. The term itself is asked (scheme/viscous.h), in the cells of the tile, of
+ * whose surroundings it needs what lies across faces. */
 #include "derive/derive_viscous.h"
 
 #include "base/mem.h"

@@ -4,8 +4,8 @@
 
 #include "derive/derive_view.h"
 
-/* Component field->index (elastic.h) of the viscous stress in the cells [Pa], and heat of viscosity [W/m3], from central
- * differences; behind boundaries that waves cross stands a copy of the cell inside (numerics.md, 6c). */
+/* Component field->index (elastic.h) of the viscous stress in the cells [Pa], and heat of viscosity [W/m3], from
+ * central differences; behind boundaries that waves cross stands a copy of the cell inside (numerics.md, 6c). */
 void derive_viscous_stress(const struct derive_view *tile, double *out);
 void derive_viscous_dissipation(const struct derive_view *tile, double *out);
 

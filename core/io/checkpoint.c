@@ -1,6 +1,7 @@
 /* checkpoint.c - see checkpoint.h. The order of events for one file: draft written by rank 0 with the rows of
  * all ranks, closed, made lasting, read back and compared, sealed, renamed, folder made lasting; then older
- * files removed. Where there are parts, each writer does all this with its own first, up to the renaming. A crash anywhere leaves the older files and at most a draft. */
+ * files removed. Where there are parts, each writer does all this with its own first, up to the renaming. A crash
+ * anywhere leaves the older files and at most a draft. */
 #include "io/checkpoint.h"
 
 #include "base/comm.h"

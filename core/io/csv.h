@@ -15,9 +15,9 @@ struct csv_places {
     const double *numbers; /* [n][n_number] */
 };
 
-/* Starts a file. With `resume` one that has the same header, and in its first block the same places, goes on: rows whose
- * first number is larger than `limit` (the future of the state that is taken up) and a broken last one are cut off. Another
- * one is kept under another name. `places`: NULL, of single rows. */
+/* Starts a file. With `resume` one that has the same header, and in its first block the same places, goes on: rows
+ * whose first number is larger than `limit` (the future of the state that is taken up) and a broken last one are cut
+ * off. Another one is kept under another name. `places`: NULL, of single rows. */
 int csv_open(const char *path, const char *header, const struct csv_places *places, bool resume, double limit,
              struct csv **ret_csv);
 

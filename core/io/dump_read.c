@@ -1,5 +1,5 @@
-/* dump_read.c - reading a dump back, see dump_read.h. What the notes say is checked against the shapes of the blocks before
- * anything is computed from it: a file may come from anywhere. */
+/* dump_read.c - reading a dump back, see dump_read.h. What the notes say is checked against the shapes of the blocks
+ * before anything is computed from it: a file may come from anywhere. */
 #include "io/dump_read.h"
 
 #include "base/file.h"

@@ -1,5 +1,5 @@
-/* dump_show.c - a dump for people, and its replay, see dump_show.h. Showing needs nothing but the file; a replay needs the
- * case in it and the modules that the case names. */
+/* dump_show.c - a dump for people, and its replay, see dump_show.h. Showing needs nothing but the file; a replay needs
+ * the case in it and the modules that the case names. */
 #include "io/dump_show.h"
 
 #include "base/mem.h"

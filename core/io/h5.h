@@ -28,8 +28,8 @@ struct h5 {
     struct h5 *part; /* that of this rank's writer */
 };
 
-/* Before MPI is started and before all other calls: HDF5 must not clean up by itself at the end, neither at exit nor when
- * MPI ends. It would close a file again whose closing has failed on a full disk, and crash (seen with 1.10.8). */
+/* Before MPI is started and before all other calls: HDF5 must not clean up by itself at the end, neither at exit nor
+ * when MPI ends. It would close a file again whose closing has failed on a full disk, and crash (seen with 1.10.8). */
 void h5_begin(void);
 
 /* Creates (replaces) a file for writing. Collective. */

@@ -19,8 +19,8 @@ const char *held_path(const struct held *held);
 /* Is this the path of a file in memory? */
 bool held_is(const char *path);
 
-/* Brings the file to the disk and makes it lasting; nothing to do for one that is there. STATUS_RUN with file, reason and
- * room. No rank has a part in it, nor has any library: for work beside the run. */
+/* Brings the file to the disk and makes it lasting; nothing to do for one that is there. STATUS_RUN with file, reason
+ * and room. No rank has a part in it, nor has any library: for work beside the run. */
 int held_store(const struct held *held);
 
 #endif

@@ -2,12 +2,12 @@
  * same numbers become arrays in maps/NAME.hdf.
  *
  * The table has a line for each time and place: `t,x,<field>...`, the second column named for the axis of the places
- * (`s`: distance along an oblique line or a curve), vectors as <field>_x, ... Places on lines and curves are seen as probes see them
- * (sample.h). On a surface a place is the mean over those of its pieces that lie within half the distance of places,
- * a piece as wide as a cell; NaN where there is none. A rectangle has two columns of places, `s1,s2`, of which s2 varies faster. Times are those of steps: the first one at or after each
- * multiple of `every` (so maps never cut a step), the start and the end.
- * The arrays: /t [n] s, /x (or y, z, s) [m] m, /<field> [n, m], with attributes `units`; of a rectangle /s1 [m1], /s2 [m2]
- * and m = m1 m2, with attributes corner, first, second of /. */
+ * (`s`: distance along an oblique line or a curve), vectors as <field>_x, ... Places on lines and curves are seen as
+ * probes see them (sample.h). On a surface a place is the mean over those of its pieces that lie within half the
+ * distance of places, a piece as wide as a cell; NaN where there is none. A rectangle has two columns of places,
+ * `s1,s2`, of which s2 varies faster. Times are those of steps: the first one at or after each multiple of `every` (so
+ * maps never cut a step), the start and the end. The arrays: /t [n] s, /x (or y, z, s) [m] m, /<field> [n, m], with
+ * attributes `units`; of a rectangle /s1 [m1], /s2 [m2] and m = m1 m2, with attributes corner, first, second of /. */
 #ifndef MAPS_H
 #define MAPS_H
 

@@ -20,7 +20,8 @@ struct parts;
 struct parts *parts_new(const char *path, int n, bool in_memory);
 void parts_free(struct parts *parts); /* NULL is fine */
 
-/* Creates the drafts (place.h) of the file, behind `head` bytes that are left to others, and of its parts. Collective. */
+/* Creates the drafts (place.h) of the file, behind `head` bytes that are left to others, and of its parts.
+ * Collective. */
 int parts_create(const struct parts *parts, size_t head, struct h5 **ret_file);
 
 /* Finishes and seals the parts, of which each writer's `seal` says what is in its own; notes them in the file, as text
@@ -28,7 +29,8 @@ int parts_create(const struct parts *parts, size_t head, struct h5 **ret_file);
 int parts_seal(const struct parts *parts, struct h5 *file, const char *where, int (*seals)(const char *, struct seal *),
                struct seal *seal, uint64_t *ret_hash);
 
-/* Brings the drafts of this rank to the disk, if they are in memory. Of this rank alone, and beside the run (aside.h). */
+/* Brings the drafts of this rank to the disk, if they are in memory. Of this rank alone, and beside the run
+ * (aside.h). */
 int parts_store(const struct parts *parts);
 
 /* Gives the parts their names; the file itself comes after them. Collective. */

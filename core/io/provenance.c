@@ -276,7 +276,8 @@ static json_t *provenance_guard(const struct state_counts *counts)
                      (json_int_t)counts->retries);
 }
 
-/* CPU time by parts. What is left of the whole is `other`: choosing time steps, progress, what starts and ends a run. */
+/* CPU time by parts. What is left of the whole is `other`: choosing time steps, progress, what starts and ends a
+ * run. */
 static json_t *provenance_split(const struct provenance_cost *cost)
 {
     static const char *const names[COST_PARTS + 1] = {"exchange",   "gather", "faces", "update",

@@ -1,6 +1,6 @@
-/* sample.c - see sample.h. The cells around a point are found once per mesh: the rank that holds the point says of which
- * level they are. Each rank fills in those that it holds, a maximum over the ranks brings them together, and every rank
- * interpolates the same numbers in the same way. */
+/* sample.c - see sample.h. The cells around a point are found once per mesh: the rank that holds the point says of
+ * which level they are. Each rank fills in those that it holds, a maximum over the ranks brings them together, and
+ * every rank interpolates the same numbers in the same way. */
 #include "io/sample.h"
 
 #include "base/comm.h"

@@ -36,16 +36,16 @@ void snapshot_recall(struct snapshots *snapshots, const struct notes *notes);
  * run: they are complete after snapshot_wait, or when snapshot_settle has ended them. */
 void snapshot_beside(struct snapshots *snapshots);
 
-/* Bytes that a single writer may take for that, of so many cells (output.snapshots.memory, if it is enough; else 0): a file
- * and the points and connections of the one before, all counted as they are before they are packed. */
+/* Bytes that a single writer may take for that, of so many cells (output.snapshots.memory, if it is enough; else 0): a
+ * file and the points and connections of the one before, all counted as they are before they are packed. */
 double snapshot_memory(const struct model *model, double cells);
 
 /* Is a file on its way (the same on all ranks)? Is this rank still at work for it? */
 bool snapshot_pending(const struct snapshots *snapshots);
 bool snapshot_busy(const struct snapshots *snapshots);
 
-/* Takes the file on its way one stage further, waiting for it where a rank is still at work; to its end. STATUS_RUN if it
- * could not be written: it is gone, those before are whole. Collective. */
+/* Takes the file on its way one stage further, waiting for it where a rank is still at work; to its end. STATUS_RUN if
+ * it could not be written: it is gone, those before are whole. Collective. */
 int snapshot_settle(struct snapshots *snapshots);
 int snapshot_wait(struct snapshots *snapshots);
 

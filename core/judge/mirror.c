@@ -1,5 +1,5 @@
-/* mirror.c - see mirror.h. Cells are found by twice their centre in units of the least width, an integer that the corners
- * of different levels round to the same. */
+/* mirror.c - see mirror.h. Cells are found by twice their centre in units of the least width, an integer that the
+ * corners of different levels round to the same. */
 #include "judge/mirror.h"
 
 #include "base/mem.h"

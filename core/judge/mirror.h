@@ -15,8 +15,8 @@ struct mirror_side {
     double sign; /* 1; -1 for the component of a vector along the axis, which the mirror turns round */
 };
 
-/* Calls `visit` once for each cell of the snapshot, with its size (the product of its widths), its value and that of its
- * image across `axis` (0, 1, 2); where the mesh itself is not symmetric the image is infinite. */
+/* Calls `visit` once for each cell of the snapshot, with its size (the product of its widths), its value and that of
+ * its image across `axis` (0, 1, 2); where the mesh itself is not symmetric the image is infinite. */
 void mirror_visit(const struct mirror_side *side, int axis,
                   void (*visit)(void *data, double size, double value, double image), void *data);
 

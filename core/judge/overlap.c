@@ -1,4 +1,5 @@
-/* overlap.c - see overlap.h. Cells are found by their place on the lattice of their own width, through a table of slots. */
+/* overlap.c - see overlap.h. Cells are found by their place on the lattice of their own width, through a table of
+ * slots. */
 #include "judge/overlap.h"
 
 #include "base/mem.h"
@@ -64,8 +65,8 @@ static void overlap_fill(struct overlap_table *table)
     }
 }
 
-/* The cell of the table's snapshot that holds a cell of the other one, at least `coarser` levels above; false: its cells
- * are finer there. */
+/* The cell of the table's snapshot that holds a cell of the other one, at least `coarser` levels above; false: its
+ * cells are finer there. */
 static bool overlap_find(const struct overlap_table *table, const struct snapshot *other, size_t cell, int coarser,
                          size_t *ret_cell)
 {

@@ -14,9 +14,9 @@ struct overlap_side {
     unsigned stride;
 };
 
-/* Calls `visit` once for each of these cells, which fill the domain, with their size (the product of the widths) and the
- * value of one side and of the other there; which side is which changes from cell to cell. STATUS_CASE: the cells of
- * the two cannot be halves of each other. */
+/* Calls `visit` once for each of these cells, which fill the domain, with their size (the product of the widths) and
+ * the value of one side and of the other there; which side is which changes from cell to cell. STATUS_CASE: the cells
+ * of the two cannot be halves of each other. */
 int overlap_visit(const struct overlap_side *a, const struct overlap_side *b,
                   void (*visit)(void *data, double size, double one, double other), void *data);
 

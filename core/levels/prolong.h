@@ -5,8 +5,8 @@
  * docs/decisions). Between the beginning and the end of the coarse step they are linear in time.
  * New tiles must be conservative: central slopes of the conserved fields about the centroid of the volume, times one
  * factor phi in [0, 1] per coarse cell for all fields, so that every field, every rho_l and p stay
- * within the range of the coarse cell and its face neighbours, and every child is admissible (levels/prolong_cell.h). phi
- * is common to all fields because only then linear relations (sum alpha = 1, rho E at uniform p and u) survive.
+ * within the range of the coarse cell and its face neighbours, and every child is admissible (levels/prolong_cell.h).
+ * phi is common to all fields because only then linear relations (sum alpha = 1, rho E at uniform p and u) survive.
  * Both interpolate the components of the stretch and make them a stretch again (elastic_settle); masses, momentum and
  * energy of children stay what they are, so that their pressure takes up what elastic energy is not linear.
  *

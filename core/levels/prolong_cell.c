@@ -3,8 +3,8 @@
  * Ranges are widened by what is noise: round-off on the scale of rho c and rho c^2 (in a stiff liquid p is a small
  * difference of large numbers), fractions that do not matter, and for p the energy of motion and of strain between the
  * children, which a conservative interpolation of momentum and energy takes from p: without it a shear flow or a bent
- * solid at uniform p would get no slopes. A fraction or partial density never falls below half its least neighbour, so that
- * absent stays absent. */
+ * solid at uniform p would get no slopes. A fraction or partial density never falls below half its least neighbour, so
+ * that absent stays absent. */
 #include "levels/prolong_cell.h"
 
 #include "phys/bearing.h"

@@ -27,7 +27,8 @@ struct prolong_children {
 };
 
 /* The children of the coarse cell at offset `at`, whose conserved fields are mean[n_field] (their mean).
- * give[axis][side] times the difference of the two neighbours along the axis is what a child gets of it. Returns phi. */
+ * give[axis][side] times the difference of the two neighbours along the axis is what a child gets of it. Returns
+ * phi. */
 double prolong_cell_children(const struct prolong_cells *source, size_t at, const double *mean, const double give[3][2],
                              struct prolong_children *ret);
 

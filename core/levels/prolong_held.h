@@ -1,7 +1,7 @@
 /* prolong_held.h - ghosts of pressure where forces act: what a coarse cell's own weight makes of pressure within it.
  *
- * Of the differences to its neighbours along an axis, F = (G_i + G_k)/2 is held by forces (scheme/source_weight.h), with
- * G = rho a H in each of the cells; the children get a quarter of the limited slope of what is left, and of the
+ * Of the differences to its neighbours along an axis, F = (G_i + G_k)/2 is held by forces (scheme/source_weight.h),
+ * with G = rho a H in each of the cells; the children get a quarter of the limited slope of what is left, and of the
  * cell's own G. So layers that lie on each other at rest, each of one density, have the pressures that they have on the
  * finer level, next to their interface, too: where minmod would take the slope of the lighter or the mean one. */
 #ifndef PROLONG_HELD_H
@@ -19,8 +19,8 @@ struct prolong_held;
 struct prolong_held *prolong_held_new(const struct model *model, const struct mesh *mesh, size_t cells);
 void prolong_held_free(struct prolong_held *held);
 
-/* G of the block w of a tile of a coarse level, for all its cells from[d] - 1 <= i < to[d] + 1; stride and origin: where
- * they lie in the block. */
+/* G of the block w of a tile of a coarse level, for all its cells from[d] - 1 <= i < to[d] + 1; stride and origin:
+ * where they lie in the block. */
 struct prolong_held_block {
     const struct level *level;
     const struct tile *tile;

@@ -55,8 +55,8 @@ bool reflux_concerns(const struct reflux *reflux, unsigned local)
     return reflux_sources(reflux, local) > 0;
 }
 
-/* A face velocity after u*: along the face, as the cell below (`left`) or above it sees it. Where nobody feels shear the
- * sides slip. */
+/* A face velocity after u*: along the face, as the cell below (`left`) or above it sees it. Where nobody feels shear
+ * the sides slip. */
 static const double *reflux_slide(const struct model *used, const struct face_work *work, unsigned tangent, bool left)
 {
     if (used->n_stretch) return (left ? work->slide_left : work->slide_right) + tangent * FACE_ROOM;
@@ -64,8 +64,8 @@ static const double *reflux_slide(const struct model *used, const struct face_wo
 }
 
 /* Flux of register component q in a solved row; NULL: no such flux, where the material is absent. What a narrowed path
- * leaves out is as the whole one would find it: a material alone fills the faces, without a solid no stretch is carried.
- * left: the coarse cell lies below. */
+ * leaves out is as the whole one would find it: a material alone fills the faces, without a solid no stretch is
+ * carried. left: the coarse cell lies below. */
 static const double *reflux_row(const struct model *model, const struct terms *terms, int axis, unsigned q, bool left)
 {
     const struct model *used = terms->model;
@@ -247,7 +247,8 @@ static bool reflux_knows(const struct model *used, unsigned q)
     return false;
 }
 
-/* Value q of what is kept of a cell: alpha + K, with K where the path knows of it, then the stretches and m_s of each. */
+/* Value q of what is kept of a cell: alpha + K, with K where the path knows of it, then the stretches and m_s of
+ * each. */
 static double reflux_kept(const struct reflux *reflux, const struct model *used, unsigned q, const double *w,
                           const double *K, size_t cell)
 {
@@ -315,8 +316,8 @@ static double reflux_difference(const struct reflux_value *value, unsigned q)
 /* Share of the solid in a cell that refluxing may exchange with its stretch. */
 #define REFLUX_MOST 0.5
 
-/* V* F as a change of stretch k: per mass of the solid that the cell has; a cell that has hardly any keeps its V. ret_arrived: the
- * mass that comes, as a share of it; or NULL. */
+/* V* F as a change of stretch k: per mass of the solid that the cell has; a cell that has hardly any keeps its V.
+ * ret_arrived: the mass that comes, as a share of it; or NULL. */
 static void reflux_by_mass(const struct reflux *reflux, const struct reflux_value *value, unsigned k, double *change,
                            double *ret_arrived)
 {

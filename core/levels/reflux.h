@@ -1,19 +1,19 @@
 /* reflux.h - coarse and fine fluxes made one: what the coarse cell at a coarse-fine face gets after the fine level
  * has caught up (Berger & Colella 1989; model.md 7, amr.md 3.6).
  *
- * Rows of fluxes whose rates are evolved fields (term.h) are refluxed, whatever term they belong to, and with them the half
- * of a force at the face that acts on the coarse cell: where the pressures at the face balance it on each level, they do
- * so after the exchange. Of the fluxes of the
- * stages, with their weights in the step (solve/tableau.h), a level keeps those through its coarse-fine faces: as the finer side, their means over sub-faces; as the coarser side, its own. With
- * delta = (sum over fine steps of dt F_fine) - dt F_coarse and the cell on the lower side of the face,
+ * Rows of fluxes whose rates are evolved fields (term.h) are refluxed, whatever term they belong to, and with them the
+ * half of a force at the face that acts on the coarse cell: where the pressures at the face balance it on each level,
+ * they do so after the exchange. Of the fluxes of the stages, with their weights in the step (solve/tableau.h), a level
+ * keeps those through its coarse-fine faces: as the finer side, their means over sub-faces; as the coarser side, its
+ * own. With delta = (sum over fine steps of dt F_fine) - dt F_coarse and the cell on the lower side of the face,
  *     conserved fields:  d q = -(A/V) delta(F)
  *     fractions:         d alpha = -(A/V) [delta(alpha* u*) - (alpha + K) delta(u*)],
  *     stretch:           d V = -(A/V)/m_s [delta(V* F) - V delta(F)] + what dL = delta(u) n/h stretches V by
  *                        (F, m_s: mass flux and partial density of all solids together)
  *                              (elastic_correct),
- * alpha + K and V those of the coarse cell, weighted likewise (the midpoint's): without the second terms a uniform alpha or V would be asked
- * to drift. Registers hold, beside all fluxes, u* and in scenes with a solid the face's other velocity components, as
- * the coarse cell sees them where the sides slip. `plain`: the first terms alone. */
+ * alpha + K and V those of the coarse cell, weighted likewise (the midpoint's): without the second terms a uniform
+ * alpha or V would be asked to drift. Registers hold, beside all fluxes, u* and in scenes with a solid the face's other
+ * velocity components, as the coarse cell sees them where the sides slip. `plain`: the first terms alone. */
 #ifndef REFLUX_H
 #define REFLUX_H
 
@@ -28,12 +28,11 @@ struct reflux {
     const struct level *level;
     struct link *down, *up; /* to the coarser and from the finer level, or NULL */
     double *fine;           /* [down->n_face][n_register][face_cells] of the step under way */
-    double
-        *coarse; /* [up->n_source][n_register + n_alpha + n_stretched + stretches][face_cells]: fluxes, then alpha + K,
-                               V and m_s (both with a solid), of the cell */
-    double *plane; /* scratch: both fine faces of an axis, [2][n_register][n^(d-1)], then one mean */
-    double weight; /* of the stage under way */
-    bool fresh;    /* it is the first one that counts */
+    double *coarse; /* [up->n_source][n_register + n_alpha + n_stretched + stretches][face_cells]: fluxes, then alpha +
+                       K, V and m_s (both with a solid), of the cell */
+    double *plane;  /* scratch: both fine faces of an axis, [2][n_register][n^(d-1)], then one mean */
+    double weight;  /* of the stage under way */
+    bool fresh;     /* it is the first one that counts */
 };
 
 struct reflux *reflux_new(const struct model *model, const struct mesh *mesh, int l);
@@ -65,7 +64,8 @@ void reflux_clear(struct reflux *reflux);
  * delta[n_field][n_cell], zeroed here. */
 void reflux_delta(const struct reflux *reflux, unsigned local, double dt, double *delta);
 
-/* The part of it that one value `index` of the registers of a source asks for: ret_change[n_field]; metric: of the tile. */
+/* The part of it that one value `index` of the registers of a source asks for: ret_change[n_field]; metric: of the
+ * tile. */
 void reflux_source(const struct reflux *reflux, unsigned s, size_t index, const struct metric *metric, double dt,
                    double *ret_change);
 

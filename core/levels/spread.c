@@ -31,8 +31,8 @@ double spread_volume(const struct spread *spread, size_t cell)
     return spread->mesh->beta ? spread->metric->volume[cell % (size_t)spread->mesh->n[0]] : 1.0;
 }
 
-/* Largest part of factor * change that leaves fractions in [0, 1] and masses, energy and strains positive, at most 1; of
- * the first n fields where the pressure has a say. */
+/* Largest part of factor * change that leaves fractions in [0, 1] and masses, energy and strains positive, at most 1;
+ * of the first n fields where the pressure has a say. */
 static double spread_room(const struct spread *spread, size_t cell, const double *change, double factor, unsigned n,
                           const double *delta)
 {
@@ -182,8 +182,8 @@ bool spread_change(const struct spread *spread, double *delta, double *rest)
     return any;
 }
 
-/* Gives an amount of field q to all leaves in proportion to the partial densities from .. from + many: with one, what is
- * there of a material shrinks or grows by one factor. False: there is too little. */
+/* Gives an amount of field q to all leaves in proportion to the partial densities from .. from + many: with one, what
+ * is there of a material shrinks or grows by one factor. False: there is too little. */
 static bool spread_scale(const struct spread *spread, unsigned q, unsigned from, unsigned many, double amount,
                          double *weight, double *delta)
 {

@@ -13,8 +13,8 @@ struct box {
     int from[3], to[3];
 };
 
-/* Fields over a box of cells, x fastest; field q at data + q * pitch, or, of a block with others between them, at data +
- * fields[q] * pitch. */
+/* Fields over a box of cells, x fastest; field q at data + q * pitch, or, of a block with others between them, at data
+ * + fields[q] * pitch. */
 struct box_block {
     double *data;
     int from[3];

@@ -1,5 +1,5 @@
-/* carry.c - see carry.h. Lists follow the curve, and the key of a parent is that of its child without the last digit: born
- * tiles of one parent follow each other and ask once. */
+/* carry.c - see carry.h. Lists follow the curve, and the key of a parent is that of its child without the last digit:
+ * born tiles of one parent follow each other and ask once. */
 #include "mesh/carry.h"
 
 #include "base/mem.h"

@@ -1,6 +1,6 @@
-/* carry.h - one number per tile, carried from levels to new sets of their tiles: those that were there keep theirs, born
- * ones get that of the finest tile below them that was there. Every rank has the numbers of its own pieces and asks the
- * others for what is below, of all levels at once. */
+/* carry.h - one number per tile, carried from levels to new sets of their tiles: those that were there keep theirs,
+ * born ones get that of the finest tile below them that was there. Every rank has the numbers of its own pieces and
+ * asks the others for what is below, of all levels at once. */
 #ifndef CARRY_H
 #define CARRY_H
 

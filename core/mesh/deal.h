@@ -1,5 +1,5 @@
-/* deal.h - who gets which tiles of the levels that are made anew: all ranks tell rank 0 what their pieces cost, in runs of
- * equal cost, it cuts all levels and tells where. Nobody else holds costs of others. */
+/* deal.h - who gets which tiles of the levels that are made anew: all ranks tell rank 0 what their pieces cost, in runs
+ * of equal cost, it cuts all levels and tells where. Nobody else holds costs of others. */
 #ifndef DEAL_H
 #define DEAL_H
 
@@ -22,7 +22,8 @@ struct deal {
     bool root;             /* level 0 is to have other owners, too: those it has share the work badly */
 };
 
-/* Adds this rank's tiles of a level, levels ascending (every rank adds the same levels); cost[n]: 1 is a tile of one material. */
+/* Adds this rank's tiles of a level, levels ascending (every rank adds the same levels); cost[n]: 1 is a tile of one
+ * material. */
 void deal_add(struct deal *deal, int l, const double *cost, unsigned n);
 
 /* Cuts. Collective. */

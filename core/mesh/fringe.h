@@ -33,8 +33,8 @@ void fringe_free(struct fringe *fringe);
 struct swap;
 struct tile *fringe_merge(const struct level *level, int l, int rank, const struct swap *got, unsigned *ret_n);
 
-/* Makes the lists of the levels `lowest` to `highest` anew: own tiles (now tiles[first .. first + n_local), whatever else
- * the lists hold), and what others send. `covered` and `hidden` are not set. Collective. */
+/* Makes the lists of the levels `lowest` to `highest` anew: own tiles (now tiles[first .. first + n_local), whatever
+ * else the lists hold), and what others send. `covered` and `hidden` are not set. Collective. */
 void fringe_learn(struct mesh *mesh, int lowest, int highest);
 
 #endif

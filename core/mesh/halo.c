@@ -39,7 +39,8 @@ static struct post_item halo_item(const struct halo *halo, const struct level *l
     return (struct post_item){.rank = level->tiles[send->to].rank, .doubles = halo->n_field * cells};
 }
 
-/* What this rank sends, in the order of its own tiles and faces: that in which it receives, as adjacency is symmetric. */
+/* What this rank sends, in the order of its own tiles and faces: that in which it receives, as adjacency is
+ * symmetric. */
 static void halo_list(struct halo *halo, const struct level *level)
 {
     const struct mesh *mesh = halo->mesh;

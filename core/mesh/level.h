@@ -1,5 +1,5 @@
-/* level.h - what follows from the list of tiles of a level that a rank knows: who finds a tile, who neighbours whom, what
- * finer tiles cover. Nothing here is collective. Used by core/mesh alone. */
+/* level.h - what follows from the list of tiles of a level that a rank knows: who finds a tile, who neighbours whom,
+ * what finer tiles cover. Nothing here is collective. Used by core/mesh alone. */
 #ifndef LEVEL_H
 #define LEVEL_H
 

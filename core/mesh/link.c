@@ -40,8 +40,8 @@ static void link_patch(const struct mesh *mesh, int octant, struct link_face *fa
     face->from[axis] = face->layer + 1 - link_depth(mesh);
 }
 
-/* Lists of known tiles change with other levels than those of a link: what it keeps is counted from the first local tile
- * on. */
+/* Lists of known tiles change with other levels than those of a link: what it keeps is counted from the first local
+ * tile on. */
 static unsigned link_local(const struct level *level, int tile)
 {
     return (unsigned)tile - level->first;

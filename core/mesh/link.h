@@ -2,10 +2,10 @@
  *
  * Down: for every face of a fine tile that no fine tile covers, a strip of fine ghost primitives,
  * [n_field][outer][layers][inner] like a slab of the halo, at the beginning and at the end of a step of the
- * coarse level. Its layers are those of whole coarse cells: as many as the mesh's ghosts, or one more. The owner of the coarse tile behind the face makes it (levels/prolong.h), so that only finished
- * ghosts travel. A face looks at exactly one octant of one coarse tile.
- * Up: per such face the sum over fine steps and sub-faces of the fluxes (the register), and per fine tile its
- * average on the octant above. Where both tiles are on one rank the two ends share memory. */
+ * coarse level. Its layers are those of whole coarse cells: as many as the mesh's ghosts, or one more. The owner of the
+ * coarse tile behind the face makes it (levels/prolong.h), so that only finished ghosts travel. A face looks at exactly
+ * one octant of one coarse tile. Up: per such face the sum over fine steps and sub-faces of the fluxes (the register),
+ * and per fine tile its average on the octant above. Where both tiles are on one rank the two ends share memory. */
 #ifndef LINK_H
 #define LINK_H
 

@@ -2,9 +2,9 @@
  * follows from a list of tiles is made in level.c, halo.c and link.c, blocks are moved in move.c.
  *
  * Main invariant: tiles are sorted by key, and every rank knows all tiles that anything of its own touches
- * (mesh/fringe.h), so that who owns these, and what must be exchanged with whom, follows on both ranks from the same data
- * without a message. Storage is three arrays per tile (u_old, u_new, w), component-major and without
- * ghosts: measured cheaper than stored ghost frames (docs/decisions). */
+ * (mesh/fringe.h), so that who owns these, and what must be exchanged with whom, follows on both ranks from the same
+ * data without a message. Storage is three arrays per tile (u_old, u_new, w), component-major and without ghosts:
+ * measured cheaper than stored ghost frames (docs/decisions). */
 #include "mesh/mesh.h"
 
 #include "base/comm.h"

@@ -119,11 +119,11 @@ struct mesh_change {
 };
 
 /* Gives the levels `lowest` to `highest` the sets sets[l] (taken over; levels that are not there yet follow those that
- * are). Tiles that stay on a rank keep their blocks, tiles that move bring u_old, w and kept along, born ones get blocks
- * for the caller to fill. Levels without tiles go; none may be left above them. Neighbours, halo and links of these
- * levels, the link of the next finer one, and flags of all and of the next coarser one are made anew; a link is NULL as
- * long as its level does not nest (then that one must be replaced next). Level 0 may be given its own tiles with other
- * ranks. Collective; ret_changes[l] are freed by mesh_change_free. */
+ * are). Tiles that stay on a rank keep their blocks, tiles that move bring u_old, w and kept along, born ones get
+ * blocks for the caller to fill. Levels without tiles go; none may be left above them. Neighbours, halo and links of
+ * these levels, the link of the next finer one, and flags of all and of the next coarser one are made anew; a link is
+ * NULL as long as its level does not nest (then that one must be replaced next). Level 0 may be given its own tiles
+ * with other ranks. Collective; ret_changes[l] are freed by mesh_change_free. */
 void mesh_replace(struct mesh *mesh, int lowest, int highest, struct mesh_set *sets, struct mesh_change *ret_changes);
 void mesh_change_free(struct mesh_change *change);
 

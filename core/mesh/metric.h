@@ -20,12 +20,13 @@ struct metric {
     double centre[METRIC_CELLS]; /* middle of the cell along axis 0 */
 };
 
-/* Of n <= METRIC_CELLS cells of a level, from number `first` on along axis 0; those before 0 lie behind the axis or a wall. */
+/* Of n <= METRIC_CELLS cells of a level, from number `first` on along axis 0; those before 0 lie behind the axis or a
+ * wall. */
 void metric_of_cells(const struct mesh *mesh, const struct level *level, int first, int n, struct metric *ret);
 void metric_of_tile(const struct mesh *mesh, const struct level *level, const struct tile *tile, struct metric *ret);
 
-/* Where cell values stand along axis 0: ret[i + 1] of cell i from -1 to n, the middles of the volumes (the mean of r with
- * the weight r^beta; cells behind a boundary mirror those inside). ret has METRIC_CELLS + 2 places. */
+/* Where cell values stand along axis 0: ret[i + 1] of cell i from -1 to n, the middles of the volumes (the mean of r
+ * with the weight r^beta; cells behind a boundary mirror those inside). ret has METRIC_CELLS + 2 places. */
 void metric_centroids(const struct mesh *mesh, const struct level *level, const struct tile *tile, double *ret);
 
 /* The same of a cell between two radii. */

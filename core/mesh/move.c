@@ -1,5 +1,5 @@
-/* move.c - see move.h. The set says where each tile of this rank comes from, and where each that was here goes; the items of
- * a message are in the order of the keys. */
+/* move.c - see move.h. The set says where each tile of this rank comes from, and where each that was here goes; the
+ * items of a message are in the order of the keys. */
 #include "mesh/move.h"
 
 #include "base/comm.h"

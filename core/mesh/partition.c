@@ -216,8 +216,8 @@ static bool partition_is_less(struct partition_rank a, struct partition_rank b)
     return a.load != b.load ? a.load < b.load : a.rank < b.rank;
 }
 
-/* Brings the n least of `size` ranks to the front (Hoare 1961, Commun. ACM 4, 321): sorting all of them would take most of
- * the time of a cut on many ranks. */
+/* Brings the n least of `size` ranks to the front (Hoare 1961, Commun. ACM 4, 321): sorting all of them would take most
+ * of the time of a cut on many ranks. */
 static void partition_select(struct partition_rank *ranks, int size, int n)
 {
     for (int low = 0, high = size - 1; low < high;) {

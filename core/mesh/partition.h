@@ -31,12 +31,12 @@ void partition_add(struct partition_runs *runs, uint32_t n, uint32_t cost);
 void partition_free(struct partition_runs *runs);
 
 /* Cuts a level for `size` ranks, so that the largest load is the least that contiguous pieces can have: rank r gets the
- * tiles ret_first[r] .. ret_first[r + 1] - 1 (ret_first[size + 1]). load[size]: work per coarse step that the ranks have
- * so far, `weight` * cost is added. */
+ * tiles ret_first[r] .. ret_first[r + 1] - 1 (ret_first[size + 1]). load[size]: work per coarse step that the ranks
+ * have so far, `weight` * cost is added. */
 void partition_cut(const struct partition_runs *runs, int size, uint64_t weight, uint64_t *load, uint32_t *ret_first);
 
-/* Largest over mean of the loads that a level gives the ranks, less 1. The mean is over as many ranks as can have one of
- * its n tiles: 0 is reached with fewer tiles than ranks, too. */
+/* Largest over mean of the loads that a level gives the ranks, less 1. The mean is over as many ranks as can have one
+ * of its n tiles: 0 is reached with fewer tiles than ranks, too. */
 double partition_imbalance(const uint64_t *load, uint32_t n, int size);
 
 #endif

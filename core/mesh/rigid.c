@@ -1,5 +1,6 @@
-/* rigid.c - see rigid.h. Where bodies rest, the parts around a tile are made once and kept; where one moves, they are made for each
- * stage. Both are functions of the place and the times alone, so that ranks and restarts change nothing. */
+/* rigid.c - see rigid.h. Where bodies rest, the parts around a tile are made once and kept; where one moves, they are
+ * made for each stage. Both are functions of the place and the times alone, so that ranks and restarts change
+ * nothing. */
 #include "mesh/rigid.h"
 
 #include "base/mem.h"
@@ -225,8 +226,8 @@ static double rigid_way(const struct rigid_make *make, unsigned body, const stru
     return most;
 }
 
-/* The open part of a face that bodies move across: of the box that the face goes through as the body in the middle of its way
- * sees it. */
+/* The open part of a face that bodies move across: of the box that the face goes through as the body in the middle of
+ * its way sees it. */
 static double rigid_swept(const struct rigid_make *make, int d, const struct rigid_part_box *face, double way)
 {
     struct rigid_part_box box = *face;

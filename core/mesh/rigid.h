@@ -1,11 +1,11 @@
 /* rigid.h - what rigid bodies leave of the cells and faces around a tile to fluids.
  *
- * A cell has a part of its volume, theta, and each of its faces a part of its area, a. What closes the rest of a cell is the
- * wall: the vector sum of its faces,
- *     W_d = (a_d- - a_d+)/h_d [area over the cell's whole volume, 1/m], into the body,
- * so that a uniform pressure pushes nobody, whatever the shape (Pember et al. 1995, J. Comput. Phys. 120, 278). theta is the exact
- * fraction of shape.h; a is found on lines in the face. Bodies that move have parts in the middle of a step: theta is the mean
- * of its two ends, a that of the face's way through the body. Slivers below RIGID_LEAST are closed. */
+ * A cell has a part of its volume, theta, and each of its faces a part of its area, a. What closes the rest of a cell
+ * is the wall: the vector sum of its faces, W_d = (a_d- - a_d+)/h_d [area over the cell's whole volume, 1/m], into the
+ * body, so that a uniform pressure pushes nobody, whatever the shape (Pember et al. 1995, J. Comput. Phys. 120, 278).
+ * theta is the exact fraction of shape.h; a is found on lines in the face. Bodies that move have parts in the middle of
+ * a step: theta is the mean of its two ends, a that of the face's way through the body. Slivers below RIGID_LEAST are
+ * closed. */
 #ifndef RIGID_H
 #define RIGID_H
 
@@ -16,7 +16,8 @@
 
 #define RIGID_LEAST 1e-6
 
-/* Around a tile: its cells and `pad` layers on all sides that exist, x fastest. Cells outside of the domain are open. */
+/* Around a tile: its cells and `pad` layers on all sides that exist, x fastest. Cells outside of the domain are
+ * open. */
 struct rigid_cells {
     bool any; /* some cell is cut or covered; else nothing below means anything */
     int pad;
@@ -61,8 +62,8 @@ bool rigid_is_wall(const struct rigid_cells *cells, const struct mesh *mesh, siz
 /* Multiplies theta at a time into a value per cell of the tile. Does nothing without bodies. */
 void rigid_weigh(const struct mesh *mesh, const struct level *level, const struct tile *tile, double t, double *value);
 
-/* What bodies at a time add to the signals of a level [1/s]: the fastest point of them over each side of a cell. 0 without
- * bodies that move. */
+/* What bodies at a time add to the signals of a level [1/s]: the fastest point of them over each side of a cell. 0
+ * without bodies that move. */
 double rigid_pace(const struct mesh *mesh, const struct level *level, double t);
 
 /* First failure of a script that says where a body is, or STATUS_OK; its message. */

@@ -1,7 +1,7 @@
 /* rigid_part.c - see rigid_part.h.
  *
- * Volumes are those of shape.h. A face in 2D is a line, in 3D some lines side by side: where the least level of all bodies changes
- * its sign along a line is found by regula falsi (Illinois; Dowell & Jarratt 1971, BIT 11, 168). */
+ * Volumes are those of shape.h. A face in 2D is a line, in 3D some lines side by side: where the least level of all
+ * bodies changes its sign along a line is found by regula falsi (Illinois; Dowell & Jarratt 1971, BIT 11, 168). */
 #include "mesh/rigid_part.h"
 
 #include <math.h>

@@ -110,7 +110,8 @@ static void paint_normal(const struct paint *paint, size_t index, double ret_n[3
     for (int d = 0; d < 3 && square > 0.0; d++) ret_n[d] /= sqrt(square);
 }
 
-/* Where a layer cuts a cell that has a state: what the two do to each other at once. `below`: the cell before the layer. */
+/* Where a layer cuts a cell that has a state: what the two do to each other at once. `below`: the cell before the
+ * layer. */
 static void paint_meet(struct paint *paint, size_t cell, const double *below, const double *layer)
 {
     const struct model *model = paint->model;

@@ -43,7 +43,8 @@ static void paint_contact_look(const struct model *model, const double *u, const
     body->stiffness = rho * c2;
 }
 
-/* Do the bodies mostly consist of different materials? A jump within one is a wave: its mean is a state of that material. */
+/* Do the bodies mostly consist of different materials? A jump within one is a wave: its mean is a state of that
+ * material. */
 static bool paint_contact_differs(const struct model *model, const double *a, const double *b)
 {
     double difference = 0.0;

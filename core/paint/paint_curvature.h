@@ -1,7 +1,7 @@
 /* paint_curvature.h - curvatures of interfaces in cells of one dimension, for surface tension (scheme/tension.h).
  *
- * kappa = -div n of the unit normal n along r that points to where the inside material is: +-(A+ - A-)/V, positive where
- * it lies nearer to the centre or the axis, 0 where its fraction is the same on both sides. */
+ * kappa = -div n of the unit normal n along r that points to where the inside material is: +-(A+ - A-)/V, positive
+ * where it lies nearer to the centre or the axis, 0 where its fraction is the same on both sides. */
 #ifndef PAINT_CURVATURE_H
 #define PAINT_CURVATURE_H
 

@@ -15,8 +15,8 @@ struct paint_star {
     double p, u; /* u along the normal from the first body to the second */
 };
 
-/* w_a, w_b: primitives of the bodies, stride 1; u_a, u_b: their velocities along the normal; near: where p* is looked for
- * first [Pa]. False: no p* is found that both bear. */
+/* w_a, w_b: primitives of the bodies, stride 1; u_a, u_b: their velocities along the normal; near: where p* is looked
+ * for first [Pa]. False: no p* is found that both bear. */
 bool paint_star_find(const struct model *model, const double *w_a, const double *w_b, double u_a, double u_b,
                      double near, struct paint_star *ret_star);
 

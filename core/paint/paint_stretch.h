@@ -12,7 +12,8 @@ double paint_stretch_det(const double V[6]);
 /* Divides V by the cube root of its determinant, which is above 0. */
 void paint_stretch_unimodular(const struct model *model, double V[6]);
 
-/* Volume fraction of solid s of the model in a state whose fields are `stride` apart, conserved or primitive; 1 without fractions. */
+/* Volume fraction of solid s of the model in a state whose fields are `stride` apart, conserved or primitive; 1 without
+ * fractions. */
 double paint_stretch_share(const struct model *model, unsigned s, const double *state, size_t stride);
 
 /* Lays a state over fraction f of a cell: V of each solid becomes the mean over that of both, the identity without. Of

@@ -1,8 +1,8 @@
 /* bearing.h - what of a solid still bears: (1 - D)^2 of its mass, D its damage.
  *
  * The elastic energy of a damaged solid is (1 - D)^2 m e^s, and so its stress and what elasticity adds to the speeds of
- * waves are (1 - D)^2 of what they were. All of elastic.h is linear in the masses that it is given, so this is one factor of the
- * mass. A path without damage keeps the masses as they are. */
+ * waves are (1 - D)^2 of what they were. All of elastic.h is linear in the masses that it is given, so this is one
+ * factor of the mass. A path without damage keeps the masses as they are. */
 #ifndef BEARING_H
 #define BEARING_H
 

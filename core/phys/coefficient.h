@@ -6,9 +6,9 @@
 
 enum { COEFFICIENT_BATCH = 256 };
 
-/* Between these temperatures laws are asked [K]. Beside a liquid in tension a gas has none above 0, and a trace of gas in an
- * interface may have any: heated by its own viscosity it would, with a law that grows with T, become hotter and more
- * viscous still. */
+/* Between these temperatures laws are asked [K]. Beside a liquid in tension a gas has none above 0, and a trace of gas
+ * in an interface may have any: heated by its own viscosity it would, with a law that grows with T, become hotter and
+ * more viscous still. */
 #define COEFFICIENT_COLDEST 1.0
 #define COEFFICIENT_HOTTEST 1e4
 

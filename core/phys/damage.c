@@ -1,5 +1,5 @@
-/* damage.c - see damage.h. Laws are asked of the undamaged material: its stress and energy are those of the solid's whole
- * mass, per its own volume. */
+/* damage.c - see damage.h. Laws are asked of the undamaged material: its stress and energy are those of the solid's
+ * whole mass, per its own volume. */
 #include "phys/damage.h"
 
 #include "phys/bearing.h"
@@ -43,8 +43,8 @@ static struct elastic_tensor damage_tensor(const struct model *model, const doub
     return (struct elastic_tensor){c[0], c[1], c[2], c[3], c[4], c[5]};
 }
 
-/* Stress and energy of the whole solid s alone, per its own volume. V: the stretches, m: rows of masses of which all but
- * this one are 0. */
+/* Stress and energy of the whole solid s alone, per its own volume. V: the stretches, m: rows of masses of which all
+ * but this one are 0. */
 static void damage_stress(const struct model *model, unsigned needs, size_t n, const double *V, const double *const *m,
                           double (*ret)[DAMAGE_BATCH])
 {

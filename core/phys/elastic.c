@@ -256,7 +256,8 @@ static ELASTIC_BODY struct elastic_face elastic_plain(struct elastic_tensor V, d
 
 /* Any law. A strain a (x) n changes B by a b' + b a' - (2/3)(a.n) B with b = B n, C = B^2 by the product rule, the
  * invariants with them, densities by -(a.n); what the traction on n changes by along a' is rho A_aa'. Tensors in
- * the frame of the face. A bound of the tangential block (its larger diagonal entry plus the other one) stands for d. */
+ * the frame of the face. A bound of the tangential block (its larger diagonal entry plus the other one) stands for
+ * d. */
 static ELASTIC_BODY struct elastic_face elastic_general(struct elastic_tensor V, struct elastic_slopes g, double fluid)
 {
     struct elastic_tensor B = elastic_tensor_square(V), C = elastic_tensor_square(B);
@@ -351,8 +352,8 @@ static void elastic_sides_of(const struct model *model, unsigned k, int axis, si
     else ELASTIC_CHOOSE(model->n_velocity, elastic_general, n, rows, batch, stiffness, *out);
 }
 
-/* What the stretches behind the first one add to a row of faces. The stiffness along the normal adds up to first order in
- * what couples it to the tangents, which is squared in it; all else is exact. */
+/* What the stretches behind the first one add to a row of faces. The stiffness along the normal adds up to first order
+ * in what couples it to the tangents, which is squared in it; all else is exact. */
 static void elastic_sides_add(const struct model *model, int axis, size_t n, size_t stride, const double *V,
                               size_t from, const double *const *m, const double *stiffness,
                               const struct elastic_out *out, double *energy)
@@ -403,8 +404,8 @@ static BULLA_KERNEL void elastic_speed(size_t n, const double *restrict most, co
     for (size_t i = 0; i < n; i++) c2[i] += most[i] / rho[i];
 }
 
-/* A bound for all directions of plain laws, exact at B = 1: the larger diagonal entry plus the other one of the acoustic
- * tensor, G [larger of 5/9 I1 - 1/3 least B_nn and largest B_nn, + 2/3 sum |B_nt|]. */
+/* A bound for all directions of plain laws, exact at B = 1: the larger diagonal entry plus the other one of the
+ * acoustic tensor, G [larger of 5/9 I1 - 1/3 least B_nn and largest B_nn, + 2/3 sum |B_nt|]. */
 #define ELASTIC_BOUND(nv)                                                                                           \
     static BULLA_KERNEL void elastic_bound_##nv(size_t n, struct elastic_rows V, const struct elastic_batch *batch, \
                                                 double *restrict most)                                              \

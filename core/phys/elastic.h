@@ -5,8 +5,8 @@
  * densities alpha_l rho_l of the solids of the model. Batches of any length. A fluid has m = 0, hence no elastic part
  * at all, bitwise.
  *
- * Every solid has a stretch of its own, and so has every Maxwell branch (model_stretch()): V is where the fields of stretches
- * begin, and energy, stress and speeds add up. */
+ * Every solid has a stretch of its own, and so has every Maxwell branch (model_stretch()): V is where the fields of
+ * stretches begin, and energy, stress and speeds add up. */
 #ifndef ELASTIC_H
 #define ELASTIC_H
 
@@ -59,7 +59,8 @@ struct elastic_side {
 void elastic_sides(const struct model *model, int axis, size_t n, size_t stride, const double *V,
                    const double *const *m, const double *stiffness, const struct elastic_side *ret);
 
-/* What balances the hoop stress of a cell in curved geometry (model.md 4): -s_thth = p - s'_zz [Pa]; exactly p in a fluid. */
+/* What balances the hoop stress of a cell in curved geometry (model.md 4): -s_thth = p - s'_zz [Pa]; exactly p in a
+ * fluid. */
 void elastic_hoop(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
                   const double *p, double *ret);
 
@@ -69,25 +70,24 @@ void elastic_speed2(const struct model *model, size_t n, size_t stride, const do
                     const double *rho, double *c2);
 
 /* What moves the stretch of n cells in a step dt: `carried`, the block -div(V* F) with F the mass flux of all solids;
- * m_old, m_new: their partial densities together before and after, m_new = m_old - dt div F; `div`, -div u*; `gradient`,
- * [n_velocity * dim] rows of -d_k u*_i at i * dim + k; all with the same stride. */
+ * m_old, m_new: their partial densities together before and after, m_new = m_old - dt div F; `div`, -div u*;
+ * `gradient`, [n_velocity * dim] rows of -d_k u*_i at i * dim + k; all with the same stride. */
 struct elastic_rates {
     const double *carried, *m_old, *m_new, *div, *gradient;
-    const double *squeeze,
-        *slope;     /* in mixtures (else NULL): -(K_s/alpha_s) div u of the solids, and the block [dim] of
-                                      -d_k alpha_s, of which only the direction n matters */
+    const double *squeeze, *slope; /* in mixtures (else NULL): -(K_s/alpha_s) div u of the solids, and the block [dim]
+                                      of -d_k alpha_s, of which only the direction n matters */
     double relaxes; /* relaxation times (flow_relax.h) that the stretch of a branch spends in the middle of the step */
 };
 
 /* V_new from V_old after dt (model.md 2): half of the deformation, the transport, the other half,
- *     V' = W + [-dt div(V* F) - W (m_new - m_old)]/m_new,  W = polar(E V_old),  V_new = polar(E V'),  E = (1 - dt L/4)^-1 (1 + dt L/4),
- * polar(M) = (M M^T)^(1/2). The stretch travels with the mass of the solids, so that what a fluid brings along never mixes
- * into it. In a mixed cell L is the solid's own: L + (K_s/alpha_s) div u n n^T. Along an interface all materials move
- * together, across it each is compressed as its stiffness says (the closure's K), and what the gas gives way by is no
- * strain of the solid: without this the layer next to a bubble would be stretched too little
+ *     V' = W + [-dt div(V* F) - W (m_new - m_old)]/m_new,  W = polar(E V_old),  V_new = polar(E V'),  E = (1 - dt
+ * L/4)^-1 (1 + dt L/4), polar(M) = (M M^T)^(1/2). The stretch travels with the mass of the solids, so that what a fluid
+ * brings along never mixes into it. In a mixed cell L is the solid's own: L + (K_s/alpha_s) div u n n^T. Along an
+ * interface all materials move together, across it each is compressed as its stiffness says (the closure's K), and what
+ * the gas gives way by is no strain of the solid: without this the layer next to a bubble would be stretched too little
  * (docs/decisions/solid-gradient.md). The Cayley form turns a rigid rotation into an exact one. det V = 1 is left to
- * elastic_unimodular, which also stands for the trace of L. V_new and V_old may not overlap. A branch relaxes between the
- * transport and the other half, by rates->relaxes. */
+ * elastic_unimodular, which also stands for the trace of L. V_new and V_old may not overlap. A branch relaxes between
+ * the transport and the other half, by rates->relaxes. */
 void elastic_advance(const struct model *model, size_t n, size_t stride, double dt, const double *V_old,
                      const struct elastic_rates *rates, double *V_new);
 
@@ -110,9 +110,9 @@ static inline size_t elastic_block(const struct model *model, unsigned k, size_t
     return (model_stretch(model, k) - model->i_V) * stride;
 }
 
-/* Bounds the stretch where there is little solid: |V - 1| <= (phi/ELASTIC_FADE)^2, phi = alpha the fraction of all solids;
- * the identity where there is none. Idempotent, so a step more or less does not matter; total energy is not touched, so
- * that the elastic energy lost becomes heat. Call before elastic_unimodular. */
+/* Bounds the stretch where there is little solid: |V - 1| <= (phi/ELASTIC_FADE)^2, phi = alpha the fraction of all
+ * solids; the identity where there is none. Idempotent, so a step more or less does not matter; total energy is not
+ * touched, so that the elastic energy lost becomes heat. Call before elastic_unimodular. */
 void elastic_fade(const struct model *model, size_t n, size_t stride, const double *alpha, double *V);
 
 #define ELASTIC_FADE 1e-4
@@ -121,8 +121,8 @@ void elastic_fade(const struct model *model, size_t n, size_t stride, const doub
  * nothing can be divided. */
 #define ELASTIC_NOTHING 1e-280
 
-/* The stretches of n points whose fields (conserved or primitive) were averaged or interpolated: faded, then det 1. What
- * this would change by round-off alone keeps its bits, so that a uniform stretch stays uniform. */
+/* The stretches of n points whose fields (conserved or primitive) were averaged or interpolated: faded, then det 1.
+ * What this would change by round-off alone keeps its bits, so that a uniform stretch stays uniform. */
 void elastic_settle(const struct model *model, size_t n, size_t stride, double *fields);
 
 /* What refluxing adds to V of one cell at a face normal to `axis`. delta: fine - coarse, sum of dt times face value; s:

@@ -3,9 +3,9 @@
  * d V/dt = L V holds for a deformation gradient, so M = (what the step makes of V) is not symmetric. Only B = M M^T
  * matters (model.md 2): M is turned back to V = M R^T, R the rotation in M, which in a plane is
  *     tan(angle) = (M_yx - M_xy)/(M_xx + M_yy)
- * and in space follows from (tr V 1 - V) phi = axial(M - M^T), repeated as rotations of one step are small. The trace of L
- * is taken off first. det V = 1 would take out what it scales M by, but the transport comes in between, with stretches
- * that it has not scaled: the step would be of first order in time. */
+ * and in space follows from (tr V 1 - V) phi = axial(M - M^T), repeated as rotations of one step are small. The trace
+ * of L is taken off first. det V = 1 would take out what it scales M by, but the transport comes in between, with
+ * stretches that it has not scaled: the step would be of first order in time. */
 #include "phys/elastic.h"
 
 #include "phys/elastic_tensor.h"
@@ -13,11 +13,12 @@
 
 #include <math.h>
 
-/* A step may not shear or stretch by more than this at once: |dt L/4| is cut there (the guard's step sizes are below). */
+/* A step may not shear or stretch by more than this at once: |dt L/4| is cut there (the guard's step sizes are
+ * below). */
 #define MOVE_MOST 0.5
 
-/* A cell that loses solid faster than this in a step keeps its stretch the better: its change is taken per this share of
- * the mass that it had, so that a cell that empties does not blow up what it still has. */
+/* A cell that loses solid faster than this in a step keeps its stretch the better: its change is taken per this share
+ * of the mass that it had, so that a cell that empties does not blow up what it still has. */
 #define MOVE_LEFT 0.5
 
 /* Square of a slope of fractions [1/m2] that counts as none. */
@@ -115,7 +116,8 @@ static ELASTIC_BODY struct elastic_tensor elastic_advance_squeeze(double amount,
                                    per * (x * y), per * (x * z), per * (y * z)};
 }
 
-/* dt L/4 with hoop stretching. G: gradient, negative, without entries of its own where the hoop goes; Q: the squeeze. */
+/* dt L/4 with hoop stretching. G: gradient, negative, without entries of its own where the hoop goes; Q: the
+ * squeeze. */
 static ELASTIC_BODY struct move_matrix elastic_advance_strain(struct move_matrix G, struct elastic_tensor Q, double div,
                                                               double quarter, struct move_hoop to, int nv)
 {
@@ -145,7 +147,8 @@ static ELASTIC_BODY struct elastic_tensor elastic_advance_blend(struct elastic_t
                                    keep * V.xy + come.xy, keep * V.xz + come.xz, keep * V.yz + come.yz};
 }
 
-/* What a kernel takes of a step: all, what comes before its middle, what comes after; the latter two with half of the transport. */
+/* What a kernel takes of a step: all, what comes before its middle, what comes after; the latter two with half of the
+ * transport. */
 enum { MOVE_WHOLE, MOVE_BEGIN, MOVE_END };
 
 /* One point: half of the deformation, the transport, the other half. */
@@ -232,8 +235,9 @@ enum { MOVE_BATCH = 512 };
 
 static const double elastic_advance_zero[MOVE_BATCH];
 
-/* The same with a relaxation in the middle; rows of n <= MOVE_BATCH points. What comes in is of the middle of the step, has
- * relaxed for half of it and has the other half before it: half of it comes in before the relaxation here, half after. */
+/* The same with a relaxation in the middle; rows of n <= MOVE_BATCH points. What comes in is of the middle of the step,
+ * has relaxed for half of it and has the other half before it: half of it comes in before the relaxation here, half
+ * after. */
 static void elastic_advance_relaxing(const struct model *model, size_t n, double dt, struct move_hoop hoop,
                                      double relaxes, const struct move_rows *rows)
 {

@@ -1,10 +1,10 @@
 /* elastic_correct.c - what refluxing adds to the stretch of one coarse cell; see elastic.h.
  *
  * The stretch follows its material as V <- polar((1 + M) V), M what the change of the velocity gradient stretches it by
- * over the step. To first order polar takes a rotation off from the right: dV = M V - V W with the skew W that leaves dV
- * symmetric, V W + W V = M V - (M V)^T, which for the axial vectors is (tr V - V) w = z (Hoger & Carlson 1984, Quart.
- * Appl. Math. 42, 113). The mean of M V and its transpose would be right for V = 1 only: it turns a stretch half as far
- * as its material. */
+ * over the step. To first order polar takes a rotation off from the right: dV = M V - V W with the skew W that leaves
+ * dV symmetric, V W + W V = M V - (M V)^T, which for the axial vectors is (tr V - V) w = z (Hoger & Carlson 1984,
+ * Quart. Appl. Math. 42, 113). The mean of M V and its transpose would be right for V = 1 only: it turns a stretch half
+ * as far as its material. */
 #include "phys/elastic.h"
 
 #include "phys/elastic_tensor.h"
@@ -23,7 +23,8 @@ static void elastic_correct_unpack(const struct model *model, const double *V, c
         }
 }
 
-/* Change of the velocity gradient, its trace taken off. Around the axis or the centre it is what div u has beside it. */
+/* Change of the velocity gradient, its trace taken off. Around the axis or the centre it is what div u has beside
+ * it. */
 static void elastic_correct_gradient(const struct model *model, const struct elastic_correction *in, correct_matrix M)
 {
     memset(M, 0, sizeof(correct_matrix));
@@ -51,7 +52,8 @@ static void elastic_correct_spin(const correct_matrix V, const double z[3], doub
     w[2] = (G * z[0] + H * z[1] + C * z[2]) / det;
 }
 
-/* What the transport asks for, as far as det stays: a mean of stretches is put back to det 1 along the gradient of det. */
+/* What the transport asks for, as far as det stays: a mean of stretches is put back to det 1 along the gradient of
+ * det. */
 static void elastic_correct_carried(const struct model *model, const struct elastic_correction *in, double *ret_dV)
 {
     double V[6] = {0}, all = 0.0, along = 0.0;

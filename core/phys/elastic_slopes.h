@@ -9,7 +9,8 @@ struct elastic_slopes {
     double G1, G2, H11, H12, H22, I1;
 };
 
-/* Change of s'_ij and of the moduli with it, for the part that all directions share: changes of I1, I2 at dev B, dev C. */
+/* Change of s'_ij and of the moduli with it, for the part that all directions share: changes of I1, I2 at dev B, dev
+ * C. */
 static ELASTIC_BODY double elastic_slopes_stiffen(struct elastic_slopes g, double dI1, double dI2, double dev_B,
                                                   double dev_C)
 {

@@ -76,8 +76,8 @@ static ELASTIC_BODY struct elastic_tensor elastic_tensor_cofactors(struct elasti
                                    t.xz * t.yz - t.xy * t.zz, t.xy * t.yz - t.yy * t.xz, t.xy * t.xz - t.xx * t.yz};
 }
 
-/* d^(-1/3) by rounds of the series of (1 - e)^(-1/3) with e = 1 - d x^3: four are right to round-off for 1/8 < d < 8, two
- * to 1e-8 for 1 <= d < 2. Farther out x comes nearer by each. */
+/* d^(-1/3) by rounds of the series of (1 - e)^(-1/3) with e = 1 - d x^3: four are right to round-off for 1/8 < d < 8,
+ * two to 1e-8 for 1 <= d < 2. Farther out x comes nearer by each. */
 static ELASTIC_BODY double elastic_tensor_per_root(double d, int rounds)
 {
     double x = 2.0 / (1.0 + d);
@@ -88,8 +88,9 @@ static ELASTIC_BODY double elastic_tensor_per_root(double d, int rounds)
     return x;
 }
 
-/* Two Newton steps towards the nearest tensor of det 1, along the gradient of det: what a mean of stretches has too much
- * of volume is taken off the smallest ones, which bear least. Scaling would take it off all (docs/decisions/solid-gradient.md). */
+/* Two Newton steps towards the nearest tensor of det 1, along the gradient of det: what a mean of stretches has too
+ * much of volume is taken off the smallest ones, which bear least. Scaling would take it off all
+ * (docs/decisions/solid-gradient.md). */
 static ELASTIC_BODY struct elastic_tensor elastic_tensor_nearest(struct elastic_tensor t)
 {
     for (int round = 0; round < 2; round++) {

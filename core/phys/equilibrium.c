@@ -1,7 +1,7 @@
 /* equilibrium.c - see equilibrium.h.
  *
- * All cells of a block take Newton's steps together: each round asks every law once for the row. A cell that has converged
- * is left as it is while others go on, so its bits are its own. dT is eliminated by the enthalpy equation. */
+ * All cells of a block take Newton's steps together: each round asks every law once for the row. A cell that has
+ * converged is left as it is while others go on, so its bits are its own. dT is eliminated by the enthalpy equation. */
 #include "phys/equilibrium.h"
 
 #include "phys/equilibrium_search.h"
@@ -151,8 +151,8 @@ static void equilibrium_row_of(const struct model_eos *eos, size_t n, const doub
     eos->law->thermal(eos->self, n, p, T, at->rho, v, h, s, at->v_T, at->v_p, at->c_p);
 }
 
-/* A law that searches is asked only about cells that move, each from the volume it has: those that are done neither cost, nor change with
- * the rounds that others take. */
+/* A law that searches is asked only about cells that move, each from the volume it has: those that are done neither
+ * cost, nor change with the rounds that others take. */
 static void equilibrium_seek(const struct model_eos *eos, size_t n, const double *p, const double *T, double *v,
                              double *h, double *s, struct equilibrium_newton *at)
 {

@@ -1,20 +1,20 @@
 /* equilibrium.h - thermal and chemical equilibrium of a liquid, its vapour and inert gases in cells: pT and pTmu.
  *
  * One family of materials (liquid, vapour, gases) of a cell comes to one pressure and one temperature, and liquid and
- * vapour exchange mass until mu_v = g_l, at the volume, masses and energy of the cell; g = h - T s of `thermal` (eos.h). All other
- * materials o of the cell keep their heat: they do work against the new pressure, e_o + p v_o = e_o0 + p v_o0 (squeeze.h). In a unit
- * volume
- *     sum m v(p, T) + sum m_o v_o(p) = 1,     sum m h(p, T) = E + p - sum m_o (e_o0 + p v_o0),     D = mu_v - g_l = 0,
- * with mu_v = g_v + R_v T ln x_v, x_v = m_v R_v/sum m R over vapour and gases: Dalton's partial pressure, written as the
- * entropy of mixing that one common pressure leaves out. For stable laws D grows with m_v, so there is one root, or the
- * end to which D points: all vapour (D(M) <= 0) or all liquid (D(0) >= 0).
+ * vapour exchange mass until mu_v = g_l, at the volume, masses and energy of the cell; g = h - T s of `thermal`
+ * (eos.h). All other materials o of the cell keep their heat: they do work against the new pressure, e_o + p v_o = e_o0
+ * + p v_o0 (squeeze.h). In a unit volume sum m v(p, T) + sum m_o v_o(p) = 1,     sum m h(p, T) = E + p - sum m_o (e_o0
+ * + p v_o0),     D = mu_v - g_l = 0, with mu_v = g_v + R_v T ln x_v, x_v = m_v R_v/sum m R over vapour and gases:
+ * Dalton's partial pressure, written as the entropy of mixing that one common pressure leaves out. For stable laws D
+ * grows with m_v, so there is one root, or the end to which D points: all vapour (D(M) <= 0) or all liquid (D(0) >= 0).
  *
  * Gases that keep their heat (apart) are among the others, and lower the vapour's mole fraction all the same.
  *
  * With surface tension (jumps) p is that of the vapour and the liquid has p + jump; E comes with jump alpha_l added.
  *
  * Cells iterate together (Newton's method in p, T and m_v); what does not converge is bracketed and bisected alone
- * (equilibrium_search.h), so an answer is always found where there is one, and no cell's bits depend on another cell. */
+ * (equilibrium_search.h), so an answer is always found where there is one, and no cell's bits depend on another
+ * cell. */
 #ifndef EQUILIBRIUM_H
 #define EQUILIBRIUM_H
 
@@ -38,8 +38,9 @@ struct equilibrium_family {
 enum equilibrium_regime { EQUILIBRIUM_NONE, EQUILIBRIUM_TWO_PHASE, EQUILIBRIUM_ALL_VAPOUR, EQUILIBRIUM_ALL_LIQUID };
 
 /* n <= EQUILIBRIUM_BLOCK cells of unit volume. In: masses m of the family [kg/m3], m_o, v0 and e0 of n_other others,
- * energy E [J/m3], and p, T and specific volumes v (or 0) to start from. Out: p, T, masses of liquid and vapour (their sum is kept to round-off), specific volumes
- * of all, regime. EQUILIBRIUM_NONE: no state of these masses has so little energy; numbers of that cell mean nothing. */
+ * energy E [J/m3], and p, T and specific volumes v (or 0) to start from. Out: p, T, masses of liquid and vapour (their
+ * sum is kept to round-off), specific volumes of all, regime. EQUILIBRIUM_NONE: no state of these masses has so little
+ * energy; numbers of that cell mean nothing. */
 struct equilibrium_cells {
     size_t n;
     double m[SCENE_MATERIALS][EQUILIBRIUM_BLOCK], v[SCENE_MATERIALS][EQUILIBRIUM_BLOCK];

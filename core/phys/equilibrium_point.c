@@ -1,8 +1,8 @@
 /* equilibrium_point.c - see equilibrium_point.h.
  *
- * T follows from the enthalpy equation at each p: sum m h grows with T. F(p) = sum m v(p, T(p)) - 1 is +inf at the least
- * pressure and negative at infinity; its root is the only one (entropy), though F need not be monotone, so the bracket is kept.
- * Where T would be negative there is no state at any p: T grows with p. */
+ * T follows from the enthalpy equation at each p: sum m h grows with T. F(p) = sum m v(p, T(p)) - 1 is +inf at the
+ * least pressure and negative at infinity; its root is the only one (entropy), though F need not be monotone, so the
+ * bracket is kept. Where T would be negative there is no state at any p: T grows with p. */
 #include "phys/equilibrium_point.h"
 
 #include "phys/squeeze.h"

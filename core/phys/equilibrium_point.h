@@ -1,4 +1,5 @@
-/* equilibrium_point.h - one cell at one p and one T with given masses of liquid and vapour: what the search bisects over. */
+/* equilibrium_point.h - one cell at one p and one T with given masses of liquid and vapour: what the search bisects
+ * over. */
 #ifndef EQUILIBRIUM_POINT_H
 #define EQUILIBRIUM_POINT_H
 
@@ -23,12 +24,12 @@ struct equilibrium_point {
 void equilibrium_point_take(const struct equilibrium_family *family, const struct equilibrium_cells *cells, size_t i,
                             struct equilibrium_point *ret_point);
 
-/* p, T and the volumes for the masses that the point has now, by Newton's method in a bracket. False: there is no such state (too
- * little energy). Masses may be 0. */
+/* p, T and the volumes for the masses that the point has now, by Newton's method in a bracket. False: there is no such
+ * state (too little energy). Masses may be 0. */
 bool equilibrium_point_solve(struct equilibrium_point *point);
 
-/* D = mu_v - g_l [J/kg] at a solved point; -inf for a vapour of no mass among gases, for a stretched liquid (p <= 0), or where there
- * is no liquid; +inf where the vapour has no state. */
+/* D = mu_v - g_l [J/kg] at a solved point; -inf for a vapour of no mass among gases, for a stretched liquid (p <= 0),
+ * or where there is no liquid; +inf where the vapour has no state. */
 double equilibrium_point_drive(const struct equilibrium_point *point);
 
 /* Mole fraction of the vapour in vapour and gases; 1 without mixing. */

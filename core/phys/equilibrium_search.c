@@ -1,7 +1,7 @@
 /* equilibrium_search.c - see equilibrium_search.h.
  *
- * D grows with m_v: first the ends, then bisection over y = ln(m_v/m_l), which resolves both phases down to 1e-17. A mass of vapour
- * that the energy does not suffice for is too much of it. */
+ * D grows with m_v: first the ends, then bisection over y = ln(m_v/m_l), which resolves both phases down to 1e-17. A
+ * mass of vapour that the energy does not suffice for is too much of it. */
 #include "phys/equilibrium_search.h"
 
 #include <math.h>

@@ -2,8 +2,8 @@
  *
  * Most cells do not yield: a first pass only measures q. Those that do are gathered into rows without gaps, so that the
  * search is one loop over rows for all of them; cells that have arrived wait for the others. 1 - Y/q falls
- * nearly linearly with x, at small strain exactly, so that the first guess is good to the strain and a secant step squares
- * the error. */
+ * nearly linearly with x, at small strain exactly, so that the first guess is good to the strain and a secant step
+ * squares the error. */
 #include "phys/flow.h"
 
 #include "phys/bearing.h"
@@ -17,8 +17,8 @@
 
 enum { FLOW_BATCH = 128, FLOW_ROUNDS = 60 };
 
-/* q may differ from Y by this, relative, when the search ends; and less than FLOW_SLACK too much is not worth one: what was
- * put back stays as it is. */
+/* q may differ from Y by this, relative, when the search ends; and less than FLOW_SLACK too much is not worth one: what
+ * was put back stays as it is. */
 #define FLOW_ENOUGH 1e-10
 #define FLOW_SLACK 1e-9
 

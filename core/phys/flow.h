@@ -17,13 +17,14 @@
 /* Does the strength of some solid of a path ask for pressure or temperature? Then flow_return wants w. */
 bool flow_reads(const struct model *path);
 
-/* Lets the stretches, and the plastic strains where they are fields, of n points flow for dt. u: conserved fields; w: their primitives where
- * flow_reads(). Points at which nothing yields keep their bits. grown: [n_solid] rows, what the plastic strains grow by
- * (points at which nothing yields keep what is there), or NULL. */
+/* Lets the stretches, and the plastic strains where they are fields, of n points flow for dt. u: conserved fields; w:
+ * their primitives where flow_reads(). Points at which nothing yields keep their bits. grown: [n_solid] rows, what the
+ * plastic strains grow by (points at which nothing yields keep what is there), or NULL. */
 void flow_return(const struct model *model, size_t n, size_t stride, double dt, const double *w, double *u,
                  double *grown);
 
-/* What the solids of n points can bear when they flow slowly: sum alpha_l Y_l of those with a strength, from primitives w [Pa]. */
+/* What the solids of n points can bear when they flow slowly: sum alpha_l Y_l of those with a strength, from primitives
+ * w [Pa]. */
 void flow_strength(const struct model *model, size_t n, size_t stride, const double *w, double *ret);
 
 #endif

@@ -174,9 +174,9 @@ static void mix_unload(const struct model *model, size_t n, size_t stride, const
     mix_subtract(n, u + model->i_E * stride, elastic.value, ret_rest->value);
 }
 
-/* What the closure has left of the volume of a trace may be far less than what there is of its mass: compressed to 1e10 kg/m3,
- * it would outweigh all the rest. Traces denser than their law states count with the greatest density that it does, in the
- * volume that their mass then takes. */
+/* What the closure has left of the volume of a trace may be far less than what there is of its mass: compressed to 1e10
+ * kg/m3, it would outweigh all the rest. Traces denser than their law states count with the greatest density that it
+ * does, in the volume that their mass then takes. */
 static BULLA_KERNEL void mix_settle(size_t n, double most, const double *restrict m, double *restrict alpha,
                                     double *restrict rho)
 {
@@ -336,7 +336,8 @@ void mix_stiffness_everywhere(const struct model *model, size_t n, size_t stride
     mix_stiff(model, n, stride, w, true, rho_c2);
 }
 
-/* Partial densities alpha_l rho_l of the solids from primitives, as far as they bear; one material alone has them at hand. */
+/* Partial densities alpha_l rho_l of the solids from primitives, as far as they bear; one material alone has them at
+ * hand. */
 static void mix_solid_densities(const struct model *model, size_t n, size_t stride, const double *w,
                                 struct mix_row *masses, const double **ret_m)
 {
@@ -410,8 +411,8 @@ static BULLA_KERNEL void mix_compliance(size_t n, const double *restrict alpha, 
     }
 }
 
-/* A material that is alone has none, exactly: narrowed paths know of no K, and what rounding leaves would be clipped and
- * counted, or be a change of fraction in refluxing that no cell has room for. */
+/* A material that is alone has none, exactly: narrowed paths know of no K, and what rounding leaves would be clipped
+ * and counted, or be a change of fraction in refluxing that no cell has room for. */
 static BULLA_KERNEL void mix_k(size_t n, const double *restrict alpha, const double *restrict rho_c2,
                                const double *restrict sum, double *restrict K)
 {

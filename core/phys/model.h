@@ -1,14 +1,14 @@
 /* model.h - which fields exist and the laws behind them: built once from a scene.
  *
  * Conserved fields u, in this order: alpha_l (N of them, none if N = 1), m_l = alpha_l rho_l,
- * rho u_i (n_velocity), rho E, what solids remember (n_inner: m_l eps_l of those whose strength knows their plastic strain
- * eps, m_l D_l of those that can break, D their damage from 0 to 1) and the stretch V of each solid
- * (n_stretch: xx, yy, zz, then xy, then xz, yz, as far as n_velocity reaches), then as many more for each Maxwell branch of
- * a solid, which has a stretch of its own (scheme/viscoelastic.h).
- * Last, for each pair of materials with surface tension, the curvature of their interface in the cell, which is no
- * conserved field but made anew from the fractions in every stage (scheme/tension.h); and around an axis or
- * a centre in one dimension, for each viscous fluid that meets others, its pull (scheme/viscous_pull.h), made anew likewise.
- * Primitives w, same count: alpha_l, rho_l, u_i, p, eps_l and D_l, V, those of the branches, kappa, pulls. For N = 1 m is rho.
+ * rho u_i (n_velocity), rho E, what solids remember (n_inner: m_l eps_l of those whose strength knows their plastic
+ * strain eps, m_l D_l of those that can break, D their damage from 0 to 1) and the stretch V of each solid (n_stretch:
+ * xx, yy, zz, then xy, then xz, yz, as far as n_velocity reaches), then as many more for each Maxwell branch of a
+ * solid, which has a stretch of its own (scheme/viscoelastic.h). Last, for each pair of materials with surface tension,
+ * the curvature of their interface in the cell, which is no conserved field but made anew from the fractions in every
+ * stage (scheme/tension.h); and around an axis or a centre in one dimension, for each viscous fluid that meets others,
+ * its pull (scheme/viscous_pull.h), made anew likewise. Primitives w, same count: alpha_l, rho_l, u_i, p, eps_l and
+ * D_l, V, those of the branches, kappa, pulls. For N = 1 m is rho.
  *
  * This folder, phys: materials at points: which fields there are, mixtures, elasticity, presence, relaxation.
  * Batches of points, no neighbours. */
@@ -58,7 +58,8 @@ struct model_solid {
     } damage;
 };
 
-/* What a solid remembers beside its stretch, as a field that travels with its mass: m times the plastic strain or damage. */
+/* What a solid remembers beside its stretch, as a field that travels with its mass: m times the plastic strain or
+ * damage. */
 struct model_memory {
     unsigned solid, field; /* index into the solids of the same model */
     double most;           /* of what it remembers: 1 of damage */
@@ -100,7 +101,8 @@ struct model_pair {
     double sigma;             /* [N/m] */
 };
 
-/* A viscous fluid that meets others: the stress with which it pulls them along the radius (scheme/viscous_pull.h) [Pa]. */
+/* A viscous fluid that meets others: the stress with which it pulls them along the radius (scheme/viscous_pull.h)
+ * [Pa]. */
 struct model_pull {
     unsigned material; /* of the same model */
     unsigned field;
@@ -121,8 +123,8 @@ struct model_fick {
 /* Most stretches a scene can have: of solids and of branches. */
 enum { MODEL_STRETCHES = SCENE_MATERIALS + SCENE_BRANCHES };
 
-/* Most evolved fields a scene can have: fractions, densities, velocities, energy, memories of solids, stretches, normals,
- * curvatures, pulls. */
+/* Most evolved fields a scene can have: fractions, densities, velocities, energy, memories of solids, stretches,
+ * normals, curvatures, pulls. */
 enum { MODEL_FIELDS = 5 * SCENE_MATERIALS + 3 + 1 + 6 * MODEL_STRETCHES + 3 + SCENE_PAIRS };
 
 struct model {
@@ -158,20 +160,21 @@ struct model {
     bool damaged;                            /* some solid of this path can break (damage.h) */
     struct model *pure[SCENE_MATERIALS];     /* the same scene where only material l is present (NULL for N = 1): one
                                             material, no fractions, indices into the same storage */
-    struct model *fluids; /* the same scene where only its fluids are present; NULL without a solid, with less
-                                            than two fluids, or if they do not stand together in the list of materials */
-    bool kapila, linear;  /* linear: every law is linear in p, closed-form mixture pressure */
-    bool thermal;         /* materials of a cell exchange volume in full: temperatures are meant (scheme/exchange.h) */
-    bool conducts;        /* some material of the scene conducts heat (scheme/conduction.h) */
-    bool forced;          /* forces act at faces, and pressure is reconstructed relative to them (scheme/face.h) */
-    bool split;           /* the materials of a cell share their normal traction, not their pressure (traction.h) */
-    bool lagged;          /* they have pressures of their own, by that, by surface tension or by viscosity */
+    struct model
+        *fluids;         /* the same scene where only its fluids are present; NULL without a solid, with less
+                                           than two fluids, or if they do not stand together in the list of materials */
+    bool kapila, linear; /* linear: every law is linear in p, closed-form mixture pressure */
+    bool thermal;        /* materials of a cell exchange volume in full: temperatures are meant (scheme/exchange.h) */
+    bool conducts;       /* some material of the scene conducts heat (scheme/conduction.h) */
+    bool forced;         /* forces act at faces, and pressure is reconstructed relative to them (scheme/face.h) */
+    bool split;          /* the materials of a cell share their normal traction, not their pressure (traction.h) */
+    bool lagged;         /* they have pressures of their own, by that, by surface tension or by viscosity */
     struct model_eos eos[SCENE_MATERIALS];
     struct model_viscosity viscosity[SCENE_MATERIALS];
     bool viscous; /* some material of the path is */
     bool calm;    /* faces beside strong shocks resist shear (scheme/calm.h) */
-    /* What terms that look across edges see there: components of the primitives, the same in all paths of a scene. 0: no
-     * term does. Fractions but the first, then velocities (viscous); pressure is the last (calm). */
+    /* What terms that look across edges see there: components of the primitives, the same in all paths of a scene. 0:
+     * no term does. Fractions but the first, then velocities (viscous); pressure is the last (calm). */
     unsigned n_around, n_around_alpha;
     unsigned char around[MODEL_FIELDS];
     struct model_conductivity conductivity[SCENE_MATERIALS];

@@ -60,8 +60,8 @@ static bool phase_meets(const struct model *model, const struct model_phase *pha
     return thin > PHASE_FELT || phase->scene->everywhere;
 }
 
-/* Volume that the vapour has left (its mass is gone, by flow or to the midpoint's account) is the liquid's: with it nobody
- * would know what the liquid bears, and the guard would say so (solve/guard.c) when this step is over. */
+/* Volume that the vapour has left (its mass is gone, by flow or to the midpoint's account) is the liquid's: with it
+ * nobody would know what the liquid bears, and the guard would say so (solve/guard.c) when this step is over. */
 static bool phase_leave(struct phase_block *block, size_t i)
 {
     const struct model *model = block->model;
@@ -122,8 +122,8 @@ static void phase_mingle(struct phase_block *block)
     }
 }
 
-/* Two stages may take more of a phase out of a cell than there was, vapour that the midpoint has made: what is missing is of one
- * substance with the other phase. */
+/* Two stages may take more of a phase out of a cell than there was, vapour that the midpoint has made: what is missing
+ * is of one substance with the other phase. */
 static void phase_owe(struct equilibrium_cells *cells)
 {
     double *liquid = cells->m[EQUILIBRIUM_LIQUID], *vapour = cells->m[EQUILIBRIUM_VAPOUR];
@@ -136,8 +136,9 @@ static void phase_owe(struct equilibrium_cells *cells)
     }
 }
 
-/* Surface tension between liquid and vapour: cells->p becomes that of the vapour, the liquid has p + jump, and both with their
- * volumes what the surface stores: sum m h = E + p + jump alpha_l of the start, since it gives jump d alpha_l (tension.c). */
+/* Surface tension between liquid and vapour: cells->p becomes that of the vapour, the liquid has p + jump, and both
+ * with their volumes what the surface stores: sum m h = E + p + jump alpha_l of the start, since it gives jump d
+ * alpha_l (tension.c). */
 static void phase_curve(struct phase_block *block, const struct traction_pressures *parts)
 {
     struct equilibrium_cells *cells = &block->cells;
@@ -191,7 +192,8 @@ static void phase_fill(struct phase_block *block)
     phase_curve(block, &parts);
 }
 
-/* D/(R T) of cell i at its pressure and liquid temperature, for an own vapour alone, shifted by what the liquid bears. */
+/* D/(R T) of cell i at its pressure and liquid temperature, for an own vapour alone, shifted by what the liquid
+ * bears. */
 static double phase_drive_alone(const struct phase_block *block, size_t i, double tension, double superheat)
 {
     const struct equilibrium_family *family = &block->family;
@@ -232,8 +234,8 @@ static double phase_thin(const struct phase_block *block, size_t i)
     return thin;
 }
 
-/* Would liquid evaporate that `onset` holds back? What is stretched to below PHASE_TORN of its saturation pressure is not held:
- * the vapour of such cells would else thin out without end as they are pulled. */
+/* Would liquid evaporate that `onset` holds back? What is stretched to below PHASE_TORN of its saturation pressure is
+ * not held: the vapour of such cells would else thin out without end as they are pulled. */
 static bool phase_held(const struct phase_block *block, size_t i)
 {
     double share = phase_share(block, i), alone = phase_drive_alone(block, i, 0.0, 0.0);
@@ -330,8 +332,8 @@ static void phase_hold(struct phase_block *block, size_t i, double m_v)
     else phase_take(&point, cells, i);
 }
 
-/* Only as far as the rate, the direction and the end of the curve let it go. `start` has the masses of before, at one p and T
- * where they are asked. */
+/* Only as far as the rate, the direction and the end of the curve let it go. `start` has the masses of before, at one p
+ * and T where they are asked. */
 static void phase_limit(struct phase_block *block, size_t i, double dt)
 {
     const struct scene_phase *scene = block->phase->scene;

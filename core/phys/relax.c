@@ -12,10 +12,12 @@
 
 enum { RELAX_FIELDS = MODEL_FIELDS, RELAX_ROUNDS = 80, RELAX_NEWTON = 30, RELAX_AGAIN = 4 };
 
-/* Nearest to its least pressure that a material may start: this share of the distance from there to the old pressure. */
+/* Nearest to its least pressure that a material may start: this share of the distance from there to the old
+ * pressure. */
 #define RELAX_NEAR 1e-6
 
-/* A gas that expands has an ever lower least pressure; the search for p* goes down to that of this share of its density. */
+/* A gas that expands has an ever lower least pressure; the search for p* goes down to that of this share of its
+ * density. */
 #define RELAX_THIN 1e-9
 
 struct relax {
@@ -69,8 +71,8 @@ static double relax_ambient(const struct relax *relax)
     return relax_temperature(relax, heavy, relax->w[relax->model->i_m + heavy], relax->p0);
 }
 
-/* Common pressure at which material l starts. The old one; but a trace of gas in a liquid under tension has no state there.
- * It is taken to be as warm as what surrounds it. */
+/* Common pressure at which material l starts. The old one; but a trace of gas in a liquid under tension has no state
+ * there. It is taken to be as warm as what surrounds it. */
 static double relax_start(const struct relax *relax, unsigned l)
 {
     double rho = relax->w[relax->model->i_m + l], least = relax_least(relax, l, rho),
@@ -240,8 +242,8 @@ static double relax_borne(const struct relax *relax, double p)
 }
 
 /* Moves volume between materials until the energy held at p* is the conserved one (Newton). Material l gains
- * rho_l e_l - rho_l d(rho_l e_l)/d rho_l = rho_l c_l^2/Gamma_l - p per volume; volume goes to the one that gains least or
- * most, from the one that has most to give, which need not be the other extreme: that may be a trace. */
+ * rho_l e_l - rho_l d(rho_l e_l)/d rho_l = rho_l c_l^2/Gamma_l - p per volume; volume goes to the one that gains least
+ * or most, from the one that has most to give, which need not be the other extreme: that may be a trace. */
 static void relax_shift(struct relax *relax, double p)
 {
     const struct model *model = relax->model;

@@ -1,7 +1,7 @@
 /* settle.c - see settle.h. Few cells are mixed: they are gathered into rows.
  *
- * A solid that flows resists a strain with rho_l c_l^2 alone, as s' hardly moves once it has reached the strength; one that
- * does not with its stiffness along n as well. With these slopes a few rounds of Newton's method converge. */
+ * A solid that flows resists a strain with rho_l c_l^2 alone, as s' hardly moves once it has reached the strength; one
+ * that does not with its stiffness along n as well. With these slopes a few rounds of Newton's method converge. */
 #include "phys/settle.h"
 
 #include "base/mem.h"

@@ -24,9 +24,9 @@ static double squeeze_least(const struct model_eos *eos, double rho)
     return least;
 }
 
-/* Newton: the left side grows with v by rho c^2/Gamma and is linear in v for the stiffened-gas family. Where c^2 is almost
- * nothing, at the end of a law, a step would go anywhere: none is longer than SQUEEZE_LEAP in ratio or leaves the bracket
- * that the signs have left. */
+/* Newton: the left side grows with v by rho c^2/Gamma and is linear in v for the stiffened-gas family. Where c^2 is
+ * almost nothing, at the end of a law, a step would go anywhere: none is longer than SQUEEZE_LEAP in ratio or leaves
+ * the bracket that the signs have left. */
 double squeeze_volume(const struct model_eos *eos, double v0, double e0, double p)
 {
     double target = e0 + p * v0, v = v0, low = 0.0, high = HUGE_VAL;

@@ -1,18 +1,17 @@
 /* traction.h - one normal traction for all materials of a cell.
  *
- * Across the interface of a solid and a fluid the traction is common, not the pressure: with s'_l the solid's own deviator,
- * per its own volume, -p_l + s'_l,nn is the same for all materials. So in a mixed cell each material has a pressure of its own,
- *     p_l = p + s'_l,nn - S,   S = sum_l alpha_l s'_l,nn,
- * about the mean p = sum alpha_l p_l, and the cell's stress is still -p 1 + sum alpha_l s'_l. Where n is known without
- * looking at neighbours: in one dimension, model->split (docs/decisions/common-traction.md).
+ * Across the interface of a solid and a fluid the traction is common, not the pressure: with s'_l the solid's own
+ * deviator, per its own volume, -p_l + s'_l,nn is the same for all materials. So in a mixed cell each material has a
+ * pressure of its own, p_l = p + s'_l,nn - S,   S = sum_l alpha_l s'_l,nn, about the mean p = sum alpha_l p_l, and the
+ * cell's stress is still -p 1 + sum alpha_l s'_l. Where n is known without looking at neighbours: in one dimension,
+ * model->split (docs/decisions/common-traction.md).
  *
- * Across an interface with surface tension p differs by sigma kappa. A smeared one has a part of that step in each of its
- * cells, p = p_outside + alpha_inside sigma kappa, and its materials lag behind the mean of the cell by
- *     p_l - p = sum_m alpha_m sigma_lm kappa_lm,
- * so that each has one pressure throughout (docs/decisions/tension.md). Viscous fluids pull on a round interface that
- * moves: p differs by the stress tau_rr that they have there, and likewise
- *     p_l - p = tau_l,nn - sum_m alpha_m tau_m,nn                                     (scheme/viscous_pull.h).
- * All may act in one cell. */
+ * Across an interface with surface tension p differs by sigma kappa. A smeared one has a part of that step in each of
+ * its cells, p = p_outside + alpha_inside sigma kappa, and its materials lag behind the mean of the cell by p_l - p =
+ * sum_m alpha_m sigma_lm kappa_lm, so that each has one pressure throughout (docs/decisions/tension.md). Viscous fluids
+ * pull on a round interface that moves: p differs by the stress tau_rr that they have there, and likewise p_l - p =
+ * tau_l,nn - sum_m alpha_m tau_m,nn                                     (scheme/viscous_pull.h). All may act in one
+ * cell. */
 #ifndef TRACTION_H
 #define TRACTION_H
 

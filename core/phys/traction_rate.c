@@ -1,8 +1,8 @@
 /* traction_rate.c - see traction_rate.h.
  *
  * Along the material dB/dt = L B + B L^T - (2/3) tr L B, masses per volume fall by tr L, and the moduli follow the
- * invariants. With b = n.Bn, c = n.B^2 n the traction is G1 (b - I1/3) - G2 (c - tr B^2/3); its change is written once, and
- * asked for the strain of the cell and for one along n. */
+ * invariants. With b = n.Bn, c = n.B^2 n the traction is G1 (b - I1/3) - G2 (c - tr B^2/3); its change is written once,
+ * and asked for the strain of the cell and for one along n. */
 #include "phys/traction_rate.h"
 
 #include "phys/bearing.h"
@@ -46,7 +46,8 @@ static ELASTIC_BODY double traction_rate_change(struct elastic_slopes g, struct 
            elastic_slopes_stiffen(g, I1, I2, s.b - g.I1 / 3.0, s.c - s.trace / 3.0) - L.div * s.normal;
 }
 
-/* stiff and pull of one stretch, added. slack: 1/(2 tau) of a branch, which relaxes by Dp = dev B/(2 tau): L - Dp moves it. */
+/* stiff and pull of one stretch, added. slack: 1/(2 tau) of a branch, which relaxes by Dp = dev B/(2 tau): L - Dp moves
+ * it. */
 static BULLA_KERNEL void traction_rate_add(size_t n, double slack, double share, double to_y, double to_z,
                                            const struct traction_rate_rows *rows, double *restrict stiff,
                                            double *restrict pull)

@@ -15,7 +15,8 @@ _Static_assert(WARM_BATCH <= (int)TRACTION_BATCH, "lags of a batch are found at 
 #define WARM_STILL 1e-12
 #define WARM_NOISE 1e-15
 
-/* No step of Newton's method takes more than this part of a fraction, or of what a pressure is above the least of a material. */
+/* No step of Newton's method takes more than this part of a fraction, or of what a pressure is above the least of a
+ * material. */
 #define WARM_MOST 0.75
 
 /* A material in the gathered cells. Where it is not, its fraction is 0. */

@@ -1,5 +1,6 @@
-/* block.c - see block.h. A block is known by its module, the values and its name, written as one text. Ranks that read different
- * cases (files that differ between machines) would wait for each other for ever: they compare these texts first. */
+/* block.c - see block.h. A block is known by its module, the values and its name, written as one text. Ranks that read
+ * different cases (files that differ between machines) would wait for each other for ever: they compare these texts
+ * first. */
 #include "plug/block.h"
 
 #include "base/comm.h"

@@ -7,8 +7,8 @@
 
 struct block_use; /* the blocks of one instance */
 
-/* Between these two all ranks open the same modules with the same values in the same order, as they do when they read the
- * same case; otherwise blocks are made by each process alone. block_apart agrees on how it went: the largest `code`
+/* Between these two all ranks open the same modules with the same values in the same order, as they do when they read
+ * the same case; otherwise blocks are made by each process alone. block_apart agrees on how it went: the largest `code`
  * of all ranks. Both collective. */
 void block_together(void);
 int block_apart(int code);

@@ -210,7 +210,8 @@ static int vet_number(const struct bulla_param *row)
     return STATUS_OK;
 }
 
-/* Keys of a case that the program reads itself where it reads the parameters of a module, and those of a law of rupture. */
+/* Keys of a case that the program reads itself where it reads the parameters of a module, and those of a law of
+ * rupture. */
 #define VET_ALL "|type|preset|"
 #define VET_DAMAGE "|type|preset|time|opens|void-pressure|void-temperature|"
 

@@ -19,7 +19,8 @@ int vet_module(const struct bulla_module *module, size_t space);
  * would quietly replace what they say. STATUS_CASE with a whole sentence. `self` is what `open` made. */
 int vet_instance(const struct bulla_module *module, const void *self);
 
-/* How a case names a vetted module, with keys (", preset: water", ", ...") where its kind has a map: "scheme: {riemann: hllc}". */
+/* How a case names a vetted module, with keys (", preset: water", ", ...") where its kind has a map: "scheme: {riemann:
+ * hllc}". */
 void vet_use(const struct bulla_module *module, const char *keys, struct text *text);
 
 /* Has this limiter two sides? Tables from before there were flags have not. */

@@ -1,5 +1,5 @@
-/* vet_try.h - one call of an instance with harmless numbers, by kind: does it give any sense? `table`: the functions of the
- * module, vetted; `self`: what its `open` made. */
+/* vet_try.h - one call of an instance with harmless numbers, by kind: does it give any sense? `table`: the functions of
+ * the module, vetted; `self`: what its `open` made. */
 #ifndef VET_TRY_H
 #define VET_TRY_H
 

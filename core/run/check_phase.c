@@ -60,8 +60,8 @@ static void check_phase_layer(const struct scene *scene, const struct scene_phas
     putchar('\n');
 }
 
-/* Above the pressure where the vapour would be as dense as the liquid g_v - g_l falls again with p: where it is 0 once more. NaN:
- * not below 1 TPa. */
+/* Above the pressure where the vapour would be as dense as the liquid g_v - g_l falls again with p: where it is 0 once
+ * more. NaN: not below 1 TPa. */
 static double check_phase_second(const struct saturation *both, double T)
 {
     double low = 1e3, high = CHECK_PHASE_MOST;

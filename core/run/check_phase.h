@@ -1,4 +1,5 @@
-/* check_phase.h - what `bulla check` says of liquids and their vapours: where they boil, by their own laws and really. */
+/* check_phase.h - what `bulla check` says of liquids and their vapours: where they boil, by their own laws and
+ * really. */
 #ifndef CHECK_PHASE_H
 #define CHECK_PHASE_H
 

@@ -1,9 +1,9 @@
 /* eta.h - how long a run still takes, from how it went so far.
  *
- * Effort is CPU time, so that other programs on the machine do not look like a change of the run; what they cost comes in
- * by the wall time that a second of CPU time took so far. Effort per share of the run changes: levels grow, steps get
- * shorter. One guess is that it stays what it is, the other that it goes on changing as it did; the truth is expected
- * between them, with a tenth more on both sides. */
+ * Effort is CPU time, so that other programs on the machine do not look like a change of the run; what they cost comes
+ * in by the wall time that a second of CPU time took so far. Effort per share of the run changes: levels grow, steps
+ * get shorter. One guess is that it stays what it is, the other that it goes on changing as it did; the truth is
+ * expected between them, with a tenth more on both sides. */
 #ifndef ETA_H
 #define ETA_H
 

@@ -41,8 +41,8 @@ void record_rescue(struct record *record, const struct state *state);
 /* The checkpoint written last, or NULL. */
 const char *record_saved(const struct record *record);
 
-/* After a step that could not be completed: writes a dump (io/dump.h); *ret_path, to be released with mem_free, is NULL if
- * there is nothing to dump. */
+/* After a step that could not be completed: writes a dump (io/dump.h); *ret_path, to be released with mem_free, is NULL
+ * if there is nothing to dump. */
 int record_dump(const struct record *record, const struct state *state, char **ret_path);
 
 /* Is this rank at work beside the run, bringing a file to the disk? Not collective. */

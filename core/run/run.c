@@ -97,8 +97,8 @@ static double run_clock(const struct run *run)
     return progress_clock() - run->progress.start;
 }
 
-/* Wishes from outside before the next step, agreed on by all ranks: an end, a snapshot, a checkpoint because the last one
- * is long ago. */
+/* Wishes from outside before the next step, agreed on by all ranks: an end, a snapshot, a checkpoint because the last
+ * one is long ago. */
 static int run_interruption(struct run *run)
 {
     double wish[4] = {RUN_GO, 0.0, 0.0, record_busy(run->record)};

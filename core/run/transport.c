@@ -57,8 +57,9 @@ static struct transport_fluid transport_fluid(const struct model *model, unsigne
     return fluid;
 }
 
-/* Stages of rkl2 where steps of sound are so many times those of a diffusivity: of each stage of the integrator, or with levels
- * of the flows of all levels together, half a step of level 0 each, which the finest level asks for (solve/flow.h). */
+/* Stages of rkl2 where steps of sound are so many times those of a diffusivity: of each stage of the integrator, or
+ * with levels of the flows of all levels together, half a step of level 0 each, which the finest level asks for
+ * (solve/flow.h). */
 static void transport_print_stages(const struct scene *scene, double times)
 {
     int levels = scene->mesh.levels, own = rkl_stages(times);
@@ -70,7 +71,8 @@ static void transport_print_stages(const struct scene *scene, double times)
     else printf(", rkl2 takes %d stages", own);
 }
 
-/* A step that something allows on a level, against that of sound at speed c; returns their ratio: what does not bind is below 1. */
+/* A step that something allows on a level, against that of sound at speed c; returns their ratio: what does not bind is
+ * below 1. */
 static double transport_print_step(const struct scene *scene, int level, double own, double c)
 {
     char step[HUMAN_ROOM];

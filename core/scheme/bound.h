@@ -34,8 +34,8 @@ struct bound *bound_paint(const struct model *model, const struct mesh *mesh, co
                           struct bound *before, const int *from);
 void bound_free(struct bound *bound);
 
-/* Do waves leave through this face from a point (bound_ray.h)? Not where there are solids: pressure alone does not say what
- * leaves them. */
+/* Do waves leave through this face from a point (bound_ray.h)? Not where there are solids: pressure alone does not say
+ * what leaves them. */
 bool bound_has_rays(const struct model *model, int face);
 
 /* Callback for frame_source: primitives of all fields. `data` is a struct bound. Where a script fails they are NaN. */

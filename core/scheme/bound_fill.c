@@ -1,12 +1,13 @@
-/* bound_fill.c - see bound.h: the layers behind a boundary, one function for each way to fill them. Which type is filled
- * in which way stands in case/scene_boundary.h.
+/* bound_fill.c - see bound.h: the layers behind a boundary, one function for each way to fill them. Which type is
+ * filled in which way stands in case/scene_boundary.h.
  *
  * Mirrors and copies act on layers. Characteristic boundaries (non-reflecting, incoming wave)
  * compose the state behind the face from the outgoing Riemann invariant of the cell inside and
  * the incoming one of the far field plus the wave,
  *     p + Z u = p_i + Z u_i,      p - Z u = (p_0 + p') - Z (u_0 - p'/Z),      Z = rho c,
  * u along the outward normal, so that a wave at normal incidence enters or leaves without a
- * reflection to first order. Densities follow each material's isentrope from inside. What leaves from a point: bound_ray.h. */
+ * reflection to first order. Densities follow each material's isentrope from inside. What leaves from a point:
+ * bound_ray.h. */
 #include "scheme/bound.h"
 
 #include "base/mem.h"
@@ -176,8 +177,8 @@ static void bound_fill_drag(const struct bound_fill *fill, unsigned d)
     }
 }
 
-/* Fluids slip along a wall that moves, or stick to it. What it has along its normal flows through the face, which stays:
- * the state between the wall and the wave that it sends. */
+/* Fluids slip along a wall that moves, or stick to it. What it has along its normal flows through the face, which
+ * stays: the state between the wall and the wave that it sends. */
 static void bound_fill_wall(const struct bound_fill *fill, bool no_slip)
 {
     bound_fill_mirror(fill, no_slip);

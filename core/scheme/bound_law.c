@@ -1,5 +1,5 @@
-/* bound_law.c - see bound_law.h. A module gets the velocity along the outward normal first, and copies of what is inside
- * beside the rows that it may write. */
+/* bound_law.c - see bound_law.h. A module gets the velocity along the outward normal first, and copies of what is
+ * inside beside the rows that it may write. */
 #include "scheme/bound_law.h"
 
 #include "bulla/boundary.h"

@@ -1,13 +1,12 @@
 /* bound_ray.h - what leaves through a non-reflecting boundary from a point, its origin: round waves, under any angle.
  *
  * A wave from a centre is p' = f(t - r/c)/r^q with q = 1 in space (exact for sound), 1/2 in the plane (far from the
- * centre), along the unit vector e = (x - x_0)/r. Momentum gives it the velocity u' = e (p' + q c/r^(q + 1) int f dt)/Z,
- * Z = rho c, primes: less the far field. So p' - Z u'e is not 0 as in plane waves: what the cell inside has of it is the
- * memory of f, and goes on to the layer at r + d by
- *     p' - Z u'e = ((p' - Z u'e)_i r + q d p'_i) r^q/(r + d)^(q + 1).
- * Its rate is -q (c/r) p': a pressure that is not the far field's falls off within 2 r/(q c). p' + Z u'e goes on as it comes
- * along the normal, with the lesser of two slopes. Velocities across e stay. (Bayliss & Turkel 1980 have the same condition
- * for the wave equation, of first order in 1/r, exact for one centre.) */
+ * centre), along the unit vector e = (x - x_0)/r. Momentum gives it the velocity u' = e (p' + q c/r^(q + 1) int f
+ * dt)/Z, Z = rho c, primes: less the far field. So p' - Z u'e is not 0 as in plane waves: what the cell inside has of
+ * it is the memory of f, and goes on to the layer at r + d by p' - Z u'e = ((p' - Z u'e)_i r + q d p'_i) r^q/(r + d)^(q
+ * + 1). Its rate is -q (c/r) p': a pressure that is not the far field's falls off within 2 r/(q c). p' + Z u'e goes on
+ * as it comes along the normal, with the lesser of two slopes. Velocities across e stay. (Bayliss & Turkel 1980 have
+ * the same condition for the wave equation, of first order in 1/r, exact for one centre.) */
 #ifndef BOUND_RAY_H
 #define BOUND_RAY_H
 

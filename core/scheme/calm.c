@@ -46,8 +46,9 @@ static void calm_close(void *own)
     mem_free(calm);
 }
 
-/* A difference of less than CALM_LEAST of the lesser pressure is none: rho c^2 is no less than p, and tiles that have no more
- * are done. Cells at the ends of a line take neighbours of other lines: nobody asks for them. Returns the sum. */
+/* A difference of less than CALM_LEAST of the lesser pressure is none: rho c^2 is no less than p, and tiles that have
+ * no more are done. Cells at the ends of a line take neighbours of other lines: nobody asks for them. Returns the
+ * sum. */
 static BULLA_KERNEL double calm_differ(size_t n, size_t stride, const double *restrict p, double *restrict difference)
 {
     double sum = 0.0;

@@ -1,7 +1,7 @@
 /* closure.h - Kapila's closure: compression moves the fractions so that the materials of a cell keep one pressure.
  *
- * d alpha_l/dt += K_l div u, K_l = alpha_l (rho c_w^2/(rho_l c_l^2) - 1) (model.md 2), explicit, and the volume that exchange.h
- * asks for. Neither may push a fraction below CLOSURE_LEAST or CLOSURE_SHRINK of what transport left. */
+ * d alpha_l/dt += K_l div u, K_l = alpha_l (rho c_w^2/(rho_l c_l^2) - 1) (model.md 2), explicit, and the volume that
+ * exchange.h asks for. Neither may push a fraction below CLOSURE_LEAST or CLOSURE_SHRINK of what transport left. */
 #ifndef CLOSURE_H
 #define CLOSURE_H
 

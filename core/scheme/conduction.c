@@ -1,5 +1,5 @@
-/* conduction.c - see conduction.h. Temperatures are made of the frame before anything changes it (`frame`), the channels
- * when the other fluxes are there (`faces`), volume moves at the end (`cells`). */
+/* conduction.c - see conduction.h. Temperatures are made of the frame before anything changes it (`frame`), the
+ * channels when the other fluxes are there (`faces`), volume moves at the end (`cells`). */
 #include "scheme/conduction.h"
 
 #include "base/mem.h"

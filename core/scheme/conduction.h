@@ -1,16 +1,15 @@
 /* conduction.h - heat, from cell to cell and from material to material.
  *
- * The materials of a mixed cell have temperatures of their own, from their equations of state. Through each face heat goes
- * in channels between them (conduction_channel.h); their sum is the flux q of the energy, their parts are the powers Q_l
- * that the materials of the two cells get:
- *     d(rho E)/dt = -div q,   sum_l Q_l = -div q,
- * and Q_l moves volume so that the materials keep one pressure (swell.h): without that half water, half air would gain
- * two thousand times too much pressure. Materials that lie in a cell side by side with nothing different in the next one
- * exchange nothing: there is no length in that.
+ * The materials of a mixed cell have temperatures of their own, from their equations of state. Through each face heat
+ * goes in channels between them (conduction_channel.h); their sum is the flux q of the energy, their parts are the
+ * powers Q_l that the materials of the two cells get: d(rho E)/dt = -div q,   sum_l Q_l = -div q, and Q_l moves volume
+ * so that the materials keep one pressure (swell.h): without that half water, half air would gain two thousand times
+ * too much pressure. Materials that lie in a cell side by side with nothing different in the next one exchange nothing:
+ * there is no length in that.
  *
  * Time step: 1/dt = signal/CFL + (8/1.8) max_l k_l/(rho_l cv_l) sum_a 1/h_a^2 of the materials with more than
- * CONDUCTION_CHANNEL_FELT of the cell. Less of a material conducts at most what keeps it stable. Distances are those of the
- * centroids of cells: a radius counts with its weight. */
+ * CONDUCTION_CHANNEL_FELT of the cell. Less of a material conducts at most what keeps it stable. Distances are those of
+ * the centroids of cells: a radius counts with its weight. */
 #ifndef CONDUCTION_H
 #define CONDUCTION_H
 

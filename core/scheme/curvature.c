@@ -1,7 +1,7 @@
-/* curvature.c - see curvature.h. Blocks of numbers in corners and cells by turns, each with one place less along every axis
- * than the one before. A corner lies between 2^dim cells; along axes that are not used both cells of a pair are the same
- * one, which leaves means as they are. Sums of four begin with opposite ones, so that mirrors and the exchange of x
- * and y keep all bits. */
+/* curvature.c - see curvature.h. Blocks of numbers in corners and cells by turns, each with one place less along every
+ * axis than the one before. A corner lies between 2^dim cells; along axes that are not used both cells of a pair are
+ * the same one, which leaves means as they are. Sums of four begin with opposite ones, so that mirrors and the exchange
+ * of x and y keep all bits. */
 #include "scheme/curvature.h"
 
 #include "base/mem.h"
@@ -218,15 +218,16 @@ static struct curvature_plane curvature_plane(const struct curvature_grid *grid,
         struct curvature_plane){at * grid->stride[axis], {grid->n[u], grid->n[v]}, {grid->stride[u], grid->stride[v]}};
 }
 
-/* Layer `ghost` behind the wall at a face, or -1 - ghost before it, in a block of cells with `layers` around the tile. */
+/* Layer `ghost` behind the wall at a face, or -1 - ghost before it, in a block of cells with `layers` around the
+ * tile. */
 static size_t curvature_layer(const struct mesh *mesh, size_t layers, int face, int ghost)
 {
     int n = mesh->n[face / 2], behind = face % 2 ? n + ghost : -1 - ghost;
     return (size_t)((int)layers + behind);
 }
 
-/* Fractions that go on straight behind walls with an angle, by one layer, so that the means of the cells at the wall are
- * not bent; into `ret`, unless there are no such walls. */
+/* Fractions that go on straight behind walls with an angle, by one layer, so that the means of the cells at the wall
+ * are not bent; into `ret`, unless there are no such walls. */
 static const double *curvature_straight(const struct curvature *room, const double *cosine, const double *a,
                                         double *ret)
 {

@@ -1,4 +1,5 @@
-/* curvature_carry.c - kappa of the layers of a smeared front made that of the sharp surface of the same volume (curvature.h). */
+/* curvature_carry.c - kappa of the layers of a smeared front made that of the sharp surface of the same volume
+ * (curvature.h). */
 #include "scheme/curvature.h"
 
 #include "mesh/metric.h"
@@ -17,9 +18,9 @@ struct curvature_carry_beside {
     const double *low_x, *here, *high_x, *low_y, *high_y, *low_z, *high_z;
 };
 
-/* From a layer of a smeared front to the sharp surface that holds the same volume [m]: ret. psi = (1 + tanh(m x/w))/2 gives
- * the distance x of the layer from the middle, and the width; across a surface of curvature kappa half the variance of the front,
- * pi^2 w^2/24, times kappa lies between its middle and the mean of its volume. */
+/* From a layer of a smeared front to the sharp surface that holds the same volume [m]: ret. psi = (1 + tanh(m x/w))/2
+ * gives the distance x of the layer from the middle, and the width; across a surface of curvature kappa half the
+ * variance of the front, pi^2 w^2/24, times kappa lies between its middle and the mean of its volume. */
 static BULLA_KERNEL void curvature_carry_way(size_t n, const struct curvature_carry_beside *psi, const double per[3],
                                              double h, const double *restrict kappa, double *restrict ret)
 {
@@ -70,8 +71,8 @@ static BULLA_KERNEL void curvature_carry_space(size_t n, double h, double *const
     }
 }
 
-/* kappa and the product of both principal curvatures, some way along the normal: each becomes k/(1 + way k). Not by more
- * than half of the smaller radius. */
+/* kappa and the product of both principal curvatures, some way along the normal: each becomes k/(1 + way k). Not by
+ * more than half of the smaller radius. */
 static BULLA_KERNEL void curvature_carry_row(size_t n, const double *restrict way, const double *restrict product,
                                              double *restrict kappa)
 {
@@ -83,7 +84,8 @@ static BULLA_KERNEL void curvature_carry_row(size_t n, const double *restrict wa
     }
 }
 
-/* The product of both principal curvatures of a row of kappa, from the normals at the corners; `rows` has room for 10. */
+/* The product of both principal curvatures of a row of kappa, from the normals at the corners; `rows` has room for
+ * 10. */
 static const double *curvature_carry_product(struct curvature *room, const struct level *level, size_t j, size_t k,
                                              const struct metric *metric, const double *kappa, double *rows)
 {

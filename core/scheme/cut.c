@@ -60,7 +60,8 @@ static int cut_failure(const void *own, const char **ret_message, const char **r
 
 /* --- what is covered, before faces are made --- */
 
-/* The nearest open cell along a line on one side of a covered one, or `i` if there is none so near that its edges look here. */
+/* The nearest open cell along a line on one side of a covered one, or `i` if there is none so near that its edges look
+ * here. */
 static int cut_nearest(const struct cut_rows_line *line, const double *now, int i, int way)
 {
     for (int k = i + way, left = line->ghosts; left > 0 && k >= -line->ghosts && k < line->n + line->ghosts;
@@ -83,7 +84,8 @@ static bool cut_copy(const struct term_piece *piece, const struct cut_rows_line 
     return true;
 }
 
-/* A covered cell of the tile that opens in this step will hold what it is filled with: by the axes along which its wall lies. */
+/* A covered cell of the tile that opens in this step will hold what it is filled with: by the axes along which its wall
+ * lies. */
 static void cut_keep(const struct term_piece *piece, const struct rigid_cells *cells, const struct cut_rows_line *line,
                      int i, size_t cell)
 {
@@ -103,8 +105,8 @@ static void cut_begin(struct term_tile *tile)
     if (cut->fresh) memset(cut->fresh, 0, cut->n_fresh * sizeof *cut->fresh);
 }
 
-/* Is a cell open whose slope looks at a covered one that lies open on the other side, too, or farther than its neighbour? What that is filled
- * with is not the same in all frames that see it. */
+/* Is a cell open whose slope looks at a covered one that lies open on the other side, too, or farther than its
+ * neighbour? What that is filled with is not the same in all frames that see it. */
 static bool cut_looks_through(const struct cut_rows_line *line, const double *now, int i)
 {
     bool far = line->ghosts > SCENE_GHOSTS;
@@ -216,8 +218,8 @@ static void cut_divide(const struct term_tile *tile, double part, size_t cell)
     for (unsigned q = model->n_field; q < tile->terms->n_rates; q++) tile->rates[q * tile->n_cell + cell] *= per;
 }
 
-/* A cell that was covered when the step began has no state to begin with: it is what it is filled with, or what it has become
- * by the time of the primitives, and goes on from there. */
+/* A cell that was covered when the step began has no state to begin with: it is what it is filled with, or what it has
+ * become by the time of the primitives, and goes on from there. */
 static void cut_start(const struct term_tile *tile, const struct cut_rows *rows, size_t i, double rest)
 {
     const struct model *model = tile->model;

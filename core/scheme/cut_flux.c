@@ -44,7 +44,8 @@ static void cut_flux_close(void *own)
     mem_free(cut);
 }
 
-/* Steps leave room for cells in which waves are that much faster: an explicit step is sound up to 1, and asked for is `cfl`. */
+/* Steps leave room for cells in which waves are that much faster: an explicit step is sound up to 1, and asked for is
+ * `cfl`. */
 static double cut_flux_excess(const struct scene *scene)
 {
     double excess = CUT_FLUX_COURANT / scene->scheme.cfl;
@@ -58,8 +59,8 @@ static double cut_flux_through(double low, double high, double part)
     return least < part ? least : part;
 }
 
-/* How much of F - G the faces of a cell get: the same along all axes, so that a flow along the wall fills no cell. `excess`: what
- * one axis may bring of a cell's part. */
+/* How much of F - G the faces of a cell get: the same along all axes, so that a flow along the wall fills no cell.
+ * `excess`: what one axis may bring of a cell's part. */
 static double cut_flux_share(const struct rigid_cells *cells, int dim, size_t at, double excess)
 {
     double share = 1.0, part = cells->part[at];

@@ -1,5 +1,5 @@
-/* cut_rows.h - cells beside rigid walls taken out of a frame or a tile, and lines of a frame beside the parts of their cells. Shared by
- * the two ends of the terms of bodies (cut.h). */
+/* cut_rows.h - cells beside rigid walls taken out of a frame or a tile, and lines of a frame beside the parts of their
+ * cells. Shared by the two ends of the terms of bodies (cut.h). */
 #ifndef CUT_ROWS_H
 #define CUT_ROWS_H
 
@@ -28,10 +28,12 @@ const struct rigid_cells *cut_rows_cells(const struct term_tile *tile);
 size_t cut_rows_add(struct cut_rows *rows, const struct model *model, size_t at, size_t from, const double *w,
                     size_t pitch);
 
-/* Fills p with the pressure on the walls, then w and u with what slides along them (`stop`: with what their walls carry along). */
+/* Fills p with the pressure on the walls, then w and u with what slides along them (`stop`: with what their walls carry
+ * along). */
 void cut_rows_press(struct cut_rows *rows, const struct model *model, const struct rigid_cells *cells, bool stop);
 
-/* A line of a piece along its axis: where its cell 0 lies in the frame and in the block of parts, and steps along it. */
+/* A line of a piece along its axis: where its cell 0 lies in the frame and in the block of parts, and steps along
+ * it. */
 struct cut_rows_line {
     size_t frame, step, block, stride;
     int n, ghosts;

@@ -27,7 +27,8 @@ bool distance_ends(const struct term_piece *piece, int side)
            !scene_boundary_is(piece->model->scene, 2 * axis + side, SCENE_BOUNDARY_WRAPS);
 }
 
-/* Mirrors and copies let nothing through by themselves. Behind other boundaries than inflows there are states of waves. */
+/* Mirrors and copies let nothing through by themselves. Behind other boundaries than inflows there are states of
+ * waves. */
 static void distance_close(const struct term_piece *piece, int side, double *per_d)
 {
     const struct frame *frame = piece->frame;

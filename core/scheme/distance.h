@@ -1,5 +1,6 @@
 /* distance.h - how far apart the cells beside a face are, for what diffuses: between their centroids, a radius with its
- * weight. Boundaries behind which there are states of waves, and mirrors, let nothing through: their faces get 1/d = 0. */
+ * weight. Boundaries behind which there are states of waves, and mirrors, let nothing through: their faces get 1/d =
+ * 0. */
 #ifndef DISTANCE_H
 #define DISTANCE_H
 

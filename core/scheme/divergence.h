@@ -1,7 +1,8 @@
 /* divergence.h - from the fluxes of a piece to the rates of its cells.
  *
  * Geometry enters here alone (model.md 4): exact areas and volumes of metric.h; the radial momentum sees p relative to
- * the cell's own pressure, so that the hoop term beta p / r is balanced and a state at rest stays at rest to round-off. */
+ * the cell's own pressure, so that the hoop term beta p / r is balanced and a state at rest stays at rest to
+ * round-off. */
 #ifndef DIVERGENCE_H
 #define DIVERGENCE_H
 

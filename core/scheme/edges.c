@@ -2,10 +2,10 @@
  *
  * The scheme is a module; the limited slopes that it may ask for are core's (MUSCL, van Leer 1979), and so is the last
  * word. Limited slopes keep edges between neighbouring cells, hence alpha in [0, 1] and densities positive. A scheme
- * that does not promise that (bulla/reconstruction.h) is looked at: limited slopes stand in where a fraction would leave
- * 0 to 1, or take more than the cell has, and where anything else overshoots the range of the neighbours by much. Each
- * component for itself: else round-off in a uniform one would limit the others.
- * With three or more materials, limiters of two sides, or a scheme that promises nothing, fractions are scaled to sum 1. Because alpha_l and rho_l
+ * that does not promise that (bulla/reconstruction.h) is looked at: limited slopes stand in where a fraction would
+ * leave 0 to 1, or take more than the cell has, and where anything else overshoots the range of the neighbours by much.
+ * Each component for itself: else round-off in a uniform one would limit the others. With three or more materials,
+ * limiters of two sides, or a scheme that promises nothing, fractions are scaled to sum 1. Because alpha_l and rho_l
  * are reconstructed (not m_l), a contact at uniform p, u and rho_l has face energies linear in alpha: p and u stay
  * uniform to round-off for every law. */
 #include "scheme/edges.h"

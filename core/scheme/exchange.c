@@ -90,7 +90,8 @@ static BULLA_KERNEL void exchange_speed2(size_t n, const double *restrict u, dou
     for (size_t i = 0; i < n; i++) speed2[i] += u[i] * u[i];
 }
 
-/* r^2/(r^2 + k^2) with r = |u| c_f/c_w^2, c_f^2 = sum alpha rho_l c_l^2/rho, 1/(rho c_w^2) = sum alpha/(rho_l c_l^2). */
+/* r^2/(r^2 + k^2) with r = |u| c_f/c_w^2, c_f^2 = sum alpha rho_l c_l^2/rho, 1/(rho c_w^2) = sum alpha/(rho_l
+ * c_l^2). */
 static BULLA_KERNEL void exchange_fast(size_t n, const double *restrict speed2, const double *restrict rho,
                                        const double *restrict stiffness, const double *restrict compliance,
                                        double *restrict share)
@@ -103,7 +104,8 @@ static BULLA_KERNEL void exchange_fast(size_t n, const double *restrict speed2, 
     }
 }
 
-/* One material's part of the pressure and the strain that volume brings to a cell; one that is not there is not stiff. */
+/* One material's part of the pressure and the strain that volume brings to a cell; one that is not there is not
+ * stiff. */
 static BULLA_KERNEL void exchange_bring(size_t n, const double *restrict carried, const double *restrict strained,
                                         const double *restrict rate, const double *restrict p,
                                         const double *restrict rho_c2, const double *restrict alpha,
@@ -136,8 +138,8 @@ static BULLA_KERNEL void exchange_gentle(size_t n, double h, const double *restr
 }
 
 /* The share, less where a material would lose more than EXCHANGE_MOST of its volume, or gain more than that and
- * EXCHANGE_TRACE of the cell: gas near vacuum makes linear relaxation say anything. All materials of a cell exchange with
- * the same share, so that the sum stays. */
+ * EXCHANGE_TRACE of the cell: gas near vacuum makes linear relaxation say anything. All materials of a cell exchange
+ * with the same share, so that the sum stays. */
 static BULLA_KERNEL void exchange_temper(size_t n, const double *restrict rho_c2, const struct exchange_misfit *misfit,
                                          const double *restrict own, const double *restrict alpha,
                                          double *restrict share)

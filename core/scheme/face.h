@@ -1,8 +1,9 @@
 /* face.h - from a frame of primitives to the fluxes through its faces.
  *
  * Reconstruct (alpha_l, rho_l, u_i, p, V; edges.h), complete both sides (partial
- * densities, energies, frozen speed; with a solid also stress and elastic speeds, face_stress.h), solve the Riemann problems. All arrays are long rows of a
- * frame; face k lies between cells k and k + inner, and the row of faces starts at k = inner. */
+ * densities, energies, frozen speed; with a solid also stress and elastic speeds, face_stress.h), solve the Riemann
+ * problems. All arrays are long rows of a frame; face k lies between cells k and k + inner, and the row of faces starts
+ * at k = inner. */
 #ifndef FACE_H
 #define FACE_H
 
@@ -24,17 +25,15 @@ struct face_work {
     double
         *stretch; /* [n_stretched] V* F, F the mass flux of the solid that carries it, V* of the side it comes from */
     double *strains; /* [n_inner] eps* F_l, D* F_l: what solids remember, F_l the mass flux of the solid */
-    double *heat_below,
-        *heat_above; /* [n_alpha] heat of each material as the cells above and below the face get and give
-                                        it (conduction.h); NULL unless the scene conducts */
-    double *solid;   /* [n_solid] fractions of the solids, means of the sides (mixtures with a solid) */
+    double *heat_below, *heat_above; /* [n_alpha] heat of each material as the cells above and below the face get and
+                                        give it (conduction.h); NULL unless the scene conducts */
+    double *solid;                   /* [n_solid] fractions of the solids, means of the sides (mixtures with a solid) */
     double *slide_left,
         *slide_right; /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */
     double *rise[2]; /* of p from the middle of each cell of the frame to its lower and its upper face, with the sign of
                         going up, where it holds the forces [Pa]; NULL where the scene has none (model->forced) */
-    double
-        *lean[2]; /* of each cell of the frame: what its neighbours' normals make of the differences of the traction to
-                        the cells before and behind [Pa]; NULL where normals are axes */
+    double *lean[2]; /* of each cell of the frame: what its neighbours' normals make of the differences of the traction
+                        to the cells before and behind [Pa]; NULL where normals are axes */
     bool open[3][2]; /* [axis][side] does the tile of the frames end there, at a boundary that waves cross? */
     double *lag; /* [n_material] p_l - p at the face between each cell of the frame and the next, at the place of the
                         cell before, by what acts in interfaces (lag.h) [Pa]; NULL where the scene has none */

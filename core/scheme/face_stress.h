@@ -49,8 +49,8 @@ void face_stress_complete(struct face_stress *stress, const struct model *model,
 /* Points the solver to traction, shear and slides of `faces`; right edges begin at `right`. */
 void face_stress_point(struct face_stress *stress, const struct model *model, size_t right, struct bulla_faces *faces);
 
-/* V* F of all stretches into `out`, pitch FACE_ROOM: the mass flux of the solid times its stretch on the side that it comes
- * from; m: [n_material] mass fluxes. */
+/* V* F of all stretches into `out`, pitch FACE_ROOM: the mass flux of the solid times its stretch on the side that it
+ * comes from; m: [n_material] mass fluxes. */
 void face_stress_carry(const struct model *model, size_t n, size_t right, const double *state, const double *m,
                        double *out);
 

@@ -1,5 +1,5 @@
-/* fick.c - see fick.h. Shares, enthalpies and D are made of the frame before anything changes it (`frame`), fluxes when the
- * others are there (`faces`), volume moves at the end (`cells`). */
+/* fick.c - see fick.h. Shares, enthalpies and D are made of the frame before anything changes it (`frame`), fluxes when
+ * the others are there (`faces`), volume moves at the end (`cells`). */
 #include "scheme/fick.h"
 
 #include "base/mem.h"
@@ -119,8 +119,8 @@ static BULLA_KERNEL void fick_steady(size_t n, double D0, const double *restrict
     }
 }
 
-/* Shares, density and D of mixture k in n cells of the primitives w; share: a row for each material, pitch `room`; T: a row of
- * work space. */
+/* Shares, density and D of mixture k in n cells of the primitives w; share: a row for each material, pitch `room`; T: a
+ * row of work space. */
 static void fick_mix(const struct model *path, unsigned k, size_t n, size_t stride, const double *w, double *T,
                      double *share, size_t room, const struct fick_cells *of)
 {

@@ -177,7 +177,8 @@ static inline void frame_lines_of(size_t count, size_t n, size_t ghosts, const d
     }
 }
 
-/* Along axis 0 a line is whole: its cells and the layers on both sides at once, instead of three copies of few cells. */
+/* Along axis 0 a line is whole: its cells and the layers on both sides at once, instead of three copies of few
+ * cells. */
 static BULLA_KERNEL void frame_lines(const struct frame *frame, unsigned q, const struct frame_cells cells[3],
                                      double *w)
 {

@@ -41,8 +41,8 @@ struct frame_source {
     void *data;
 };
 
-/* Cells of a piece as runs that follow each other in its row and in the tile: how many runs, how long, and how far apart. The
- * first begins at frame_at(frame, 0, 0) and frame_tile_at(frame, 0, 0). */
+/* Cells of a piece as runs that follow each other in its row and in the tile: how many runs, how long, and how far
+ * apart. The first begins at frame_at(frame, 0, 0) and frame_tile_at(frame, 0, 0). */
 struct frame_runs {
     size_t count, n, row, tile;
 };
@@ -76,7 +76,8 @@ static inline size_t frame_at(const struct frame *frame, size_t o, int i)
     return (o * frame_layers(frame) + (size_t)(i + (int)frame->ghosts)) * frame->inner;
 }
 
-/* From the first cell of a frame to the first that has edges, whose neighbours are all in the row; and how many have. */
+/* From the first cell of a frame to the first that has edges, whose neighbours are all in the row; and how many
+ * have. */
 static inline size_t frame_reach(const struct frame *frame)
 {
     return (frame->ghosts - 1) * frame->inner;

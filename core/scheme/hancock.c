@@ -1,5 +1,6 @@
-/* hancock.c - see hancock.h. First the sweeps, as for rates: per axis and component u_a s_a(w) is added up in the layout of the
- * tile. Then the step, in batches of cells. A cell that holds one material alone has the same bits on any path. */
+/* hancock.c - see hancock.h. First the sweeps, as for rates: per axis and component u_a s_a(w) is added up in the
+ * layout of the tile. Then the step, in batches of cells. A cell that holds one material alone has the same bits on any
+ * path. */
 #include "scheme/hancock.h"
 
 #include "base/mem.h"
@@ -49,8 +50,8 @@ void hancock_free(struct hancock *hancock)
     mem_free(hancock);
 }
 
-/* Edges of the cells of a piece: runs of rows as in frames, the first cell's at `upper` and `lower`; `cell` in the tile. The
- * first axis adds to zeros, wherever the sums are. */
+/* Edges of the cells of a piece: runs of rows as in frames, the first cell's at `upper` and `lower`; `cell` in the
+ * tile. The first axis adds to zeros, wherever the sums are. */
 struct hancock_edges {
     struct frame_runs runs;
     const double *upper, *lower, *zeros;

@@ -1,5 +1,5 @@
-/* heights.c - see heights.h. A row of cells along x at a time, with the columns through them and those beside. Sums begin with
- * pairs that lie opposite, so that mirrors and the exchange of x and y keep all bits. */
+/* heights.c - see heights.h. A row of cells along x at a time, with the columns through them and those beside. Sums
+ * begin with pairs that lie opposite, so that mirrors and the exchange of x and y keep all bits. */
 #include "scheme/heights.h"
 
 #include "mesh/metric.h"
@@ -33,8 +33,8 @@ struct heights_row {
     size_t n;
 };
 
-/* Heights in cells along the column's axis, of the columns through a row, from a cell before it to one behind it; `turn`: how far
- * a column goes from one material, -1 or 1, to the other. */
+/* Heights in cells along the column's axis, of the columns through a row, from a cell before it to one behind it;
+ * `turn`: how far a column goes from one material, -1 or 1, to the other. */
 struct heights_columns {
     double height[METRIC_CELLS + 2], turn[METRIC_CELLS + 2];
 };
@@ -44,8 +44,9 @@ struct heights_sum {
     double kappa[METRIC_CELLS], weight[METRIC_CELLS], all[METRIC_CELLS];
 };
 
-/* What lies beyond the end of a column, where the last of its cells has e of a material and the one before it e2: odds e/(1 - e)
- * of a front that is a tanh fall by the same factor from cell to cell. Three cells one by one, then a geometric series. */
+/* What lies beyond the end of a column, where the last of its cells has e of a material and the one before it e2: odds
+ * e/(1 - e) of a front that is a tanh fall by the same factor from cell to cell. Three cells one by one, then a
+ * geometric series. */
 static inline double heights_tail(double e, double e2)
 {
     double last = e > 0.0 ? e : 0.0, before = e2 > HEIGHTS_TRACE ? e2 : HEIGHTS_TRACE;
@@ -139,8 +140,8 @@ static BULLA_KERNEL void heights_add(size_t n, const double *restrict kappa, con
     }
 }
 
-/* kappa of a plane: -(upper n_upper - lower n_lower), n = H'/sqrt(1 + H'^2) at the faces; per: h of the column over that between
- * columns. */
+/* kappa of a plane: -(upper n_upper - lower n_lower), n = H'/sqrt(1 + H'^2) at the faces; per: h of the column over
+ * that between columns. */
 static BULLA_KERNEL void heights_plane_row(size_t n, const double *restrict below, const double *restrict here,
                                            const double *restrict above, const double *restrict lower,
                                            const double *restrict upper, double per, double *restrict kappa)
@@ -193,7 +194,8 @@ static void heights_faces(const struct heights_row *row, int across, double *low
     }
 }
 
-/* In the plane and around an axis: columns along `axis`, three rows of them, or one where they stand beside each other in it. */
+/* In the plane and around an axis: columns along `axis`, three rows of them, or one where they stand beside each other
+ * in it. */
 static void heights_plane(const struct heights_row *row, int axis, const double *normal, struct heights_sum *sum)
 {
     int across = 1 - axis;

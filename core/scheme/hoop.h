@@ -1,8 +1,8 @@
 /* hoop.h - what stands against p / r in curved geometry: the value that the radial momentum is taken relative to.
  *
- * In a cell of an axisymmetric or spherical mesh the walls along theta push outwards with beta -s_thth / r (model.md 4). Taken
- * with the face areas this is the divergence of the momentum flux relative to -s_thth of the cell: p in a fluid, p - s'_zz with
- * a solid. */
+ * In a cell of an axisymmetric or spherical mesh the walls along theta push outwards with beta -s_thth / r (model.md
+ * 4). Taken with the face areas this is the divergence of the momentum flux relative to -s_thth of the cell: p in a
+ * fluid, p - s'_zz with a solid. */
 #ifndef HOOP_H
 #define HOOP_H
 

@@ -6,7 +6,8 @@
 #include <math.h>
 
 /* From the second difference of pressure over rho c^2 to its part of z: bends of more than 1/200 of rho c^2, 13 MPa in
- * water, see the whole jump; with less the tubes R08 and R09 overshoot by more than 2 % (docs/decisions/low-mach.md). */
+ * water, see the whole jump; with less the tubes R08 and R09 overshoot by more than 2 %
+ * (docs/decisions/low-mach.md). */
 #define LOW_MACH_BEND 200.0
 
 /* Both neighbours first: mirror images keep their bits. */

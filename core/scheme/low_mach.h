@@ -1,27 +1,25 @@
 /* low_mach.h - faces in slow flow: how much of a jump of velocity the Riemann problem gets to see.
  *
- * Where a fluid is slow, its velocity differs between the two sides of a face by what the reconstruction leaves out, and a
- * solver answers every such difference with a pressure of rho c (u_L - u_R)/2: a viscosity of some c h/2 that has nothing
- * to do with the flow. With `low-mach` the normal velocities at a face are drawn together first, whatever the solver,
- *     u = (u_L + u_R)/2 -+ z (u_R - u_L)/2,      z = min(1, least + max(M_L, M_R) + LOW_MACH_BEND b / max rho c^2),
- * after Thornber, Mosedale, Drikakis, Youngs & Williams, J. Comput. Phys. 227 (2008) 4873-4894, who have z = max(M_L, M_R).
- * b is the larger second difference of pressure of the two cells of the face: a shock wants its jump of velocity whole,
- * and so do the cells behind it, where the jump of pressure is small again; a pressure that rises evenly is no shock.
- * Solvers that resist shear (bulla/riemann.h) answer a jump of velocities along the face, too, by half of rho c times it. There
- * those are drawn together as well, by
- *     z_t = 1 - (1 - z) min(rho_L, rho_R)/max(rho_L, rho_R):
- * what is left of the resistance is at least that of the upwind side, z rho c >= |rho u|, in a liquid and in a gas; between
- * them, where the lighter side resists and the heavier one carries, the jump stays. Other solvers carry u_t from the upwind
- * side, and keep it.
- * Faces of troubled cells and of those beside boundaries that waves cross keep their jumps: what leaves there is a wave,
- * and with two means in place of its invariants it would not. */
+ * Where a fluid is slow, its velocity differs between the two sides of a face by what the reconstruction leaves out,
+ * and a solver answers every such difference with a pressure of rho c (u_L - u_R)/2: a viscosity of some c h/2 that has
+ * nothing to do with the flow. With `low-mach` the normal velocities at a face are drawn together first, whatever the
+ * solver, u = (u_L + u_R)/2 -+ z (u_R - u_L)/2,      z = min(1, least + max(M_L, M_R) + LOW_MACH_BEND b / max rho c^2),
+ * after Thornber, Mosedale, Drikakis, Youngs & Williams, J. Comput. Phys. 227 (2008) 4873-4894, who have z = max(M_L,
+ * M_R). b is the larger second difference of pressure of the two cells of the face: a shock wants its jump of velocity
+ * whole, and so do the cells behind it, where the jump of pressure is small again; a pressure that rises evenly is no
+ * shock. Solvers that resist shear (bulla/riemann.h) answer a jump of velocities along the face, too, by half of rho c
+ * times it. There those are drawn together as well, by z_t = 1 - (1 - z) min(rho_L, rho_R)/max(rho_L, rho_R): what is
+ * left of the resistance is at least that of the upwind side, z rho c >= |rho u|, in a liquid and in a gas; between
+ * them, where the lighter side resists and the heavier one carries, the jump stays. Other solvers carry u_t from the
+ * upwind side, and keep it. Faces of troubled cells and of those beside boundaries that waves cross keep their jumps:
+ * what leaves there is a wave, and with two means in place of its invariants it would not. */
 #ifndef LOW_MACH_H
 #define LOW_MACH_H
 
 #include <stddef.h>
 
-/* Faces between edges of a row: the left one of face i stands at i, the right one at right + i. They lie between the cells
- * i and i + step of a row that goes on by `step` cells on both sides. */
+/* Faces between edges of a row: the left one of face i stands at i, the right one at right + i. They lie between the
+ * cells i and i + step of a row that goes on by `step` cells on both sides. */
 struct low_mach {
     size_t n, right, step;
     double least;               /* z of a fluid at rest */

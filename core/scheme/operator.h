@@ -1,4 +1,5 @@
-/* operator.h - what acts on a state beside the rates of the terms: after every stage, after the step, or between the stages.
+/* operator.h - what acts on a state beside the rates of the terms: after every stage, after the step, or between the
+ * stages.
  *
  * A term (term.h) says how fast a state changes; an operator changes it at once, cell by cell: plastic flow that puts a
  * stretch back on its yield surface, a reaction, a relaxation. Where it stands in the step:
@@ -6,11 +7,12 @@
  *     all but the last: OPERATOR_STAGE, OPERATOR_BETWEEN
  *     the last one: rates, the new conserved fields; OPERATOR_STAGE, OPERATOR_STEP; primitives, the guard, the signal
  * It acts on what the attempt makes, never on the state that the step began with: an attempt that is repeated or
- * halved begins again from that, so what an operator did is undone with everything else, to the bit. Each level calls it
- * with its own steps; averages of finer levels and refluxing come later, and do not call it.
+ * halved begins again from that, so what an operator did is undone with everything else, to the bit. Each level calls
+ * it with its own steps; averages of finer levels and refluxing come later, and do not call it.
  *
- * An operator sees one cell at a time: no neighbours, no other tiles. So numbers depend neither on ranks nor on the order of
- * tiles. Mass, momentum and energy stay conserved if it conserves them in a cell. docs/extending.md adds one. */
+ * An operator sees one cell at a time: no neighbours, no other tiles. So numbers depend neither on ranks nor on the
+ * order of tiles. Mass, momentum and energy stay conserved if it conserves them in a cell. docs/extending.md adds
+ * one. */
 #ifndef OPERATOR_H
 #define OPERATOR_H
 
@@ -33,12 +35,12 @@ struct operator_tile {
     const struct level *level;
     const struct tile *tile;
     size_t n_cell;
-    double t;  /* of the state [s] */
-    double dt; /* that it has gone through since the step began [s] */
-    double *u; /* conserved fields, which it may change */
-    double *w; /* primitives of u, for operators that ask for them; core makes them anew afterwards */
-    double *
-        grown; /* [n_solid][n_cell] what plastic strains have grown by in this step: from plastic.c to rupture.c; or NULL */
+    double t;      /* of the state [s] */
+    double dt;     /* that it has gone through since the step began [s] */
+    double *u;     /* conserved fields, which it may change */
+    double *w;     /* primitives of u, for operators that ask for them; core makes them anew afterwards */
+    double *grown; /* [n_solid][n_cell] what plastic strains have grown by in this step: from plastic.c to rupture.c; or
+                      NULL */
     struct operator_fault *fault; /* for who asks scripts: the step is not taken. NULL: nobody looks */
 };
 

@@ -17,8 +17,8 @@ struct operators {
     bool moves; /* some operator may change what rests */
 };
 
-/* Every operator there is, in the order in which they act; ends with NULL. There is room for OPERATORS_MOST, to which tests
- * add theirs before a state is made. */
+/* Every operator there is, in the order in which they act; ends with NULL. There is room for OPERATORS_MOST, to which
+ * tests add theirs before a state is made. */
 extern const struct operator* operators_all[OPERATORS_MOST + 1];
 
 void operators_of(const struct model *path, struct operators *ret_operators);
@@ -26,8 +26,8 @@ void operators_of(const struct model *path, struct operators *ret_operators);
 /* Does some operator bring a material to tiles without it? Then none is narrowed (census.h). */
 bool operators_spread(const struct scene *scene);
 
-/* The state of a tile after a stage; `last`: of the step. Primitives are made where an operator asks for them; w then holds
- * pressures from which an iterated closure starts. Returns what that took. */
+/* The state of a tile after a stage; `last`: of the step. Primitives are made where an operator asks for them; w then
+ * holds pressures from which an iterated closure starts. Returns what that took. */
 struct mix_effort operators_act(const struct operators *operators, bool last, const struct operator_tile *tile);
 
 /* The list for people, a line each: name, equation, owner. Nothing if the scene has none of this time. */

@@ -24,8 +24,8 @@ void patch_state_given(void *data, unsigned local, int face, const struct box_bl
 struct patch_source patch_state_source(const struct model *model, const struct mesh *mesh, int l, int g, int slots,
                                        struct bound *bound, struct patch_state *keep);
 
-/* A source of the volume fractions, from the primitives w of a level; characteristic boundaries are copies. `model` must live
- * as long as the source. */
+/* A source of the volume fractions, from the primitives w of a level; characteristic boundaries are copies. `model`
+ * must live as long as the source. */
 struct patch_source patch_state_fractions(const struct model *model, const struct mesh *mesh, int l, int g, int slots);
 
 #endif

@@ -16,7 +16,8 @@ static bool plastic_reads(const struct model *path)
     return flow_reads(path) || settle_wanted(path);
 }
 
-/* Where the middle of a step is only looked at: what flows there is not counted. On a line: planes are not measured yet. */
+/* Where the middle of a step is only looked at: what flows there is not counted. On a line: planes are not measured
+ * yet. */
 static bool plastic_wanted_between(const struct model *path)
 {
     return path->plastic && path->dim == 1 && path->scene->scheme.integrator == SCENE_MIDPOINT;

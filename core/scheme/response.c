@@ -29,7 +29,8 @@ static double *response_row(const struct term_tile *tile, unsigned k)
     return tile->rates + (terms_first(tile->terms, &response_term) + k * tile->model->n_material) * tile->n_cell;
 }
 
-/* One material's part of S and of sum alpha pull/M. What has no stiffness takes no part (phys/mix.c has the same for K). */
+/* One material's part of S and of sum alpha pull/M. What has no stiffness takes no part (phys/mix.c has the same for
+ * K). */
 static BULLA_KERNEL void response_add(size_t n, const double *restrict alpha, const double *restrict stiff,
                                       const double *restrict pull, double *restrict give, double *restrict pulled)
 {

@@ -1,10 +1,10 @@
 /* response.h - how the solids of a mixed cell take part in its strain, where the traction is common (phys/traction.h).
  *
- * Kapila's closure gives each material of a cell a compression of its own, so that all keep one pressure. A solid resists
- * a strain along the normal of the interface with M_l = rho_l c_l^2 + stiff_l, not with rho_l c_l^2, and one along the
- * interface pulls at the normal traction as well (phys/traction_rate.h). With S = sum alpha_l/M_l
- *     d alpha_l/dt = K_l div u - alpha_l own_l,   K_l = alpha_l (1/(M_l S) - 1),
- *     own_l = (pull_l - sum alpha_k pull_k/M_k / S)/M_l,   sum alpha_l own_l = 0. */
+ * Kapila's closure gives each material of a cell a compression of its own, so that all keep one pressure. A solid
+ * resists a strain along the normal of the interface with M_l = rho_l c_l^2 + stiff_l, not with rho_l c_l^2, and one
+ * along the interface pulls at the normal traction as well (phys/traction_rate.h). With S = sum alpha_l/M_l d
+ * alpha_l/dt = K_l div u - alpha_l own_l,   K_l = alpha_l (1/(M_l S) - 1), own_l = (pull_l - sum alpha_k pull_k/M_k /
+ * S)/M_l,   sum alpha_l own_l = 0. */
 #ifndef RESPONSE_H
 #define RESPONSE_H
 

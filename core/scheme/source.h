@@ -7,10 +7,10 @@
  *     heating q_l               d(rho E) = sum alpha_l q_l
  *     mass s_l                  d m_l = s_l,  d(rho u) = s_l u,  d(rho E) = s_l (e_l + p/rho_l + u^2/2)
  *     fractions, stretch        d alpha_l, d V as they are
- * Mass arrives in the state that the material has there, a solid's with its stretch, and nowhere where the material is absent. With the
- * Kapila closure, what heat and mass would drive the pressures of the materials apart by moves volume between them, as
- * in exchange.h: d alpha_l = e_l - s_l/S sum_k e_k with the compliances s_l = alpha_l/(rho_l c_l^2), S = sum s_l, and
- * e_l = s_l q_l/(d rho_l e_l/dp) + (mass source)/rho_l. */
+ * Mass arrives in the state that the material has there, a solid's with its stretch, and nowhere where the material is
+ * absent. With the Kapila closure, what heat and mass would drive the pressures of the materials apart by moves volume
+ * between them, as in exchange.h: d alpha_l = e_l - s_l/S sum_k e_k with the compliances s_l = alpha_l/(rho_l c_l^2), S
+ * = sum s_l, and e_l = s_l q_l/(d rho_l e_l/dp) + (mass source)/rho_l. */
 #ifndef SOURCE_H
 #define SOURCE_H
 

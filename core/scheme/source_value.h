@@ -1,4 +1,5 @@
-/* source_value.h - what the sources of a scene are in the middles of cells: numbers, expressions and Lua, asked in rows.
+/* source_value.h - what the sources of a scene are in the middles of cells: numbers, expressions and Lua, asked in
+ * rows.
  *
  * Places come from the integer index of a cell in its level, mirrored to the bit in a domain that is symmetric about 0,
  * so that results depend neither on tiles nor on ranks. */

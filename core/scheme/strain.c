@@ -36,7 +36,8 @@ void strain_carry(struct terms *terms, int axis, unsigned k, const double *stret
 }
 
 /* The stretches that come in, and the velocity gradient along the axis: plain differences in all geometries. Tangential
- * velocities are those that the cell itself sees, as the right neighbour of its lower face and the left one of its upper. */
+ * velocities are those that the cell itself sees, as the right neighbour of its lower face and the left one of its
+ * upper. */
 static void strain_list(struct terms *terms, int axis, unsigned first, const struct face_work *faces)
 {
     static const struct face_work none;

@@ -5,12 +5,12 @@
 
 #include "scheme/term.h"
 
-/* Owns n_velocity * dim rows, -d_k u*_i at i * dim + k, and in mixtures dim more for each solid: -d_k of its fraction. Acts
- * when masses and fractions of the new state stand. */
+/* Owns n_velocity * dim rows, -d_k u*_i at i * dim + k, and in mixtures dim more for each solid: -d_k of its fraction.
+ * Acts when masses and fractions of the new state stand. */
 extern const struct term strain_term;
 
-/* Stretch k of a tile (model_stretches()) from V_old, [n_stretch][n_cell], into the new state: moved with the mass of the
- * solid that carries it, faded where there is little of them, unimodular. For terms behind this one in the list. */
+/* Stretch k of a tile (model_stretches()) from V_old, [n_stretch][n_cell], into the new state: moved with the mass of
+ * the solid that carries it, faded where there is little of them, unimodular. For terms behind this one in the list. */
 void strain_move(const struct term_tile *tile, unsigned k, double relaxes, const double *V_old, double *u_new);
 
 /* Lists the fluxes of stretch k; stretch: of the faces (face.h), or NULL. Likewise for other terms. */

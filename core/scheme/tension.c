@@ -1,5 +1,5 @@
-/* tension.c - see tension.h. In one dimension pieces are whole tiles, and rows of faces follow those of cells; in two and
- * three the curvature is a row of the frame (solve/curve.h). */
+/* tension.c - see tension.h. In one dimension pieces are whole tiles, and rows of faces follow those of cells; in two
+ * and three the curvature is a row of the frame (solve/curve.h). */
 #include "scheme/tension.h"
 
 #include "paint/paint_curvature.h"

@@ -1,15 +1,13 @@
 /* term.h - one term of the equations as data: what a scene must have for it, which rows of rates it owns, what it does.
  *
- * The rate of change of a tile is a block of rows of n_cell: the n_field evolved fields, then the rows that terms own, in
- * the order of their list (terms.h). In a stage every term of the list acts in this order:
- *     begin    in the cells, before any face: what the others are taken relative to
- *     frame    on the gathered primitives of a piece, before it is reconstructed
- *     faces    on the fluxes of a piece, after the Riemann problems
- *              then the fluxes that terms list become rates (divergence.h)
- *     cells    adds to the rates what acts in the cells, from the primitives
- *     apply    makes the new state: u + dt rate, and what is not of that form
- * All slots may be NULL. What a term does in one tile may not depend on other tiles but through the frames, so that numbers
- * depend neither on ranks nor on the order of tiles. docs/extending.md adds one. */
+ * The rate of change of a tile is a block of rows of n_cell: the n_field evolved fields, then the rows that terms own,
+ * in the order of their list (terms.h). In a stage every term of the list acts in this order: begin    in the cells,
+ * before any face: what the others are taken relative to frame    on the gathered primitives of a piece, before it is
+ * reconstructed faces    on the fluxes of a piece, after the Riemann problems then the fluxes that terms list become
+ * rates (divergence.h) cells    adds to the rates what acts in the cells, from the primitives apply    makes the new
+ * state: u + dt rate, and what is not of that form All slots may be NULL. What a term does in one tile may not depend
+ * on other tiles but through the frames, so that numbers depend neither on ranks nor on the order of tiles.
+ * docs/extending.md adds one. */
 #ifndef TERM_H
 #define TERM_H
 
@@ -24,8 +22,8 @@ struct terms;
 /* Which terms act: all, those that diffuse (solve/rkl.h takes them by themselves), or the others. */
 enum term_part { TERM_WHOLE, TERM_SLOW, TERM_DIFFUSION };
 
-/* One tile in one stage. Blocks are [rows][n_cell]; only `rates` and what `apply` is given are written, and in `begin` and
- * `cells` the rows of the work space. */
+/* One tile in one stage. Blocks are [rows][n_cell]; only `rates` and what `apply` is given are written, and in `begin`
+ * and `cells` the rows of the work space. */
 struct term_tile {
     const struct terms *terms;
     const struct model *model; /* the path that the tile is advanced with */
@@ -76,8 +74,8 @@ static inline bool term_is_flux(enum term_kind kind)
     return kind != TERM_TOLD && kind != TERM_FORCE;
 }
 
-/* Values at the faces across one axis. `below` is what the cell above a face sees at its lower face, `above` what the cell
- * below sees at its upper one: the same row, but for velocities along a face where the sides slip. */
+/* Values at the faces across one axis. `below` is what the cell above a face sees at its lower face, `above` what the
+ * cell below sees at its upper one: the same row, but for velocities along a face where the sides slip. */
 struct term_flux {
     char name[SCENE_NAME + 24];  /* "mass_water": as dumps say it; empty: not told */
     const double *below, *above; /* rows of faces as in face.h; NULL where a list has no work space */

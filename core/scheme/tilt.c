@@ -59,8 +59,8 @@ static void tilt_alone(size_t n, size_t step, const double *solid, double *norma
     }
 }
 
-/* Where a cell and both neighbours hold the same nothing meets along this axis: a path of one material says so, too. The
- * outermost layers have no neighbours here. */
+/* Where a cell and both neighbours hold the same nothing meets along this axis: a path of one material says so, too.
+ * The outermost layers have no neighbours here. */
 static void tilt_forget(const struct model *model, const struct frame *frame, const double *solid, double *w)
 {
     size_t run = (frame_layers(frame) - 2) * frame->inner;
@@ -90,7 +90,8 @@ struct tilt_lean {
     const double *normal[3], *stress[6], *mean, *p;
 };
 
-/* P of cells `to` less p of cells `from` and more their stress on the same normals, or the other way round (sign -1). */
+/* P of cells `to` less p of cells `from` and more their stress on the same normals, or the other way round (sign
+ * -1). */
 static BULLA_KERNEL void tilt_lean(size_t n, double sign, const struct tilt_lean *to, const struct tilt_lean *from,
                                    double *restrict lean)
 {
@@ -168,7 +169,8 @@ static void tilt_meets(const struct model *model, size_t n, size_t right, const 
     }
 }
 
-/* What the fractions at both edges of a face are to be multiplied with: A over each. `left` and `right` hold the fractions. */
+/* What the fractions at both edges of a face are to be multiplied with: A over each. `left` and `right` hold the
+ * fractions. */
 static BULLA_KERNEL void tilt_parts(size_t n, const double *restrict meets, double *restrict left,
                                     double *restrict right)
 {

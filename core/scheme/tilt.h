@@ -2,13 +2,12 @@
  *
  * In one dimension the traction on faces is the common one, P = p - sum alpha_l s'_l,nn, and takes the place of p
  * (face_stress.h). With a normal n in each cell,
- * - P is that of the cell's own normal, and the limiter sees its neighbours with the same one: the differences to them are
- *   made of p and the whole stress (`lean` of face.h), the same in all tiles that see a cell;
+ * - P is that of the cell's own normal, and the limiter sees its neighbours with the same one: the differences to them
+ * are made of p and the whole stress (`lean` of face.h), the same in all tiles that see a cell;
  * - the normal of a cell holds at its edges;
- * - a face of normal f has -s_ff = P - A (s'_ff - s'_nn) and the shear A s'_ft, with s' per volume of solid and one A for both
- *   sides, the part of the face that solids cover: the mean of their fractions at the two edges, less where one is below
- *   1/16 of the other. Beside cells without solid nothing bears it.
- * After docs/decisions/oblique-surfaces.md. */
+ * - a face of normal f has -s_ff = P - A (s'_ff - s'_nn) and the shear A s'_ft, with s' per volume of solid and one A
+ * for both sides, the part of the face that solids cover: the mean of their fractions at the two edges, less where one
+ * is below 1/16 of the other. Beside cells without solid nothing bears it. After docs/decisions/oblique-surfaces.md. */
 #ifndef TILT_H
 #define TILT_H
 

@@ -1,8 +1,8 @@
 /* viscoelastic.c - see viscoelastic.h.
  *
- * Relaxation F and motion A make a step F(dt/6) A(dt/2) F(2 dt/3) A(dt/2) F(dt/6), or in short ones F(dt/2) A(dt) F(dt/2), of
- * second order (phys/flow_relax.h). F is exact, so a step may be longer than tau. What flows in through the faces is that of the middle
- * of the step, and is added in the middle. */
+ * Relaxation F and motion A make a step F(dt/6) A(dt/2) F(2 dt/3) A(dt/2) F(dt/6), or in short ones F(dt/2) A(dt)
+ * F(dt/2), of second order (phys/flow_relax.h). F is exact, so a step may be longer than tau. What flows in through the
+ * faces is that of the middle of the step, and is added in the middle. */
 #include "scheme/viscoelastic.h"
 
 #include "base/mem.h"

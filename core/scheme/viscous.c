@@ -1,8 +1,8 @@
 /* viscous.c - see viscous.h.
  *
- * A tile's velocities and fractions come with the layer of cells around it (tile->around). The faces of each piece of a sweep are
- * worked on in batches, whose gradients are taken in there (viscous_slopes.h). What acts in the cells (the hoop stress, heat) has
- * gradients of the tile's own cells. */
+ * A tile's velocities and fractions come with the layer of cells around it (tile->around). The faces of each piece of a
+ * sweep are worked on in batches, whose gradients are taken in there (viscous_slopes.h). What acts in the cells (the
+ * hoop stress, heat) has gradients of the tile's own cells. */
 #include "scheme/viscous.h"
 
 #include "base/mem.h"

@@ -9,10 +9,11 @@
  * interface goes through layers in series, hence the harmonic mean (docs/numerics.md, viscosity). n is the
  * direction in which the fractions change (viscous_strain.h).
  *
- * A face has one tau for both sides: derivatives along its normal are differences of its two cells, those along it the mean
- * of central differences in both, which look across edges (tile->around). The velocity of its work is the mean of both
- * cells. In curved geometry differences are those of the middles of volumes, so that u = a r has no shear; the hoop stress acts in
- * the cells. What a material is heated by, 2 mu_l |dev D_l|^2 + zeta_l d_l^2, moves volume (swell.h). */
+ * A face has one tau for both sides: derivatives along its normal are differences of its two cells, those along it the
+ * mean of central differences in both, which look across edges (tile->around). The velocity of its work is the mean of
+ * both cells. In curved geometry differences are those of the middles of volumes, so that u = a r has no shear; the
+ * hoop stress acts in the cells. What a material is heated by, 2 mu_l |dev D_l|^2 + zeta_l d_l^2, moves volume
+ * (swell.h). */
 #ifndef VISCOUS_H
 #define VISCOUS_H
 
@@ -20,9 +21,10 @@
 
 extern const struct term viscous_term;
 
-/* For fields, of a tile of the whole model with tile->around and tile->rho_c2 (mix_stiffness_everywhere; NULL: no mixtures), `own`
- * from the term's `open`; n_cell numbers each. The gradients are those of the cells, which need no edges and corners.
- * Component (i, j) of tau [Pa]; third directions in curved geometry are those around the axis or the centre. */
+/* For fields, of a tile of the whole model with tile->around and tile->rho_c2 (mix_stiffness_everywhere; NULL: no
+ * mixtures), `own` from the term's `open`; n_cell numbers each. The gradients are those of the cells, which need no
+ * edges and corners. Component (i, j) of tau [Pa]; third directions in curved geometry are those around the axis or the
+ * centre. */
 void viscous_stress_field(const struct term_tile *tile, void *own, unsigned i, unsigned j, double *tau);
 
 /* sum alpha_l (2 mu_l |dev D_l|^2 + zeta_l d_l^2) [W/m3]: heat that the materials get. */

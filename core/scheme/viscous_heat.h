@@ -1,4 +1,5 @@
-/* viscous_heat.h - what viscosity does in the cells: the hoop stress of curved geometry, and the volume that heat moves. */
+/* viscous_heat.h - what viscosity does in the cells: the hoop stress of curved geometry, and the volume that heat
+ * moves. */
 #ifndef VISCOUS_HEAT_H
 #define VISCOUS_HEAT_H
 

@@ -15,13 +15,13 @@
 /* Fluidity of a material without viscosity. */
 #define VISCOUS_MIX_FLUID 1e300
 
-/* Most times the kinematic viscosity of the more viscous side that mu_a may be for the lighter one. Harmonic means of equal
- * parts are at most twice the smaller of both viscosities. */
+/* Most times the kinematic viscosity of the more viscous side that mu_a may be for the lighter one. Harmonic means of
+ * equal parts are at most twice the smaller of both viscosities. */
 #define VISCOUS_MIX_MOST 2.0
 
-/* The same where a fluid pulls on its surface (viscous_pull.h): there the normal is the radius, mu_a acts on no difference across
- * the face, and the pressures on both sides of it are those of mu_a as it is. Not without a bound: with one of 200 a
- * bubble in 1 Pa s breaks up. */
+/* The same where a fluid pulls on its surface (viscous_pull.h): there the normal is the radius, mu_a acts on no
+ * difference across the face, and the pressures on both sides of it are those of mu_a as it is. Not without a bound:
+ * with one of 200 a bubble in 1 Pa s breaks up. */
 #define VISCOUS_MIX_PULLED 60.0
 
 /* Sums over the materials, where there is an interface. */

@@ -5,8 +5,8 @@
 #include "phys/coefficient.h"
 #include "scheme/viscous_strain.h"
 
-/* Where the materials of a batch are taken from: rows of n primitives, a row `row` further than the one before; means of those
- * at i and at i + step (0: those at i). Component q at w + q * pitch. */
+/* Where the materials of a batch are taken from: rows of n primitives, a row `row` further than the one before; means
+ * of those at i and at i + step (0: those at i). Component q at w + q * pitch. */
 struct viscous_sides {
     const double *w;
     size_t pitch, step, rows, n, row;
@@ -40,8 +40,8 @@ struct viscous_mix_rows {
 struct viscous_mix_rows viscous_mix_ask(const struct viscous_mix *mix, const struct model *path, unsigned l,
                                         const struct coefficient_points *points, struct viscous_mix_number *room);
 
-/* mu_a is bounded by what the lighter side can bear (numerics.md): a time step that the cells' own viscosities set is good for
- * it. */
+/* mu_a is bounded by what the lighter side can bear (numerics.md): a time step that the cells' own viscosities set is
+ * good for it. */
 void viscous_mix_make(const struct viscous_strain *strain, const struct viscous_sides *sides, struct viscous_mix *ret);
 
 /* Component (i, axis) of tau, from both. tau[n]. */

@@ -1,5 +1,5 @@
-/* viscous_plain.c - see viscous_plain.h. One pass per component of the momentum, over values of the patch. Sums are in the order
- * of viscous_strain.c and viscous_mix.c; halves and doubles are exact, wherever they stand. */
+/* viscous_plain.c - see viscous_plain.h. One pass per component of the momentum, over values of the patch. Sums are in
+ * the order of viscous_strain.c and viscous_mix.c; halves and doubles are exact, wherever they stand. */
 #include "scheme/viscous_plain.h"
 
 #include "phys/coefficient.h"

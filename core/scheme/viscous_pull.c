@@ -36,8 +36,8 @@ static void viscous_pull_close(void *own)
     mem_free(own);
 }
 
-/* A pull at the faces above n cells: the mean of both with the square of alpha (1 - alpha), largest in the middle of a front.
- * mean: of the fractions; rise: what p grows by. */
+/* A pull at the faces above n cells: the mean of both with the square of alpha (1 - alpha), largest in the middle of a
+ * front. mean: of the fractions; rise: what p grows by. */
 static BULLA_KERNEL void viscous_pull_between(size_t n, size_t step, const double *restrict tau,
                                               const double *restrict a, double *restrict pull, double *restrict mean,
                                               double *restrict rise)

@@ -1,7 +1,8 @@
 /* viscous_slopes.h - velocities and the colour of a tile, with the layer around it, and their slopes.
  *
- * The colour tells materials apart: with two it is the fraction of the second, else sum (l - 1)/(N - 1) alpha_l. Batches of faces
- * or cells are cut out of the patch as blocks of rows, and slopes are taken where its values lie: nothing is copied. */
+ * The colour tells materials apart: with two it is the fraction of the second, else sum (l - 1)/(N - 1) alpha_l.
+ * Batches of faces or cells are cut out of the patch as blocks of rows, and slopes are taken where its values lie:
+ * nothing is copied. */
 #ifndef VISCOUS_SLOPES_H
 #define VISCOUS_SLOPES_H
 
@@ -31,8 +32,8 @@ static inline const double *viscous_slopes_velocity(const struct viscous_slopes 
     return slopes->data + (slopes->tile->model->n_around_alpha + d) * slopes->pitch;
 }
 
-/* Some rows of neighbouring faces of a piece, or of cells of a tile: point i of row r is point r * n + i of a batch. A face is
- * found by the cell before it. */
+/* Some rows of neighbouring faces of a piece, or of cells of a tile: point i of row r is point r * n + i of a batch. A
+ * face is found by the cell before it. */
 struct viscous_block {
     size_t rows, n;
     size_t x;                /* place along axis 0 of the first point of each row: the cell, or the face below it */

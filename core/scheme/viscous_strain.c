@@ -1,5 +1,5 @@
-/* viscous_strain.c - see viscous_strain.h. Loops over components are those of n_velocity, which may be more than the axes:
- * derivatives along axes that are not there are 0 and are not stored. */
+/* viscous_strain.c - see viscous_strain.h. Loops over components are those of n_velocity, which may be more than the
+ * axes: derivatives along axes that are not there are 0 and are not stored. */
 #include "scheme/viscous_strain.h"
 
 #include "phys/elastic.h"
@@ -63,8 +63,8 @@ static BULLA_KERNEL double viscous_strain_steepness(size_t n, double limit, cons
     return steep;
 }
 
-/* g/sqrt(g^4 + flat^4), or 0 where g is a thousandth of flat: then m is 0 to the bit whether or not there is an interface
- * elsewhere. */
+/* g/sqrt(g^4 + flat^4), or 0 where g is a thousandth of flat: then m is 0 to the bit whether or not there is an
+ * interface elsewhere. */
 static BULLA_KERNEL void viscous_strain_scale(size_t n, double flat2, double limit, double *restrict g2)
 {
 #pragma omp simd

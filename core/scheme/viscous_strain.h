@@ -25,8 +25,8 @@ struct viscous_strain {
     bool interface;                 /* m is not 0 everywhere; else m, q and the two below are not made */
 };
 
-/* D, div u, and where the colour changes m = g |g|/sqrt(|g|^4 + (STRAIN_FLAT/h)^4), g its gradient: a unit vector to 1e-12 at
- * a sharp interface, nothing in a smooth mixture. h: the longest side of a cell. */
+/* D, div u, and where the colour changes m = g |g|/sqrt(|g|^4 + (STRAIN_FLAT/h)^4), g its gradient: a unit vector to
+ * 1e-12 at a sharp interface, nothing in a smooth mixture. h: the longest side of a cell. */
 void viscous_strain_make(struct viscous_strain *strain, double h);
 
 /* The longest side of a cell. */

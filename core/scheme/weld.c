@@ -45,8 +45,8 @@ static void *weld_open(const struct term_room *room)
     return mem_new(1, sizeof(struct weld));
 }
 
-/* Direction in which the number of the solid changes, (sum alpha) sum (s - mean) grad alpha_s, times the spacing; of two
- * solids a grad b - b grad a. */
+/* Direction in which the number of the solid changes, (sum alpha) sum (s - mean) grad alpha_s, times the spacing; of
+ * two solids a grad b - b grad a. */
 static void weld_colour(const struct term_tile *tile, const double *u, size_t cell, double g[3])
 {
     const struct model *model = tile->model;

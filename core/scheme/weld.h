@@ -1,13 +1,12 @@
 /* weld.h - where two solids meet they share the shear traction, not the shear.
  *
- * Every solid has a stretch of its own. A mixed cell moves all of them with its one velocity gradient, as if they lay beside
- * each other; but along an interface they lie behind each other: the traction t is common, and the softer one is sheared the
- * more. So after each stage the solids of a cell slide past each other by a_l along the interface of normal n,
- *     V_l <- polar((1 + a_l n^T) V_l),   t_l + k_l a_l = t for all,   sum alpha_l a_l = 0,
- *     t = sum (alpha_l t_l/k_l)/sum (alpha_l/k_l)
- * with t_l the shear traction of s'_l on n and k_l its stiffness against shear along n, per own volume (neo-Hookean: G n.Bn,
- * exact). The velocity gradient of the cell, their mean, stays. Elastic energy falls, as both lie in one cell; it is heat.
- * docs/decisions/unlike-solids.md. */
+ * Every solid has a stretch of its own. A mixed cell moves all of them with its one velocity gradient, as if they lay
+ * beside each other; but along an interface they lie behind each other: the traction t is common, and the softer one is
+ * sheared the more. So after each stage the solids of a cell slide past each other by a_l along the interface of normal
+ * n, V_l <- polar((1 + a_l n^T) V_l),   t_l + k_l a_l = t for all,   sum alpha_l a_l = 0, t = sum (alpha_l t_l/k_l)/sum
+ * (alpha_l/k_l) with t_l the shear traction of s'_l on n and k_l its stiffness against shear along n, per own volume
+ * (neo-Hookean: G n.Bn, exact). The velocity gradient of the cell, their mean, stays. Elastic energy falls, as both lie
+ * in one cell; it is heat. docs/decisions/unlike-solids.md. */
 #ifndef WELD_H
 #define WELD_H
 

@@ -1,4 +1,5 @@
-/* adopt.h - a level whose tiles or neighbours have changed: what its stage knows of them is made anew or taken along. */
+/* adopt.h - a level whose tiles or neighbours have changed: what its stage knows of them is made anew or taken
+ * along. */
 #ifndef ADOPT_H
 #define ADOPT_H
 

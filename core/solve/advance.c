@@ -375,8 +375,8 @@ static int advance_follow(struct state *state)
     return regrid_verdict(state);
 }
 
-/* A step in which what diffuses goes through half the time before all levels do the rest, and half after it. Level 0 is like
- * a finer one here: a step that it cannot take becomes two. */
+/* A step in which what diffuses goes through half the time before all levels do the rest, and half after it. Level 0 is
+ * like a finer one here: a step that it cannot take becomes two. */
 static int advance_apart(struct state *state, double dt)
 {
     int parts = 0;

@@ -1,9 +1,9 @@
 /* around.h - what terms see across edges and corners of the tiles of a level: gathering, messages, the coarser level.
  *
- * Of a scene with such terms (model->n_around) the chosen components of the primitives, one layer around every tile. They are sent
- * with the layers of the frames and waited for with them; what lies on the coarser level is linear in time between the ends
- * of its step, as in strips. Characteristic boundaries are copies here: what they compose of invariants is no state
- * whose gradients mean anything; inflows and moving walls are what they give. */
+ * Of a scene with such terms (model->n_around) the chosen components of the primitives, one layer around every tile.
+ * They are sent with the layers of the frames and waited for with them; what lies on the coarser level is linear in
+ * time between the ends of its step, as in strips. Characteristic boundaries are copies here: what they compose of
+ * invariants is no state whose gradients mean anything; inflows and moving walls are what they give. */
 #ifndef AROUND_H
 #define AROUND_H
 
@@ -16,7 +16,8 @@ struct around;
 struct around *around_new(const struct model *model, const struct mesh *mesh);
 void around_free(struct around *around);
 
-/* Starts the exchange of the primitives of a level, and waits for it. `bound`: of the level, its time set. Collective. */
+/* Starts the exchange of the primitives of a level, and waits for it. `bound`: of the level, its time set.
+ * Collective. */
 void around_start(struct around *around, int l, struct bound *bound);
 void around_finish(struct around *around, int l, struct bound *bound);
 

@@ -1,6 +1,6 @@
 /* balance.h - how evenly the ranks share the work of each level: as the weights say that tiles are cut by
- * (regrid_cost()), and as it is seen in CPU time. Of the steps that cost.h samples, so that both are about the same ones.
- * Nothing is decided by it: times differ from run to run, owners do not. */
+ * (regrid_cost()), and as it is seen in CPU time. Of the steps that cost.h samples, so that both are about the same
+ * ones. Nothing is decided by it: times differ from run to run, owners do not. */
 #ifndef BALANCE_H
 #define BALANCE_H
 

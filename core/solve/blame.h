@@ -95,8 +95,8 @@ static inline bool blame_concerns(const struct blame *blame, unsigned local)
     return blame && blame->local == local && blame->turn == blame->facts.stage;
 }
 
-/* For stage.c, of a watched tile: a piece as it was gathered; its fluxes; what the new state is made of (u_old: at the beginning of the
- * step); what came out. */
+/* For stage.c, of a watched tile: a piece as it was gathered; its fluxes; what the new state is made of (u_old: at the
+ * beginning of the step); what came out. */
 void blame_frame(struct blame *blame, const struct model *used, const struct frame *frame,
                  const struct face_work *faces);
 void blame_faces(struct blame *blame, const struct terms *terms, const struct frame *frame);
@@ -106,8 +106,8 @@ void blame_result(struct blame *blame, const struct model *used, const double *u
 /* Of a tile that failed between steps: w there now, and what the guard kept of it ([2][n_field][n_cell]). */
 void blame_keep(struct blame *blame, const struct model *model, const double *w, const double *kept);
 
-/* ", at its face x-: left.energy = nan": the first quantity at the faces of the cell that is no number, which says more than
- * the fields that it has spoilt; "" if there is none. */
+/* ", at its face x-: left.energy = nan": the first quantity at the faces of the cell that is no number, which says more
+ * than the fields that it has spoilt; "" if there is none. */
 void blame_say_face(const struct blame *blame, const struct model *model, size_t room, char *ret_text);
 
 /* The other way: a piece of the frames, and of the marks, for the work space of a replay. */

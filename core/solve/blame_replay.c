@@ -1,5 +1,5 @@
-/* blame_replay.c - see blame_replay.h. The mesh is a single tile, made by hand: nothing asks for its neighbours, because the frames
- * are given. */
+/* blame_replay.c - see blame_replay.h. The mesh is a single tile, made by hand: nothing asks for its neighbours,
+ * because the frames are given. */
 #include "solve/blame_replay.h"
 
 #include "base/mem.h"

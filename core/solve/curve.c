@@ -103,8 +103,8 @@ static double curve_sigma(const struct model *model, unsigned one, unsigned othe
     return 0.0;
 }
 
-/* Share of the first of a pair in its tension, sigma_ab = gamma_a + gamma_b with gamma_a = (sigma_ab + sigma_ac - sigma_bc)/2
- * among three materials; among more there are no such parts, and it is a half. */
+/* Share of the first of a pair in its tension, sigma_ab = gamma_a + gamma_b with gamma_a = (sigma_ab + sigma_ac -
+ * sigma_bc)/2 among three materials; among more there are no such parts, and it is a half. */
 static double curve_part(const struct model *model, const struct model_pair *pair)
 {
     unsigned third = 3 - pair->inside - pair->outside;
@@ -114,9 +114,9 @@ static double curve_part(const struct model *model, const struct model_pair *pai
     return part < 0.0 ? 0.0 : part > 1.0 ? 1.0 : part;
 }
 
-/* kappa of a pair, in the room. Where there are others, each of the two has its surface against all others, with its part of
- * the tension: at a line where three meet the pulls of their corners are in balance at Neumann's angles. The turn of a corner
- * is the sum of the kappa of its layers, so there none is carried, and columns see no corners. */
+/* kappa of a pair, in the room. Where there are others, each of the two has its surface against all others, with its
+ * part of the tension: at a line where three meet the pulls of their corners are in balance at Neumann's angles. The
+ * turn of a corner is the sum of the kappa of its layers, so there none is carried, and columns see no corners. */
 static void curve_pair(const struct curve *curve, const struct level *level, unsigned local,
                        const struct model_pair *pair, const double cosines[MESH_FACES], bool leans)
 {

@@ -1,8 +1,8 @@
 /* curve.h - curvatures of interfaces with surface tension, in two and three dimensions: a pass over a level before each
  * stage.
  *
- * kappa of a cell looks at three layers of cells around it, and faces want it of the neighbours, too: so it is made of the
- * fractions before the layers of the frames are sent, and travels with them as a field of the primitives (model.h,
+ * kappa of a cell looks at three layers of cells around it, and faces want it of the neighbours, too: so it is made of
+ * the fractions before the layers of the frames are sent, and travels with them as a field of the primitives (model.h,
  * pairs). In one dimension it is known without neighbours (scheme/tension.h), and all this does nothing. */
 #ifndef CURVE_H
 #define CURVE_H
@@ -20,8 +20,8 @@ void curve_free(struct curve *curve);
  * fractions there. Collective. */
 void curve_take(struct curve *curve, int l, double *const *arrays);
 
-/* What the next finer level sees of the fractions of this one, after curve_take of its w: slot 0 at the beginning of its
- * step, 1 at its end. Not collective. */
+/* What the next finer level sees of the fractions of this one, after curve_take of its w: slot 0 at the beginning of
+ * its step, 1 at its end. Not collective. */
 void curve_finer(struct curve *curve, int l, int slot);
 
 /* Sends both slots to the finer level l. Collective. */

@@ -1,10 +1,10 @@
-/* evaporate.h - how much liquid has become vapour: the mass that the operators of a step have moved from one phase to the
- * other, in leaves, for `evaporated:` of a history.
+/* evaporate.h - how much liquid has become vapour: the mass that the operators of a step have moved from one phase to
+ * the other, in leaves, for `evaporated:` of a history.
  *
- * Each tile notes what its operators have changed in every stage, weighed by what that stage counts for in the whole step
- * (a state that later stages begin from anew leaves nothing). An attempt that is repeated forgets it; a step that is
- * accepted puts it into accounts (base/account.h) that know no order: the same bits on any ranks and after a restart. A
- * scene without such a column notes nothing. */
+ * Each tile notes what its operators have changed in every stage, weighed by what that stage counts for in the whole
+ * step (a state that later stages begin from anew leaves nothing). An attempt that is repeated forgets it; a step that
+ * is accepted puts it into accounts (base/account.h) that know no order: the same bits on any ranks and after a
+ * restart. A scene without such a column notes nothing. */
 #ifndef EVAPORATE_H
 #define EVAPORATE_H
 
@@ -24,8 +24,8 @@ void evaporate_after(struct stage *stage, unsigned local, double t, const double
 /* The step counts. */
 void evaporate_accept(struct state *state, const struct stage *stage);
 
-/* Net mass that a material, the vapour of a pair, has gained from its liquid since the run began [kg; per metre of depth in 2D, per
- * square metre in 1D]. The same on all ranks. Collective. */
+/* Net mass that a material, the vapour of a pair, has gained from its liquid since the run began [kg; per metre of
+ * depth in 2D, per square metre in 1D]. The same on all ranks. Collective. */
 double evaporate_total(const struct state *state, unsigned vapour);
 
 /* The accounts of all ranks in one, carried. Collective. */

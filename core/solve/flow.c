@@ -11,6 +11,7 @@
 #include "phys/warm.h"
 #include "solve/regrid.h"
 #include "solve/rkl.h"
+#include "solve/stage_exchange.h"
 #include "solve/verdict.h"
 
 #include <math.h>
@@ -22,8 +23,8 @@ enum { FLOW_HALVES = 6 };
 /* Where the middle of a flow is, as a part of it, or the next stage. */
 #define FLOW_MIDDLE 0.4
 
-/* Most z of exp(-z), by which a flow changes: RKL2 is off by z^3/18, 0.4 %. The mean rates of the whole and of its part c differ by
- * z (1 - c)/2 of themselves. */
+/* Most z of exp(-z), by which a flow changes: RKL2 is off by z^3/18, 0.4 %. The mean rates of the whole and of its part
+ * c differ by z (1 - c)/2 of themselves. */
 #define FLOW_BEND 0.4
 
 /* Most parts that a flow is taken in for that. */
@@ -122,7 +123,7 @@ static void flow_level(const struct flow *flow, int l, int j)
     rkl->s[0] = flow->s;
     rkl->j = j;
     reflux_weigh(stage->reflux, 1.0, true);
-    stage_exchange(stage);
+    stage_exchange_start(stage);
     stage_tiles(stage, flow_tile);
     if (l + 1 < flow->state->mesh->n_level) flow_down(stage, flow->state->stages[l + 1]);
     if (j == 1) return;
@@ -271,7 +272,8 @@ static int flow_middle(int s)
     return j;
 }
 
-/* What momentum and energy have changed by in a flow, what they would have at the pace of its first part, and what there is. */
+/* What momentum and energy have changed by in a flow, what they would have at the pace of its first part, and what
+ * there is. */
 struct flow_bend {
     double change[2], bend[2], size[2];
 };
@@ -361,8 +363,8 @@ static int flow_divided(struct state *state, double t, double tau, int n, int ha
     return STATUS_OK;
 }
 
-/* A flow, in halves if it must be; one that asks for more than the most stages is one of them. *parts 0: it is looked whether it
- * should be in more than one. */
+/* A flow, in halves if it must be; one that asks for more than the most stages is one of them. *parts 0: it is looked
+ * whether it should be in more than one. */
 static int flow_through(struct state *state, double t, double tau, int halves, int *parts)
 {
     double steps = flow_steps(state, tau);

@@ -97,7 +97,8 @@ static BULLA_KERNEL void guard_material(size_t n, const double *restrict m, cons
     }
 }
 
-/* A fraction that its mass has left: fluxes take it for none (phys/mix.h), so it can only grow, and the energy with it. */
+/* A fraction that its mass has left: fluxes take it for none (phys/mix.h), so it can only grow, and the energy with
+ * it. */
 static BULLA_KERNEL void guard_void(size_t n, const double *restrict m, const double *restrict alpha,
                                     double *restrict bad)
 {
@@ -173,8 +174,9 @@ static void guard_keep(struct guard *guard, const struct guard_tile *tile)
     memcpy(guard->kept + block, tile->w, block * sizeof *tile->w);
 }
 
-/* Fractions of material l that are judged where materials have pressures of their own (phys/traction.h): in a cell with more
- * solid than anything else, what fluid there is need not bear the tension of the solid. Its fraction is carried along. */
+/* Fractions of material l that are judged where materials have pressures of their own (phys/traction.h): in a cell with
+ * more solid than anything else, what fluid there is need not bear the tension of the solid. Its fraction is carried
+ * along. */
 static const double *guard_borne(const struct model *model, size_t n, size_t n_cell, const double *w, unsigned l,
                                  double *alpha)
 {

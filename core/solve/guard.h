@@ -7,7 +7,8 @@
  * of the troubled cells (conservative: both sides see the same flux), at most GUARD_ROUNDS times;
  * then halve the time step, at most GUARD_RETRIES times; then stop with the place and the cause.
  * Cells under finer tiles are not judged: one that fails and cannot be repaired keeps the state from before the step
- * until the next average of the finer level. Nothing is floored. (MOOD: Clain, Diot & Loubere 2011; retry as in Castro.) */
+ * until the next average of the finer level. Nothing is floored. (MOOD: Clain, Diot & Loubere 2011; retry as in
+ * Castro.) */
 #ifndef GUARD_H
 #define GUARD_H
 
@@ -79,8 +80,8 @@ struct guard_tile {
 /* Checks a tile; repairs, notes and marks bad leaf cells; after a bad stage the later ones are not judged. */
 void guard_check(struct guard *guard, const struct guard_tile *tile);
 
-/* After an attempt with bad cells, on all ranks: `first` is the first stage in which any rank found one; what others found in later
- * ones is forgotten, so that marks do not depend on the ranks. */
+/* After an attempt with bad cells, on all ranks: `first` is the first stage in which any rank found one; what others
+ * found in later ones is forgotten, so that marks do not depend on the ranks. */
 void guard_settle(struct guard *guard, int first);
 
 /* Bad cells of this attempt, of all stages. */

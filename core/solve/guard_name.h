@@ -1,5 +1,5 @@
-/* guard_name.h - what is wrong with a cell that the guard refuses: the field, its value, and the material or law that it
- * comes from. Worked out for one cell of a failed attempt; nothing here judges. */
+/* guard_name.h - what is wrong with a cell that the guard refuses: the field, its value, and the material or law that
+ * it comes from. Worked out for one cell of a failed attempt; nothing here judges. */
 #ifndef GUARD_NAME_H
 #define GUARD_NAME_H
 

@@ -1,4 +1,5 @@
-/* normals.h - the normals of the surfaces of solids (scheme/normal.h) that a run begins with: stages make later ones. */
+/* normals.h - the normals of the surfaces of solids (scheme/normal.h) that a run begins with: stages make later
+ * ones. */
 #ifndef NORMALS_H
 #define NORMALS_H
 

@@ -1,5 +1,5 @@
-/* peak.c - see peak.h. What passes between levels goes tile by tile, an octant of the coarser tile each; who sends what to
- * whom follows from the lists that all ranks have. */
+/* peak.c - see peak.h. What passes between levels goes tile by tile, an octant of the coarser tile each; who sends what
+ * to whom follows from the lists that all ranks have. */
 #include "solve/peak.h"
 
 #include "base/comm.h"

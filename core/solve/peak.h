@@ -1,9 +1,9 @@
 /* peak.h - peaks over time: what cells keep of fields from step to step (`max_pressure`, `when_min_pressure`, ...).
  *
- * Every level looks at its leaves after each of its own steps, once what finer levels have to say is in, so that a front
- * that moves a cell per step leaves no gaps; attempts that are repeated leave nothing. Cells of new tiles take over what the
- * cell below them has kept, cells that are left again the largest (least) of what lay over them: a peak never gets lost,
- * and counts for the whole of the cell that is left. Of equal values the earliest time is kept. */
+ * Every level looks at its leaves after each of its own steps, once what finer levels have to say is in, so that a
+ * front that moves a cell per step leaves no gaps; attempts that are repeated leave nothing. Cells of new tiles take
+ * over what the cell below them has kept, cells that are left again the largest (least) of what lay over them: a peak
+ * never gets lost, and counts for the whole of the cell that is left. Of equal values the earliest time is kept. */
 #ifndef PEAK_H
 #define PEAK_H
 

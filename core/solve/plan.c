@@ -2,6 +2,7 @@
 #include "solve/plan.h"
 
 #include "solve/rkl.h"
+#include "solve/stage_exchange.h"
 
 static void plan_add(struct plan *plan, struct plan_step step)
 {
@@ -21,8 +22,8 @@ static void plan_make(const struct tableau *tableau, struct plan *plan)
     plan->n = 0;
     for (int s = 0; s < tableau->n; s++) {
         const struct tableau_stage *stage = &tableau->stage[s];
-        plan_add(plan, (struct plan_step){"exchange", "", exchange, stage_exchange, s});
-        if (s == 0) plan_add(plan, (struct plan_step){"ghosts", "", ghosts, stage_ghosts, s});
+        plan_add(plan, (struct plan_step){"exchange", "", exchange, stage_exchange_start, s});
+        if (s == 0) plan_add(plan, (struct plan_step){"ghosts", "", ghosts, stage_exchange_ghosts, s});
         plan_add(plan, (struct plan_step){stage->name, stage->doc, stage->slopes ? slopes : then[s + 1 < tableau->n],
                                           stage_take, s});
     }

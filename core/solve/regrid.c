@@ -1,8 +1,8 @@
 /* regrid.c - see regrid.h.
  *
- * Every rank makes its piece of the new sets; where they differ from what is there, tiles go to their new owners and all
- * levels are replaced at once. Then they are filled, coarse before fine: new tiles find the final state they are made
- * from. */
+ * Every rank makes its piece of the new sets; where they differ from what is there, tiles go to their new owners and
+ * all levels are replaced at once. Then they are filled, coarse before fine: new tiles find the final state they are
+ * made from. */
 #include "solve/regrid.h"
 
 #include "base/comm.h"
@@ -147,8 +147,8 @@ static double *regrid_costs(const struct stage *stage)
     return own;
 }
 
-/* Tells what this rank's tiles will cost, level by level: those up to `base` stay where they are; but level 0 is cut anew if
- * it is `base` itself and its cells under finer tiles, or at rest, leave some ranks idle. */
+/* Tells what this rank's tiles will cost, level by level: those up to `base` stay where they are; but level 0 is cut
+ * anew if it is `base` itself and its cells under finer tiles, or at rest, leave some ranks idle. */
 static void regrid_tell(const struct regrid *regrid, struct deal *deal)
 {
     const struct state *state = regrid->state;

@@ -1,7 +1,7 @@
 /* rkl.c - see rkl.h.
  *
- * Of a tile, u_new holds what the rest has made of u_old, and w the primitives of the stage under way: nobody else needs
- * them before the integrator's own stage is done. */
+ * Of a tile, u_new holds what the rest has made of u_old, and w the primitives of the stage under way: nobody else
+ * needs them before the integrator's own stage is done. */
 #include "solve/rkl.h"
 
 #include "base/comm.h"
@@ -10,6 +10,7 @@
 #include "phys/mix.h"
 #include "phys/row.h"
 #include "solve/operate.h"
+#include "solve/stage_exchange.h"
 #include "solve/verdict.h"
 
 #include <math.h>
@@ -261,7 +262,7 @@ void rkl_take(struct stage *stage)
         double c = rkl_stage(s, rkl->j - 1).at, *z = rkl->z;
         rkl_show(stage, c);
         stage->at = c * step;
-        stage_exchange(stage);
+        stage_exchange_start(stage);
         stage_tiles(stage, rkl_next);
         rkl->z = rkl->before;
         rkl->before = z;

@@ -1,22 +1,20 @@
 /* rkl.h - super time steps of what diffuses: `scheme: {diffusion: rkl2}`.
  *
- * Viscosity and conduction ask for steps of h^2, sound for steps of h. Where the first are the shorter ones, each stage of the
- * integrator from u over tau, u' = u + tau L(w), becomes a flow through tau,
- *     dY/dt = M(Y) + S,   Y(0) = u,   S = (u' - u)/tau,
- * M what diffuses, L all the rest: what that has made of u is a constant source. (A multirate midpoint rule: of second order
- * in time, and what the two parts hold in balance stays so, which split steps do not promise.) The flow is taken by s stages
- * of RKL2 (Meyer, Balsara & Aslam, J. Comput. Phys. 257 (2014) 594-626), with z = Y - u - c S tau,
- *     z_1 = mu~_1 tau M(u),
- *     z_j = mu_j z_j-1 + nu_j z_j-2 + mu~_j tau M(Y_j-1) + gamma~_j tau M(u),
- *     b_j = (j^2 + j - 2)/(2 j (j + 1)), b_0 = b_1 = b_2 = 1/3,   w = 4/(s^2 + s - 2),
- *     mu_j = (2j - 1)/j b_j/b_j-1,  nu_j = -(j - 1)/j b_j/b_j-2,  mu~_j = mu_j w,  mu~_1 = b_1 w,  gamma~_j = -(1 - b_j-1) mu~_j,
- * at the times c_j tau, c_j = (j^2 + j - 2)/(s^2 + s - 2), c_1 = c_2/4. They are stable up to tau lambda = (s^2 + s - 2)/2: s goes
- * with the root of what explicit steps would number. It is counted in each step, from the fastest cell of all ranks.
+ * Viscosity and conduction ask for steps of h^2, sound for steps of h. Where the first are the shorter ones, each stage
+ * of the integrator from u over tau, u' = u + tau L(w), becomes a flow through tau, dY/dt = M(Y) + S,   Y(0) = u,   S =
+ * (u' - u)/tau, M what diffuses, L all the rest: what that has made of u is a constant source. (A multirate midpoint
+ * rule: of second order in time, and what the two parts hold in balance stays so, which split steps do not promise.)
+ * The flow is taken by s stages of RKL2 (Meyer, Balsara & Aslam, J. Comput. Phys. 257 (2014) 594-626), with z = Y - u -
+ * c S tau, z_1 = mu~_1 tau M(u), z_j = mu_j z_j-1 + nu_j z_j-2 + mu~_j tau M(Y_j-1) + gamma~_j tau M(u), b_j = (j^2 + j
+ * - 2)/(2 j (j + 1)), b_0 = b_1 = b_2 = 1/3,   w = 4/(s^2 + s - 2), mu_j = (2j - 1)/j b_j/b_j-1,  nu_j = -(j - 1)/j
+ * b_j/b_j-2,  mu~_j = mu_j w,  mu~_1 = b_1 w,  gamma~_j = -(1 - b_j-1) mu~_j, at the times c_j tau, c_j = (j^2 + j -
+ * 2)/(s^2 + s - 2), c_1 = c_2/4. They are stable up to tau lambda = (s^2 + s - 2)/2: s goes with the root of what
+ * explicit steps would number. It is counted in each step, from the fastest cell of all ranks.
  *
- * Each stage is an exchange and a gathering like those of the step; boundaries are asked at its time. An attempt begins from
- * u_old; nothing of one that fails is left. On one level and with one material (docs/decisions/super-steps.md); several levels, or
- * materials, go by solve/flow.h.
- */
+ * Each stage is an exchange and a gathering like those of the step; boundaries are asked at its time. An attempt begins
+ * from u_old; nothing of one that fails is left. On one level and with one material (docs/decisions/super-steps.md);
+ * several levels, or materials, go by
+ * solve/flow.h. */
 #ifndef RKL_H
 #define RKL_H
 

@@ -6,11 +6,12 @@
 #include "solve/stage.h"
 
 #include "base/mem.h"
-#include "mesh/halo.h"
 #include "phys/elastic.h"
 #include "solve/foresee.h"
+#include "solve/keep.h"
 #include "solve/operate.h"
 #include "solve/rkl.h"
+#include "solve/stage_exchange.h"
 #include "solve/verdict.h"
 
 #include <string.h>
@@ -37,38 +38,6 @@ void stage_free(struct stage *stage)
     mem_free(stage->previous);
     mem_free(stage->evaporated);
     mem_free(stage);
-}
-
-void stage_exchange(struct stage *stage)
-{
-    stage->bound->t = stage->t + stage->at * stage->dt;
-    if (stage->level->link) stage->level->link->theta = stage->from + stage->at * stage->part;
-    curve_take(stage->work->curve, stage->l, stage->level->w);
-    halo_start(stage->level->halo, stage->level->w);
-    around_start(stage->work->around, stage->l, stage->bound);
-    if (stage->guard->masked) halo_start(stage->guard->halo, stage->guard->mask);
-    cost_lap(&stage->work->cost, COST_EXCHANGE);
-}
-
-static void stage_finish_exchange(struct stage *stage)
-{
-    halo_finish(stage->level->halo);
-    around_finish(stage->work->around, stage->l, stage->bound);
-    if (stage->guard->masked) halo_finish(stage->guard->halo);
-    cost_lap(&stage->work->cost, COST_EXCHANGE);
-}
-
-void stage_ghosts(struct stage *stage)
-{
-    if (stage->l + 1 >= stage->mesh->n_level) return;
-    halo_finish(stage->level->halo);
-    around_finish(stage->work->around, stage->l, stage->bound);
-    cost_lap(&stage->work->cost, COST_EXCHANGE);
-    stage->bound->t = stage->t;
-    prolong_strips(stage->work->prolong, stage->mesh, stage->l, stage->bound, 0);
-    around_finer(stage->work->around, stage->l, stage->bound, 0);
-    curve_finer(stage->work->curve, stage->l, 0);
-    cost_lap(&stage->work->cost, COST_LEVELS);
 }
 
 /* One tile in one stage, for the callbacks of rate.h. */
@@ -128,81 +97,6 @@ static void stage_swept(void *data, int axis)
     if (sweep->concerned) reflux_average(sweep->stage->reflux, sweep->local, axis);
 }
 
-/* Do tiles across edges and corners rest, where terms look at them? */
-static bool stage_rests_around(const struct stage *stage, unsigned local)
-{
-    unsigned tiles[26];
-    int n = around_diagonal(stage->work->around, stage->l, stage->bound, local, tiles);
-    for (int i = 0; i < n; i++)
-        if (!stage->census.tiles[tiles[i]].still) return false;
-    return n >= 0;
-}
-
-/* Has a tile nothing to compute in this stage? Repeated steps, tiles whose fluxes another level asks for and scenes with
- * terms or operators that move what rests are not skipped; nor is a tile that has already moved, where stages build on each other. */
-static bool stage_skips(const struct stage *stage, unsigned local)
-{
-    const struct census_tile *tile = &stage->census.tiles[local];
-    const struct work *work = stage->work;
-    if (work->terms[0]->moves || work->operators[0].moves || !tile->still || stage->guard->masked) return false;
-    if (stage->tableau->stage[stage->turn].previous && !tile->skipped) return false;
-    if (!stage_rests_around(stage, local)) return false;
-    return !reflux_concerns(stage->reflux, local) && census_rests(&stage->census, local);
-}
-
-/* Carries a tile on: the whole block as it is. */
-static void stage_carry(struct stage *stage, unsigned local, const double *from, double *to)
-{
-    struct census_tile *tile = &stage->census.tiles[local];
-    memcpy(to, from, stage->model->n_field * stage->mesh->n_cell * sizeof *to);
-    tile->present_next = tile->present;
-    tile->still_next = tile->still;
-    if (stage_tile(stage, local)->hidden) return;
-    stage->cells += (long long)stage->mesh->n_cell;
-    stage->carried += (long long)stage->mesh->n_cell;
-}
-
-/* Copies the components that a narrowed path leaves alone; it has no normals. Its fractions and stretch are the same constants in all
- * three arrays, so that after a stage more than a step has they need no copying; densities are not. */
-static void stage_keep(struct stage *stage, unsigned local, const double *from, double *to)
-{
-    struct census_tile *tile = &stage->census.tiles[local];
-    size_t n_cell = stage->mesh->n_cell;
-    const struct model *model = stage->model, *path = tile->path;
-    unsigned settled = (unsigned)stage->tableau->n + 1;
-    if (path != tile->kept) tile->streak = 0;
-    tile->kept = path;
-    if (path == model) return;
-    for (unsigned q = 0, active = 0; q < model->n_field; q++) {
-        bool density = q >= model->i_m && q < model->i_u;
-        bool evolved = active < path->n_active && path->active[active] == q;
-        active += evolved;
-        bool normal = q - model->i_normal < model->n_normal; /* wraps below i_normal */
-        if (normal && tile->streak < settled) memset(to + q * n_cell, 0, n_cell * sizeof *to);
-        else if (!evolved && (density || tile->streak < settled))
-            memcpy(to + q * n_cell, from + q * n_cell, n_cell * sizeof *to);
-    }
-    if (tile->streak < settled) tile->streak++;
-}
-
-/* Block of a tile in the fourth array; NULL: the integrator has none. */
-static double *stage_previous(const struct stage *stage, unsigned local)
-{
-    return stage->previous ? stage->previous + local * stage->model->n_field * stage->mesh->n_cell : NULL;
-}
-
-/* Keeps what a stage has made for the next one; without `made`, the state that the tile rests in. */
-static void stage_remember(const struct stage *stage, unsigned local, const double *made)
-{
-    const struct model *path = stage->census.tiles[local].path;
-    size_t n_cell = stage->mesh->n_cell;
-    double *previous = stage_previous(stage, local);
-    if (!previous) return;
-    memcpy(previous, stage->level->u_old[local], stage->model->n_field * n_cell * sizeof *previous);
-    for (unsigned i = 0; made && i < path->n_active; i++)
-        memcpy(previous + path->active[i] * n_cell, made + path->active[i] * n_cell, n_cell * sizeof *previous);
-}
-
 /* One tile in the stage under way, before its rates are taken. */
 static void stage_tile_open(struct stage *stage, unsigned local, enum term_part part, double dt,
                             struct stage_tile_work *ret)
@@ -222,7 +116,7 @@ static void stage_tile_open(struct stage *stage, unsigned local, enum term_part 
                                    .dt = dt,
                                    .begun = row->previous ? stage->bound->t : stage->t,
                                    .part = part,
-                                   .u = row->previous ? stage_previous(stage, local) : level->u_old[local],
+                                   .u = row->previous ? keep_previous(stage, local) : level->u_old[local],
                                    .w = level->w[local],
                                    .rates = work->rates,
                                    .K = work->K,
@@ -291,44 +185,34 @@ static void stage_inner_tile(struct stage *stage, unsigned local)
     const struct level *level = stage->level;
     size_t n_cell = stage->mesh->n_cell, p = stage->model->i_E * n_cell;
     double *w = level->w[local], *w_next = level->u_new[local];
-    struct census_tile *tile = &stage->census.tiles[local];
-    tile->skipped = stage_tile(stage, local)->hidden || stage_skips(stage, local);
-    if (tile->skipped) {
-        stage_carry(stage, local, w, w_next);
-        stage_remember(stage, local, NULL);
+    if (keep_skips(stage, local)) {
+        keep_tile(stage, local, w, w_next);
+        keep_stage(stage, local, NULL);
         return;
     }
     if (stage_slopes(stage)) {
         stage_slope_tile(stage, local, w_next);
-        stage_keep(stage, local, w, w_next);
+        keep_rows(stage, local, w, w_next);
         return;
     }
     stage_advance_tile(stage, local, stage->work->u_star);
-    stage_keep(stage, local, w, w_next);
+    keep_rows(stage, local, w, w_next);
     memcpy(w_next + p, w + p, n_cell * sizeof *w); /* where an iteration starts */
     operate_tile(stage, local, stage->work->u_star, w_next);
     verdict_judge(stage, local, stage->turn, level->u_old[local], stage->work->u_star, w_next);
-    stage_remember(stage, local, stage->work->u_star);
+    keep_stage(stage, local, stage->work->u_star);
 }
 
 /* A tile in the last stage: from w to u_new. */
 static void stage_last_tile(struct stage *stage, unsigned local)
 {
     const struct level *level = stage->level;
-    struct census_tile *tile = &stage->census.tiles[local];
-    tile->skipped = stage_tile(stage, local)->hidden || stage_skips(stage, local);
-    if (tile->skipped) {
-        stage_carry(stage, local, level->u_old[local], level->u_new[local]);
+    if (keep_skips(stage, local)) {
+        keep_tile(stage, local, level->u_old[local], level->u_new[local]);
         return;
     }
     stage_advance_tile(stage, local, level->u_new[local]);
-    stage_keep(stage, local, level->u_old[local], level->u_new[local]);
-}
-
-/* Does a tile need the exchange? */
-static bool stage_waits(const struct stage *stage, unsigned local)
-{
-    return halo_is_remote(stage->level, local) || around_is_remote(stage->work->around, stage->l, stage->bound, local);
+    keep_rows(stage, local, level->u_old[local], level->u_new[local]);
 }
 
 /* Those without remote neighbours while the exchange is under way. */
@@ -339,10 +223,10 @@ void stage_tiles(struct stage *stage, void (*work)(struct stage *stage, unsigned
     if (stage->blame) stage->blame->turn = stage->turn;
     if (level->link) level->link->theta = stage->from + stage->at * stage->part;
     for (unsigned tile = 0; tile < level->n_local; tile++)
-        if (!stage_waits(stage, tile)) work(stage, tile);
-    stage_finish_exchange(stage);
+        if (!stage_exchange_waits(stage, tile)) work(stage, tile);
+    stage_exchange_finish(stage);
     for (unsigned tile = 0; tile < level->n_local; tile++)
-        if (stage_waits(stage, tile)) work(stage, tile);
+        if (stage_exchange_waits(stage, tile)) work(stage, tile);
     stage->bound->model = stage->model; /* strips and births need all fields, whatever the last tile held */
 }
 

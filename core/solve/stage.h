@@ -1,12 +1,12 @@
 /* stage.h - what one rank does in a stage of the integrator on one level, tile by tile.
  *
- * The verbs are the steps of the plan: exchange primitives with other ranks; ghosts (what the next
- * finer level sees at the beginning of the step); take (from the state to that of the next stage, with the rates of all
- * terms); close (new primitives, admissibility, signal speed). This is the page to read first.
+ * The verbs are steps of the plan: take (from the state to that of the next stage, with the rates of all terms); close
+ * (new primitives, admissibility, signal speed). What travels between them is in stage_exchange.h, what a tile that is
+ * not computed keeps in keep.h. This is the page to read first.
  *
  * Three arrays serve all stages: the conserved fields of a stage live only as long as its tile is worked on; its
- * primitives go to the memory that u_new needs later, and the arrays change names. An integrator that goes on from a stage's conserved
- * fields has a fourth. */
+ * primitives go to the memory that u_new needs later, and the arrays change names. An integrator that goes on from a
+ * stage's conserved fields has a fourth. */
 #ifndef STAGE_H
 #define STAGE_H
 
@@ -51,12 +51,6 @@ struct stage {
 struct stage *stage_new(const struct model *model, struct mesh *mesh, int l, struct work *work);
 void stage_free(struct stage *stage);
 
-/* Sends slabs of w (and of the guard's marks) to other ranks. Collective. */
-void stage_exchange(struct stage *stage);
-
-/* Waits for the exchange and writes the strips for the next finer level, if there is one. */
-void stage_ghosts(struct stage *stage);
-
 /* Stage `turn`, in all tiles; waits for the exchange. Of all but the last w becomes the primitives of what
  * it made, judged as that stage; the last one leaves u_new. */
 void stage_take(struct stage *stage);
@@ -70,8 +64,8 @@ struct stage_tile_work {
     struct metric metric;
 };
 
-/* Rates of the terms of `part` of a tile on its path, into work->rates; dt: what ret->tile says of it; counts: its fluxes count in
- * registers. ret stays valid until the next call. */
+/* Rates of the terms of `part` of a tile on its path, into work->rates; dt: what ret->tile says of it; counts: its
+ * fluxes count in registers. ret stays valid until the next call. */
 void stage_rates(struct stage *stage, unsigned local, enum term_part part, double dt, bool counts,
                  struct stage_tile_work *ret);
 

@@ -72,8 +72,8 @@ struct state_source {
     unsigned n_tile[MESH_LEVELS];
     struct tile *tiles[MESH_LEVELS]; /* [n_tile] at and unwanted, in Morton order, replicated; copied */
     /* Fills the conserved fields u[n_field][n_cell] of a tile of a level (its place in the list), its pressure
-     * p[n_cell], from which iterated closures start, and what outputs keep, kept[n_kept][n_cell] (NULL: nothing). Called
-     * for local tiles only. */
+     * p[n_cell], from which iterated closures start, and what outputs keep, kept[n_kept][n_cell] (NULL: nothing).
+     * Called for local tiles only. */
     int (*fill)(void *data, int level, unsigned tile, double *u, double *p, double *kept);
     void *data;
 };

@@ -144,8 +144,8 @@ static void sync_blame(const struct stage *stage, unsigned local, unsigned char 
         if (mask[i] != 0.0 && trouble[i] != SPREAD_ALL) trouble[i]++;
 }
 
-/* How much a face has to do with the rest of a cell beside it: the masses that it took and that are wanting; if none is,
- * the energy. */
+/* How much a face has to do with the rest of a cell beside it: the masses that it took and that are wanting; if none
+ * is, the energy. */
 static double sync_share(const struct stage *stage, const double *change, const double *rest)
 {
     const struct model *model = stage->model;

@@ -3,8 +3,9 @@
  * A stage takes the rates L at the primitives of the stage before, and makes
  *     u_i = u + mix (base + step dt L - u),   base = u or what the stage before has made (previous),
  * a mean of the state at the beginning of the step and one explicit step. Sound numbers stay sound: for mix in (0, 1] a
- * stage is as bounded as the explicit step is (Shu & Osher, J. Comput. Phys. 77 (1988) 439). Guard, ghosts of finer levels,
- * registers, dumps and the plan follow the rows; a new method is one table in tableau.c and its name in the case layer. */
+ * stage is as bounded as the explicit step is (Shu & Osher, J. Comput. Phys. 77 (1988) 439). Guard, ghosts of finer
+ * levels, registers, dumps and the plan follow the rows; a new method is one table in tableau.c and its name in the
+ * case layer. */
 #ifndef TABLEAU_H
 #define TABLEAU_H
 
@@ -20,8 +21,8 @@ struct tableau_stage {
     double mix;
     double at;     /* time of the primitives within the step, in dt: boundaries and ghosts are asked there */
     double weight; /* of the fluxes of this stage in the whole step: they sum to 1 */
-    bool
-        slopes; /* no explicit step: primitives from the slopes of the cells (scheme/hancock.h), where no cell is troubled */
+    bool slopes;   /* no explicit step: primitives from the slopes of the cells (scheme/hancock.h), where no cell is
+                      troubled */
 };
 
 struct tableau {

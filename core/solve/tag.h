@@ -13,8 +13,9 @@
 #include "mesh/halo.h"
 
 /* Sets marks[n_local][n_cell] of level l to 1 where a criterion asks for level l + 1, else 0. w is that of a
- * completed step, the moment one of it; `halo` exchanges one component on this level. hits[n_refine] counts the cells of this
- * rank that each criterion tagged (added to what is there). STATUS_RUN or STATUS_CASE: a script failed. Collective. */
+ * completed step, the moment one of it; `halo` exchanges one component on this level. hits[n_refine] counts the cells
+ * of this rank that each criterion tagged (added to what is there). STATUS_RUN or STATUS_CASE: a script failed.
+ * Collective. */
 int tag_level(struct derive_moment *moment, int l, struct halo *halo, double **marks, long long *hits);
 
 /* What a criterion is, with its line in the case file: "mesh.refine[0] (line 12): jump of density above 0.05 of the

@@ -34,7 +34,8 @@ void tag_pair_needs(const struct tag_pair *pair, unsigned local, const struct ta
                     const struct tag_pair_bounds *bounds, bool *need);
 
 /* Adds to found[n_cell] where a cell of local tile `local` differs from one of its neighbours; behind boundaries and
- * coarse-fine faces there are none. values[n_local][n_cell] of the tiles it needs, bounds[n_local] of all. False: nowhere. */
+ * coarse-fine faces there are none. values[n_local][n_cell] of the tiles it needs, bounds[n_local] of all. False:
+ * nowhere. */
 bool tag_pair_differ(const struct tag_pair *pair, unsigned local, const struct tag_pair_rule *rule,
                      double *const *values, const struct tag_pair_bounds *bounds, double *found);
 

@@ -36,7 +36,8 @@ void verdict_judge(struct stage *stage, unsigned local, int judged, const double
     cost_lap(&work->cost, COST_PRIMITIVES);
 }
 
-/* The fastest cell; with super steps what diffuses only counts beyond the most stages. Rates are free between stages. */
+/* The fastest cell; with super steps what diffuses only counts beyond the most stages. Rates are free between
+ * stages. */
 static double verdict_pace(const struct stage *stage, struct term_pace pace)
 {
     const struct terms *terms = stage->work->terms[0];

@@ -1,4 +1,5 @@
-/* verdict.h - a tile whose conserved fields are new: its primitives, the guard's judgement, the signal that sets the step. */
+/* verdict.h - a tile whose conserved fields are new: its primitives, the guard's judgement, the signal that sets the
+ * step. */
 #ifndef VERDICT_H
 #define VERDICT_H
 
@@ -25,7 +26,8 @@ void verdict_touch(struct stage *stage, unsigned local);
 /* w = primitives of u_old: before the first step and before a step is repeated. */
 void verdict_reset(struct stage *stage);
 
-/* An initial state in u_old: primitives, judgement without repair, signal. STATUS_CASE: inadmissible. Not collective. */
+/* An initial state in u_old: primitives, judgement without repair, signal. STATUS_CASE: inadmissible. Not
+ * collective. */
 int verdict_start(struct stage *stage);
 
 /* A tile whose primitives are there, from another rank or just made: census and signal. */

@@ -1,5 +1,5 @@
-/* contract_boundary.c - see contract_boundary.h. States of two materials that move in space are drawn from traces of vapour to
- * shocked metal. What a boundary says of itself decides what it must keep: core skips work by it. */
+/* contract_boundary.c - see contract_boundary.h. States of two materials that move in space are drawn from traces of
+ * vapour to shocked metal. What a boundary says of itself decides what it must keep: core skips work by it. */
 #include "suite/contract_boundary.h"
 
 #include "bulla/boundary.h"
@@ -102,8 +102,8 @@ static void contract_boundary_say(const double in[static BOUNDARY_IN], char wher
              in[BOUNDARY_P_START], in[BOUNDARY_U_START]);
 }
 
-/* How far what is behind is from what is inside: pressures and fractions relative, velocities as the pressure that stops
- * them. */
+/* How far what is behind is from what is inside: pressures and fractions relative, velocities as the pressure that
+ * stops them. */
 static double contract_boundary_change(const double in[static BOUNDARY_IN], const double out[static BOUNDARY_OUT])
 {
     double worst = fabs(out[BOUNDARY_P] - in[BOUNDARY_P]) / in[BOUNDARY_P];
@@ -182,7 +182,8 @@ static void contract_boundary_nan(struct contract *contract, const struct bounda
         contract_error(contract, isfinite(out[BOUNDARY_P]), "p = NaN: %g", out[BOUNDARY_P]);
 }
 
-/* The pressure between water that brings a wave of pressure `wave` and what is behind, by the acoustic Riemann problem. */
+/* The pressure between water that brings a wave of pressure `wave` and what is behind, by the acoustic Riemann
+ * problem. */
 static double contract_boundary_face(const struct contract *contract, const struct boundary_place *place, double wave)
 {
     const double Z = 1.5e6, p = 1e5;

@@ -1,5 +1,5 @@
-/* contract_coefficient.c - see contract_coefficient.h. States are drawn from far beyond any fit: what solvers produce in
- * traces and at limited faces is no fluid that anybody has measured. */
+/* contract_coefficient.c - see contract_coefficient.h. States are drawn from far beyond any fit: what solvers produce
+ * in traces and at limited faces is no fluid that anybody has measured. */
 #include "suite/contract_coefficient.h"
 
 #include "suite/contract_batch.h"

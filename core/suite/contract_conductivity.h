@@ -1,4 +1,5 @@
-/* contract_conductivity.h - the contract of kind "conductivity": bulla/conductivity.h says what, here it is measured. */
+/* contract_conductivity.h - the contract of kind "conductivity": bulla/conductivity.h says what, here it is
+ * measured. */
 #ifndef CONTRACT_CONDUCTIVITY_H
 #define CONTRACT_CONDUCTIVITY_H
 

@@ -1,9 +1,8 @@
 /* contract_constitutive.c - see contract_constitutive.h.
  *
- * Everything that core makes of a law follows from e^s(I1, I2): its derivatives are compared with differences, the second
- * ones with differences of the first. Points are those of real stretches l1 l2 l3 = 1,
- *     I1 = l1^2 + l2^2 + l3^2,   I2 = 1/l1^2 + 1/l2^2 + 1/l3^2,
- * and, because limited face values belong to no stretch, any pair from 1 to 1e6. */
+ * Everything that core makes of a law follows from e^s(I1, I2): its derivatives are compared with differences, the
+ * second ones with differences of the first. Points are those of real stretches l1 l2 l3 = 1, I1 = l1^2 + l2^2 + l3^2,
+ * I2 = 1/l1^2 + 1/l2^2 + 1/l3^2, and, because limited face values belong to no stretch, any pair from 1 to 1e6. */
 #include "suite/contract_constitutive.h"
 
 #include "bulla/constitutive.h"

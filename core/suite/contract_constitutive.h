@@ -1,4 +1,5 @@
-/* contract_constitutive.h - the contract of kind "constitutive": bulla/constitutive.h says what, here it is measured. */
+/* contract_constitutive.h - the contract of kind "constitutive": bulla/constitutive.h says what, here it is
+ * measured. */
 #ifndef CONTRACT_CONSTITUTIVE_H
 #define CONTRACT_CONSTITUTIVE_H
 

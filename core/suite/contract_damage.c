@@ -1,8 +1,8 @@
 /* contract_damage.c - see contract_damage.h.
  *
- * Points reach from whole to broken, from compression by 1 TPa to as much tension, from no stretch to a thousandfold, from no plastic
- * strain to 100, from cold to 1e5 K: whatever a solver can produce. What an instance does not ask for core does not tell it: then
- * nothing may depend on it. */
+ * Points reach from whole to broken, from compression by 1 TPa to as much tension, from no stretch to a thousandfold,
+ * from no plastic strain to 100, from cold to 1e5 K: whatever a solver can produce. What an instance does not ask for
+ * core does not tell it: then nothing may depend on it. */
 #include "suite/contract_damage.h"
 
 #include "bulla/damage.h"

@@ -12,7 +12,8 @@ static inline bool contract_dome_outside(const struct bulla_eos *eos, const void
     return BULLA_EOS_HAS(eos, count_outside) && eos->count_outside(self, 1, &rho, &p) > 0;
 }
 
-/* Is (rho, p) in the dome of a gas: a continuation, while the same density at a higher pressure up to `most` is none? */
+/* Is (rho, p) in the dome of a gas: a continuation, while the same density at a higher pressure up to `most` is
+ * none? */
 static inline bool contract_dome(const struct bulla_eos *eos, const void *self, double rho, double p, double most)
 {
     bool gas = BULLA_EOS_HAS(eos, gas_constant) && eos->gas_constant(self) > 0.0;

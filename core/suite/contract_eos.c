@@ -3,7 +3,8 @@
  * Everything follows from rho e(rho, p): its derivatives are compared with differences, and rho c^2,
  * T and s with the identities (v = 1/rho, h = e + p/rho)
  *     c^2 = (h - d(rho e)/drho)/(d(rho e)/dp),    T ds = de + p dv.
- * A law that passes is one potential. Where continuations begin and end, rho e has no jump along lines of constant rho, p. */
+ * A law that passes is one potential. Where continuations begin and end, rho e has no jump along lines of constant rho,
+ * p. */
 #include "suite/contract_eos.h"
 
 #include "suite/contract_batch.h"
@@ -220,7 +221,8 @@ static void contract_eos_gas(const struct eos_suite *suite)
     contract_near(suite->contract, p * contract_eos_thermal_at(suite, p, T, 0.0).v / T, R, R, where);
 }
 
-/* A continuation stands in for the formulas beyond the stated range only, or in the dome that a vapour's range cannot leave out. */
+/* A continuation stands in for the formulas beyond the stated range only, or in the dome that a vapour's range cannot
+ * leave out. */
 static void contract_eos_counting(const struct eos_suite *suite, double rho, double p, const char *where)
 {
     const struct bulla_eos_range *range = &suite->range;

@@ -1,8 +1,8 @@
 /* contract_inelastic.c - see contract_inelastic.h.
  *
- * Points reach from a body that has never flowed to a plastic strain of 100, from rest to 1e9 1/s, from deep tension to 1 TPa, from
- * cold to 1e5 K, and through a thousandfold of densities: whatever a solver can produce. What an instance does not ask for core
- * does not tell it: then nothing may depend on it. */
+ * Points reach from a body that has never flowed to a plastic strain of 100, from rest to 1e9 1/s, from deep tension to
+ * 1 TPa, from cold to 1e5 K, and through a thousandfold of densities: whatever a solver can produce. What an instance
+ * does not ask for core does not tell it: then nothing may depend on it. */
 #include "suite/contract_inelastic.h"
 
 #include "bulla/inelastic.h"

@@ -1,7 +1,8 @@
 /* contract_reconstruction.c - see contract_reconstruction.h.
  *
  * A stencil is what the edges of one cell may depend on: a few cells of all components of two materials in two
- * dimensions. Schemes of one component are called once per row of it, so that all schemes go through the same checks. */
+ * dimensions. Schemes of one component are called once per row of it, so that all schemes go through the same
+ * checks. */
 #include "suite/contract_reconstruction.h"
 
 #include "bulla/reconstruction.h"
@@ -226,8 +227,8 @@ static void contract_reconstruction_units(struct contract *contract, const struc
                                      unit[q] * one.at[0][q], unit[q] * one.at[1][q]);
 }
 
-/* No further from the cell than the nearer neighbour, on the side of its own neighbour, and fractions that fill a cell do so
- * at its edges. */
+/* No further from the cell than the nearer neighbour, on the side of its own neighbour, and fractions that fill a cell
+ * do so at its edges. */
 static void contract_reconstruction_bounds(struct contract *contract, const struct reconstruction_stencil *drawn)
 {
     if (!contract_reconstruction_table(contract)->bounded) return;

@@ -1,4 +1,5 @@
-/* contract_solid.h - what a Riemann solver that knows solids does with shear: a part of the contract of kind "riemann". */
+/* contract_solid.h - what a Riemann solver that knows solids does with shear: a part of the contract of kind
+ * "riemann". */
 #ifndef CONTRACT_SOLID_H
 #define CONTRACT_SOLID_H
 

@@ -24,8 +24,8 @@
 #include <time.h>
 #include <unistd.h>
 
-/* What one check may take: seconds of CPU time, so that a busy machine is no fault of the module (BULLA_CHECK_SECONDS sets
- * others, for tests); and, for one that sleeps, ticks of so many milliseconds. */
+/* What one check may take: seconds of CPU time, so that a busy machine is no fault of the module (BULLA_CHECK_SECONDS
+ * sets others, for tests); and, for one that sleeps, ticks of so many milliseconds. */
 enum { MODULE_PATIENCE = 10, MODULE_SLEEP = 30000, MODULE_TICK = 20 };
 
 /* What the child says to its parent. */

@@ -1,8 +1,9 @@
 /* module_table.c - see module_table.h.
  *
- * A law is asked for states by (rho, p); the grid of a table is one of (rho, T). So p is found by bisection, to the last bit:
- * T grows with p at constant density in every law, and a table has few states. Where a law continues its formulas T may
- * stop falling with p; a state without its temperature is refused, one that a continuation makes up is counted. */
+ * A law is asked for states by (rho, p); the grid of a table is one of (rho, T). So p is found by bisection, to the
+ * last bit: T grows with p at constant density in every law, and a table has few states. Where a law continues its
+ * formulas T may stop falling with p; a state without its temperature is refused, one that a continuation makes up is
+ * counted. */
 #include "suite/module_table.h"
 
 #include "base/comm.h"

@@ -125,7 +125,8 @@ static void chart_to(cairo_t *cr, const struct chart_frame *frame, const struct 
     else cairo_move_to(cr, x, y);
 }
 
-/* Points [i, ...) in the same column, as wide as CHART_COLUMN: their first, least, most and last. Returns the next i. */
+/* Points [i, ...) in the same column, as wide as CHART_COLUMN: their first, least, most and last. Returns the next
+ * i. */
 static size_t chart_column(cairo_t *cr, const struct chart_frame *frame, const struct chart_series *series, size_t i)
 {
     double x = chart_x(frame, series->x[i]);

@@ -1,5 +1,5 @@
-/* map_table.h - the table of a space-time map of a run (DIR/maps/NAME.csv, io/maps.h) in memory. Running and killed runs
- * have it too. */
+/* map_table.h - the table of a space-time map of a run (DIR/maps/NAME.csv, io/maps.h) in memory. Running and killed
+ * runs have it too. */
 #ifndef MAP_TABLE_H
 #define MAP_TABLE_H
 

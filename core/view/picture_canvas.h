@@ -13,12 +13,13 @@ struct picture_canvas {
     void *data;
 };
 
-/* Draws on a new image surface `width` pixels wide (0: 3 pixels per point), width and height rounded up to even numbers:
- * pictures are frames of films, and encoders take no odd ones. The caller destroys it.
- * STATUS_RUN if the image is too large. */
+/* Draws on a new image surface `width` pixels wide (0: 3 pixels per point), width and height rounded up to even
+ * numbers: pictures are frames of films, and encoders take no odd ones. The caller destroys it. STATUS_RUN if the image
+ * is too large. */
 int picture_canvas_draw(const struct picture_canvas *canvas, int width, cairo_surface_t **ret_image);
 
-/* Writes an image as PNG, by way of a temporary name; makes the folder if only that is missing. STATUS_RUN with the reason if that fails. */
+/* Writes an image as PNG, by way of a temporary name; makes the folder if only that is missing. STATUS_RUN with the
+ * reason if that fails. */
 int picture_canvas_write(cairo_surface_t *image, const char *path);
 
 #endif

@@ -21,7 +21,8 @@ struct picture_header {
     bool legend_beside; /* the legend shares the line of the note */
 };
 
-/* Breaks the title to `width`, or shrinks it a little if that saves a line; returns by how much the picture must be wider. */
+/* Breaks the title to `width`, or shrinks it a little if that saves a line; returns by how much the picture must be
+ * wider. */
 double picture_header_plan(cairo_t *cr, struct picture_header *header, double width);
 
 /* Draws with the upper left corner at (x, y). */

@@ -86,7 +86,8 @@ struct picture_space_edge {
     double outward[2]; /* on the page, unit */
 };
 
-/* Of the four edges along an axis the one with numbers: at the foot of the picture, for the upright axis on its left. */
+/* Of the four edges along an axis the one with numbers: at the foot of the picture, for the upright axis on its
+ * left. */
 static void picture_space_pick(const struct picture_space_plan *plan, int axis, struct picture_space_edge *ret_edge)
 {
     double best = -INFINITY;

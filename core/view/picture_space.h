@@ -1,8 +1,8 @@
-/* picture_space.h - surfaces and cuts in a box in space as a picture: parallel light, no perspective, so that lengths along an axis
- * can be compared anywhere in it.
+/* picture_space.h - surfaces and cuts in a box in space as a picture: parallel light, no perspective, so that lengths
+ * along an axis can be compared anywhere in it.
  *
- * A ray for each quarter of a pixel looks for the first surface or cut; surfaces are lit from above the viewer's left shoulder,
- * cuts keep the colours of their scale. */
+ * A ray for each quarter of a pixel looks for the first surface or cut; surfaces are lit from above the viewer's left
+ * shoulder, cuts keep the colours of their scale. */
 #ifndef PICTURE_SPACE_H
 #define PICTURE_SPACE_H
 

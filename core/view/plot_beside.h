@@ -15,8 +15,8 @@ enum { PLOT_BESIDE_RUNS = 8 };
 /* Gathers `extremes` of the picture from n snapshot files, and from those of calls before. */
 int plot_beside_gather(char *const *paths, size_t n, struct plot_picture *picture);
 
-/* Writes the picture or the film that the options of `picture` ask for; prints its name. A list of fields is refused where
- * each is a plane. */
+/* Writes the picture or the film that the options of `picture` ask for; prints its name. A list of fields is refused
+ * where each is a plane. */
 int plot_beside_write(const char *const *directories, unsigned n, const struct plot_picture *picture);
 
 #endif

@@ -16,8 +16,8 @@ struct plot_field {
     char label[PLOT_FIELD_LABEL];       /* "density of air", "axial velocity" */
 };
 
-/* Finds "pressure", "velocity" (its magnitude; of runs in 1D its only component, with its sign), "velocity_y". An unknown name is STATUS_CASE with the fields
- * that are there and a suggestion. */
+/* Finds "pressure", "velocity" (its magnitude; of runs in 1D its only component, with its sign), "velocity_y". An
+ * unknown name is STATUS_CASE with the fields that are there and a suggestion. */
 int plot_field_find(const struct snapshot *snapshot, const char *name, struct plot_field *ret_field);
 
 /* NaN where the field says nothing: such cells stay blank and have no part in the range. */

@@ -1,5 +1,5 @@
-/* plot_film.c - see plot_film.h. ffmpeg works in the folder of the frames, on names that are always the same: the film is moved to
- * its place, whatever that is called. */
+/* plot_film.c - see plot_film.h. ffmpeg works in the folder of the frames, on names that are always the same: the film
+ * is moved to its place, whatever that is called. */
 #include "view/plot_film.h"
 
 #include "base/mem.h"

@@ -11,8 +11,8 @@
 int plot_history_draw(const char *directory, const char *const *columns, unsigned n, const struct plot_option *option,
                       cairo_surface_t **ret_image);
 
-/* The same into DIR/plots/history.png, or where -o says; prints the path. Of several runs each column has a panel with a
- * line for every run, by its name (plot_case.h); at least one column must then be named and the picture is
+/* The same into DIR/plots/history.png, or where -o says; prints the path. Of several runs each column has a panel with
+ * a line for every run, by its name (plot_case.h); at least one column must then be named and the picture is
  * plots/compare.png of the first run. More runs than a panel holds, or a run without the column, are STATUS_CASE. */
 int plot_history_write(const char *const *directories, unsigned n_directory, const char *const *columns, unsigned n,
                        const struct plot_option *option);

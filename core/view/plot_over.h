@@ -15,13 +15,14 @@ struct plot_over {
     char label[PICTURE_SCALE_LABEL]; /* in legends: the name of the file, and Y */
 };
 
-/* Reads the file (case/table.h; SI units as histories). X is `t` if it is not given. STATUS_CASE: no such file, not a table,
- * no such columns; the message has those there are. Release with plot_over_done, whatever is returned. */
+/* Reads the file (case/table.h; SI units as histories). X is `t` if it is not given. STATUS_CASE: no such file, not a
+ * table, no such columns; the message has those there are. Release with plot_over_done, whatever is returned. */
 int plot_over_read(const char *given, struct plot_over *ret_over);
 void plot_over_done(struct plot_over *over);
 
-/* Puts into the panel that shows `column` what the reference has for it: the column of that name. Y goes to the panel of the
- * column of its name, `other` to any: the first, where no column has its name. STATUS_CASE: the panel is full. */
+/* Puts into the panel that shows `column` what the reference has for it: the column of that name. Y goes to the panel
+ * of the column of its name, `other` to any: the first, where no column has its name. STATUS_CASE: the panel is
+ * full. */
 int plot_over_add(struct plot_over *over, const char *column, bool other, struct chart_panel *panel);
 
 /* STATUS_CASE: nothing of a reference found its place in the chart. */

@@ -21,8 +21,8 @@ struct plot_picture {
 /* Is what the options leave of this snapshot a plane (2) or a line (1)? Surfaces in space are seen on a plane. */
 int plot_picture_shape(const struct snapshot *snapshot, const struct plot_option *option);
 
-/* Ends of the scale of a field in colours `map`: `range` if it is given, or what the field calls for, or else `extremes`
- * as they are; STATUS_CASE if these are those of nothing. */
+/* Ends of the scale of a field in colours `map`: `range` if it is given, or what the field calls for, or else
+ * `extremes` as they are; STATUS_CASE if these are those of nothing. */
 int plot_picture_range(const struct plot_option_span *range, bool log, const char *name, const char *map,
                        double extremes[2]);
 

@@ -1,5 +1,5 @@
-/* plot_space.h - surfaces of a snapshot in space (--iso), with cuts through it (--slice), as a picture. Axisymmetric runs are
- * turned about their axis. */
+/* plot_space.h - surfaces of a snapshot in space (--iso), with cuts through it (--slice), as a picture. Axisymmetric
+ * runs are turned about their axis. */
 #ifndef PLOT_SPACE_H
 #define PLOT_SPACE_H
 

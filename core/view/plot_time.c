@@ -1,4 +1,5 @@
-/* plot_time.c - see plot_time.h. The last interval of a run is often shorter than the others: the longest one counts. */
+/* plot_time.c - see plot_time.h. The last interval of a run is often shorter than the others: the longest one
+ * counts. */
 #include "view/plot_time.h"
 
 #include "base/status.h"

@@ -1,5 +1,5 @@
-/* report_course.c - see report_course.h. Radio buttons do the stepping: the page needs no script, and arrow keys work, too.
- * Snapshots are read twice, once for the common scale, so that one at a time is in memory. */
+/* report_course.c - see report_course.h. Radio buttons do the stepping: the page needs no script, and arrow keys work,
+ * too. Snapshots are read twice, once for the common scale, so that one at a time is in memory. */
 #include "view/report_course.h"
 
 #include "base/mem.h"

@@ -14,11 +14,12 @@ void report_html_end(struct text *page);
 /* Text with <, >, &, " escaped. */
 void report_html_text(struct text *page, const char *words);
 
-/* <figure> with the picture as base64 PNG; `what` is for those who cannot see it, `caption` goes below. STATUS_RUN if cairo
- * cannot encode it. */
+/* <figure> with the picture as base64 PNG; `what` is for those who cannot see it, `caption` goes below. STATUS_RUN if
+ * cairo cannot encode it. */
 int report_html_figure(struct text *page, cairo_surface_t *image, const char *what, const char *caption);
 
-/* An SI unit as a page shows it, in the buffer, which is returned: "kg/m³"; "pure number" for 1, "unit not known" for "". */
+/* An SI unit as a page shows it, in the buffer, which is returned: "kg/m³"; "pure number" for 1, "unit not known" for
+ * "". */
 const char *report_html_unit(const char *unit, char ret_words[PICTURE_SCALE_TEXT]);
 
 #endif

@@ -1,8 +1,8 @@
 /* voxels.h - a field of a box on equal cells, for rays that look for its surfaces.
  *
- * Leaves of all levels are laid on a grid as fine as the finest of them, or as many cells as there is room for: each cell has
- * the mean of the leaves in it by volume. Between centres values are trilinear (Levoy, IEEE CG&A 8(3), 1988); blocks of cells
- * know their extremes, so that rays pass in one step where no surface can be. */
+ * Leaves of all levels are laid on a grid as fine as the finest of them, or as many cells as there is room for: each
+ * cell has the mean of the leaves in it by volume. Between centres values are trilinear (Levoy, IEEE CG&A 8(3), 1988);
+ * blocks of cells know their extremes, so that rays pass in one step where no surface can be. */
 #ifndef VOXELS_H
 #define VOXELS_H
 
@@ -20,8 +20,8 @@ struct voxels {
     float *least, *most;       /* [blocks] of the values that a point in the block depends on */
 };
 
-/* The box of a snapshot in three dimensions, or of an axisymmetric one that is turned about its axis: x and y then are across
- * it, z along it. */
+/* The box of a snapshot in three dimensions, or of an axisymmetric one that is turned about its axis: x and y then are
+ * across it, z along it. */
 void voxels_domain(const struct snapshot *snapshot, double ret_domain[2][3]);
 
 /* The part `domain` of that box, of one value for each leaf; at most some `room` cells. Free with voxels_done. */
@@ -36,12 +36,13 @@ double voxels_at(const struct voxels *voxels, const double x[3]);
 bool voxels_clip(const double domain[2][3], const double from[3], const double along[3], double *ret_begin,
                  double *ret_end);
 
-/* Where a ray first meets the surface on which the field is `level`, within [begin, end] of it; the unit normal there points to
- * larger values. */
+/* Where a ray first meets the surface on which the field is `level`, within [begin, end] of it; the unit normal there
+ * points to larger values. */
 bool voxels_hit(const struct voxels *voxels, double level, const double from[3], const double along[3],
                 const double span[2], double *ret_t, double ret_normal[3]);
 
-/* Widens `extremes` by the values of `field` beside the surface of `voxels`; both were filled from the same snapshot. */
+/* Widens `extremes` by the values of `field` beside the surface of `voxels`; both were filled from the same
+ * snapshot. */
 void voxels_range(const struct voxels *voxels, double level, const struct voxels *field, double extremes[2]);
 
 #endif

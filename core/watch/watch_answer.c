@@ -90,8 +90,8 @@ static void watch_answer_curve(struct watch_answer_world *world, const struct wa
     watch_answer_json(answer, named ? watch_curve_look(&world->curves, world->runs.paths[run], column) : NULL);
 }
 
-/* The others whose scale a picture shares: run1, snapshot1, run2, ... after the first of `places`. false: one of them is
- * not there. */
+/* The others whose scale a picture shares: run1, snapshot1, run2, ... after the first of `places`. false: one of them
+ * is not there. */
 static bool watch_answer_like(const struct watch_answer_world *world, const struct watch_answer_request *request,
                               struct watch_picture_place *places, unsigned *n)
 {

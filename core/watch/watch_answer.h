@@ -1,5 +1,5 @@
-/* watch_answer.h - what is answered to a request, before any library has a part in it: the table of all that can be asked for,
- * and nothing else. Numbers alone come from the address, never a path or a name. */
+/* watch_answer.h - what is answered to a request, before any library has a part in it: the table of all that can be
+ * asked for, and nothing else. Numbers alone come from the address, never a path or a name. */
 #ifndef WATCH_ANSWER_H
 #define WATCH_ANSWER_H
 

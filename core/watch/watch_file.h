@@ -1,5 +1,5 @@
-/* watch_file.h - files of runs, which may be missing, growing, damaged or no files at all: what is there of them, read in
- * bounds and without waiting. */
+/* watch_file.h - files of runs, which may be missing, growing, damaged or no files at all: what is there of them, read
+ * in bounds and without waiting. */
 #ifndef WATCH_FILE_H
 #define WATCH_FILE_H
 
@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <time.h>
 
-/* The last lines of DIR/NAME, whole ones, at most `most` of them and of the file's last 64 KiB, in new memory; "" if there
- * are none. A last line without its end is still being written and left out. */
+/* The last lines of DIR/NAME, whole ones, at most `most` of them and of the file's last 64 KiB, in new memory; "" if
+ * there are none. A last line without its end is still being written and left out. */
 char *watch_file_tail(const char *directory, const char *name, unsigned most);
 
 /* The first line without its end, in new memory; "" if there is none. */

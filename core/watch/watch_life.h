@@ -1,5 +1,5 @@
-/* watch_life.h - is a run at work, done, or dead? From signs that it cannot fake: a run holds a lock on its directory until
- * its process ends, however it ends, and says in provenance.json why it ended. */
+/* watch_life.h - is a run at work, done, or dead? From signs that it cannot fake: a run holds a lock on its directory
+ * until its process ends, however it ends, and says in provenance.json why it ended. */
 #ifndef WATCH_LIFE_H
 #define WATCH_LIFE_H
 

@@ -71,8 +71,8 @@ static double watch_look_share(double t, double until, double step, double most)
     return share > 1.0 ? 1.0 : share;
 }
 
-/* Time left at the mean pace so far: provenance.json is written when a run begins. One that goes on from a checkpoint has
- * done part of its work before. */
+/* Time left at the mean pace so far: provenance.json is written when a run begins. One that goes on from a checkpoint
+ * has done part of its work before. */
 static double watch_look_left(const char *directory, const json_t *origin, double share)
 {
     double passed = difftime(time(NULL), watch_file_time(directory, "provenance.json"));

@@ -26,9 +26,9 @@ struct watch_pictures {
     struct watch_picture kept[WATCH_PICTURE_KEPT];
 };
 
-/* Field number `field` (of the last snapshot, as watch_look.h lists them) of the first of n places, on the scale of all of
- * them. The picture belongs to `pictures` until the next call. STATUS_CASE: there is no such snapshot or field; STATUS_RUN: it
- * cannot be drawn. */
+/* Field number `field` (of the last snapshot, as watch_look.h lists them) of the first of n places, on the scale of all
+ * of them. The picture belongs to `pictures` until the next call. STATUS_CASE: there is no such snapshot or field;
+ * STATUS_RUN: it cannot be drawn. */
 int watch_picture_take(struct watch_pictures *pictures, const struct watch_picture_place *places, unsigned n,
                        unsigned long field, const struct watch_picture **ret_picture);
 void watch_picture_done(struct watch_pictures *pictures);

@@ -18,8 +18,8 @@ void watch_row_done(struct watch_row *row);
 /* The value of a column, or NaN. */
 double watch_row_value(const struct watch_row *row, const char *column);
 
-/* All columns of history.csv and probes.csv in their order, "file", "name", "unit" each ("": not known). Numbers of columns
- * elsewhere (watch_curve.h) count along this list. */
+/* All columns of history.csv and probes.csv in their order, "file", "name", "unit" each ("": not known). Numbers of
+ * columns elsewhere (watch_curve.h) count along this list. */
 json_t *watch_row_columns(const char *directory);
 
 #endif

@@ -1,5 +1,5 @@
-/* watch_runs.h - the runs that a page shows: the directories given, and of a directory that is no run those in it, as a sweep
- * leaves them. A run has its number for as long as the page is there; new ones come behind. */
+/* watch_runs.h - the runs that a page shows: the directories given, and of a directory that is no run those in it, as a
+ * sweep leaves them. A run has its number for as long as the page is there; new ones come behind. */
 #ifndef WATCH_RUNS_H
 #define WATCH_RUNS_H
 

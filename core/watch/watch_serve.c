@@ -1,5 +1,5 @@
-/* watch_serve.c - see watch_serve.h. One thread, which waits for requests and answers them in turn: nothing else goes on in
- * this program. libmicrohttpd reads requests and writes answers; what is answered is watch_answer's. */
+/* watch_serve.c - see watch_serve.h. One thread, which waits for requests and answers them in turn: nothing else goes
+ * on in this program. libmicrohttpd reads requests and writes answers; what is answered is watch_answer's. */
 #include "watch/watch_serve.h"
 
 #include "base/comm.h"

@@ -1,6 +1,6 @@
-/* fung.c - e^s = mu/(2 rho0 b) (exp(b (I1 - 3)) - 1): the isotropic exponential law of soft tissue. At b (I1 - 3) = 12 the
- * solid is 1.6e5 times as stiff as at rest, a tissue of 10 kPa as stiff in shear as water in compression: from there on
- * the continuation of stiffening.h, long before anything overflows. */
+/* fung.c - e^s = mu/(2 rho0 b) (exp(b (I1 - 3)) - 1): the isotropic exponential law of soft tissue. At b (I1 - 3) = 12
+ * the solid is 1.6e5 times as stiff as at rest, a tissue of 10 kPa as stiff in shear as water in compression: from
+ * there on the continuation of stiffening.h, long before anything overflows. */
 #define STIFFENING_POINT fung
 #include "series.h"
 #include "stiffening.h"

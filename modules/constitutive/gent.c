@@ -1,6 +1,6 @@
 /* gent.c - e^s = -mu/(2 rho0) J_m ln(1 - (I1 - 3)/J_m): chains of limited length; the stiffness has a pole where I1 - 3
- * reaches J_m. From 95 % of the way on, where the solid is 20 times as stiff as at rest, the continuation of stiffening.h
- * takes over: a limit for the stretch still, but one that a wave can be computed with. */
+ * reaches J_m. From 95 % of the way on, where the solid is 20 times as stiff as at rest, the continuation of
+ * stiffening.h takes over: a limit for the stretch still, but one that a wave can be computed with. */
 #define STIFFENING_POINT gent
 #include "series.h"
 #include "stiffening.h"

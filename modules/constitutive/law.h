@@ -1,8 +1,8 @@
 /* law.h - what all elastic laws share: the small-strain numbers of the solid, and the descriptor.
  *
- * Every law is scaled by k = mu/(2 rho0), so that to first order in I1 - 3 and I2 - 3 its energy per mass is that of the
- * neo-Hookean solid, k (I1 - 3), and its shear wave is c_s = sqrt(mu/rho0). The including module lists its own numbers
- * after LAW_PARAMS and finds them in `own`. */
+ * Every law is scaled by k = mu/(2 rho0), so that to first order in I1 - 3 and I2 - 3 its energy per mass is that of
+ * the neo-Hookean solid, k (I1 - 3), and its shear wave is c_s = sqrt(mu/rho0). The including module lists its own
+ * numbers after LAW_PARAMS and finds them in `own`. */
 #ifndef LAW_H
 #define LAW_H
 

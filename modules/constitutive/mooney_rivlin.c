@@ -1,5 +1,6 @@
-/* mooney_rivlin.c - e^s = mu/(2 rho0) [(1 - r) (I1 - 3) + r (I2 - 3)]: the neo-Hookean solid with a part r of its modulus
- * carried by the second invariant. In Mooney's constants: C1 = (1 - r) mu/2, C2 = r mu/2. Linear in both invariants. */
+/* mooney_rivlin.c - e^s = mu/(2 rho0) [(1 - r) (I1 - 3) + r (I2 - 3)]: the neo-Hookean solid with a part r of its
+ * modulus carried by the second invariant. In Mooney's constants: C1 = (1 - r) mu/2, C2 = r mu/2. Linear in both
+ * invariants. */
 #include "law.h"
 
 static const struct bulla_param mooney_rivlin_params[] = {

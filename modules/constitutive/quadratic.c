@@ -1,6 +1,6 @@
 /* quadratic.c - e^s = mu/(2 rho0) (J + a J^2/2), J = I1 - 3: the first term of every law that stiffens, which is what a
- * bubble's first collapse can tell of a gel. It has no pole, so stiffening.h never continues it. From a J = -1/2 down, where
- * no stretch is (limited face values are none), the slope is held, so that it stays positive. */
+ * bubble's first collapse can tell of a gel. It has no pole, so stiffening.h never continues it. From a J = -1/2 down,
+ * where no stretch is (limited face values are none), the slope is held, so that it stays positive. */
 #define STIFFENING_POINT quadratic
 #include "stiffening.h"
 

@@ -1,7 +1,7 @@
 /* johnson_cook.c - D is the integral of d eps/eps_f, with the plastic strain at fracture
  *     eps_f = (D1 + D2 exp(D3 s))(1 + D4 ln(1 + rate/rate0))(1 + D5 T*),   s = -p/q,   T* = (T - T0)/(Tm - T0).
- * The paper has ln(rate/rate0), which has no limit at rest; the one here is 0 there. s is taken from -1.5 to 1.5, the range of the
- * data, and eps_f is at least `least`. */
+ * The paper has ln(rate/rate0), which has no limit at rest; the one here is 0 there. s is taken from -1.5 to 1.5, the
+ * range of the data, and eps_f is at least `least`. */
 #include "criterion.h"
 
 enum { D1, D2, D3, D4, D5, RATE, MELT, ROOM, LEAST, JC_NUMBERS };

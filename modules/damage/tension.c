@@ -1,5 +1,5 @@
-/* tension.c - breaks where the tension reaches the strength: that of the mean stress, minus the pressure, or of the largest
- * principal stress. What spalls under plane waves is measured by it. */
+/* tension.c - breaks where the tension reaches the strength: that of the mean stress, minus the pressure, or of the
+ * largest principal stress. What spalls under plane waves is measured by it. */
 #include "criterion.h"
 
 enum { STRESS, OF };

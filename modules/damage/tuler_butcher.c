@@ -1,5 +1,5 @@
-/* tuler_butcher.c - D is the integral of ((tension - threshold)/stress)^exponent dt/time: what a tension does takes time, and a
- * short one may be higher. */
+/* tuler_butcher.c - D is the integral of ((tension - threshold)/stress)^exponent dt/time: what a tension does takes
+ * time, and a short one may be higher. */
 #include "criterion.h"
 
 enum { THRESHOLD, STRESS, EXPONENT, TIME, OF };

@@ -1,7 +1,7 @@
 /* johnson_cook.c - Y = (A + B eps^n) (1 + C ln(1 + rate/rate0)) (1 - T*^m), T* = (T - Tr)/(Tm - Tr) within 0 and 1.
  *
- * The published factor is 1 + C ln(rate/rate0), which has no limit at rest; with the 1 in the logarithm it is 1 there and the same at
- * the rates the law was made for. Numbers differ between decks: A and B are of uniaxial stress. */
+ * The published factor is 1 + C ln(rate/rate0), which has no limit at rest; with the 1 in the logarithm it is 1 there
+ * and the same at the rates the law was made for. Numbers differ between decks: A and B are of uniaxial stress. */
 #include "strength.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* power_law.c - Y = (Y0 + H eps) (1 + (rate/rate0)^m): the overstress of Cowper and Symonds, of Perzyna with a power. */
+/* power_law.c - Y = (Y0 + H eps) (1 + (rate/rate0)^m): the overstress of Cowper and Symonds, of Perzyna with a
+ * power. */
 #include "strength.h"
 
 #include <math.h>

@@ -1,9 +1,9 @@
-/* steinberg_guinan.c - Y = min(Y0 (1 + beta (eps + eps_i))^n, Ymax) [1 + A p/eta^(1/3) - B (T - 300 K)], eta = rho/rho0; 0 above
- * Tm = Tm0 exp(2 a (1 - 1/eta)) eta^(2 (gamma0 - a - 1/3)).
+/* steinberg_guinan.c - Y = min(Y0 (1 + beta (eps + eps_i))^n, Ymax) [1 + A p/eta^(1/3) - B (T - 300 K)], eta =
+ * rho/rho0; 0 above Tm = Tm0 exp(2 a (1 - 1/eta)) eta^(2 (gamma0 - a - 1/3)).
  *
- * For rates above 1e5 1/s, where metals no longer harden with the rate. The modulus that the law changes in the same way stays
- * constant here: one that depends on T has no energy e^s(V) of its own. A is often printed as "2.83 1/Pa" for copper; it is
- * 2.83 1/Mbar. */
+ * For rates above 1e5 1/s, where metals no longer harden with the rate. The modulus that the law changes in the same
+ * way stays constant here: one that depends on T has no energy e^s(V) of its own. A is often printed as "2.83 1/Pa" for
+ * copper; it is 2.83 1/Mbar. */
 #include "strength.h"
 
 #include <math.h>

@@ -6,8 +6,8 @@
  *     e = (near - far)/2 + d/2 (h + H/h)/(1 + H),    H = T(beta q/2),   h = T(beta/2),   T = tanh,
  * the two-sided form of the usual one with exponentials, and the same for fractions that rise and fall. T is taken as
  * x (15 + x^2)/(15 + 6 x^2), within 1e-3 of tanh for beta <= 2.4 and 3e-3 for 3: no library, the same bits everywhere,
- * a vector loop. h from the same T ends the step at the neighbour. Steps may be longer than `far`: an edge may hold more
- * than twice what its cell has of a material (docs/decisions/edges.md). */
+ * a vector loop. h from the same T ends the step at the neighbour. Steps may be longer than `far`: an edge may hold
+ * more than twice what its cell has of a material (docs/decisions/edges.md). */
 #include <stddef.h>
 #include <stdlib.h>
 

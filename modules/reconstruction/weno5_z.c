@@ -3,9 +3,9 @@
  * With the differences d1 = b - a, d2 = c - b, d3 = d - c, d4 = e - d of the cells a .. e, the parabolas through (a, b,
  * c), (b, c, d) and (c, d, e) are at the upper edge of c
  *     c + (5 d2 - 2 d1)/6,   c + (d2 + 2 d3)/6,   c + (4 d3 - d4)/6
- * with the ideal weights 1/10, 6/10, 3/10, each times 1 + (tau/(beta + eps))^2, tau = |beta_0 - beta_2|. The lower edge is that
- * of the mirrored cells. In differences equal cells give their value to the bit, and mirrored ones mirrored edges.
- * eps only keeps 0/0 away.
+ * with the ideal weights 1/10, 6/10, 3/10, each times 1 + (tau/(beta + eps))^2, tau = |beta_0 - beta_2|. The lower edge
+ * is that of the mirrored cells. In differences equal cells give their value to the bit, and mirrored ones mirrored
+ * edges. eps only keeps 0/0 away.
  *
  * Beside interfaces of materials everything has limited slopes, unless the case says otherwise: parabolas through two
  * materials make strong shocks ring there (docs/verification.md). */

@@ -9,8 +9,8 @@
  *
  * The including module defines CONTACT_SPEEDS, one of the functions of wave.h, and CONTACT_SHEAR:
  * 1 to diffuse jumps of tangential velocity as the two-wave average does (a remedy against the
- * carbuncle), 0 to keep them sharp; and CONTACT_SLOW for solids (shear.h). With CONTACT_RELEASE 1, of fluids alone, signals
- * between unlike mixtures are those of wave_release: the module says in work[3] how unlike, 0 to 1. */
+ * carbuncle), 0 to keep them sharp; and CONTACT_SLOW for solids (shear.h). With CONTACT_RELEASE 1, of fluids alone,
+ * signals between unlike mixtures are those of wave_release: the module says in work[3] how unlike, 0 to 1. */
 #ifndef CONTACT_H
 #define CONTACT_H
 

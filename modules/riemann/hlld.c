@@ -1,4 +1,5 @@
-/* hlld.c - HLLC with the shear waves of solids (shear.h), signal speeds of Davis. Faces of fluids are those of hllc.c. */
+/* hlld.c - HLLC with the shear waves of solids (shear.h), signal speeds of Davis. Faces of fluids are those of
+ * hllc.c. */
 #define CONTACT_SPEEDS wave_davis
 #define CONTACT_SHEAR 0
 #define CONTACT_SLOW 1

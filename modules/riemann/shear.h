@@ -1,11 +1,11 @@
 /* shear.h - what acts along the face of solids: two slow waves between the fast ones, as in HLLD (Miyoshi & Kusano, J.
  * Comput. Phys. 208 (2005) 315; Barton, J. Comput. Phys. 390 (2019) 25). Fluids come out bitwise as without it.
  *
- * A fast wave leaves u_t and s_nt as they are. A slow one runs through side K with the mass impedance Z_K and takes them
- * to common values u**, s**, on the left by s** - s_L = Z_L (u** - u_L), on the right by s** - s_R = -Z_R (u** - u_R):
- *     u** = (Z_L u_L + Z_R u_R + s_R - s_L)/(Z_L + Z_R),   s** = (Z_L s_R + Z_R s_L + Z_L Z_R (u_R - u_L))/(Z_L + Z_R).
- * A fluid has Z = 0 and s = 0: then s** = 0, the solid's u** is that of a free surface, and the fluid keeps its u_t.
- * Both are written around the means of the sides, exact where nothing jumps and mirroring exactly.
+ * A fast wave leaves u_t and s_nt as they are. A slow one runs through side K with the mass impedance Z_K and takes
+ * them to common values u**, s**, on the left by s** - s_L = Z_L (u** - u_L), on the right by s** - s_R = -Z_R (u** -
+ * u_R): u** = (Z_L u_L + Z_R u_R + s_R - s_L)/(Z_L + Z_R),   s** = (Z_L s_R + Z_R s_L + Z_L Z_R (u_R - u_L))/(Z_L +
+ * Z_R). A fluid has Z = 0 and s = 0: then s** = 0, the solid's u** is that of a free surface, and the fluid keeps its
+ * u_t. Both are written around the means of the sides, exact where nothing jumps and mirroring exactly.
  *
  * With q the mass flux through the face and K the side upwind, the slow wave of K has passed the face if |q| < Z_K.
  * Then, with w = |q|/Z_K, from the jumps of momentum and energy across that wave (q = rho* u*, Z = rho* c_S*):
@@ -15,11 +15,11 @@
  * V_nn (u** - u_K)/(-+c_S*) would add to V_nt u* - V_nn u_t is the same as taking for u_t
  *     (1 - w) u** + w u_K.
  *
- * Z_K: with CONTACT_SLOW that of the shear wave in the matter behind the fast one. A compression chi = rho*_K/rho_K shortens
- * row n of V by chi and a factor chi^(1/3) keeps det V = 1, so B_nn goes as chi^(-4/3); G/rho does not change; hence
- * rho* c_S* = rho c_S chi^(1/3), of which (1 + 2 chi)/(2 + chi) is the Pade form, right to second order in chi - 1 and
- * within [1/2, 2]. A slow wave never outruns the fast one: Z_K <= rho |S_K - u_K|. Without CONTACT_SLOW it is that bound
- * itself: shear is smeared as far as the fast waves run.
+ * Z_K: with CONTACT_SLOW that of the shear wave in the matter behind the fast one. A compression chi = rho*_K/rho_K
+ * shortens row n of V by chi and a factor chi^(1/3) keeps det V = 1, so B_nn goes as chi^(-4/3); G/rho does not change;
+ * hence rho* c_S* = rho c_S chi^(1/3), of which (1 + 2 chi)/(2 + chi) is the Pade form, right to second order in chi -
+ * 1 and within [1/2, 2]. A slow wave never outruns the fast one: Z_K <= rho |S_K - u_K|. Without CONTACT_SLOW it is
+ * that bound itself: shear is smeared as far as the fast waves run.
  *
  * The including module defines CONTACT_SPEEDS (wave.h) and CONTACT_SLOW, 1 or 0. */
 #ifndef SHEAR_H

@@ -50,12 +50,12 @@ static inline struct wave wave_rusanov(struct wave_side left, struct wave_side r
 /* How slow the signal of a rarefaction may get, in the speed of sound. */
 #define WAVE_RELEASED 0.5
 
-/* Signals of a face between unlike mixtures, `alien` from 0 (alike) to 1. A side that lets go of pressure keeps the jump
- * conditions of its signal, and those of speed c are not met by any state of its material: its pressure by density and
- * energy is far from p*. They are met by the "rarefaction shock" of speed c - k (u_K - u*) along the Hugoniot, which strong
- * rarefactions follow closely in density, velocity and energy. k = (gamma + 1)/4 for weak waves, 0.6 in air and 1.35 in
- * water; 1 is taken for all (docs/decisions/cut-cells.md). u* is that of the two impedances, three times. Sides that are
- * compressed keep their signals, to the bit. */
+/* Signals of a face between unlike mixtures, `alien` from 0 (alike) to 1. A side that lets go of pressure keeps the
+ * jump conditions of its signal, and those of speed c are not met by any state of its material: its pressure by density
+ * and energy is far from p*. They are met by the "rarefaction shock" of speed c - k (u_K - u*) along the Hugoniot,
+ * which strong rarefactions follow closely in density, velocity and energy. k = (gamma + 1)/4 for weak waves, 0.6 in
+ * air and 1.35 in water; 1 is taken for all (docs/decisions/cut-cells.md). u* is that of the two impedances, three
+ * times. Sides that are compressed keep their signals, to the bit. */
 static inline struct wave wave_release(struct wave wave, struct wave_side left, struct wave_side right, double alien)
 {
     double c_left = left.c, c_right = right.c;

@@ -1,5 +1,5 @@
-/* casson.c - sqrt(tau) = sqrt(t0) + sqrt(mu_c g), regularised: mu = (sqrt(mu_c) + sqrt(t0/g) (1 - exp(-sqrt(m g))))^2. At rest
- * that is (sqrt(mu_c) + sqrt(t0 m))^2. */
+/* casson.c - sqrt(tau) = sqrt(t0) + sqrt(mu_c g), regularised: mu = (sqrt(mu_c) + sqrt(t0/g) (1 - exp(-sqrt(m g))))^2.
+ * At rest that is (sqrt(mu_c) + sqrt(t0 m))^2. */
 #define RATE_LAW_POINT casson
 #include "rate_law.h"
 

@@ -1,5 +1,5 @@
-/* herschel_bulkley.c - mu = (t0/g)(1 - exp(-m g)) + K g^(n - 1), the power taken no further than g = 1/m: at rest that is
- * m t0 + K m^(1 - n). */
+/* herschel_bulkley.c - mu = (t0/g)(1 - exp(-m g)) + K g^(n - 1), the power taken no further than g = 1/m: at rest that
+ * is m t0 + K m^(1 - n). */
 #define RATE_LAW_POINT herschel_bulkley
 #include "rate_law.h"
 

@@ -1,5 +1,5 @@
-/* rate_law.h - the shape of laws that look at the rate of shear alone: the including module defines RATE_LAW_POINT, the name
- * of an inline function of its numbers and a rate, and fills `most`. */
+/* rate_law.h - the shape of laws that look at the rate of shear alone: the including module defines RATE_LAW_POINT, the
+ * name of an inline function of its numbers and a rate, and fills `most`. */
 #ifndef RATE_LAW_H
 #define RATE_LAW_H
 

@@ -1,6 +1,6 @@
 /* dump.c - dumps of failed steps. HDF5 itself is not the target: the input says what is in a sound HDF5 file, in parts
- * that end with a line "%%": notes; the blocks, one "name rows columns" a line; provenance. The case is that of the dump
- * in the corpus, so that its replay reaches the kernels. Numbers of the blocks follow from their places. */
+ * that end with a line "%%": notes; the blocks, one "name rows columns" a line; provenance. The case is that of the
+ * dump in the corpus, so that its replay reaches the kernels. Numbers of the blocks follow from their places. */
 #include "fuzz.h"
 #include "io/dump.h"
 #include "io/dump_show.h"

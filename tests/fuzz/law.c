@@ -1,6 +1,6 @@
-/* law.c - files of the equation of state `table`. CSV as it is. An input that begins with "h5" stands for a sound HDF5 file:
- * one array a line, "name units rows columns scale" (0 columns: one dimension), its numbers those of a gas times scale.
- * What is accepted must be a law: numbers for any density and pressure. */
+/* law.c - files of the equation of state `table`. CSV as it is. An input that begins with "h5" stands for a sound HDF5
+ * file: one array a line, "name units rows columns scale" (0 columns: one dimension), its numbers those of a gas times
+ * scale. What is accepted must be a law: numbers for any density and pressure. */
 #include "bulla/eos.h"
 #include "case/scene_read.h"
 #include "fuzz.h"

@@ -1,6 +1,6 @@
 /* nan.c - laws in good order that give NaN when they are used, for program/hostile.sh. Built once per kind with
- * -DNAN_CONSTITUTIVE, -DNAN_EOS, -DNAN_LIMITER, -DNAN_RECONSTRUCTION or -DNAN_RIEMANN. The gas is an ideal one up to 3 bar, the solid neo-Hookean
- * up to I1 = 18. */
+ * -DNAN_CONSTITUTIVE, -DNAN_EOS, -DNAN_LIMITER, -DNAN_RECONSTRUCTION or -DNAN_RIEMANN. The gas is an ideal one up to 3
+ * bar, the solid neo-Hookean up to I1 = 18. */
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
 #include "bulla/limiter.h"

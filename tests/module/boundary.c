@@ -1,5 +1,5 @@
-/* boundary.c - the contract of kind "boundary" (core/suite/contract_boundary.c): walls that keep it, one fault for each check
- * that must find it, and descriptors that contradict themselves. */
+/* boundary.c - the contract of kind "boundary" (core/suite/contract_boundary.c): walls that keep it, one fault for each
+ * check that must find it, and descriptors that contradict themselves. */
 #include "mutants.h"
 
 #include "bulla/boundary.h"

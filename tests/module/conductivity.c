@@ -1,5 +1,5 @@
-/* conductivity.c - the contract of kind "conductivity" (core/suite/contract_conductivity.c, contract_coefficient.c) on every
- * built-in law, each law against published values, and values that are refused. */
+/* conductivity.c - the contract of kind "conductivity" (core/suite/contract_conductivity.c, contract_coefficient.c) on
+ * every built-in law, each law against published values, and values that are refused. */
 #include "mutants.h"
 
 #include "bulla/conductivity.h"
@@ -17,8 +17,8 @@ static double k_at(const char *name, const char *preset, double T)
     return k;
 }
 
-/* Water: the background term of IAPWS R15-11 at 0.1 MPa, to which the critical enhancement adds up to 1 %. Air: tables of
- * Incropera & DeWitt, Fundamentals of Heat and Mass Transfer, 4th ed., A.4. */
+/* Water: the background term of IAPWS R15-11 at 0.1 MPa, to which the critical enhancement adds up to 1 %. Air: tables
+ * of Incropera & DeWitt, Fundamentals of Heat and Mass Transfer, 4th ed., A.4. */
 static void test_values(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* constitutive.c - the contract of kind "constitutive" (core/suite/contract_constitutive.c) on every built-in law, and each
- * against its published formula. */
+/* constitutive.c - the contract of kind "constitutive" (core/suite/contract_constitutive.c) on every built-in law, and
+ * each against its published formula. */
 #include "support.h"
 
 #include "bulla/constitutive.h"
@@ -73,7 +73,8 @@ static void test_textbook(void **state)
         }
 }
 
-/* Of small strains all are the same solid, whatever stiffens it later: c_s^2 = mu/rho0, from s' = 2 rho (e_1 + e_2) dev B. */
+/* Of small strains all are the same solid, whatever stiffens it later: c_s^2 = mu/rho0, from s' = 2 rho (e_1 + e_2) dev
+ * B. */
 static void test_small_strain(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* damage.c - the contract of kind "damage" (core/suite/contract_damage.c) on every built-in criterion, and each against its
- * published formula. */
+/* damage.c - the contract of kind "damage" (core/suite/contract_damage.c) on every built-in criterion, and each against
+ * its published formula. */
 #include "support.h"
 
 #include "base/status.h"

@@ -1,7 +1,7 @@
 /* eos_claims.c - numbers that the doctoral thesis states about equations of state ("Bubbles and soft materials: from
- * computational modeling to applications", 2023), looked at with our own laws. tests/data/eos/thesis_claims.csv has one row
- * per claim: what is claimed, what an independent program found, what that means; here the laws must find the same. With
- * BULLA_FIGURES in the environment what they find is printed. docs/thermodynamics.md has the table. */
+ * computational modeling to applications", 2023), looked at with our own laws. tests/data/eos/thesis_claims.csv has one
+ * row per claim: what is claimed, what an independent program found, what that means; here the laws must find the same.
+ * With BULLA_FIGURES in the environment what they find is printed. docs/thermodynamics.md has the table. */
 #include "waves.h"
 
 enum { CLAIMS = 22, LINE = 1024 };
@@ -198,8 +198,8 @@ static void test_air(void **state)
     says(18, "at 3e10 Pa (", 100.0 * (T[0][1] / T[1][1] - 1.0), 0.6);
 }
 
-/* Misprints: equation 16 wants a product, equation 8 the heat bond. On its curve Tait's p is the product's, and the energy of a
- * stiffened gas gives back its pressure only less q. */
+/* Misprints: equation 16 wants a product, equation 8 the heat bond. On its curve Tait's p is the product's, and the
+ * energy of a stiffened gas gives back its pressure only less q. */
 static void test_misprints(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* eos_cubic.c - Peng-Robinson and RKPR air against reference points of 15 digits, along an isentrope, beyond the co-volume
- * and below the coldest temperature; tables of RKPR. What all laws must hold: eos_laws.c. */
+/* eos_cubic.c - Peng-Robinson and RKPR air against reference points of 15 digits, along an isentrope, beyond the
+ * co-volume and below the coldest temperature; tables of RKPR. What all laws must hold: eos_laws.c. */
 #include "law.h"
 
 /* Columns: rho, T, p, e, s, h, cv, cp, c2, Gamma, de/dp, de/drho per mass. */
@@ -112,7 +112,8 @@ static struct law air_table(const char *name, const char *interpolation, int siz
     return law_open(name, (const char *const[]){"preset=air", "eval=table", between, nodes, NULL});
 }
 
-/* Largest errors of T, of p at a given energy and of c at random states from 1e-3 kg/m3 to 0.979/b, 180 K to 20000 K. */
+/* Largest errors of T, of p at a given energy and of c at random states from 1e-3 kg/m3 to 0.979/b, 180 K to 20000
+ * K. */
 static void table_errors(const struct law *table, const struct law *law, double worst[3])
 {
     uint64_t seed = 3;
@@ -128,8 +129,8 @@ static void table_errors(const struct law *table, const struct law *law, double 
     }
 }
 
-/* Twice the errors that an independent program saw with tables of these sizes (columns behind the name: nodes, nodes, degree,
- * largest and mean errors of T, of p at given e, of c). */
+/* Twice the errors that an independent program saw with tables of these sizes (columns behind the name: nodes, nodes,
+ * degree, largest and mean errors of T, of p at given e, of c). */
 static void test_table_errors(void **state)
 {
     (void)state;

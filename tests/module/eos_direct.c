@@ -1,5 +1,5 @@
-/* eos_direct.c - IAPWS-95 and Lemmon air from tables of e, c^2 and T: errors against the formulas, the properties that every
- * law has, and the contract, as far as tables of several functions can keep it. */
+/* eos_direct.c - IAPWS-95 and Lemmon air from tables of e, c^2 and T: errors against the formulas, the properties that
+ * every law has, and the contract, as far as tables of several functions can keep it. */
 #include "law.h"
 
 static struct law direct_open(const char *name, const char *eval, const char *interpolation, double size)

@@ -1,5 +1,6 @@
-/* eos_explosives.c - JWL and Cochran-Chan laws and presets of liquids against what is known of the materials: detonation
- * speeds, the pressure of a charge that has burnt at constant volume, states of rest. What all laws must hold: eos_laws.c. */
+/* eos_explosives.c - JWL and Cochran-Chan laws and presets of liquids against what is known of the materials:
+ * detonation speeds, the pressure of a charge that has burnt at constant volume, states of rest. What all laws must
+ * hold: eos_laws.c. */
 #include "law.h"
 
 /* p of the products at density rho with energy e per mass. */

@@ -1,5 +1,5 @@
-/* eos_family.c - the closed-form family (ideal gas, stiffened gas, NASG, modified NASG) against reference points computed
- * with 50 digits, where its continuation begins, and what its presets are known for. What all laws must hold:
+/* eos_family.c - the closed-form family (ideal gas, stiffened gas, NASG, modified NASG) against reference points
+ * computed with 50 digits, where its continuation begins, and what its presets are known for. What all laws must hold:
  * eos_laws.c. */
 #include "law.h"
 

@@ -1,9 +1,10 @@
 /* eos_isentropes.c - water compressed isentropically from 1e5 Pa and 288.15 K to 10 GPa by every liquid model, against
- * IAPWS-95. With BULLA_FIGURES in the environment the rows of the table in docs/thermodynamics.md are printed. Tables of the
- * same isentropes by another program: eos_waves.c. */
+ * IAPWS-95. With BULLA_FIGURES in the environment the rows of the table in docs/thermodynamics.md are printed. Tables
+ * of the same isentropes by another program: eos_waves.c. */
 #include "waves.h"
 
-/* A model, the pressure up to which it has a state, and its largest errors of T and rho, per cent: up to 1 GPa and up to 10. */
+/* A model, the pressure up to which it has a state, and its largest errors of T and rho, per cent: up to 1 GPa and up
+ * to 10. */
 struct liquid {
     const char *module, *preset;
     double most, T[2], rho[2];

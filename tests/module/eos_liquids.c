@@ -1,5 +1,5 @@
-/* eos_liquids.c - the Tait liquids against reference points of 14 digits and more, at the ends of temperature, and initial
- * states. What all laws must hold: eos_laws.c. */
+/* eos_liquids.c - the Tait liquids against reference points of 14 digits and more, at the ends of temperature, and
+ * initial states. What all laws must hold: eos_laws.c. */
 #include "law.h"
 
 static void check_tait(const struct law *law, const double *column)
@@ -67,8 +67,8 @@ static void test_edges(void **state)
     }
 }
 
-/* Beyond the hot end of the published law, which falls with density from 1275 kg/m3 on: slopes and sound speed are those of
- * the energy. */
+/* Beyond the hot end of the published law, which falls with density from 1275 kg/m3 on: slopes and sound speed are
+ * those of the energy. */
 static void test_falling_edge(void **state)
 {
     (void)state;

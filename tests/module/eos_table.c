@@ -80,8 +80,8 @@ static void check_table(const struct law *table, const struct law *law, const st
     for (int l = 0; l < 3; l++) support_near("error of a table", worst[l], 0.0, 1.0, most[l]);
 }
 
-/* A mixture's iteration stops at 1e-13 of p or where rho e resolves no more: rounding in the table must not keep it from
- * getting there. */
+/* A mixture's iteration stops at 1e-13 of p or where rho e resolves no more: rounding in the table must not keep it
+ * from getting there. */
 static void check_closes(const struct law *table, const struct law *law, const struct box *box)
 {
     uint64_t seed = 11;
@@ -217,7 +217,8 @@ static void test_hostile(void **state)
     free(line);
 }
 
-/* Numbers that are none of a substance's: where they fall, or what units do to a whole column. State i stands in line i + 2. */
+/* Numbers that are none of a substance's: where they fall, or what units do to a whole column. State i stands in line i
+ * + 2. */
 static void test_hostile_numbers(void **state)
 {
     (void)state;

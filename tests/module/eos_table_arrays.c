@@ -1,5 +1,5 @@
-/* eos_table_arrays.c - states from an HDF5 file: the same law as from CSV; what is no such file is refused with the data set
- * and the reason. */
+/* eos_table_arrays.c - states from an HDF5 file: the same law as from CSV; what is no such file is refused with the
+ * data set and the reason. */
 #include "law.h"
 
 #include <hdf5.h>

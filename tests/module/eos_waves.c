@@ -1,9 +1,9 @@
-/* eos_waves.c - isentropes, shocks and shock tubes of the liquid models, from the laws' own functions, against those that another program
- * found with the same models (tests/data/eos). */
+/* eos_waves.c - isentropes, shocks and shock tubes of the liquid models, from the laws' own functions, against those
+ * that another program found with the same models (tests/data/eos). */
 #include "waves.h"
 
-/* A model: its names in the files (NULL: not there), the module and its settings; the published modified Tait law has states
- * in its range up to 1 GPa only. */
+/* A model: its names in the files (NULL: not there), the module and its settings; the published modified Tait law has
+ * states in its range up to 1 GPa only. */
 struct model {
     const char *star, *curve, *module, *sets[4];
     double most;
@@ -110,7 +110,8 @@ static void test_curves(void **state)
     }
 }
 
-/* Columns: rho, T, p, ..., us, up at 12 and 13. Jump conditions with the law's own energies, and the shock found from p. */
+/* Columns: rho, T, p, ..., us, up at 12 and 13. Jump conditions with the law's own energies, and the shock found from
+ * p. */
 static double start_T;
 
 static void check_water(const struct law *law, const double *column)

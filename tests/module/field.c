@@ -1,5 +1,5 @@
-/* field.c - the contract of kind "field" (core/suite/contract_field.c): one that keeps it, one fault for each check that must
- * find it, and descriptors that core could not work with. */
+/* field.c - the contract of kind "field" (core/suite/contract_field.c): one that keeps it, one fault for each check
+ * that must find it, and descriptors that core could not work with. */
 #include "mutants.h"
 
 #include "bulla/field.h"

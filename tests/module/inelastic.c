@@ -1,5 +1,5 @@
-/* inelastic.c - the contract of kind "inelastic" (core/suite/contract_inelastic.c) on every built-in strength, and each against
- * its published formula. */
+/* inelastic.c - the contract of kind "inelastic" (core/suite/contract_inelastic.c) on every built-in strength, and each
+ * against its published formula. */
 #include "support.h"
 
 #include "base/status.h"

@@ -100,8 +100,9 @@ static inline double law_pressure(const struct law *law, double rho, double rho_
     return p;
 }
 
-/* (rho, p) -> e -> p from a guess that is off by a factor: to 1e-12 of p and what the energies resolve, 4 eps S/F' with S
- * their sum and F' their slope, and 1 + `slack` units in the last place of rho c^2 (that at 1 bar at least), where large terms cancel in p. */
+/* (rho, p) -> e -> p from a guess that is off by a factor: to 1e-12 of p and what the energies resolve, 4 eps S/F' with
+ * S their sum and F' their slope, and 1 + `slack` units in the last place of rho c^2 (that at 1 bar at least), where
+ * large terms cancel in p. */
 static inline void law_round_trip(const struct law *law, double rho, double p, double slack)
 {
     struct law_point at = law_at(law, rho, p);
@@ -120,7 +121,8 @@ static inline void law_round_trips(const struct law *law, double rho_most, doubl
         for (double p = 1.0; p < 1e11; p *= 7.3) law_round_trip(law, rho, p, slack);
 }
 
-/* Along dp/drho = c^2 the entropy stays, to `drift` of `scale`; `span` is the ratio of the last density to the first. */
+/* Along dp/drho = c^2 the entropy stays, to `drift` of `scale`; `span` is the ratio of the last density to the
+ * first. */
 static inline void law_isentrope(const struct law *law, double rho, double p, double span, double drift, double scale)
 {
     enum { STEPS = 4000 };
@@ -135,8 +137,8 @@ static inline void law_isentrope(const struct law *law, double rho, double p, do
     support_near("entropy along an isentrope", law_at(law, rho, p).s, s, drift, scale);
 }
 
-/* Nothing infinite, d(rho e)/dp > 0, c^2 > 0, T > 0 for densities from 1e-3 and pressures from p_min to 1e11; rho e grows
- * with p. */
+/* Nothing infinite, d(rho e)/dp > 0, c^2 > 0, T > 0 for densities from 1e-3 and pressures from p_min to 1e11; rho e
+ * grows with p. */
 static inline void law_sweep(const struct law *law, double rho_most)
 {
     for (double rho = 1e-3; rho < rho_most; rho *= 1.01) {

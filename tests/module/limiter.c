@@ -89,7 +89,8 @@ static void thinc_edges(double beta, const double w[3], double edges[2])
     instance_done(&thinc);
 }
 
-/* The formula of the paper, with its exponentials, for a cell of c between pure ones; to the accuracy of the tangent. */
+/* The formula of the paper, with its exponentials, for a cell of c between pure ones; to the accuracy of the
+ * tangent. */
 static void test_thinc(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* mutants_reconstruction.c - the contract suite of reconstructions can fail: good schemes with one thing wrong at a time,
- * each found by the check that is there for it. */
+/* mutants_reconstruction.c - the contract suite of reconstructions can fail: good schemes with one thing wrong at a
+ * time, each found by the check that is there for it. */
 #include "mutants.h"
 
 #include "bulla/reconstruction.h"
@@ -67,8 +67,8 @@ static void test_edges(void **state)
     }
 }
 
-/* Schemes of all components: one that does not turn the velocity along the row, one that promises too much, one whose fractions
- * do not sum up. */
+/* Schemes of all components: one that does not turn the velocity along the row, one that promises too much, one whose
+ * fractions do not sum up. */
 
 static void along(const void *self, const struct bulla_cells *cells)
 {

@@ -1,5 +1,5 @@
-/* reconstruction.c - the contract of kind "reconstruction" (core/suite/contract_reconstruction.c) on every built-in scheme;
- * what weno5-z gives against its paper, its order, and what it does at a jump. */
+/* reconstruction.c - the contract of kind "reconstruction" (core/suite/contract_reconstruction.c) on every built-in
+ * scheme; what weno5-z gives against its paper, its order, and what it does at a jump. */
 #include "support.h"
 
 #include "bulla/reconstruction.h"

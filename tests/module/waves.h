@@ -62,8 +62,8 @@ static inline void wave_shock_speeds(struct wave_state from, struct wave_state t
     *ret_shock = flow / (from.rho * per);
 }
 
-/* Speed of what a rarefaction from rest has expanded to p: the integral of dp/(rho c), Gauss with eight points in each of
- * four pieces. */
+/* Speed of what a rarefaction from rest has expanded to p: the integral of dp/(rho c), Gauss with eight points in each
+ * of four pieces. */
 static inline double wave_rarefaction_speed(const struct law *law, struct wave_state from, double p)
 {
     static const double x[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};

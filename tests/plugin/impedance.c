@@ -1,10 +1,9 @@
 /* impedance.c - a wall from outside the tree that gives way: what it bears and how fast it moves are in proportion,
  *     p - p_0 = Z_w (u - u_0),
- * u along the outward normal, 0: the start of the run. A plane wave in the fluid, whose p + Z u arrives at the wall as it left
- * the cell inside, makes of it
- *     u - u_0 = (p_i - p_0 + Z (u_i - u_0))/(Z + Z_w),      Z = rho c,
- * and comes back with the part R = (Z_w - Z)/(Z_w + Z) of its pressure (Kinsler, Frey, Coppens & Sanders, Fundamentals of
- * Acoustics, 2000, section 6.2). Z_w = 0 gives way to everything, Z_w >> Z is rigid, Z_w = Z lets waves leave. The wall moves in
+ * u along the outward normal, 0: the start of the run. A plane wave in the fluid, whose p + Z u arrives at the wall as
+ * it left the cell inside, makes of it u - u_0 = (p_i - p_0 + Z (u_i - u_0))/(Z + Z_w),      Z = rho c, and comes back
+ * with the part R = (Z_w - Z)/(Z_w + Z) of its pressure (Kinsler, Frey, Coppens & Sanders, Fundamentals of Acoustics,
+ * 2000, section 6.2). Z_w = 0 gives way to everything, Z_w >> Z is rigid, Z_w = Z lets waves leave. The wall moves in
  * its place, as in linear acoustics: what it makes room for goes through the face. */
 #include <bulla/boundary.h>
 

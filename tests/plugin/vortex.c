@@ -1,9 +1,8 @@
-/* vortex.c - two fields from outside the tree that tell where a flow turns. Of the velocity gradient, S is the symmetric part
- * and W the other,
- *     q = (|W|^2 - |S|^2)/2       (Hunt, Wray & Moin, Center for Turbulence Research CTR-S88, 1988),
- *     share = |W|^2/(|W|^2 + |S|^2 + floor)      (Liu, Wang, Yang & Duan, Sci. China 59 (2016) 684711):
- * in a vortex q > 0 and share > 1/2; a body that turns at w has q = w^2 and share 1. Around an axis (and a centre) S has u_r/r,
- * too. */
+/* vortex.c - two fields from outside the tree that tell where a flow turns. Of the velocity gradient, S is the
+ * symmetric part and W the other, q = (|W|^2 - |S|^2)/2       (Hunt, Wray & Moin, Center for Turbulence Research
+ * CTR-S88, 1988), share = |W|^2/(|W|^2 + |S|^2 + floor)      (Liu, Wang, Yang & Duan, Sci. China 59 (2016) 684711): in
+ * a vortex q > 0 and share > 1/2; a body that turns at w has q = w^2 and share 1. Around an axis (and a centre) S has
+ * u_r/r, too. */
 #include <bulla/field.h>
 
 #include <stddef.h>

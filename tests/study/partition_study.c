@@ -241,8 +241,8 @@ static void study_print_projection(struct study *study, int size)
            p.compute / (busy + p.network + p.topology), p.topology / p.compute);
 }
 
-/* Meetings of all ranks in all regrids of a coarse step: of a regrid STUDY_MEETINGS, and STUDY_RIPPLE for each level that
- * is made anew. */
+/* Meetings of all ranks in all regrids of a coarse step: of a regrid STUDY_MEETINGS, and STUDY_RIPPLE for each level
+ * that is made anew. */
 static double study_meetings(const struct study *study)
 {
     int finest = study->mesh.n_level - 1;

@@ -1,5 +1,5 @@
-/* pieces.c - see pieces.h. Of messages only what travels is left out: lists of the sender are made by it, and taken by the
- * receiver, as in core/mesh/nest_share.c. */
+/* pieces.c - see pieces.h. Of messages only what travels is left out: lists of the sender are made by it, and taken by
+ * the receiver, as in core/mesh/nest_share.c. */
 #include "pieces.h"
 
 #include "../unit/replicated.h"

@@ -1,5 +1,5 @@
-/* pieces.h - what the ranks of a run would do at a regrid, each with its piece of the tile sets: the program's own functions
- * are called for one virtual rank after the other, with what the others would have sent it. */
+/* pieces.h - what the ranks of a run would do at a regrid, each with its piece of the tile sets: the program's own
+ * functions are called for one virtual rank after the other, with what the others would have sent it. */
 #ifndef PIECES_H
 #define PIECES_H
 

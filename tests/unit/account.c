@@ -1,4 +1,5 @@
-/* account.c - sums that know no order (base/account.h): exact where doubles cancel, the same bits however they are dealt out. */
+/* account.c - sums that know no order (base/account.h): exact where doubles cancel, the same bits however they are
+ * dealt out. */
 #include "base/account.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* The length of steps: a tenth of what repeated steps have taken comes back with every good one, and a repeated step is half
- * as long as the one before. */
+/* The length of steps: a tenth of what repeated steps have taken comes back with every good one, and a repeated step is
+ * half as long as the one before. */
 #include "flow.h"
 
 static void start(struct flow *flow, const char *scheme)
@@ -37,7 +37,8 @@ static void set_parting(const struct model *model, const double x[3], double *w)
     w[model->i_u] = x[0] > 0.5 ? 1500.0 : -1500.0;
 }
 
-/* A fixed step far too long: every attempt is half as long as the last, and so is what is left for the steps after it. */
+/* A fixed step far too long: every attempt is half as long as the last, and so is what is left for the steps after
+ * it. */
 static void test_halved(void **state)
 {
     (void)state;
@@ -86,7 +87,8 @@ static double plane(const char *materials, const char *more)
     return dt;
 }
 
-/* The default is 0.8 as soon as there are two axes, but for what wants short steps. Above 0.5 per axis runs begin with a twentieth, unless told. */
+/* The default is 0.8 as soon as there are two axes, but for what wants short steps. Above 0.5 per axis runs begin with
+ * a twentieth, unless told. */
 static void test_default(void **state)
 {
     (void)state;

@@ -1,11 +1,12 @@
-/* Boundaries where levels end: fine tiles at every kind of boundary behave as coarse ones do. Two mirrored halves are one
- * whole, waves come in and leave at a level's speed, and a level at the edge changes little. */
+/* Boundaries where levels end: fine tiles at every kind of boundary behave as coarse ones do. Two mirrored halves are
+ * one whole, waves come in and leave at a level's speed, and a level at the edge changes little. */
 #include "amr.h"
 
 #define MESH "mesh: {levels: 2, tile: 8, regrid-every: 2, buffer: 2, patience: 1, refine: [%s]}\n"
 #define WATER "materials:\n" FLOW_WATER FLOW_AIR
 
-/* The largest difference of the half run from the whole one over leaves of the half, relative to the size of a field. */
+/* The largest difference of the half run from the whole one over leaves of the half, relative to the size of a
+ * field. */
 static double half_difference(const struct flow *half, const struct flow *whole)
 {
     const struct model *model = half->state->model;

@@ -1,5 +1,5 @@
-/* Steps of a finer level that fail are halved by that level alone, and what is conserved stays conserved: two streams that
- * part too fast, inside a refined region, and a fixed step too large for the finest level. */
+/* Steps of a finer level that fail are halved by that level alone, and what is conserved stays conserved: two streams
+ * that part too fast, inside a refined region, and a fixed step too large for the finest level. */
 #include "amr.h"
 
 struct sums {

@@ -1,5 +1,5 @@
-/* Small waves in a solid, of pressure and of shear, through a patch of two finer levels: they arrive as they should, and
- * what the faces between levels send back is not more than in a fluid and gets less with order two. */
+/* Small waves in a solid, of pressure and of shear, through a patch of two finer levels: they arrive as they should,
+ * and what the faces between levels send back is not more than in a fluid and gets less with order two. */
 #include "amr.h"
 
 static const double SIZE = 1e-5, RHO = 1000.0, PRESSURE = 1e5, GAMMA = 4.4, P_INF = 6e8, MODULUS = 1e9, WIDTH = 0.09;

@@ -1,5 +1,6 @@
 /* Tables of modules on one rank and on several (the program starts itself under mpirun): made once per machine by all
- * ranks together, with the same bits whoever makes what, one copy in memory; failures reach all ranks and nobody waits. */
+ * ranks together, with the same bits whoever makes what, one copy in memory; failures reach all ranks and nobody
+ * waits. */
 #include "plug/block.h"
 
 #include "base/abort.h"

@@ -1,5 +1,5 @@
-/* Bodies from files: volumes of closed surfaces against closed forms, levels against all triangles, broken files; images and
- * arrays against the shapes that drew them. */
+/* Bodies from files: volumes of closed surfaces against closed forms, levels against all triangles, broken files;
+ * images and arrays against the shapes that drew them. */
 #include "base/mem.h"
 #include "base/status.h"
 #include "case/raster.h"
@@ -72,7 +72,8 @@ static void end(FILE *file, bool text)
     assert_int_equal(fclose(file), 0);
 }
 
-/* The faces of an octahedron, each divided into n^2, on a sphere (round) or plane; seen from inside for a negative radius. */
+/* The faces of an octahedron, each divided into n^2, on a sphere (round) or plane; seen from inside for a negative
+ * radius. */
 static void ball(FILE *file, bool text, double radius, int n, bool round, const double at[3])
 {
     for (int face = 0; face < 8; face++)

@@ -1,4 +1,5 @@
-/* Behind a non-reflecting boundary of a ball a wave from its centre goes on: p' = f'(t - r/c)/r, Z u' = p' + c f/r^2. */
+/* Behind a non-reflecting boundary of a ball a wave from its centre goes on: p' = f'(t - r/c)/r, Z u' = p' + c
+ * f/r^2. */
 #include "flow.h"
 
 #include "scheme/bound.h"

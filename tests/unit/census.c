@@ -1,5 +1,5 @@
-/* What need not be computed: a tile of one solid that is uniform and at rest may be carried on only if it is unstretched,
- * because mirrors and hoops feel a stretch. */
+/* What need not be computed: a tile of one solid that is uniform and at rest may be carried on only if it is
+ * unstretched, because mirrors and hoops feel a stretch. */
 #include "flow.h"
 
 static void set_stretched(const struct model *model, const double x[3], double *w)

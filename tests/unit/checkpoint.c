@@ -1,5 +1,6 @@
 /* checkpoint.c - a state comes back as it was, to the bit; other cases are refused with what differs; a file is
- * kept until a newer one is whole. With two files as arguments: do they hold the same tiles, fields, time and counts? */
+ * kept until a newer one is whole. With two files as arguments: do they hold the same tiles, fields, time and
+ * counts? */
 #include "io/checkpoint.h"
 
 #include "case/scene_read.h"

@@ -1,6 +1,6 @@
-/* The closure of mixtures in a step: slow compression raises the pressure by Wood's stiffness, not by the frozen one; and the
- * exchange of volume takes no more than a part of what a material has, whatever faces bring; what is cut off counts if it is
- * more than a trace. */
+/* The closure of mixtures in a step: slow compression raises the pressure by Wood's stiffness, not by the frozen one;
+ * and the exchange of volume takes no more than a part of what a material has, whatever faces bring; what is cut off
+ * counts if it is more than a trace. */
 #include "flow.h"
 
 #include "scheme/closure.h"
@@ -43,8 +43,8 @@ static void test_wood(void **state)
     flow_stop(&flow);
 }
 
-/* Rates that bring any pressure and strain, in a flow so fast that all of the exchange is wanted. Water that is alone exchanges
- * nothing, to the bit. */
+/* Rates that bring any pressure and strain, in a flow so fast that all of the exchange is wanted. Water that is alone
+ * exchanges nothing, to the bit. */
 static void test_most(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Heat through channels: they are the whole face for any interface, mixed cells keep one pressure, mirrors mirror to the
- * bit, heat and mass are conserved in every geometry, and traces neither hold up steps nor blow up. */
+/* Heat through channels: they are the whole face for any interface, mixed cells keep one pressure, mirrors mirror to
+ * the bit, heat and mass are conserved in every geometry, and traces neither hold up steps nor blow up. */
 #include "conduction.h"
 
 #include "scheme/conduction_channel.h"
@@ -44,8 +44,8 @@ static void test_channels_fill_the_face(void **state)
     }
 }
 
-/* Hot vapour (or superheated liquid) beside a cell that holds liquid and vapour at one temperature: only the half cell on this side
- * resists; as in series where nothing is at one temperature; mirrors mirror to the bit. */
+/* Hot vapour (or superheated liquid) beside a cell that holds liquid and vapour at one temperature: only the half cell
+ * on this side resists; as in series where nothing is at one temperature; mirrors mirror to the bit. */
 static void test_surface(void **state)
 {
     (void)state;
@@ -63,8 +63,8 @@ static void test_surface(void **state)
     for (int i = 0; i < 4; i++) assert_true(fabs(k[i] - answers[i]) < 1e-15 && k[i] == back[i]);
 }
 
-/* Water on the left, gas on the right, a linear fall of temperature in each: the resistance over a smear of any width is that
- * of one sharp interface. */
+/* Water on the left, gas on the right, a linear fall of temperature in each: the resistance over a smear of any width
+ * is that of one sharp interface. */
 static void test_resistance(void **state)
 {
     (void)state;
@@ -135,8 +135,8 @@ static double rise(double hot_water, double hot_air, double k, double per_heat)
     return got / (per_heat * heat);
 }
 
-/* Half water, half air, heat in one of them: reference/transport/mixed_cell_heating.csv. With frozen fractions it would be
- * 0.716 Pa per J/m3 in both. */
+/* Half water, half air, heat in one of them: reference/transport/mixed_cell_heating.csv. With frozen fractions it would
+ * be 0.716 Pa per J/m3 in both. */
 static void test_mixed_cell(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Heat that flows: what laws say of it, order, walls, steps short enough; and what has another temperature is not at rest. */
+/* Heat that flows: what laws say of it, order, walls, steps short enough; and what has another temperature is not at
+ * rest. */
 #include "conduction.h"
 
 #include "scheme/conduction.h"
@@ -135,8 +136,8 @@ static void set_half(const struct model *model, const double x[3], double *w)
     w[model->i_E] = P;
 }
 
-/* A wall that gives 1 MW/m2, beside one that has a temperature: energy rises by what they give, also where materials are mixed
- * and at a radius. */
+/* A wall that gives 1 MW/m2, beside one that has a temperature: energy rises by what they give, also where materials
+ * are mixed and at a radius. */
 static void test_walls(void **state)
 {
     (void)state;

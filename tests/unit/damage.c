@@ -1,6 +1,6 @@
-/* How solids break, on single cells: damage grows towards the aim of its law, no faster than its time allows, and never back; what elastic
- * energy it frees is heat, to round-off; stress and speeds fall as (1 - D)^2; a broken cell in tension opens at the pressure of
- * its void, with masses, momentum and energy what they were. */
+/* How solids break, on single cells: damage grows towards the aim of its law, no faster than its time allows, and never
+ * back; what elastic energy it frees is heat, to round-off; stress and speeds fall as (1 - D)^2; a broken cell in
+ * tension opens at the pressure of its void, with masses, momentum and energy what they were. */
 #include "flow.h"
 
 #include "phys/bearing.h"
@@ -29,7 +29,8 @@ static void start(struct flow *flow, const char *damage)
                          damage));
 }
 
-/* A cell of a fraction of gel, pulled to a stretch along x, at a pressure, with some damage: primitives and conserved fields. */
+/* A cell of a fraction of gel, pulled to a stretch along x, at a pressure, with some damage: primitives and conserved
+ * fields. */
 static void cell(const struct model *model, double gel, double stretch, double p, double D, double *w, double *u)
 {
     for (unsigned q = 0; q < model->n_field; q++) w[q] = 0.0;
@@ -158,8 +159,8 @@ static void pulled(const struct model *model, const double x[3], double *w)
     w[model->i_E] = -3e7;
 }
 
-/* In tension beyond what it bears, everywhere: every cell breaks and opens in the same step, and what is shaken then stays a
- * state. */
+/* In tension beyond what it bears, everywhere: every cell breaks and opens in the same step, and what is shaken then
+ * stays a state. */
 static void test_everywhere(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Cuts of levels whose tiles lie on several ranks (program/ranks_mesh.sh starts them) are those of the whole levels on one,
- * and come to every rank. */
+/* Cuts of levels whose tiles lie on several ranks (program/ranks_mesh.sh starts them) are those of the whole levels on
+ * one, and come to every rank. */
 #include "mesh/deal.h"
 
 #include "base/comm.h"

@@ -48,8 +48,9 @@ static void set_foam(const struct model *model, const double x[3], double *w)
     w[model->i_m + 1] = 1.2;
 }
 
-/* The water of a foam is heated: dp = rho c_w^2 G/(rho_l c_l^2) of what its velocity loses, two thousandths of what it would be
- * with frozen fractions. So an error of (k dt/rho)^2/24 in what volume moves counts two thousandfold: steps are short. */
+/* The water of a foam is heated: dp = rho c_w^2 G/(rho_l c_l^2) of what its velocity loses, two thousandths of what it
+ * would be with frozen fractions. So an error of (k dt/rho)^2/24 in what volume moves counts two thousandfold: steps
+ * are short. */
 static void test_foam(void **state)
 {
     (void)state;

@@ -124,8 +124,8 @@ static void test_pure(void **state)
     flow_stop(&flow);
 }
 
-/* Fluids alone, in a scene with a solid: their tile has less of the closure than the scene has materials, and nothing is
- * written behind it. */
+/* Fluids alone, in a scene with a solid: their tile has less of the closure than the scene has materials, and nothing
+ * is written behind it. */
 static void test_fluids(void **state)
 {
     (void)state;

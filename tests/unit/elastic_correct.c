@@ -1,5 +1,5 @@
-/* What refluxing does to a stretch, and what makes an average of stretches one again: the correction against a small step
- * of the scheme itself, for any stretch and any change of a face, in every geometry. */
+/* What refluxing does to a stretch, and what makes an average of stretches one again: the correction against a small
+ * step of the scheme itself, for any stretch and any change of a face, in every geometry. */
 #include "base/mem.h"
 #include "phys/elastic.h"
 

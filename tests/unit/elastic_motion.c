@@ -306,8 +306,8 @@ static void test_traces(void **state)
     }
 }
 
-/* Error of one step of a stretch that is carried along and deformed while the volume of its solid changes. V = exp(diag(a,
- * b, -a - b)) is chosen; what the flow must carry in for it follows from d V/dt = (L - tr L/3) V + T. */
+/* Error of one step of a stretch that is carried along and deformed while the volume of its solid changes. V =
+ * exp(diag(a, b, -a - b)) is chosen; what the flow must carry in for it follows from d V/dt = (L - tr L/3) V + T. */
 static double carry(double dt, double swell)
 {
     const double L[3] = {0.7 + swell, -0.4 + swell, 0.3 + swell}, self = 1.0, trace = L[0] + L[1] + L[2];

@@ -1,5 +1,5 @@
-/* Stretches that were averaged become stretches again: the nearest of det 1, not a scaled mean; what is a stretch but for
- * round-off keeps its bits; and where there is little solid, or none, V goes to 1. */
+/* Stretches that were averaged become stretches again: the nearest of det 1, not a scaled mean; what is a stretch but
+ * for round-off keeps its bits; and where there is little solid, or none, V goes to 1. */
 #include "phys/elastic.h"
 
 #include <math.h>
@@ -32,8 +32,8 @@ static double distance(const double *V, const double *W)
     return sqrt(sum);
 }
 
-/* The mean of a stretch and its inverse has det > 1. To second order in the excess the nearest of det 1 is one step along
- * the gradient of det; any other of det 1 in the neighbourhood lies farther off. */
+/* The mean of a stretch and its inverse has det > 1. To second order in the excess the nearest of det 1 is one step
+ * along the gradient of det; any other of det 1 in the neighbourhood lies farther off. */
 static void test_nearest(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* What strains a stretch beside the plain gradient of the velocity: what a mixed cell squeezes out across its interface, and
- * what refluxing adds. */
+/* What strains a stretch beside the plain gradient of the velocity: what a mixed cell squeezes out across its
+ * interface, and what refluxing adds. */
 #include "phys/elastic.h"
 
 #include <math.h>

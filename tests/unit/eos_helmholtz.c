@@ -437,8 +437,8 @@ static struct law open_preset(const char *name, const char *preset_name)
     return law;
 }
 
-/* Mixtures of air (RKPR), water (IAPWS-95) and tissue (MNASG) at one pressure, closed by an independent program: energies
- * at the given pressure add up to the given sum, temperatures of all are the given ones. */
+/* Mixtures of air (RKPR), water (IAPWS-95) and tissue (MNASG) at one pressure, closed by an independent program:
+ * energies at the given pressure add up to the given sum, temperatures of all are the given ones. */
 static void test_mixtures(void **state)
 {
     (void)state;

@@ -134,9 +134,9 @@ static void test_printed_air(void **state)
     assert_int_equal(inside, 5);
 }
 
-/* Columns: rho, p, e, T, Gamma, cv, c on the cold edge. Between the ends on it the module gives the state, and below it p
- * goes on linearly with the edge's e, Gamma and cv. Up to 1004 kg/m3 the module's edge bends away to the warm side, by 0.15 K
- * at most here; the bend at 1 GPa is rounded by 4 mK; from 1720 kg/m3 on it has another rule. */
+/* Columns: rho, p, e, T, Gamma, cv, c on the cold edge. Between the ends on it the module gives the state, and below it
+ * p goes on linearly with the edge's e, Gamma and cv. Up to 1004 kg/m3 the module's edge bends away to the warm side,
+ * by 0.15 K at most here; the bend at 1 GPa is rounded by 4 mK; from 1720 kg/m3 on it has another rule. */
 static void check_edge(const struct law *law, const double *column)
 {
     double rho = column[0], p = column[1], e = column[2], T = column[3], G = column[4], cv = column[5], c = column[6];
@@ -166,8 +166,8 @@ static void test_cold_edge(void **state)
     }
 }
 
-/* Largest errors of T, c and p at given e (per rho c^2) of a table at states from 1 kPa to 10 GPa, from above the cold edge
- * to 3000 K. */
+/* Largest errors of T, c and p at given e (per rho c^2) of a table at states from 1 kPa to 10 GPa, from above the cold
+ * edge to 3000 K. */
 static void table_worst(const char *interpolation, int nodes, const struct law *exact, double worst[3])
 {
     char size[32], between[64];
@@ -188,8 +188,8 @@ static void table_worst(const char *interpolation, int nodes, const struct law *
     instance_done(&law.instance);
 }
 
-/* Twice the errors that an independent program saw with tables of the same kind and size. Its direct tables stand over p and
- * v, ours over rho and p: beside the cold edge, above 1 GPa, c keeps an error of 2.5e-6 whatever the size. */
+/* Twice the errors that an independent program saw with tables of the same kind and size. Its direct tables stand over
+ * p and v, ours over rho and p: beside the cold edge, above 1 GPa, c keeps an error of 2.5e-6 whatever the size. */
 static int check_studies(const char *name, const struct law *exact)
 {
     FILE *file = data(name);

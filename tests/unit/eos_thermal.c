@@ -1,5 +1,5 @@
-/* eos_thermal.c - IAPWS-95 in phase change: liquid on the saturation curve by `thermal`, where it has no state, and cells of it with an
- * ideal vapour at equilibrium; their cost. */
+/* eos_thermal.c - IAPWS-95 in phase change: liquid on the saturation curve by `thermal`, where it has no state, and
+ * cells of it with an ideal vapour at equilibrium; their cost. */
 #include "phase_pairs.h"
 
 #include "case/saturation.h"
@@ -24,7 +24,8 @@ static struct thermal thermal_at(const struct law *law, double p, double T, doub
     return at;
 }
 
-/* The liquid of saturation_iapws95.csv up to 620 K: the formulas to round-off of the rows, the table to what it says of itself. */
+/* The liquid of saturation_iapws95.csv up to 620 K: the formulas to round-off of the rows, the table to what it says of
+ * itself. */
 static void test_saturated(void **state)
 {
     (void)state;
@@ -229,7 +230,8 @@ static void test_mixtures(void **state)
     phase_close(&laws);
 }
 
-/* Beyond the vapour's spinodal, and where the root is that of the liquid, there is no vapour; a start from there finds the true one. */
+/* Beyond the vapour's spinodal, and where the root is that of the liquid, there is no vapour; a start from there finds
+ * the true one. */
 static void test_spinodal(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* equilibrium.c - cells that come to equilibrium: the reference cells (40 digits), random cells far from it with and without
- * another material, entropy, what is kept, and that no cell knows its neighbours. */
+/* equilibrium.c - cells that come to equilibrium: the reference cells (40 digits), random cells far from it with and
+ * without another material, entropy, what is kept, and that no cell knows its neighbours. */
 #include "phase_pairs.h"
 
 #include "phys/equilibrium_point.h"
@@ -131,8 +131,8 @@ static double between(uint64_t *seed, double low, double high)
     return low * pow(high / low, contract_random(seed, 0.0, 1.0));
 }
 
-/* A cell of liquid, vapour, air and, with `other`, stone (stiffened) that have one pressure and temperatures of their own. `wild`:
- * anywhere; else 1 % off equilibrium-like states. */
+/* A cell of liquid, vapour, air and, with `other`, stone (stiffened) that have one pressure and temperatures of their
+ * own. `wild`: anywhere; else 1 % off equilibrium-like states. */
 static void draw(const struct phase_laws *laws, const struct law *stone, bool wild, uint64_t *seed,
                  struct equilibrium_cells *cells, size_t i)
 {
@@ -162,7 +162,8 @@ static void draw(const struct phase_laws *laws, const struct law *stone, bool wi
     cells->T[i] = T[0];
 }
 
-/* Volume, energy and Gibbs energies of an answer, and that there is more entropy than before; `came` is the cell before. */
+/* Volume, energy and Gibbs energies of an answer, and that there is more entropy than before; `came` is the cell
+ * before. */
 static void judge(const struct equilibrium_family *family, const struct equilibrium_cells *came,
                   const struct equilibrium_cells *cells, size_t i, struct worst *worst)
 {
@@ -249,7 +250,8 @@ static void test_random(void **state)
     instance_done(&stone.instance);
 }
 
-/* The bits of a cell do not depend on which others it is solved with; and what is in equilibrium stays, to round-off. */
+/* The bits of a cell do not depend on which others it is solved with; and what is in equilibrium stays, to
+ * round-off. */
 static void test_alone(void **state)
 {
     (void)state;

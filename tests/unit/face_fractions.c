@@ -1,5 +1,5 @@
-/* Volume that goes through a face is that of all materials together: limited fractions of three, one by one steeper here and
- * flatter there, are brought back to sum 1. It carries the pressure of where it comes from. */
+/* Volume that goes through a face is that of all materials together: limited fractions of three, one by one steeper
+ * here and flatter there, are brought back to sum 1. It carries the pressure of where it comes from. */
 #include "flow.h"
 
 static uint64_t seed = 21;

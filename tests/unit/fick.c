@@ -1,5 +1,5 @@
-/* Gases through each other: a cloud spreads as the heat kernel says, at one pressure and temperature; hot vapour and cold air keep their
- * temperatures while they mingle. */
+/* Gases through each other: a cloud spreads as the heat kernel says, at one pressure and temperature; hot vapour and
+ * cold air keep their temperatures while they mingle. */
 #include "flow.h"
 
 static const double P = 2e5, T = 600.0, W = 1e-4;

@@ -1,7 +1,7 @@
 /* Maxwell branches along homogeneous motions, relaxation before, in the middle of and after the motion, against exact
- * solutions of the equations (tests/data/branches): start of shear of a Maxwell fluid, relaxation of a sheared solid, oscillation, three branches
- * pulled in two directions, uniaxial strain and back. Then what relaxing does to a single stretch: exponentials, any time at once,
- * axes, nothing to the identity. */
+ * solutions of the equations (tests/data/branches): start of shear of a Maxwell fluid, relaxation of a sheared solid,
+ * oscillation, three branches pulled in two directions, uniaxial strain and back. Then what relaxing does to a single
+ * stretch: exponentials, any time at once, axes, nothing to the identity. */
 #include "phys/elastic.h"
 #include "phys/flow_relax.h"
 
@@ -213,9 +213,9 @@ static double det(const double V[6])
     return V[2] * a + 2.0 * V[3] * V[4] * V[5] - V[0] * V[5] * V[5] - V[1] * V[4] * V[4];
 }
 
-/* A small stretch falls as the exponential, in one step of any length; a large one comes to the same place in one step as in
- * many, keeps det 1 and, in whatever components it stands, the same energy; the identity keeps its bits, and long after nothing is
- * left. */
+/* A small stretch falls as the exponential, in one step of any length; a large one comes to the same place in one step
+ * as in many, keeps det 1 and, in whatever components it stands, the same energy; the identity keeps its bits, and long
+ * after nothing is left. */
 static void test_single(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
 /* Plastic flow along homogeneous motions, one step of the motion, one return, against exact solutions of the equations
- * (tests/data/plastic): shear, forth and back, hardening, softening by heat, uniaxial strain and back, circular shear, stretching while
- * turning. Then what a return does to a single state: work is heat, axes stay, far overshoots, mixtures, laws of changing slope. */
+ * (tests/data/plastic): shear, forth and back, hardening, softening by heat, uniaxial strain and back, circular shear,
+ * stretching while turning. Then what a return does to a single state: work is heat, axes stay, far overshoots,
+ * mixtures, laws of changing slope. */
 #include "phys/elastic.h"
 #include "phys/flow.h"
 
@@ -291,8 +292,9 @@ static struct errors follow(const char *name, const struct model *model, void (*
     return worst;
 }
 
-/* So many steps from one time of the table to the next, and four times as many: the return is of first order in the strain of a step.
- * Where heat counts a step must be short beside the elastic strain: a far trial heats by what it overshoots. */
+/* So many steps from one time of the table to the next, and four times as many: the return is of first order in the
+ * strain of a step. Where heat counts a step must be short beside the elastic strain: a far trial heats by what it
+ * overshoots. */
 static void check(const char *name, const struct model *model, void (*motion)(double, double[3][3], double *),
                   int parts, double B, double eps)
 {
@@ -323,8 +325,8 @@ static void test_paths(void **state)
     check("p09", &space, turn, 1, 2e-2, 1e-3);
 }
 
-/* One return from a far overshoot: on the surface, with the axes and the sign of what was there, det 1; what is not beyond it
- * keeps its bits; and the flow takes what energy says: q d eps, to the order of the path. */
+/* One return from a far overshoot: on the surface, with the axes and the sign of what was there, det 1; what is not
+ * beyond it keeps its bits; and the flow takes what energy says: q d eps, to the order of the path. */
 static void test_overshoot(void **state)
 {
     (void)state;

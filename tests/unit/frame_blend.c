@@ -1,5 +1,6 @@
-/* Ghosts behind a coarse-fine face between the beginning and the end of the coarse step: fractions, velocities and pressure
- * are linear in time, densities such that alpha rho is; a density that nobody has at one end does not matter. */
+/* Ghosts behind a coarse-fine face between the beginning and the end of the coarse step: fractions, velocities and
+ * pressure are linear in time, densities such that alpha rho is; a density that nobody has at one end does not
+ * matter. */
 #include "amr.h"
 
 static double at(const struct link_face *face, const struct link *link, const struct model *model, int end, unsigned q,

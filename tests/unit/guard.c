@@ -129,8 +129,8 @@ static void test_idle(void **state)
     flow_stop(&flow);
 }
 
-/* Steps that have to be repeated again and again: the run ends before t no longer moves, and the message says why. What the
- * case asks for counts instead; 0 leaves round-off alone. */
+/* Steps that have to be repeated again and again: the run ends before t no longer moves, and the message says why. What
+ * the case asks for counts instead; 0 leaves round-off alone. */
 static void test_creeping(void **state)
 {
     (void)state;
@@ -177,8 +177,8 @@ static char *above_gel(int dim)
                      domain[dim - 1], dim > 1 ? ", 0" : "", dim > 1 ? ", 1" : "");
 }
 
-/* Judges tile 1, which has the interface, with cell 3 at these primitives; repair is not allowed. Returns whether the cell
- * was accepted, with its pressure as it was. */
+/* Judges tile 1, which has the interface, with cell 3 at these primitives; repair is not allowed. Returns whether the
+ * cell was accepted, with its pressure as it was. */
 static bool accepts(struct flow *flow, const double *w)
 {
     struct stage *stage = flow->state->stages[0];
@@ -209,8 +209,8 @@ static void gel_cell(const struct model *model, double solid, double p, double *
     for (unsigned c = 0; c < 3; c++) w[model->i_V + c] = 1.0;
 }
 
-/* Where materials share their traction, what air there is among more than half of solid need not bear the tension of the
- * gel; the gel must, and so must air that fills more of the cell, or any air where the pressure is common. */
+/* Where materials share their traction, what air there is among more than half of solid need not bear the tension of
+ * the gel; the gel must, and so must air that fills more of the cell, or any air where the pressure is common. */
 static void test_tension(void **state)
 {
     (void)state;
@@ -330,8 +330,8 @@ static void test_relax_cell(void **state)
     }
 }
 
-/* A bubble of two gases that water in tension pulls apart: the gases' masses leave cells that their fractions stay in. On
- * the mesh and steps of each row the fractions once filled a cell, and the run stopped before its 100th step. */
+/* A bubble of two gases that water in tension pulls apart: the gases' masses leave cells that their fractions stay in.
+ * On the mesh and steps of each row the fractions once filled a cell, and the run stopped before its 100th step. */
 static void test_empty(void **state)
 {
     (void)state;

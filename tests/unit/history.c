@@ -114,8 +114,8 @@ static void put_air(struct small *small, double x, double y, double alpha, doubl
     }
 }
 
-/* Gas in name only has no part in what the gas is like: traces without mass, of 1e15 K at the pressure around them, voids
- * of 1e12 K; nor has a gas under tension (a temperature below 0). */
+/* Gas in name only has no part in what the gas is like: traces without mass, of 1e15 K at the pressure around them,
+ * voids of 1e12 K; nor has a gas under tension (a temperature below 0). */
 static void test_massless(void **state)
 {
     (void)state;

@@ -42,7 +42,8 @@ static const struct levels_shape LEVELS_SHAPES[] = {
 };
 enum { LEVELS_SHAPE_COUNT = sizeof LEVELS_SHAPES / sizeof *LEVELS_SHAPES };
 
-/* maps[l][index of a place]: is there a tile of level l? lists[l]: all tiles that the mesh was given, with their owners. */
+/* maps[l][index of a place]: is there a tile of level l? lists[l]: all tiles that the mesh was given, with their
+ * owners. */
 struct levels {
     struct levels_shape shape;
     struct mesh *mesh;

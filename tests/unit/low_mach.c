@@ -62,8 +62,8 @@ static void test_jump(void **state)
     }
 }
 
-/* Air beside water: the Mach number of each side is its own, the stiffer side judges how the pressure bends, and the more
- * bent cell counts. */
+/* Air beside water: the Mach number of each side is its own, the stiffer side judges how the pressure bends, and the
+ * more bent cell counts. */
 static void test_sides(void **state)
 {
     (void)state;
@@ -140,7 +140,8 @@ static void shake(const struct model *model, const double x[3], double *w)
     w[model->i_u] = (int)(x[0] * 32.0) % 2 ? 1.0 : -1.0;
 }
 
-/* Jumps that the normal momentum shows at inner faces of the shaken water, in rho c: the largest, and that at the last. */
+/* Jumps that the normal momentum shows at inner faces of the shaken water, in rho c: the largest, and that at the
+ * last. */
 static double shaken(const char *solver, double least, bool masked, double *ret_last)
 {
     struct flow flow;

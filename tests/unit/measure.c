@@ -1,5 +1,5 @@
-/* Centroids and means of layers in curved geometry against their integrals: cells weigh by their volumes, and stand at the
- * middle of those, not half way between their faces. */
+/* Centroids and means of layers in curved geometry against their integrals: cells weigh by their volumes, and stand at
+ * the middle of those, not half way between their faces. */
 #include "io/measure.h"
 
 #include "flow.h"

@@ -1,5 +1,5 @@
-/* The pressure of a mixture lies above what each of its materials bears, however little there is of it; only what nobody
- * feels (MIX_PRESSURE_FELT) does not count. */
+/* The pressure of a mixture lies above what each of its materials bears, however little there is of it; only what
+ * nobody feels (MIX_PRESSURE_FELT) does not count. */
 #include "flow.h"
 
 /* Iterated water and air: laws without their closed form. */

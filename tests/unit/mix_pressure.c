@@ -1,5 +1,5 @@
-/* The mixture pressure of laws that are not linear in p: how many Newton steps it takes, that it is a fixed point, that no
- * point knows its neighbours or the path it is on, and that a point without a pressure is named. */
+/* The mixture pressure of laws that are not linear in p: how many Newton steps it takes, that it is a fixed point, that
+ * no point knows its neighbours or the path it is on, and that a point without a pressure is named. */
 #include "flow.h"
 
 enum { POINTS = 1100 };

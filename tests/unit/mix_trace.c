@@ -1,5 +1,5 @@
-/* A trace of which the closure has left almost no volume: denser than its law states, it counts with the greatest density
- * that it does and the volume that its mass then takes; the pressure of the rest follows. */
+/* A trace of which the closure has left almost no volume: denser than its law states, it counts with the greatest
+ * density that it does and the volume that its mass then takes; the pressure of the rest follows. */
 #include "flow.h"
 
 /* Water, stiffened gas with a heat bond, in air. */

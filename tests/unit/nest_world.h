@@ -1,4 +1,5 @@
-/* nest_world.h - small meshes for unit/nest.c: tiles without blocks, owned in pieces that are drawn, the same on all ranks. */
+/* nest_world.h - small meshes for unit/nest.c: tiles without blocks, owned in pieces that are drawn, the same on all
+ * ranks. */
 #ifndef NEST_WORLD_H
 #define NEST_WORLD_H
 

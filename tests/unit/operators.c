@@ -1,6 +1,6 @@
-/* Operators that a test adds to the list: they act at their places in the step, on every level with its own steps; what a
- * repeated or halved step did is undone with it; tiles that rest are left alone unless an operator says that it moves them; a
- * dump of a step that an operator spoils gives the same bits again. */
+/* Operators that a test adds to the list: they act at their places in the step, on every level with its own steps; what
+ * a repeated or halved step did is undone with it; tiles that rest are left alone unless an operator says that it moves
+ * them; a dump of a step that an operator spoils gives the same bits again. */
 #include "flow.h"
 
 #include "scheme/operators.h"
@@ -151,7 +151,8 @@ static void test_stages(void **state)
     }
 }
 
-/* A step that comes to nothing, once as it is and once halved: the brake has acted as often as there were accepted steps. */
+/* A step that comes to nothing, once as it is and once halved: the brake has acted as often as there were accepted
+ * steps. */
 static void test_undone(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Order in time: the same cells, fewer and fewer steps, against very many. What is left of the slopes' limiter is smooth
- * (van Albada) and the same in all runs, so that differences are those of the integrator alone. */
+/* Order in time: the same cells, fewer and fewer steps, against very many. What is left of the slopes' limiter is
+ * smooth (van Albada) and the same in all runs, so that differences are those of the integrator alone. */
 #include "flow.h"
 
 static const char *const one = "  air: {eos: {type: ideal-gas, gamma: 1.4}}\n";

@@ -42,7 +42,8 @@ static double taken(double gamma, double p_inf, double rho, double p0, double p)
     return (p - p0) * sqrt(2.0 / (rho * ((gamma + 1.0) * P + (gamma - 1.0) * P0)));
 }
 
-/* Air of 1.2 kg/m3 and 1 bar on the left, with this velocity, water of 1000 kg/m3 and this pressure at rest on the right. */
+/* Air of 1.2 kg/m3 and 1 bar on the left, with this velocity, water of 1000 kg/m3 and this pressure at rest on the
+ * right. */
 static double star(double u, double p_water, double *ret_p)
 {
     double low = 1e3, high = 2e9;
@@ -55,9 +56,9 @@ static double star(double u, double p_water, double *ret_p)
     return u - taken(1.4, 0.0, 1.2, 1e5, *ret_p);
 }
 
-/* Where a surface with another pressure on its other side cuts a cell, the cell holds the contact, of strong waves too: gas
- * that is run over, gas that stands in the way of water, both pushed together. Mirrored scenes mirror it to the bit. Two
- * pressures of one material are a wave: its mean stays. */
+/* Where a surface with another pressure on its other side cuts a cell, the cell holds the contact, of strong waves too:
+ * gas that is run over, gas that stands in the way of water, both pushed together. Mirrored scenes mirror it to the
+ * bit. Two pressures of one material are a wave: its mean stays. */
 static void cut_cells_hold_the_contact(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* phase.c - liquids and vapours in the cells of a tile (phys/phase.h): what is kept and what is not touched, that a second call
- * changes no bit, entropy, rates against the reference (finite_rate.csv), thresholds and directions; and runs in closed boxes. */
+/* phase.c - liquids and vapours in the cells of a tile (phys/phase.h): what is kept and what is not touched, that a
+ * second call changes no bit, entropy, rates against the reference (finite_rate.csv), thresholds and directions; and
+ * runs in closed boxes. */
 #include "phase_box.h"
 
 enum { CELLS = 256 };
@@ -199,7 +200,8 @@ static void test_rate(void **state)
     }
 }
 
-/* What is missing falls to 1/e in the given time; `none` shares temperatures alone; liquid bears its tension and no more. */
+/* What is missing falls to 1/e in the given time; `none` shares temperatures alone; liquid bears its tension and no
+ * more. */
 static double vapour_after(const char *phase, double T, double p, double alpha)
 {
     struct flow flow;
@@ -247,8 +249,8 @@ static void test_kinds(void **state)
     assert_true(vapour_after(hot, 385.0, 101325.0, 0.0) > 0.0);
 }
 
-/* Hot air, steam and water of `T` in a cell nine tenths of which are water, brought to equilibrium: the air's temperature and the
- * partial pressure of the vapour over that of saturation. */
+/* Hot air, steam and water of `T` in a cell nine tenths of which are water, brought to equilibrium: the air's
+ * temperature and the partial pressure of the vapour over that of saturation. */
 static void mixed(const char *phase, double T_air, double *ret_T, double *ret_share)
 {
     struct flow flow;
@@ -280,8 +282,8 @@ static void mixed(const char *phase, double T_air, double *ret_T, double *ret_sh
     flow_stop(&flow);
 }
 
-/* Gases with a temperature of their own keep it but for the work that the change of pressure does on them, and the vapour is in
- * equilibrium among them all the same. */
+/* Gases with a temperature of their own keep it but for the work that the change of pressure does on them, and the
+ * vapour is in equilibrium among them all the same. */
 static void test_apart(void **state)
 {
     (void)state;

@@ -37,8 +37,8 @@ static inline double phase_box_between(double low, double high)
     return low * pow(high / low, flow_random(&phase_box_seed));
 }
 
-/* All materials at one pressure, with temperatures of their own; some cells hold traces, or one material alone. A vapour that would be
- * denser than any is left out. */
+/* All materials at one pressure, with temperatures of their own; some cells hold traces, or one material alone. A
+ * vapour that would be denser than any is left out. */
 static inline void phase_box_scatter(const struct model *model, const double x[3], double *w)
 {
     double p = phase_box_between(1e3, 1e7), sum = 0.0;

@@ -1,5 +1,5 @@
-/* phase_entropy.c - entropy never falls by phase change: over one call in cells anywhere, for every pair, rate and kind of family; and
- * over steps of a closed box, shocks included. */
+/* phase_entropy.c - entropy never falls by phase change: over one call in cells anywhere, for every pair, rate and kind
+ * of family; and over steps of a closed box, shocks included. */
 #include "phase_box.h"
 
 enum { CELLS = 256, DRAWS = 2, STEPS = 300 };

@@ -1,5 +1,5 @@
-/* What counts as a material being there, and as its law being left: densities against the material's own mean, cells with a
- * weight only, fractions that matter only. */
+/* What counts as a material being there, and as its law being left: densities against the material's own mean, cells
+ * with a weight only, fractions that matter only. */
 #include "phys/presence.h"
 
 #include "flow.h"

@@ -1,5 +1,5 @@
-/* Probes between the last centre and a wall, at both ends of each axis and in the corners: the value of the cell, constant
- * beyond its centre, never one drawn from the cell behind. */
+/* Probes between the last centre and a wall, at both ends of each axis and in the corners: the value of the cell,
+ * constant beyond its centre, never one drawn from the cell behind. */
 #include "io/probes.h"
 
 #include "small.h"

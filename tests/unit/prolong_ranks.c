@@ -1,5 +1,5 @@
-/* prolong_ranks.c - born tiles, strips and averages have the same bits on any number of ranks, with parents and children
- * on different ones. The program starts itself under mpirun; each rank writes what it holds, tile by tile. */
+/* prolong_ranks.c - born tiles, strips and averages have the same bits on any number of ranks, with parents and
+ * children on different ones. The program starts itself under mpirun; each rank writes what it holds, tile by tile. */
 #include "prolong_levels.h"
 
 #include "base/comm.h"

@@ -1,5 +1,6 @@
-/* Relaxation of one cell (relax.h) in strong expansions, where liquids ask for tension and gases are near vacuum: it ends in a
- * state that all materials bear, with what is conserved untouched, and the volumes follow from each material's own change. */
+/* Relaxation of one cell (relax.h) in strong expansions, where liquids ask for tension and gases are near vacuum: it
+ * ends in a state that all materials bear, with what is conserved untouched, and the volumes follow from each
+ * material's own change. */
 #include "flow.h"
 
 #include "phys/relax.h"

@@ -1,5 +1,5 @@
-/* What rigid bodies leave of cells and faces: exact volumes, walls that close every cell and every body, faces that are shut by what lies
- * in them, and for bodies that move dtheta = W . U dt. */
+/* What rigid bodies leave of cells and faces: exact volumes, walls that close every cell and every body, faces that are
+ * shut by what lies in them, and for bodies that move dtheta = W . U dt. */
 #include "case/pose.h"
 #include "close.h"
 #include "mesh/metric.h"

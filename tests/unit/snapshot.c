@@ -391,8 +391,8 @@ static void expect_same(char **paths)
     assert_int_equal(info[0].st_size, info[1].st_size);
 }
 
-/* What is written at once is written beside the run, too, with points and cells that were kept from the file before where
- * the mesh is the same. */
+/* What is written at once is written beside the run, too, with points and cells that were kept from the file before
+ * where the mesh is the same. */
 static void test_beside(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Changes that some cells of a tile cannot bear, handed to those around them: sums over volumes stay, in plane and curved
- * geometry, and no cell is left with less than nothing, nor with less energy than that of its motion. */
+/* Changes that some cells of a tile cannot bear, handed to those around them: sums over volumes stay, in plane and
+ * curved geometry, and no cell is left with less than nothing, nor with less energy than that of its motion. */
 #include "flow.h"
 
 #include "levels/spread.h"

@@ -1,8 +1,9 @@
-/* After a step, what lies under finer tiles is their average, and its primitives are those of that average: also deep under
- * them, where no coarse-fine face is near. */
+/* After a step, what lies under finer tiles is their average, and its primitives are those of that average: also deep
+ * under them, where no coarse-fine face is near. */
 #include "amr.h"
 
-/* Largest difference of a primitive of covered cells from that of their conserved fields, relative to the largest value. */
+/* Largest difference of a primitive of covered cells from that of their conserved fields, relative to the largest
+ * value. */
 static double stale(const struct flow *flow, unsigned q, long *ret_tiles)
 {
     const struct model *model = flow->state->model;

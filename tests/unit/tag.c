@@ -1,5 +1,5 @@
-/* Tags against brute force over the whole domain: differences, surfaces, values, scripts, regions, limits, symmetry. The
- * expected marks are computed from the numbers of the whole domain on every rank, so it also runs under mpirun. */
+/* Tags against brute force over the whole domain: differences, surfaces, values, scripts, regions, limits, symmetry.
+ * The expected marks are computed from the numbers of the whole domain on every rank, so it also runs under mpirun. */
 #include "replicated.h"
 #include "tag_world.h"
 

@@ -1,5 +1,5 @@
-/* Sums over tiles do not lose what rounding takes of large terms that cancel; and a point on a face belongs to the cell above,
- * on the last face of the domain to the last cell. */
+/* Sums over tiles do not lose what rounding takes of large terms that cancel; and a point on a face belongs to the cell
+ * above, on the last face of the domain to the last cell. */
 #include "mesh/tally.h"
 
 #include "flow.h"

@@ -1,5 +1,5 @@
-/* Surface tension around a centre: what balances stays, what moves keeps energy and surface together, materials of a cell
- * have pressures that differ by it, and tiles do not matter. */
+/* Surface tension around a centre: what balances stays, what moves keeps energy and surface together, materials of a
+ * cell have pressures that differ by it, and tiles do not matter. */
 #include "flow.h"
 
 #include "paint/paint_curvature.h"
@@ -31,8 +31,8 @@ static double largest(const struct flow *flow, unsigned q)
     return most;
 }
 
-/* A bubble in water, and a drop in air: the pressure inside is higher by 2 sigma/R, whatever is inside and whether limited
- * edges lie as far on both sides or not. */
+/* A bubble in water, and a drop in air: the pressure inside is higher by 2 sigma/R, whatever is inside and whether
+ * limited edges lie as far on both sides or not. */
 static void test_rest(void **state)
 {
     static const char *const inside[] = {"air", "water"}, *const limiter[] = {"mc", "koren"};
@@ -59,7 +59,8 @@ static double surface(const struct flow *flow)
     return sum;
 }
 
-/* A bubble whose surface cuts a cell, and whose gas has too little pressure, shrinks: the fluids gain what the surface loses. */
+/* A bubble whose surface cuts a cell, and whose gas has too little pressure, shrinks: the fluids gain what the surface
+ * loses. */
 static void test_energy(void **state)
 {
     (void)state;
@@ -129,7 +130,8 @@ static void test_tiles(void **state)
     flow_stop(&many);
 }
 
-/* The painted curvature is positive around what lies inside, negative around what surrounds it, and nothing where nothing changes. */
+/* The painted curvature is positive around what lies inside, negative around what surrounds it, and nothing where
+ * nothing changes. */
 static void test_sign(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* Surface tension in the plane, around an axis and in space: any interface of one curvature rests to round-off, the
- * curvature that the solver makes is of second order, a drop that is painted sharp rests nearly, has the jump of pressure
- * of its size and keeps mirrors to the bit, and tiles do not matter. */
+ * curvature that the solver makes is of second order, a drop that is painted sharp rests nearly, has the jump of
+ * pressure of its size and keeps mirrors to the bit, and tiles do not matter. */
 #include "flow.h"
 
 #include "solve/curve.h"
@@ -103,8 +103,8 @@ static double sharp_radius(int turns, double width)
     return cbrt(RADIUS * RADIUS * RADIUS + 3.0 * RADIUS * variance);
 }
 
-/* Mean of |kappa R/turns - 1| over a front of one width, weighted as faces weigh: all its layers have the curvature of the
- * sharp surface. */
+/* Mean of |kappa R/turns - 1| over a front of one width, weighted as faces weigh: all its layers have the curvature of
+ * the sharp surface. */
 static double curvature_error(const char *domain, int cells, int turns)
 {
     struct flow flow;
@@ -138,8 +138,9 @@ static void test_curvature(void **state)
     }
 }
 
-/* A cap on the wall y- or y+, which its surface meets at a given angle: centre of the sphere along y, width of a front [m].
- * The wall asks all layers of the front for this angle, concentric ones differ by width/R: so it is some cells wide. */
+/* A cap on the wall y- or y+, which its surface meets at a given angle: centre of the sphere along y, width of a front
+ * [m]. The wall asks all layers of the front for this angle, concentric ones differ by width/R: so it is some cells
+ * wide. */
 static double cap_centre, cap_width;
 
 static double cap_radius(const double x[3])

@@ -1,5 +1,5 @@
-/* One normal traction for the materials of a cell: pressures that follow from it, and what it is for, a contact of a stretched
- * solid and water that moves along and leaves traction and velocity uniform. */
+/* One normal traction for the materials of a cell: pressures that follow from it, and what it is for, a contact of a
+ * stretched solid and water that moves along and leaves traction and velocity uniform. */
 #include "flow.h"
 
 #include "phys/elastic.h"

@@ -1,6 +1,6 @@
-/* Viscosity: motion without shear has no stress, in any geometry; linear shear has the stress and the heat of the formula; a
- * mixture heats as two phases at one pressure do; how the domain is cut into tiles, and which tiles are skipped, changes
- * no bit; mirrored and exchanged axes stay so. */
+/* Viscosity: motion without shear has no stress, in any geometry; linear shear has the stress and the heat of the
+ * formula; a mixture heats as two phases at one pressure do; how the domain is cut into tiles, and which tiles are
+ * skipped, changes no bit; mirrored and exchanged axes stay so. */
 #include "flow.h"
 
 static const char gas[] =
@@ -20,7 +20,8 @@ static void start(struct flow *flow, double mu, double zeta, const char *domain,
 
 static const double MU = 10.0, ZETA = 7.0, A = 100.0, DT = 1e-9;
 
-/* Largest difference of a conserved field between two runs, over cells at least four layers from all boundaries but the axis. */
+/* Largest difference of a conserved field between two runs, over cells at least four layers from all boundaries but the
+ * axis. */
 static double differ(const struct flow *a, const struct flow *b, unsigned q)
 {
     double *x = flow_conserved(a, q), *y = flow_conserved(b, q), most = 0.0;
@@ -75,8 +76,8 @@ static void set_shear(const struct model *model, const double x[3], double *w)
     w[model->i_u] = A * x[1];
 }
 
-/* What viscosity adds to momentum and energy in one step, beside the same step without. In curved geometry reconstruction
- * about middles of cells makes motion that is not a r in the first half of the step. */
+/* What viscosity adds to momentum and energy in one step, beside the same step without. In curved geometry
+ * reconstruction about middles of cells makes motion that is not a r in the first half of the step. */
 static void compare(double mu, double zeta, const char *domain, flow_setter *set, double heat)
 {
     struct flow without, with;
@@ -318,7 +319,8 @@ static void set_quarter(const struct model *model, const double x[3], double *w)
     w[model->i_u + 1] = x[0] > 0.0 && x[1] > 0.0 ? 50.0 * x[1] : 0.0;
 }
 
-/* A tile at rest whose neighbours rest, but not the one across its corner: what shears there reaches it in the first step. */
+/* A tile at rest whose neighbours rest, but not the one across its corner: what shears there reaches it in the first
+ * step. */
 static void test_corner(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Viscosity at the wall of a bubble: gas and liquid of its cells have pressures that differ by the liquid's stress, energy is
- * kept, and tiles do not matter. */
+/* Viscosity at the wall of a bubble: gas and liquid of its cells have pressures that differ by the liquid's stress,
+ * energy is kept, and tiles do not matter. */
 #include "flow.h"
 
 #include "phys/traction.h"

@@ -1,5 +1,5 @@
-/* voxels.c - fields on equal cells, and rays that look for surfaces in them: leaves of two sizes, turned planes, spheres that must
- * be where they are, and how much of a picture one covers. */
+/* voxels.c - fields on equal cells, and rays that look for surfaces in them: leaves of two sizes, turned planes,
+ * spheres that must be where they are, and how much of a picture one covers. */
 #include "base/mem.h"
 #include "close.h"
 #include "view/picture_space.h"
@@ -170,7 +170,8 @@ static double blue(const struct picture_space *space)
     return count;
 }
 
-/* Its disc covers what it must, from wherever it is seen: the box is 330 points high, a pixel each, seen along an axis. */
+/* Its disc covers what it must, from wherever it is seen: the box is 330 points high, a pixel each, seen along an
+ * axis. */
 static void discs(void **state)
 {
     struct voxels voxels;

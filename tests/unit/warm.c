@@ -1,6 +1,6 @@
-/* Heat of the materials of mixed cells makes their fractions: one pressure, the volume that they had together, energy to
- * round-off, isentropic where a material got none of it, second order in how much that is; whatever laws and fractions; no cell
- * knows the others; surface tension stores what its lag pushes. */
+/* Heat of the materials of mixed cells makes their fractions: one pressure, the volume that they had together, energy
+ * to round-off, isentropic where a material got none of it, second order in how much that is; whatever laws and
+ * fractions; no cell knows the others; surface tension stores what its lag pushes. */
 #include "conduction.h"
 
 #include "phys/row.h"

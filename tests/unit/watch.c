@@ -1,5 +1,5 @@
-/* watch.c - what a page about runs may say: who sees it, whether a run lives, which rows are shown, what is read of files that
- * grow. */
+/* watch.c - what a page about runs may say: who sees it, whether a run lives, which rows are shown, what is read of
+ * files that grow. */
 #include "base/mem.h"
 #include "close.h"
 #include "watch/watch_answer.h"

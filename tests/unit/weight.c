@@ -1,4 +1,5 @@
-/* Weight: what pressure holds stays at rest, in a column with walls and open ends, and through levels beside interfaces. */
+/* Weight: what pressure holds stays at rest, in a column with walls and open ends, and through levels beside
+ * interfaces. */
 #include "flow.h"
 
 /* Water under air; `above`: the boundary at the upper end. */
@@ -37,7 +38,8 @@ static void test_column(void **state)
     }
 }
 
-/* What pressure does not hold falls: gas in a closed box that begins to be accelerated, before waves from the walls come. */
+/* What pressure does not hold falls: gas in a closed box that begins to be accelerated, before waves from the walls
+ * come. */
 static void test_falls(void **state)
 {
     (void)state;

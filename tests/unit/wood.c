@@ -1,5 +1,5 @@
-/* Speeds of mixtures that expand (scheme/wood.h): Wood's law where cells move apart, the frozen speed elsewhere and in pure fluids, to
- * the bit; mirror images. */
+/* Speeds of mixtures that expand (scheme/wood.h): Wood's law where cells move apart, the frozen speed elsewhere and in
+ * pure fluids, to the bit; mirror images. */
 #include "flow.h"
 
 #include "scheme/wood.h"

@@ -1,16 +1,17 @@
 /* bulla/boundary.h - functions of a module of kind "boundary".
  *
- * What lies behind a face of the domain: the state of the cells there, made of the cells inside, of place and time. Core
- * puts it beside the faces and solves their Riemann problems as everywhere; a boundary writes no fluxes.
- * Every call is a batch of n faces that lie side by side: [any thread; pure; no allocation; n >= 1; arrays do not overlap;
- * unit stride; SI units]. What is written for a face must not depend on its place in the row or on n. There is no memory
- * from call to call: a wall with a mass or a spring, whose state is more than that of the fluid beside it, is none.
+ * What lies behind a face of the domain: the state of the cells there, made of the cells inside, of place and time.
+ * Core puts it beside the faces and solves their Riemann problems as everywhere; a boundary writes no fluxes. Every
+ * call is a batch of n faces that lie side by side: [any thread; pure; no allocation; n >= 1; arrays do not overlap;
+ * unit stride; SI units]. What is written for a face must not depend on its place in the row or on n. There is no
+ * memory from call to call: a wall with a mass or a spring, whose state is more than that of the fluid beside it, is
+ * none.
  *
  * The outputs hold what is inside when `fill` is called: what a boundary leaves alone is a copy. A solid's stretch and
  * other fields follow by themselves: copied, mirrored (BULLA_BEHIND_MIRRORS) or unstretched (BULLA_BEHIND_BRINGS).
  *
- * Well-posed means: finite for any state inside that core can have: rho > 0, alpha from 0 to 1 with sum 1, any u, and any p
- * that the materials bear; fractions with sum 1.
+ * Well-posed means: finite for any state inside that core can have: rho > 0, alpha from 0 to 1 with sum 1, any u, and
+ * any p that the materials bear; fractions with sum 1.
  */
 #ifndef BULLA_BOUNDARY_H
 #define BULLA_BOUNDARY_H
@@ -23,18 +24,23 @@ extern "C" {
 
 /* What a boundary is, for others: bits of `traits`. What it does not say it must not do; `bulla module check` asks. */
 enum bulla_behind_trait {
-    BULLA_BEHIND_MIRRORS = 1, /* is asked for layer after layer, with the cell inside that lies as far from the face;
-                                    else once for all layers, with the cell next to the face */
-    BULLA_BEHIND_RESTS = 2,   /* what rests inside, u = 0 at any pressure, stands unchanged behind it: tiles at rest
-                                    beside it need no work */
-    BULLA_BEHIND_BRINGS = 4,  /* may bring materials, or other fractions of them than inside */
-    BULLA_BEHIND_REFERS = 8,  /* looks at p_start and u_start */
-    BULLA_BEHIND_DRIVES =
-        16,                 /* may move what would stay as it is: without it, where p and u are p_start and u_start (and
-                                    u = 0, without REFERS) the copy is left alone. The time step asks for what it brings */
-    BULLA_BEHIND_OPEN = 32, /* fluid goes through */
-    BULLA_BEHIND_ISENTROPIC = 64 /* leaves rho alone: core takes the densities along each material's isentrope from the
-                                    pressure inside to the one that was written */
+    /* Is asked for layer after layer, with the cell inside that lies as far from the face; else once for all layers,
+     * with the cell next to the face. */
+    BULLA_BEHIND_MIRRORS = 1,
+    /* What rests inside, u = 0 at any pressure, stands unchanged behind it: tiles at rest beside it need no work. */
+    BULLA_BEHIND_RESTS = 2,
+    /* May bring materials, or other fractions of them than inside. */
+    BULLA_BEHIND_BRINGS = 4,
+    /* Looks at p_start and u_start. */
+    BULLA_BEHIND_REFERS = 8,
+    /* May move what would stay as it is: without it, where p and u are p_start and u_start (and u = 0, without REFERS)
+     * the copy is left alone. The time step asks for what it brings. */
+    BULLA_BEHIND_DRIVES = 16,
+    /* Fluid goes through. */
+    BULLA_BEHIND_OPEN = 32,
+    /* Leaves rho alone: core takes the densities along each material's isentrope from the pressure inside to the one
+     * that was written. */
+    BULLA_BEHIND_ISENTROPIC = 64,
 };
 
 /* A batch of faces. */

@@ -1,21 +1,20 @@
 /* bulla/damage.h - functions of a module of kind "damage".
  *
- * How one solid breaks. Its damage D goes from 0, whole, to 1, broken, and never back; core degrades the elastic energy of the
- * solid by (1 - D)^2, and with it stress, strength and the speeds of waves, turns into heat what that frees, and carries D
- * along with the mass. A law is asked after each step, and says of the state of the solid
- *     aim    the damage that it drives to, from 0 to 1 (below the present one: nothing happens),
- *     rate   how fast D goes there [1/s], >= 0; BULLA_DAMAGE_AT_ONCE for a criterion that knows no time.
- * Core bounds the rate by 1/time, `time` a key of the case: what breaks at once would break at the mesh's whim.
+ * How one solid breaks. Its damage D goes from 0, whole, to 1, broken, and never back; core degrades the elastic energy
+ * of the solid by (1 - D)^2, and with it stress, strength and the speeds of waves, turns into heat what that frees, and
+ * carries D along with the mass. A law is asked after each step, and says of the state of the solid aim    the damage
+ * that it drives to, from 0 to 1 (below the present one: nothing happens), rate   how fast D goes there [1/s], >= 0;
+ * BULLA_DAMAGE_AT_ONCE for a criterion that knows no time. Core bounds the rate by 1/time, `time` a key of the case:
+ * what breaks at once would break at the mesh's whim.
  *
- * The state is that of the undamaged material, so that a law need not know how core degrades it. What `needs` does not ask for
- * comes as rows of zeros.
- * Every call is a batch over n points: [any thread; pure; no allocation; n >= 1; arrays do not overlap; unit stride; SI
- * units]. The value at a point must not depend on its place in the row or on n.
+ * The state is that of the undamaged material, so that a law need not know how core degrades it. What `needs` does not
+ * ask for comes as rows of zeros. Every call is a batch over n points: [any thread; pure; no allocation; n >= 1; arrays
+ * do not overlap; unit stride; SI units]. The value at a point must not depend on its place in the row or on n.
  *
- * Well-posed means, for every state: aim finite, from 0 to 1; rate >= 0, no NaN; aim and rate x (aim > D) never fall with
- * tension, largest stress or stretch, energy, strain: what is pulled harder does not break later. An unstressed solid at 300 K does not
- * break.
- */
+ * Well-posed means, for every state: aim finite, from 0 to 1; rate >= 0, no NaN; aim and rate x (aim > D) never fall
+ * with tension, largest stress or stretch, energy, strain: what is pulled harder does not break later. An unstressed
+ * solid at 300 K does not
+ * break. */
 #ifndef BULLA_DAMAGE_H
 #define BULLA_DAMAGE_H
 

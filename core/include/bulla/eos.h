@@ -8,8 +8,8 @@
  * Well-posed means, for every rho > 0 and p > p_min(rho) that a solver can produce:
  * d(rho_e)/dp > 0, rho c^2 > 0, T > 0, nothing infinite. Outside its stated range a module
  * continues its formulas so that this still holds; a state at or below p_min shows in the
- * value (rho c^2 <= 0), never by a trap.
- */
+ * value (rho c^2 <= 0), never by a
+ * trap. */
 #ifndef BULLA_EOS_H
 #define BULLA_EOS_H
 
@@ -19,8 +19,8 @@
 extern "C" {
 #endif
 
-/* Where the formulas are backed by data; beyond it the continuation rules. A box: of a vapour the dome is cut off it, which
- * count_outside says. */
+/* Where the formulas are backed by data; beyond it the continuation rules. A box: of a vapour the dome is cut off it,
+ * which count_outside says. */
 struct bulla_eos_range {
     double rho_min, rho_max; /* kg/m3 */
     double p_min, p_max;     /* Pa */
@@ -76,16 +76,17 @@ struct bulla_eos {
 
     /* Optional (NULL: the material can have no partner in `phase-change:`). From pressure and temperature: specific
      * volume v [m3/kg], enthalpy h [J/kg], entropy s [J/(kg K)], dv/dT at constant p, dv/dp at constant T, and the heat
-     * capacity c_p [J/(kg K)]. rho: a density to start a search from, or 0; out: 1/v. They are one potential g = h - T s
-     * (g_p = v, g_T = -s), and the zeros of h and s are those of `state` and `entropy`: what h and s differ by between the phases
-     * of one substance decides where it boils. Where there is no state, something is not finite, or v <= 0; where `count_outside` counts, there need be none. */
+     * capacity c_p [J/(kg K)]. rho: a density to start a search from, or 0; out: 1/v. They are one potential g = h - T
+     * s (g_p = v, g_T = -s), and the zeros of h and s are those of `state` and `entropy`: what h and s differ by
+     * between the phases of one substance decides where it boils. Where there is no state, something is not finite, or
+     * v <= 0; where `count_outside` counts, there need be none. */
     void (*thermal)(const void *self, size_t n, const double *BULLA_RESTRICT p, const double *BULLA_RESTRICT T,
                     double *BULLA_RESTRICT rho, double *BULLA_RESTRICT v, double *BULLA_RESTRICT h,
                     double *BULLA_RESTRICT s, double *BULLA_RESTRICT v_T, double *BULLA_RESTRICT v_p,
                     double *BULLA_RESTRICT c_p);
 
-    /* Optional (NULL: 0). The gas constant R [J/(kg K)] of the dilute gas, p v -> R T; 0 for what does not become one. With
-     * it the mole fraction of a vapour among other gases is counted. */
+    /* Optional (NULL: 0). The gas constant R [J/(kg K)] of the dilute gas, p v -> R T; 0 for what does not become one.
+     * With it the mole fraction of a vapour among other gases is counted. */
     double (*gas_constant)(const void *self);
 };
 

@@ -1,14 +1,14 @@
 /* bulla/field.h - functions of a module of kind "field".
  *
- * Named numbers per cell that are made of a state: for snapshots, probes, maps, measures of a history (least, largest, mean,
- * integral), peaks, criteria of refinement, expressions. They change nothing in a run.
- * Every call is a batch of n cells: [any thread; pure; no allocation; n >= 1; arrays do not overlap; unit stride; SI
- * units]. What is written for a cell must not depend on its place in the row or on n: results are the same on any number
- * of ranks and at the edges of tiles.
+ * Named numbers per cell that are made of a state: for snapshots, probes, maps, measures of a history (least, largest,
+ * mean, integral), peaks, criteria of refinement, expressions. They change nothing in a run. Every call is a batch of n
+ * cells: [any thread; pure; no allocation; n >= 1; arrays do not overlap; unit stride; SI units]. What is written for a
+ * cell must not depend on its place in the row or on n: results are the same on any number of ranks and at the edges of
+ * tiles.
  *
  * Slopes are central differences over the two neighbours of a cell along an axis, whatever tile, rank or level they are
- * on; behind boundaries as the solver sees it. A row that `needs` does not name is NULL.
- */
+ * on; behind boundaries as the solver sees it. A row that `needs` does not name is
+ * NULL. */
 #ifndef BULLA_FIELD_H
 #define BULLA_FIELD_H
 

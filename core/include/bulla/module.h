@@ -9,8 +9,8 @@
  * units, ranges, defaults, documentation and the case schema all follow from it.
  *
  * Versions: `abi` changes when an existing field changes its meaning; structs only grow
- * at their end and carry their `size`, so that an older module still loads.
- */
+ * at their end and carry their `size`, so that an older module still
+ * loads. */
 #ifndef BULLA_MODULE_H
 #define BULLA_MODULE_H
 
@@ -80,15 +80,14 @@ struct bulla_host {
 
     /* Slots from here on came later: a host whose `size` ends before them has none of them. */
 
-    /* A block of `bytes` bytes (zeros at first) for what is large and only read: a table. All processes of a machine and all
-     * instances opened with the same values have it in common. If nobody has it yet, core calls
-     *     fill(context, block, phase, part, parts)   for phase = 0 .. phases - 1
-     * on `parts` processes at once, which share the work: each makes part `part` of `parts` (0 .. parts - 1). A phase
-     * begins when all parts of the one before are done. What is in the block must not depend on `parts`. `fill`
-     * returns 0, or non-zero after host->fail(reason), and then nobody gets the block. Several blocks of an instance have
-     * different names. Every process must ask for the same blocks in the same order: `open` must not look at anything
-     * but its values and such blocks before it asks.
-     * Aligned to pages; it lives as long as the instance, and core frees it. NULL: failed, the reason is given. */
+    /* A block of `bytes` bytes (zeros at first) for what is large and only read: a table. All processes of a machine
+     * and all instances opened with the same values have it in common. If nobody has it yet, core calls fill(context,
+     * block, phase, part, parts)   for phase = 0 .. phases - 1 on `parts` processes at once, which share the work: each
+     * makes part `part` of `parts` (0 .. parts - 1). A phase begins when all parts of the one before are done. What is
+     * in the block must not depend on `parts`. `fill` returns 0, or non-zero after host->fail(reason), and then nobody
+     * gets the block. Several blocks of an instance have different names. Every process must ask for the same blocks in
+     * the same order: `open` must not look at anything but its values and such blocks before it asks. Aligned to pages;
+     * it lives as long as the instance, and core frees it. NULL: failed, the reason is given. */
     const void *(*share)(const char *name, size_t bytes, unsigned phases,
                          int (*fill)(void *context, void *block, unsigned phase, unsigned part, unsigned parts),
                          void *context);

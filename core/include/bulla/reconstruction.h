@@ -7,8 +7,8 @@
  *   equal cells have edges that are their value, to the bit (uniform pressure and velocity rest on that),
  *   a cell's edges depend on itself and on `layers` - 1 cells on each side, on nothing else,
  *   a mirrored row gives mirrored edges, to the bit,
- *   with `bounded`: an edge is no further from its cell than the nearer neighbour in value, and at an extreme not at all.
- * Without `bounded`, core looks at the edges, and puts limited ones in where a fraction would leave its bounds, or
+ *   with `bounded`: an edge is no further from its cell than the nearer neighbour in value, and at an extreme not at
+ * all. Without `bounded`, core looks at the edges, and puts limited ones in where a fraction would leave its bounds, or
  * anything else overshoots its neighbours by much (docs/numerics.md). So a scheme may overshoot a little. */
 #ifndef BULLA_RECONSTRUCTION_H
 #define BULLA_RECONSTRUCTION_H
@@ -27,8 +27,8 @@ struct bulla_limited {
                   double *BULLA_RESTRICT lower, double *BULLA_RESTRICT upper);
 };
 
-/* Rows of all components: alpha_l (none for one material), rho_l, u_i, p, then the stretch of a solid and those of its branches. The first of n
- * cells is w[q][0]; w[q][i + k step] may be read for |k| < layers. */
+/* Rows of all components: alpha_l (none for one material), rho_l, u_i, p, then the stretch of a solid and those of its
+ * branches. The first of n cells is w[q][0]; w[q][i + k step] may be read for |k| < layers. */
 struct bulla_cells {
     uint32_t size; /* sizeof(struct bulla_cells) */
     uint32_t axis; /* of the row: i_u + axis is the velocity along it */

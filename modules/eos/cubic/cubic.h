@@ -11,8 +11,9 @@
  * linear in v, w = d/(1 + x), x = (vx - v)/d, d = vx - b (as family.h does). If d2 < 0, 1/Q has a pole at
  * v = -d2 b: q goes on linearly below vx too. Both come from a potential. Colder than t-min, where
  * the liquid's spinodal would come, everything goes linearly in p at constant density:
- *     e = e_b + (p - p_b)/(rho G_b),  T = T_b + (e - e_b)/cv_b,  c^2 = c_b^2 + (p - p_b)/rho (1 + G_b + dlnG_b/dln rho),
- * as long as that is positive and p is: a gas that attracts itself would bear tension when it is cold and dense. */
+ *     e = e_b + (p - p_b)/(rho G_b),  T = T_b + (e - e_b)/cv_b,  c^2 = c_b^2 + (p - p_b)/rho (1 + G_b + dlnG_b/dln
+ * rho), as long as that is positive and p is: a gas that attracts itself would bear tension when it is cold and
+ * dense. */
 #ifndef CUBIC_H
 #define CUBIC_H
 

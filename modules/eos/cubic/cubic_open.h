@@ -1,5 +1,5 @@
-/* cubic_open.h - instances of the laws of cubic_tabled.h: the keys of their table, and the table in a block that is made and
- * measured once per machine (`share` of bulla/module.h). */
+/* cubic_open.h - instances of the laws of cubic_tabled.h: the keys of their table, and the table in a block that is
+ * made and measured once per machine (`share` of bulla/module.h). */
 #ifndef CUBIC_OPEN_H
 #define CUBIC_OPEN_H
 

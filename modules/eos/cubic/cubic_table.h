@@ -1,8 +1,8 @@
 /* cubic_table.h - a table of a cubic law over
  *     u = ln(b rho/(1 - b rho)),   y = ln theta,   theta = (p + ac q) w/R,
  * which come from (rho, p) directly and make what is tabulated smooth up to the co-volume: e/(R theta),
- * c^2 w^2/(v^2 R theta) and T/theta are all of order one. Values between nodes are bicubic Hermite, from values and slopes
- * at the nodes, or bilinear.
+ * c^2 w^2/(v^2 R theta) and T/theta are all of order one. Values between nodes are bicubic Hermite, from values and
+ * slopes at the nodes, or bilinear.
  *
  * The table covers densities from 1e-3 kg/m3 to just before the edge of the co-volume and theta from 1.13 Tc to
  * 30000 K. At both ends of theta a band leads over to the law itself, so that e stays monotone in p. */

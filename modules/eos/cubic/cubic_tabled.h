@@ -1,9 +1,10 @@
 /* cubic_tabled.h - the functions of kind "eos" for a cubic law with `eval: analytic | table`.
  *
- * With a table energies, temperatures and sound speeds come from cubic_table.h, which `open` makes and which says how good it
- * is; outside of it, and for entropies and densities, the law itself is asked. Rows are done in blocks of 16 points, each
- * step for some blocks before the next: where they lie, then what is asked for. A block whose points all lie in one cell
- * fetches its nodes once, one that lies well inside the table asks the law for nothing; that never shows in the bits.
+ * With a table energies, temperatures and sound speeds come from cubic_table.h, which `open` makes and which says how
+ * good it is; outside of it, and for entropies and densities, the law itself is asked. Rows are done in blocks of 16
+ * points, each step for some blocks before the next: where they lie, then what is asked for. A block whose points all
+ * lie in one cell fetches its nodes once, one that lies well inside the table asks the law for nothing; that never
+ * shows in the bits.
  *
  * The including module defines CUBIC_ATTRACTION as for cubic_rows.h, puts CUBIC_TABLED_PARAMS behind its own
  * parameters, opens with cubic_tabled_open and lists CUBIC_TABLED_FUNCTIONS. */
@@ -129,8 +130,8 @@ ELEMENTARY_INLINE struct cubic_pair cubic_tabled_pair(const struct cubic *par, c
     return (struct cubic_pair){warm, warm};
 }
 
-/* What is asked for at the points of a block. `one`: all in one cell, `inside`: without the law, which else has filled a
- * and b before. */
+/* What is asked for at the points of a block. `one`: all in one cell, `inside`: without the law, which else has filled
+ * a and b before. */
 ELEMENTARY_INLINE void cubic_tabled_ask(const struct cubic *law, const struct cubic_frame *frame, const int bicubic,
                                         const enum cubic_want want, const int one, const int inside,
                                         const struct cubic_block *BULLA_RESTRICT block,

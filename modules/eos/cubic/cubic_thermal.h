@@ -1,8 +1,9 @@
 /* cubic_thermal.h - everything from pressure and temperature by a law of cubic.h, for the gases of phase change.
  *
  *     v_p = 1/(dp/dv)_T,   v_T = -p_T v_p,   c_p = cv - T p_T^2 v_p,   h = e + p v.
- * The law itself, with a table too. Below the critical temperature the root is that of the gas, up to where the search from the thin
- * side ends; at t-min, where the continuations begin, and below there is no state, only NaN: those are no potentials. */
+ * The law itself, with a table too. Below the critical temperature the root is that of the gas, up to where the search
+ * from the thin side ends; at t-min, where the continuations begin, and below there is no state, only NaN: those are no
+ * potentials. */
 #ifndef CUBIC_THERMAL_H
 #define CUBIC_THERMAL_H
 

@@ -4,8 +4,8 @@
  * Water has many parameter sets in the literature. The mechanical ones (sg4, sg44, sg659, sg659b)
  * give no temperature of their own; their cv is set so that T = 300 K at 998.2 kg/m3 and 1e5 Pa.
  *
- * Other liquids: gamma = 1 + B/A, p_inf = rho0 c0^2/gamma - 1e5 Pa from the density and the sound speed at rest, cv such that
- * the temperature there is right; docs/thermodynamics.md says which of these numbers are from where. */
+ * Other liquids: gamma = 1 + B/A, p_inf = rho0 c0^2/gamma - 1e5 Pa from the density and the sound speed at rest, cv
+ * such that the temperature there is right; docs/thermodynamics.md says which of these numbers are from where. */
 #define FAMILY_ROOM family_room_all
 #include "family_rows.h"
 

@@ -1,11 +1,11 @@
 /* helmholtz_band.h - the coordinates of tables over (rho, p): rows of densities, and in a row
  *     y = sqrt((p/rho - f0) s),
- * which runs from a constant at the cold edge of the domain to 1 at its highest temperature. f0 and s are a cubic in rho
- * per row of cells (a "band"): no division, and lines of constant y follow the edges. Near the cold edge of a liquid p
- * is nearly a parabola in T (a density maximum is not far); in y even that is smooth.
+ * which runs from a constant at the cold edge of the domain to 1 at its highest temperature. f0 and s are a cubic in
+ * rho per row of cells (a "band"): no division, and lines of constant y follow the edges. Near the cold edge of a
+ * liquid p is nearly a parabola in T (a density maximum is not far); in y even that is smooth.
  *
- * Rows are equally spaced in rho, or, where the module defines HELMHOLTZ_SKEW [kg/m3], in ln(rho + HELMHOLTZ_SKEW): a vapour
- * is stable in a ten thousandth of its densities. What tables say is then differentiated along that. */
+ * Rows are equally spaced in rho, or, where the module defines HELMHOLTZ_SKEW [kg/m3], in ln(rho + HELMHOLTZ_SKEW): a
+ * vapour is stable in a ten thousandth of its densities. What tables say is then differentiated along that. */
 #ifndef HELMHOLTZ_BAND_H
 #define HELMHOLTZ_BAND_H
 

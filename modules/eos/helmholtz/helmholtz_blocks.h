@@ -1,9 +1,9 @@
 /* helmholtz_blocks.h - the vector loops of the laws that are given by a Helmholtz energy, over blocks of 16 points.
  *
- * Neighbours in a flow are alike. So each step over a block looks whether all of its points lie in one row of densities,
- * in one interval of y, in one cell: then its numbers are fetched once, instead of once per point from wherever they
- * are. A block that lies well inside the domain skips the rules beyond it. None of this shows in the bits: the
- * same operations are done on the same numbers.
+ * Neighbours in a flow are alike. So each step over a block looks whether all of its points lie in one row of
+ * densities, in one interval of y, in one cell: then its numbers are fetched once, instead of once per point from
+ * wherever they are. A block that lies well inside the domain skips the rules beyond it. None of this shows in the
+ * bits: the same operations are done on the same numbers.
  *
  * A step is done for some blocks before the next one begins: each waits for the one before (where is the row? where
  * the interval?), and the processor has other blocks to do meanwhile. */

@@ -218,7 +218,8 @@ static struct helmholtz_grid helmholtz_grid_in(const struct helmholtz_law *law, 
     return grid;
 }
 
-/* The cells of the rows of a part: rows that follow each other, so that nodes are made once. Non-zero: out of memory. */
+/* The cells of the rows of a part: rows that follow each other, so that nodes are made once. Non-zero: out of
+ * memory. */
 static int helmholtz_cells_fill(const struct helmholtz_law *law, const struct helmholtz_grid *grid, int part, int parts)
 {
     size_t terms = (size_t)law->fluid->n_term, n = (size_t)grid->n;

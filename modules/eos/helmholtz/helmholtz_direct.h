@@ -1,13 +1,12 @@
-/* helmholtz_direct.h - a table of e, c^2 and T over (rho, y) of helmholtz_band.h: no search for T, a tenth of the arithmetic,
- * but three functions that fit each other only as well as the table is fine.
+/* helmholtz_direct.h - a table of e, c^2 and T over (rho, y) of helmholtz_band.h: no search for T, a tenth of the
+ * arithmetic, but three functions that fit each other only as well as the table is fine.
  *
- * Between nodes they are bicubic (Hermite, from values and slopes) or bilinear. e and c^2 of a node lie together, 64 or 16
- * bytes, T apart: what a flow asks for all the time is two pieces of two nodes. Derivatives are those of the
+ * Between nodes they are bicubic (Hermite, from values and slopes) or bilinear. e and c^2 of a node lie together, 64 or
+ * 16 bytes, T apart: what a flow asks for all the time is two pieces of two nodes. Derivatives are those of the
  * interpolated e, so that Newton's method for the pressure of a mixture sees one function.
  *
- * Beyond the edges of the domain, q = y^2 outside of COLD .. 1, everything goes on linearly in p at constant density with the
- * values and slopes of the edge:
- *     e = E + d E_y/(2 y),   T = T_b + d T_y/(2 y),   d = q - y^2,   dq/dp = s/rho,
+ * Beyond the edges of the domain, q = y^2 outside of COLD .. 1, everything goes on linearly in p at constant density
+ * with the values and slopes of the edge: e = E + d E_y/(2 y),   T = T_b + d T_y/(2 y),   d = q - y^2,   dq/dp = s/rho,
  *     c^2 = c_b^2 + (p - p_b)(1/rho^2 - W')/W,   W = (de/dp) along the edge. */
 #ifndef HELMHOLTZ_DIRECT_H
 #define HELMHOLTZ_DIRECT_H

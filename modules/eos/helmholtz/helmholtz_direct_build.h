@@ -1,5 +1,6 @@
 /* helmholtz_direct_build.h - makes the table of helmholtz_direct.h, from a table of the potential that was made before
- * it in the same block. Slopes at the nodes are differences of fourth order: what they miss is less than what a cubic does. */
+ * it in the same block. Slopes at the nodes are differences of fourth order: what they miss is less than what a cubic
+ * does. */
 #ifndef HELMHOLTZ_DIRECT_BUILD_H
 #define HELMHOLTZ_DIRECT_BUILD_H
 

@@ -68,7 +68,8 @@ PATCH_INLINE struct helmholtz_spot helmholtz_spot(const struct helmholtz_grid *g
     return spot;
 }
 
-/* A search in one cell: p/rho^2 = a_r is a quintic r in z (per spacing of rho), and R T/rho where the gas is kept apart. */
+/* A search in one cell: p/rho^2 = a_r is a quintic r in z (per spacing of rho), and R T/rho where the gas is kept
+ * apart. */
 struct helmholtz_search {
     struct helmholtz_six r;
     double target, RT, step; /* p/rho^2, R T/rho of the lower node (0: none), spacing of l */

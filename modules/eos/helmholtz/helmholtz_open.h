@@ -1,5 +1,5 @@
-/* helmholtz_open.h - instances of the laws that are given by a Helmholtz energy: their keys, and their table in a block that is
- * made and measured once per machine (`share` of bulla/module.h). */
+/* helmholtz_open.h - instances of the laws that are given by a Helmholtz energy: their keys, and their table in a block
+ * that is made and measured once per machine (`share` of bulla/module.h). */
 #ifndef HELMHOLTZ_OPEN_H
 #define HELMHOLTZ_OPEN_H
 

@@ -1,8 +1,8 @@
-/* helmholtz_point.h - an instance of a law that is given by a Helmholtz energy, and one point of it: where its tables or
- * formulas are asked, what holds beyond the densities of the domain, what rows are asked for.
+/* helmholtz_point.h - an instance of a law that is given by a Helmholtz energy, and one point of it: where its tables
+ * or formulas are asked, what holds beyond the densities of the domain, what rows are asked for.
  *
- * The including module first defines HELMHOLTZ_GAS: 1 keeps R T ln rho out of the table, so that densities may go to zero;
- * and HELMHOLTZ_SKEW of helmholtz_band.h, if its rows are to be equally spaced in a logarithm. */
+ * The including module first defines HELMHOLTZ_GAS: 1 keeps R T ln rho out of the table, so that densities may go to
+ * zero; and HELMHOLTZ_SKEW of helmholtz_band.h, if its rows are to be equally spaced in a logarithm. */
 #ifndef HELMHOLTZ_POINT_H
 #define HELMHOLTZ_POINT_H
 

@@ -71,8 +71,8 @@ static void helmholtz_entropy(const void *instance, size_t n, const double *BULL
     }
 }
 
-/* rho with temperature(rho, p) = T: T falls when rho grows, so there is a bracket. Inside the domain Newton's method with
- * dT/drho = -T p_r/p_l of the potential, else halving. */
+/* rho with temperature(rho, p) = T: T falls when rho grows, so there is a bracket. Inside the domain Newton's method
+ * with dT/drho = -T p_r/p_l of the potential, else halving. */
 static double helmholtz_density_at(const struct helmholtz *self, double p, double T)
 {
     double low = self->ends.thin, high = 3.0 * self->ends.dense, rho = HELMHOLTZ_GAS ? p / (self->grid.R * T) : 1000.0;

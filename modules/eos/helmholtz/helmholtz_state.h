@@ -2,9 +2,9 @@
  *
  * Inside the domain l = ln T is the root of p(rho, l) = p up to a small rest d = p - p(rho, l), which is taken up by
  *     e = e(rho, l) + d W,   W = (de/dp)_rho = e_l/p_l,   T(1 + d/p_l).
- * On its edge l_b(rho) the same formulas are the continuation: linear in p, at fixed rho, with the e, W and T of the edge,
- * so e, de/dp, T and c^2 are continuous there and de/dp > 0 at any p. There the slope in rho is
- *     (de/drho)_p = (e_r - p_r W) + d (W_r + W_l l_b').
+ * On its edge l_b(rho) the same formulas are the continuation: linear in p, at fixed rho, with the e, W and T of the
+ * edge, so e, de/dp, T and c^2 are continuous there and de/dp > 0 at any p. There the slope in rho is (de/drho)_p =
+ * (e_r - p_r W) + d (W_r + W_l l_b').
  *
  * Beyond the densities of the domain, v = 1/rho, subscript 0 at the last density:
  *   thin:   e = e(v0, p) + (v - v0)(p + g P)/(g - 1),                      as a stiffened gas expands;

@@ -1,14 +1,14 @@
 /* helmholtz_thermal.h - everything from pressure and temperature, for phase change: (p, l) -> rho, l = ln T.
  *
- * At fixed l the root of rho^2 a_r = p by Newton's method; p is convex in the density of a liquid and nearly straight in that of a gas, so
- * a start on the dense side of a liquid's root (the thin side of a gas's) runs to it. Then, with p_l = rho^2 a_rl and p_r = (dp/drho)_T,
- *     v_p = -1/(rho^2 p_r),   v_T = p_l/(T rho^2 p_r),   c_p = e_l/T + p_l^2/(T rho^2 p_r),   h = a - a_l + p/rho,   s = -a_l/T.
- * A vapour's start may lie beyond its spinodal, in the dome or among liquids: what comes from there does not count, and the search begins once
- * more from the ideal gas, which is thinner than any real one: p is concave from there on.
- * Close to the root, at P = rho^2 a_r, Taylor's series in p - P gives the same as another look at the potential:
- *     g = a + P/rho + v (p - P) + v_p (p - P)^2/2,   s = -a_l/T - v_T (p - P),   h = g + T s.
- * All of one potential: the table's, with `eval: analytic` the formulas'. Beyond the edges of the domain there is no state, only NaN:
- * continuations in p are no potentials. */
+ * At fixed l the root of rho^2 a_r = p by Newton's method; p is convex in the density of a liquid and nearly straight
+ * in that of a gas, so a start on the dense side of a liquid's root (the thin side of a gas's) runs to it. Then, with
+ * p_l = rho^2 a_rl and p_r = (dp/drho)_T, v_p = -1/(rho^2 p_r),   v_T = p_l/(T rho^2 p_r),   c_p = e_l/T + p_l^2/(T
+ * rho^2 p_r),   h = a - a_l + p/rho,   s = -a_l/T. A vapour's start may lie beyond its spinodal, in the dome or among
+ * liquids: what comes from there does not count, and the search begins once more from the ideal gas, which is thinner
+ * than any real one: p is concave from there on. Close to the root, at P = rho^2 a_r, Taylor's series in p - P gives
+ * the same as another look at the potential: g = a + P/rho + v (p - P) + v_p (p - P)^2/2,   s = -a_l/T - v_T (p - P),
+ * h = g + T s. All of one potential: the table's, with `eval: analytic` the formulas'. Beyond the edges of the domain
+ * there is no state, only NaN: continuations in p are no potentials. */
 #ifndef HELMHOLTZ_THERMAL_H
 #define HELMHOLTZ_THERMAL_H
 
@@ -20,7 +20,8 @@ enum { HELMHOLTZ_THERMAL_ROUNDS = 60 };
 #define HELMHOLTZ_THERMAL_NEAR 1e-9   /* relative step of rho whose square is nothing */
 #define HELMHOLTZ_THERMAL_BESIDE 1e-3 /* of T beyond an edge that is still the domain */
 
-/* One isotherm: a and its first two derivatives in l over the density within one cell, as polynomials. A search stays in a cell or two. */
+/* One isotherm: a and its first two derivatives in l over the density within one cell, as polynomials. A search stays
+ * in a cell or two. */
 struct helmholtz_isotherm {
     double l, RT;
     int i; /* row of the cell, -1: none yet */
@@ -45,8 +46,8 @@ static inline void helmholtz_isotherm_row(const struct helmholtz_grid *grid, int
     line->l2 = (struct helmholtz_six){f[2][0], f[2][1], f[2][2], f[2][3], f[2][4], f[2][5]};
 }
 
-/* The potential at a density of the isotherm, without third derivatives; a, a_l and a_ll of a gas without R T ln(rho/rho_c), which
- * only the root is asked for. */
+/* The potential at a density of the isotherm, without third derivatives; a, a_l and a_ll of a gas without R T
+ * ln(rho/rho_c), which only the root is asked for. */
 static inline struct helmholtz_spot helmholtz_thermal_spot(const struct helmholtz *self,
                                                            struct helmholtz_isotherm *line, double rho)
 {

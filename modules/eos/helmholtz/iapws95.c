@@ -4,7 +4,8 @@
  * temperatures at one density and pressure, and below it (dp/dT)_rho < 0; and inside the saturation dome there are
  * states that are none. The domain therefore ends below at a curve T(rho), chosen so that on it and above
  * Gamma >= 0.02 and (dp/drho)_T > 0:
- *   - from 1000 kg/m3 on the isotherm of 280.15 K, above 1 GPa 280.15 K + 119.85 K 1.15 s^2/(s + 0.15), s = log10(p/1 GPa);
+ *   - from 1000 kg/m3 on the isotherm of 280.15 K, above 1 GPa 280.15 K + 119.85 K 1.15 s^2/(s + 0.15), s = log10(p/1
+ * GPa);
  *   - below that, in tension, 3 K above the density maximum; below 880 kg/m3 where (dp/drho)_T = 1e5 m2/s2, beside the
  *     spinodal of the metastable liquid. No water vapour, no phase change.
  * Above it ends at 3200 K, towards low density at 467 kg/m3, and at 1720 kg/m3. Beyond, the continuations of

@@ -1,12 +1,13 @@
-/* iapws95_vapour.c - water vapour by the reference formulation IAPWS-95: the same Helmholtz energy as iapws95.c, on the other
- * side of the dome, so that both have one zero of energy and of entropy and liquid and vapour meet on the true saturation
- * curve.
+/* iapws95_vapour.c - water vapour by the reference formulation IAPWS-95: the same Helmholtz energy as iapws95.c, on the
+ * other side of the dome, so that both have one zero of energy and of entropy and liquid and vapour meet on the true
+ * saturation curve.
  *
- * All of the stable vapour of 300 K lies below 0.026 kg/m3, beside states far within the dome. Rows of the table are therefore
- * equally spaced in ln(rho + 0.02 kg/m3), and the domain ends below, at each density, at the highest T with (dp/drho)_T = 0.02 R T,
- * beside the spinodal of the metastable vapour: 0.022 kg/m3 at 250 K, 0.37 at 300 K, 28 at 500 K, 193 at 640 K. Above
- * the critical density it ends at 657.5 K, at any density at 250 K and 3200 K, at 1720 kg/m3. Beyond, the continuations of
- * helmholtz_state.h hold. No liquid: a state of less volume below the critical temperature is iapws95's. */
+ * All of the stable vapour of 300 K lies below 0.026 kg/m3, beside states far within the dome. Rows of the table are
+ * therefore equally spaced in ln(rho + 0.02 kg/m3), and the domain ends below, at each density, at the highest T with
+ * (dp/drho)_T = 0.02 R T, beside the spinodal of the metastable vapour: 0.022 kg/m3 at 250 K, 0.37 at 300 K, 28 at 500
+ * K, 193 at 640 K. Above the critical density it ends at 657.5 K, at any density at 250 K and 3200 K, at 1720 kg/m3.
+ * Beyond, the continuations of helmholtz_state.h hold. No liquid: a state of less volume below the critical temperature
+ * is iapws95's. */
 #define HELMHOLTZ_GAS 1
 #define HELMHOLTZ_SKEW 0.02
 #include "helmholtz_open.h"

@@ -1,5 +1,6 @@
 /* lemmon_air_terms.h - dry air as one fluid: Lemmon, Jacobsen, Penoncello & Friend, J. Phys. Chem. Ref. Data 29
- * (2000) 331-385, tables 12 and 13. Zeros of e and s as in IAPWS G8-10; the molar mass is that of the same guideline. */
+ * (2000) 331-385, tables 12 and 13. Zeros of e and s as in IAPWS G8-10; the molar mass is that of the same
+ * guideline. */
 #ifndef LEMMON_AIR_TERMS_H
 #define LEMMON_AIR_TERMS_H
 

@@ -2,8 +2,8 @@
  *
  *     p_r = A1 x^E1 - A2 x^E2,   e_r = -integral of p_r dv from rho0 on,   x = rho/rho0,
  *
- * with a constant Grueneisen coefficient G off the curve (shared/reference_rows.h); T = (e - e_r)/cv, so that the curve is
- * the isentrope of T = 0 and p = 0 at rho0 belongs to T = (A2 - A1)/(G rho0 cv), 300 K for the presets. */
+ * with a constant Grueneisen coefficient G off the curve (shared/reference_rows.h); T = (e - e_r)/cv, so that the curve
+ * is the isentrope of T = 0 and p = 0 at rho0 belongs to T = (A2 - A1)/(G rho0 cv), 300 K for the presets. */
 #include "bulla/eos.h"
 #include "shared/elementary.h"
 

@@ -1,11 +1,9 @@
 /* continuation.h - how laws that are good between two densities and two temperatures go on beyond.
  *
- * Inside, a law gives a point of a potential at (rho, T). Where T ends, what p asks for beyond goes linearly at constant
- * density,
- *     e = e_b + (p - p_b)/(rho G_b),   T = T_b + (e - e_b)/cv_b,   c^2 = c_b^2 + (p - p_b)/rho (1 + G_b + dlnG_b/dln rho),
- * and so does the residual of an iteration for T. Beyond a density rho_b the law is that of a stiffened gas put on its
- * isochore,
- *     e(v, p) = e(v_b, p) + k (v - v_b)(p + P),   c^2 = v^2 ((1 + k) p + k P)/(de/dp).
+ * Inside, a law gives a point of a potential at (rho, T). Where T ends, what p asks for beyond goes linearly at
+ * constant density, e = e_b + (p - p_b)/(rho G_b),   T = T_b + (e - e_b)/cv_b,   c^2 = c_b^2 + (p - p_b)/rho (1 + G_b +
+ * dlnG_b/dln rho), and so does the residual of an iteration for T. Beyond a density rho_b the law is that of a
+ * stiffened gas put on its isochore, e(v, p) = e(v_b, p) + k (v - v_b)(p + P),   c^2 = v^2 ((1 + k) p + k P)/(de/dp).
  * On the dense side k is at most the least 1/G there, so that de/dp > 0; P makes c continuous at one state. */
 #ifndef CONTINUATION_H
 #define CONTINUATION_H

@@ -73,7 +73,8 @@ ELEMENTARY_INLINE double elementary_pow(double x, double y)
 }
 
 /* x rounded to 35 bits. Laws that find T by an iteration end it so: neighbouring pressures then share a T, what is left
- * of p goes linearly, and the iteration for the pressure of a mixture sees a straight line, no rounding of large terms. */
+ * of p goes linearly, and the iteration for the pressure of a mixture sees a straight line, no rounding of large
+ * terms. */
 ELEMENTARY_INLINE double elementary_coarse(double x)
 {
     double much = 0x1p18 * x;

@@ -1,14 +1,13 @@
-/* implicit_rows.h - the functions of kind "eos" for laws that are a potential in density and temperature, so that (rho, p) -> T
- * takes an iteration.
+/* implicit_rows.h - the functions of kind "eos" for laws that are a potential in density and temperature, so that (rho,
+ * p) -> T takes an iteration.
  *
  * A row is done in blocks: first all temperatures, then what is asked for at them. The including module first defines
- * IMPLICIT(name), which makes the names of its functions, IMPLICIT_LAW, its struct, IMPLICIT_BLOCK, the points of a block, and
- *     void IMPLICIT(solve)(law, n, rho, p, aid, T)      temperatures of n <= IMPLICIT_BLOCK points; `aid`: a row that it may fill
- *                                                       for the next two,
- *     struct continuation_state IMPLICIT(state_at)(law, rho, p, aid, T),
- *     double IMPLICIT(entropy_at)(law, rho, aid, T, warm)  at T, where the potential ends, and from there to `warm`,
- * and finds IMPLICIT(state), (derivatives), (energy), (temperature), (entropy) and (density) made; the last from
- *     double IMPLICIT(density_at)(law, p, T), which it defines below, with the help of IMPLICIT(bisect). */
+ * IMPLICIT(name), which makes the names of its functions, IMPLICIT_LAW, its struct, IMPLICIT_BLOCK, the points of a
+ * block, and void IMPLICIT(solve)(law, n, rho, p, aid, T)      temperatures of n <= IMPLICIT_BLOCK points; `aid`: a row
+ * that it may fill for the next two, struct continuation_state IMPLICIT(state_at)(law, rho, p, aid, T), double
+ * IMPLICIT(entropy_at)(law, rho, aid, T, warm)  at T, where the potential ends, and from there to `warm`, and finds
+ * IMPLICIT(state), (derivatives), (energy), (temperature), (entropy) and (density) made; the last from double
+ * IMPLICIT(density_at)(law, p, T), which it defines below, with the help of IMPLICIT(bisect). */
 #ifndef IMPLICIT_ROWS_H
 #define IMPLICIT_ROWS_H
 

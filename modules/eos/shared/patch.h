@@ -1,8 +1,9 @@
-/* patch.h - functions of two coordinates from a rectangular table: bicubic (Hermite, from values and slopes) or bilinear.
+/* patch.h - functions of two coordinates from a rectangular table: bicubic (Hermite, from values and slopes) or
+ * bilinear.
  *
  * A node has, per field, its value and if bicubic its slopes per spacing in x, in y and in both. All is inlined with
- * constants, so that what is not asked for costs nothing. Rows are done in blocks of 16 points: where all of them lie in
- * one cell its nodes are fetched once. */
+ * constants, so that what is not asked for costs nothing. Rows are done in blocks of 16 points: where all of them lie
+ * in one cell its nodes are fetched once. */
 #ifndef PATCH_H
 #define PATCH_H
 

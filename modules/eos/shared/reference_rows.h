@@ -1,16 +1,16 @@
-/* reference_rows.h - functions of kind "eos" for laws that are a reference curve, an isentrope, with a constant Grueneisen
- * coefficient off it:
+/* reference_rows.h - functions of kind "eos" for laws that are a reference curve, an isentrope, with a constant
+ * Grueneisen coefficient off it:
  *
  *     p = p_r(rho) + G rho (e - e_r),   p_r = -de_r/dv,   T = T0 x^G + (e - e_r)/cv,   x = rho/rho0,
  *     s = cv ln(T/T0 x^-G),   rho c^2 = rho c_r^2 + (1 + G)(p - p_r)
  *
- * (Menikoff & Plohr 1989, Rev. Mod. Phys. 61, 75, section IV). rho c^2 is positive above p_min = p_r - rho c_r^2/(1 + G) at
- * every density: nothing needs a continuation but T, which stays at 1 K where the formula falls below.
+ * (Menikoff & Plohr 1989, Rev. Mod. Phys. 61, 75, section IV). rho c^2 is positive above p_min = p_r - rho c_r^2/(1 +
+ * G) at every density: nothing needs a continuation but T, which stays at 1 K where the formula falls below.
  *
- * The including module first defines `struct reference` with rho0, G, T0, cv and scale (of temperatures in the entropy: T0
- * where that is not 0) among its members, `struct reference_curve` with x, p, energy (rho e_r) and stiffness (rho c_r^2),
- * REFERENCE_CURVE(par, rho) and, of a density to begin with, REFERENCE_GUESS(par, p, T); then it includes this, and fills
- * its table with REFERENCE_TABLE(range). */
+ * The including module first defines `struct reference` with rho0, G, T0, cv and scale (of temperatures in the entropy:
+ * T0 where that is not 0) among its members, `struct reference_curve` with x, p, energy (rho e_r) and stiffness (rho
+ * c_r^2), REFERENCE_CURVE(par, rho) and, of a density to begin with, REFERENCE_GUESS(par, p, T); then it includes this,
+ * and fills its table with REFERENCE_TABLE(range). */
 #ifndef REFERENCE_ROWS_H
 #define REFERENCE_ROWS_H
 

@@ -70,7 +70,8 @@ static struct table_grid table_grid_in(double *block, size_t n_rho, size_t n_T, 
     return (struct table_grid){n_rho, n_T, block, block + n_rho, node, misses, zeros[0], zeros[1]};
 }
 
-/* Phase 0 of filling: what is in the file. Order of the values of a node: a, a_r, a_rr, a_T, a_rT, a_rrT, a_TT, a_rTT, a_rrTT. */
+/* Phase 0 of filling: what is in the file. Order of the values of a node: a, a_r, a_rr, a_T, a_rT, a_rrT, a_TT, a_rTT,
+ * a_rrTT. */
 static void table_grid_states(const struct table_file *file, const struct table_grid *grid)
 {
     for (size_t r = 0; r < file->n_row; r++) {

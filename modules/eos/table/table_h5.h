@@ -1,6 +1,6 @@
-/* table_h5.h - states from an HDF5 file: arrays `rho` [n] and `T` [m], ascending, and `p`, `e`, `c`, `s` [n][m] over them, each
- * with its unit in the attribute `units`: kg/m3, K, Pa, J/kg, m/s, J/kg/K. Numbers of any kind and precision. What is
- * no such file is refused with the data set and the reason. */
+/* table_h5.h - states from an HDF5 file: arrays `rho` [n] and `T` [m], ascending, and `p`, `e`, `c`, `s` [n][m] over
+ * them, each with its unit in the attribute `units`: kg/m3, K, Pa, J/kg, m/s, J/kg/K. Numbers of any kind and
+ * precision. What is no such file is refused with the data set and the reason. */
 #ifndef TABLE_H5_H
 #define TABLE_H5_H
 

@@ -1,4 +1,5 @@
-/* table_read.h - reads the file of the equation of state `table`: HDF5 if it begins like it (or is called so), else CSV. */
+/* table_read.h - reads the file of the equation of state `table`: HDF5 if it begins like it (or is called so), else
+ * CSV. */
 #ifndef TABLE_READ_H
 #define TABLE_READ_H
 

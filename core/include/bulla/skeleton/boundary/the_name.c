@@ -1,9 +1,9 @@
 /* the_name.c - a piston: a wall that moves at a given velocity, without leaving its place.
  *
- * The cells behind the face mirror those inside, seen from the wall: the mean of both velocities is that of the wall. What
- * the wall covers or sets free goes through the face; so its way must be short beside everything else.
- * Yours may be anything that keeps to bulla/boundary.h: finite behind any state, and true to what its traits say.
- * `bulla module check` tests all of that. */
+ * The cells behind the face mirror those inside, seen from the wall: the mean of both velocities is that of the wall.
+ * What the wall covers or sets free goes through the face; so its way must be short beside everything else. Yours may
+ * be anything that keeps to bulla/boundary.h: finite behind any state, and true to what its traits say. `bulla module
+ * check` tests all of that. */
 #include <bulla/boundary.h>
 
 #include <stdlib.h>
@@ -13,7 +13,8 @@ struct the_name_values {
     double velocity, rise;
 };
 
-/* The outputs hold what is inside already: here only the velocity along the normal, u[0], differs. It points outwards. */
+/* The outputs hold what is inside already: here only the velocity along the normal, u[0], differs. It points
+ * outwards. */
 static void the_name_fill(const void *self, const struct bulla_behind *faces)
 {
     const struct the_name_values par = *(const struct the_name_values *)self;

@@ -1,8 +1,8 @@
 /* the_name.c - the conductivity of a liquid that rises linearly with temperature.
  *
  *     k = k0 (1 + b (T - T0)),   T - T0 no further from 0 than 50 K.
- * Yours may be any function that keeps to bulla/conductivity.h: finite and not negative wherever a solver may get, without
- * jumps. `bulla module check` tests all of that. */
+ * Yours may be any function that keeps to bulla/conductivity.h: finite and not negative wherever a solver may get,
+ * without jumps. `bulla module check` tests all of that. */
 #include <bulla/conductivity.h>
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* the_name_test.c - values that are known: 0.6 W/m/K at 298.15 K, 2 % more at 308.15 K. Put yours here, from the paper that
- * the law comes from; `bulla module check` tests the rest. */
+/* the_name_test.c - values that are known: 0.6 W/m/K at 298.15 K, 2 % more at 308.15 K. Put yours here, from the paper
+ * that the law comes from; `bulla module check` tests the rest. */
 #include <bulla/conductivity.h>
 
 #include <math.h>

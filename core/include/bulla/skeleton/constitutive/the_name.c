@@ -14,8 +14,8 @@ struct the_name_values {
     double k, a; /* k = mu/(2 rho0) [J/kg] */
 };
 
-/* Where a law has two sides, compute both and select one at the end with `?:`; then a row becomes vectors. Below I1 = 3 is
- * no stretch, only round-off and limited face values; the energy has to go on smoothly there. */
+/* Where a law has two sides, compute both and select one at the end with `?:`; then a row becomes vectors. Below I1 = 3
+ * is no stretch, only round-off and limited face values; the energy has to go on smoothly there. */
 BULLA_KERNEL static void the_name_energy(const void *self, size_t n, const double *BULLA_RESTRICT I1,
                                          const double *BULLA_RESTRICT I2, double *BULLA_RESTRICT e,
                                          double *BULLA_RESTRICT e_1, double *BULLA_RESTRICT e_2)

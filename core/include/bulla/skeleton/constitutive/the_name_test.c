@@ -1,5 +1,5 @@
-/* the_name_test.c - values that are known: a body of 100 kPa stretched to twice its length, with the defaults. Put yours
- * here, from the paper that the law comes from; `bulla module check` tests the rest. */
+/* the_name_test.c - values that are known: a body of 100 kPa stretched to twice its length, with the defaults. Put
+ * yours here, from the paper that the law comes from; `bulla module check` tests the rest. */
 #include <bulla/constitutive.h>
 
 #include <math.h>

@@ -1,10 +1,10 @@
 /* the_name.c - how a solid breaks: at a stretch, in a time of its own.
  *
  *     aim = 1 where the largest principal stretch is at least `stretch`, rate = 1/duration
- * Yours may look at tension, the largest stress or stretch, elastic energy, equivalent stress, plastic strain, its rate and
- * temperature, and says in `needs` at which; core does the tensors, lets the damage grow and turns what it frees into heat. It
- * keeps to bulla/damage.h: aims from 0 to 1, rates that are not negative, and what is pulled harder does not break later.
- * `bulla module check` tests all of that. */
+ * Yours may look at tension, the largest stress or stretch, elastic energy, equivalent stress, plastic strain, its rate
+ * and temperature, and says in `needs` at which; core does the tensors, lets the damage grow and turns what it frees
+ * into heat. It keeps to bulla/damage.h: aims from 0 to 1, rates that are not negative, and what is pulled harder does
+ * not break later. `bulla module check` tests all of that. */
 #include <bulla/damage.h>
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* the_name_test.c - values that are known: below the stretch and beyond it, with the defaults. Put yours here, from the paper
- * that the criterion comes from; `bulla module check` tests the rest. */
+/* the_name_test.c - values that are known: below the stretch and beyond it, with the defaults. Put yours here, from the
+ * paper that the criterion comes from; `bulla module check` tests the rest. */
 #include <bulla/damage.h>
 
 #include <math.h>

@@ -1,9 +1,9 @@
-/* the_name.c - two fields of one module: the pressure that a stream would have if it were stopped, as in a liquid, and how
- * fast matter swells.
+/* the_name.c - two fields of one module: the pressure that a stream would have if it were stopped, as in a liquid, and
+ * how fast matter swells.
  *
  *     head = p - p_ref + rho |u|^2 / 2,      dilatation = div u
- * Yours may be anything that keeps to bulla/field.h: finite in any state, each cell for itself. `bulla module check` tests
- * all of that. */
+ * Yours may be anything that keeps to bulla/field.h: finite in any state, each cell for itself. `bulla module check`
+ * tests all of that. */
 #include <bulla/field.h>
 
 #include <stdlib.h>
@@ -39,7 +39,8 @@ static void the_name_compute(const void *self, const struct bulla_points *cells,
     }
 }
 
-/* `fields: {NAME: {type: the-name}}` makes NAME_head and NAME_dilatation of these; of one output without a suffix, NAME. */
+/* `fields: {NAME: {type: the-name}}` makes NAME_head and NAME_dilatation of these; of one output without a suffix,
+ * NAME. */
 static const struct bulla_field_output the_name_outputs[] = {
     {"head", "Pa", "Pressure of the stream when it is stopped.", 0},
     {"dilatation", "1/s", "Divergence of the velocity.", BULLA_FIELD_SIGNED},

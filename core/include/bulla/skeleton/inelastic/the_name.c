@@ -1,9 +1,9 @@
 /* the_name.c - the strength of a solid: Voce's law, which saturates.
  *
  *     Y = Y1 - (Y1 - Y0) exp(-eps/eps0)
- * Yours may look at plastic strain, its rate, pressure, temperature and density, and says in `needs` at which; core does the
- * tensors. It keeps to bulla/inelastic.h: finite and not negative wherever a solver may get, never falling with the rate.
- * `bulla module check` tests all of that. */
+ * Yours may look at plastic strain, its rate, pressure, temperature and density, and says in `needs` at which; core
+ * does the tensors. It keeps to bulla/inelastic.h: finite and not negative wherever a solver may get, never falling
+ * with the rate. `bulla module check` tests all of that. */
 #include <bulla/inelastic.h>
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* the_name_test.c - values that are known: the strength at no strain, at eps0 and far out, with the defaults. Put yours here,
- * from the paper that the law comes from; `bulla module check` tests the rest. */
+/* the_name_test.c - values that are known: the strength at no strain, at eps0 and far out, with the defaults. Put yours
+ * here, from the paper that the law comes from; `bulla module check` tests the rest. */
 #include <bulla/inelastic.h>
 
 #include <math.h>

@@ -3,8 +3,8 @@
  * With the differences a and b to the two neighbours, of the same sign, the parabola is at the upper edge
  * w + (a + 2 b)/6 and at the lower one w - (2 a + b)/6; neither edge may be further from w than `most` times the
  * smaller difference (Koren's limiter for `most` = 1). That keeps the promise `bounded` of bulla/reconstruction.h. A
- * scheme that looks at two cells on each side says `.layers = 3`; one that may overshoot says nothing of bounds, and core
- * looks at its edges; one that needs all components at once has the function `all`. `bulla module check` tests the
+ * scheme that looks at two cells on each side says `.layers = 3`; one that may overshoot says nothing of bounds, and
+ * core looks at its edges; one that needs all components at once has the function `all`. `bulla module check` tests the
  * contract. */
 #include <bulla/reconstruction.h>
 

@@ -1,5 +1,5 @@
-/* the_name_test.c - values that are known: one gas, equal sides, whose flux is rho u, rho u^2 + p, u (rho E + p). Put yours
- * here, from the paper that the solver comes from; `bulla module check` tests the rest. */
+/* the_name_test.c - values that are known: one gas, equal sides, whose flux is rho u, rho u^2 + p, u (rho E + p). Put
+ * yours here, from the paper that the solver comes from; `bulla module check` tests the rest. */
 #include <bulla/riemann.h>
 
 #include <math.h>

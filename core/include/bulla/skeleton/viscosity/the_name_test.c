@@ -1,5 +1,5 @@
-/* the_name_test.c - values that are known: 10 mPa s at 298.15 K, half of it at a rate of 1000 1/s. Put yours here, from the
- * paper that the law comes from; `bulla module check` tests the rest. */
+/* the_name_test.c - values that are known: 10 mPa s at 298.15 K, half of it at a rate of 1000 1/s. Put yours here, from
+ * the paper that the law comes from; `bulla module check` tests the rest. */
 #include <bulla/viscosity.h>
 
 #include <math.h>
