@@ -59,7 +59,7 @@ jobs=${BULLA_MUTANTS_JOBS:-1}
 ctest -N --test-dir "$build/build" | awk '$1 == "Test" { print $3 }' >"$build/tests"
 
 # What has to be built for a test: a unit test is a program; the others run the program, some of them programs of unit
-# tests, on several ranks or to compare files. Modules are loaded by all, two libraries that tests bring by some.
+# tests, on several ranks or to compare files. Modules are loaded by all, three libraries that tests bring by some.
 targets() { # REGEX
     grep -E -- "$1" "$build/tests" | while read -r test; do
         case $test in
@@ -68,7 +68,7 @@ targets() { # REGEX
         *) echo program test-unit-snapshot test-unit-checkpoint ;;
         esac
     done
-    echo tait-murnaghan fault
+    echo tait-murnaghan fault skeleton-boundary
     ninja -C "$build/build" -t targets all | sed -n 's/^\(module-[a-z0-9-]*\): phony$/\1/p'
 }
 
