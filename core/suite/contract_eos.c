@@ -3,90 +3,36 @@
  * Everything follows from rho e(rho, p): its derivatives are compared with differences, and rho c^2,
  * T and s with the identities (v = 1/rho, h = e + p/rho)
  *     c^2 = (h - d(rho e)/drho)/(d(rho e)/dp),    T ds = de + p dv.
- * A law that passes is one potential. Where continuations begin and end, rho e has no jump along lines of constant rho,
- * p. */
+ * A law that passes is one potential. Where continuations begin and end, rho e has no jump: contract_line.h. */
 #include "suite/contract_eos.h"
 
 #include "suite/contract_batch.h"
 #include "suite/contract_dome.h"
+#include "suite/contract_line.h"
+#include "suite/contract_point.h"
 
 #include <math.h>
 #include <stdio.h>
 
-enum { EOS_STATES = 200, EOS_TRIES = 4000 };
-
-struct eos_point {
-    double rho_e, stiffness, c2, de_dp, de_drho, T, s;
-};
-
-/* The instance under test and where. */
-struct eos_suite {
-    struct contract *contract;
-    const struct bulla_eos *eos;
-    const void *self;
-    const struct contract_eos_box *box;
-    struct bulla_eos_range range;
-};
-
-static struct eos_point contract_eos_at(const struct eos_suite *suite, double rho, double p)
-{
-    struct eos_point point;
-    suite->eos->state(suite->self, 1, &rho, &p, &point.rho_e, &point.stiffness);
-    point.c2 = point.stiffness / rho;
-    suite->eos->derivatives(suite->self, 1, &rho, &p, &point.de_dp, &point.de_drho);
-    suite->eos->temperature(suite->self, 1, &rho, &p, &point.T);
-    suite->eos->entropy(suite->self, 1, &rho, &p, &point.s);
-    return point;
-}
-
-static double contract_eos_p_min(const struct eos_suite *suite, double rho)
-{
-    double p;
-    suite->eos->p_min(suite->self, 1, &rho, &p);
-    return p;
-}
-
-static double contract_eos_temperature(const struct eos_suite *suite, double rho, double p)
-{
-    double T;
-    suite->eos->temperature(suite->self, 1, &rho, &p, &T);
-    return T;
-}
-
-/* A random state of the box; pressures near p_min as well as high ones. False if none was found. */
-static bool contract_eos_draw(const struct eos_suite *suite, uint64_t *seed, double *ret_rho, double *ret_p)
-{
-    const struct contract_eos_box *box = suite->box;
-    for (int i = 0; i < EOS_TRIES; i++) {
-        double rho = exp(contract_random(seed, log(box->rho[0]), log(box->rho[1])));
-        double p_min = contract_eos_p_min(suite, rho), low = p_min > box->p_least ? p_min : box->p_least;
-        double close = exp(contract_random(seed, log(1e-3 * fabs(p_min) + 100.0), log(box->p_most)));
-        double p = low + (i % 2 ? contract_random(seed, 0.0, box->p_most - low) : close);
-        double T = contract_eos_temperature(suite, rho, p);
-        *ret_rho = rho;
-        *ret_p = p;
-        if (p > low && p < box->p_most && T >= box->T[0] && T <= box->T[1]) return true;
-    }
-    return false;
-}
+enum { EOS_STATES = 200 };
 
 /* A step in p for differences: small beside p - p_min, and so small that T hardly changes. */
-static double contract_eos_step(const struct eos_suite *suite, double rho, double p)
+static double contract_eos_step(const struct contract_points *suite, double rho, double p)
 {
-    double dp = 1e-4 * (p - contract_eos_p_min(suite, rho)), T = contract_eos_temperature(suite, rho, p);
-    double change = fabs(contract_eos_temperature(suite, rho, p + dp) - T);
+    double dp = 1e-4 * (p - contract_point_p_min(suite, rho)), T = contract_point_temperature(suite, rho, p);
+    double change = fabs(contract_point_temperature(suite, rho, p + dp) - T);
     return change > 1e-4 * T ? dp * 1e-4 * T / change : dp;
 }
 
 /* Differences of rho e and s against derivatives; a difference of large numbers over a small
  * step has round-off of its own, which counts as size. */
-static void contract_eos_differences(const struct eos_suite *suite, double rho, double p, const char *where)
+static void contract_eos_differences(const struct contract_points *suite, double rho, double p, const char *where)
 {
     struct contract *contract = suite->contract;
-    struct eos_point here = contract_eos_at(suite, rho, p);
+    struct contract_point here = contract_point_at(suite, rho, p);
     double dp = contract_eos_step(suite, rho, p), dr = 1e-5 * rho;
-    struct eos_point up = contract_eos_at(suite, rho, p + dp), down = contract_eos_at(suite, rho, p - dp);
-    struct eos_point dense = contract_eos_at(suite, rho + dr, p), thin = contract_eos_at(suite, rho - dr, p);
+    struct contract_point up = contract_point_at(suite, rho, p + dp), down = contract_point_at(suite, rho, p - dp);
+    struct contract_point dense = contract_point_at(suite, rho + dr, p), thin = contract_point_at(suite, rho - dr, p);
     double h = (here.rho_e + p) / rho, e = here.rho_e / rho, noise = 1e-9 * fabs(here.rho_e);
     double size = fabs(here.de_drho) + fabs(e) + here.c2 * here.de_dp;
     contract_begin(contract, "d(rho e)/dp is the slope of rho e", 1e-6);
@@ -102,31 +48,31 @@ static void contract_eos_differences(const struct eos_suite *suite, double rho, 
     contract_near(contract, (dense.s - thin.s) / (2 * dr) * heat, here.de_drho - h, size + dull / dr, where);
 }
 
-static void contract_eos_inverse(const struct eos_suite *suite, double rho, double p, const char *where)
+static void contract_eos_inverse(const struct contract_points *suite, double rho, double p, const char *where)
 {
-    double T = contract_eos_temperature(suite, rho, p), back = NAN;
+    double T = contract_point_temperature(suite, rho, p), back = NAN;
     suite->eos->density(suite->self, 1, &p, &T, &back);
     contract_begin(suite->contract, "density(p, T) inverts temperature(rho, p)", 1e-9);
     contract_near(suite->contract, back, rho, rho, where);
 }
 
-static void contract_eos_linear(const struct eos_suite *suite, double rho, double p, const char *where)
+static void contract_eos_linear(const struct contract_points *suite, double rho, double p, const char *where)
 {
     contract_begin(suite->contract, "linear: a p + b is rho e, a is d(rho e)/dp, bitwise", 0.0);
     if (!suite->eos->linear) return;
     double a = NAN, b = NAN;
     suite->eos->linear(suite->self, 1, &rho, &a, &b);
-    struct eos_point point = contract_eos_at(suite, rho, p);
+    struct contract_point point = contract_point_at(suite, rho, p);
     contract_holds(suite->contract, a * p + b == point.rho_e && a == point.de_dp, where);
 }
 
-static void contract_eos_energy(const struct eos_suite *suite, double rho, double p, const char *where)
+static void contract_eos_energy(const struct contract_points *suite, double rho, double p, const char *where)
 {
     if (!BULLA_EOS_HAS(suite->eos, energy)) return;
     double rho_e = NAN, de_dp = NAN;
     contract_begin(suite->contract, "energy: what state and derivatives give, bitwise", 0.0);
     suite->eos->energy(suite->self, 1, &rho, &p, &rho_e, &de_dp);
-    struct eos_point point = contract_eos_at(suite, rho, p);
+    struct contract_point point = contract_point_at(suite, rho, p);
     contract_holds(suite->contract, rho_e == point.rho_e && de_dp == point.de_dp, where);
 }
 
@@ -134,7 +80,7 @@ struct contract_eos_thermal {
     double rho, v, h, s, v_T, v_p, c_p, g;
 };
 
-static struct contract_eos_thermal contract_eos_thermal_at(const struct eos_suite *suite, double p, double T,
+static struct contract_eos_thermal contract_eos_thermal_at(const struct contract_points *suite, double p, double T,
                                                            double guess)
 {
     struct contract_eos_thermal at = {.rho = guess};
@@ -144,10 +90,11 @@ static struct contract_eos_thermal contract_eos_thermal_at(const struct eos_suit
 }
 
 /* `thermal` against the other functions at the same state. */
-static void contract_eos_thermal_same(const struct eos_suite *suite, double rho, double p, double T, const char *where)
+static void contract_eos_thermal_same(const struct contract_points *suite, double rho, double p, double T,
+                                      const char *where)
 {
     struct contract *contract = suite->contract;
-    struct eos_point here = contract_eos_at(suite, rho, p);
+    struct contract_point here = contract_point_at(suite, rho, p);
     struct contract_eos_thermal at = contract_eos_thermal_at(suite, p, T, 0.0);
     double energy = fabs(at.h) + (fabs(here.rho_e) + p) / rho, spread = here.de_dp * here.c2;
     double c2 = at.v * at.v / (-at.v_p - T * at.v_T * at.v_T / at.c_p);
@@ -164,8 +111,8 @@ static void contract_eos_thermal_same(const struct eos_suite *suite, double rho,
 }
 
 /* States two steps and one below, one and two above. */
-static void contract_eos_around(const struct eos_suite *suite, double p, double T, double rho, const double step[2],
-                                struct contract_eos_thermal ret_at[4])
+static void contract_eos_around(const struct contract_points *suite, double p, double T, double rho,
+                                const double step[2], struct contract_eos_thermal ret_at[4])
 {
     for (int k = 0, by = -2; k < 4; k++, by += by == -1 ? 2 : 1)
         ret_at[k] = contract_eos_thermal_at(suite, p + by * step[0], T + by * step[1], rho);
@@ -175,12 +122,12 @@ static void contract_eos_around(const struct eos_suite *suite, double p, double 
 #define CONTRACT_EOS_SLOPE(x, what, step) ((8.0 * (x[2].what - x[1].what) - (x[3].what - x[0].what)) / (12.0 * (step)))
 
 /* Its derivatives, as those of one potential g = h - T s; rounding of differences counts as size. */
-static void contract_eos_thermal_slopes(const struct eos_suite *suite, double rho, double p, double T,
+static void contract_eos_thermal_slopes(const struct contract_points *suite, double rho, double p, double T,
                                         const char *where)
 {
     struct contract *contract = suite->contract;
     struct contract_eos_thermal at = contract_eos_thermal_at(suite, p, T, 0.0), warm[4], press[4];
-    double dT = 2e-4 * T, dp = 2e-4 * (p - contract_eos_p_min(suite, rho));
+    double dT = 2e-4 * T, dp = 2e-4 * (p - contract_point_p_min(suite, rho));
     contract_eos_around(suite, p, T, rho, (const double[]){0.0, dT}, warm);
     contract_eos_around(suite, p, T, rho, (const double[]){dp, 0.0}, press);
     double noise = 1e-9 * (fabs(at.h) + T * fabs(at.s)), order = fabs(at.s) + at.c_p;
@@ -199,16 +146,16 @@ static void contract_eos_thermal_slopes(const struct eos_suite *suite, double rh
     contract_near(contract, CONTRACT_EOS_SLOPE(press, v, dp), at.v_p, -at.v_p + 1e-9 * at.v / dp, where);
 }
 
-static void contract_eos_thermal(const struct eos_suite *suite, double rho, double p, const char *where)
+static void contract_eos_thermal(const struct contract_points *suite, double rho, double p, const char *where)
 {
     if (!BULLA_EOS_HAS(suite->eos, thermal) || contract_dome_outside(suite->eos, suite->self, rho, p)) return;
-    double T = contract_eos_temperature(suite, rho, p);
+    double T = contract_point_temperature(suite, rho, p);
     contract_eos_thermal_same(suite, rho, p, T, where);
     contract_eos_thermal_slopes(suite, rho, p, T, where);
 }
 
 /* A gas constant is that of the dilute gas. */
-static void contract_eos_gas(const struct eos_suite *suite)
+static void contract_eos_gas(const struct contract_points *suite)
 {
     char where[CONTRACT_WHERE];
     const struct bulla_eos *eos = suite->eos;
@@ -223,10 +170,10 @@ static void contract_eos_gas(const struct eos_suite *suite)
 
 /* A continuation stands in for the formulas beyond the stated range only, or in the dome that a vapour's range cannot
  * leave out. */
-static void contract_eos_counting(const struct eos_suite *suite, double rho, double p, const char *where)
+static void contract_eos_counting(const struct contract_points *suite, double rho, double p, const char *where)
 {
     const struct bulla_eos_range *range = &suite->range;
-    double T = contract_eos_temperature(suite, rho, p);
+    double T = contract_point_temperature(suite, rho, p);
     bool inside = rho >= range->rho_min && rho <= range->rho_max && p >= range->p_min && p <= range->p_max &&
                   T >= range->T_min && T <= range->T_max;
     contract_begin(suite->contract, "count_outside: 0 in the stated range, but for the dome of a vapour", 0.0);
@@ -234,28 +181,28 @@ static void contract_eos_counting(const struct eos_suite *suite, double rho, dou
         contract_holds(suite->contract, contract_dome_fair(suite->eos, suite->self, rho, p, range->p_max), where);
 }
 
-static bool contract_eos_well_posed(struct eos_point point)
+static bool contract_eos_well_posed(struct contract_point point)
 {
     bool finite = isfinite(point.rho_e) && isfinite(point.c2) && isfinite(point.T) && isfinite(point.s) &&
                   isfinite(point.de_dp) && isfinite(point.de_drho);
     return finite && point.de_dp > 0.0 && point.c2 > 0.0 && point.T > 0.0;
 }
 
-static void contract_eos_judge(const struct eos_suite *suite, double rho, double p)
+static void contract_eos_judge(const struct contract_points *suite, double rho, double p)
 {
-    struct eos_point point = contract_eos_at(suite, rho, p);
+    struct contract_point point = contract_point_at(suite, rho, p);
     contract_error(suite->contract, !contract_eos_well_posed(point),
                    "rho %.6g, p %.6g: d(rho e)/dp %.3g, c^2 %.3g, T %.3g", rho, p, point.de_dp, point.c2, point.T);
 }
 
 /* Identities at states of the box. */
-static void contract_eos_states(const struct eos_suite *suite)
+static void contract_eos_states(const struct contract_points *suite)
 {
     uint64_t seed = 1;
     for (int i = 0; i < EOS_STATES; i++) {
         char where[64];
         double rho, p;
-        bool found = contract_eos_draw(suite, &seed, &rho, &p);
+        bool found = contract_point_draw(suite, &seed, &rho, &p);
         contract_begin(suite->contract, "there are states in the stated range", 0.0);
         contract_holds(suite->contract, found, "no density and pressure of `range` gives a temperature of `range`");
         if (!found) return;
@@ -273,110 +220,36 @@ static void contract_eos_states(const struct eos_suite *suite)
 }
 
 /* Any density and any pressure above p_min: solvers get there, in traces of a material at least. */
-static void contract_eos_everywhere(const struct eos_suite *suite)
+static void contract_eos_everywhere(const struct contract_points *suite)
 {
     double most = suite->box->rho[1] * 1.5 > 4600.0 ? suite->box->rho[1] * 1.5 : 4600.0;
     contract_begin(suite->contract, "well-posed for any rho > 0, p > p_min", 0.0);
     for (double rho = 1e-3; rho < most; rho *= 1.01) {
-        double p_min = contract_eos_p_min(suite, rho);
+        double p_min = contract_point_p_min(suite, rho);
         for (double above = 1e-3; above < 1e11; above *= 10.0)
             if (above > 1e-9 * fabs(p_min)) contract_eos_judge(suite, rho, p_min + above);
     }
 }
 
-/* A step from one state to another: what rho e changes by, what its slopes at both ends say (`size`: without their
- * cancelling), and what rounding may do. */
-struct contract_eos_stride {
-    double change, slope, size, noise;
-};
-
-static struct contract_eos_stride contract_eos_stride(const struct eos_suite *suite, const double from[2],
-                                                      const double to[2])
-{
-    struct eos_point at[2] = {contract_eos_at(suite, from[0], from[1]), contract_eos_at(suite, to[0], to[1])};
-    double dr = 0.5 * (to[0] - from[0]), dp = 0.5 * (to[1] - from[1]);
-    struct contract_eos_stride stride = {.change = at[1].rho_e - at[0].rho_e};
-    for (int i = 0; i < 2; i++) {
-        stride.slope += at[i].de_dp * dp + at[i].de_drho * dr;
-        stride.size += at[i].de_dp * fabs(dp) + (fabs(at[i].de_drho) + at[i].c2 * at[i].de_dp) * fabs(dr);
-        stride.noise += 1e-10 * (fabs(at[i].rho_e) + at[i].de_dp * fabs(i ? to[1] : from[1]));
-    }
-    return stride;
-}
-
-/* By how much slopes do not explain a change. */
-static double contract_eos_misfit(struct contract_eos_stride stride)
-{
-    return fabs(stride.change - stride.slope) - 1e-3 * stride.size - stride.noise;
-}
-
-/* Looks for a jump of rho e between two states: in both halves while slopes do not explain the change, down to steps in
- * which hardly anything may change; over p, rho e may not fall in them either. Slopes that are wrong all along would
- * lead everywhere: when `left` steps are used up, only into the half that they explain less. */
-static void contract_eos_follow(const struct eos_suite *suite, const double from[2], const double to[2], int depth,
-                                int *left)
-{
-    struct contract_eos_stride stride = contract_eos_stride(suite, from, to);
-    bool explained = contract_eos_misfit(stride) <= 0.0;
-    if (explained || depth == 0) {
-        double most = 3.0 * (stride.size + stride.noise), least = from[0] == to[0] ? -stride.noise : -most;
-        contract_error(suite->contract, !explained && !(stride.change >= least && stride.change <= most),
-                       "rho %.9g, p %.9g to rho %.9g, p %.9g: rho e changes by %.4g, slopes say %.4g", from[0], from[1],
-                       to[0], to[1], stride.change, stride.slope);
-        return;
-    }
-    const double middle[2] = {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])};
-    bool lower = true, upper = true;
-    if (--*left < 0) {
-        lower = !(contract_eos_misfit(contract_eos_stride(suite, from, middle)) <
-                  contract_eos_misfit(contract_eos_stride(suite, middle, to)));
-        upper = !lower;
-    }
-    if (lower) contract_eos_follow(suite, from, middle, depth - 1, left);
-    if (upper) contract_eos_follow(suite, middle, to, depth - 1, left);
-}
-
-static void contract_eos_line(const struct eos_suite *suite, const double from[2], const double to[2])
-{
-    int left = 200;
-    contract_eos_follow(suite, from, to, 30, &left);
-}
-
-/* Lines of constant density from p_min up, and of constant pressure wherever it is above p_min. */
-static void contract_eos_lines(const struct eos_suite *suite)
-{
-    double most = suite->box->rho[1] * 1.5 > 4600.0 ? suite->box->rho[1] * 1.5 : 4600.0;
-    contract_begin(suite->contract, "rho e grows with p and has no jumps", 0.0);
-    for (double rho = 1e-3; rho < most; rho *= 1.1) {
-        double p_min = contract_eos_p_min(suite, rho), next = 1.1 * rho, next_min = contract_eos_p_min(suite, next);
-        double least = 1e-9 * fabs(p_min) > 1e-3 ? 1e-9 * fabs(p_min) : 1e-3,
-               high = p_min > next_min ? p_min : next_min;
-        for (double above = least; above < 1e11; above *= 10.0)
-            contract_eos_line(suite, (const double[]){rho, p_min + above}, (const double[]){rho, p_min + 10.0 * above});
-        for (double p = 1e3; p < 1e11; p *= 10.0)
-            if (p > 1.01 * high) contract_eos_line(suite, (const double[]){rho, p}, (const double[]){next, p});
-    }
-}
-
 /* At and below p_min the value says so; nothing traps. */
-static void contract_eos_below(const struct eos_suite *suite)
+static void contract_eos_below(const struct contract_points *suite)
 {
     contract_begin(suite->contract, "rho c^2 <= 0 at and below p_min", 0.0);
     for (int i = 0; i < 20; i++) {
         double rho = suite->box->rho[0] * pow(suite->box->rho[1] / suite->box->rho[0], (i + 0.5) / 20.0);
-        double p_min = contract_eos_p_min(suite, rho), p = p_min - 1e-3 * fabs(p_min) - 1e3;
+        double p_min = contract_point_p_min(suite, rho), p = p_min - 1e-3 * fabs(p_min) - 1e3;
         if (!isfinite(p_min)) continue;
-        double edge = contract_eos_at(suite, rho, p_min).stiffness,
-               usual = contract_eos_at(suite, rho, fabs(p_min) + 1e5).stiffness;
+        double edge = contract_point_at(suite, rho, p_min).stiffness,
+               usual = contract_point_at(suite, rho, fabs(p_min) + 1e5).stiffness;
         contract_error(suite->contract, !(edge <= 1e-9 * usual), "rho %.6g at p_min = %.6g: rho c^2 %.3g", rho, p_min,
                        edge);
-        double below = contract_eos_at(suite, rho, p).stiffness;
+        double below = contract_point_at(suite, rho, p).stiffness;
         contract_error(suite->contract, below > 0.0, "rho %.6g, p %.6g below p_min: rho c^2 %.3g", rho, p, below);
     }
 }
 
 /* A pressure that is not a number must not come out as a good state. */
-static void contract_eos_nan(const struct eos_suite *suite)
+static void contract_eos_nan(const struct contract_points *suite)
 {
     double rho = sqrt(suite->box->rho[0] * suite->box->rho[1]), p = NAN, rho_e, stiffness;
     suite->eos->state(suite->self, 1, &rho, &p, &rho_e, &stiffness);
@@ -385,11 +258,11 @@ static void contract_eos_nan(const struct eos_suite *suite)
                    rho_e, stiffness);
 }
 
-static void contract_eos_range(const struct eos_suite *suite)
+static void contract_eos_range(const struct contract_points *suite)
 {
     char where[CONTRACT_WHERE];
     const struct bulla_eos_range *range = &suite->range;
-    double lowest = contract_eos_p_min(suite, range->rho_max);
+    double lowest = contract_point_p_min(suite, range->rho_max);
     snprintf(where, sizeof where, "rho %.4g to %.4g, p %.4g to %.4g, T %.4g to %.4g; p_min %.4g", range->rho_min,
              range->rho_max, range->p_min, range->p_max, range->T_min, range->T_max, lowest);
     bool ordered = range->rho_min < range->rho_max && range->p_min < range->p_max && range->T_min < range->T_max;
@@ -403,7 +276,7 @@ static void contract_eos_draw_state(const struct contract *contract, const struc
                                     double *in)
 {
     (void)contract;
-    contract_eos_draw(call->context, seed, &in[0], &in[1]);
+    contract_point_draw(call->context, seed, &in[0], &in[1]);
 }
 
 static void contract_eos_draw_pT(const struct contract *contract, const struct contract_call *call, uint64_t *seed,
@@ -411,27 +284,31 @@ static void contract_eos_draw_pT(const struct contract *contract, const struct c
 {
     double rho = NAN, p = NAN;
     (void)contract;
-    contract_eos_draw(call->context, seed, &rho, &p);
+    contract_point_draw(call->context, seed, &rho, &p);
     in[0] = p;
-    in[1] = contract_eos_temperature(call->context, rho, p);
+    in[1] = contract_point_temperature(call->context, rho, p);
 }
 
-#define contract_eos_EOS_RUN(name, ...)                                                                     \
-    static void eos_run_##name(const struct contract *contract, const struct contract_call *call, size_t n, \
-                               const double *const *in, double *const *out)                                 \
-    {                                                                                                       \
-        const struct bulla_eos *eos = contract->module->table;                                              \
-        (void)call;                                                                                         \
-        eos->name(contract->self, n, in[0], __VA_ARGS__);                                                   \
+#define CONTRACT_EOS_RUN(name, ...)                                                                                  \
+    static void contract_eos_run_##name(const struct contract *contract, const struct contract_call *call, size_t n, \
+                                        const double *const *in, double *const *out)                                 \
+    {                                                                                                                \
+        const struct bulla_eos *eos = contract->module->table;                                                       \
+        (void)call;                                                                                                  \
+        eos->name(contract->self, n, in[0], __VA_ARGS__);                                                            \
     }
 
-contract_eos_EOS_RUN(state, in[1], out[0], out[1]) contract_eos_EOS_RUN(derivatives, in[1], out[0], out[1])
-    contract_eos_EOS_RUN(temperature, in[1], out[0]) contract_eos_EOS_RUN(entropy, in[1], out[0])
-        contract_eos_EOS_RUN(density, in[1], out[0]) contract_eos_EOS_RUN(p_min, out[0])
-            contract_eos_EOS_RUN(linear, out[0], out[1]) contract_eos_EOS_RUN(energy, in[1], out[0], out[1])
+CONTRACT_EOS_RUN(state, in[1], out[0], out[1])
+CONTRACT_EOS_RUN(derivatives, in[1], out[0], out[1])
+CONTRACT_EOS_RUN(temperature, in[1], out[0])
+CONTRACT_EOS_RUN(entropy, in[1], out[0])
+CONTRACT_EOS_RUN(density, in[1], out[0])
+CONTRACT_EOS_RUN(p_min, out[0])
+CONTRACT_EOS_RUN(linear, out[0], out[1])
+CONTRACT_EOS_RUN(energy, in[1], out[0], out[1])
 
-                static void contract_eos_run_thermal(const struct contract *contract, const struct contract_call *call,
-                                                     size_t n, const double *const *in, double *const *out)
+static void contract_eos_run_thermal(const struct contract *contract, const struct contract_call *call, size_t n,
+                                     const double *const *in, double *const *out)
 {
     const struct bulla_eos *eos = contract->module->table;
     (void)call;
@@ -439,22 +316,22 @@ contract_eos_EOS_RUN(state, in[1], out[0], out[1]) contract_eos_EOS_RUN(derivati
     eos->thermal(contract->self, n, in[0], in[1], out[0], out[1], out[2], out[3], out[4], out[5], out[6]);
 }
 
-static void contract_eos_rows(const struct eos_suite *suite)
+static void contract_eos_rows(const struct contract_points *suite)
 {
     const struct contract_call calls[] = {
-        {"state", 2, 2, eos_run_state, contract_eos_draw_state, suite},
-        {"derivatives", 2, 2, eos_run_derivatives, contract_eos_draw_state, suite},
-        {"temperature", 2, 1, eos_run_temperature, contract_eos_draw_state, suite},
-        {"entropy", 2, 1, eos_run_entropy, contract_eos_draw_state, suite},
-        {"density", 2, 1, eos_run_density, contract_eos_draw_pT, suite},
-        {"p_min", 2, 1, eos_run_p_min, contract_eos_draw_state, suite},
-        {"linear", 2, 2, eos_run_linear, contract_eos_draw_state, suite},
-        {"energy", 2, 2, eos_run_energy, contract_eos_draw_state, suite},
+        {"state", 2, 2, contract_eos_run_state, contract_eos_draw_state, suite},
+        {"derivatives", 2, 2, contract_eos_run_derivatives, contract_eos_draw_state, suite},
+        {"temperature", 2, 1, contract_eos_run_temperature, contract_eos_draw_state, suite},
+        {"entropy", 2, 1, contract_eos_run_entropy, contract_eos_draw_state, suite},
+        {"density", 2, 1, contract_eos_run_density, contract_eos_draw_pT, suite},
+        {"p_min", 2, 1, contract_eos_run_p_min, contract_eos_draw_state, suite},
+        {"linear", 2, 2, contract_eos_run_linear, contract_eos_draw_state, suite},
+        {"energy", 2, 2, contract_eos_run_energy, contract_eos_draw_state, suite},
         {"thermal", 2, 7, contract_eos_run_thermal, contract_eos_draw_pT, suite},
     };
     for (size_t i = 0; i < sizeof calls / sizeof *calls; i++) {
-        if (calls[i].run == eos_run_linear && !suite->eos->linear) continue;
-        if (calls[i].run == eos_run_energy && !BULLA_EOS_HAS(suite->eos, energy)) continue;
+        if (calls[i].run == contract_eos_run_linear && !suite->eos->linear) continue;
+        if (calls[i].run == contract_eos_run_energy && !BULLA_EOS_HAS(suite->eos, energy)) continue;
         if (calls[i].run == contract_eos_run_thermal && !BULLA_EOS_HAS(suite->eos, thermal)) continue;
         contract_batch_run(suite->contract, &calls[i]);
     }
@@ -462,7 +339,10 @@ static void contract_eos_rows(const struct eos_suite *suite)
 
 void contract_eos_run_in(struct contract *contract, const struct contract_eos_box *box)
 {
-    struct eos_suite suite = {.contract = contract, .eos = contract->module->table, .self = contract->self, .box = box};
+    struct contract_points suite = {.contract = contract,
+                                    .eos = contract->module->table,
+                                    .self = contract->self,
+                                    .box = box};
     contract_doing(contract, "range");
     suite.eos->range(contract->self, &suite.range);
     contract_eos_range(&suite);
@@ -472,7 +352,7 @@ void contract_eos_run_in(struct contract *contract, const struct contract_eos_bo
     contract_doing(contract, "any rho and p");
     contract_eos_everywhere(&suite);
     contract_doing(contract, "lines of constant rho and p");
-    contract_eos_lines(&suite);
+    contract_line_all(&suite);
     contract_doing(contract, "states below p_min");
     contract_eos_below(&suite);
     contract_doing(contract, "p = NaN");

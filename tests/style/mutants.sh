@@ -1,11 +1,13 @@
 # The table of seeded mistakes (tests/mutants): every text that is to be spoilt is there, once, and every mistake names tests
 # that exist. Nothing is built.
 set -eu
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
 cd "$BULLA_SOURCE"
-find core modules -name '*.[ch]' | LC_ALL=C sort >"$OLDPWD/sources"
-awk -f tests/mutants/seeds.awk tests/mutants/seeds.txt "$OLDPWD/sources" >"$OLDPWD/table"
-[ -s "$OLDPWD/table" ]
-cd "$OLDPWD"
+find core modules -name '*.[ch]' | LC_ALL=C sort >"$scratch/sources"
+awk -f tests/mutants/seeds.awk tests/mutants/seeds.txt "$scratch/sources" >"$scratch/table"
+[ -s "$scratch/table" ]
+cd "$scratch"
 for folder in unit module program; do
     find "$BULLA_SOURCE/tests/$folder" -name '*.c' -o -name '*.sh' |
         sed "s|.*/|$folder-|; s|\.[a-z]*\$||; s|_|-|g"

@@ -2,10 +2,12 @@
 # sends a reader to another room.
 set -eu
 command -v ctags >/dev/null || { echo "skipped: no ctags"; exit 77; }
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
 cd "$BULLA_SOURCE"
-{ find core -name '*.[ch]' ! -name '*_test.c'; find modules -name '*.c'; } | sort >"$OLDPWD/files"
-[ -s "$OLDPWD/files" ]
-ctags -f - --languages=C --langmap=C:.c.h --kinds-C=fv --fields=+fk-t --sort=no -L "$OLDPWD/files" | awk -F '\t' '
+{ find core -name '*.[ch]' ! -name '*_test.c'; find modules -name '*.c'; } | sort >"$scratch/files"
+[ -s "$scratch/files" ]
+ctags -f - --languages=C --langmap=C:.c.h --kinds-C=fv --fields=+fk-t --sort=no -L "$scratch/files" | awk -F '\t' '
     {
         file = $2
         header = file ~ /\.h$/
