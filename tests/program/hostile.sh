@@ -184,7 +184,7 @@ wave() {
 both 3 'ran for too long' --set "$(wave "$loop")"
 both 3 'gives nan' --set "$(wave 'return 0/0')"
 both 3 'not a text' --set "$(wave 'error({})')"
-both 3 'not enough memory' --set "$(wave 'local t, s = {}, string.rep(1, 1e5) for i = 1, 1e9 do t[i] = s .. i end')"
+both 3 'not enough memory' --set 'run.script-time=100 s' --set "$(wave 'local t, s = {}, string.rep(1, 1e5) for i = 1, 1e9 do t[i] = s .. i end')"
 both 3 'ran for too long' --set "output.history.columns.q={value: 't > 0 and (function() $loop end)() or 1'}"
 both 2 'ran for too long' --set "initial.0.pressure== x > 0.9 and (function() $loop end)() or 1e5"
 both 2 'gives nan' --set 'initial.0.pressure== x > 0.9 and 0/0 or 1e5'
