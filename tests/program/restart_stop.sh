@@ -14,14 +14,14 @@ materials:
 initial:
   - {everywhere: true, material: air, density: 1, pressure: 1 bar}
   - {half-space: {point: [0.5], normal: [1]}, material: air, density: 0.125, pressure: 0.1 bar}
-run: {until: 1e3, max-steps: 30000}
+run: {until: 1e3, max-steps: 12000}
 output:
   snapshots: {every: 1000 steps}
   history: {every: 70 steps, columns: {m: {total: mass}}}
   probes: {every: 1 ms, wall: {at: [0.9], fields: [pressure]}}
 END
 rm -rf whole first
-"$BULLA" run tube.yaml -o whole --quiet --set output.checkpoints.every=30000steps
+"$BULLA" run tube.yaml -o whole --quiet --set output.checkpoints.every=12000steps
 
 begun() { [ "$(cat first/history.csv 2>/dev/null | wc -l)" -gt 12 ] || ! alive "$run"; }
 begin() { # OPTIONS...: until the run has written some rows, or is over
@@ -50,8 +50,8 @@ finished() {
     for file in history.csv probes.csv fields/tube.hdf.series; do cmp whole/$file first/$file; done
     [ "$(ls whole/fields)" = "$(ls first/fields)" ] || fail "other snapshots"
     # the whole run ends with a checkpoint because its case asks for them
-    "$BULLA" run tube.yaml -o first --quiet --restart --set output.checkpoints.every=30000steps
-    "$same" whole/checkpoints/tube_030000.chk first/checkpoints/tube_030000.chk
+    "$BULLA" run tube.yaml -o first --quiet --restart --set output.checkpoints.every=12000steps
+    "$same" whole/checkpoints/tube_012000.chk first/checkpoints/tube_012000.chk
     rm -rf first
 }
 
@@ -87,7 +87,7 @@ insist twice
 # A snapshot on request; the run and its bits are not disturbed.
 answered() { [ ! -e first/output_now ] || ! alive "$run"; }
 request() {
-    begin --set output.snapshots.every=1e3 --set output.checkpoints.every=30000steps
+    begin --set output.snapshots.every=1e3 --set output.checkpoints.every=12000steps
     touch first/output_now
     await "an answer" answered
     ended "$run"
@@ -98,7 +98,7 @@ insist request
 asked=$(sed -n 's/.*a snapshot of step \([0-9]*\), as .*output_now asked.*/\1/p' said)
 "$BULLA" info "first/fields/tube_$(printf %06d "$asked").hdf" >/dev/null
 cmp whole/history.csv first/history.csv
-"$same" whole/checkpoints/tube_030000.chk first/checkpoints/tube_030000.chk
+"$same" whole/checkpoints/tube_012000.chk first/checkpoints/tube_012000.chk
 
 # A run that fails leaves a checkpoint of the last good state; with other settings it goes on from there.
 sed 's/pressure: 1 bar}/pressure: 1 bar, velocity: [-18 km\/s]}/; s/pressure: 0.1 bar}/pressure: 0.1 bar, velocity: [18 km\/s]}/' \
