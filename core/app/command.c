@@ -102,8 +102,8 @@ static const struct cli_command command_table[] = {
      3, 3, module_new_command},
     {"module", "check FILE.so... | table LAW FILE", "Tests a module by the contract of its kind; tabulates a law.",
      command_module_options, 2, -1, command_module},
-    {"info", "FILE...", "What is inside a snapshot, a checkpoint or the dump of a failed step.", command_info_options,
-     1, -1, inspect_info},
+    {"info", "DIR|FILE...", "What a run was; what is inside a snapshot, a checkpoint or the dump of a failed step.",
+     command_info_options, 1, -1, inspect_info},
     {"join", "DIR|FILE...", "Makes one file of a snapshot or checkpoint and its parts, of several writers.", NULL, 1,
      -1, inspect_join},
     {VIEW_PLOT, NULL, 1, -1, NULL}, /* viewer.h */

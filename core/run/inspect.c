@@ -13,9 +13,11 @@
 #include "io/join.h"
 #include "plug/describe.h"
 #include "plug/registry.h"
+#include "run/retell.h"
 #include "solve/plan.h"
 
 #include <stdio.h>
+#include <sys/stat.h>
 
 /* Prints and frees. */
 static void inspect_put(struct text *text)
@@ -58,12 +60,20 @@ int inspect_modules(const struct cli_given *given)
     return cli_failed(code);
 }
 
+/* A file, or the output directory of a run. */
+static int inspect_tell(const char *path)
+{
+    struct stat is;
+    bool directory = stat(path, &is) == 0 && S_ISDIR(is.st_mode);
+    return directory ? retell_run(stdout, path) : info_print(stdout, path);
+}
+
 int inspect_info(const struct cli_given *given)
 {
     int code = 0;
     bool replay = cli_value(given, "--replay") != NULL;
     for (int i = 0; i < given->n_word && !code && comm_rank() == 0; i++)
-        code = (replay ? dump_show_replay : info_print)(stdout, given->words[i]);
+        code = replay ? dump_show_replay(stdout, given->words[i]) : inspect_tell(given->words[i]);
     if (code == STATUS_RUN) code = STATUS_CASE; /* a file that is none of ours, or a broken one: nothing ran */
     return cli_failed(code);
 }

@@ -37,5 +37,14 @@ say 0 'p-inf +Pa' modules stiffened-gas
 say 2 'stiffened-gas' modules stifened-gas
 say 0 'density +kg/m3' info run/fields/tube_000000.hdf
 say 2 'tube.yaml' info tube.yaml
+say 0 'ended .*exit code 0' info run # a directory: the run
+grep -q 'level 0 .*tiles, 64 cells' out
+grep -qE 'of CPU time; [0-9.e+]+ ns per cell and stage' out
+grep -q 'guard .*nothing to do' out
+if grep -q 'ranks share' out; then echo 'one rank shares'; exit 1; fi
+say 0 'expected +0 of 1 hold' info again
+say 2 'no run is here.*give the output directory' info .
+"$BULLA" run tube.yaml -o shared --quiet -n 2 --set domain.cells=[640] --set run.until=1e-3 --set run.max-steps=80
+say 0 'ranks share it by [01]\.[0-9]* \(weights\), [01]\.[0-9]* \(CPU time\)' info shared
 say 2 'nowhere' info nowhere.hdf
 say 0 '"\$schema"' schema
