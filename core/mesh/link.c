@@ -292,6 +292,16 @@ static void link_store_averages(struct link_draft *draft, struct link_own *own)
         if (!link_here(draft->fine, link->octants[i].fine)) link->octants[i].average = post_in(own->up, in++);
 }
 
+/* Coarse tiles with ends on other ranks. */
+static void link_list_waits(struct link_draft *draft)
+{
+    struct link *link = draft->link;
+    link->waits = mem_new(draft->coarse->n_local, sizeof *link->waits);
+    for (unsigned i = 0; i < link->n_octant; i++)
+        if (!link_here(draft->fine, link->octants[i].fine)) link->waits[link->octants[i].coarse] = true;
+    for (unsigned i = 0; i < draft->n_away; i++) link->waits[link->sources[draft->away[i]].coarse] = true;
+}
+
 static void link_store(struct link_draft *draft)
 {
     struct link_own *own = draft->link->own;
@@ -299,6 +309,7 @@ static void link_store(struct link_draft *draft)
     link_connect(draft, own);
     link_store_faces(draft, own);
     link_store_averages(draft, own);
+    link_list_waits(draft);
     mem_free(draft->away);
 }
 
@@ -343,6 +354,7 @@ void link_free(struct link *link)
     mem_free(link->children);
     mem_free(link->octant_from);
     mem_free(link->octants);
+    mem_free(link->waits);
     mem_free(link);
 }
 
@@ -353,9 +365,20 @@ void link_down(struct link *link)
     post_finish(own->down);
 }
 
-void link_up(struct link *link)
+void link_up_start(struct link *link)
 {
     struct link_own *own = link->own;
     post_start(own->up);
+}
+
+void link_up_finish(struct link *link)
+{
+    struct link_own *own = link->own;
     post_finish(own->up);
+}
+
+void link_up(struct link *link)
+{
+    link_up_start(link);
+    link_up_finish(link);
 }

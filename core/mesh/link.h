@@ -11,6 +11,8 @@
 
 #include "mesh/mesh.h"
 
+#include <stdbool.h>
+
 /* One end of a coarse-fine face. */
 struct link_face {
     uint64_t key;          /* of the fine tile */
@@ -48,6 +50,7 @@ struct link {
     struct link_child *children;
     unsigned n_octant, *octant_from; /* of local coarse tiles, sorted by (coarse tile, octant); as source_from */
     struct link_child *octants;
+    bool *waits; /* of local coarse tiles: averages or registers of theirs come from other ranks */
     void *own;
 };
 
@@ -68,5 +71,10 @@ void link_down(struct link *link);
 /* Registers and averages to the owners of the coarse tiles, after they have been written through `faces` and
  * `children`; registers are then read through `sources`, averages through `octants`. Collective. */
 void link_up(struct link *link);
+
+/* The same in two parts. Between them registers and averages of coarse tiles that do not wait (`waits`) may be read
+ * already, and nothing of `faces` and `children` may be written. */
+void link_up_start(struct link *link);
+void link_up_finish(struct link *link);
 
 #endif

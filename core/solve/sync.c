@@ -222,12 +222,13 @@ static int sync_tile_faces(struct stage *stage, unsigned local, struct sync_work
                        stage->t + stage->dt, stage->guard->cause);
 }
 
-/* Local tiles that averages or refluxing have changed. */
-static int sync_tiles(struct stage *stage, struct sync_work *work)
+/* Local tiles that averages or refluxing have changed: those for which other ranks send something, or the others. */
+static int sync_tiles(struct stage *stage, struct sync_work *work, bool wait)
 {
     const struct link *link = stage->reflux->up;
     int status = STATUS_OK;
     for (unsigned tile = 0; tile < stage->level->n_local && !status; tile++) {
+        if (link->waits[tile] != wait) continue;
         bool faces = link->source_from[tile] < link->source_from[tile + 1];
         guard_attempt(stage->guard);
         if (faces) status = sync_tile_faces(stage, tile, work);
@@ -306,10 +307,13 @@ static int sync_take(struct stage *coarse, struct stage *fine, struct sync_work 
 int sync_up(struct stage *coarse, struct stage *fine, long long *spread)
 {
     struct sync_work work = sync_work_new(coarse, spread);
+    struct link *link = fine->level->link;
     restrict_averages(coarse->mesh, fine->l);
-    link_up(fine->level->link);
+    link_up_start(link);
+    int status = sync_tiles(coarse, &work, false);
+    link_up_finish(link);
     restrict_take(coarse->mesh, fine->l);
-    int status = sync_tiles(coarse, &work);
+    if (!status) status = sync_tiles(coarse, &work, true);
     double found = status ? 2.0 : work.rests ? 1.0 : 0.0; /* one reduction where nothing happens */
     comm_max(&found, 1);
     if (found == 1.0) status = sync_take(coarse, fine, &work);

@@ -159,8 +159,24 @@ static void check_sizes(struct levels *levels, int l)
     assert_int_equal(link->strip_doubles, LEVELS_FIELDS * 2 * (size_t)link_depth(mesh) * (cells << (mesh->dim - 1)));
 }
 
+/* A coarse tile waits if some end of its octants or faces is on another rank. */
+static void check_waits(const struct levels *levels, int l)
+{
+    const struct level *fine = &levels->mesh->levels[l], *coarse = fine - 1;
+    const struct link *link = fine->link;
+    for (unsigned c = 0; c < coarse->n_local; c++) {
+        bool away = false;
+        for (unsigned i = link->octant_from[c]; i < link->octant_from[c + 1]; i++)
+            away = away || link->octants[i].fine >= fine->n_local;
+        for (unsigned i = link->source_from[c]; i < link->source_from[c + 1]; i++)
+            away = away || link->sources[i].fine >= fine->n_local;
+        assert_int_equal(link->waits[c], away);
+    }
+}
+
 static void check_lists(struct levels *levels, int l)
 {
+    check_waits(levels, l);
     check_sizes(levels, l);
     check_faces(levels, l);
     check_children(levels, l);
