@@ -1,6 +1,9 @@
 # Every example in docs/cases.md is a case that `bulla check` accepts. A block's first line names its file; files that
 # others extend or read stand in blocks of their own. The case in the README too.
 set -eu
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
 awk '/^```(yaml|csv|lua)$/ { inside = 1; name = ""; next }
      /^```/ { inside = 0; next }
      inside && name == "" { name = $2; sub(/:$/, "", name); print name }
