@@ -291,19 +291,17 @@ static void curvature_lean(struct curvature *room, const double *cosine)
     }
 }
 
-/* Behind walls with an angle the curvature of what lies before them. */
-static void curvature_behind(struct curvature *room, const double *cosine)
+/* Behind walls with an angle, by one layer, what lies before them, in a block with `layers` around the tile. */
+static void curvature_behind(const struct mesh *mesh, const double *cosine, size_t layers, double *block)
 {
-    const struct mesh *mesh = room->mesh;
-    const struct curvature_grid grid = curvature_grid(mesh, 2 * room->g - 4);
-    size_t layers = (size_t)room->g - 2;
-    for (int face = 0; layers && face < 2 * mesh->dim; face++) {
+    const struct curvature_grid grid = curvature_grid(mesh, 2 * (int)layers);
+    for (int face = 0; layers && cosine && face < 2 * mesh->dim; face++) {
         struct curvature_plane to = curvature_plane(&grid, face / 2, curvature_layer(mesh, layers, face, 0)),
                                from = curvature_plane(&grid, face / 2, curvature_layer(mesh, layers, face, -1));
         for (size_t v = 0; cosine[face] != 0.0 && v < to.n[1]; v++)
             for (size_t u = 0; u < to.n[0]; u++) {
                 size_t at = u * to.stride[0] + v * to.stride[1];
-                room->kappa[to.from + at] = room->kappa[from.from + at];
+                block[to.from + at] = block[from.from + at];
             }
     }
 }
@@ -321,7 +319,7 @@ const double *curvature_take(struct curvature *room, const struct level *level, 
     curvature_normals(room, level, more - 2);
     if (cosine) curvature_lean(room, cosine);
     curvature_divide(room, level, tile, more - 3);
-    if (cosine) curvature_behind(room, cosine);
+    curvature_behind(mesh, cosine, (size_t)room->g - 2, room->kappa);
     memset(room->trust, 0, curvature_room_cells(mesh, 2 * HEIGHTS_AROUND) * sizeof *room->trust);
     return room->kappa;
 }
@@ -363,7 +361,7 @@ static BULLA_KERNEL void curvature_merge_row(size_t n, const double *restrict he
 }
 
 void curvature_heights(struct curvature *room, const struct level *level, const struct tile *tile, const double *a,
-                       const bool poor[MESH_FACES])
+                       const double *cosine, const bool poor[MESH_FACES])
 {
     const struct mesh *mesh = room->mesh;
     const struct curvature_grid wide = curvature_grid(mesh, 2 * room->g - 4),
@@ -371,7 +369,7 @@ void curvature_heights(struct curvature *room, const struct level *level, const 
                                 patch = curvature_grid(mesh, 2 * room->g);
     double *normal[3] = {room->spare, room->normal[0], room->normal[1]}, *heights = room->normal[2];
     for (int d = 0; d < mesh->dim; d++) curvature_room_between(mesh, 2 * room->g - 3, room->normal[d], normal[d]);
-    heights_take(mesh, level, tile, a, normal, heights, room->trust);
+    heights_take(mesh, level, tile, a, normal, cosine, heights, room->trust);
     curvature_doubt(room, poor);
     for (size_t k = 0; k < to.n[2]; k++)
         for (size_t j = 0; j < to.n[1]; j++) {
@@ -381,6 +379,8 @@ void curvature_heights(struct curvature *room, const struct level *level, const 
             curvature_merge_row(to.n[0], heights + at, room->trust + at,
                                 room->kappa + curvature_grid_at(&wide, HEIGHTS_AROUND, j, k));
         }
+    curvature_behind(mesh, cosine, (size_t)room->g - 2, room->kappa);
+    curvature_behind(mesh, cosine, HEIGHTS_AROUND, room->trust);
 }
 
 void curvature_keep(struct curvature *room)

@@ -39,11 +39,11 @@ const double *curvature_take(struct curvature *room, const struct level *level, 
  * surfaces). */
 void curvature_carry(struct curvature *room, const struct level *level, const struct tile *tile);
 
-/* After that, with g = 4: kappa from heights of columns where fronts are thin enough for them (heights.h). poor: faces
- * of the tile behind which fractions are not those of a surface (walls with an angle) or of another mesh; columns do
- * not count there. */
+/* After that, with g = 4: kappa from heights of columns where fronts are thin enough for them (heights.h). cosine: as
+ * for curvature_take; poor: faces of the tile behind which fractions are of another mesh; columns do not count there.
+ */
 void curvature_heights(struct curvature *room, const struct level *level, const struct tile *tile, const double *a,
-                       const bool poor[MESH_FACES]);
+                       const double *cosine, const bool poor[MESH_FACES]);
 
 /* Where a third material is about, a and b have each its surface against all others: curvature_keep keeps kappa of the
  * last call, that of a; curvature_oppose makes it part * kept - (1 - part) * that of the last call, of b. After Smith,

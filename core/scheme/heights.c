@@ -14,6 +14,9 @@ enum { HEIGHTS_REACH = 3 };
 /* Least n_d^2 of columns along d. */
 #define HEIGHTS_STEEP 0.2
 
+/* Least squared sine of an angle at a wall: flatter ones have no columns along it. */
+#define HEIGHTS_LYING 1e-2
+
 /* Tails of fronts: least and most of a material, slowest fall. */
 #define HEIGHTS_TRACE 1e-9
 #define HEIGHTS_FULL 0.999
@@ -30,6 +33,8 @@ struct heights_row {
     const struct metric *metric; /* of the row's cells */
     const double *a;             /* fraction of its first cell, in the patch */
     const struct curvature_grid *patch;
+    const double *cosine; /* of the angles at walls (heights_take); NULL: none */
+    int at[3];            /* its first cell, counted from that of the tile */
     size_t n;
 };
 
@@ -166,12 +171,12 @@ static BULLA_KERNEL void heights_ring_row(size_t n, const double *restrict below
 }
 
 /* kappa in space, from nine columns: t, u: one step along the transverse axes; per: h of the column over theirs. */
-static BULLA_KERNEL void heights_space_row(size_t n, const double *const at[3][3], double per_t, double per_u, double h,
+static BULLA_KERNEL void heights_space_row(size_t n, const double *const at[9], double per_t, double per_u, double h,
                                            double *restrict kappa)
 {
-    const double *restrict o = at[1][1], *restrict b = at[0][1], *restrict t = at[2][1], *restrict l = at[1][0],
-                           *restrict r = at[1][2], *restrict bl = at[0][0], *restrict br = at[0][2],
-                           *restrict tl = at[2][0], *restrict tr = at[2][2];
+    const double *restrict o = at[4], *restrict b = at[1], *restrict t = at[7], *restrict l = at[3],
+                           *restrict r = at[5], *restrict bl = at[0], *restrict br = at[2], *restrict tl = at[6],
+                           *restrict tr = at[8];
     double tt = per_t * per_t / h, uu = per_u * per_u / h, tu = 0.25 * per_t * per_u / h;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
@@ -194,6 +199,85 @@ static void heights_faces(const struct heights_row *row, int across, double *low
     }
 }
 
+/* Heights and turns of three (nine) columns beside each other, of each cell of a row: place 4 + i + j of those i
+ * along one axis and j along the other, with steps of 3 and 1, of 3 and 0 in the plane. */
+struct heights_nine {
+    const double *height[9], *turn[9];
+    double behind[4][3][2][METRIC_CELLS]; /* columns behind walls, if any: their heights and turns */
+};
+
+/* A wall with an angle: its axis and side; steps among the nine across it and along it; h of the columns over that
+ * between them. */
+struct heights_wall {
+    int axis, side, across, along;
+    double per_across, per_along;
+};
+
+/* How much higher columns behind a wall are than those before it: n = H_t/sqrt(1 + H_t^2 + H_u^2) across the wall is
+ * the cosine. */
+static void heights_more(const struct heights_row *row, const struct heights_wall *wall,
+                         const struct heights_nine *nine, double *ret)
+{
+    double cosine = row->cosine[2 * wall->axis + wall->side], sine2 = 1.0 - cosine * cosine;
+    double most = cosine / sqrt(sine2 > HEIGHTS_LYING ? sine2 : HEIGHTS_LYING) / wall->per_across;
+    const double *below = nine->height[4 - wall->along], *above = nine->height[4 + wall->along];
+    for (size_t i = 0; i < row->n; i++) {
+        double slope = 0.5 * (above[i] - below[i]) * wall->per_along;
+        ret[i] = most * sqrt(1.0 + slope * slope);
+    }
+}
+
+/* Columns of cells at the wall get their neighbours behind it. */
+static void heights_behind(const struct heights_row *row, const struct heights_wall *wall, struct heights_nine *nine,
+                           double (*room)[2][METRIC_CELLS])
+{
+    int last = wall->side ? row->mesh->n[wall->axis] - 1 : 0;
+    double more[METRIC_CELLS];
+    heights_more(row, wall, nine, more);
+    for (int j = 0; j < 3; j++) {
+        int from = 4 + (j - 1) * wall->along, to = from + (wall->side ? wall->across : -wall->across);
+        double *height = room[j][0], *turn = room[j][1];
+        for (size_t i = 0; i < row->n; i++) {
+            bool here = row->at[wall->axis] + (wall->axis ? 0 : (int)i) == last;
+            height[i] = here ? nine->height[from][i] + more[i] : nine->height[to][i];
+            turn[i] = here ? nine->turn[from][i] : nine->turn[to][i];
+        }
+        nine->height[to] = height;
+        nine->turn[to] = turn;
+    }
+}
+
+static bool heights_leans(const struct heights_row *row, int axis, int side)
+{
+    return row->cosine && (row->cosine[2 * axis + side] < 0.0 || row->cosine[2 * axis + side] > 0.0);
+}
+
+/* Walls with an angle across the axes between columns: one in the plane, else two. */
+static void heights_walls(const struct heights_row *row, const int axes[2], const double per[2],
+                          struct heights_nine *nine)
+{
+    int n = row->mesh->dim - 1, step[2] = {3, n > 1 ? 1 : 0};
+    for (int d = 0; d < n; d++)
+        for (int side = 0; side < 2; side++)
+            if (heights_leans(row, axes[d], side))
+                heights_behind(row,
+                               &(struct heights_wall){axes[d], side, step[d], step[1 - d], per[d],
+                                                      n > 1 ? per[1 - d] : 0.0},
+                               nine, nine->behind[2 * d + side]);
+}
+
+/* Normals along an axis without those of cells whose columns cross a wall with an angle. */
+static void heights_normal(const struct heights_row *row, int axis, const double *normal, double *ret)
+{
+    int n = row->mesh->n[axis];
+    bool low = heights_leans(row, axis, 0), high = heights_leans(row, axis, 1);
+    for (size_t i = 0; i < row->n; i++) {
+        int at = row->at[axis] + (axis ? 0 : (int)i);
+        bool crosses = (low && at < HEIGHTS_REACH) || (high && at >= n - HEIGHTS_REACH);
+        ret[i] = crosses ? 0.0 : normal[i];
+    }
+}
+
 /* In the plane and around an axis: columns along `axis`, three rows of them, or one where they stand beside each other
  * in it. */
 static void heights_plane(const struct heights_row *row, int axis, const double *normal, struct heights_sum *sum)
@@ -208,39 +292,51 @@ static void heights_plane(const struct heights_row *row, int axis, const double 
     heights_columns(row, axis, row->a, here);
     if (across) heights_columns(row, axis, row->a - step, below);
     if (across) heights_columns(row, axis, row->a + step, above);
+    struct heights_nine nine;
+    const double *const height[3] = {below->height + off, here->height + 1, above->height + on},
+                        *const turn[3] = {below->turn + off, here->turn + 1, above->turn + on};
+    for (int i = 0; i < 3; i++) nine.height[3 * i + 1] = height[i], nine.turn[3 * i + 1] = turn[i];
+    heights_walls(row, (int[2]){across}, (double[2]){per}, &nine);
     heights_faces(row, across, lower, upper);
     for (size_t i = 0; i < n; i++) least[i] = 1.0;
-    heights_least(n, below->turn + off, here->turn + 1, above->turn + on, here->turn + 1, least);
-    heights_plane_row(n, below->height + off, here->height + 1, above->height + on, lower, upper, per, kappa);
+    heights_least(n, nine.turn[1], nine.turn[4], nine.turn[7], nine.turn[4], least);
+    heights_plane_row(n, nine.height[1], nine.height[4], nine.height[7], lower, upper, per, kappa);
     if (axis == 0 && row->mesh->beta == 1)
-        heights_ring_row(n, below->height + off, here->height + 1, above->height + on, per, row->level->h[0], kappa);
+        heights_ring_row(n, nine.height[1], nine.height[4], nine.height[7], per, row->level->h[0], kappa);
     heights_add(n, kappa, least, normal, sum);
 }
 
-/* In space: columns along `axis`, nine rows of them, or three where they stand beside each other in these. */
-static void heights_space(const struct heights_row *row, int axis, const double *normal, struct heights_sum *sum)
+/* Columns along `axis` through nine rows, or three where they stand beside each other in these. */
+static void heights_take_nine(const struct heights_row *row, int axis, struct heights_columns columns[9],
+                              struct heights_nine *ret)
 {
     int t = (axis + 1) % 3, u = (axis + 2) % 3;
-    const size_t *stride = row->patch->stride, n = row->n;
-    struct heights_columns columns[3][3];
-    const double *at[3][3];
-    double kappa[METRIC_CELLS], least[METRIC_CELLS];
-    for (size_t i = 0; i < n; i++) least[i] = 1.0;
+    const size_t *stride = row->patch->stride;
     for (size_t i = 0; i < 3; i++)
         for (size_t j = 0; j < 3; j++) {
             size_t row_t = t ? i : 1, row_u = u ? j : 1, along = t ? (u ? 1 : j) : i;
-            struct heights_columns *of = &columns[row_t][row_u];
+            struct heights_columns *of = &columns[3 * row_t + row_u];
             if (row_t == i && row_u == j)
                 heights_columns(row, axis, row->a + i * stride[t] + j * stride[u] - stride[t] - stride[u], of);
-            at[i][j] = of->height + along;
+            ret->height[3 * i + j] = of->height + along;
+            ret->turn[3 * i + j] = of->turn + along;
         }
-    for (size_t i = 0; i < 3; i++)
-        for (size_t j = 0; j < 3; j++) {
-            const double *turn = columns[t ? i : 1][u ? j : 1].turn + (t ? (u ? 1 : j) : i);
-            heights_least(n, turn, turn, turn, columns[1][1].turn + 1, least);
-        }
-    heights_space_row(n, at, row->level->h[axis] / row->level->h[t], row->level->h[axis] / row->level->h[u],
-                      row->level->h[axis], kappa);
+}
+
+/* In space. */
+static void heights_space(const struct heights_row *row, int axis, const double *normal, struct heights_sum *sum)
+{
+    int t = (axis + 1) % 3, u = (axis + 2) % 3;
+    size_t n = row->n;
+    struct heights_columns columns[9];
+    struct heights_nine nine;
+    double kappa[METRIC_CELLS], least[METRIC_CELLS], h = row->level->h[axis];
+    double per_t = h / row->level->h[t], per_u = h / row->level->h[u];
+    heights_take_nine(row, axis, columns, &nine);
+    heights_walls(row, (int[2]){t, u}, (double[2]){per_t, per_u}, &nine);
+    for (size_t i = 0; i < n; i++) least[i] = 1.0;
+    for (int k = 0; k < 9; k++) heights_least(n, nine.turn[k], nine.turn[k], nine.turn[k], nine.turn[4], least);
+    heights_space_row(n, nine.height, per_t, per_u, h, kappa);
     heights_add(n, kappa, least, normal, sum);
 }
 
@@ -261,13 +357,16 @@ static void heights_one(const struct heights_row *row, const double *const norma
 {
     struct heights_sum sum;
     for (size_t i = 0; i < row->n; i++) sum.kappa[i] = sum.weight[i] = sum.all[i] = 0.0;
-    for (int axis = 0; axis < row->mesh->dim; axis++)
-        (row->mesh->dim == 2 ? heights_plane : heights_space)(row, axis, normal[axis], &sum);
+    for (int axis = 0; axis < row->mesh->dim; axis++) {
+        double along[METRIC_CELLS];
+        heights_normal(row, axis, normal[axis], along);
+        (row->mesh->dim == 2 ? heights_plane : heights_space)(row, axis, along, &sum);
+    }
     heights_end(row->n, &sum, kappa, trust);
 }
 
 void heights_take(const struct mesh *mesh, const struct level *level, const struct tile *tile, const double *a,
-                  double *const normal[3], double *ret_kappa, double *ret_trust)
+                  double *const normal[3], const double *cosine, double *ret_kappa, double *ret_trust)
 {
     const struct curvature_grid patch = curvature_grid(mesh, 2 * HEIGHTS_LAYERS),
                                 to = curvature_grid(mesh, 2 * HEIGHTS_AROUND),
@@ -281,6 +380,8 @@ void heights_take(const struct mesh *mesh, const struct level *level, const stru
                                             .metric = &metric,
                                             .a = a + curvature_grid_at(&patch, HEIGHTS_LAYERS - HEIGHTS_AROUND, j, k),
                                             .patch = &patch,
+                                            .cosine = cosine,
+                                            .at = {-HEIGHTS_AROUND, (int)j - HEIGHTS_AROUND, (int)k - HEIGHTS_AROUND},
                                             .n = to.n[0]};
             size_t at = j * to.stride[1] + k * to.stride[2],
                    from = curvature_grid_at(&normals, HEIGHTS_NORMALS - HEIGHTS_AROUND, j, k);

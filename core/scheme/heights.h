@@ -8,8 +8,10 @@
  * H_u^2) + H_uu (1 + H_t^2) - 2 H_tu H_t H_u)/(1 + H_t^2 + H_u^2)^(3/2). Columns along all axes with a part of the
  * normal that is large enough, n_d^2 > 1/5, count with (n_d^2 - 1/5)^2, so that nothing jumps where the surface turns.
  * A column whose ends lack q of being pure counts less from q = 0.005 on, and not at all from 0.05: fronts of more than
- * some two cells are no matter for columns. Of a disc of 8 cells per radius, painted sharp, kappa is off by 2 % (rms),
- * from normals of smoothed fractions 6 %; waves of 2 pi R/3 get 1.00 of their kappa, there 0.9. */
+ * some two cells are no matter for columns. Where a wall asks for an angle, columns across it do not count within three
+ * cells of it, and those along it have a neighbour behind it whose height makes n keep that angle at the wall (Afkhami
+ * & Bussmann, Int. J. Numer. Methods Fluids 57 (2008) 453-472). Of a disc of 8 cells per radius, painted sharp, kappa
+ * is off by 2 % (rms), from normals of smoothed fractions 6 %; waves of 2 pi R/3 get 1.00 of their kappa, there 0.9. */
 #ifndef HEIGHTS_H
 #define HEIGHTS_H
 
@@ -20,8 +22,9 @@ enum { HEIGHTS_LAYERS = 4, HEIGHTS_NORMALS = 2, HEIGHTS_AROUND = 1 };
 
 /* kappa [1/m] of the surface of the material whose fractions a patch has, positive for a drop, and how much it is to be
  * trusted, from 0 to 1, in the cells of a tile and HEIGHTS_AROUND layers of them (x fastest). normal: of cells, from
- * psi (curvature.h). Not in one dimension. */
+ * psi (curvature.h). cosine: of the angles at walls, by faces of the tile, 0: none; NULL: none anywhere. What it says
+ * behind such walls is of no use. Not in one dimension. */
 void heights_take(const struct mesh *mesh, const struct level *level, const struct tile *tile, const double *a,
-                  double *const normal[3], double *ret_kappa, double *ret_trust);
+                  double *const normal[3], const double *cosine, double *ret_kappa, double *ret_trust);
 
 #endif

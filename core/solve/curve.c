@@ -73,12 +73,11 @@ static bool curve_walls(const struct curve *curve, const struct patch_source *so
     return some;
 }
 
-/* Behind walls with an angle, and on a coarser level, lies nothing that heights can be taken of. */
-static void curve_poor(const struct level *level, unsigned local, const double cosine[MESH_FACES],
-                       bool ret_poor[MESH_FACES])
+/* On a coarser level lies nothing that heights can be taken of. */
+static void curve_poor(const struct level *level, unsigned local, bool ret_poor[MESH_FACES])
 {
     for (int face = 0; face < MESH_FACES; face++)
-        ret_poor[face] = cosine[face] != 0.0 || level->neighbours[local][face].kind == NEIGHBOUR_COARSE;
+        ret_poor[face] = level->neighbours[local][face].kind == NEIGHBOUR_COARSE;
 }
 
 /* All fractions but that of material l. */
@@ -128,8 +127,8 @@ static void curve_pair(const struct curve *curve, const struct level *level, uns
     if (curve->model->n_alpha < 3) {
         curvature_take(curve->room, level, tile, a, b, cosine);
         curvature_carry(curve->room, level, tile);
-        curve_poor(level, local, cosines, poor);
-        curvature_heights(curve->room, level, tile, a, poor);
+        curve_poor(level, local, poor);
+        curvature_heights(curve->room, level, tile, a, cosine, poor);
         return;
     }
     for (int face = 0; cosine && face < MESH_FACES; face++) other[face] = -cosine[face];

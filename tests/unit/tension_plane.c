@@ -142,6 +142,7 @@ static void test_curvature(void **state)
  * [m]. The wall asks all layers of the front for this angle, concentric ones differ by width/R: so it is some cells
  * wide. */
 static double cap_centre, cap_width;
+static int cap_rows = 1; /* at the wall */
 
 static double cap_radius(const double x[3])
 {
@@ -173,15 +174,16 @@ static const struct {
              ", z-: symmetry, z+: reflecting}}",
              3, 2}};
 
-/* kappa of the cap; means of kappa R/turns - 1, of all cells and of those at the wall. */
-static double *cap_curvature(int i, int cells, int tile, const char *angle, bool above, double *ret_all,
+/* kappa of the cap with a front of some cells; means of kappa R/turns - 1, of all cells and of cap_rows rows
+ * at the wall. */
+static double *cap_curvature(int i, int cells, int tile, const char *angle, bool above, double width, double *ret_all,
                              double *ret_row)
 {
     struct flow flow;
     double sum[2] = {0.0}, all[2] = {0.0};
     char *domain =
         mem_print(CAPS[i].domain, cells, angle, i == 1 ? "axis" : "symmetry", above ? "y-" : "y+", above ? "y+" : "y-");
-    cap_width = 1.5 * 20e-6 / cells;
+    cap_width = width * 20e-6 / cells;
     start(&flow, domain, cells, tile, "");
     flow_set(&flow, set_cap);
     curve_take(flow.state->work->curve, 0, flow_level(&flow)->w);
@@ -191,7 +193,7 @@ static double *cap_curvature(int i, int cells, int tile, const char *angle, bool
         flow_centre(&flow, c, x);
         double weight = cap_front(x) * (1.0 - cap_front(x)),
                off = kappa[c] * sharp_radius(CAPS[i].turns, cap_width) / CAPS[i].turns - 1.0;
-        bool wall = x[1] < 20e-6 / cells || x[1] > 20e-6 - 20e-6 / cells;
+        bool wall = x[1] < cap_rows * 20e-6 / cells || x[1] > 20e-6 - cap_rows * 20e-6 / cells;
         for (int k = 0; k < (wall ? 2 : 1); k++) {
             sum[k] += weight * weight * off;
             all[k] += weight * weight;
@@ -218,10 +220,32 @@ static void test_angle(void **state)
             int cells = CAPS[i].dim == 3 ? 32 : 64;
             cap_centre = -RADIUS * cos(ANGLES[a].degrees * M_PI / 180.0);
             for (int fine = 0; fine < 2; fine++)
-                mem_free(cap_curvature(i, cells << fine, 8, ANGLES[a].words, false, &all[fine], &row[fine]));
+                mem_free(cap_curvature(i, cells << fine, 8, ANGLES[a].words, false, 1.5, &all[fine], &row[fine]));
             print_message("%d: %g deg: error of the curvature %.2e, %.2e, at the wall %.2e, %.2e\n", i,
                           ANGLES[a].degrees, all[0], all[1], row[0], row[1]);
             assert_true(fabs(all[1]) < 0.02 && fabs(row[1]) < 0.3);
+        }
+}
+
+/* Columns along the wall know its angle: of a front of a cell kappa is right also in the row at the wall, and better in
+ * the mean of four. */
+static void test_angle_columns(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++)
+        for (int a = 0; a < 2; a++) {
+            double all, row[2];
+            int cells = CAPS[i].dim == 3 ? 32 : 64;
+            const char *angle = a ? "air+water: 60 deg" : "water+air: 60 deg";
+            cap_centre = a ? 0.5 * RADIUS : -0.5 * RADIUS;
+            for (int k = 0; k < 2; k++) {
+                cap_rows = k ? 4 : 1;
+                mem_free(cap_curvature(i, cells, 8, angle, false, 0.9, &all, &row[k]));
+            }
+            cap_rows = 1;
+            print_message("%d: columns at %d deg: %.2e, at the wall %.2e, four rows %.2e\n", i, a ? 120 : 60, all,
+                          row[0], row[1]);
+            assert_true(fabs(all) < 0.01 && fabs(row[0]) < 0.04 && fabs(row[1]) < 0.012);
         }
 }
 
@@ -233,10 +257,10 @@ static void test_angle_mirror(void **state)
         double all, row;
         size_t n = CAPS[i].dim == 3 ? 16 : 32;
         cap_centre = -5e-6;
-        double *below = cap_curvature(i, (int)n, 4, "water+air: 60 deg", false, &all, &row);
-        double *other = cap_curvature(i, (int)n, 8, "water+air: 60 deg", false, &all, &row);
+        double *below = cap_curvature(i, (int)n, 4, "water+air: 60 deg", false, 1.5, &all, &row);
+        double *other = cap_curvature(i, (int)n, 8, "water+air: 60 deg", false, 1.5, &all, &row);
         cap_centre = 25e-6;
-        double *above = cap_curvature(i, (int)n, 8, "water+air: 60 deg", true, &all, &row);
+        double *above = cap_curvature(i, (int)n, 8, "water+air: 60 deg", true, 1.5, &all, &row);
         for (size_t c = 0; c < (CAPS[i].dim == 3 ? n * n * n : n * n); c++) {
             size_t j = c / n % n, up = c + (n - 1 - j) * n - j * n;
             assert_true(below[c] == other[c]);
@@ -325,9 +349,9 @@ static void test_tiles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_balance),      cmocka_unit_test(test_curvature), cmocka_unit_test(test_drop),
-        cmocka_unit_test(test_mirrors),      cmocka_unit_test(test_tiles),     cmocka_unit_test(test_angle),
-        cmocka_unit_test(test_angle_mirror),
+        cmocka_unit_test(test_balance),      cmocka_unit_test(test_curvature),     cmocka_unit_test(test_drop),
+        cmocka_unit_test(test_mirrors),      cmocka_unit_test(test_tiles),         cmocka_unit_test(test_angle),
+        cmocka_unit_test(test_angle_mirror), cmocka_unit_test(test_angle_columns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
