@@ -26,6 +26,7 @@
 #include "run/record.h"
 #include "run/stop.h"
 #include "run/travel.h"
+#include "run/unmixed.h"
 #include "solve/advance.h"
 #include "solve/tag.h"
 
@@ -316,6 +317,7 @@ static int run_files(struct run *run, const struct cli_given *given)
     TRY(record_open(run->state, given->argc, given->argv, past, &run->record));
     record_follow(run->record, run->state);
     run->travel = travel_begin(run->state);
+    if (!run->from) unmixed_say(run->state);
     return STATUS_OK;
 }
 
@@ -386,6 +388,7 @@ static int run_begin(struct run *run, const struct cli_given *given)
 static int run_rehearse(struct run *run, int code)
 {
     if (code) return cli_failed(STATUS_CASE);
+    if (!run->from) unmixed_say(run->state);
     check_ready(run->scene, run->state);
     return STATUS_OK;
 }

@@ -128,6 +128,20 @@ doubt "1e-07 of 'steam' in 'water' of initial\[0\] is a trace" 's/true, material
 doubt "at 550 K (initial\[0\]) the saturation pressure of 'water' is 4.*e+06 Pa, -2. % off that of water" 's/true, material: water, temperature: 360, pressure: 2 bar/true, material: water, temperature: 550, pressure: 100 bar/'
 "$BULLA" check heat.yaml 2>/dev/null | grep -q "would evaporate again from 1.9.* GPa" || fail "no second root"
 
+# A surface on faces of cells, where nothing would evaporate, is told of before the first step; one in cells is not, nor
+# is liquid that boils by itself.
+sed -e '/half-space/d; s/sphere: .*radius: 0.3 mm}/half-space: {normal: [0, 1], point: [0, 0.5 mm]}/' -e '/levels/s/levels: 1.*}]/levels: 0/' \
+    bubble.yaml >face.yaml
+for ranks in 1 2; do
+    "$BULLA" run face.yaml --dry-run -n "$ranks" >out.txt 2>err.txt || fail "a surface on faces" err.txt
+    [ "$(grep -c "phase-change\[0\]: no cell holds both 'water'" err.txt)" = 1 ] || fail "no word of a surface on faces" err.txt
+done
+sed 's/point: \[0, 0.5 mm\]/point: [0, 0.51 mm]/' face.yaml >inside.yaml
+sed 's/gases: \[air\]/&, where: everywhere/' face.yaml >boils.yaml
+for case in inside boils bubble; do
+    "$BULLA" run $case.yaml --dry-run 2>&1 | grep "no cell holds" && fail "warned of $case"
+done
+
 # Water by IAPWS-95 boils into an ideal steam.
 sed -e 's/nasg, preset: water-2016/iapws95, preset: water/; s/ideal-gas, preset: water-2016/ideal-gas, gamma: 1.33, cv: 1398.5/' \
     -e 's/gases: \[air\]/&, calibrate: {temperature: 373.124 K, pressure: 1 atm, latent-heat: 2.2565 MJ\/kg}/' bubble.yaml >iapws.yaml

@@ -1,0 +1,51 @@
+/* unmixed.c - see unmixed.h. */
+#include "run/unmixed.h"
+
+#include "base/comm.h"
+#include "base/log.h"
+#include "mesh/tally.h"
+#include "phys/phase.h"
+
+/* Cells, leaves and those below them alike, that hold liquid, what it evaporates into, and both. */
+enum { UNMIXED_LIQUID, UNMIXED_THIN, UNMIXED_BOTH, UNMIXED_COUNTS };
+
+static void unmixed_count_tile(const struct state *state, const struct scene_phase *pair, const double *u,
+                               long long count[UNMIXED_COUNTS])
+{
+    size_t n = state->mesh->n_cell;
+    const double *alpha = u + state->model->i_alpha * n;
+    for (size_t c = 0; c < n; c++) {
+        double thin = alpha[pair->vapour * n + c];
+        for (unsigned g = 0; g < pair->n_gas; g++) thin += alpha[pair->gas[g] * n + c];
+        bool wet = alpha[pair->liquid * n + c] > PHASE_FELT, dry = thin > PHASE_FELT;
+        count[UNMIXED_LIQUID] += wet;
+        count[UNMIXED_THIN] += dry;
+        count[UNMIXED_BOTH] += wet && dry;
+    }
+}
+
+static void unmixed_count(const struct state *state, const struct scene_phase *pair, long long count[UNMIXED_COUNTS])
+{
+    for (int l = 0; l < state->mesh->n_level; l++) {
+        const struct level *level = &state->mesh->levels[l];
+        for (unsigned t = 0; t < level->n_local; t++) unmixed_count_tile(state, pair, level->u_old[t], count);
+    }
+    comm_sum_counts(count, UNMIXED_COUNTS);
+}
+
+void unmixed_say(const struct state *state)
+{
+    const struct scene *scene = state->scene;
+    for (unsigned k = 0; k < scene->n_phase; k++) {
+        const struct scene_phase *pair = &scene->phases[k];
+        long long count[UNMIXED_COUNTS] = {0};
+        if (pair->everywhere) continue;
+        unmixed_count(state, pair, count);
+        if (count[UNMIXED_LIQUID] && count[UNMIXED_THIN] && !count[UNMIXED_BOTH])
+            log_warn(
+                "phase-change[%u]: no cell holds both '%s' and what it evaporates into; where they touch, their "
+                "surface lies on faces of cells, and no mass is exchanged until it moves into one: move it by part "
+                "of a cell",
+                k, scene->material[pair->liquid].name);
+    }
+}
