@@ -358,9 +358,9 @@ static void heights_one(const struct heights_row *row, const double *const norma
     struct heights_sum sum;
     for (size_t i = 0; i < row->n; i++) sum.kappa[i] = sum.weight[i] = sum.all[i] = 0.0;
     for (int axis = 0; axis < row->mesh->dim; axis++) {
-        double along[METRIC_CELLS];
-        heights_normal(row, axis, normal[axis], along);
-        (row->mesh->dim == 2 ? heights_plane : heights_space)(row, axis, along, &sum);
+        double inside[METRIC_CELLS];
+        if (row->cosine) heights_normal(row, axis, normal[axis], inside);
+        (row->mesh->dim == 2 ? heights_plane : heights_space)(row, axis, row->cosine ? inside : normal[axis], &sum);
     }
     heights_end(row->n, &sum, kappa, trust);
 }
