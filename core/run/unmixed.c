@@ -3,7 +3,6 @@
 
 #include "base/comm.h"
 #include "base/log.h"
-#include "mesh/tally.h"
 #include "phys/phase.h"
 
 /* Cells, leaves and those below them alike, that hold liquid, what it evaporates into, and both. */
@@ -39,7 +38,7 @@ void unmixed_say(const struct state *state)
     for (unsigned k = 0; k < scene->n_phase; k++) {
         const struct scene_phase *pair = &scene->phases[k];
         long long count[UNMIXED_COUNTS] = {0};
-        if (pair->everywhere) continue;
+        if (pair->everywhere || pair->rate == SCENE_PHASE_NONE) continue;
         unmixed_count(state, pair, count);
         if (count[UNMIXED_LIQUID] && count[UNMIXED_THIN] && !count[UNMIXED_BOTH])
             log_warn(

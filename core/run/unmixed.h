@@ -6,8 +6,8 @@
 
 #include "solve/state.h"
 
-/* A warning for each pair that only acts at interfaces, of which no cell holds both sides while both are there.
- * Collective. */
+/* A warning for each pair that exchanges mass at interfaces only, of which no cell holds both sides while both are
+ * there. Collective. */
 void unmixed_say(const struct state *state);
 
 #endif

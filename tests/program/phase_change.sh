@@ -129,7 +129,7 @@ doubt "at 550 K (initial\[0\]) the saturation pressure of 'water' is 4.*e+06 Pa,
 "$BULLA" check heat.yaml 2>/dev/null | grep -q "would evaporate again from 1.9.* GPa" || fail "no second root"
 
 # A surface on faces of cells, where nothing would evaporate, is told of before the first step; one in cells is not, nor
-# is liquid that boils by itself.
+# is liquid that boils by itself, or a pair that exchanges no mass.
 sed -e '/half-space/d; s/sphere: .*radius: 0.3 mm}/half-space: {normal: [0, 1], point: [0, 0.5 mm]}/' -e '/levels/s/levels: 1.*}]/levels: 0/' \
     bubble.yaml >face.yaml
 for ranks in 1 2; do
@@ -138,7 +138,8 @@ for ranks in 1 2; do
 done
 sed 's/point: \[0, 0.5 mm\]/point: [0, 0.51 mm]/' face.yaml >inside.yaml
 sed 's/gases: \[air\]/&, where: everywhere/' face.yaml >boils.yaml
-for case in inside boils bubble; do
+sed 's/gases: \[air\]/&, rate: none/' face.yaml >none.yaml
+for case in inside boils bubble none; do
     "$BULLA" run $case.yaml --dry-run 2>&1 | grep "no cell holds" && fail "warned of $case"
 done
 
