@@ -180,6 +180,14 @@ static const struct key scene_phase_rows[] = {
          "Vapour condenses only where the liquid fills this share of a cell; wherever it is felt, if not given. 0.9 "
          "keeps vapour among gases from condensing, and gases from cooling, in all cells that the surface is smeared "
          "over."},
+    {.name = "nucleus",
+     .type = KEYS_NUMBER,
+     .unit = "1",
+     .min = 1e-5,
+     .max = 0.01,
+     .doc =
+         "Vapour that fills no more of a cell than this does not condense; all does, if not given. Liquid in which a "
+         "bubble has vanished then boils when it is stretched, and bears no tension."},
     {.name = "gas-temperature",
      .type = KEYS_CHOICE,
      .choices = "shared|own",
@@ -318,8 +326,11 @@ static void scene_phase_places(struct draft *draft, const struct keys_map *map, 
         keys_error(&draft->keys, keys_at(map, "onset"),
                    "with 'where: everywhere' liquid evaporates from nothing: 'onset' is for surfaces");
     pair->wet = keys_at(map, "condense-from")->given ? keys_at(map, "condense-from")->number : 0.0;
-    if (pair->direction == SCENE_PHASE_EVAPORATION && keys_at(map, "condense-from")->given)
-        keys_error(&draft->keys, keys_at(map, "condense-from"), "with 'direction: evaporation' nothing condenses");
+    pair->nucleus = keys_at(map, "nucleus")->given ? keys_at(map, "nucleus")->number : 0.0;
+    static const char *const condensing[] = {"condense-from", "nucleus"};
+    for (int i = 0; i < 2; i++)
+        if (pair->direction == SCENE_PHASE_EVAPORATION && keys_at(map, condensing[i])->given)
+            keys_error(&draft->keys, keys_at(map, condensing[i]), "with 'direction: evaporation' nothing condenses");
     scene_phase_apart(draft, map, pair);
     if (!nucleation->map) return;
     const struct keys_value *tension = keys_at(nucleation->map, "tension"),
@@ -365,20 +376,21 @@ static void scene_phase_set(struct draft *draft, const struct keys_value *value,
         keys_error(&draft->keys, value, "%s", status_text());
 }
 
-/* Among gases a vapour is asked at the pressure of all, where it would have condensed if it were alone: ideal gases
+/* Among gases, and in a nucleus, a vapour is asked at the pressure of all, where it would have condensed: ideal gases
  * have a state there, a real one ends at its spinodal. */
 static void scene_phase_thick(struct draft *draft, const struct keys_value *value, const struct scene_phase *pair)
 {
     const struct scene_material *vapour = &draft->scene->material[pair->vapour];
     const struct bulla_eos *law = vapour->eos.module->table;
     double p = 100.0 * pair->curve.p_min, T = pair->curve.T_min, rho = 0.0, v, h, s, v_T, v_p, c_p;
-    if (pair->n_gas == 0 || !pair->mixing) return;
+    bool among = pair->n_gas > 0 && pair->mixing;
+    if (!among && !(pair->nucleus > 0.0)) return;
     law->thermal(vapour->eos.self, 1, &p, &T, &rho, &v, &h, &s, &v_T, &v_p, &c_p);
     if (isfinite(v)) return;
     keys_error(&draft->keys, value,
-               "'%s' has no state at %.4g K and %.4g Pa, beyond its spinodal, where gases at that pressure bring it",
-               vapour->name, T, p);
-    diag_help(draft->keys.diag, "beside gases take an 'ideal-gas' with 'calibrate' for the vapour");
+               "'%s' has no state at %.4g K and %.4g Pa, beyond its spinodal, where %s at that pressure bring%s it",
+               vapour->name, T, p, among ? "gases" : "its 'nucleus'", among ? "" : "s");
+    diag_help(draft->keys.diag, "take an 'ideal-gas' with 'calibrate' for the vapour");
 }
 
 /* The curve of a pair: there must be one. */

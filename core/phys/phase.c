@@ -249,6 +249,12 @@ static double phase_wet(const struct phase_block *block, size_t i)
     return block->w[block->model->i_alpha + block->phase->member[EQUILIBRIUM_LIQUID]][i];
 }
 
+/* Volume fraction of the vapour. */
+static double phase_steam(const struct phase_block *block, size_t i)
+{
+    return block->u[block->model->i_alpha + block->phase->member[EQUILIBRIUM_VAPOUR]][i];
+}
+
 /* Temperatures of all that is there, to what the closure resolves of p. */
 static bool phase_warm(const struct phase_block *block, size_t i, double near)
 {
@@ -273,6 +279,7 @@ static bool phase_fits(struct phase_block *block, size_t i)
         return block->thermal[i] || !(phase_drive_alone(block, i, scene->tension, scene->superheat) < 0.0);
     if (phase_thin(block, i) < scene->onset && phase_held(block, i)) return true;
     if (phase_wet(block, i) < scene->wet && phase_drive(block, i) > 0.0) return true;
+    if (phase_steam(block, i) <= scene->nucleus && phase_drive(block, i) > 0.0) return true;
     block->warm[i] = phase_warm(block, i, near);
     if (!block->warm[i]) return false;
     if (block->thermal[i]) return true;
@@ -332,6 +339,17 @@ static void phase_hold(struct phase_block *block, size_t i, double m_v)
     else phase_take(&point, cells, i);
 }
 
+/* The least vapour that condensation leaves in cell i: what fills the nucleus at the equilibrium's p and T. With it p
+ * is higher, so it fills less, and no second call condenses more. */
+static double phase_nucleus(const struct phase_block *block, size_t i)
+{
+    const struct model_eos *eos = &block->family.eos[EQUILIBRIUM_VAPOUR];
+    double before = block->start.m[EQUILIBRIUM_VAPOUR][i], rho;
+    eos->law->density(eos->self, 1, &block->cells.p[i], &block->cells.T[i], &rho);
+    double least = block->phase->scene->nucleus * rho;
+    return least < before ? least : before;
+}
+
 /* Only as far as the rate, the direction and the end of the curve let it go. `start` has the masses of before, at one p
  * and T where they are asked. */
 static void phase_limit(struct phase_block *block, size_t i, double dt)
@@ -352,6 +370,10 @@ static void phase_limit(struct phase_block *block, size_t i, double dt)
         block->status = block->status ? block->status : status;
     }
     if (wrong || block->thermal[i]) m = before;
+    if (m < before && scene->nucleus > 0.0) {
+        double least = phase_nucleus(block, i);
+        m = m < least ? least : m;
+    }
     if (m < EQUILIBRIUM_NOTHING * all) m = 0.0;
     if (all - m < EQUILIBRIUM_NOTHING * all) m = all;
     if (m != after) phase_hold(block, i, m);

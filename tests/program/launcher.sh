@@ -53,7 +53,10 @@ code=0
 tree/bulla test >log 2>&1 || code=$?
 [ "$code" = 1 ] || fail "failed tests give exit code $code"
 
-# Warnings are errors for tests and in CI, not for who wants to run; only a change configures anew.
+# Warnings are errors in a folder that tests make and in CI, not for who wants to run; only a change configures anew.
+[ "$(calls 'cmake --preset')" = 0 ] || fail "tests after a run build everything a second time"
+rm -rf tree/build
+tree/bulla test >log 2>&1 || true
 grep -q -- '--preset release -DBULLA_WERROR=ON -B' calls || fail "tests forgive warnings"
 : >calls
 tree/bulla test >log 2>&1 || true

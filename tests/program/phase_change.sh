@@ -93,6 +93,7 @@ refused "'air' is a gas" 's/liquid: water, vapour: steam, gases: \[air\]/liquid:
 refused "'water' is a liquid" 's/liquid: water, vapour: steam, gases: \[air\]/liquid: water, vapour: steam, gases: [water]/'
 refused "'steam' is in this pair already" 's/gases: \[air\]/gases: [steam]/'
 refused "'steam' has no state at .* beyond its spinodal" 's/nasg, preset: water-2016/iapws95, preset: water/; s/ideal-gas, preset: water-2016/iapws95-vapour, preset: water-vapour/'
+refused "'steam' has no state at .* where its 'nucleus'" 's/gases: \[air\]/nucleus: 1e-5/; s/nasg, preset: water-2016/iapws95, preset: water/; s/ideal-gas, preset: water-2016/iapws95-vapour, preset: water-vapour/'
 refused "have no saturation curve" 's/ideal-gas, preset: water-2016/ideal-gas, preset: water-vapour/'
 refused "needs the closure kapila" 's/^run:/scheme: {closure: allaire}\nrun:/'
 refused "does not give its entropy and enthalpy" 's/nasg, preset: water-2016/tait/'
@@ -106,6 +107,7 @@ refused "alone, without a third material" 's/^initial:/surface-tension: {water+s
 refused "vapour of no pair" 's/evaporated: steam/evaporated: air/'
 refused "known of the whole domain" 's/evaporated: steam/evaporated: steam, in: air/'
 refused "nothing condenses" 's/gases: \[air\]/direction: evaporation, condense-from: 0.9/'
+refused "nothing condenses" 's/gases: \[air\]/direction: evaporation, nucleus: 1e-5/'
 refused "the pair has no gases" 's/gases: \[air\]/gas-temperature: own/'
 refused "'rate: lua' needs 'shared'" 's/gases: \[air\]/&, gas-temperature: own, rate: {type: lua, lua: "function() return 0 end"}/'
 

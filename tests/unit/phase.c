@@ -71,6 +71,7 @@ static void test_call(void **state)
         {PHASE_BOX_NASG PHASE_BOX_AIR PHASE_BOX_STONE, "{liquid: water, vapour: steam, gases: [air]}"},
         {PHASE_BOX_NASG PHASE_BOX_AIR, "{liquid: water, vapour: steam, gases: [air], mixing: none}"},
         {PHASE_BOX_NASG PHASE_BOX_AIR, "{liquid: water, vapour: steam, gases: [air], where: everywhere}"},
+        {PHASE_BOX_NASG, "{liquid: water, vapour: steam, nucleus: 1e-3}"},
         {PHASE_BOX_NASG PHASE_BOX_AIR, "{liquid: water, vapour: steam, gases: [air], direction: evaporation}"},
         {PHASE_BOX_NASG PHASE_BOX_AIR, "{liquid: water, vapour: steam, gases: [air], direction: condensation}"},
         {PHASE_BOX_NASG PHASE_BOX_AIR PHASE_BOX_STONE,
@@ -241,6 +242,13 @@ static void test_kinds(void **state)
     assert_true(vapour_after(wet, 360.0, 1e5, 0.11) == 0.0);
     assert_true(vapour_after(wet, 360.0, 1e5, 0.09) < 0.0);
     assert_true(vapour_after(wet, 400.0, 1e5, 0.5) > 0.0);
+    static const char nucleus[] = "{liquid: water, vapour: steam, nucleus: 1e-3}";
+    assert_true(vapour_after(nucleus, 360.0, 1e5, 0.9e-3) == 0.0);
+    double all_gone = vapour_after("{liquid: water, vapour: steam}", 360.0, 1e7, 3e-3);
+    double gone = vapour_after(nucleus, 360.0, 1e7, 3e-3) / all_gone;
+    print_message("of vapour at 10 MPa a nucleus leaves %.3g\n", 1.0 - gone);
+    assert_true(gone > 0.8 && gone < 0.95);
+    assert_true(vapour_after(nucleus, 400.0, 1e5, 0.9e-3) > 0.0);
     static const char tense[] = "{liquid: water, vapour: steam, where: everywhere, nucleation: {tension: 2 MPa}}";
     assert_true(vapour_after(tense, 300.0, -1.9e6, 0.0) == 0.0);
     assert_true(vapour_after(tense, 300.0, -2.1e6, 0.0) > 0.0);

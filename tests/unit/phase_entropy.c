@@ -59,6 +59,7 @@ static const char *const families[] = {
     ", gases: [air], gas-temperature: own",
     ", gases: [air], where: everywhere",
     ", gases: [air], condense-from: 0.9, onset: 0.5",
+    ", nucleus: 1e-4",
 };
 
 static void family(size_t pair, size_t rate, size_t kind, const char *air)
