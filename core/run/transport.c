@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Mach numbers below which faces for slow flow are worth a word. */
 #define TRANSPORT_SLOW 0.05
@@ -236,6 +237,25 @@ void transport_print_slow(const struct scene *scene, const struct model *model, 
         "  %-12s flow of %.2g of the slowest speed of sound: with 'scheme: {low-mach: 0.05}' its motion is damped less "
         "by the mesh\n",
         "slow flow", u / c);
+}
+
+/* Is every material a fluid without viscosity? */
+static bool transport_inviscid(const struct scene *scene, const struct model *model)
+{
+    bool solid = false;
+    for (unsigned l = 0; l < scene->n_material; l++) solid = solid || scene->material[l].constitutive.module;
+    return !solid && !model->viscous;
+}
+
+void transport_print_teeth(const struct scene *scene, const struct model *model)
+{
+    const struct bulla_module *limiter = scene->scheme.interface_limiter.module;
+    if (!scene->n_tension || scene->domain.dim < 2 || scene->scheme.low_mach >= 1) return;
+    if (!transport_inviscid(scene, model) || !limiter || strcmp(limiter->name, "superbee") != 0) return;
+    printf(
+        "  %-12s without viscosity nothing damps those that superbee gives a surface: from 16 cells per radius on take "
+        "'scheme: {interface-limiter: thinc}'\n",
+        "teeth");
 }
 
 void transport_print_sticks(const struct scene *scene, const struct model *model)

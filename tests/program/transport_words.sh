@@ -115,3 +115,11 @@ says 'laplace number'
 "$BULLA" run walk.yaml -o tension --set mesh.levels=0 --set 'mesh.refine=[]' --quiet \
     --set 'output={history: {every: 1 step, columns: {p: {min: pressure}, P: {max: pressure}}}}' \
     --set 'expect=[{value: min(p), at-most: -1e4}, {value: max(P), at-most: 5e5}]' >said 2>&1 || fail "the bubble in tension" said
+
+# Surfaces without viscosity get teeth, with superbee and slow faces alone.
+teeth() { "$BULLA" check "$BULLA_SOURCE/cases/verify/$1.yaml" --set "scheme.interface-limiter=$2" --set "scheme.low-mach=$3" 2>&1 | grep -q '^  teeth .*thinc'; }
+teeth k8-mode2 superbee 0.05 || fail "no word of teeth"
+teeth k8-mode2 thinc 0.05 && fail "teeth with thinc"
+teeth k8-mode2 superbee 1 && fail "teeth where faces damp"
+teeth k8-damped superbee 0.05 && fail "teeth where viscosity damps"
+exit 0
