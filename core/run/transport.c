@@ -14,6 +14,9 @@
 /* Mach numbers below which faces for slow flow are worth a word. */
 #define TRANSPORT_SLOW 0.05
 
+/* From this scheme.low-mach on faces damp the teeth of surfaces. */
+#define TRANSPORT_TOOTHLESS 0.2
+
 /* Least side of the cells of a level, and the sums of 1/h and 1/h^2 over the axes. */
 struct transport_cells {
     double h, sum, squares;
@@ -250,11 +253,11 @@ static bool transport_inviscid(const struct scene *scene, const struct model *mo
 void transport_print_teeth(const struct scene *scene, const struct model *model)
 {
     const struct bulla_module *limiter = scene->scheme.interface_limiter.module;
-    if (!scene->n_tension || scene->domain.dim < 2 || scene->scheme.low_mach >= 1) return;
+    if (!scene->n_tension || scene->domain.dim < 2 || scene->scheme.low_mach >= TRANSPORT_TOOTHLESS) return;
     if (!transport_inviscid(scene, model) || !limiter || strcmp(limiter->name, "superbee") != 0) return;
     printf(
         "  %-12s without viscosity nothing damps those that superbee gives a surface: from 16 cells per radius on take "
-        "'scheme: {interface-limiter: thinc}'\n",
+        "'scheme: {interface-limiter: thinc}', or low-mach 0.2\n",
         "teeth");
 }
 
