@@ -89,7 +89,7 @@ static void scene_boil_onset(struct draft *draft, const struct keys_value *value
     diag_warn(draft->keys.diag, &value->node->mark,
               "%s: '%s' of initial[%u] is superheated by %.3g K and boils wherever the mesh brings a trace of vapour",
               value->path, scene->material[pair->liquid].name, index, over);
-    diag_help(draft->keys.diag, "'onset: 0.5' lets it evaporate at its surface only");
+    diag_help(draft->keys.diag, "'onset: 0.99' lets it evaporate at its surface only");
 }
 
 static void scene_boil_range(struct draft *draft, const struct keys_value *value, const struct scene_phase *pair,

@@ -269,6 +269,8 @@ static void bound_fill_rays_far(const struct bound_fill *fill, size_t c, struct 
     for (int d = 0; d < SCENE_AXES; d++) rays->x[d][c] = x[d];
     rays->far_p[c] = start[0];
     rays->far_u[axis][c] = fill->side ? start[cells] : -start[cells];
+    if (fill->bound->model->dim == 1)
+        rays->far_u[axis][c] = 0.0; /* whatever flows at the start, it falls off as 1/r2 */
     for (unsigned k = 0; k + 1 < n; k++) rays->far_u[(axis + 1 + k) % n][c] = start[(2 + k) * cells];
     const struct scene_value *pressure = &bound_fill_boundary(fill)->pressure;
     if (pressure->given) bound_fill_ask(fill, pressure, "far-field pressure", x, &rays->far_p[c]);

@@ -4,8 +4,10 @@
 
 #include "base/mem.h"
 #include "phys/mix.h"
+#include "phys/phase.h"
 #include "phys/row.h"
 #include "scheme/conduction_channel.h"
+#include "scheme/conduction_front.h"
 #include "scheme/conduction_law.h"
 #include "scheme/conduction_plain.h"
 #include "scheme/conduction_wall.h"
@@ -21,7 +23,9 @@ struct conduction {
     double *T, *part, *c, *k;
     double *left, *right; /* what is left of the materials on both sides of the faces */
     double *rest, *width, *series, *q, *pair, *per_d;
-    double *wet[2]; /* on both sides of the faces */
+    double *wet[2];                   /* on both sides of the faces */
+    struct conduction_front *surface; /* of pairs with an `onset`, or NULL */
+    bool front;                       /* the piece has one */
     struct conduction_wall_fault fault;
     int plain;   /* the piece is one of conduction_plain.h, of this material, whose T alone is made; or -1 */
     bool traces; /* some material of the piece is less than CONDUCTION_CHANNEL_FELT of its cell */
@@ -68,6 +72,7 @@ static void *conduction_open(const struct term_room *room)
     double *at = own->rows = mem_new(6 * block + 8 * FACE_ROOM, sizeof *own->rows);
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++, at += block) *blocks[i] = at;
     for (size_t i = 0; i < sizeof single / sizeof *single; i++, at += FACE_ROOM) *single[i] = at;
+    own->surface = conduction_front_new(room->model);
     conduction_set(room->model, own);
     return own;
 }
@@ -75,6 +80,7 @@ static void *conduction_open(const struct term_room *room)
 static void conduction_close(void *data)
 {
     struct conduction *own = data;
+    conduction_front_free(own->surface);
     mem_free(own->rows);
     mem_free(own->fault.message);
     mem_free(own);
@@ -140,7 +146,9 @@ static void conduction_look(const struct term_piece *piece, size_t n, const doub
             conduction_law_ask(path, l, n, T, w + path->i_E * FACE_ROOM, w + (path->i_m + l) * FACE_ROOM,
                                own->k + l * FACE_ROOM);
     }
-    if (own->traces) conduction_weigh(path, n, w, own);
+    own->front = conduction_front_look(own->surface, path, n, own->part);
+    if (own->traces || own->front) conduction_weigh(path, n, w, own);
+    if (own->front) conduction_front_weigh(own->surface, path, n, own->part, own->c, own->T);
 }
 
 /* Temperatures of the only material of a piece. */
@@ -190,18 +198,6 @@ static struct conduction_channel_side conduction_side(const struct conduction_pi
     return (struct conduction_channel_side){own->part + from, own->T + from, own->k + from, own->c + from};
 }
 
-/* Are l and m liquid and vapour (or gas) of one family? */
-static bool conduction_boils(const struct model *path, unsigned l, unsigned m)
-{
-    for (unsigned k = 0; k < path->n_phase; k++) {
-        const struct model_phase *phase = &path->phases[k];
-        bool liquid = phase->member[0] == l || phase->member[0] == m;
-        for (unsigned i = 1; i < phase->n && liquid && l != m; i++)
-            if (phase->member[i] == l || phase->member[i] == m) return true;
-    }
-    return false;
-}
-
 /* k_lm of a liquid and its vapour. */
 static void conduction_meet(const struct conduction_piece *at, unsigned l, unsigned m)
 {
@@ -221,9 +217,10 @@ static void conduction_through(const struct conduction_piece *at, unsigned l, un
     const struct model *path = at->path;
     struct conduction *own = at->own;
     struct conduction_channel_side left = conduction_side(at, l, false), right = conduction_side(at, m, true);
-    if (conduction_boils(path, l, m)) conduction_meet(at, l, m);
+    if (phase_joins(path, l, m)) conduction_meet(at, l, m);
     else conduction_channel_series(at->n, &left, &right, own->series);
     if (own->traces) conduction_channel_bound(at->n, at->most, &left, &right, own->series);
+    if (own->front) conduction_front_take(own->surface, path, l, m, at->n, own->series);
     conduction_channel_flow(at->n, width, own->series, own->per_d, left.T, right.T, q);
 }
 
@@ -319,6 +316,7 @@ static void conduction_faces(const struct term_piece *piece)
         conduction_only(piece, &at, (unsigned)own->plain);
         return;
     }
+    if (own->front) conduction_front_meet(own->surface, at.path, at.n, at.step, at.most, own->k, own->c);
     conduction_alike(piece, &at);
     conduction_unlike(piece, &at);
     conduction_walls(piece, &at);

@@ -3,6 +3,8 @@
 #include "conduction.h"
 
 #include "scheme/conduction_channel.h"
+#include "scheme/conduction_front.h"
+#include "scheme/face.h"
 
 /* --- the channels themselves --- */
 
@@ -86,6 +88,54 @@ static void test_resistance(void **state)
         }
         assert_true(fabs(cross - 1.0) < 1e-12);
     }
+}
+
+/* Liquid, vapour and the heat between their cells, from the left or from the right: cells of 0, 0, 0.2, 0.7, 0.95 and 1
+ * vapour, an onset of 0.9. */
+enum { FRONT_CELLS = 6 };
+static double front_part[2 * FACE_ROOM], front_T[2 * FACE_ROOM], front_k[2 * FACE_ROOM], front_c[2 * FACE_ROOM];
+
+static void front_row(bool mirrored, double T_v, double most, double *k)
+{
+    static const double vapour[FRONT_CELLS] = {0.0, 0.0, 0.2, 0.7, 0.95, 1.0};
+    static struct model path;
+    struct scene_phase pair = {.onset = 0.9};
+    path.n_phase = 1;
+    path.phases[0] = (struct model_phase){.n = 2, .member = {0, 1}, .scene = &pair};
+    for (int j = 0; j < FRONT_CELLS; j++) {
+        int i = mirrored ? FRONT_CELLS - 1 - j : j, v = FACE_ROOM + i;
+        front_part[i] = 1.0 - vapour[j], front_part[v] = vapour[j];
+        front_T[i] = 380.0, front_T[v] = T_v;
+        front_k[i] = K_WATER, front_k[v] = K_AIR;
+        front_c[i] = 4e6, front_c[v] = 800.0;
+    }
+    struct conduction_front *front = conduction_front_new(&path);
+    assert_true(conduction_front_look(front, &path, FRONT_CELLS, front_part));
+    conduction_front_weigh(front, &path, FRONT_CELLS, front_part, front_c, front_T);
+    conduction_front_meet(front, &path, FRONT_CELLS - 1, 1, most, front_k, front_c);
+    for (int i = 0; i < FRONT_CELLS - 1; i++) k[i] = -1.0;
+    conduction_front_take(front, &path, 0, 1, FRONT_CELLS - 1, k);
+    conduction_front_free(front);
+}
+
+/* The last cell of liquid is as far from the surface as its fraction says; behind it heat goes on by what cells hold.
+ */
+static void test_front(void **state)
+{
+    (void)state;
+    const double most = 1e-3, held[2] = {0.3 * 4e6 + 0.7 * 800.0, 0.05 * 4e6 + 0.95 * 800.0};
+    double k[FRONT_CELLS - 1], back[FRONT_CELLS - 1];
+    front_row(false, 380.0, most, k);
+    front_row(true, 380.0, most, back);
+    for (int i = 0; i < FRONT_CELLS - 1; i++) assert_true(k[i] == back[FRONT_CELLS - 2 - i]);
+    assert_true(k[0] == -1.0 && k[1] == -1.0 && k[4] == -1.0); /* liquid alone, vapour alone */
+    assert_true(fabs(k[2] / (K_WATER * (0.7 - 0.2) / (0.5 - 0.2)) - 1.0) < 1e-12);
+    assert_true(fabs(k[3] / (0.5 * most * held[0] * held[1] / (held[0] + held[1])) - 1.0) < 1e-12);
+    assert_true(front_part[3] == 1.0 && front_part[FACE_ROOM + 3] == 0.0); /* mirrored: the liquid has its cell */
+    front_row(false, 380.0, 1e-9, k);
+    assert_true(fabs(k[2] / (0.5 * 1e-9 * 4e6) - 1.0) < 1e-12); /* what the step allows */
+    front_row(false, 400.0, most, k);
+    assert_true(k[2] > 0.0 && k[3] == -1.0); /* a cell whose vapour is warmer is no surface */
 }
 
 /* Half a cell of each in series. */
@@ -294,6 +344,7 @@ int main(void)
         cmocka_unit_test(test_channels_fill_the_face),
         cmocka_unit_test(test_surface),
         cmocka_unit_test(test_resistance),
+        cmocka_unit_test(test_front),
         cmocka_unit_test(test_series),
         cmocka_unit_test(test_mixed_cell),
         cmocka_unit_test(test_conserved),

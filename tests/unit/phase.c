@@ -238,6 +238,12 @@ static void test_kinds(void **state)
     assert_true(vapour_after(onset, 360.0, 1e5, 0.1) < 0.0);
     assert_true(vapour_after(onset, 320.0, 2000.0, 0.1) == 0.0); /* saturation: 10.5 kPa */
     assert_true(vapour_after(onset, 320.0, 500.0, 0.1) > 0.0);
+    static const char thin[] = "{liquid: water, vapour: steam, onset: 0.9}";
+    double freely = vapour_after("{liquid: water, vapour: steam}", 374.0, 1e5, 0.6);
+    assert_true(vapour_after(thin, 374.0, 1e5, 0.49) == 0.0);
+    assert_true(fabs(vapour_after(thin, 374.0, 1e5, 0.6) / freely - 0.02) < 1e-6);
+    assert_true(vapour_after(thin, 374.0, 1e5, 0.91) ==
+                vapour_after("{liquid: water, vapour: steam}", 374.0, 1e5, 0.91));
     static const char wet[] = "{liquid: water, vapour: steam, condense-from: 0.9}";
     assert_true(vapour_after(wet, 360.0, 1e5, 0.11) == 0.0);
     assert_true(vapour_after(wet, 360.0, 1e5, 0.09) < 0.0);

@@ -1,0 +1,207 @@
+/* conduction_front.c - see conduction_front.h. */
+#include "scheme/conduction_front.h"
+
+#include "base/mem.h"
+#include "bulla/module.h"
+#include "phys/phase.h"
+#include "phys/row.h"
+#include "scheme/face.h"
+
+#include <string.h>
+
+/* The least distance to the surface, over that of the centres; what the step allows bounds it before in most scenes. */
+#define CONDUCTION_FRONT_NEAR 0.02
+
+/* Liquid and vapour that differ by less have one temperature. */
+#define CONDUCTION_FRONT_ONE 1e-3
+
+/* Rows of one pair: fraction of vapour and gases; 1 where liquid is at a surface or behind, and as warm as the vapour;
+ * what liquid, vapour and gases of a cell hold [J/(m3 K)]; conductivity of faces. */
+struct conduction_front_rows {
+    double thin[FACE_ROOM], tied[FACE_ROOM], heat[FACE_ROOM], k[FACE_ROOM];
+};
+
+struct conduction_front {
+    struct conduction_front_rows pair[SCENE_PHASES];
+};
+
+struct conduction_front *conduction_front_new(const struct model *model)
+{
+    bool wanted = false;
+    for (unsigned k = 0; k < model->n_phase; k++) wanted = wanted || model->phases[k].scene->onset > 0.0;
+    return wanted ? mem_new(1, sizeof(struct conduction_front)) : NULL;
+}
+
+void conduction_front_free(struct conduction_front *front)
+{
+    mem_free(front);
+}
+
+/* At how many cells the surface or what is behind it lies. */
+static BULLA_KERNEL double conduction_front_count(size_t n, double half, const double *restrict thin)
+{
+    double count = 0.0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) count += thin[i] >= half ? 1.0 : 0.0;
+    return count;
+}
+
+/* Liquid before the surface has the whole cell; nothing is left of what is in it. */
+static BULLA_KERNEL void conduction_front_fill(size_t n, double half, const double *restrict thin,
+                                               double *restrict liquid)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = liquid[i], t = thin[i], whole = a + t, filled = a > 0.0 ? whole : a;
+        liquid[i] = t < half ? filled : a;
+    }
+}
+
+static BULLA_KERNEL void conduction_front_empty(size_t n, double half, const double *restrict thin,
+                                                const double *restrict liquid, double *restrict part)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = part[i], left = liquid[i] > 0.0 ? 0.0 : a;
+        part[i] = thin[i] < half ? left : a;
+    }
+}
+
+static bool conduction_front_pair(const struct model_phase *phase, size_t n, double *part, double *thin)
+{
+    double half = phase_front(phase->scene), *liquid = part + phase->member[0] * (size_t)FACE_ROOM;
+    memset(thin, 0, n * sizeof *thin);
+    for (unsigned j = 1; j < phase->n; j++) row_add(n, part + phase->member[j] * (size_t)FACE_ROOM, thin);
+    if (conduction_front_count(n, half, thin) == 0.0) return false;
+    conduction_front_fill(n, half, thin, liquid);
+    for (unsigned j = 1; j < phase->n; j++)
+        conduction_front_empty(n, half, thin, liquid, part + phase->member[j] * (size_t)FACE_ROOM);
+    return true;
+}
+
+bool conduction_front_look(struct conduction_front *front, const struct model *path, size_t n, double *part)
+{
+    bool any = false;
+    for (unsigned k = 0; k < path->n_phase && front; k++)
+        if (path->phases[k].scene->onset > 0.0)
+            any = conduction_front_pair(&path->phases[k], n, part, front->pair[k].thin) || any;
+    return any;
+}
+
+static BULLA_KERNEL void conduction_front_tie(size_t n, double half, double onset, const double *restrict thin,
+                                              const double *restrict liquid, const double *restrict T_l,
+                                              const double *restrict T_v, double *restrict tied)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double t = thin[i], T = T_l[i], apart = T > T_v[i] ? T - T_v[i] : T_v[i] - T;
+        double one = apart < CONDUCTION_FRONT_ONE * T ? 1.0 : 0.0, behind = t < onset ? 1.0 : one;
+        double there = liquid[i] > 0.0 ? behind : 0.0;
+        tied[i] = t < half ? 0.0 : there;
+    }
+}
+
+static BULLA_KERNEL void conduction_front_hold(size_t n, const double *restrict part, const double *restrict c,
+                                               double *restrict heat)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = part[i], sum = heat[i], more = sum + a * c[i];
+        heat[i] = a > 0.0 ? more : sum;
+    }
+}
+
+void conduction_front_weigh(struct conduction_front *front, const struct model *path, size_t n, const double *part,
+                            const double *c, const double *T)
+{
+    for (unsigned k = 0; k < path->n_phase; k++) {
+        const struct model_phase *phase = &path->phases[k];
+        struct conduction_front_rows *rows = &front->pair[k];
+        size_t liquid = phase->member[0] * (size_t)FACE_ROOM, vapour = phase->member[1] * (size_t)FACE_ROOM;
+        if (!(phase->scene->onset > 0.0)) continue;
+        conduction_front_tie(n, phase_front(phase->scene), phase->scene->onset, rows->thin, part + liquid, T + liquid,
+                             T + vapour, rows->tied);
+        memset(rows->heat, 0, n * sizeof *rows->heat);
+        for (unsigned j = 0; j < phase->n; j++) {
+            size_t row = phase->member[j] * (size_t)FACE_ROOM;
+            conduction_front_hold(n, part + row, c + row, rows->heat);
+        }
+    }
+}
+
+/* Between the last cell of liquid and the surface: k_l/d. */
+static BULLA_KERNEL void conduction_front_touch(size_t n, double half, double most, const double *restrict thin_l,
+                                                const double *restrict thin_r, const double *restrict tied_l,
+                                                const double *restrict tied_r, const double *restrict k_l,
+                                                const double *restrict k_r, const double *restrict c_l,
+                                                const double *restrict c_r, double *restrict k)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = thin_l[i], b = thin_r[i], kl = k_l[i], kr = k_r[i], cl = c_l[i], cr = c_r[i];
+        double tl = tied_l[i], tr = tied_r[i];
+        double before = a < b ? a : b, behind = a < b ? b : a, tied = a < b ? tr : tl;
+        double way = (half - before) / (behind - before), d = way > CONDUCTION_FRONT_NEAR ? way : CONDUCTION_FRONT_NEAR;
+        double wanted = (a < b ? kl : kr) / d, limit = 0.5 * most * (a < b ? cl : cr);
+        double kept = limit < wanted ? limit : wanted, passes = before < half ? kept : 0.0;
+        k[i] = tied > 0.0 ? passes : 0.0;
+    }
+}
+
+/* Between two cells behind the surface, one of which is not yet thin enough to evaporate: as fast as the step allows.
+ */
+static BULLA_KERNEL void conduction_front_pass(size_t n, double onset, double most, const double *restrict thin_l,
+                                               const double *restrict thin_r, const double *restrict tied_l,
+                                               const double *restrict tied_r, const double *restrict heat_l,
+                                               const double *restrict heat_r, double *restrict k)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = heat_l[i], b = heat_r[i], touches = k[i], limit = 0.5 * most * (a * b / (a + b));
+        double least = thin_l[i] < thin_r[i] ? thin_l[i] : thin_r[i], both = tied_l[i] * tied_r[i];
+        double passes = least < onset ? limit : touches;
+        k[i] = both > 0.0 ? passes : touches;
+    }
+}
+
+void conduction_front_meet(struct conduction_front *front, const struct model *path, size_t n, size_t step, double most,
+                           const double *k, const double *c)
+{
+    for (unsigned p = 0; p < path->n_phase; p++) {
+        const struct model_phase *phase = &path->phases[p];
+        struct conduction_front_rows *at = &front->pair[p];
+        const double *k_l = k + phase->member[0] * (size_t)FACE_ROOM, *c_l = c + phase->member[0] * (size_t)FACE_ROOM;
+        if (!(phase->scene->onset > 0.0)) continue;
+        conduction_front_touch(n, phase_front(phase->scene), most, at->thin, at->thin + step, at->tied, at->tied + step,
+                               k_l, k_l + step, c_l, c_l + step, at->k);
+        conduction_front_pass(n, phase->scene->onset, most, at->thin, at->thin + step, at->tied, at->tied + step,
+                              at->heat, at->heat + step, at->k);
+    }
+}
+
+static BULLA_KERNEL void conduction_front_put(size_t n, const double *restrict at_front, double *restrict k)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double here = at_front[i], old = k[i];
+        k[i] = here > 0.0 ? here : old;
+    }
+}
+
+static bool conduction_front_has(const struct model_phase *phase, unsigned l)
+{
+    bool has = false;
+    for (unsigned j = 0; j < phase->n; j++) has = has || phase->member[j] == l;
+    return has;
+}
+
+void conduction_front_take(const struct conduction_front *front, const struct model *path, unsigned l, unsigned m,
+                           size_t n, double *k_lm)
+{
+    for (unsigned p = 0; p < path->n_phase; p++) {
+        const struct model_phase *phase = &path->phases[p];
+        if (!(phase->scene->onset > 0.0) || !conduction_front_has(phase, l) || !conduction_front_has(phase, m))
+            continue;
+        conduction_front_put(n, front->pair[p].k, k_lm);
+    }
+}
