@@ -472,7 +472,11 @@ static void phase_run(struct phase_block *block, size_t stride, double dt, doubl
 int phase_act(const struct model *model, unsigned k, size_t n, size_t stride, double dt, double *w, double *u,
               struct equilibrium_effort *effort)
 {
-    struct phase_block block = {.model = model, .phase = &model->phases[k]};
+    struct phase_block block; /* large: filled as far as it is used */
+    block.model = model;
+    block.phase = &model->phases[k];
+    block.n = 0;
+    block.status = 0;
     phase_family(model, block.phase, &block.family);
     for (size_t i = 0; i < n; i++) {
         if (!phase_meets(model, block.phase, stride, u, i)) continue;
