@@ -2,6 +2,7 @@
 #include "phys/phase.h"
 
 #include "phys/mix.h"
+#include "phys/phase_pair.h"
 #include "phys/phase_rate.h"
 #include "phys/traction.h"
 
@@ -12,7 +13,8 @@
 enum { PHASE_BLOCK = EQUILIBRIUM_BLOCK };
 
 #define PHASE_NEAR 1e-9  /* temperatures and D/(R T) that differ by less fit */
-#define PHASE_TARRY 0.02 /* of what it would: liquid between the front and the `onset` evaporates */
+#define PHASE_TARRY 0.01 /* of what it would: liquid between the front and the `onset` evaporates, */
+#define PHASE_HASTE 2e-3 /* and all of it where its cell would come to rest so much of T lower */
 #define PHASE_TORN 0.1   /* of the saturation pressure: liquid below evaporates whatever `onset` says */
 
 typedef double phase_row[PHASE_BLOCK];
@@ -28,27 +30,12 @@ struct phase_block {
     bool warm[PHASE_BLOCK];    /* temperatures fit */
     bool thermal[PHASE_BLOCK]; /* no exchange: beyond the end of the curve */
     bool alone[PHASE_BLOCK];   /* liquid without vapour, which has to nucleate */
-    bool tarry[PHASE_BLOCK];   /* evaporates little: between front and onset */
+    bool tarry[PHASE_BLOCK];   /* evaporates little: between front and onset, */
+    phase_row hot;             /* of this temperature before */
     bool left[PHASE_BLOCK];    /* the liquid has taken volume that had no vapour left */
     struct equilibrium_cells cells, start;
     int status; /* of scripts */
 };
-
-double phase_front(const struct scene_phase *scene)
-{
-    return scene->onset < 0.5 ? scene->onset : 0.5;
-}
-
-bool phase_joins(const struct model *model, unsigned l, unsigned m)
-{
-    for (unsigned k = 0; k < model->n_phase; k++) {
-        const struct model_phase *phase = &model->phases[k];
-        bool liquid = phase->member[EQUILIBRIUM_LIQUID] == l || phase->member[EQUILIBRIUM_LIQUID] == m;
-        for (unsigned i = EQUILIBRIUM_VAPOUR; i < phase->n && liquid && l != m; i++)
-            if (phase->member[i] == l || phase->member[i] == m) return true;
-    }
-    return false;
-}
 
 static double phase_constant(const struct model_eos *eos)
 {
@@ -295,8 +282,9 @@ static bool phase_fits(struct phase_block *block, size_t i)
     block->alone[i] = !(phase_thin(block, i) > PHASE_FELT);
     if (block->alone[i])
         return block->thermal[i] || !(phase_drive_alone(block, i, scene->tension, scene->superheat) < 0.0);
+    block->hot[i] = block->cells.T[i];
     block->tarry[i] = phase_thin(block, i) < scene->onset && phase_held(block, i);
-    if (block->tarry[i] && phase_thin(block, i) < phase_front(scene)) return true;
+    if (block->tarry[i] && phase_thin(block, i) < phase_pair_front(scene)) return true;
     if (phase_wet(block, i) < scene->wet && phase_drive(block, i) > 0.0) return true;
     if (phase_steam(block, i) <= scene->nucleus && phase_drive(block, i) > 0.0) return true;
     block->warm[i] = phase_warm(block, i, near);
@@ -319,6 +307,7 @@ static void phase_move(struct phase_block *block, size_t i, size_t to)
     block->thermal[to] = block->thermal[i];
     block->alone[to] = block->alone[i];
     block->tarry[to] = block->tarry[i];
+    block->hot[to] = block->hot[i];
     for (unsigned l = 0; l < block->model->n_material; l++)
         block->u[block->model->i_alpha + l][to] = block->u[block->model->i_alpha + l][i];
     for (unsigned k = 0; k < block->family.n; k++) {
@@ -370,6 +359,14 @@ static double phase_nucleus(const struct phase_block *block, size_t i)
     return least < before ? least : before;
 }
 
+/* What liquid between the front and the `onset` evaporates of what it would. Cells behind it take its heat and keep it
+ * near saturation; where there are none, as at a surface that begins sharp, it gets hot. */
+static double phase_haste(const struct phase_block *block, size_t i)
+{
+    double T = block->cells.T[i], over = (block->hot[i] - T) / (PHASE_HASTE * T), share = PHASE_TARRY + over * over;
+    return share < 1.0 ? share : 1.0;
+}
+
 /* Only as far as the rate, the direction and the end of the curve let it go. `start` has the masses of before, at one p
  * and T where they are asked. */
 static void phase_limit(struct phase_block *block, size_t i, double dt)
@@ -389,7 +386,7 @@ static void phase_limit(struct phase_block *block, size_t i, double dt)
         m = phase_rate_step(&point, scene, before, after, dt, &status);
         block->status = block->status ? block->status : status;
     }
-    if (block->tarry[i] && m > before) m = before + PHASE_TARRY * (m - before);
+    if (block->tarry[i] && m > before) m = before + phase_haste(block, i) * (m - before);
     if (wrong || block->thermal[i]) m = before;
     if (m < before && scene->nucleus > 0.0) {
         double least = phase_nucleus(block, i);

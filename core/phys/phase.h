@@ -13,14 +13,6 @@
 /* A phase below this volume fraction is a trace, from which nothing grows. */
 #define PHASE_FELT 1e-6
 
-/* Vapour and gases fill this share of a cell at the surface of a pair with an `onset`: half of it, or less where the
- * onset is less. Cells between it and the onset pass on the heat that comes to them (scheme/conduction_front.h); of
- * what they would evaporate in a stage they evaporate a fiftieth. */
-double phase_front(const struct scene_phase *scene);
-
-/* Are materials l and m the liquid of a pair and its vapour, or a gas beside that? */
-bool phase_joins(const struct model *model, unsigned l, unsigned m);
-
 /* Family k of the model on n cells, components of u and w at q * stride: what the state has come to after dt. w holds
  * pressures from which to start, and gets those of cells that changed. STATUS_OK, or why a script gave no rate. */
 int phase_act(const struct model *model, unsigned k, size_t n, size_t stride, double dt, double *w, double *u,

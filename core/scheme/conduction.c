@@ -4,7 +4,7 @@
 
 #include "base/mem.h"
 #include "phys/mix.h"
-#include "phys/phase.h"
+#include "phys/phase_pair.h"
 #include "phys/row.h"
 #include "scheme/conduction_channel.h"
 #include "scheme/conduction_front.h"
@@ -217,7 +217,7 @@ static void conduction_through(const struct conduction_piece *at, unsigned l, un
     const struct model *path = at->path;
     struct conduction *own = at->own;
     struct conduction_channel_side left = conduction_side(at, l, false), right = conduction_side(at, m, true);
-    if (phase_joins(path, l, m)) conduction_meet(at, l, m);
+    if (phase_pair_joins(path, l, m)) conduction_meet(at, l, m);
     else conduction_channel_series(at->n, &left, &right, own->series);
     if (own->traces) conduction_channel_bound(at->n, at->most, &left, &right, own->series);
     if (own->front) conduction_front_take(own->surface, path, l, m, at->n, own->series);

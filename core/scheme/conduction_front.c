@@ -3,7 +3,7 @@
 
 #include "base/mem.h"
 #include "bulla/module.h"
-#include "phys/phase.h"
+#include "phys/phase_pair.h"
 #include "phys/row.h"
 #include "scheme/face.h"
 
@@ -69,7 +69,7 @@ static BULLA_KERNEL void conduction_front_empty(size_t n, double half, const dou
 
 static bool conduction_front_pair(const struct model_phase *phase, size_t n, double *part, double *thin)
 {
-    double half = phase_front(phase->scene), *liquid = part + phase->member[0] * (size_t)FACE_ROOM;
+    double half = phase_pair_front(phase->scene), *liquid = part + phase->member[0] * (size_t)FACE_ROOM;
     memset(thin, 0, n * sizeof *thin);
     for (unsigned j = 1; j < phase->n; j++) row_add(n, part + phase->member[j] * (size_t)FACE_ROOM, thin);
     if (conduction_front_count(n, half, thin) == 0.0) return false;
@@ -119,8 +119,8 @@ void conduction_front_weigh(struct conduction_front *front, const struct model *
         struct conduction_front_rows *rows = &front->pair[k];
         size_t liquid = phase->member[0] * (size_t)FACE_ROOM, vapour = phase->member[1] * (size_t)FACE_ROOM;
         if (!(phase->scene->onset > 0.0)) continue;
-        conduction_front_tie(n, phase_front(phase->scene), phase->scene->onset, rows->thin, part + liquid, T + liquid,
-                             T + vapour, rows->tied);
+        conduction_front_tie(n, phase_pair_front(phase->scene), phase->scene->onset, rows->thin, part + liquid,
+                             T + liquid, T + vapour, rows->tied);
         memset(rows->heat, 0, n * sizeof *rows->heat);
         for (unsigned j = 0; j < phase->n; j++) {
             size_t row = phase->member[j] * (size_t)FACE_ROOM;
@@ -172,8 +172,8 @@ void conduction_front_meet(struct conduction_front *front, const struct model *p
         struct conduction_front_rows *at = &front->pair[p];
         const double *k_l = k + phase->member[0] * (size_t)FACE_ROOM, *c_l = c + phase->member[0] * (size_t)FACE_ROOM;
         if (!(phase->scene->onset > 0.0)) continue;
-        conduction_front_touch(n, phase_front(phase->scene), most, at->thin, at->thin + step, at->tied, at->tied + step,
-                               k_l, k_l + step, c_l, c_l + step, at->k);
+        conduction_front_touch(n, phase_pair_front(phase->scene), most, at->thin, at->thin + step, at->tied,
+                               at->tied + step, k_l, k_l + step, c_l, c_l + step, at->k);
         conduction_front_pass(n, phase->scene->onset, most, at->thin, at->thin + step, at->tied, at->tied + step,
                               at->heat, at->heat + step, at->k);
     }

@@ -3,11 +3,11 @@
  * On a mesh the surface is smeared over some cells. Were each of them a surface at saturation, liquid in front of it
  * would boil, and were heat to stop at the first of them, it would evaporate there: the velocity would rise inside the
  * smear and leave a part of the liquid behind in the vapour. So the surface is where vapour and gases, `thin`, fill
- * phase_front of a cell. Before it all is liquid. The last such cell touches the surface at the distance d of its
+ * phase_pair_front of a cell. Before it all is liquid. The last such cell touches the surface at the distance d of its
  * centre, by linear interpolation of thin between it and the next (Gibou et al., J. Comput. Phys. 176 (2002)
  * 205-227, 2.2): q = k_l (T_l - T_next)/d,   d = h (front - thin_l)/(thin_next - thin_l). Behind it, up to cells of
  * `onset`, heat goes on as fast as the step allows: the cells share it by the heat that they hold, those of `onset` and
- * more evaporate (phys/phase.h). */
+ * more evaporate (phys/phase.c). */
 #ifndef CONDUCTION_FRONT_H
 #define CONDUCTION_FRONT_H
 
