@@ -5,6 +5,7 @@
 #include "bulla/module.h"
 #include "phys/phase_pair.h"
 #include "phys/row.h"
+#include "scheme/conduction_channel.h"
 #include "scheme/face.h"
 
 #include <string.h>
@@ -12,11 +13,8 @@
 /* The least distance to the surface, over that of the centres; what the step allows bounds it before in most scenes. */
 #define CONDUCTION_FRONT_NEAR 0.02
 
-/* Liquid and vapour that differ by less have one temperature. */
-#define CONDUCTION_FRONT_ONE 1e-3
-
-/* Rows of one pair: fraction of vapour and gases; 1 where liquid is at a surface or behind, and as warm as the vapour;
- * what liquid, vapour and gases of a cell hold [J/(m3 K)]; conductivity of faces. */
+/* Rows of one pair: fraction of vapour and gases; above 0 where liquid is at a surface or behind, and as warm as the
+ * vapour; what liquid, vapour and gases of a cell hold [J/(m3 K)]; conductivity of faces. */
 struct conduction_front_rows {
     double thin[FACE_ROOM], tied[FACE_ROOM], heat[FACE_ROOM], k[FACE_ROOM];
 };
@@ -88,15 +86,13 @@ bool conduction_front_look(struct conduction_front *front, const struct model *p
     return any;
 }
 
+/* tied: in, how much liquid and vapour share one temperature (conduction_channel_wet). */
 static BULLA_KERNEL void conduction_front_tie(size_t n, double half, double onset, const double *restrict thin,
-                                              const double *restrict liquid, const double *restrict T_l,
-                                              const double *restrict T_v, double *restrict tied)
+                                              const double *restrict liquid, double *restrict tied)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double t = thin[i], T = T_l[i], apart = T > T_v[i] ? T - T_v[i] : T_v[i] - T;
-        double one = apart < CONDUCTION_FRONT_ONE * T ? 1.0 : 0.0, behind = t < onset ? 1.0 : one;
-        double there = liquid[i] > 0.0 ? behind : 0.0;
+        double t = thin[i], one = tied[i], behind = t < onset ? 1.0 : one, there = liquid[i] > 0.0 ? behind : 0.0;
         tied[i] = t < half ? 0.0 : there;
     }
 }
@@ -119,8 +115,10 @@ void conduction_front_weigh(struct conduction_front *front, const struct model *
         struct conduction_front_rows *rows = &front->pair[k];
         size_t liquid = phase->member[0] * (size_t)FACE_ROOM, vapour = phase->member[1] * (size_t)FACE_ROOM;
         if (!(phase->scene->onset > 0.0)) continue;
-        conduction_front_tie(n, phase_pair_front(phase->scene), phase->scene->onset, rows->thin, part + liquid,
-                             T + liquid, T + vapour, rows->tied);
+        const struct conduction_channel_side l = {.part = part + liquid, .T = T + liquid},
+                                             v = {.part = part + vapour, .T = T + vapour};
+        conduction_channel_wet(n, &l, &v, rows->tied);
+        conduction_front_tie(n, phase_pair_front(phase->scene), phase->scene->onset, rows->thin, l.part, rows->tied);
         memset(rows->heat, 0, n * sizeof *rows->heat);
         for (unsigned j = 0; j < phase->n; j++) {
             size_t row = phase->member[j] * (size_t)FACE_ROOM;
