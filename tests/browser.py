@@ -6,6 +6,7 @@
 #     until EXPRESSION    of the page's script: answers when it is true
 #     value EXPRESSION    answers with it, as JSON
 #     faults              what went wrong in the page so far: errors of scripts, what its policy forbade
+#     end                 closes the browser: answers when the last of its processes is gone
 #
 # Speaks the DevTools protocol over two pipes (--remote-debugging-pipe), so it needs nothing but Python.
 import json, os, subprocess, sys, time
@@ -55,6 +56,21 @@ def value(expression):
     return call("Runtime.evaluate", page, expression=expression, returnByValue=True)["result"].get("value")
 
 
+def helpers():  # those of its processes that leave its session outlive it a little
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            if os.readlink("/proc/%s/cwd" % name) == os.getcwd() and "chrom" in os.readlink("/proc/%s/exe" % name):
+                return True
+        except OSError: pass  # gone, or not ours
+    return False
+
+
+def end():
+    call("Browser.close")
+    browser.wait()
+    while helpers(): time.sleep(0.01)
+
+
 target = next(t for t in call("Target.getTargets")["targetInfos"] if t["type"] == "page")
 page = call("Target.attachToTarget", targetId=target["targetId"], flatten=True)["sessionId"]
 for domain in ("Page", "Runtime", "Log"): call(domain + ".enable", page)
@@ -71,5 +87,6 @@ for line in sys.stdin:
         while value(what) is not True: time.sleep(0.05)
     if word == "value": answer = json.dumps(value(what))
     if word == "faults": answer = json.dumps(faults)
+    if word == "end": end()
     print(answer, flush=True)
-call("Browser.close")
+    if word == "end": break

@@ -136,7 +136,7 @@ static void model_transport(struct model *model)
         model_viscosity(&model->scene->material[l].viscosity, &model->viscosity[l]);
         model->viscous = model->viscous || model->viscosity[l].law;
     }
-    bool surfaces = model->viscous || model->n_normal;
+    bool surfaces = model->viscous || model->fronts || model->n_normal;
     for (unsigned l = 1; surfaces && l < model->n_alpha; l++)
         model->around[model->n_around++] = (unsigned char)(model->i_alpha + l);
     model->n_around_alpha = model->n_around;

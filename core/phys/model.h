@@ -146,6 +146,7 @@ struct model {
     struct model_pull pulls[SCENE_MATERIALS];
     unsigned n_phase;
     struct model_phase phases[SCENE_PHASES];
+    bool fronts; /* some of them evaporate at the end of their surface alone (scheme/shore.h) */
     unsigned n_fick;
     struct model_fick ficks[SCENE_PHASES];
     unsigned n_normal, i_normal; /* normals of the surfaces of solids (scheme/normal.h): dim, or 0 */
@@ -219,7 +220,7 @@ static inline bool model_jumps(const struct model *path)
 /* Has a path terms that look across edges? */
 static inline bool model_looks_around(const struct model *path)
 {
-    return path->viscous || path->calm || path->n_normal > 0;
+    return path->viscous || path->calm || path->fronts || path->n_normal > 0;
 }
 
 /* Number of stretches of a path: those of its solids, then those of the branches. */

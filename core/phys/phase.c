@@ -12,10 +12,8 @@
 
 enum { PHASE_BLOCK = EQUILIBRIUM_BLOCK };
 
-#define PHASE_NEAR 1e-9  /* temperatures and D/(R T) that differ by less fit */
-#define PHASE_TARRY 0.01 /* of what it would: liquid between the front and the `onset` evaporates, */
-#define PHASE_HASTE 2e-3 /* and all of it where its cell would come to rest so much of T lower */
-#define PHASE_TORN 0.1   /* of the saturation pressure: liquid below evaporates whatever `onset` says */
+#define PHASE_NEAR 1e-9 /* temperatures and D/(R T) that differ by less fit */
+#define PHASE_TORN 0.1  /* of the saturation pressure: liquid below evaporates whatever `onset` says */
 
 typedef double phase_row[PHASE_BLOCK];
 
@@ -23,15 +21,14 @@ typedef double phase_row[PHASE_BLOCK];
 struct phase_block {
     const struct model *model;
     const struct model_phase *phase;
+    const unsigned char *shore; /* of the tile, or NULL */
     struct equilibrium_family family;
     size_t n;
     size_t at[PHASE_BLOCK]; /* place in the tile */
     phase_row u[MODEL_FIELDS], w[MODEL_FIELDS], T[SCENE_MATERIALS], blur;
     bool warm[PHASE_BLOCK];    /* temperatures fit */
-    bool thermal[PHASE_BLOCK]; /* no exchange: beyond the end of the curve */
+    bool thermal[PHASE_BLOCK]; /* no exchange: beyond the end of the curve, or held */
     bool alone[PHASE_BLOCK];   /* liquid without vapour, which has to nucleate */
-    bool tarry[PHASE_BLOCK];   /* evaporates little: between front and onset, */
-    phase_row hot;             /* of this temperature before */
     bool left[PHASE_BLOCK];    /* the liquid has taken volume that had no vapour left */
     struct equilibrium_cells cells, start;
     int status; /* of scripts */
@@ -239,10 +236,13 @@ static double phase_thin(const struct phase_block *block, size_t i)
     return thin;
 }
 
-/* Would liquid evaporate that `onset` holds back? What is stretched to below PHASE_TORN of its saturation pressure is
- * not held: the vapour of such cells would else thin out without end as they are pulled. */
+/* Would liquid evaporate that `onset` holds back? That at the shore is not held: behind it there is none. What is
+ * stretched to below PHASE_TORN of its saturation pressure is not held: the vapour of such cells would else thin out
+ * without end as they are pulled. */
 static bool phase_held(const struct phase_block *block, size_t i)
 {
+    if (!(phase_thin(block, i) < block->phase->scene->onset)) return false;
+    if (block->shore && block->shore[block->at[i]]) return false;
     double share = phase_share(block, i), alone = phase_drive_alone(block, i, 0.0, 0.0);
     bool evaporates = !(share > 0.0) || alone + log(share) < 0.0;
     return evaporates && alone > log(PHASE_TORN);
@@ -282,9 +282,9 @@ static bool phase_fits(struct phase_block *block, size_t i)
     block->alone[i] = !(phase_thin(block, i) > PHASE_FELT);
     if (block->alone[i])
         return block->thermal[i] || !(phase_drive_alone(block, i, scene->tension, scene->superheat) < 0.0);
-    block->hot[i] = block->cells.T[i];
-    block->tarry[i] = phase_thin(block, i) < scene->onset && phase_held(block, i);
-    if (block->tarry[i] && phase_thin(block, i) < phase_pair_front(scene)) return true;
+    bool held = phase_held(block, i);
+    if (held && phase_thin(block, i) < phase_pair_front(scene)) return true;
+    block->thermal[i] = block->thermal[i] || held;
     if (phase_wet(block, i) < scene->wet && phase_drive(block, i) > 0.0) return true;
     if (phase_steam(block, i) <= scene->nucleus && phase_drive(block, i) > 0.0) return true;
     block->warm[i] = phase_warm(block, i, near);
@@ -306,8 +306,6 @@ static void phase_move(struct phase_block *block, size_t i, size_t to)
     block->warm[to] = block->warm[i];
     block->thermal[to] = block->thermal[i];
     block->alone[to] = block->alone[i];
-    block->tarry[to] = block->tarry[i];
-    block->hot[to] = block->hot[i];
     for (unsigned l = 0; l < block->model->n_material; l++)
         block->u[block->model->i_alpha + l][to] = block->u[block->model->i_alpha + l][i];
     for (unsigned k = 0; k < block->family.n; k++) {
@@ -359,14 +357,6 @@ static double phase_nucleus(const struct phase_block *block, size_t i)
     return least < before ? least : before;
 }
 
-/* What liquid between the front and the `onset` evaporates of what it would. Cells behind it take its heat and keep it
- * near saturation; where there are none, as at a surface that begins sharp, it gets hot. */
-static double phase_haste(const struct phase_block *block, size_t i)
-{
-    double T = block->cells.T[i], over = (block->hot[i] - T) / (PHASE_HASTE * T), share = PHASE_TARRY + over * over;
-    return share < 1.0 ? share : 1.0;
-}
-
 /* Only as far as the rate, the direction and the end of the curve let it go. `start` has the masses of before, at one p
  * and T where they are asked. */
 static void phase_limit(struct phase_block *block, size_t i, double dt)
@@ -386,7 +376,6 @@ static void phase_limit(struct phase_block *block, size_t i, double dt)
         m = phase_rate_step(&point, scene, before, after, dt, &status);
         block->status = block->status ? block->status : status;
     }
-    if (block->tarry[i] && m > before) m = before + phase_haste(block, i) * (m - before);
     if (wrong || block->thermal[i]) m = before;
     if (m < before && scene->nucleus > 0.0) {
         double least = phase_nucleus(block, i);
@@ -450,7 +439,6 @@ static void phase_run(struct phase_block *block, size_t stride, double dt, doubl
     phase_fill(block);
     memset(block->warm, 0, sizeof block->warm);
     memset(block->alone, 0, sizeof block->alone);
-    memset(block->tarry, 0, sizeof block->tarry);
     for (size_t i = 0; i < block->n; i++) {
         if (block->left[i]) phase_settle(block, i, stride, w, u);
         if (!phase_fits(block, i)) phase_move(block, i, left++);
@@ -466,12 +454,13 @@ static void phase_run(struct phase_block *block, size_t stride, double dt, doubl
     }
 }
 
-int phase_act(const struct model *model, unsigned k, size_t n, size_t stride, double dt, double *w, double *u,
-              struct equilibrium_effort *effort)
+int phase_act(const struct model *model, unsigned k, size_t n, size_t stride, double dt, const unsigned char *shore,
+              double *w, double *u, struct equilibrium_effort *effort)
 {
     struct phase_block block; /* large: filled as far as it is used */
     block.model = model;
     block.phase = &model->phases[k];
+    block.shore = shore;
     block.n = 0;
     block.status = 0;
     phase_family(model, block.phase, &block.family);

@@ -14,8 +14,10 @@
 #define PHASE_FELT 1e-6
 
 /* Family k of the model on n cells, components of u and w at q * stride: what the state has come to after dt. w holds
- * pressures from which to start, and gets those of cells that changed. STATUS_OK, or why a script gave no rate. */
-int phase_act(const struct model *model, unsigned k, size_t n, size_t stride, double dt, double *w, double *u,
-              struct equilibrium_effort *effort);
+ * pressures from which to start, and gets those of cells that changed. shore[n]: 1 where liquid evaporates although
+ * vapour fills less than the pair's `onset` (scheme/shore.h); NULL: nowhere. STATUS_OK, or why a script gave no rate.
+ */
+int phase_act(const struct model *model, unsigned k, size_t n, size_t stride, double dt, const unsigned char *shore,
+              double *w, double *u, struct equilibrium_effort *effort);
 
 #endif

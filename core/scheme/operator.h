@@ -10,7 +10,8 @@
  * halved begins again from that, so what an operator did is undone with everything else, to the bit. Each level calls
  * it with its own steps; averages of finer levels and refluxing come later, and do not call it.
  *
- * An operator sees one cell at a time: no neighbours, no other tiles. So numbers depend neither on ranks nor on the
+ * An operator sees one cell at a time: no neighbours, no other tiles, but for what the stage has marked of them
+ * (shore.h). So numbers depend neither on ranks nor on the
  * order of tiles. Mass, momentum and energy stay conserved if it conserves them in a cell. docs/extending.md adds
  * one. */
 #ifndef OPERATOR_H
@@ -41,6 +42,7 @@ struct operator_tile {
     double *w;     /* primitives of u, for operators that ask for them; core makes them anew afterwards */
     double *grown; /* [n_solid][n_cell] what plastic strains have grown by in this step: from plastic.c to rupture.c; or
                       NULL */
+    const unsigned char *shore;   /* [n_phase][n_cell] where liquids end (shore.h); NULL: no pair of the scene asks */
     struct operator_fault *fault; /* for who asks scripts: the step is not taken. NULL: nobody looks */
 };
 

@@ -23,7 +23,8 @@ static void phase_change_acts(const struct operator_tile *tile)
 {
     struct equilibrium_effort effort = {0};
     for (unsigned k = 0; k < tile->model->n_phase; k++) {
-        int status = phase_act(tile->model, k, tile->n_cell, tile->n_cell, tile->dt, tile->w, tile->u, &effort);
+        const unsigned char *shore = tile->shore ? tile->shore + k * tile->n_cell : NULL;
+        int status = phase_act(tile->model, k, tile->n_cell, tile->n_cell, tile->dt, shore, tile->w, tile->u, &effort);
         if (!status || !tile->fault || tile->fault->status) continue;
         tile->fault->status = status;
         snprintf(tile->fault->message, sizeof tile->fault->message, "%s", status_text());

@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "phys/mix.h"
+#include "scheme/shore.h"
 #include "solve/evaporate.h"
 #include "solve/rkl.h"
 #include "solve/verdict.h"
@@ -45,6 +46,9 @@ static void adopt_tiles(struct stage *stage, const int *from, const bool *born)
     if (tableau_keeps(stage->tableau))
         stage->previous =
             mem_new(level->n_local * stage->model->n_field * stage->mesh->n_cell, sizeof *stage->previous);
+    mem_free(stage->shore);
+    size_t marks = level->n_local * shore_marks(stage->model, stage->mesh);
+    stage->shore = marks ? mem_new(marks, sizeof *stage->shore) : NULL;
     evaporate_renew(stage);
     rkl_free(stage->rkl);
     stage->rkl = rkl_new(stage);

@@ -17,6 +17,7 @@ void operate_tile(struct stage *stage, unsigned local, double *u, double *w)
                                        .u = u,
                                        .w = w,
                                        .grown = stage->work->grown,
+                                       .shore = stage_shore(stage, local),
                                        .fault = &stage->fault};
     const struct operators *operators = work_operators(stage->work, path);
     evaporate_before(stage, local, u);

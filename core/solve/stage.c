@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "phys/elastic.h"
+#include "scheme/shore.h"
 #include "solve/foresee.h"
 #include "solve/keep.h"
 #include "solve/operate.h"
@@ -36,6 +37,7 @@ void stage_free(struct stage *stage)
     mem_free(stage->census.tiles);
     mem_free(stage->census.behind);
     mem_free(stage->previous);
+    mem_free(stage->shore);
     mem_free(stage->evaporated);
     mem_free(stage);
 }
@@ -126,6 +128,11 @@ static void stage_tile_open(struct stage *stage, unsigned local, enum term_part 
     stage->bound->model = path;
 }
 
+unsigned char *stage_shore(const struct stage *stage, unsigned local)
+{
+    return stage->shore ? stage->shore + local * shore_marks(stage->model, stage->mesh) : NULL;
+}
+
 void stage_rates(struct stage *stage, unsigned local, enum term_part part, double dt, bool counts,
                  struct stage_tile_work *ret)
 {
@@ -135,6 +142,8 @@ void stage_rates(struct stage *stage, unsigned local, enum term_part part, doubl
     sweep.terms = ret->tile.terms;
     rate_take(&ret->tile, stage->work->own, &watch, stage->guard->masked);
     const struct model *path = ret->tile.model;
+    if (path->fronts && part != TERM_DIFFUSION)
+        shore_look(path, stage->mesh, ret->tile.around, stage_shore(stage, local));
     if (sweep.concerned) reflux_keep(stage->reflux, path, local, ret->tile.w, path->kapila ? ret->tile.K : NULL);
 }
 

@@ -32,8 +32,9 @@ struct stage {
     struct guard *guard;
     struct reflux *reflux;
     struct census census;
-    double *previous;   /* [n_local][n_field][n_cell]: conserved fields of the stage before (tableau_keeps), or NULL */
-    double *evaporated; /* masses that change phase in the step under way (evaporate.h), or NULL */
+    double *previous; /* [n_local][n_field][n_cell]: conserved fields of the stage before (tableau_keeps), or NULL */
+    unsigned char *shore;        /* [n_local][shore_marks]: of the stage under way (scheme/shore.h), or NULL */
+    double *evaporated;          /* masses that change phase in the step under way (evaporate.h), or NULL */
     struct operator_fault fault; /* of the attempt under way */
     double at;       /* when its rates are taken, in dt: set by who runs the plan, and by stages within it (rkl.h) */
     int turn;        /* stage under way: its row of the tableau, set by who runs the plan */
@@ -68,6 +69,9 @@ struct stage_tile_work {
  * fluxes count in registers. ret stays valid until the next call. */
 void stage_rates(struct stage *stage, unsigned local, enum term_part part, double dt, bool counts,
                  struct stage_tile_work *ret);
+
+/* Marks of a tile, made with its rates: where liquids of its path end (scheme/shore.h). NULL: no pair asks. */
+unsigned char *stage_shore(const struct stage *stage, unsigned local);
 
 /* `work` for all tiles, at stage->at; those that need the exchange under way when it is finished. */
 void stage_tiles(struct stage *stage, void (*work)(struct stage *stage, unsigned local));

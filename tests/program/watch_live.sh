@@ -72,3 +72,4 @@ comes "!document.querySelector('#news').hidden && document.querySelector('#news'
 comes "document.querySelector('#now .pill').textContent === 'killed' && window.stays"
 say faults
 [ "$answer" = '[]' ] || fail "faults in the page: $answer"
+say end
