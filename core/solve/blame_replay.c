@@ -7,6 +7,7 @@
 #include "phys/mix.h"
 #include "scheme/operators.h"
 #include "scheme/rate.h"
+#include "scheme/shore.h"
 #include "solve/guard.h"
 #include "solve/pace.h"
 
@@ -25,6 +26,7 @@ struct replay {
     void *own[TERMS_MOST];
     const struct tableau *tableau;
     double *rates, *K, *rho_c2, *c2, *u, *w, *grown;
+    unsigned char *shore; /* where liquids end, as scheme/shore.h marks it; or NULL */
 };
 
 static void blame_replay_mesh(struct replay *replay)
@@ -73,6 +75,8 @@ static struct replay *blame_replay_new(const struct model *model, const struct b
     replay->c2 = mem_new(n_cell, sizeof(double));
     replay->u = mem_new(model->n_field * n_cell, sizeof(double));
     replay->w = mem_new(model->n_field * n_cell, sizeof(double));
+    size_t marks = replay->used->fronts ? shore_marks(model, &replay->mesh) : 0;
+    if (marks) replay->shore = mem_new(marks, sizeof *replay->shore);
     if (model->plastic && model->damaged) replay->grown = mem_new(model->n_solid * n_cell, sizeof(double));
     return replay;
 }
@@ -81,6 +85,7 @@ static void blame_replay_free(struct replay *replay)
 {
     double *blocks[] = {replay->rates, replay->K, replay->rho_c2, replay->c2, replay->u, replay->w, replay->grown};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) mem_free(blocks[i]);
+    mem_free(replay->shore);
     terms_free(replay->terms);
     terms_close(replay->own);
     rigid_free(replay->mesh.rigid);
@@ -131,6 +136,7 @@ static void blame_replay_update(struct replay *replay)
     const struct rate_watch watch = {replay, blame_replay_gather, blame_replay_seen, NULL};
     if (replay->mesh.beta) metric_of_tile(&replay->mesh, replay->level, &replay->tile, &metric);
     rate_take(&tile, replay->own, &watch, facts->masked);
+    if (replay->shore) shore_look(replay->used, &replay->mesh, tile.around, replay->shore);
     rate_apply(&tile, replay->own, replay->u);
     rate_mix(&tile, u_old, row->mix, replay->u);
 }
@@ -150,6 +156,7 @@ static void blame_replay_operate(struct replay *replay)
                                        .dt = dt,
                                        .u = replay->u,
                                        .w = replay->w,
+                                       .shore = replay->shore,
                                        .grown = replay->grown};
     operators_of(replay->used, &operators);
     operators_act(&operators, facts->stage + 1 == replay->tableau->n, &tile);

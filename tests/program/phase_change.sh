@@ -47,6 +47,12 @@ ranked hot 1 3
 resumed hot 12 hot-1
 "$BULLA" plan heat.yaml 2>&1 | grep "without conduction" && fail "warned of what is there"
 
+# A step that fails: its replay knows which cells evaporate, to the bit.
+sed -e 's/40 bar/40 bar, velocity: [0, -2000]/' -e 's/scheme: {.*/scheme: {guard: strict, cfl: 0.9}/' hot.yaml >fails.yaml
+"$BULLA" run fails.yaml -o fails --quiet >said 2>&1 && fail "the step did not fail" said
+"$BULLA" info --replay fails/dump_*.h5 >said 2>&1 || fail "the replay gives something else" said
+grep -q ' 0 of [0-9]* cells of the tile$' said || fail "the replay differs" said
+
 # Liquid alone that a wave stretches beyond what it bears.
 sed -e 's/gases: \[air\]}/gases: [air], where: everywhere, nucleation: {tension: 1 MPa}}/' -e '/sphere:/d' \
     -e 's/pressure: 40 bar/pressure: 2 bar, velocity: [0, -20]/' -e '/last(v)\/first/d' -e '/last(M)\/first/d' -e '/last(w) + last/d' bubble.yaml >tension.yaml
