@@ -131,14 +131,14 @@ struct scene_phase {
     bool mixing, everywhere;
     enum scene_phase_rate rate;
     enum scene_phase_direction direction;
-    double time;                   /* of relaxation [s] */
-    double accommodation, area;    /* of hertz-knudsen [1, 1/m] */
-    const struct script *script;   /* of lua: function(p, T, p_eq, share, alpha); [kg/m3/s] */
-    double tension, superheat;     /* what liquid without vapour bears [Pa, K] */
-    double onset;                  /* liquid evaporates where vapour and gases fill this share of the cell */
-    double wet;                    /* vapour condenses where the liquid fills this share of the cell */
-    double nucleus;                /* vapour that fills no more of a cell than this does not condense */
-    bool apart;                    /* gases keep the heat they have: they share pressure and moles alone */
+    double time;                 /* of relaxation [s] */
+    double accommodation, area;  /* of hertz-knudsen [1, 1/m] */
+    const struct script *script; /* of lua: function(p, T, p_eq, share, alpha); [kg/m3/s] */
+    double tension, superheat;   /* what liquid without vapour bears [Pa, K] */
+    double onset;   /* liquid evaporates where vapour and gases fill this share of the cell, or beside such */
+    double wet;     /* vapour condenses where the liquid fills this share of the cell */
+    double nucleus; /* vapour that fills no more of a cell than this does not condense */
+    bool apart;     /* gases keep the heat they have: they share pressure and moles alone */
     struct saturation_range curve; /* of liquid and vapour */
 };
 

@@ -167,10 +167,10 @@ static const struct key scene_phase_rows[] = {
      .type = KEYS_NUMBER,
      .unit = "1",
      .min = KEYS_POSITIVE,
-     .max = 0.99,
-     .doc = "Liquid evaporates only where vapour and gases fill this share of a cell; wherever they are felt, if not "
-            "given. 0.99 keeps the surface of superheated liquid sharp. Liquid below a tenth of its saturation "
-            "pressure evaporates, and vapour condenses, all the same."},
+     .max = 0.999,
+     .doc = "Liquid evaporates only where vapour and gases fill this share of a cell or of one beside it; wherever "
+            "they are felt, if not given. 0.99 keeps the surface of superheated liquid sharp. Liquid below a tenth of "
+            "its saturation pressure evaporates, and vapour condenses, all the same."},
     {.name = "condense-from",
      .type = KEYS_NUMBER,
      .unit = "1",

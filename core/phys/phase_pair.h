@@ -9,9 +9,8 @@
 bool phase_pair_joins(const struct model *model, unsigned l, unsigned m);
 
 /* Vapour and gases fill this share of a cell at the surface of a pair with an `onset`: half of it, or less where the
- * onset is less. Cells between it and the onset pass on the heat that comes to them (scheme/conduction_front.h); of
- * what they would evaporate in a stage they evaporate a hundredth, and more with the square of their superheat
- * (phase.c). */
+ * onset is less. Cells between it and the onset pass on the heat that comes to them (scheme/conduction_front.h); only
+ * those at the shore (scheme/shore.h) evaporate. */
 double phase_pair_front(const struct scene_phase *scene);
 
 #endif

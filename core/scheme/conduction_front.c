@@ -35,12 +35,13 @@ void conduction_front_free(struct conduction_front *front)
     mem_free(front);
 }
 
-/* At how many cells the surface or what is behind it lies. */
-static BULLA_KERNEL double conduction_front_count(size_t n, double half, const double *restrict thin)
+/* How many cells are not liquid alone. Not how many are behind the surface: what a face lets through must not depend on
+ * where a tile ends. */
+static BULLA_KERNEL double conduction_front_count(size_t n, const double *restrict thin)
 {
     double count = 0.0;
 #pragma omp simd reduction(+ : count)
-    for (size_t i = 0; i < n; i++) count += thin[i] >= half ? 1.0 : 0.0;
+    for (size_t i = 0; i < n; i++) count += thin[i] > 0.0 ? 1.0 : 0.0;
     return count;
 }
 
@@ -70,7 +71,7 @@ static bool conduction_front_pair(const struct model_phase *phase, size_t n, dou
     double half = phase_pair_front(phase->scene), *liquid = part + phase->member[0] * (size_t)FACE_ROOM;
     memset(thin, 0, n * sizeof *thin);
     for (unsigned j = 1; j < phase->n; j++) row_add(n, part + phase->member[j] * (size_t)FACE_ROOM, thin);
-    if (conduction_front_count(n, half, thin) == 0.0) return false;
+    if (conduction_front_count(n, thin) == 0.0) return false;
     conduction_front_fill(n, half, thin, liquid);
     for (unsigned j = 1; j < phase->n; j++)
         conduction_front_empty(n, half, thin, liquid, part + phase->member[j] * (size_t)FACE_ROOM);

@@ -7,7 +7,8 @@
  * centre, by linear interpolation of thin between it and the next (Gibou et al., J. Comput. Phys. 176 (2002)
  * 205-227, 2.2): q = k_l (T_l - T_next)/d,   d = h (front - thin_l)/(thin_next - thin_l). Behind it, up to cells of
  * `onset`, heat goes on as fast as the step allows: the cells share it by the heat that they hold, those of `onset` and
- * more evaporate (phys/phase.c). */
+ * more, and those beside such, evaporate (scheme/shore.h). What a face lets through depends on the cells beside it
+ * alone, not on where a tile ends. */
 #ifndef CONDUCTION_FRONT_H
 #define CONDUCTION_FRONT_H
 
@@ -21,7 +22,7 @@ struct conduction_front *conduction_front_new(const struct model *model);
 void conduction_front_free(struct conduction_front *front);
 
 /* Looks for surfaces in n cells. part: fractions, [n_material] with pitch FACE_ROOM; those of liquid take in the vapour
- * and the gases of cells before a surface. False: there is none; then the calls below may be left out. */
+ * and the gases of cells before a surface. False: all is liquid, or none is; then the calls below may be left out. */
 bool conduction_front_look(struct conduction_front *front, const struct model *path, size_t n, double *part);
 
 /* What the cells hold: part as it is now, capacities of own volumes c [J/(m3 K)] and temperatures T [K], pitched alike.

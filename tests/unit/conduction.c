@@ -95,13 +95,14 @@ static void test_resistance(void **state)
 enum { FRONT_CELLS = 6 };
 static double front_part[2 * FACE_ROOM], front_T[2 * FACE_ROOM], front_k[2 * FACE_ROOM], front_c[2 * FACE_ROOM];
 
+static struct scene_phase front_pair = {.onset = 0.9};
+static struct model front_path;
+
 static void front_row(bool mirrored, double T_v, double most, double *k)
 {
     static const double vapour[FRONT_CELLS] = {0.0, 0.0, 0.2, 0.7, 0.95, 1.0};
-    static struct model path;
-    struct scene_phase pair = {.onset = 0.9};
-    path.n_phase = 1;
-    path.phases[0] = (struct model_phase){.n = 2, .member = {0, 1}, .scene = &pair};
+    front_path.n_phase = 1;
+    front_path.phases[0] = (struct model_phase){.n = 2, .member = {0, 1}, .scene = &front_pair};
     for (int j = 0; j < FRONT_CELLS; j++) {
         int i = mirrored ? FRONT_CELLS - 1 - j : j, v = FACE_ROOM + i;
         front_part[i] = 1.0 - vapour[j], front_part[v] = vapour[j];
@@ -109,12 +110,12 @@ static void front_row(bool mirrored, double T_v, double most, double *k)
         front_k[i] = K_WATER * (1.0 + 0.1 * j), front_k[v] = K_AIR;
         front_c[i] = 4e6, front_c[v] = 800.0;
     }
-    struct conduction_front *front = conduction_front_new(&path);
-    assert_true(conduction_front_look(front, &path, FRONT_CELLS, front_part));
-    conduction_front_weigh(front, &path, FRONT_CELLS, front_part, front_c, front_T);
-    conduction_front_meet(front, &path, FRONT_CELLS - 1, 1, most, front_k, front_c);
+    struct conduction_front *front = conduction_front_new(&front_path);
+    assert_true(conduction_front_look(front, &front_path, FRONT_CELLS, front_part));
+    conduction_front_weigh(front, &front_path, FRONT_CELLS, front_part, front_c, front_T);
+    conduction_front_meet(front, &front_path, FRONT_CELLS - 1, 1, most, front_k, front_c);
     for (int i = 0; i < FRONT_CELLS - 1; i++) k[i] = -1.0;
-    conduction_front_take(front, &path, 0, 1, FRONT_CELLS - 1, k);
+    conduction_front_take(front, &front_path, 0, 1, FRONT_CELLS - 1, k);
     conduction_front_free(front);
 }
 
@@ -136,6 +137,21 @@ static void test_front(void **state)
     assert_true(fabs(k[2] / (0.5 * 1e-9 * 4e6) - 1.0) < 1e-12); /* what the step allows */
     front_row(false, 400.0, most, k);
     assert_true(k[2] > 0.0 && k[3] == -1.0); /* a cell whose vapour is warmer is no surface */
+}
+
+/* A piece that ends before the surface has the same liquid as one that goes on: where a tile ends changes nothing. */
+static void test_front_tiles(void **state)
+{
+    (void)state;
+    double k[FRONT_CELLS - 1];
+    front_row(false, 380.0, 1e-3, k); /* makes front_path and the cells */
+    for (int i = 0; i < FRONT_CELLS; i++) front_part[i] = i < 3 ? 1.0 - 0.1 * i : 1.0 - 0.2 * i;
+    for (int i = 0; i < FRONT_CELLS; i++) front_part[FACE_ROOM + i] = 1.0 - front_part[i];
+    struct conduction_front *front = conduction_front_new(&front_path);
+    assert_true(conduction_front_look(front, &front_path, 3, front_part)); /* no vapour, 0.1, 0.2 */
+    for (int i = 0; i < 3; i++) assert_true(front_part[i] == 1.0 && front_part[FACE_ROOM + i] == 0.0);
+    assert_false(conduction_front_look(front, &front_path, 1, front_part)); /* liquid alone */
+    conduction_front_free(front);
 }
 
 /* Half a cell of each in series. */
@@ -345,6 +361,7 @@ int main(void)
         cmocka_unit_test(test_surface),
         cmocka_unit_test(test_resistance),
         cmocka_unit_test(test_front),
+        cmocka_unit_test(test_front_tiles),
         cmocka_unit_test(test_series),
         cmocka_unit_test(test_mixed_cell),
         cmocka_unit_test(test_conserved),
