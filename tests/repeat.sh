@@ -4,7 +4,7 @@
 # BULLA_NIGHT, the day of the year. Says how often each held; what failed stays in BUILD/tests/runs/repeat/TEST-SEED, with
 # its output in `output`. A process that a test leaves behind counts as a failure. Ends with 1 if anything failed.
 # Ended by a signal (`timeout 300 tests/repeat.sh ...`), it says what has been seen so far. BULLA_REPEAT_SECONDS: no test begins
-# again after so long, however often it ran.
+# again after so long, however often it ran. BULLA_REPEAT_FIRST: the first seed, to go on where it ended; 1 if not given.
 set -eu
 [ $# -ge 3 ] || { sed -n '2,8s/^# //p' "$0"; exit 2; }
 BULLA_SOURCE=$(cd "$(dirname -- "$0")/.." && pwd)
@@ -59,7 +59,7 @@ status=0
 for test; do
     held=0 tried=0 end=$(($(date +%s) + ${BULLA_REPEAT_SECONDS:-86400}))
     while [ "$tried" -lt "$count" ] && [ "$(date +%s)" -lt "$end" ]; do
-        if try "$test" $((tried + 1)); then held=$((held + 1)); else status=1; fi
+        if try "$test" $((${BULLA_REPEAT_FIRST:-1} + tried)); then held=$((held + 1)); else status=1; fi
         tried=$((tried + 1))
     done
     say

@@ -2,7 +2,6 @@
 #include "phys/phase.h"
 
 #include "phys/mix.h"
-#include "phys/phase_pair.h"
 #include "phys/phase_rate.h"
 #include "phys/traction.h"
 
@@ -282,9 +281,7 @@ static bool phase_fits(struct phase_block *block, size_t i)
     block->alone[i] = !(phase_thin(block, i) > PHASE_FELT);
     if (block->alone[i])
         return block->thermal[i] || !(phase_drive_alone(block, i, scene->tension, scene->superheat) < 0.0);
-    bool held = phase_held(block, i);
-    if (held && phase_thin(block, i) < phase_pair_front(scene)) return true;
-    block->thermal[i] = block->thermal[i] || held;
+    block->thermal[i] = block->thermal[i] || phase_held(block, i);
     if (phase_wet(block, i) < scene->wet && phase_drive(block, i) > 0.0) return true;
     if (phase_steam(block, i) <= scene->nucleus && phase_drive(block, i) > 0.0) return true;
     block->warm[i] = phase_warm(block, i, near);

@@ -248,7 +248,7 @@ static void test_onset(void **state)
     assert_true(vapour_after(onset, 320.0, 500.0, 0.1) > 0.0);
 }
 
-/* Between the front and the onset liquid and vapour share a temperature; before the front they keep theirs. */
+/* Liquid that waits shares a temperature with what vapour there is, before the front and behind it. */
 static void test_onset_heat(void **state)
 {
     (void)state;
@@ -270,7 +270,7 @@ static void test_onset_heat(void **state)
         for (unsigned l = 0; l < 2; l++)
             model->eos[l].law->temperature(model->eos[l].self, 1, &w[model->i_m + l], &w[model->i_E], &now[l]);
         assert_true(u[model->i_m + 1] == vapour);
-        assert_true(fabs(now[1] - now[0] - (behind ? 0.0 : 44.0)) < 1e-6);
+        assert_true(fabs(now[1] - now[0]) < 1e-6);
         flow_stop(&flow);
     }
 }
