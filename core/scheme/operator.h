@@ -11,9 +11,8 @@
  * it with its own steps; averages of finer levels and refluxing come later, and do not call it.
  *
  * An operator sees one cell at a time: no neighbours, no other tiles, but for what the stage has marked of them
- * (shore.h). So numbers depend neither on ranks nor on the
- * order of tiles. Mass, momentum and energy stay conserved if it conserves them in a cell. docs/extending.md adds
- * one. */
+ * (shore.h). So numbers depend neither on ranks nor on the order of tiles. Mass, momentum and energy stay conserved if
+ * it conserves them in a cell. docs/extending.md adds one. */
 #ifndef OPERATOR_H
 #define OPERATOR_H
 

@@ -201,8 +201,7 @@ static void test_rate(void **state)
     }
 }
 
-/* What is missing falls to 1/e in the given time; `none` shares temperatures alone; liquid bears its tension and no
- * more. */
+/* Mass of vapour that one call makes of a cell, at the shore or not. */
 static double vapour_made(const char *phase, double T, double p, double alpha, const unsigned char *shore)
 {
     struct flow flow;
@@ -275,6 +274,8 @@ static void test_onset_heat(void **state)
     }
 }
 
+/* What is missing falls to 1/e in the given time; `none` shares temperatures alone; liquid bears its tension and no
+ * more. */
 static void test_kinds(void **state)
 {
     (void)state;
