@@ -141,19 +141,27 @@ static void checkpoint_note_evaporated(const struct state *state, struct notes *
     }
 }
 
+/* Cell-steps, and most cells at a time, one after the other. */
+static void checkpoint_note_cells(struct notes *notes, const char *name, unsigned n, const long long *sum,
+                                  const long long *most)
+{
+    double cells[2 * SCENE_MATERIALS];
+    for (unsigned i = 0; i < n; i++) {
+        cells[2 * i] = (double)sum[i];
+        cells[2 * i + 1] = (double)most[i];
+    }
+    if (n) notes_put(notes, name, 2 * n, cells);
+}
+
 /* Counts about laws. */
-static void checkpoint_note_laws(const struct state_counts *counts, unsigned n_material, struct notes *notes)
+static void checkpoint_note_laws(const struct state_counts *counts, const struct model *model, struct notes *notes)
 {
     const struct mix_effort *closures = &counts->closures;
-    double outside[2 * SCENE_MATERIALS];
-    for (unsigned l = 0; l < n_material; l++) {
-        outside[2 * l] = (double)counts->outside[l];
-        outside[2 * l + 1] = (double)counts->outside_most[l];
-    }
     notes_put(notes, "counts.closures", 4,
               (double[]){(double)closures->solved, (double)closures->steps, (double)closures->failed,
                          (double)closures->most});
-    notes_put(notes, "counts.outside", 2 * n_material, outside);
+    checkpoint_note_cells(notes, "counts.outside", model->n_material, counts->outside, counts->outside_most);
+    checkpoint_note_cells(notes, "counts.past", model->n_phase, counts->past, counts->past_most);
 }
 
 /* The numbers of a state, as rebuild.c reads them back. */
@@ -172,7 +180,7 @@ static void checkpoint_note(const struct state *state, struct notes *notes)
     notes_put(notes, "state.level_steps", MESH_LEVELS, steps);
     notes_put(notes, "counts.of_all_ranks", 6, sums);
     notes_put_one(notes, "cells.carried", (double)counts.carried);
-    checkpoint_note_laws(&counts, state->model->n_material, notes);
+    checkpoint_note_laws(&counts, state->model, notes);
     checkpoint_note_tagged(state, notes);
     checkpoint_note_evaporated(state, notes);
     notes_put(notes, "counts.of_each_rank", 2, (double[]){(double)counts.retries, (double)counts.regrids});

@@ -318,6 +318,8 @@ static char *provenance_compose(const struct provenance *provenance, const struc
     json_object_set_new(root, "guard", provenance_guard(&cost->counts));
     json_object_set_new(root, "closures", provenance_laws_closures(&cost->counts));
     json_object_set_new(root, "outside", provenance_laws_outside(state->model, &cost->counts));
+    if (state->scene->n_phase)
+        json_object_set_new(root, "past_curve", provenance_laws_past(state->scene, &cost->counts));
     json_object_set_new(root, "levels", provenance_levels(provenance, state, cost));
     json_object_set_new(root, "cpu_split_s", provenance_split(cost));
     json_object_set_new(root, "refinement", provenance_refinement(cost));

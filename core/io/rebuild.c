@@ -83,20 +83,30 @@ static int rebuild_steps(const struct resume *resume, struct state_source *sourc
     return STATUS_OK;
 }
 
+/* What checkpoint_note_cells wrote; older checkpoints do not have it. */
+static bool rebuild_cells(const struct resume *resume, const char *name, unsigned n, long long *sum, long long *most)
+{
+    double cells[2 * SCENE_MATERIALS] = {0};
+    notes_get(&resume->notes, name, 2 * n, cells);
+    if (!rebuild_is_count(2 * n, cells)) return false;
+    for (unsigned i = 0; i < n; i++) {
+        sum[i] = (long long)cells[2 * i];
+        most[i] = (long long)cells[2 * i + 1];
+    }
+    return true;
+}
+
 /* Counts about laws, which older checkpoints do not have. Those of closures go on with rank 0. */
 static int rebuild_laws(const struct rebuild *rebuild, struct state_counts *ret_counts)
 {
     const struct resume *resume = rebuild->from;
-    unsigned n = rebuild->scene->n_material;
-    double closures[4] = {0}, outside[2 * SCENE_MATERIALS] = {0};
+    const struct scene *scene = rebuild->scene;
+    double closures[4] = {0};
     notes_get(&resume->notes, "counts.closures", 4, closures);
-    notes_get(&resume->notes, "counts.outside", 2 * n, outside);
-    if (!rebuild_is_count(4, closures) || !rebuild_is_count(2 * n, outside))
+    if (!rebuild_is_count(4, closures) ||
+        !rebuild_cells(resume, "counts.outside", scene->n_material, ret_counts->outside, ret_counts->outside_most) ||
+        !rebuild_cells(resume, "counts.past", scene->n_phase, ret_counts->past, ret_counts->past_most))
         return resume_damaged(resume, "counts that no run can have");
-    for (unsigned l = 0; l < n; l++) {
-        ret_counts->outside[l] = (long long)outside[2 * l];
-        ret_counts->outside_most[l] = (long long)outside[2 * l + 1];
-    }
     if (comm_rank() != 0) return STATUS_OK;
     ret_counts->closures = (struct mix_effort){.solved = (long long)closures[0],
                                                .steps = (long long)closures[1],

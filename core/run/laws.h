@@ -4,7 +4,8 @@
 
 #include "solve/state.h"
 
-/* What iterated pressures took, and a warning per material whose law was left: how often, and where it ends.
+/* What iterated pressures took, and a warning per material whose law was left: how often, and where it ends;
+ * likewise of liquids and vapours past the end of their saturation curve.
  * Collective. */
 void laws_say(const struct state *state);
 

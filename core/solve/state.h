@@ -26,7 +26,10 @@ struct state_counts {
     /* per material, both the same on all ranks (beyond.h): */
     long long outside[SCENE_MATERIALS];      /* cell-steps in which a continuation stood in for its law */
     long long outside_most[SCENE_MATERIALS]; /* most such cells at the end of a step */
-    double regrid_seconds;                   /* CPU time of this rank spent on regridding */
+    /* per pair of liquid and vapour, likewise: */
+    long long past[SCENE_PHASES];      /* cell-steps past the end of the saturation curve (phys/phase_pair.h) */
+    long long past_most[SCENE_PHASES]; /* most such cells at the end of a step */
+    double regrid_seconds;             /* CPU time of this rank spent on regridding */
 };
 
 struct stage;

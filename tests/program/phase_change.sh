@@ -33,6 +33,17 @@ expect:
 END
 ranked bubble 1 2 3
 resumed bubble 12 bubble-1
+# Past the end of the saturation curve (45.56 MPa): cells are counted, on any ranks, and on after a restart.
+sed -e 's/ 2 bar/ 600 bar/' -e '/last(v)\/first/d' bubble.yaml >past.yaml
+ranked past 1 3
+resumed past 12 past-1
+for folder in past-3 past-resumed bubble-1; do told $folder past_curve >$folder/past; done
+told past-1 past_curve | cmp - past-3/past
+told past-1 past_curve | cmp - past-resumed/past
+grep -q '"cell_steps": *[1-9]' past-3/past || fail "no cell is past the end" past-3/past
+grep -q '"cell_steps": *0' bubble-1/past || fail "cells are past the end below it" bubble-1/past
+"$BULLA" run past.yaml -o loud >said 2>&1
+grep -q 'water and steam: pressure was past the end of their saturation curve (45.56 MPa) in [1-9]' said || fail "no word" said
 sed 's/^run:/scheme: {integrator: ssprk3}\nrun:/' bubble.yaml >three.yaml
 "$BULLA" run three.yaml -o three --quiet # stages that build on each other count in part
 "$BULLA" plan bubble.yaml >plan 2>said
