@@ -22,12 +22,6 @@ static inline unsigned elastic_component(unsigned i, unsigned j)
     return i == j ? i : i + j + 2;
 }
 
-/* Components that a scene with so many velocities has: 3, 4 or 6. */
-static inline unsigned elastic_count(unsigned n_velocity)
-{
-    return n_velocity == 1 ? 3 : n_velocity == 2 ? 4 : 6;
-}
-
 /* Elastic energy per volume, sum over solids of m_l e_l^s [J/m3]. */
 void elastic_energy(const struct model *model, size_t n, size_t stride, const double *V, const double *const *m,
                     double *restrict rho_es);

@@ -18,6 +18,12 @@
         else kernel##_3(__VA_ARGS__);                        \
     } while (0)
 
+/* Components that a scene with so many velocities has: 3, 4 or 6. */
+static inline unsigned elastic_tensor_count(unsigned n_velocity)
+{
+    return n_velocity == 1 ? 3 : n_velocity == 2 ? 4 : 6;
+}
+
 struct elastic_tensor {
     double xx, yy, zz, xy, xz, yz;
 };

@@ -2,7 +2,7 @@
 #include "phys/model.h"
 
 #include "base/mem.h"
-#include "phys/elastic.h"
+#include "phys/elastic_tensor.h"
 #include "phys/model_family.h"
 #include "plug/registry.h"
 
@@ -256,7 +256,7 @@ static bool model_is_slack(const struct model_solid *solid)
 /* The fields of stretches: of each solid, then of each Maxwell branch. */
 static void model_stretch_all(struct model *model)
 {
-    model->n_stretch = model->elastic ? elastic_count(model->n_velocity) : 0;
+    model->n_stretch = model->elastic ? elastic_tensor_count(model->n_velocity) : 0;
     model->n_field = model->i_V;
     for (unsigned s = 0; s < model->n_solid; s++) {
         model->solids[s].stretch = model->n_field;

@@ -3,7 +3,6 @@
 
 #include "phys/row.h"
 #include "phys/traction.h"
-#include "scheme/closure.h"
 #include "scheme/response.h"
 #include "scheme/terms.h"
 
@@ -249,11 +248,16 @@ const double *exchange_volume(const struct term_tile *tile)
     return tile->rates + terms_first(tile->terms, &exchange_term) * tile->n_cell;
 }
 
+static bool exchange_wanted(const struct model *path)
+{
+    return path->kapila;
+}
+
 const struct term exchange_term = {
     .name = "exchange",
     .owner = "core/scheme/exchange.c",
     .equation = "d alpha_l = e_l - s_l/S sum e_k: what came in at another pressure gives it back",
-    .wanted = closure_wanted,
+    .wanted = exchange_wanted,
     .rows = exchange_rows,
     .list = exchange_list,
     .apply = exchange_apply,

@@ -4,7 +4,6 @@
 #include "phys/row.h"
 #include "phys/settle.h"
 #include "phys/traction_rate.h"
-#include "scheme/closure.h"
 #include "scheme/convection.h"
 #include "scheme/exchange.h"
 #include "scheme/strain.h"
@@ -16,7 +15,7 @@ enum { RESPONSE_BATCH = 256 };
 
 static bool response_wanted(const struct model *path)
 {
-    return path->split && !path->n_normal && path->n_alpha && closure_wanted(path);
+    return path->split && !path->n_normal && path->n_alpha && path->kapila;
 }
 
 static unsigned response_rows(const struct model *path)

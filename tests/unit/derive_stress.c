@@ -4,6 +4,7 @@
 #include "base/status.h"
 #include "derive/derive.h"
 #include "phys/elastic.h"
+#include "phys/elastic_tensor.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -49,7 +50,7 @@ static void world_make(struct world *world, unsigned n_velocity)
     model->n_velocity = n_velocity;
     model->i_E = model->i_u + n_velocity;
     model->i_V = model->i_E + 1;
-    model->n_stretch = elastic_count(n_velocity);
+    model->n_stretch = elastic_tensor_count(n_velocity);
     model->n_solid = 1;
     model->elastic = true;
     model->solids[0] = (struct model_solid){.stretch = model->i_V, .law = &LAW, .material = TISSUE};

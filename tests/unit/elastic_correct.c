@@ -2,6 +2,7 @@
  * step of the scheme itself, for any stretch and any change of a face, in every geometry. */
 #include "base/mem.h"
 #include "phys/elastic.h"
+#include "phys/elastic_tensor.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -29,7 +30,7 @@ enum { N_WORLD = sizeof WORLDS / sizeof *WORLDS };
 static struct model model_of(const struct world *world)
 {
     struct model model = {.dim = world->dim, .beta = world->beta, .n_velocity = world->n_velocity};
-    model.n_stretch = elastic_count(world->n_velocity);
+    model.n_stretch = elastic_tensor_count(world->n_velocity);
     model.n_solid = 1;
     model.n_alpha = model.n_material = 2;
     model.i_m = 2;

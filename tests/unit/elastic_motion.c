@@ -2,6 +2,7 @@
  * forms (tests/data/elastic): shear, stretch, rotation, compression, dilatation, a closing spherical cavity. What the
  * scheme adds on a grid is the business of cases/verify; here the stretch itself is measured. */
 #include "phys/elastic.h"
+#include "phys/elastic_tensor.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -34,7 +35,7 @@ static struct model model_of(unsigned dim, int beta, unsigned n_velocity, const 
     model.i_u = 1;
     model.i_E = model.i_u + n_velocity;
     model.i_V = model.i_E + 1;
-    model.n_stretch = elastic_count(n_velocity);
+    model.n_stretch = elastic_tensor_count(n_velocity);
     model.n_field = model.i_V + model.n_stretch;
     model.elastic = true;
     model.solids[0] = (struct model_solid){.stretch = model.i_V, .law = &LAW, .self = self};

@@ -3,6 +3,7 @@
  * oscillation, three branches pulled in two directions, uniaxial strain and back. Then what relaxing does to a single
  * stretch: exponentials, any time at once, axes, nothing to the identity. */
 #include "phys/elastic.h"
+#include "phys/elastic_tensor.h"
 #include "phys/flow_relax.h"
 
 #include <math.h>
@@ -37,7 +38,7 @@ static struct model model_of(unsigned n_velocity, const double *slope, unsigned 
 {
     struct model model = {.dim = (int)n_velocity, .n_velocity = n_velocity, .n_material = 1, .n_solid = 1};
     model.i_V = 1;
-    model.n_stretch = elastic_count(n_velocity);
+    model.n_stretch = elastic_tensor_count(n_velocity);
     model.n_branch = n;
     model.n_stretched = (1 + n) * model.n_stretch;
     model.solids[0] = (struct model_solid){.stretch = model.i_V, .law = &PLAIN, .self = slope, .slack = *slope == 0.0};

@@ -3,6 +3,7 @@
  * stretching while turning. Then what a return does to a single state: work is heat, axes stay, far overshoots,
  * mixtures, laws of changing slope. */
 #include "phys/elastic.h"
+#include "phys/elastic_tensor.h"
 #include "phys/flow.h"
 
 #include <math.h>
@@ -110,7 +111,7 @@ static struct model model_of(unsigned n_velocity, const struct bulla_constitutiv
     model.i_E = model.i_u + n_velocity;
     model.i_inner = model.i_E + 1;
     model.i_V = model.i_inner + 1;
-    model.n_stretch = elastic_count(n_velocity);
+    model.n_stretch = elastic_tensor_count(n_velocity);
     model.n_field = model.i_V + model.n_stretch;
     model.elastic = model.plastic = true;
     model.eos[0].law = &WARM;
