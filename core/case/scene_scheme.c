@@ -51,9 +51,10 @@ static const struct key scene_scheme_rows[] = {
     {.name = "interface-limiter",
      .type = KEYS_SECTION,
      .section = &scene_scheme_limiter,
-     .fallback = "superbee",
-     .doc = "The limiter of the volume fractions: superbee keeps material interfaces within two or three cells; give "
-            "the same as `limiter` for one limiter throughout."},
+     .doc =
+         "The limiter of the volume fractions. Default: thinc where fluids have surface tension in the plane, around "
+         "an axis or in space, because slopes let such surfaces grow teeth; else superbee, which keeps material "
+         "interfaces within two or three cells. Give the same as `limiter` for one limiter throughout."},
     {.name = "exchange",
      .type = KEYS_CHOICE,
      .choices = "auto|fast|full",
@@ -221,6 +222,17 @@ static void scene_scheme_slopes(struct draft *draft, const struct keys_map *sche
                       wrong[i]);
 }
 
+/* With tension, surfaces of columns whose fractions have slopes grow teeth (docs/decisions/tension.md). */
+static void scene_scheme_surfaces(struct draft *draft, const struct keys_value *surface)
+{
+    struct keys_value value = *surface;
+    struct scene *scene = draft->scene;
+    bool drawn = keys_at(draft->root, "surface-tension")->given && scene->domain.dim > 1 && !scene_matter_solid(draft);
+    if (!surface->node && !surface->meant)
+        value = scene_scheme_default(draft, surface, &scene_scheme_limiter, drawn ? "thinc" : "superbee");
+    scene_matter_open(draft, &value, &scene->scheme.interface_limiter);
+}
+
 /* Some limiters are for the surfaces of fluids: elsewhere they make steps of waves, and slip and traction at the
  * surface of a solid come out wrong. */
 static void scene_scheme_limit(struct draft *draft, const struct keys_map *scheme)
@@ -228,7 +240,8 @@ static void scene_scheme_limit(struct draft *draft, const struct keys_map *schem
     const struct keys_value *limiter = keys_at(scheme, "limiter"), *surface = keys_at(scheme, "interface-limiter");
     struct scene *scene = draft->scene;
     scene_scheme_slopes(draft, scheme);
-    scene_matter_open(draft, surface, &scene->scheme.interface_limiter);
+    if (!scheme) return;
+    scene_scheme_surfaces(draft, surface);
     const struct bulla_module *plain = scene->scheme.limiter.module, *sharp = scene->scheme.interface_limiter.module;
     if (plain && vet_surfaces(plain->table)) {
         keys_error(&draft->keys, limiter, "'%s' is for volume fractions", plain->name);

@@ -3,6 +3,7 @@
 
 #include "cli/human.h"
 #include "phys/coefficient.h"
+#include "plug/vet.h"
 #include "scheme/conduction.h"
 #include "scheme/distance.h"
 #include "solve/rkl.h"
@@ -13,9 +14,6 @@
 
 /* Mach numbers below which faces for slow flow are worth a word. */
 #define TRANSPORT_SLOW 0.05
-
-/* From this scheme.low-mach on faces damp the teeth of surfaces. */
-#define TRANSPORT_TOOTHLESS 0.2
 
 /* Least side of the cells of a level, and the sums of 1/h and 1/h^2 over the axes. */
 struct transport_cells {
@@ -253,12 +251,17 @@ static bool transport_inviscid(const struct scene *scene, const struct model *mo
 void transport_print_teeth(const struct scene *scene, const struct model *model)
 {
     const struct bulla_module *limiter = scene->scheme.interface_limiter.module;
-    if (!scene->n_tension || scene->domain.dim < 2 || scene->scheme.low_mach >= TRANSPORT_TOOTHLESS) return;
-    if (!transport_inviscid(scene, model) || !limiter || strcmp(limiter->name, "superbee") != 0) return;
-    printf(
-        "  %-12s without viscosity nothing damps those that superbee gives a surface: from 16 cells per radius on take "
-        "'scheme: {interface-limiter: thinc}', or low-mach 0.2\n",
-        "teeth");
+    if (!scene->n_tension || scene->domain.dim < 2 || !limiter || !transport_inviscid(scene, model)) return;
+    if (vet_surfaces(limiter->table))
+        printf(
+            "  %-12s without viscosity nothing damps what the mesh gives a surface: with 32 cells per radius it grows "
+            "teeth; a 'viscosity' prevents them\n",
+            "teeth");
+    else
+        printf(
+            "  %-12s without viscosity nothing damps those that slopes (%s) give a surface: with 12 cells per radius "
+            "and more they grow, with 'interface-limiter: thinc', the default, with 32\n",
+            "teeth", limiter->name);
 }
 
 void transport_print_sticks(const struct scene *scene, const struct model *model)
