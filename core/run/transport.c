@@ -251,17 +251,12 @@ static bool transport_inviscid(const struct scene *scene, const struct model *mo
 void transport_print_teeth(const struct scene *scene, const struct model *model)
 {
     const struct bulla_module *limiter = scene->scheme.interface_limiter.module;
-    if (!scene->n_tension || scene->domain.dim < 2 || !limiter || !transport_inviscid(scene, model)) return;
-    if (vet_surfaces(limiter->table))
-        printf(
-            "  %-12s without viscosity nothing damps what the mesh gives a surface: with 32 cells per radius it grows "
-            "teeth; a 'viscosity' prevents them\n",
-            "teeth");
-    else
-        printf(
-            "  %-12s without viscosity nothing damps those that slopes (%s) give a surface: with 12 cells per radius "
-            "and more they grow, with 'interface-limiter: thinc', the default, with 32\n",
-            "teeth", limiter->name);
+    if (!scene->n_tension || scene->domain.dim < 2 || !limiter || vet_surfaces(limiter->table)) return;
+    if (!transport_inviscid(scene, model)) return;
+    printf(
+        "  %-12s without viscosity nothing damps those that slopes (%s) give a surface: with 24 cells per radius and "
+        "more they grow; with 'interface-limiter: thinc', the default, none do\n",
+        "teeth", limiter->name);
 }
 
 void transport_print_sticks(const struct scene *scene, const struct model *model)

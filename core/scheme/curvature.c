@@ -420,12 +420,12 @@ static BULLA_KERNEL void curvature_weigh_row(size_t n, const double *restrict a,
 
 static BULLA_KERNEL void curvature_mean_of(size_t n, double least, const double *restrict a, const double *restrict b,
                                            const double *restrict sum, const double *restrict weight,
-                                           const double *restrict trust, double *restrict kappa)
+                                           double *restrict kappa)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double w = weight[i], s = sum[i], mean = s / (w > CURVATURE_NONE ? w : 1.0), own = kappa[i];
-        kappa[i] = a[i] * b[i] > least ? mean + trust[i] * (own - mean) : 0.0;
+        double w = weight[i], s = sum[i], mean = s / (w > CURVATURE_NONE ? w : 1.0);
+        kappa[i] = a[i] * b[i] > least ? mean : 0.0;
     }
 }
 
@@ -457,9 +457,7 @@ void curvature_mean(struct curvature *room, const double *a, const double *b, do
     for (size_t k = 0; k < own.n[2]; k++)
         for (size_t j = 0; j < own.n[1]; j++) {
             size_t at = j * own.stride[1] + k * own.stride[2];
-            memcpy(kappa + at, curvature_inside(&known, room->kappa, g - 2, j, k), own.n[0] * sizeof *kappa);
             curvature_mean_of(own.n[0], least, curvature_inside(&patch, a, g, j, k),
-                              curvature_inside(&patch, b, g, j, k), sums + at, weight + at,
-                              curvature_inside(&wide, room->trust, 1, j, k), kappa + at);
+                              curvature_inside(&patch, b, g, j, k), sums + at, weight + at, kappa + at);
         }
 }

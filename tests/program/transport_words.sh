@@ -114,13 +114,12 @@ says 'laplace number'
 # viscous: without a bound its own friction ended this run after 120 steps.
 "$BULLA" run walk.yaml -o tension --set mesh.levels=0 --set 'mesh.refine=[]' --quiet \
     --set 'output={history: {every: 1 step, columns: {p: {min: pressure}, P: {max: pressure}}}}' \
-    --set 'expect=[{value: min(p), at-most: -1e4}, {value: max(P), at-most: 1e6}]' >said 2>&1 || fail "the bubble in tension" said
+    --set 'expect=[{value: min(p), at-most: -1e4}, {value: max(P), at-most: 5e6}]' >said 2>&1 || fail "the bubble in tension" said
 
 # Surfaces without viscosity get teeth, with slopes alone; thinc is the default.
 teeth() { "$BULLA" check "$BULLA_SOURCE/cases/verify/$1.yaml" --set "scheme.interface-limiter=$2" --set "scheme.low-mach=$3" 2>&1 | grep -q '^  teeth .*thinc'; }
 teeth k8-mode2 superbee 0.05 || fail "no word of teeth"
-teeth k8-mode2 thinc 0.05 && fail "thinc instead of thinc"
-"$BULLA" check "$BULLA_SOURCE/cases/verify/k8-mode2.yaml" 2>&1 | grep -q '^  teeth .*viscosity' || fail "no word of viscosity"
+teeth k8-mode2 thinc 0.05 && fail "teeth with thinc"
 teeth k8-mode2 mc 1 || fail "no word of teeth of mc"
 "$BULLA" check "$BULLA_SOURCE/cases/verify/k8-mode2.yaml" | grep -q '^  interface *limiter:thinc' || fail "thinc is not the default"
 "$BULLA" check "$BULLA_SOURCE/cases/verify/k2-small.yaml" | grep -q '^  interface *limiter:superbee' || fail "around a centre surfaces stay round"

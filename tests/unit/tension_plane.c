@@ -138,6 +138,38 @@ static void test_curvature(void **state)
     }
 }
 
+/* A flat surface in the middle of cells, with teeth of a fifth of a cell up and down from column to column. */
+static void set_teeth(const struct model *model, const double x[3], double *w)
+{
+    double h = 20e-6 / 32, tooth = fmod(floor(x[0] / h), 2.0) > 0.0 ? 0.2 : -0.2;
+    double height = 16.5 + tooth - (x[1] / h - 0.5);
+    w[model->i_alpha] = height < 0.0 ? 0.0 : height > 1.0 ? 1.0 : height;
+    w[model->i_alpha + 1] = 1.0 - w[model->i_alpha];
+}
+
+/* Teeth of one cell have no curvature but at walls, where they have mirrors: columns would see 0.8/h and drive them. */
+static void test_teeth(void **state)
+{
+    (void)state;
+    struct flow flow;
+    double h = 20e-6 / 32, most = 0.0, wall = 0.0;
+    start(&flow, ROOMS[0].domain, 32, 8, "");
+    flow_set(&flow, set_teeth);
+    curve_take(flow.state->work->curve, 0, flow_level(&flow)->w);
+    double *kappa = flow_primitive(&flow, flow.state->model->pairs[0].i_kappa);
+    for (size_t c = 0; c < flow.n_cell; c++) {
+        double x[3];
+        flow_centre(&flow, c, x);
+        bool inside = x[0] > 2.0 * h && x[0] < 30.0 * h;
+        most = inside ? fmax(most, fabs(kappa[c])) : most;
+        wall = inside ? wall : fmax(wall, fabs(kappa[c]));
+    }
+    print_message("teeth: curvature %.2e/h, at walls %.2e/h\n", most * h, wall * h);
+    assert_true(most * h < 1e-12 && wall * h > 0.05);
+    mem_free(kappa);
+    flow_stop(&flow);
+}
+
 /* A cap on the wall y- or y+, which its surface meets at a given angle: centre of the sphere along y, width of a front
  * [m]. The wall asks all layers of the front for this angle, concentric ones differ by width/R: so it is some cells
  * wide. */
@@ -351,7 +383,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_balance),      cmocka_unit_test(test_curvature),     cmocka_unit_test(test_drop),
         cmocka_unit_test(test_mirrors),      cmocka_unit_test(test_tiles),         cmocka_unit_test(test_angle),
-        cmocka_unit_test(test_angle_mirror), cmocka_unit_test(test_angle_columns),
+        cmocka_unit_test(test_angle_mirror), cmocka_unit_test(test_angle_columns), cmocka_unit_test(test_teeth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
