@@ -26,6 +26,18 @@ enum { HEIGHTS_REACH = 3 };
 #define HEIGHTS_PURE 0.05
 #define HEIGHTS_MIXED 0.5
 
+/* Heights in cells along the column's axis, of the columns through a row, from a cell before it to one behind it;
+ * `turn`: how far a column goes from one material, -1 or 1, to the other. */
+struct heights_columns {
+    double height[METRIC_CELLS + 2], turn[METRIC_CELLS + 2];
+};
+
+/* In the plane: columns that lie along rows are asked for three times, by their own row and by those beside it. */
+struct heights_kept {
+    const double *of[3]; /* the first cells of the rows; NULL: none yet */
+    struct heights_columns columns[3];
+};
+
 /* A row of cells and the columns through its cells along one axis. */
 struct heights_row {
     const struct mesh *mesh;
@@ -34,14 +46,9 @@ struct heights_row {
     const double *a;             /* fraction of its first cell, in the patch */
     const struct curvature_grid *patch;
     const double *cosine; /* of the angles at walls (heights_take); NULL: none */
-    int at[3];            /* its first cell, counted from that of the tile */
+    struct heights_kept *kept;
+    int at[3]; /* its first cell, counted from that of the tile */
     size_t n;
-};
-
-/* Heights in cells along the column's axis, of the columns through a row, from a cell before it to one behind it;
- * `turn`: how far a column goes from one material, -1 or 1, to the other. */
-struct heights_columns {
-    double height[METRIC_CELLS + 2], turn[METRIC_CELLS + 2];
 };
 
 /* What the axes have said of a row so far. */
@@ -112,6 +119,16 @@ static void heights_columns(const struct heights_row *row, int axis, const doubl
         heights_radius_row(row->n + 2, row->metric->centre[0] / row->level->h[0] - 1.0, step, low, ret->height,
                            ret->turn);
     else heights_columns_row(row->n + 2, step, low, ret->height, ret->turn);
+}
+
+/* Those along the first axis through the row some steps beside. */
+static const struct heights_columns *heights_along(const struct heights_row *row, int beside)
+{
+    const double *of = row->a + beside * (ptrdiff_t)row->patch->stride[1];
+    int place = (row->at[1] + HEIGHTS_AROUND + 1 + beside) % 3;
+    if (row->kept->of[place] != of) heights_columns(row, 0, of, &row->kept->columns[place]);
+    row->kept->of[place] = of;
+    return &row->kept->columns[place];
 }
 
 /* Three columns beside each other: how far the worst of them goes where the middle one goes. */
@@ -283,15 +300,15 @@ static void heights_normal(const struct heights_row *row, int axis, const double
 static void heights_plane(const struct heights_row *row, int axis, const double *normal, struct heights_sum *sum)
 {
     int across = 1 - axis;
-    size_t step = row->patch->stride[across], n = row->n;
-    struct heights_columns columns[3], *here = &columns[1], *below = across ? &columns[0] : here,
-                                       *above = across ? &columns[2] : here;
+    size_t n = row->n;
+    struct heights_columns own;
+    const struct heights_columns *here = across ? heights_along(row, 0) : &own,
+                                 *below = across ? heights_along(row, -1) : here,
+                                 *above = across ? heights_along(row, 1) : here;
     size_t off = across ? 1 : 0, on = across ? 1 : 2;
     double lower[METRIC_CELLS], upper[METRIC_CELLS], kappa[METRIC_CELLS], least[METRIC_CELLS];
     double per = row->level->h[axis] / row->level->h[across];
-    heights_columns(row, axis, row->a, here);
-    if (across) heights_columns(row, axis, row->a - step, below);
-    if (across) heights_columns(row, axis, row->a + step, above);
+    if (!across) heights_columns(row, axis, row->a, &own);
     struct heights_nine nine;
     const double *const height[3] = {below->height + off, here->height + 1, above->height + on},
                         *const turn[3] = {below->turn + off, here->turn + 1, above->turn + on};
@@ -353,14 +370,29 @@ static BULLA_KERNEL void heights_end(size_t n, const struct heights_sum *sum, do
     }
 }
 
+/* Cells of a row with a surface that columns along an axis, whose normals these are, could say something of. */
+static BULLA_KERNEL double heights_asked(size_t n, const double *restrict a, const double *restrict normal)
+{
+    double count = 0.0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) {
+        double both = a[i] * (1.0 - a[i]), steep = normal[i] * normal[i] - HEIGHTS_STEEP;
+        double here = both > 0.0 ? 1.0 : 0.0;
+        count += steep > 0.0 ? here : 0.0;
+    }
+    return count;
+}
+
 static void heights_one(const struct heights_row *row, const double *const normal[3], double *kappa, double *trust)
 {
     struct heights_sum sum;
     for (size_t i = 0; i < row->n; i++) sum.kappa[i] = sum.weight[i] = sum.all[i] = 0.0;
     for (int axis = 0; axis < row->mesh->dim; axis++) {
         double inside[METRIC_CELLS];
+        const double *of = row->cosine ? inside : normal[axis];
         if (row->cosine) heights_normal(row, axis, normal[axis], inside);
-        (row->mesh->dim == 2 ? heights_plane : heights_space)(row, axis, row->cosine ? inside : normal[axis], &sum);
+        if (heights_asked(row->n, row->a, of) > 0.0)
+            (row->mesh->dim == 2 ? heights_plane : heights_space)(row, axis, of, &sum);
     }
     heights_end(row->n, &sum, kappa, trust);
 }
@@ -372,6 +404,8 @@ void heights_take(const struct mesh *mesh, const struct level *level, const stru
                                 to = curvature_grid(mesh, 2 * HEIGHTS_AROUND),
                                 normals = curvature_grid(mesh, 2 * HEIGHTS_NORMALS);
     struct metric metric;
+    struct heights_kept kept; /* large: filled as far as it is used */
+    kept.of[0] = kept.of[1] = kept.of[2] = NULL;
     metric_of_cells(mesh, level, tile->at[0] * mesh->n[0] - HEIGHTS_AROUND, (int)to.n[0], &metric);
     for (size_t k = 0; k < to.n[2]; k++)
         for (size_t j = 0; j < to.n[1]; j++) {
@@ -381,6 +415,7 @@ void heights_take(const struct mesh *mesh, const struct level *level, const stru
                                             .a = a + curvature_grid_at(&patch, HEIGHTS_LAYERS - HEIGHTS_AROUND, j, k),
                                             .patch = &patch,
                                             .cosine = cosine,
+                                            .kept = &kept,
                                             .at = {-HEIGHTS_AROUND, (int)j - HEIGHTS_AROUND, (int)k - HEIGHTS_AROUND},
                                             .n = to.n[0]};
             size_t at = j * to.stride[1] + k * to.stride[2],
