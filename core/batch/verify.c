@@ -25,6 +25,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* Columns of docs. */
+enum { VERIFY_WIDE = 120 };
+
 struct verify {
     bool save;
     char *source; /* folder that holds cases/ and docs/ */
@@ -184,10 +187,26 @@ static void verify_overall(struct text *out, const struct study *study, const st
     text_add(out, "\n");
 }
 
-/* The bounds that the table was judged by, in one line. */
+/* Ends lines at blanks before they are longer than docs are wide; not before a sign, which would begin a quotation or a
+ * list. */
+static void verify_wrap(char *line)
+{
+    char *blank = NULL;
+    for (char *at = line; *at; at++) {
+        if (*at == ' ' && !strchr("<>=+-", at[1])) blank = at;
+        if (*at == ' ' || *at == '\n' || at - line < VERIFY_WIDE || !blank) continue;
+        *blank = '\n';
+        line = blank + 1;
+        blank = NULL;
+    }
+}
+
+/* The bounds that the table was judged by. */
 static void verify_bounds(struct text *out, const struct study *study, const struct study_row *columns)
 {
-    text_add(out, "\nExpected");
+    text_add(out, "\n");
+    size_t from = out->length;
+    text_add(out, "Expected");
     if (study->matrix.count > 0) text_add(out, " from %g cells on", study->matrix.count);
     for (unsigned v = 0; v < columns->n_value; v++) {
         const struct study_value *value = &columns->values[v];
@@ -195,6 +214,7 @@ static void verify_bounds(struct text *out, const struct study *study, const str
         if (value->order > 0) text_add(out, ", order >= %g", value->order);
     }
     text_add(out, ". %s\n", study_passed(study) ? "Holds." : "**Does not hold.**");
+    verify_wrap(out->at + from);
 }
 
 static void verify_table(struct text *out, const struct study *study)

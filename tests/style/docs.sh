@@ -1,5 +1,6 @@
 # README and docs name only what is there: relative links resolve, every file in backticks exists (by
-# path, or by name somewhere in the tree), every `function()` is defined, every `CONSTANT_NAME` occurs.
+# path, or by name somewhere in the tree), every `function()` is defined, every `CONSTANT_NAME` occurs. Lines of prose are
+# no wider than 120 characters; tables, code and pages that a command writes are as wide as they need.
 set -eu
 cd "$BULLA_SOURCE"
 bad=0
@@ -8,7 +9,12 @@ complain() { echo "$1: $2"; bad=1; }
 tree=$(find . -path ./build -prune -o -path ./.git -prune -o -type f -print)
 known() { printf '%s\n' "$tree" | grep -q "/$1\$"; }
 
-for page in README.md docs/*.md docs/decisions/*.md; do
+for page in README.md CHANGELOG.md docs/*.md docs/decisions/*.md; do
+    case $page in docs/keys.md | docs/beside.md) ;; *)
+        wide=$(sed '/^```/,/^```/d; /^|/d; /^    /d; /^!\[/d; /^<!--/d' "$page" | LC_ALL=C.UTF-8 grep -E '^.{121,}' | cut -c1-60 || true)
+        [ -z "$wide" ] || complain "$page" "wider than 120 characters: $wide"
+        ;;
+    esac
     folder=$(dirname "$page")
     for link in $(grep -o ']([^)# ]*' "$page" | cut -c3- | sort -u); do
         case $link in http*) continue ;; esac
