@@ -227,7 +227,8 @@ static void scene_scheme_surfaces(struct draft *draft, const struct keys_value *
 {
     struct keys_value value = *surface;
     struct scene *scene = draft->scene;
-    bool drawn = keys_at(draft->root, "surface-tension")->given && scene->domain.dim > 1 && !scene_matter_solid(draft);
+    bool drawn =
+        keys_at(draft->root, "surface-tension")->count > 0 && scene->domain.dim > 1 && !scene_matter_solid(draft);
     if (!surface->node && !surface->meant)
         value = scene_scheme_default(draft, surface, &scene_scheme_limiter, drawn ? "thinc" : "superbee");
     scene_matter_open(draft, &value, &scene->scheme.interface_limiter);

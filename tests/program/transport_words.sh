@@ -122,6 +122,8 @@ teeth k8-mode2 superbee 0.05 || fail "no word of teeth"
 teeth k8-mode2 thinc 0.05 && fail "teeth with thinc"
 teeth k8-mode2 mc 1 || fail "no word of teeth of mc"
 "$BULLA" check "$BULLA_SOURCE/cases/verify/k8-mode2.yaml" | grep -q '^  interface *limiter:thinc' || fail "thinc is not the default"
+"$BULLA" check "$BULLA_SOURCE/cases/tour/shock-bubble.yaml" --set 'surface-tension={}' 2>&1 |
+    grep -q '^  interface *limiter:superbee' || fail "no pair, and thinc"
 "$BULLA" check "$BULLA_SOURCE/cases/verify/k2-small.yaml" | grep -q '^  interface *limiter:superbee' || fail "around a centre surfaces stay round"
 teeth k8-damped superbee 0.05 && fail "teeth where viscosity damps"
 exit 0
