@@ -255,7 +255,7 @@ void transport_print_teeth(const struct scene *scene, const struct model *model)
     if (!transport_inviscid(scene, model)) return;
     printf(
         "  %-12s without viscosity nothing damps those that slopes (%s) give a surface: with 24 cells per radius and "
-        "more they grow; with 'interface-limiter: thinc', the default, none do\n",
+        "more they grow; with 'interface-limiter: thinc', the default, none with up to 32\n",
         "teeth", limiter->name);
 }
 
