@@ -2,7 +2,7 @@
 #include "phys/bearing.h"
 
 /* (1 - D)^2 m */
-static BULLA_KERNEL void bearing_reduce(size_t n, const double *restrict D, const double *restrict m,
+static BULLA_KERNEL void bearing_kernel(size_t n, const double *restrict D, const double *restrict m,
                                         double *restrict left)
 {
 #pragma omp simd
@@ -11,6 +11,11 @@ static BULLA_KERNEL void bearing_reduce(size_t n, const double *restrict D, cons
         whole = whole > 0.0 ? whole : 0.0;
         left[i] = whole * whole * m[i];
     }
+}
+
+void bearing_reduce(size_t n, const double *restrict D, const double *restrict m, double *restrict left)
+{
+    bearing_kernel(n, D, m, left);
 }
 
 /* The same with m D at hand. */

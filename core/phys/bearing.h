@@ -18,6 +18,9 @@ void bearing_of(const struct model *model, size_t n, size_t stride, const double
 void bearing_of_conserved(const struct model *model, size_t n, size_t stride, const double *fields, size_t pitch,
                           double *room, const double **m);
 
+/* left = what of n masses bears at damage D. */
+void bearing_reduce(size_t n, const double *restrict D, const double *restrict m, double *restrict left);
+
 /* The part of a solid's mass that bears at damage D. */
 static inline double bearing_part(double D)
 {

@@ -3,6 +3,7 @@
 
 #include "phys/bearing.h"
 #include "phys/elastic.h"
+#include "phys/pick.h"
 #include "phys/row.h"
 
 #include <string.h>
@@ -48,25 +49,54 @@ static BULLA_KERNEL void traction_along(size_t n, const double *restrict rho, co
     }
 }
 
-/* A stretch in a batch, and what it is looked at with. */
+/* The cells of a batch that have a stress on a normal. Of models with normals the few that have one, packed; of the
+ * others all of them, in place. */
+struct traction_cells {
+    size_t n;
+    const unsigned *at; /* their numbers; NULL: in place */
+};
+
+/* A row at those cells; `room` is where packed ones go. */
+static const double *traction_row(const struct traction_cells *cells, const double *row, double *room)
+{
+    if (!cells->at) return row;
+    pick_take(cells->n, cells->at, row, room);
+    return room;
+}
+
+enum { TRACTION_PITCH = TRACTION_BATCH + 8 }; /* of packed rows, which shall not lie in the same lines of caches */
+
+/* A stretch at those cells, and what it is looked at with. */
 struct traction_view {
     const double *row[6], *normal[3]; /* [normal]: of models that have them */
     double I1[TRACTION_BATCH], I2[TRACTION_BATCH], e_1[TRACTION_BATCH], e_2[TRACTION_BATCH];
+    double packed_V[6 * TRACTION_PITCH], packed_normal[3 * TRACTION_PITCH];
 };
 
-static void traction_look(const struct model *model, unsigned k, size_t n, size_t stride, const double *w,
-                          struct traction_view *ret)
+static void traction_aim(const struct model *model, const struct traction_cells *cells, size_t stride, const double *w,
+                         struct traction_view *ret)
+{
+    for (unsigned d = 0; d < 3; d++) {
+        const double *row = w + (model->i_normal + d) * stride;
+        ret->normal[d] = traction_zero;
+        if (d < model->n_normal) ret->normal[d] = traction_row(cells, row, ret->packed_normal + d * TRACTION_PITCH);
+    }
+}
+
+static void traction_look(const struct model *model, const struct traction_cells *cells, unsigned k, size_t stride,
+                          const double *w, struct traction_view *ret)
 {
     const double *V = w + model_stretch(model, k) * stride;
-    for (unsigned c = 0; c < 6; c++) ret->row[c] = c < model->n_stretch ? V + c * stride : traction_zero;
-    for (unsigned d = 0; d < 3; d++)
-        ret->normal[d] = d < model->n_normal ? w + (model->i_normal + d) * stride : traction_zero;
+    for (unsigned c = 0; c < 6; c++) ret->row[c] = traction_zero;
+    for (unsigned c = 0; c < model->n_stretch; c++)
+        ret->row[c] = traction_row(cells, V + c * stride, ret->packed_V + c * TRACTION_PITCH);
+    size_t pitch = cells->at ? TRACTION_PITCH : stride;
     if (!elastic_is_plain(model, k)) {
-        elastic_invariants(model, n, stride, V, ret->I1, ret->I2);
+        elastic_invariants(model, cells->n, pitch, ret->row[0], ret->I1, ret->I2);
         return;
     }
-    elastic_invariants_first(model, n, stride, V, ret->I1);
-    memcpy(ret->I2, ret->I1, n * sizeof *ret->I2); /* nobody looks at it */
+    elastic_invariants_first(model, cells->n, pitch, ret->row[0], ret->I1);
+    memcpy(ret->I2, ret->I1, cells->n * sizeof *ret->I2); /* nobody looks at it */
 }
 
 /* s'_nn of the slopes e_1, e_2 of a view. */
@@ -80,38 +110,81 @@ static void traction_of(const struct model *model, size_t n, const double *rho, 
                         row[ELASTIC_ZZ], view->I1, view->I2, view->e_1, view->e_2, own);
 }
 
-/* What the Maxwell branches of the solids add: each a neo-Hookean spring on its own stretch. rho: of the solids. */
-static void traction_branches(const struct model *model, size_t n, size_t stride, const double *w,
-                              const double *const *rho, size_t pitch, double *own)
+/* What the Maxwell branches of solid s add: each a neo-Hookean spring on its own stretch. rho: of the solid. */
+static void traction_branches(const struct model *model, const struct traction_cells *cells, unsigned s, size_t stride,
+                              const double *w, const double *rho, struct traction_view *view, double *own)
 {
-    struct traction_view view;
     double part[TRACTION_BATCH];
     for (unsigned b = 0; b < model->n_branch; b++) {
         const struct model_branch *branch = &model->branches[b];
-        unsigned l = model->solids[branch->solid].material;
-        traction_look(model, model->n_solid + b, n, stride, w, &view);
-        for (size_t i = 0; i < n; i++) view.e_1[i] = branch->k, view.e_2[i] = 0.0;
-        traction_of(model, n, rho[branch->solid], &view, part);
-        row_add(n, part, own + l * pitch);
+        if (branch->solid != s) continue;
+        traction_look(model, cells, model->n_solid + b, stride, w, view);
+        for (size_t i = 0; i < cells->n; i++) view->e_1[i] = branch->k, view->e_2[i] = 0.0;
+        traction_of(model, cells->n, rho, view, part);
+        row_add(cells->n, part, own);
     }
+}
+
+/* Density of solid s at those cells, as far as it bears. `room`: three rows. */
+static const double *traction_density(const struct model *model, const struct traction_cells *cells, unsigned s,
+                                      size_t stride, const double *w, double *room)
+{
+    const struct model_solid *solid = &model->solids[s];
+    const double *rho = traction_row(cells, w + (model->i_m + solid->material) * stride, room);
+    if (!solid->damage.law) return rho;
+    const double *D = traction_row(cells, w + solid->damage.field * stride, room + TRACTION_BATCH);
+    bearing_reduce(cells->n, D, rho, room + 2 * TRACTION_BATCH);
+    return room + 2 * TRACTION_BATCH;
+}
+
+/* s'_nn of solid s at those cells. */
+static void traction_solid(const struct model *model, const struct traction_cells *cells, unsigned s, size_t stride,
+                           const double *w, struct traction_view *view, double *own)
+{
+    const struct model_solid *solid = &model->solids[s];
+    double e[TRACTION_BATCH], room[3 * TRACTION_BATCH];
+    const double *rho = traction_density(model, cells, s, stride, w, room);
+    traction_look(model, cells, s, stride, w, view);
+    solid->law->energy(solid->self, cells->n, view->I1, view->I2, e, view->e_1, view->e_2);
+    traction_of(model, cells->n, rho, view, own);
+    traction_branches(model, cells, s, stride, w, rho, view, own);
+}
+
+void traction_at(const struct model *model, size_t n, const unsigned *at, size_t stride, const double *w, size_t pitch,
+                 double *own)
+{
+    struct traction_view view;
+    for (size_t from = 0; from < n; from += TRACTION_BATCH) {
+        const struct traction_cells cells = {n - from < TRACTION_BATCH ? n - from : TRACTION_BATCH, at + from};
+        traction_aim(model, &cells, stride, w, &view);
+        for (unsigned s = 0; s < model->n_solid; s++)
+            traction_solid(model, &cells, s, stride, w, &view, own + s * pitch + from);
+    }
+}
+
+/* Cells of a batch that have a normal, and what solids have there: row s of the packed `own`. Returns how many. */
+static size_t traction_packed(const struct model *model, size_t n, size_t stride, const double *w, unsigned *at,
+                              double *own)
+{
+    n = pick_nonzero(n, model->n_normal, stride, w + model->i_normal * stride, at);
+    traction_at(model, n, at, stride, w, TRACTION_BATCH, own);
+    return n;
 }
 
 static void traction_batch(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch,
                            double *own)
 {
     struct traction_view view;
-    double e[TRACTION_BATCH], left[SCENE_MATERIALS * TRACTION_BATCH];
-    const double *rho[SCENE_MATERIALS];
-    for (unsigned s = 0; s < model->n_solid; s++) rho[s] = w + (model->i_m + model->solids[s].material) * stride;
-    bearing_of(model, n, stride, w, TRACTION_BATCH, left, rho);
+    unsigned at[TRACTION_BATCH];
+    double packed[SCENE_MATERIALS * TRACTION_BATCH];
+    const struct traction_cells all = {n, NULL};
     for (unsigned l = 0; l < model->n_material; l++) memset(own + l * pitch, 0, n * sizeof *own);
+    size_t count = model->n_normal ? traction_packed(model, n, stride, w, at, packed) : 0;
     for (unsigned s = 0; s < model->n_solid; s++) {
-        const struct model_solid *solid = &model->solids[s];
-        traction_look(model, s, n, stride, w, &view);
-        solid->law->energy(solid->self, n, view.I1, view.I2, e, view.e_1, view.e_2);
-        traction_of(model, n, rho[s], &view, own + solid->material * pitch);
+        double *ret = own + model->solids[s].material * pitch;
+        if (model->n_normal) pick_put(count, at, packed + s * TRACTION_BATCH, ret);
+        else traction_solid(model, &all, s, stride, w, &view, ret);
     }
-    traction_branches(model, n, stride, w, rho, pitch, own);
 }
 
 void traction_own(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch, double *own)
@@ -127,8 +200,10 @@ static void traction_both(const struct model *model, size_t n, size_t stride, co
     traction_batch(model, n, stride, w, pitch, own);
     if (!model->n_alpha) memcpy(mean, own, n * sizeof *mean);
     else memset(mean, 0, n * sizeof *mean);
-    for (unsigned l = 0; l < model->n_alpha; l++)
+    for (unsigned s = 0; model->n_alpha && s < model->n_solid; s++) {
+        unsigned l = model->solids[s].material;
         row_add_product(n, w + (model->i_alpha + l) * stride, own + l * pitch, mean);
+    }
 }
 
 void traction_mean(const struct model *model, size_t n, size_t stride, const double *w, double *mean)
@@ -177,15 +252,44 @@ static void traction_pulls(const struct model *model, size_t n, size_t stride, c
     for (unsigned l = 0; l < model->n_material; l++) row_take(n, mean, ret->lag[l]);
 }
 
-void traction_part(const struct model *model, size_t n, size_t stride, const double *w, struct traction_pressures *ret)
+/* The lags of solids and of what lies beside them, where cells have a normal: the others have none. */
+static void traction_tilted(const struct model *model, size_t n, size_t stride, const double *w,
+                            struct traction_pressures *ret)
+{
+    unsigned at[TRACTION_BATCH];
+    double own[SCENE_MATERIALS * TRACTION_BATCH], mean[TRACTION_BATCH];
+    size_t count = traction_packed(model, n, stride, w, at, own);
+    memset(mean, 0, count * sizeof *mean);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        const double *alpha = w + (model->i_alpha + model->solids[s].material) * stride;
+        for (size_t k = 0; k < count; k++) mean[k] += alpha[at[k]] * own[s * TRACTION_BATCH + k];
+    }
+    for (unsigned l = 0; l < model->n_material; l++) {
+        memset(ret->lag[l], 0, n * sizeof *ret->lag[l]);
+        for (size_t k = 0; k < count; k++) ret->lag[l][at[k]] = 0.0 - mean[k];
+    }
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        double *lag = ret->lag[model->solids[s].material];
+        for (size_t k = 0; k < count; k++) lag[at[k]] = own[s * TRACTION_BATCH + k] - mean[k];
+    }
+}
+
+/* The same along the axis. */
+static void traction_straight(const struct model *model, size_t n, size_t stride, const double *w,
+                              struct traction_pressures *ret)
 {
     double mean[TRACTION_BATCH];
+    traction_both(model, n, stride, w, TRACTION_BATCH, ret->lag[0], mean);
+    for (unsigned l = 0; l < model->n_material; l++) row_take(n, mean, ret->lag[l]);
+}
+
+void traction_part(const struct model *model, size_t n, size_t stride, const double *w, struct traction_pressures *ret)
+{
     if (!model->lagged) return;
-    if (model->split) traction_both(model, n, stride, w, TRACTION_BATCH, ret->lag[0], mean);
-    for (unsigned l = 0; l < model->n_material; l++) {
-        if (model->split) row_take(n, mean, ret->lag[l]);
-        else memset(ret->lag[l], 0, n * sizeof *ret->lag[l]);
-    }
+    if (model->n_normal) traction_tilted(model, n, stride, w, ret);
+    else if (model->split) traction_straight(model, n, stride, w, ret);
+    else
+        for (unsigned l = 0; l < model->n_material; l++) memset(ret->lag[l], 0, n * sizeof *ret->lag[l]);
     traction_curves(model, n, stride, w, ret);
     traction_pulls(model, n, stride, w, ret);
 }

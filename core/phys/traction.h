@@ -22,6 +22,10 @@
 /* s'_l,xx of each material in its own volume, from primitives w: row l at own + l * pitch, 0 for fluids [Pa]. */
 void traction_own(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch, double *own);
 
+/* s'_nn of the solids at the n cells `at` that have a normal, packed: row s at own + s * pitch. */
+void traction_at(const struct model *model, size_t n, const unsigned *at, size_t stride, const double *w, size_t pitch,
+                 double *own);
+
 /* S = sum_l alpha_l s'_l,xx [Pa], from primitives w. */
 void traction_mean(const struct model *model, size_t n, size_t stride, const double *w, double *mean);
 

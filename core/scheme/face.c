@@ -310,7 +310,7 @@ static void face_complete(struct face_work *work, const struct frame *frame, siz
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
-    if (model->split) face_stress_split(own->stress, model, n, own->state);
+    if (model->split) face_stress_split(own->stress, model, n / 2, own->state);
     const double *u[3] = {own->zero, own->zero, own->zero};
     const double *rho = model->n_alpha ? own->rho : own->state + 2 * model->i_m * FACE_ROOM; /* one material: rho_l */
     for (unsigned d = 0; d < model->n_velocity; d++) u[d] = own->state + 2 * (model->i_u + d) * FACE_ROOM;
@@ -478,7 +478,7 @@ const double *face_edges(struct face_work *work, const struct frame *frame, bool
     struct edges_cells in = {work->frame, face_flat(work, frame, masked), {work->rise[0], work->rise[1]}, {NULL, NULL}};
     if (model->n_normal) in.lean[0] = work->lean[0], in.lean[1] = work->lean[1];
     edges_fill(own->edges, model, frame, &in, own->state);
-    if (model->n_normal) tilt_aim(model, frame, work->frame, own->state);
+    if (model->n_normal) tilt_aim(model, frame, work->frame, own->state, own->stress->aimed);
     return own->state;
 }
 

@@ -19,6 +19,7 @@ struct face_stress *face_stress_new(const struct model *model)
     double *block = mem_new(sizeof rows / sizeof *rows * 2 * FACE_ROOM, sizeof *block);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) *rows[i] = block + i * 2 * FACE_ROOM;
     if (model->split) stress->own = mem_new((size_t)model->n_material * 2 * FACE_ROOM, sizeof *block);
+    if (model->n_normal) stress->aimed = mem_new(1, sizeof *stress->aimed);
     return stress;
 }
 
@@ -26,6 +27,7 @@ void face_stress_free(struct face_stress *stress)
 {
     if (stress) mem_free(stress->energy);
     if (stress) mem_free(stress->own);
+    if (stress) mem_free(stress->aimed);
     mem_free(stress);
 }
 
@@ -51,15 +53,36 @@ static BULLA_KERNEL void face_stress_press(size_t n, const double *restrict trac
     for (size_t i = 0; i < n; i++) own[i] += traction[i];
 }
 
+/* Adds what solids have on the normals of the edges of one side, and leaves the mean. Rows begin with the side. */
+static void face_stress_tilt(struct face_stress *stress, const struct model *model, size_t from, const double *state)
+{
+    const struct tilt_aimed *aimed = stress->aimed;
+    double packed[SCENE_MATERIALS * FACE_ROOM], *mean = stress->mean + from;
+    traction_at(model, aimed->n, aimed->at, 2 * FACE_ROOM, state + from, FACE_ROOM, packed);
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        unsigned l = model->solids[s].material;
+        const double *alpha = state + 2 * (model->i_alpha + l) * FACE_ROOM + from, *part = packed + s * FACE_ROOM;
+        double *own = stress->own + (size_t)l * 2 * FACE_ROOM + from;
+        for (size_t k = 0; k < aimed->n; k++) {
+            size_t i = aimed->at[k];
+            own[i] += part[k];
+            mean[i] += alpha[i] * part[k];
+        }
+    }
+}
+
 void face_stress_split(struct face_stress *stress, const struct model *model, size_t n, const double *state)
 {
-    traction_own(model, n, 2 * FACE_ROOM, state, 2 * FACE_ROOM, stress->own);
-    memset(stress->mean, 0, n * sizeof *stress->mean);
-    for (unsigned l = 0; l < model->n_material && model->n_normal; l++)
-        row_add_product(n, state + 2 * (model->i_alpha + l) * FACE_ROOM, stress->own + (size_t)l * 2 * FACE_ROOM,
-                        stress->mean);
-    for (unsigned l = 0; l < model->n_material; l++)
-        face_stress_press(n, state + 2 * model->i_E * FACE_ROOM, stress->own + (size_t)l * 2 * FACE_ROOM);
+    const double *traction = state + 2 * model->i_E * FACE_ROOM;
+    if (!model->n_normal) traction_own(model, 2 * n, 2 * FACE_ROOM, state, 2 * FACE_ROOM, stress->own);
+    for (unsigned l = 0; l < model->n_material; l++) {
+        double *own = stress->own + (size_t)l * 2 * FACE_ROOM;
+        if (model->n_normal) memcpy(own, traction, 2 * n * sizeof *own);
+        else face_stress_press(2 * n, traction, own);
+    }
+    if (!model->n_normal) return;
+    memset(stress->mean, 0, 2 * n * sizeof *stress->mean);
+    for (size_t side = 0; side < 2; side++) face_stress_tilt(stress, model, side * n, state);
 }
 
 /* Elastic parts are added; the traction and the shear speed are made. */
@@ -91,7 +114,8 @@ void face_stress_complete(struct face_stress *stress, const struct model *model,
                     edges->rho_c2);
     if (model->split)
         memcpy(stress->traction, edges->state + 2 * model->i_E * FACE_ROOM, edges->n * sizeof *edges->rho);
-    const struct tilt_edges tilt = {edges->state, stress->mean, stress->normal, stress->traction, stress->shear};
+    const struct tilt_edges tilt = {edges->state,   stress->aimed,    stress->mean,
+                                    stress->normal, stress->traction, stress->shear};
     if (model->n_normal) tilt_share(model, edges->frame, &tilt);
 }
 

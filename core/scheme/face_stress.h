@@ -15,6 +15,7 @@ struct face_stress {
     double *traction;                                   /* -s_nn = p - s'_nn */
     double *mean;                                       /* sum alpha_l s'_l,nn, of models with normals (tilt.h) */
     double *own;                                        /* [n_material] pressures of the materials (split models) */
+    struct tilt_aimed *aimed;                           /* of models with normals */
     const double *sides[2][2];                          /* [side][tangent] shear tractions, for the solver */
     double *slide_left[2], *slide_right[2], *robust_left[2], *robust_right[2];
 };
@@ -27,7 +28,7 @@ void face_stress_free(struct face_stress *stress);
  * reconstructed then. */
 extern const struct term face_stress_term;
 
-/* Pressures of the materials at n edges, from the traction. */
+/* Pressures of the materials at the edges of n cells, from the traction. */
 void face_stress_split(struct face_stress *stress, const struct model *model, size_t n, const double *state);
 static inline const double *face_stress_pressure(const struct face_stress *stress, unsigned l)
 {

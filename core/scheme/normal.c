@@ -2,6 +2,7 @@
 #include "scheme/normal.h"
 
 #include "base/mem.h"
+#include "phys/pick.h"
 #include "phys/row.h"
 #include "scheme/patch.h"
 
@@ -51,18 +52,33 @@ static double normal_difference(const double *c, ptrdiff_t along, ptrdiff_t one,
 
 static void normal_cell(int dim, const double *c, const ptrdiff_t stride[3], const double *h, double ret[3])
 {
-    double d[3], square = 0.0, size = 0.0;
-    bool even = true;
-    for (int a = 0; a < dim; a++) even = even && c[stride[a]] == c[0] && c[-stride[a]] == c[0];
+    double square = 0.0, size = 0.0;
     for (int a = 0; a < dim; a++) {
-        d[a] = even ? 0.0 : normal_difference(c, stride[a], stride[(a + 1) % dim], dim > 2 ? stride[(a + 2) % dim] : 0);
-        size += d[a] * d[a];
-        ret[a] = d[a] * (h[0] / h[a]);
+        double d = normal_difference(c, stride[a], stride[(a + 1) % dim], dim > 2 ? stride[(a + 2) % dim] : 0);
+        size += d * d;
+        ret[a] = d * (h[0] / h[a]);
         square += ret[a] * ret[a];
     }
     size = sqrt(size) / NORMAL_TRACE;
     double scale = square > 0.0 ? (size < 1.0 ? size : 1.0) / sqrt(square) : 0.0;
     for (int a = 0; a < dim; a++) ret[a] *= scale;
+}
+
+/* Marks cells of which a neighbour along an axis differs. */
+static BULLA_KERNEL void normal_uneven(size_t n, const double *restrict before, const double *restrict here,
+                                       const double *restrict behind, unsigned char *restrict uneven)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) uneven[i] |= (before[i] != here[i]) | (behind[i] != here[i]) ? 1 : 0;
+}
+
+/* Cells of a row of the tile that do not hold what all their neighbours hold: the others have no normal. Returns how
+ * many there are. */
+static size_t normal_cells(int dim, size_t n, const double *c, const ptrdiff_t stride[3], unsigned *at)
+{
+    unsigned char uneven[NORMAL_ROW] = {0};
+    for (int a = 0; a < dim; a++) normal_uneven(n, c - stride[a], c, c + stride[a], uneven);
+    return pick_marked(n, 0, uneven, at);
 }
 
 void normal_make(const struct model *model, const struct mesh *mesh, const double *h, const double *around,
@@ -71,15 +87,20 @@ void normal_make(const struct model *model, const struct mesh *mesh, const doubl
     const struct box_block block = patch_block(mesh, 1, NULL);
     ptrdiff_t stride[3] = {1, (ptrdiff_t)block.size[0], (ptrdiff_t)(block.size[0] * block.size[1])};
     double *colour = mem_new(block.pitch, sizeof *colour);
+    unsigned at[NORMAL_ROW];
+    size_t row = 0, length = (size_t)mesh->n[0];
     normal_colour(model, block.pitch, block.pitch, around, colour);
-    size_t at = 0;
+    memset(ret_normal, 0, (size_t)mesh->dim * mesh->n_cell * sizeof *ret_normal);
     for (int k = 0; k < mesh->n[2]; k++)
-        for (int j = 0; j < mesh->n[1]; j++)
-            for (int i = 0; i < mesh->n[0]; i++, at++) {
+        for (int j = 0; j < mesh->n[1]; j++, row += length) {
+            const double *c = colour + box_at(&block, 0, j, k);
+            size_t count = normal_cells(mesh->dim, length, c, stride, at);
+            for (size_t i = 0; i < count; i++) {
                 double n[3];
-                normal_cell(mesh->dim, colour + box_at(&block, i, j, k), stride, h, n);
-                for (int a = 0; a < mesh->dim; a++) ret_normal[(size_t)a * mesh->n_cell + at] = n[a];
+                normal_cell(mesh->dim, c + at[i], stride, h, n);
+                for (int a = 0; a < mesh->dim; a++) ret_normal[(size_t)a * mesh->n_cell + row + at[i]] = n[a];
             }
+        }
     mem_free(colour);
 }
 

@@ -19,12 +19,20 @@ void *tilt_open(const struct term_room *room);
 /* P in place of p in the gathered cells, and the differences. */
 void tilt_frame(const struct term_piece *piece);
 
-/* Normals at the edges. `cells`: primitives of the frame; state: as of edges_fill. */
-void tilt_aim(const struct model *model, const struct frame *frame, const double *cells, double *state);
+/* The cells with edges, as frame_edged() counts them, that have a normal. */
+struct tilt_aimed {
+    size_t n;
+    unsigned at[FACE_ROOM];
+};
+
+/* Normals at the edges, and which cells have one. `cells`: primitives of the frame; state: as of edges_fill. */
+void tilt_aim(const struct model *model, const struct frame *frame, const double *cells, double *state,
+              struct tilt_aimed *ret);
 
 /* Rows of the edges of a frame, upper ones first. */
 struct tilt_edges {
-    const double *state;  /* primitives, component q at 2 q FACE_ROOM */
+    const double *state; /* primitives, component q at 2 q FACE_ROOM */
+    const struct tilt_aimed *aimed;
     const double *mean;   /* sum alpha_l s'_l,nn */
     const double *stress; /* s'_ff of the cell */
     double *traction;     /* in: P; out: -s_ff */
