@@ -395,7 +395,7 @@ static void model_conduct(struct model *model)
 static bool model_is_split(const struct model *model)
 {
     enum scene_traction traction = model->scene->scheme.traction;
-    bool wanted = traction == SCENE_TRACTION_AUTO ? model->dim == 1 : traction == SCENE_TRACTION_COMMON;
+    bool wanted = traction == SCENE_TRACTION_AUTO ? !model->scene->n_phase : traction == SCENE_TRACTION_COMMON;
     return wanted && model->elastic && model->n_alpha > 0;
 }
 

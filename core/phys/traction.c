@@ -3,6 +3,7 @@
 
 #include "phys/bearing.h"
 #include "phys/elastic.h"
+#include "phys/elastic_tensor.h"
 #include "phys/pick.h"
 #include "phys/row.h"
 
@@ -28,24 +29,62 @@ static BULLA_KERNEL void traction_normal(size_t n, const double *restrict rho, c
 
 static const double traction_zero[TRACTION_BATCH];
 
+struct traction_vector {
+    double x, y, z;
+};
+
+static ELASTIC_BODY struct traction_vector traction_times(struct elastic_tensor V, struct traction_vector n)
+{
+    return (struct traction_vector){V.xx * n.x + V.xy * n.y + V.xz * n.z, V.xy * n.x + V.yy * n.y + V.yz * n.z,
+                                    V.xz * n.x + V.yz * n.y + V.zz * n.z};
+}
+
+static ELASTIC_BODY double traction_dot(struct traction_vector a, struct traction_vector b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+#define TRACTION_LOCAL(row, normal)                                                                              \
+    const double *restrict xx = row[ELASTIC_XX], *restrict xy = row[ELASTIC_XY], *restrict xz = row[ELASTIC_XZ]; \
+    const double *restrict yy = row[ELASTIC_YY], *restrict yz = row[ELASTIC_YZ], *restrict zz = row[ELASTIC_ZZ]; \
+    const double *restrict nx = normal[0], *restrict ny = normal[1], *restrict nz = normal[2]
+#define TRACTION_V(i) ((struct elastic_tensor){xx[i], yy[i], zz[i], xy[i], xz[i], yz[i]})
+
 /* N.s'N with the normals of the cells: B N = V (V N). */
 static BULLA_KERNEL void traction_along(size_t n, const double *restrict rho, const double *const *row,
                                         const double *const *normal, const double *restrict I1,
                                         const double *restrict I2, const double *restrict e_1,
                                         const double *restrict e_2, double *restrict own)
 {
-    const double *restrict xx = row[ELASTIC_XX], *restrict xy = row[ELASTIC_XY], *restrict xz = row[ELASTIC_XZ];
-    const double *restrict yy = row[ELASTIC_YY], *restrict yz = row[ELASTIC_YZ], *restrict zz = row[ELASTIC_ZZ];
-    const double *restrict nx = normal[0], *restrict ny = normal[1], *restrict nz = normal[2];
+    TRACTION_LOCAL(row, normal);
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double x = nx[i], y = ny[i], z = nz[i], square = x * x + y * y + z * z;
-        double a = xx[i], b = xy[i], c = xz[i], d = yy[i], e = yz[i], f = zz[i], first = I1[i], slope = e_2[i];
-        double u = a * x + b * y + c * z, v = b * x + d * y + e * z, w = c * x + e * y + f * z;
-        double Bx = a * u + b * v + c * w, By = b * u + d * v + e * w, Bz = c * u + e * v + f * w;
-        double B = u * u + v * v + w * w, C = Bx * Bx + By * By + Bz * Bz, trace = first * first - 2.0 * I2[i];
-        double G1 = e_1[i] + first * slope;
+        struct elastic_tensor V = TRACTION_V(i);
+        struct traction_vector N = {nx[i], ny[i], nz[i]}, half = traction_times(V, N), BN = traction_times(V, half);
+        double square = traction_dot(N, N), B = traction_dot(half, half), C = traction_dot(BN, BN);
+        double first = I1[i], slope = e_2[i], trace = first * first - 2.0 * I2[i], G1 = e_1[i] + first * slope;
         own[i] = 2.0 * rho[i] * (G1 * (B - square * (first / 3.0)) - slope * (C - square * (trace / 3.0)));
+    }
+}
+
+/* s'N, the whole vector. */
+static BULLA_KERNEL void traction_pull(size_t n, const double *restrict rho, const double *const *row,
+                                       const double *const *normal, const double *restrict I1,
+                                       const double *restrict I2, const double *restrict e_1,
+                                       const double *restrict e_2, double *const *pull)
+{
+    TRACTION_LOCAL(row, normal);
+    double *restrict px = pull[0], *restrict py = pull[1], *restrict pz = pull[2];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        struct elastic_tensor V = TRACTION_V(i);
+        struct traction_vector N = {nx[i], ny[i], nz[i]}, BN = traction_times(V, traction_times(V, N));
+        struct traction_vector BBN = traction_times(V, traction_times(V, BN));
+        double first = I1[i], slope = e_2[i], G1 = e_1[i] + first * slope, twice = 2.0 * rho[i];
+        double mean = G1 * (first / 3.0) - slope * ((first * first - 2.0 * I2[i]) / 3.0);
+        px[i] = twice * (G1 * BN.x - slope * BBN.x - mean * N.x);
+        py[i] = twice * (G1 * BN.y - slope * BBN.y - mean * N.y);
+        pz[i] = twice * (G1 * BN.z - slope * BBN.z - mean * N.z);
     }
 }
 
@@ -99,29 +138,39 @@ static void traction_look(const struct model *model, const struct traction_cells
     memcpy(ret->I2, ret->I1, cells->n * sizeof *ret->I2); /* nobody looks at it */
 }
 
-/* s'_nn of the slopes e_1, e_2 of a view. */
+/* Where s'_nn goes, and of models with normals s'N if it is asked for (else NULL). */
+struct traction_out {
+    double *own, *pull[3];
+};
+
+/* Both of the slopes e_1, e_2 of a view. */
 static void traction_of(const struct model *model, size_t n, const double *rho, const struct traction_view *view,
-                        double *own)
+                        const struct traction_out *out)
 {
-    const double *const *row = view->row;
-    if (model->n_normal) traction_along(n, rho, row, view->normal, view->I1, view->I2, view->e_1, view->e_2, own);
+    const double *const *row = view->row, *I1 = view->I1, *I2 = view->I2, *e_1 = view->e_1, *e_2 = view->e_2;
+    if (out->pull[0]) traction_pull(n, rho, row, view->normal, I1, I2, e_1, e_2, out->pull);
+    if (model->n_normal) traction_along(n, rho, row, view->normal, I1, I2, e_1, e_2, out->own);
     else
         traction_normal(n, rho, row[ELASTIC_XX], row[ELASTIC_XY], row[ELASTIC_XZ], row[ELASTIC_YY], row[ELASTIC_YZ],
-                        row[ELASTIC_ZZ], view->I1, view->I2, view->e_1, view->e_2, own);
+                        row[ELASTIC_ZZ], I1, I2, e_1, e_2, out->own);
 }
 
 /* What the Maxwell branches of solid s add: each a neo-Hookean spring on its own stretch. rho: of the solid. */
 static void traction_branches(const struct model *model, const struct traction_cells *cells, unsigned s, size_t stride,
-                              const double *w, const double *rho, struct traction_view *view, double *own)
+                              const double *w, const double *rho, struct traction_view *view,
+                              const struct traction_out *out)
 {
-    double part[TRACTION_BATCH];
+    double room[4 * TRACTION_BATCH];
+    struct traction_out part = {.own = room};
+    for (unsigned d = 0; out->pull[0] && d < 3; d++) part.pull[d] = room + (d + 1) * TRACTION_BATCH;
     for (unsigned b = 0; b < model->n_branch; b++) {
         const struct model_branch *branch = &model->branches[b];
         if (branch->solid != s) continue;
         traction_look(model, cells, model->n_solid + b, stride, w, view);
         for (size_t i = 0; i < cells->n; i++) view->e_1[i] = branch->k, view->e_2[i] = 0.0;
-        traction_of(model, cells->n, rho, view, part);
-        row_add(cells->n, part, own);
+        traction_of(model, cells->n, rho, view, &part);
+        row_add(cells->n, part.own, out->own);
+        for (unsigned d = 0; out->pull[0] && d < 3; d++) row_add(cells->n, part.pull[d], out->pull[d]);
     }
 }
 
@@ -137,28 +186,31 @@ static const double *traction_density(const struct model *model, const struct tr
     return room + 2 * TRACTION_BATCH;
 }
 
-/* s'_nn of solid s at those cells. */
+/* The same of all of solid s at those cells. */
 static void traction_solid(const struct model *model, const struct traction_cells *cells, unsigned s, size_t stride,
-                           const double *w, struct traction_view *view, double *own)
+                           const double *w, struct traction_view *view, const struct traction_out *out)
 {
     const struct model_solid *solid = &model->solids[s];
     double e[TRACTION_BATCH], room[3 * TRACTION_BATCH];
     const double *rho = traction_density(model, cells, s, stride, w, room);
     traction_look(model, cells, s, stride, w, view);
     solid->law->energy(solid->self, cells->n, view->I1, view->I2, e, view->e_1, view->e_2);
-    traction_of(model, cells->n, rho, view, own);
-    traction_branches(model, cells, s, stride, w, rho, view, own);
+    traction_of(model, cells->n, rho, view, out);
+    traction_branches(model, cells, s, stride, w, rho, view, out);
 }
 
 void traction_at(const struct model *model, size_t n, const unsigned *at, size_t stride, const double *w, size_t pitch,
-                 double *own)
+                 double *own, double *pull)
 {
     struct traction_view view;
     for (size_t from = 0; from < n; from += TRACTION_BATCH) {
         const struct traction_cells cells = {n - from < TRACTION_BATCH ? n - from : TRACTION_BATCH, at + from};
         traction_aim(model, &cells, stride, w, &view);
-        for (unsigned s = 0; s < model->n_solid; s++)
-            traction_solid(model, &cells, s, stride, w, &view, own + s * pitch + from);
+        for (unsigned s = 0; s < model->n_solid; s++) {
+            struct traction_out out = {.own = own + s * pitch + from};
+            for (unsigned d = 0; pull && d < 3; d++) out.pull[d] = pull + (3 * s + d) * pitch + from;
+            traction_solid(model, &cells, s, stride, w, &view, &out);
+        }
     }
 }
 
@@ -167,7 +219,7 @@ static size_t traction_packed(const struct model *model, size_t n, size_t stride
                               double *own)
 {
     n = pick_nonzero(n, model->n_normal, stride, w + model->i_normal * stride, at);
-    traction_at(model, n, at, stride, w, TRACTION_BATCH, own);
+    traction_at(model, n, at, stride, w, TRACTION_BATCH, own, NULL);
     return n;
 }
 
@@ -181,9 +233,9 @@ static void traction_batch(const struct model *model, size_t n, size_t stride, c
     for (unsigned l = 0; l < model->n_material; l++) memset(own + l * pitch, 0, n * sizeof *own);
     size_t count = model->n_normal ? traction_packed(model, n, stride, w, at, packed) : 0;
     for (unsigned s = 0; s < model->n_solid; s++) {
-        double *ret = own + model->solids[s].material * pitch;
-        if (model->n_normal) pick_put(count, at, packed + s * TRACTION_BATCH, ret);
-        else traction_solid(model, &all, s, stride, w, &view, ret);
+        const struct traction_out ret = {.own = own + model->solids[s].material * pitch};
+        if (model->n_normal) pick_put(count, at, packed + s * TRACTION_BATCH, ret.own);
+        else traction_solid(model, &all, s, stride, w, &view, &ret);
     }
 }
 

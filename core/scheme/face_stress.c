@@ -14,8 +14,9 @@ struct face_stress *face_stress_new(const struct model *model)
 {
     if (!model->n_stretch) return NULL;
     struct face_stress *stress = mem_new(1, sizeof *stress);
-    double **rows[] = {&stress->energy, &stress->normal, &stress->shear[0], &stress->shear[1],
-                       &stress->stiff,  &stress->rigid,  &stress->traction, &stress->mean};
+    double **rows[] = {&stress->energy, &stress->normal,  &stress->shear[0], &stress->shear[1],
+                       &stress->stiff,  &stress->rigid,   &stress->traction, &stress->mean,
+                       stress->pull,    &stress->pull[0], &stress->pull[1],  &stress->pull[2]};
     double *block = mem_new(sizeof rows / sizeof *rows * 2 * FACE_ROOM, sizeof *block);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) *rows[i] = block + i * 2 * FACE_ROOM;
     if (model->split) stress->own = mem_new((size_t)model->n_material * 2 * FACE_ROOM, sizeof *block);
@@ -53,12 +54,12 @@ static BULLA_KERNEL void face_stress_press(size_t n, const double *restrict trac
     for (size_t i = 0; i < n; i++) own[i] += traction[i];
 }
 
-/* Adds what solids have on the normals of the edges of one side, and leaves the mean. Rows begin with the side. */
+/* Adds what solids have on the normals of the edges of one side, and leaves the means. Rows begin with the side. */
 static void face_stress_tilt(struct face_stress *stress, const struct model *model, size_t from, const double *state)
 {
     const struct tilt_aimed *aimed = stress->aimed;
-    double packed[SCENE_MATERIALS * FACE_ROOM], *mean = stress->mean + from;
-    traction_at(model, aimed->n, aimed->at, 2 * FACE_ROOM, state + from, FACE_ROOM, packed);
+    double packed[SCENE_MATERIALS * FACE_ROOM], pull[3 * SCENE_MATERIALS * FACE_ROOM], *mean = stress->mean + from;
+    traction_at(model, aimed->n, aimed->at, 2 * FACE_ROOM, state + from, FACE_ROOM, packed, pull);
     for (unsigned s = 0; s < model->n_solid; s++) {
         unsigned l = model->solids[s].material;
         const double *alpha = state + 2 * (model->i_alpha + l) * FACE_ROOM + from, *part = packed + s * FACE_ROOM;
@@ -67,6 +68,11 @@ static void face_stress_tilt(struct face_stress *stress, const struct model *mod
             size_t i = aimed->at[k];
             own[i] += part[k];
             mean[i] += alpha[i] * part[k];
+        }
+        for (unsigned d = 0; d < model->n_velocity; d++) {
+            const double *held = pull + (3 * s + d) * FACE_ROOM;
+            double *sum = stress->pull[d] + from;
+            for (size_t k = 0; k < aimed->n; k++) sum[aimed->at[k]] += alpha[aimed->at[k]] * held[k];
         }
     }
 }
@@ -82,6 +88,7 @@ void face_stress_split(struct face_stress *stress, const struct model *model, si
     }
     if (!model->n_normal) return;
     memset(stress->mean, 0, 2 * n * sizeof *stress->mean);
+    for (unsigned d = 0; d < model->n_velocity; d++) memset(stress->pull[d], 0, 2 * n * sizeof *stress->pull[d]);
     for (size_t side = 0; side < 2; side++) face_stress_tilt(stress, model, side * n, state);
 }
 
@@ -114,7 +121,7 @@ void face_stress_complete(struct face_stress *stress, const struct model *model,
                     edges->rho_c2);
     if (model->split)
         memcpy(stress->traction, edges->state + 2 * model->i_E * FACE_ROOM, edges->n * sizeof *edges->rho);
-    const struct tilt_edges tilt = {edges->state,   stress->aimed,    stress->mean,
+    const struct tilt_edges tilt = {edges->state,   stress->aimed,    stress->mean, stress->pull,
                                     stress->normal, stress->traction, stress->shear};
     if (model->n_normal) tilt_share(model, edges->frame, &tilt);
 }

@@ -14,6 +14,7 @@ struct face_stress {
     double *energy, *normal, *shear[2], *stiff, *rigid; /* of elastic_sides; `rigid` becomes c_s */
     double *traction;                                   /* -s_nn = p - s'_nn */
     double *mean;                                       /* sum alpha_l s'_l,nn, of models with normals (tilt.h) */
+    double *pull[3];                                    /* sum alpha_l s'_l N of them */
     double *own;                                        /* [n_material] pressures of the materials (split models) */
     struct tilt_aimed *aimed;                           /* of models with normals */
     const double *sides[2][2];                          /* [side][tangent] shear tractions, for the solver */

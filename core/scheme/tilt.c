@@ -224,17 +224,48 @@ static BULLA_KERNEL void tilt_leave(size_t n, const double *restrict stress, dou
     for (size_t i = 0; i < n; i++) traction[i] -= stress[i];
 }
 
+/* Component d of t at an edge, the traction on its normal N without what is along N; and of N. */
+struct tilt_slip {
+    double t, N;
+};
+
+static struct tilt_slip tilt_slip(const struct model *model, const struct tilt_edges *edges, size_t i, unsigned d)
+{
+    double square = 0.0, N = 0.0;
+    for (unsigned e = 0; e < model->n_normal; e++) {
+        double n = edges->state[2 * (model->i_normal + e) * FACE_ROOM + i];
+        square += n * n;
+        if (e == d) N = n;
+    }
+    double along = square > 0.0 ? edges->mean[i] / square : 0.0;
+    return (struct tilt_slip){edges->pull[d][i] - N * along, N};
+}
+
+/* How much of t a face takes as it is: all where it lies in the surface. */
+static double tilt_alike(double N)
+{
+    double c = 2.0 * N * N - 1.0;
+    return c > 0.0 ? c : 0.0;
+}
+
 /* What all of them bear seen from one side, whose n rows begin at `from`; `part`: of the `count` faces `at`. */
-static void tilt_bear(const struct model *model, size_t n, size_t from, size_t count, const unsigned *at,
+static void tilt_bear(const struct model *model, int axis, size_t n, size_t from, size_t count, const unsigned *at,
                       const double *part, const struct tilt_edges *edges)
 {
-    const double *stress = edges->stress + from, *mean = edges->mean + from;
     double borne[FACE_ROOM], *traction = edges->traction + from;
-    for (size_t k = 0; k < count; k++) borne[k] = traction[at[k]] - part[k] * (stress[at[k]] - mean[at[k]]);
-    tilt_leave(n, stress, traction);
+    for (size_t k = 0; k < count; k++) {
+        size_t i = from + at[k];
+        struct tilt_slip f = tilt_slip(model, edges, i, axis_component(axis, 0));
+        double alike = tilt_alike(f.N), slip = alike * 2.0 * f.N * f.t;
+        borne[k] = traction[at[k]] - slip - part[k] * (edges->stress[i] - edges->mean[i] - slip);
+        for (unsigned d = 0; d + 1 < model->n_velocity; d++) {
+            struct tilt_slip g = tilt_slip(model, edges, i, axis_component(axis, d + 1));
+            double shear = edges->shear[d][i], slide = alike * (f.N * g.t + g.N * f.t);
+            edges->shear[d][i] = slide + part[k] * (shear - slide);
+        }
+    }
+    tilt_leave(n, edges->stress + from, traction);
     pick_put(count, at, borne, traction);
-    for (unsigned d = 0; d + 1 < model->n_velocity; d++)
-        for (size_t k = 0; k < count; k++) edges->shear[d][from + at[k]] *= part[k];
 }
 
 void tilt_share(const struct model *model, const struct frame *frame, const struct tilt_edges *edges)
@@ -245,5 +276,6 @@ void tilt_share(const struct model *model, const struct frame *frame, const stru
     size_t count = tilt_faces(edges->aimed, frame->inner, n, at);
     for (size_t side = 0; side < 2; side++) tilt_fractions(model, count, at, edges->state + side * right, part[side]);
     tilt_parts(count, part[0], part[1]);
-    for (size_t side = 0; side < 2; side++) tilt_bear(model, n, side * right, count, at, part[side], edges);
+    for (size_t side = 0; side < 2; side++)
+        tilt_bear(model, frame->axis, n, side * right, count, at, part[side], edges);
 }

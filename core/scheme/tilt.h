@@ -5,9 +5,12 @@
  * - P is that of the cell's own normal, and the limiter sees its neighbours with the same one: the differences to them
  * are made of p and the whole stress (`lean` of face.h), the same in all tiles that see a cell;
  * - the normal of a cell holds at its edges;
- * - a face of normal f has -s_ff = P - A (s'_ff - s'_nn) and the shear A s'_ft, with s' per volume of solid and one A
- * for both sides, the part of the face that solids cover: the mean of their fractions at the two edges, less where one
- * is below 1/16 of the other. Beside cells without solid nothing bears it. After docs/decisions/oblique-surfaces.md. */
+ * - the stress of a face of normal f is that of the surface, which both sides share, and what solids bear along it:
+ * with t the traction on n without its normal part, s' = s'_nn 1 + c (n t + t n) + H. H, per volume of solid, acts on
+ * one part A of the face for both sides, the part that solids cover: the mean of their fractions at the two edges, less
+ * where one is below 1/16 of the other. Beside cells without solid nothing bears it. t is that of each side: the solver
+ * lets them slip. c = 2 (n.f)^2 - 1 where that is above 0: under 45 degrees faces that hold nothing of t end runs.
+ * After docs/decisions/oblique-surfaces.md. */
 #ifndef TILT_H
 #define TILT_H
 
@@ -34,6 +37,7 @@ struct tilt_edges {
     const double *state; /* primitives, component q at 2 q FACE_ROOM */
     const struct tilt_aimed *aimed;
     const double *mean;   /* sum alpha_l s'_l,nn */
+    double *const *pull;  /* [n_velocity] sum alpha_l s'_l N */
     const double *stress; /* s'_ff of the cell */
     double *traction;     /* in: P; out: -s_ff */
     double *const *shear; /* [n_velocity - 1] s'_ft: in: of the cell; out: of the face */

@@ -35,7 +35,7 @@ int normals_begin(struct state *state)
             around_finer(stage->work->around, l, stage->bound, 0);
             around_down(stage->work->around, l + 1, state->stages[l + 1]->bound);
         }
-        TRY(comm_agree(verdict_start(stage)));
+        TRY(comm_agree(verdict_start(stage, &state->counts.relaxed)));
     }
     return STATUS_OK;
 }

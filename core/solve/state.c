@@ -65,7 +65,7 @@ static int state_begin(struct state *state)
     TRY(state_paint(state));
     TRY(state_enter(state, 0));
     curve_take(state->work->curve, 0, state->mesh->levels[0].u_old);
-    TRY(comm_agree(verdict_start(state->stages[0])));
+    TRY(comm_agree(verdict_start(state->stages[0], &state->counts.relaxed)));
     TRY(regrid_initial(state));
     regrid_signals(state);
     for (int l = 0; l < state->mesh->n_level; l++) peak_take(state, l, state->t);

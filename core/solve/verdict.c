@@ -123,14 +123,14 @@ void verdict_reset(struct stage *stage)
     }
 }
 
-int verdict_start(struct stage *stage)
+int verdict_start(struct stage *stage, long long *relaxed)
 {
     const struct level *level = stage->level;
     size_t bytes = stage->model->n_field * stage->mesh->n_cell * sizeof(double);
     bool repair = stage->guard->repair;
     verdict_reset(stage);
     guard_attempt(stage->guard);
-    stage->guard->repair = false;
+    stage->guard->repair = repair && stage->model->split;
     for (unsigned tile = 0; tile < level->n_local; tile++) {
         memcpy(level->u_new[tile], level->u_old[tile], bytes); /* an earlier state, for verdict_touch */
         verdict_judge(stage, tile, verdict_last(stage), level->u_new[tile], level->u_old[tile], level->w[tile]);
@@ -138,6 +138,7 @@ int verdict_start(struct stage *stage)
         census_turn(&stage->census.tiles[tile]);
     }
     verdict_survey(stage);
+    *relaxed += stage->guard->relaxed;
     stage->guard->repair = repair;
     guard_clear(stage->guard);
     if (!stage->guard->cause[0]) return STATUS_OK;

@@ -26,9 +26,9 @@ void verdict_touch(struct stage *stage, unsigned local);
 /* w = primitives of u_old: before the first step and before a step is repeated. */
 void verdict_reset(struct stage *stage);
 
-/* An initial state in u_old: primitives, judgement without repair, signal. STATUS_CASE: inadmissible. Not
- * collective. */
-int verdict_start(struct stage *stage);
+/* An initial state in u_old: primitives, judgement, signal. Nothing is repaired but cells in which a solid pulls on a
+ * fluid more than that bears, with one traction; their number is added. STATUS_CASE: inadmissible. Not collective. */
+int verdict_start(struct stage *stage, long long *relaxed);
 
 /* A tile whose primitives are there, from another rank or just made: census and signal. */
 void verdict_welcome(struct stage *stage, unsigned local);

@@ -30,7 +30,7 @@ resumed gel 10 gel-1
 
 "$BULLA" plan gel.yaml >plan
 grep -q '^  normal .*core/scheme/normal.c' plan || fail 'the plan has no normals' plan
-"$BULLA" plan gel.yaml --set scheme.traction=auto >plain
+"$BULLA" plan gel.yaml --set scheme.traction=pressure >plain
 ! grep -q normal.c plain || fail 'normals that nobody asked for' plain
 
 # Stripes of stretched gel and gas under 45 degrees rest to round-off, with normals and shear in every cell of a surface; under
@@ -63,3 +63,34 @@ END_STRIPES
 "$BULLA" run stripes.yaml --quiet
 "$BULLA" run "$BULLA_SOURCE/cases/verify/rest-gel.yaml" --variant quick -o rest-gel --quiet
 "$BULLA" run "$BULLA_SOURCE/cases/verify/rest-stiff.yaml" --variant quick -o rest-stiff --quiet
+
+# A sheared solid that slides along water (e05) is set in motion in the plane as in one dimension: faces that lie in the surface
+# take the shear of the solid as it is. With the part of the hoop stress the water gets 4 % too much.
+slide() { # NAME DIM: the speed of the water near the surface
+    sed -e "s/NAME/$1/" -e "$2" >"$1.yaml" <<'END_SLIDE'
+bulla: 1
+title: A sheared solid beside water
+domain: {lower: [-0.5], upper: [0.5], cells: [100], velocity-components: 2, boundaries: {x-: outflow, x+: outflow}}
+materials:
+  solid:
+    eos: {type: stiffened-gas, gamma: 3.4, p-inf: 4591545000}
+    constitutive: {type: neo-hookean, shear-modulus: 10728633195, reference-density: 1995}
+  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
+initial:
+  - {everywhere: true, material: water, density: 998.2, pressure: 100000, velocity: [0, 0]}
+  - {half-space: {normal: [-1], point: [0]}, material: solid, density: 1995, pressure: 100000, velocity: [0, 0],
+     stretch: {xx: 0.9950371902099893, yy: 1.014937934014189, xy: 0.09950371902099893}}
+scheme: {limiter: mc, integrator: midpoint, cfl: 0.4}
+run: {until: 1e-4}
+output:
+  directory: NAME
+  probes: {every: 10 steps, water: {at: [0.02], fields: [velocity]}}
+END_SLIDE
+    "$BULLA" run "$1.yaml" --quiet
+    tail -n 1 "$1/probes.csv" | cut -d, -f2
+}
+line=$(slide line 's/^//')
+plane=$(slide plane 's/\[-0.5\]/[-0.5, 0]/; s/\[0.5\]/[0.5, 0.04]/; s/\[100\]/[100, 4]/; s/velocity-components: 2, //
+    s/x+: outflow/&, y-: periodic, y+: periodic/; s/normal: \[-1\], point: \[0\]/normal: [-1, 0], point: [0, 0]/
+    s/\[0.02\]/[0.02, 0.01]/')
+awk -v a="$line" -v b="$plane" 'BEGIN { exit !(a > 1 && b/a > 0.995 && b/a < 1.005) }' || fail "u of the water: $line, $plane"

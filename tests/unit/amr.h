@@ -133,7 +133,7 @@ static inline void amr_close(struct flow *flow)
 {
     struct state *state = flow->state;
     for (int l = 0; l < state->mesh->n_level; l++)
-        if (verdict_start(state->stages[l])) fail_msg("level %d: %s", l, status_text());
+        if (verdict_start(state->stages[l], &state->counts.relaxed)) fail_msg("level %d: %s", l, status_text());
     for (int l = state->mesh->n_level - 1; l > 0; l--)
         if (sync_up(state->stages[l - 1], state->stages[l], &state->counts.spread)) fail_msg("%s", status_text());
     for (int l = 0; l < state->mesh->n_level; l++) adopt_bounds(state->stages[l]);

@@ -120,7 +120,7 @@ static inline void flow_centre(const struct flow *flow, size_t index, double ret
 static inline void flow_close(struct flow *flow)
 {
     struct stage *stage = flow->state->stages[0];
-    if (verdict_start(stage)) fail_msg("%s", status_text());
+    if (verdict_start(stage, &flow->state->counts.relaxed)) fail_msg("%s", status_text());
     flow->state->signal = stage->signal;
     adopt_bounds(stage);
 }

@@ -164,7 +164,7 @@ static void test_creeping(void **state)
     "  gel: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}, constitutive: {type: gent, " \
     "limit: 30, shear-modulus: 85 kPa, reference-density: 1060}}\n"
 
-/* Air above a gel, all at rest, in `dim` dimensions. */
+/* Air above a gel, all at rest, in `dim` dimensions; with one pressure in the plane. */
 static char *above_gel(int dim)
 {
     static const char *const domain[] = {"lower: [0], upper: [1], cells: [32], boundaries: {x-: outflow, x+: outflow}",
@@ -173,8 +173,8 @@ static char *above_gel(int dim)
     return mem_print("bulla: 1\ntitle: gel\ndomain: {%s}\nmesh: {tile: 16}\nmaterials:\n" FLOW_AIR GEL
                      "initial:\n  - {everywhere: true, material: air, density: 1.2, pressure: 1e5}\n"
                      "  - {box: {lower: [0%s], upper: [0.53%s]}, material: gel, density: 1060, pressure: 1e5}\n"
-                     "run: {until: 1}\n",
-                     domain[dim - 1], dim > 1 ? ", 0" : "", dim > 1 ? ", 1" : "");
+                     "scheme: {traction: %s}\nrun: {until: 1}\n",
+                     domain[dim - 1], dim > 1 ? ", 0" : "", dim > 1 ? ", 1" : "", dim > 1 ? "pressure" : "auto");
 }
 
 /* Judges tile 1, which has the interface, with cell 3 at these primitives; repair is not allowed. Returns whether the

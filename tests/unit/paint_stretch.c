@@ -16,7 +16,7 @@
     "  air: {eos: {type: ideal-gas, gamma: 1.4}}\n"
 #define PLANE                                                                                     \
     "bulla: 1\ndomain: {lower: [0, 0], upper: [1, 1], cells: [16, 16], boundaries: {x-: outflow," \
-    " x+: outflow, y-: outflow, y+: outflow}}\nrun: {until: 1}\n" LAWS
+    " x+: outflow, y-: outflow, y+: outflow}}\nscheme: {traction: pressure}\nrun: {until: 1}\n" LAWS
 #define LINE                                                                                                    \
     "bulla: 1\ndomain: {lower: [0], upper: [1], cells: [16], velocity-components: 3, boundaries: {x-: outflow," \
     " x+: outflow}}\nrun: {until: 1}\n" LAWS
