@@ -109,7 +109,7 @@ static double *restrict_target(const struct mesh *mesh, int l, const struct link
     return coarse->u_old[child->coarse] + restrict_origin(mesh, child->octant);
 }
 
-void restrict_averages(const struct mesh *mesh, int l)
+void restrict_averages(const struct mesh *mesh, int l, int depth)
 {
     const struct level *level = &mesh->levels[l];
     const struct link *link = level->link;
@@ -122,6 +122,7 @@ void restrict_averages(const struct mesh *mesh, int l)
     }
     for (unsigned i = 0; i < link->n_child; i++) {
         const struct link_child *child = &link->children[i];
+        if (child->sleeps != depth) continue;
         const double *fine = level->u_old[child->fine];
         bool away = child->average != NULL;
         double *to = away ? child->average : restrict_target(mesh, l, child);
@@ -144,16 +145,23 @@ static void restrict_place(const struct mesh *mesh, const double *average, doubl
                    n0 * sizeof *to);
 }
 
-void restrict_take(const struct mesh *mesh, int l)
+void restrict_take(const struct mesh *mesh, int l, int depth)
 {
     const struct link *link = mesh->levels[l].link;
     for (unsigned i = 0; i < link->n_octant; i++) {
         const struct link_child *child = &link->octants[i];
-        if (!child->average) continue;
+        if (!child->average || child->sleeps != depth) continue;
         double *to = restrict_target(mesh, l, child);
         for (unsigned q = 0; q < mesh->n_field; q++)
             restrict_place(mesh, child->average + q * link->octant_cells, to + q * mesh->n_cell);
     }
+}
+
+void restrict_late(const struct mesh *mesh, int l, int depth)
+{
+    restrict_averages(mesh, l, depth);
+    link_up_late(mesh->levels[l].link, depth);
+    restrict_take(mesh, l, depth);
 }
 
 void restrict_face(const struct mesh *mesh, const struct level *level, const struct tile *tile, int axis,

@@ -142,19 +142,32 @@ static bool level_beyond(const struct mesh *mesh, const struct level *level, con
     return true;
 }
 
-/* Are all tiles around a tile wholly covered, those across edges and corners too? */
-static bool level_surrounded(const struct mesh *mesh, const struct level *level, const struct tile *tile)
+int level_around(const struct mesh *mesh, const struct level *level, const struct tile *tile,
+                 unsigned ret_tiles[static 26], bool *ret_all)
 {
     static const int ways = 27;
+    int n = 0;
+    *ret_all = true;
     for (int way = 0; way < ways; way++) {
         const int step[3] = {way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1};
         int at[3];
-        if ((mesh->dim < 3 && step[2]) || (mesh->dim < 2 && step[1])) continue;
+        if ((mesh->dim < 3 && step[2]) || (mesh->dim < 2 && step[1]) || way == ways / 2) continue;
         if (!level_beyond(mesh, level, tile, step, at)) continue;
         int other = level_find(level, morton_key(at));
-        if (other < 0 || level->tiles[other].covered != level_whole(mesh)) return false;
+        if (other < 0) *ret_all = false;
+        else ret_tiles[n++] = (unsigned)other;
     }
-    return true;
+    return n;
+}
+
+/* Are all tiles around a tile wholly covered, those across edges and corners too? */
+static bool level_surrounded(const struct mesh *mesh, const struct level *level, const struct tile *tile)
+{
+    unsigned around[26];
+    bool all;
+    int n = level_around(mesh, level, tile, around, &all);
+    for (int i = 0; all && i < n; i++) all = level->tiles[around[i]].covered == level_whole(mesh);
+    return all;
 }
 
 static bool level_hidden(const struct mesh *mesh, const struct level *level, const struct tile *tile)

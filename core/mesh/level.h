@@ -27,6 +27,11 @@ int level_behind(const struct mesh *mesh, const struct level *level, const struc
 /* Makes the neighbours of the local tiles anew. */
 void level_connect(const struct mesh *mesh, struct level *level);
 
+/* The known tiles around an own one, across edges and corners too, indices in the list; returns how many. *ret_all: are
+ * there tiles at all places around it that lie in the domain? */
+int level_around(const struct mesh *mesh, const struct level *level, const struct tile *tile,
+                 unsigned ret_tiles[static 26], bool *ret_all);
+
 /* Bits of all octants of a tile. */
 unsigned char level_whole(const struct mesh *mesh);
 

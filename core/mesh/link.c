@@ -13,6 +13,7 @@
 
 struct link_own {
     struct post *down, *up;
+    struct post *late[MESH_LEVELS + 1]; /* of tiles that sleep, by their depth, from 1 on */
     double *shared; /* strips and registers of faces with both tiles here */
 };
 
@@ -92,7 +93,9 @@ static void link_list_children(struct link_draft *draft)
     link->children = mem_new(fine->n_local, sizeof *link->children);
     for (unsigned t = 0; t < fine->n_local; t++) {
         uint64_t key = link_tile(fine, t)->key;
-        link->children[t] = (struct link_child){.fine = t, .coarse = link_above(draft, key), .octant = (int)(key & 7u)};
+        struct link_child *child = &link->children[t];
+        *child = (struct link_child){.fine = t, .coarse = link_above(draft, key), .octant = (int)(key & 7u)};
+        if (draft->nested) child->sleeps = link_tile(draft->coarse, child->coarse)->sleeps;
     }
 }
 
@@ -115,7 +118,8 @@ static void link_list_octants(struct link_draft *draft)
                 link->octants[count++] =
                     (struct link_child){.fine = link_local(draft->fine, level_find(draft->fine, tile->key << 3 | o)),
                                         .coarse = c,
-                                        .octant = (int)o};
+                                        .octant = (int)o,
+                                        .sleeps = tile->sleeps};
     }
 }
 
@@ -219,11 +223,24 @@ static struct post *link_post(struct link_draft *draft, int tag)
     return post;
 }
 
+/* Averages that travel of coarse tiles that sleep so deep, or, at 0, of those that do not. */
+static void link_add_averages(struct link_draft *draft, int depth)
+{
+    const struct link *link = draft->link;
+    size_t average = draft->mesh->n_field * link->octant_cells;
+    for (unsigned i = 0; i < link->n_child; i++)
+        if (link->children[i].sleeps == depth && !link_here(draft->coarse, link->children[i].coarse))
+            link_add_out(draft, draft->coarse, link->children[i].coarse, average);
+    for (unsigned i = 0; i < link->n_octant; i++)
+        if (link->octants[i].sleeps == depth && !link_here(draft->fine, link->octants[i].fine))
+            link_add_in(draft, draft->fine, link->octants[i].fine, average);
+}
+
 static void link_connect(struct link_draft *draft, struct link_own *own)
 {
     const struct link *link = draft->link;
     const struct level *fine = draft->fine, *coarse = draft->coarse;
-    size_t flux = link->n_register * link->face_cells, average = draft->mesh->n_field * link->octant_cells;
+    size_t flux = link->n_register * link->face_cells;
     draft->out = mem_new((size_t)link->n_face + link->n_child + draft->n_away, sizeof *draft->out);
     draft->in = mem_new((size_t)link->n_face + link->n_octant + draft->n_away, sizeof *draft->in);
     for (unsigned i = 0; i < draft->n_away; i++)
@@ -234,13 +251,13 @@ static void link_connect(struct link_draft *draft, struct link_own *own)
     own->down = link_post(draft, POST_DOWN);
     for (unsigned i = 0; i < link->n_face; i++)
         if (!link_here(draft->coarse, link->faces[i].coarse)) link_add_out(draft, coarse, link->faces[i].coarse, flux);
-    for (unsigned i = 0; i < link->n_child; i++)
-        if (!link_here(draft->coarse, link->children[i].coarse))
-            link_add_out(draft, coarse, link->children[i].coarse, average);
     for (unsigned i = 0; i < draft->n_away; i++) link_add_in(draft, fine, link->sources[draft->away[i]].fine, flux);
-    for (unsigned i = 0; i < link->n_octant; i++)
-        if (!link_here(draft->fine, link->octants[i].fine)) link_add_in(draft, fine, link->octants[i].fine, average);
+    link_add_averages(draft, 0);
     own->up = link_post(draft, POST_UP);
+    for (int depth = 1; depth <= link->fine_level; depth++) {
+        link_add_averages(draft, depth);
+        own->late[depth] = link_post(draft, POST_LATE);
+    }
     mem_free(draft->out);
     mem_free(draft->in);
 }
@@ -280,16 +297,24 @@ static void link_store_faces(struct link_draft *draft, struct link_own *own)
     }
 }
 
-/* Averages follow the registers in the messages up. */
+/* Averages follow the registers in the messages up, or have messages of their own. */
 static void link_store_averages(struct link_draft *draft, struct link_own *own)
 {
     struct link *link = draft->link;
-    unsigned out = 0, in = draft->n_away;
+    unsigned out = 0, in = draft->n_away, late_out[MESH_LEVELS + 1] = {0}, late_in[MESH_LEVELS + 1] = {0};
     for (unsigned i = 0; i < link->n_face; i++) out += !link_here(draft->coarse, link->faces[i].coarse);
-    for (unsigned i = 0; i < link->n_child; i++)
-        if (!link_here(draft->coarse, link->children[i].coarse)) link->children[i].average = post_out(own->up, out++);
-    for (unsigned i = 0; i < link->n_octant; i++)
-        if (!link_here(draft->fine, link->octants[i].fine)) link->octants[i].average = post_in(own->up, in++);
+    for (unsigned i = 0; i < link->n_child; i++) {
+        struct link_child *child = &link->children[i];
+        if (link_here(draft->coarse, child->coarse)) continue;
+        unsigned depth = child->sleeps;
+        child->average = depth ? post_out(own->late[depth], late_out[depth]++) : post_out(own->up, out++);
+    }
+    for (unsigned i = 0; i < link->n_octant; i++) {
+        struct link_child *child = &link->octants[i];
+        if (link_here(draft->fine, child->fine)) continue;
+        unsigned depth = child->sleeps;
+        child->average = depth ? post_in(own->late[depth], late_in[depth]++) : post_in(own->up, in++);
+    }
 }
 
 /* Coarse tiles with ends on other ranks. */
@@ -298,7 +323,8 @@ static void link_list_waits(struct link_draft *draft)
     struct link *link = draft->link;
     link->waits = mem_new(draft->coarse->n_local, sizeof *link->waits);
     for (unsigned i = 0; i < link->n_octant; i++)
-        if (!link_here(draft->fine, link->octants[i].fine)) link->waits[link->octants[i].coarse] = true;
+        if (!link->octants[i].sleeps && !link_here(draft->fine, link->octants[i].fine))
+            link->waits[link->octants[i].coarse] = true;
     for (unsigned i = 0; i < draft->n_away; i++) link->waits[link->sources[draft->away[i]].coarse] = true;
 }
 
@@ -346,6 +372,7 @@ void link_free(struct link *link)
     struct link_own *own = link->own;
     post_free(own->down);
     post_free(own->up);
+    for (int depth = 1; depth <= link->fine_level; depth++) post_free(own->late[depth]);
     mem_free(own->shared);
     mem_free(own);
     mem_free(link->faces);
@@ -381,4 +408,11 @@ void link_up(struct link *link)
 {
     link_up_start(link);
     link_up_finish(link);
+}
+
+void link_up_late(struct link *link, int depth)
+{
+    struct link_own *own = link->own;
+    post_start(own->late[depth]);
+    post_finish(own->late[depth]);
 }

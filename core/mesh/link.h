@@ -5,7 +5,7 @@
  * coarse level. Its layers are those of whole coarse cells: as many as the mesh's ghosts, or one more. The owner of the
  * coarse tile behind the face makes it (levels/prolong.h), so that only finished ghosts travel. A face looks at exactly
  * one octant of one coarse tile. Up: per such face the sum over fine steps and sub-faces of the fluxes (the register),
- * and per fine tile its average on the octant above. Where both tiles are on one rank the two ends share memory. */
+ * and per fine tile its average on the octant above, in each step or, of tiles that sleep, on demand. Where both tiles are on one rank the two ends share memory. */
 #ifndef LINK_H
 #define LINK_H
 
@@ -29,6 +29,7 @@ struct link_face {
 struct link_child {
     unsigned fine, coarse; /* as above */
     int octant;
+    unsigned char sleeps; /* of the coarse tile: above 0 its averages do not travel with the registers */
     double *average; /* [n_field][(n/2)^d]: of the fine tile, x fastest; NULL where both tiles are local */
 };
 
@@ -50,7 +51,7 @@ struct link {
     struct link_child *children;
     unsigned n_octant, *octant_from; /* of local coarse tiles, sorted by (coarse tile, octant); as source_from */
     struct link_child *octants;
-    bool *waits; /* of local coarse tiles: averages or registers of theirs come from other ranks */
+    bool *waits; /* of local coarse tiles: averages or registers of theirs come from other ranks in each step */
     void *own;
 };
 
@@ -69,12 +70,16 @@ void link_free(struct link *link);
 void link_down(struct link *link);
 
 /* Registers and averages to the owners of the coarse tiles, after they have been written through `faces` and
- * `children`; registers are then read through `sources`, averages through `octants`. Collective. */
+ * `children`; registers are then read through `sources`, averages through `octants`. Those of tiles that sleep stay
+ * behind. Collective. */
 void link_up(struct link *link);
 
 /* The same in two parts. Between them registers and averages of coarse tiles that do not wait (`waits`) may be read
  * already, and nothing of `faces` and `children` may be written. */
 void link_up_start(struct link *link);
 void link_up_finish(struct link *link);
+
+/* The averages of the coarse tiles that sleep `depth` levels deep, from 1 to fine_level. Collective. */
+void link_up_late(struct link *link, int depth);
 
 #endif

@@ -11,6 +11,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/text.h"
+#include "mesh/doze.h"
 #include "mesh/fringe.h"
 #include "mesh/halo.h"
 #include "mesh/level.h"
@@ -261,6 +262,7 @@ static void mesh_connect(struct mesh *mesh, int lowest, int highest)
     int below = lowest > 0 ? lowest - 1 : 0, above = highest + 1 < mesh->n_level ? highest + 1 : mesh->n_level - 1;
     fringe_learn(mesh, below, above);
     for (int l = below; l <= above; l++) level_cover(mesh, l);
+    for (int l = below; l <= above; l++) doze_level(mesh, l);
     for (int l = lowest; l <= highest && l < mesh->n_level; l++) {
         struct level *level = &mesh->levels[l];
         level_connect(mesh, level);

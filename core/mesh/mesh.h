@@ -35,6 +35,8 @@ struct tile {
     bool born;              /* made by the last change of its level: see mesh_change */
     bool hidden;            /* wholly covered, and so are its neighbours: nobody reads its cells between averages of the
                                finer level, so they are not advanced; its owner knows */
+    unsigned char sleeps;   /* s > 0: hidden, and its averages are not looked at after each of its steps, but after those
+                               of s levels below (mesh/doze.h); its owner knows, and those of the tiles that cover it */
 };
 
 /* What lies behind face 2 * axis + side of a local tile. */
@@ -65,6 +67,7 @@ struct level {
                                 that are new here; NULL where they keep nothing */
     struct halo *halo;
     struct link *link; /* to the next coarser level; NULL on level 0 */
+    bool stale;        /* tiles that sleep do not hold what covers them (solve/wake.h); the same on all ranks */
 };
 
 struct mesh {

@@ -16,6 +16,7 @@ double presence_density(const struct model *model, const struct mesh *mesh, unsi
     for (int k = 0; k < mesh->n_level; k++) {
         const struct level *level = &mesh->levels[k];
         for (unsigned i = 0; i < level->n_local; i++, at += PRESENCE_SUMS) {
+            if (tally_is_covered(mesh, &level->tiles[level->first + i])) continue; /* its sums stay 0 */
             const double *alpha = level->w[i] + (model->i_alpha + l) * mesh->n_cell;
             const double *rho = level->w[i] + (model->i_m + l) * mesh->n_cell;
             tally_volumes(mesh, level, &level->tiles[level->first + i], volume);

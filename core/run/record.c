@@ -18,6 +18,7 @@
 #include "io/snapshot.h"
 #include "run/due.h"
 #include "solve/cost.h"
+#include "solve/wake.h"
 
 #include <string.h>
 
@@ -172,6 +173,7 @@ static int record_checkpoint(struct record *record, const struct state *state)
     struct notes notes = {0};
     TRY(snapshot_wait(record->snapshots));
     int code = record_note(record, state, &notes);
+    wake_levels(state, 0);
     if (!code) code = checkpoint_write(record->checkpoints, state, &notes);
     text_done(&notes.text);
     if (!code) due_wall_written(&record->late);

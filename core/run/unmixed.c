@@ -4,6 +4,7 @@
 #include "base/comm.h"
 #include "base/log.h"
 #include "phys/phase.h"
+#include "solve/wake.h"
 
 /* Cells, leaves and those below them alike, that hold liquid, what it evaporates into, and both. */
 enum { UNMIXED_LIQUID, UNMIXED_THIN, UNMIXED_BOTH, UNMIXED_COUNTS };
@@ -25,6 +26,7 @@ static void unmixed_count_tile(const struct state *state, const struct scene_pha
 
 static void unmixed_count(const struct state *state, const struct scene_phase *pair, long long count[UNMIXED_COUNTS])
 {
+    wake_levels(state, 0);
     for (int l = 0; l < state->mesh->n_level; l++) {
         const struct level *level = &state->mesh->levels[l];
         for (unsigned t = 0; t < level->n_local; t++) unmixed_count_tile(state, pair, level->u_old[t], count);

@@ -52,7 +52,6 @@ static void adopt_tiles(struct stage *stage, const int *from, const bool *born)
     evaporate_renew(stage);
     rkl_free(stage->rkl);
     stage->rkl = rkl_new(stage);
-    verdict_survey(stage);
 }
 
 void adopt_level(struct stage *stage, const int *from, const bool *born)
@@ -63,4 +62,5 @@ void adopt_level(struct stage *stage, const int *from, const bool *born)
     stage->reflux = reflux_new(stage->model, stage->mesh, stage->l);
     mem_free(stage->census.behind);
     stage->census.behind = mem_new(level->link ? level->link->n_face : 0, sizeof *stage->census.behind);
+    verdict_survey(stage); /* tiles that slept count again */
 }

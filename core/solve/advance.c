@@ -23,6 +23,7 @@
 #include "solve/rkl.h"
 #include "solve/sync.h"
 #include "solve/verdict.h"
+#include "solve/wake.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -246,6 +247,7 @@ static int advance_once(struct state *state, struct stage *stage, bool *ret_good
 {
     cost_open(&state->work->cost, COST_STEP);
     double signal = 0.0;
+    wake_leave(stage);
     bool blind = false, bad = advance_rounds(state, stage, &signal, &blind) > 0.0;
     *ret_good = !bad && !blind;
     if (*ret_good) advance_accept(state, stage, signal);
@@ -286,6 +288,7 @@ static int advance_finer(struct state *state, int l)
     TRY(advance_through(state, l + 1, coarse->t, coarse->dt));
     cost_open(cost, COST_SYNC);
     coarse->guard->found.words[0] = fine->guard->found.words[0] = '\0';
+    wake_above(state->stages, l);
     int status = sync_up(coarse, fine, &state->counts.spread);
     cost_lap(cost, COST_LEVELS);
     cost_close(cost, COST_SYNC);

@@ -13,6 +13,7 @@
 #include "solve/rkl.h"
 #include "solve/stage_exchange.h"
 #include "solve/verdict.h"
+#include "solve/wake.h"
 
 #include <math.h>
 #include <string.h>
@@ -192,9 +193,10 @@ static void flow_add(const struct flow *flow)
         const struct stage *stage = flow->state->stages[l];
         for (unsigned local = 0; local < stage->level->n_local; local++) flow_add_tile(stage, local);
         if (l + 1 == mesh->n_level) continue;
-        restrict_averages(mesh, l + 1);
+        restrict_averages(mesh, l + 1, 0);
         link_up(mesh->levels[l + 1].link);
-        restrict_take(mesh, l + 1);
+        restrict_take(mesh, l + 1, 0);
+        for (int depth = 1; depth <= l + 1; depth++) restrict_late(mesh, l + 1, depth);
     }
 }
 
@@ -387,6 +389,7 @@ static int flow_through(struct state *state, double t, double tau, int halves, i
 
 int flow_take(struct state *state, double t, double tau, int *parts)
 {
+    wake_levels(state, 0);
     int status = flow_divided(state, t, tau, *parts ? *parts : 1, 0, parts);
     for (int l = 0; l < state->mesh->n_level; l++) {
         guard_clear(state->stages[l]->guard);

@@ -32,6 +32,7 @@ bool keep_skips(struct stage *stage, unsigned local)
 void keep_tile(struct stage *stage, unsigned local, const double *from, double *to)
 {
     struct census_tile *tile = &stage->census.tiles[local];
+    if (stage_tile(stage, local)->sleeps) return;
     memcpy(to, from, stage->model->n_field * stage->mesh->n_cell * sizeof *to);
     tile->present_next = tile->present;
     tile->still_next = tile->still;
@@ -71,7 +72,7 @@ void keep_stage(const struct stage *stage, unsigned local, const double *made)
     const struct model *path = stage->census.tiles[local].path;
     size_t n_cell = stage->mesh->n_cell;
     double *previous = keep_previous(stage, local);
-    if (!previous) return;
+    if (!previous || stage_tile(stage, local)->sleeps) return;
     memcpy(previous, stage->level->u_old[local], stage->model->n_field * n_cell * sizeof *previous);
     for (unsigned i = 0; made && i < path->n_active; i++)
         memcpy(previous + path->active[i] * n_cell, made + path->active[i] * n_cell, n_cell * sizeof *previous);

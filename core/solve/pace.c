@@ -112,7 +112,7 @@ struct stage *pace_find(const struct state *state, int l, struct guard_place *re
     most = stage->signal;
     comm_max(&most, 1);
     if (comm_first(stage->level->n_local && stage->signal == most) != comm_rank()) return NULL;
-    while (stage->census.tiles[tile].signal != most) tile++;
+    while (stage_tile(stage, tile)->sleeps || stage->census.tiles[tile].signal != most) tile++;
     const struct model *path = stage->census.tiles[tile].path;
     const double *w = stage->level->w[tile];
     *ret_place = (struct guard_place){.local = tile,

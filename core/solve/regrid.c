@@ -23,6 +23,7 @@
 #include "solve/sync.h"
 #include "solve/tag.h"
 #include "solve/verdict.h"
+#include "solve/wake.h"
 #include "solve/normals.h"
 
 #include <string.h>
@@ -294,6 +295,7 @@ int regrid_levels(struct state *state, int base)
 {
     struct regrid regrid = {.state = state, .base = base};
     clock_t begin = clock();
+    wake_levels(state, base);
     int status = regrid_sets(&regrid, state->scene->mesh.patience);
     if (!status && !regrid_is_idle(&regrid) && regrid_affords(&regrid))
         status = regrid_apply(&regrid, REGRID_INTERPOLATED);
@@ -305,8 +307,10 @@ int regrid_levels(struct state *state, int base)
 /* Averages the painted levels onto those below. */
 static int regrid_settle(struct state *state)
 {
-    for (int l = state->mesh->n_level - 1; l > 0; l--)
+    for (int l = state->mesh->n_level - 1; l > 0; l--) {
+        wake_above(state->stages, l - 1);
         TRY(sync_up(state->stages[l - 1], state->stages[l], &state->counts.spread));
+    }
     return STATUS_OK;
 }
 

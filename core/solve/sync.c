@@ -9,6 +9,7 @@
 #include "mesh/halo.h"
 #include "phys/elastic.h"
 #include "solve/verdict.h"
+#include "solve/wake.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,6 +38,13 @@ void sync_down(struct stage *coarse, struct stage *fine)
     curve_down(curve, fine->l);
     census_receive(&fine->census);
     reflux_clear(coarse->reflux);
+}
+
+/* Did a tile get averages of the finer level? */
+static bool sync_averaged(const struct stage *stage, unsigned local)
+{
+    const struct tile *tile = stage_tile(stage, local);
+    return tile->covered && !tile->sleeps;
 }
 
 /* Closes a tile whose fields were averaged or moved: averages of stretches are none yet. */
@@ -232,7 +240,7 @@ static int sync_tiles(struct stage *stage, struct sync_work *work, bool wait)
         bool faces = link->source_from[tile] < link->source_from[tile + 1];
         guard_attempt(stage->guard);
         if (faces) status = sync_tile_faces(stage, tile, work);
-        else if (stage_tile(stage, tile)->covered) sync_touch(stage, tile);
+        else if (sync_averaged(stage, tile)) sync_touch(stage, tile);
     }
     return status;
 }
@@ -296,11 +304,11 @@ static int sync_take(struct stage *coarse, struct stage *fine, struct sync_work 
     memset(work->trouble, SPREAD_NONE, fine->mesh->n_cell);
     for (unsigned tile = 0; tile < fine->level->n_local && !status; tile++) status = sync_take_tile(fine, tile, work);
     sync_close(fine);
-    restrict_averages(coarse->mesh, fine->l);
+    restrict_averages(coarse->mesh, fine->l, 0);
     link_up(link);
-    restrict_take(coarse->mesh, fine->l);
+    restrict_take(coarse->mesh, fine->l, 0);
     for (unsigned tile = 0; tile < coarse->level->n_local; tile++)
-        if (stage_tile(coarse, tile)->covered) sync_touch(coarse, tile);
+        if (sync_averaged(coarse, tile)) sync_touch(coarse, tile);
     return status;
 }
 
@@ -308,11 +316,12 @@ int sync_up(struct stage *coarse, struct stage *fine, long long *spread)
 {
     struct sync_work work = sync_work_new(coarse, spread);
     struct link *link = fine->level->link;
-    restrict_averages(coarse->mesh, fine->l);
+    wake_leave(coarse);
+    restrict_averages(coarse->mesh, fine->l, 0);
     link_up_start(link);
     int status = sync_tiles(coarse, &work, false);
     link_up_finish(link);
-    restrict_take(coarse->mesh, fine->l);
+    restrict_take(coarse->mesh, fine->l, 0);
     if (!status) status = sync_tiles(coarse, &work, true);
     double found = status ? 2.0 : work.rests ? 1.0 : 0.0; /* one reduction where nothing happens */
     comm_max(&found, 1);

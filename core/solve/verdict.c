@@ -66,7 +66,8 @@ void verdict_survey(struct stage *stage)
 {
     stage->signal = 0.0;
     for (unsigned tile = 0; tile < stage->level->n_local; tile++)
-        if (stage->census.tiles[tile].signal > stage->signal) stage->signal = stage->census.tiles[tile].signal;
+        if (!stage_tile(stage, tile)->sleeps && stage->census.tiles[tile].signal > stage->signal)
+            stage->signal = stage->census.tiles[tile].signal;
 }
 
 /* Signal of the layer behind a side of a piece, taken for cells of the tile. All scratch is free between stages. */
@@ -90,7 +91,7 @@ double verdict_ahead(struct stage *stage, double t)
     for (unsigned local = 0; local < stage->level->n_local; local++)
         for (int face = 0; face < 2 * stage->mesh->dim; face++) {
             size_t pieces = frame_pieces(stage->mesh, face / 2);
-            if (!bound_ahead_is(stage->bound, local, face)) continue;
+            if (stage_tile(stage, local)->sleeps || !bound_ahead_is(stage->bound, local, face)) continue;
             for (size_t index = 0; index < pieces; index++) {
                 struct frame frame = frame_piece(stage->mesh, face / 2, index);
                 double signal = verdict_layer(stage, local, &frame, face % 2);
@@ -118,6 +119,7 @@ void verdict_reset(struct stage *stage)
     const struct level *level = stage->level;
     size_t n_cell = stage->mesh->n_cell;
     for (unsigned tile = 0; tile < level->n_local; tile++) {
+        if (stage_tile(stage, tile)->sleeps && level->stale) continue;
         mix_primitives(stage->model, n_cell, n_cell, level->u_old[tile], level->w[tile]);
         census_forget(&stage->census, tile);
     }

@@ -9,6 +9,7 @@
 
 #include "../unit/replicated.h"
 #include "base/mem.h"
+#include "mesh/doze.h"
 #include "mesh/level.h"
 #include "mesh/partition.h"
 
@@ -88,23 +89,63 @@ static void study_print_efficiency(struct study *study, int n_size, const int *s
     }
 }
 
+/* How often in a coarse step the tiles of level l that sleep `depth` levels deep are woken: after the steps of the level
+ * that they sleep down to, and before regrids from levels between. */
+static double study_wakes(int l, int depth)
+{
+    int down = l - depth;
+    double wakes = down >= 0 ? ldexp(1.0, down) : 0.0;
+    for (int b = down + 1; b <= l; b++) wakes += ldexp(1.0, b) / STUDY_REGRID * (b ? 0.5 : 1.0);
+    return wakes;
+}
+
+/* Registers and averages of level l and the one below in a coarse step: what each exchange costs, by `measure`.
+ * eager: as if no tile slept. */
+static double study_up(const struct traffic *traffic, int l, bool eager,
+                       double (*measure)(const struct traffic_phase *phase))
+{
+    double sum = 0.5 * ldexp(1.0, l) * measure(eager ? &traffic->eager[l] : &traffic->up[l]);
+    for (int depth = 1; depth <= l && !eager; depth++)
+        sum += study_wakes(l - 1, depth) * measure(&traffic->late[l][depth]);
+    return sum;
+}
+
+static double study_most_bytes(const struct traffic_phase *phase)
+{
+    return phase->most_bytes;
+}
+
+static double study_all_bytes(const struct traffic_phase *phase)
+{
+    return phase->bytes;
+}
+
+static double study_most_messages(const struct traffic_phase *phase)
+{
+    return phase->most_messages;
+}
+
 /* Bytes and messages per coarse step of the most loaded rank of each phase, phases added up. */
 static void study_print_traffic(const struct study *study, int size)
 {
     struct traffic traffic = study_count(study, size);
-    double halo = 0.0, down = 0.0, up = 0.0, messages = 0.0, exchanges = 0.0, sum = 0.0;
+    double halo = 0.0, down = 0.0, up = 0.0, eager = 0.0, messages = 0.0, eager_messages = 0.0, sum = 0.0;
     for (int l = 0; l < study->mesh.n_level; l++) {
-        double steps = ldexp(1.0, l);
+        double steps = ldexp(1.0, l), rest = 2.0 * traffic.halo[l].most_messages + 0.5 * traffic.down[l].most_messages;
         halo += 2.0 * steps * traffic.halo[l].most_bytes;
         down += 0.5 * steps * traffic.down[l].most_bytes;
-        up += 0.5 * steps * traffic.up[l].most_bytes;
-        messages += steps * (2.0 * traffic.halo[l].most_messages +
-                             0.5 * (traffic.down[l].most_messages + traffic.up[l].most_messages));
-        exchanges += steps * (l ? 3.0 : 2.0);
-        sum += steps * (2.0 * traffic.halo[l].bytes + 0.5 * (traffic.down[l].bytes + traffic.up[l].bytes));
+        up += study_up(&traffic, l, false, study_most_bytes);
+        eager += study_up(&traffic, l, true, study_most_bytes);
+        messages += steps * rest + study_up(&traffic, l, false, study_most_messages);
+        eager_messages += steps * rest + study_up(&traffic, l, true, study_most_messages);
+        sum += steps * (2.0 * traffic.halo[l].bytes + 0.5 * traffic.down[l].bytes) +
+               study_up(&traffic, l, false, study_all_bytes);
     }
-    printf("| %s %dD, %d | %d | %.3g | %.3g | %.3g | %.3g | %.0f | %.1f |\n", study->scene.name, study->scene.dim,
-           study->scene.n, size, halo / 1e6, down / 1e6, up / 1e6, sum / size / 1e6, messages, messages / exchanges);
+    printf("| %s %dD, %d | %d | %.3g | %.3g | %.3g | %.3g | %.3g | %.0f | %.0f |", study->scene.name, study->scene.dim,
+           study->scene.n, size, halo / 1e6, down / 1e6, eager / 1e6, up / 1e6, sum / size / 1e6, eager_messages,
+           messages);
+    for (int l = 0; l < study->mesh.n_level; l++) printf("%s%.2f", l ? ", " : " ", traffic.deep[l]);
+    printf(" |\n");
 }
 
 static double study_clock(void)
@@ -140,6 +181,7 @@ static struct study_times study_regrid(struct study *study, int size)
     times.find = study_clock() - start;
     start = study_clock();
     for (int l = 0; l < mesh->n_level; l++) level_cover(mesh, l);
+    for (int l = 0; l < mesh->n_level; l++) doze_level(mesh, l);
     times.cover = study_clock() - start;
     start = study_clock();
     if (nest_check(mesh)) exit(1);
@@ -214,6 +256,7 @@ static double study_phase(const struct traffic_phase *phase)
 
 struct study_projection {
     double compute, wait, network, topology; /* seconds per coarse step */
+    double eager;                            /* the network if no tile slept */
 };
 
 static struct study_projection study_project(const struct study *study, int size)
@@ -225,8 +268,9 @@ static struct study_projection study_project(const struct study *study, int size
         double steps = ldexp(1.0, l);
         p.compute += steps * step * traffic.mean[l];
         p.wait += steps * step * (traffic.most[l] - traffic.mean[l]);
-        p.network += 2.0 * steps * study_phase(&traffic.halo[l]);
-        p.network += 0.5 * steps * (study_phase(&traffic.down[l]) + study_phase(&traffic.up[l]));
+        double rest = 2.0 * steps * study_phase(&traffic.halo[l]) + 0.5 * steps * study_phase(&traffic.down[l]);
+        p.network += rest + study_up(&traffic, l, false, study_phase);
+        p.eager += rest + study_up(&traffic, l, true, study_phase);
     }
     return p;
 }
@@ -236,8 +280,9 @@ static void study_print_projection(struct study *study, int size)
     study_cut_levels(study, size);
     struct study_projection p = study_project(study, size);
     double busy = p.compute + p.wait;
-    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2f | %.2f | %.2f | %.3f |\n", study->scene.name, study->scene.dim,
-           study->scene.n, size, study->tiles / size, 1e3 * p.compute, p.compute / busy, p.compute / (busy + p.network),
+    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2f | %.2f | %.2f | %.2f | %.3f |\n", study->scene.name, study->scene.dim,
+           study->scene.n, size, study->tiles / size, 1e3 * p.compute, p.compute / busy, p.compute / (busy + p.eager),
+           p.compute / (busy + p.network),
            p.compute / (busy + p.network + p.topology), p.topology / p.compute);
 }
 
@@ -372,14 +417,16 @@ static void study_tables(struct study *studies, int n_study)
     for (int i = 0; i < n_study; i++) study_print_sets(&studies[i]);
     study_head("Balance", "| set | ranks | one curve | per level | remote parents | imbalance by level |");
     for (int i = 0; i < n_study; i++) study_print_efficiency(&studies[i], STUDY_RANKS, RANKS);
-    study_head("Traffic", "| set | ranks | halo, MB | down, MB | up, MB | mean rank, MB | messages | per exchange |");
+    study_head("Traffic", "| set | ranks | halo, MB | down, MB | up if none slept, MB | up, MB | mean rank, MB | messages if none "
+                          "slept | messages | asleep, by level |");
     for (int i = 0; i < n_study; i++)
         for (int s = 0; s < STUDY_RANKS; s++) {
             study_cut_levels(&studies[i], RANKS[s]);
             study_print_traffic(&studies[i], RANKS[s]);
         }
     study_topology(studies, n_study);
-    study_head("Projection", "| set | ranks | tiles per rank | ideal, ms | balance | + network | + topology | "
+    study_head("Projection", "| set | ranks | tiles per rank | ideal, ms | balance | + network if none "
+                             "slept | + network | + topology | "
                              "topology / ideal |");
     for (int i = 0; i < n_study; i++)
         for (int s = 0; s < STUDY_RANKS; s++) study_print_projection(&studies[i], RANKS[s]);

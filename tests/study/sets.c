@@ -3,6 +3,7 @@
 
 #include "../unit/replicated.h"
 #include "base/mem.h"
+#include "mesh/doze.h"
 #include "mesh/level.h"
 #include "mesh/morton.h"
 
@@ -112,6 +113,7 @@ void sets_make(const struct sets_scene *scene, struct mesh *ret_mesh)
         nest_keys_free(&wishes[l]);
     }
     for (int l = 0; l < ret_mesh->n_level; l++) level_cover(ret_mesh, l);
+    for (int l = 0; l < ret_mesh->n_level; l++) doze_level(ret_mesh, l);
 }
 
 double *sets_costs(const struct sets_scene *scene, const struct mesh *mesh, int l)

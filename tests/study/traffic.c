@@ -108,37 +108,93 @@ static void traffic_load(const struct level *level, const double *costs, int siz
     *ret_mean = total / size;
 }
 
+/* Bytes of what travels between tiles. */
+struct traffic_sizes {
+    double slab, flux, average;
+};
+
+static struct traffic_sizes traffic_sizes(const struct mesh *mesh)
+{
+    double field = 8.0 * mesh->n_field, face = (double)mesh->n_cell / mesh->n[0], octants = 1 << mesh->dim;
+    return (struct traffic_sizes){.slab = mesh->ghosts * face * field,
+                                  .flux = 8.0 * (mesh->n_field + 1) * face / (octants / 2.0),
+                                  .average = (double)mesh->n_cell / octants * field};
+}
+
+/* What lies behind the faces of the tiles of a level; registers travel the other way: the same pairs and sums. */
+static void traffic_faces(const struct mesh *mesh, const struct traffic_graph *graph, int l, int size,
+                          struct traffic *traffic, struct traffic_post *up, struct traffic_post *eager)
+{
+    const struct level *level = &mesh->levels[l];
+    struct traffic_sizes sizes = traffic_sizes(mesh);
+    struct traffic_post halo = traffic_open(size), down = traffic_open(size);
+    int faces = 2 * mesh->dim;
+    for (unsigned i = 0; i < level->n_tile; i++) {
+        int rank = level->tiles[i].rank;
+        const int *behind = &graph->behind[i * (unsigned)faces];
+        for (int f = 0; f < faces; f++)
+            if (behind[f] >= 0) traffic_send(&halo, level->tiles[behind[f]].rank, rank, sizes.slab);
+            else if (behind[f] < -1) {
+                int coarse = level[-1].tiles[-2 - behind[f]].rank;
+                traffic_send(&down, coarse, rank, 2.0 * sizes.slab);
+                traffic_send(up, coarse, rank, sizes.flux);
+                traffic_send(eager, coarse, rank, sizes.flux);
+            }
+        if (!l) continue;
+        const struct tile *parent = &level[-1].tiles[graph->above[i]];
+        if (!parent->sleeps) traffic_send(up, parent->rank, rank, sizes.average);
+        traffic_send(eager, parent->rank, rank, sizes.average);
+    }
+    traffic->halo[l] = traffic_close(&halo);
+    traffic->down[l] = traffic_close(&down);
+}
+
+/* Averages over tiles of the level below l that sleep so deep. */
+static struct traffic_phase traffic_late(const struct mesh *mesh, const struct traffic_graph *graph, int l, int size,
+                                         int depth)
+{
+    const struct level *level = &mesh->levels[l];
+    double average = traffic_sizes(mesh).average;
+    struct traffic_post late = traffic_open(size);
+    for (unsigned i = 0; i < level->n_tile; i++) {
+        const struct tile *parent = &level[-1].tiles[graph->above[i]];
+        if (parent->sleeps == depth) traffic_send(&late, parent->rank, level->tiles[i].rank, average);
+    }
+    return traffic_close(&late);
+}
+
+static double traffic_deep(const struct level *level)
+{
+    unsigned deep = 0;
+    for (unsigned i = 0; i < level->n_tile; i++) deep += level->tiles[i].sleeps > 0;
+    return (double)deep / level->n_tile;
+}
+
+static double traffic_remote(const struct mesh *mesh, const struct traffic_graph *graphs)
+{
+    double tiles = 0.0, remote = 0.0;
+    for (int l = 1; l < mesh->n_level; l++) {
+        const struct level *level = &mesh->levels[l];
+        for (unsigned i = 0; i < level->n_tile; i++)
+            remote += level[-1].tiles[graphs[l].above[i]].rank != level->tiles[i].rank;
+        tiles += level->n_tile;
+    }
+    return tiles > 0.0 ? remote / tiles : 0.0;
+}
+
 void traffic_count(const struct mesh *mesh, const struct traffic_graph *graphs, double *const *costs, int size,
                    struct traffic *ret_traffic)
 {
-    double tiles = 0.0, remote = 0.0, field = 8.0 * mesh->n_field, face = (double)mesh->n_cell / mesh->n[0];
-    double octants = 1 << mesh->dim, slab = mesh->ghosts * face * field;
-    double flux = 8.0 * (mesh->n_field + 1) * face / (octants / 2.0), average = (double)mesh->n_cell / octants * field;
-    *ret_traffic = (struct traffic){0};
+    *ret_traffic = (struct traffic){.remote_parents = traffic_remote(mesh, graphs)};
     for (int l = 0; l < mesh->n_level; l++) {
         const struct level *level = &mesh->levels[l];
-        struct traffic_post halo = traffic_open(size), down = traffic_open(size), up = traffic_open(size);
-        int faces = 2 * mesh->dim;
-        for (unsigned i = 0; i < level->n_tile; i++) {
-            int rank = level->tiles[i].rank;
-            const int *behind = &graphs[l].behind[i * (unsigned)faces];
-            for (int f = 0; f < faces; f++)
-                if (behind[f] >= 0) traffic_send(&halo, level->tiles[behind[f]].rank, rank, slab);
-                else if (behind[f] < -1) {
-                    int coarse = level[-1].tiles[-2 - behind[f]].rank;
-                    traffic_send(&down, coarse, rank, 2.0 * slab);
-                    traffic_send(&up, coarse, rank, flux); /* travels the other way: the same pairs and sums */
-                }
-            if (!l) continue;
-            int parent = level[-1].tiles[graphs[l].above[i]].rank;
-            traffic_send(&up, parent, rank, average);
-            tiles += 1.0;
-            remote += parent != rank;
-        }
+        struct traffic_post up = traffic_open(size), eager = traffic_open(size);
+        traffic_faces(mesh, &graphs[l], l, size, ret_traffic, &up, &eager);
         traffic_load(level, costs[l], size, &ret_traffic->mean[l], &ret_traffic->most[l]);
-        ret_traffic->halo[l] = traffic_close(&halo);
-        ret_traffic->down[l] = traffic_close(&down);
         ret_traffic->up[l] = traffic_close(&up);
+        ret_traffic->eager[l] = traffic_close(&eager);
+        ret_traffic->deep[l] = traffic_deep(level);
+        for (int depth = 1; depth <= l; depth++)
+            ret_traffic->late[l][depth] = traffic_late(mesh, &graphs[l], l, size, depth);
     }
-    ret_traffic->remote_parents = tiles > 0.0 ? remote / tiles : 0.0;
 }

@@ -2,7 +2,8 @@
  *
  * Counted as the mesh sends them: per stage a slab of the mesh's ghosts for every face to a remote tile of the same
  * level (halo.h); per step of the coarser level two strips for every coarse-fine face whose coarse tile is remote,
- * its register back, and the average of every tile whose parent is remote (link.h). */
+ * its register back, and the average of every tile whose parent is remote (link.h), or, of parents that sleep, whenever
+ * they are woken (solve/wake.h). */
 #ifndef TRAFFIC_H
 #define TRAFFIC_H
 
@@ -27,7 +28,10 @@ struct traffic {
     double mean[MESH_LEVELS], most[MESH_LEVELS]; /* cost per step of the level: mean and largest of the ranks */
     struct traffic_phase halo[MESH_LEVELS];      /* per stage of level l */
     struct traffic_phase down[MESH_LEVELS], up[MESH_LEVELS]; /* between l - 1 and l, per step of l - 1 */
+    struct traffic_phase eager[MESH_LEVELS];                 /* the same as `up` if no tile slept */
+    struct traffic_phase late[MESH_LEVELS][MESH_LEVELS + 1]; /* tiles of l - 1 that sleep, by depth: when they wake */
     double remote_parents;                                   /* share of tiles of the levels above 0 */
+    double deep[MESH_LEVELS];                                /* share of the tiles of a level that sleep */
 };
 
 struct traffic_graph traffic_connect(const struct mesh *mesh, int l);

@@ -7,6 +7,7 @@
 
 #include "solve/regrid.h"
 #include "solve/sync.h"
+#include "solve/wake.h"
 
 /* A cell that no finer tile covers. */
 struct amr_leaf {
@@ -134,8 +135,11 @@ static inline void amr_close(struct flow *flow)
     struct state *state = flow->state;
     for (int l = 0; l < state->mesh->n_level; l++)
         if (verdict_start(state->stages[l], &state->counts.relaxed)) fail_msg("level %d: %s", l, status_text());
-    for (int l = state->mesh->n_level - 1; l > 0; l--)
+    for (int l = state->mesh->n_level - 1; l > 0; l--) {
+        wake_above(state->stages, l - 1);
         if (sync_up(state->stages[l - 1], state->stages[l], &state->counts.spread)) fail_msg("%s", status_text());
+    }
+    wake_levels(state, 0);
     for (int l = 0; l < state->mesh->n_level; l++) adopt_bounds(state->stages[l]);
     regrid_signals(state);
 }

@@ -80,9 +80,9 @@ static void play(const char *path)
         link_down(two.fine->link);
         for (unsigned t = 0; t < two.fine->n_local; t++)
             for (size_t c = 0; c < two.mesh->n_cell; c++) two.fine->u_old[t][c] *= 1.0 + 0.01 * (double)(c % 7);
-        restrict_averages(two.mesh, 1);
+        restrict_averages(two.mesh, 1, 0);
         link_up(two.fine->link);
-        restrict_take(two.mesh, 1);
+        restrict_take(two.mesh, 1, 0);
         write_state(&two, i, out);
         prolong_free(prolong);
         mem_free(born);
