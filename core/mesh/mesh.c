@@ -256,20 +256,20 @@ static bool *mesh_born(const struct level *level)
     return born;
 }
 
-/* All that hangs on the tiles of the levels `lowest` to `highest`. */
+/* All that hangs on the tiles of the levels `lowest` to `highest`; how deep tiles sleep hangs on all levels below. */
 static void mesh_connect(struct mesh *mesh, int lowest, int highest)
 {
     int below = lowest > 0 ? lowest - 1 : 0, above = highest + 1 < mesh->n_level ? highest + 1 : mesh->n_level - 1;
     fringe_learn(mesh, below, above);
     for (int l = below; l <= above; l++) level_cover(mesh, l);
-    for (int l = below; l <= above; l++) doze_level(mesh, l);
+    for (int l = below; l < mesh->n_level; l++) doze_level(mesh, l);
     for (int l = lowest; l <= highest && l < mesh->n_level; l++) {
         struct level *level = &mesh->levels[l];
         level_connect(mesh, level);
         halo_free(level->halo);
         level->halo = halo_new(mesh, level, mesh->n_field);
     }
-    for (int l = lowest; l <= above; l++) mesh_link(mesh, l);
+    for (int l = lowest; l < mesh->n_level; l++) mesh_link(mesh, l);
 }
 
 void mesh_replace(struct mesh *mesh, int lowest, int highest, struct mesh_set *sets, struct mesh_change *ret_changes)

@@ -12,8 +12,10 @@ static void fill_fine(const struct twolevel *two, bool constant)
 
 static void restrict_all(const struct twolevel *two)
 {
-    restrict_averages(two->mesh, 1, 0);
-    restrict_take(two->mesh, 1, 0);
+    for (int depth = 0; depth <= 1; depth++) {
+        restrict_averages(two->mesh, 1, depth);
+        restrict_take(two->mesh, 1, depth);
+    }
 }
 
 typedef void geometry_check(struct twolevel *two);
@@ -107,8 +109,7 @@ static void check_away(struct twolevel *two)
         if (i % 3) link->children[i].average = mem_new(mesh->n_field * link->octant_cells, sizeof(double));
     link->octants = link->children; /* what arrived is what was sent */
     link->n_octant = link->n_child;
-    restrict_averages(mesh, 1, 0);
-    restrict_take(mesh, 1, 0);
+    restrict_all(two);
     for (unsigned t = 0; t < two->coarse->n_tile; t++)
         assert_memory_equal(here + t * block, two->coarse->u_old[t], block * sizeof *here);
     for (unsigned i = 0; i < link->n_child; i++) {
