@@ -51,8 +51,7 @@ static void doze_hear(struct doze *doze, unsigned tile)
 static struct post *doze_exchange(struct doze *doze, int tag)
 {
     struct post *post = post_new(POST_DOZE + tag, doze->n_out, doze->out, doze->n_in, doze->in);
-    for (unsigned i = 0; i < doze->n_out; i++)
-        *post_out(post, i) = doze->flag(&doze->level->tiles[doze->from[i]]);
+    for (unsigned i = 0; i < doze->n_out; i++) *post_out(post, i) = doze->flag(&doze->level->tiles[doze->from[i]]);
     post_start(post);
     post_finish(post);
     return post;
@@ -168,7 +167,7 @@ static bool doze_is_deep(const struct mesh *mesh, const struct level *level, con
 void doze_level(struct mesh *mesh, int l)
 {
     struct level *level = &mesh->levels[l];
-    bool never = mesh->corners && mesh->n[0] < DOZE_CURVES;
+    bool never = mesh->sleepless || (mesh->corners && mesh->n[0] < DOZE_CURVES);
     if (l > 0) doze_learn_depth(mesh, l);
     doze_learn_hidden(mesh, l);
     for (unsigned t = level->first; t < level->first + level->n_local; t++) {

@@ -14,7 +14,7 @@
 struct link_own {
     struct post *down, *up;
     struct post *late[MESH_LEVELS + 1]; /* of tiles that sleep, by their depth, from 1 on */
-    double *shared; /* strips and registers of faces with both tiles here */
+    double *shared;                     /* strips and registers of faces with both tiles here */
 };
 
 /* A link being made. */

@@ -5,7 +5,8 @@
  * coarse level. Its layers are those of whole coarse cells: as many as the mesh's ghosts, or one more. The owner of the
  * coarse tile behind the face makes it (levels/prolong.h), so that only finished ghosts travel. A face looks at exactly
  * one octant of one coarse tile. Up: per such face the sum over fine steps and sub-faces of the fluxes (the register),
- * and per fine tile its average on the octant above, in each step or, of tiles that sleep, on demand. Where both tiles are on one rank the two ends share memory. */
+ * and per fine tile its average on the octant above; of tiles that sleep (mesh/doze.h) on demand. Where both tiles are
+ * on one rank the two ends share memory. */
 #ifndef LINK_H
 #define LINK_H
 
@@ -30,7 +31,7 @@ struct link_child {
     unsigned fine, coarse; /* as above */
     int octant;
     unsigned char sleeps; /* of the coarse tile: above 0 its averages do not travel with the registers */
-    double *average; /* [n_field][(n/2)^d]: of the fine tile, x fastest; NULL where both tiles are local */
+    double *average;      /* [n_field][(n/2)^d]: of the fine tile, x fastest; NULL where both tiles are local */
 };
 
 struct link {

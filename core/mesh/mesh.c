@@ -184,6 +184,7 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
     for (unsigned l = 0; l < scene->n_material; l++)
         mesh->corners = mesh->corners || scene->material[l].viscosity.module;
     mesh->corners = mesh->corners || (scene->n_tension && mesh->dim > 1);
+    mesh->sleepless = scene->scheme.diffusion == SCENE_DIFFUSION_RKL2;
     mesh->most_level = scene->mesh.levels;
     mesh_measure(mesh, scene, n);
     mesh->pool = pool_new(n_field * mesh->n_cell);

@@ -35,8 +35,8 @@ struct tile {
     bool born;              /* made by the last change of its level: see mesh_change */
     bool hidden;            /* wholly covered, and so are its neighbours: nobody reads its cells between averages of the
                                finer level, so they are not advanced; its owner knows */
-    unsigned char sleeps;   /* s > 0: hidden, and its averages are not looked at after each of its steps, but after those
-                               of s levels below (mesh/doze.h); its owner knows, and those of the tiles that cover it */
+    unsigned char sleeps; /* s > 0: hidden, and its averages are not looked at after each of its steps, but after those
+                             of s levels below (mesh/doze.h); its owner knows, and those of the tiles that cover it */
 };
 
 /* What lies behind face 2 * axis + side of a local tile. */
@@ -82,6 +82,7 @@ struct mesh {
     unsigned n_face_u; /* components of the face velocity that registers keep: all with a solid, the normal one with
                           fractions, else none */
     bool corners;      /* a term looks across edges and corners: neighbours there count (level_cover) */
+    bool sleepless;    /* no tile sleeps (mesh/doze.h): super steps look at all of them */
     unsigned n_kept;   /* rows that outputs keep per cell */
     int n_level;       /* levels in use: none of them is empty */
     int most_level;    /* finest level the case allows */

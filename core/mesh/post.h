@@ -12,7 +12,15 @@
 struct post;
 
 /* Tags, one of each per level (added). */
-enum { POST_HALO = 0, POST_DOWN = 100, POST_UP = 200, POST_MOVE = 300, POST_KEPT = 400, POST_LATE = 500, POST_DOZE = 600 };
+enum {
+    POST_HALO = 0,
+    POST_DOWN = 100,
+    POST_UP = 200,
+    POST_MOVE = 300,
+    POST_KEPT = 400,
+    POST_LATE = 500,
+    POST_DOZE = 600
+};
 
 struct post_item {
     int rank;       /* the peer */

@@ -13,7 +13,6 @@
 #include "solve/rkl.h"
 #include "solve/stage_exchange.h"
 #include "solve/verdict.h"
-#include "solve/wake.h"
 
 #include <math.h>
 #include <string.h>
@@ -185,7 +184,7 @@ static void flow_add_tile(const struct stage *stage, unsigned local)
     flow_warm(stage, local);
 }
 
-/* u_old = u + z, cells under finer ones their averages. */
+/* u_old = u + z, cells under finer ones their averages (of all: no tile sleeps). */
 static void flow_add(const struct flow *flow)
 {
     const struct mesh *mesh = flow->state->mesh;
@@ -196,7 +195,6 @@ static void flow_add(const struct flow *flow)
         restrict_averages(mesh, l + 1, 0);
         link_up(mesh->levels[l + 1].link);
         restrict_take(mesh, l + 1, 0);
-        for (int depth = 1; depth <= l + 1; depth++) restrict_late(mesh, l + 1, depth);
     }
 }
 
@@ -389,7 +387,6 @@ static int flow_through(struct state *state, double t, double tau, int halves, i
 
 int flow_take(struct state *state, double t, double tau, int *parts)
 {
-    wake_levels(state, 0);
     int status = flow_divided(state, t, tau, *parts ? *parts : 1, 0, parts);
     for (int l = 0; l < state->mesh->n_level; l++) {
         guard_clear(state->stages[l]->guard);

@@ -9,9 +9,9 @@
 void sync_down(struct stage *coarse, struct stage *fine);
 
 /* After the finer level (and all above it) has reached the time of `coarse`: averages over the covered cells but of
- * tiles that sleep (solve/wake.h: wake_above comes before), refluxing of those beside, primitives anew. *spread counts the tiles where refluxing had to be spread
- * over several cells (levels/spread.h). STATUS_RUN: a cell is inadmissible even so. The recorded message names it.
- * Collective. */
+ * tiles that sleep (solve/wake.h: wake_above comes before), refluxing of those beside, primitives anew. *spread counts
+ * the tiles where refluxing had to be spread over several cells (levels/spread.h). STATUS_RUN: a cell is inadmissible
+ * even so. The recorded message names it. Collective. */
 int sync_up(struct stage *coarse, struct stage *fine, long long *spread);
 
 #endif

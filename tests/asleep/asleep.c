@@ -1,6 +1,6 @@
-/* asleep.c - bulla whose tiles that sleep are poisoned: wherever their cells stop to mean anything (wake_leave, which the
- * linker turns to the function here) they become what BULLA_POISON says, NaN if it says nothing. A reader that does not
- * wake them first gives other numbers than bulla, or none. program/asleep.sh runs it. At the end it tells how many
+/* asleep.c - bulla whose tiles that sleep are poisoned: wherever their cells stop to mean anything (wake_leave, which
+ * the linker turns to the function here) they become what BULLA_POISON says, NaN if it says nothing. A reader that does
+ * not wake them first gives other numbers than bulla, or none. program/asleep.sh runs it. At the end it tells how many
  * tiles it has poisoned. */
 #include "solve/stage.h"
 #include "solve/wake.h"

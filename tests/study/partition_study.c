@@ -89,8 +89,8 @@ static void study_print_efficiency(struct study *study, int n_size, const int *s
     }
 }
 
-/* How often in a coarse step the tiles of level l that sleep `depth` levels deep are woken: after the steps of the level
- * that they sleep down to, and before regrids from levels between. */
+/* How often in a coarse step the tiles of level l that sleep `depth` levels deep are woken: after the steps of the
+ * level that they sleep down to, and before regrids from levels between. */
 static double study_wakes(int l, int depth)
 {
     int down = l - depth;
@@ -280,10 +280,10 @@ static void study_print_projection(struct study *study, int size)
     study_cut_levels(study, size);
     struct study_projection p = study_project(study, size);
     double busy = p.compute + p.wait;
-    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2f | %.2f | %.2f | %.2f | %.3f |\n", study->scene.name, study->scene.dim,
-           study->scene.n, size, study->tiles / size, 1e3 * p.compute, p.compute / busy, p.compute / (busy + p.eager),
-           p.compute / (busy + p.network),
-           p.compute / (busy + p.network + p.topology), p.topology / p.compute);
+    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2f | %.2f | %.2f | %.2f | %.3f |\n", study->scene.name,
+           study->scene.dim, study->scene.n, size, study->tiles / size, 1e3 * p.compute, p.compute / busy,
+           p.compute / (busy + p.eager), p.compute / (busy + p.network), p.compute / (busy + p.network + p.topology),
+           p.topology / p.compute);
 }
 
 /* Meetings of all ranks in all regrids of a coarse step: of a regrid STUDY_MEETINGS, and STUDY_RIPPLE for each level
@@ -417,8 +417,9 @@ static void study_tables(struct study *studies, int n_study)
     for (int i = 0; i < n_study; i++) study_print_sets(&studies[i]);
     study_head("Balance", "| set | ranks | one curve | per level | remote parents | imbalance by level |");
     for (int i = 0; i < n_study; i++) study_print_efficiency(&studies[i], STUDY_RANKS, RANKS);
-    study_head("Traffic", "| set | ranks | halo, MB | down, MB | up if none slept, MB | up, MB | mean rank, MB | messages if none "
-                          "slept | messages | asleep, by level |");
+    study_head("Traffic",
+               "| set | ranks | halo, MB | down, MB | up if none slept, MB | up, MB | mean rank, MB | messages if none "
+               "slept | messages | asleep, by level |");
     for (int i = 0; i < n_study; i++)
         for (int s = 0; s < STUDY_RANKS; s++) {
             study_cut_levels(&studies[i], RANKS[s]);
