@@ -1,9 +1,10 @@
 /* partition_study.c - what many ranks would cost: cuts of real tile sets simulated for 12 to 10^5 ranks, as tables.
  *
- *     build/tests/partition-study [tiny]
+ *     build/tests/partition-study [tiny | topology | coarse]
  *
  * docs/scaling.md holds its output and says what it means. `tiny` takes small sets and few ranks, checks that the
  * figures hang together, and exits with 1 where they do not; it is what the test suite runs. */
+#include "moves.h"
 #include "pieces.h"
 #include "study.h"
 
@@ -11,7 +12,6 @@
 #include "base/mem.h"
 #include "mesh/doze.h"
 #include "mesh/level.h"
-#include "mesh/partition.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,7 +19,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { STUDY_REGRID = 4, STUDY_RANKS = 6, STUDY_REPEATS = 5, STUDY_REGRIDS = 6, STUDY_MEETINGS = 15, STUDY_RIPPLE = 2 };
+enum { STUDY_REGRID = 4, STUDY_RANKS = 6, STUDY_REPEATS = 5, STUDY_MEETINGS = 15, STUDY_RIPPLE = 2 };
 
 /* The machine of the projection: seconds per cell and stage of cost 1, per message, per byte. */
 static const double STUDY_CELL = 45e-9, STUDY_MESSAGE = 2e-6, STUDY_BYTE = 1e-10;
@@ -321,70 +321,6 @@ static void study_print_pieces(struct study *study, int size)
            shared / p.compute, p.compute / (busy + p.topology), p.compute / (busy + shared));
 }
 
-/* Owners as before, born tiles with those before them on the curve: if that balances within the slack of what a new
- * cut reaches. Both orders are merged; `level` has been cut anew. */
-static void study_keep(struct level *level, const struct level *old, const double *costs, int size)
-{
-    struct tile *kept = mem_new(level->n_tile, sizeof *kept);
-    int rank = 0;
-    for (unsigned i = 0, j = 0; i < level->n_tile; i++) {
-        kept[i] = level->tiles[i];
-        while (j < old->n_tile && old->tiles[j].key < kept[i].key) j++;
-        if (j < old->n_tile && old->tiles[j].key == kept[i].key) rank = old->tiles[j].rank;
-        kept[i].rank = rank;
-    }
-    double anew = 1.0 + study_imbalance(level->tiles, level->n_tile, costs, size);
-    if (1.0 + study_imbalance(kept, level->n_tile, costs, size) <= (1.0 + PARTITION_SLACK) * anew)
-        memcpy(level->tiles, kept, level->n_tile * sizeof *kept);
-    mem_free(kept);
-}
-
-struct study_moves {
-    double born, moved, away, tiles; /* away: to another node */
-};
-
-static void study_add_moves(const struct study *before, const struct study *after, struct study_moves *moves)
-{
-    for (int l = 1; l < after->mesh.n_level; l++)
-        for (unsigned i = 0; i < after->mesh.levels[l].n_tile; i++) {
-            const struct tile *tile = &after->mesh.levels[l].tiles[i];
-            int index = level_find(&before->mesh.levels[l], tile->key);
-            int rank = index < 0 ? tile->rank : before->mesh.levels[l].tiles[index].rank;
-            moves->tiles += 1.0;
-            moves->born += index < 0;
-            moves->moved += rank != tile->rank;
-            moves->away += rank / TRAFFIC_NODE != tile->rank / TRAFFIC_NODE;
-        }
-}
-
-/* A few regrids, between which the features grow by the width of the buffer: tiles that change owner. */
-static void study_print_moves(const struct study *study, int size, bool keep)
-{
-    struct study_moves moves = {0};
-    double efficiency = 0.0;
-    struct sets_scene scene = study->scene;
-    struct study before, after;
-    study_start(&before, scene, scene.n);
-    study_cut_levels(&before, size);
-    for (int regrid = 0; regrid < STUDY_REGRIDS; regrid++) {
-        for (int f = 0; f < scene.n_feature; f++)
-            scene.features[f].radius += ldexp(SETS_BUFFER * 2.0 / (scene.base * scene.n), -scene.features[f].finest);
-        study_start(&after, scene, scene.n);
-        study_cut_levels(&after, size);
-        for (int l = 0; keep && l < after.mesh.n_level; l++)
-            study_keep(&after.mesh.levels[l], &before.mesh.levels[l], after.costs[l], size);
-        study_add_moves(&before, &after, &moves);
-        struct traffic traffic = study_count(&after, size);
-        efficiency += study_efficiency(&after, &traffic) / STUDY_REGRIDS;
-        study_stop(&before);
-        before = after;
-    }
-    study_stop(&before);
-    printf("| %s %dD, %d | %d | %s | %.3f | %.3f | %.3f | %.3f |\n", scene.name, scene.dim, scene.n, size,
-           keep ? "kept" : "anew", moves.born / moves.tiles, moves.moved / moves.tiles, moves.away / moves.tiles,
-           efficiency);
-}
-
 static void study_head(const char *title, const char *columns)
 {
     printf("\n### %s\n\n%s\n|", title, columns);
@@ -435,7 +371,35 @@ static void study_tables(struct study *studies, int n_study)
     study_head("Moves", "| set | ranks | owners | born | moved | to another node | efficiency |");
     for (int i = 0; i < n_study; i += 2)
         for (int s = 1; s < 4; s++)
-            for (int keep = 0; keep < 2; keep++) study_print_moves(&studies[i], RANKS[s], keep);
+            for (int keep = 0; keep < 2; keep++) moves_print(&studies[i], RANKS[s], keep);
+}
+
+/* Levels with fewer tiles than ranks in pieces of k tiles; k = 0: cut as they are. */
+static void study_print_coarse(struct study *study, int size, int k)
+{
+    if (k) study_cut_coarse(study, size, k);
+    else study_cut_levels(study, size);
+    struct traffic traffic = study_count(study, size);
+    struct study_projection p = study_project(study, size);
+    double messages = 0.0, bytes = 0.0, busy = p.compute + p.wait;
+    for (int l = 0; l < study->mesh.n_level; l++) {
+        double steps = ldexp(1.0, l);
+        messages += steps * (2.0 * traffic.halo[l].most_messages + 0.5 * traffic.down[l].most_messages) +
+                    study_up(&traffic, l, false, study_most_messages);
+        bytes += steps * (2.0 * traffic.halo[l].most_bytes + 0.5 * traffic.down[l].most_bytes) +
+                 study_up(&traffic, l, false, study_most_bytes);
+    }
+    printf("| %s %dD, %d | %d | %d | %.0f | %.3g | %.3f | %.3f |\n", study->scene.name, study->scene.dim,
+           study->scene.n, size, k, messages, bytes / 1e6, p.compute / busy, p.compute / (busy + p.network));
+}
+
+static void study_coarse(struct study *studies, int n_study)
+{
+    static const int pieces[] = {0, 1, 2, 4, 8};
+    study_head("Coarse levels on fewer ranks", "| set | ranks | k | messages | MB | balance | + network |");
+    for (int i = 0; i < n_study; i++)
+        for (int s = 1; s < STUDY_RANKS; s++)
+            for (int j = 0; j < 5; j++) study_print_coarse(&studies[i], RANKS[s], pieces[j]);
 }
 
 static int study_expect(bool holds, const char *what)
@@ -482,10 +446,11 @@ int main(int argc, char **argv)
     const struct sets_scene *scenes[4] = {&SHELL_2D, &BUBBLE_2D, &SHELL_3D, &BUBBLE_3D};
     static struct study studies[8];
     setvbuf(stdout, NULL, _IOLBF, 0);
-    bool all = argc < 2; /* else tiles of 16 alone, and the tables of topology */
+    bool all = argc < 2, coarse = argc == 2 && !strcmp(argv[1], "coarse"); /* else tiles of 16 alone, and one table */
     int n_study = all ? 8 : 4;
     for (int i = 0; i < n_study; i++) study_start(&studies[i], *scenes[all ? i / 2 : i], all && i % 2 ? 8 : 16);
     if (all) study_tables(studies, n_study);
+    else if (coarse) study_coarse(studies, n_study);
     else {
         study_topology(studies, n_study);
         study_pieces(studies, n_study);

@@ -59,6 +59,21 @@ void study_cut_levels(struct study *study, int size)
     mem_free(load);
 }
 
+void study_cut_coarse(struct study *study, int size, int k)
+{
+    uint64_t *load = mem_new((size_t)size, sizeof *load);
+    study_cut_levels(study, size);
+    for (int l = 0; l < study->mesh.n_level; l++) {
+        struct level *level = &study->mesh.levels[l];
+        int n = (int)level->n_tile, pieces = n > k ? n / k : 1;
+        if (n >= size) continue;
+        for (int r = 0; r < pieces; r++) load[r] = 0;
+        study_cut(level->tiles, level->n_tile, study->costs[l], pieces, 1, load);
+        for (int i = 0; i < n; i++) level->tiles[i].rank = (int)((long long)level->tiles[i].rank * size / pieces);
+    }
+    mem_free(load);
+}
+
 double study_imbalance(const struct tile *tiles, unsigned n, const double *costs, int size)
 {
     uint64_t *load = mem_new((size_t)size, sizeof *load);

@@ -1,5 +1,5 @@
 # The partition study: a program for docs/scaling.md; the suite runs its tiny size.
-add_executable(partition-study study/partition_study.c study/study.c study/sets.c study/traffic.c study/pieces.c)
+add_executable(partition-study study/partition_study.c study/study.c study/sets.c study/traffic.c study/pieces.c study/moves.c)
 target_link_libraries(partition-study PRIVATE bulla_core)
 set_target_properties(partition-study PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
 add_test(NAME study-partition COMMAND partition-study tiny)

@@ -21,6 +21,9 @@ void study_stop(struct study *study);
 /* Owners by a cut of each level, as the mesh does it. */
 void study_cut_levels(struct study *study, int size);
 
+/* The same, but levels with fewer tiles than ranks in pieces of k tiles, spread evenly over the ranks. */
+void study_cut_coarse(struct study *study, int size, int k);
+
 /* Largest over mean load of a level with the owners that its tiles have, less 1. */
 double study_imbalance(const struct tile *tiles, unsigned n, const double *costs, int size);
 
