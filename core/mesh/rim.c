@@ -148,6 +148,7 @@ static void rim_list_way(struct rim *rim, unsigned t, int way)
         piece->index = (unsigned)other - level->first;
     } else {
         piece->kind = RIM_REMOTE;
+        rim->remote[t] = true;
         piece->index = rim->n_send;
         rim_add_send(rim, t, (unsigned)other, way, &place);
     }
@@ -158,6 +159,7 @@ static void rim_list(struct rim *rim)
     const struct level *level = rim_level(rim);
     size_t most = (size_t)level->n_local * RIM_WAYS;
     rim->pieces = mem_new(level->n_local, sizeof *rim->pieces);
+    rim->remote = mem_new(level->n_local, sizeof *rim->remote);
     rim->sends = mem_new(most, sizeof *rim->sends);
     rim->coarse = mem_new(rim->l > 0 ? most : 0, sizeof *rim->coarse);
     for (unsigned t = 0; t < level->n_local; t++)
@@ -374,6 +376,7 @@ static void rim_free(struct rim *rim)
     mem_free(rim->source_from);
     mem_free(rim->coarse);
     mem_free(rim->pieces);
+    mem_free(rim->remote);
     mem_free(rim);
 }
 

@@ -52,6 +52,7 @@ struct rim {
     int l;
     struct rim_form form;
     struct rim_piece (*pieces)[RIM_WAYS]; /* [n_local] */
+    bool *remote;                         /* [n_local]: some piece is REMOTE */
     unsigned n_coarse;
     struct rim_coarse *coarse; /* of local tiles, in the order (tile, way) */
     /* of local tiles of level l - 1; those of tile c are sources[source_from[c] .. source_from[c + 1]) */

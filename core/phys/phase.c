@@ -219,11 +219,21 @@ static double phase_share(const struct phase_block *block, size_t i)
     return moles > 0.0 ? vapour / (vapour + moles) : 1.0;
 }
 
-/* D/(R T) for the vapour that is there, among gases. */
-static double phase_drive(const struct phase_block *block, size_t i)
+/* D/(R T) of a cell: for an own vapour alone, and for what is there among gases. Asked when first needed, and once:
+ * most cells wait or have two temperatures, and need it for nothing or for one decision. */
+struct phase_drive {
+    bool asked;
+    double alone, all;
+};
+
+static const struct phase_drive *phase_drive(const struct phase_block *block, size_t i, struct phase_drive *drive)
 {
+    if (drive->asked) return drive;
     double share = phase_share(block, i);
-    return share > 0.0 ? phase_drive_alone(block, i, 0.0, 0.0) + log(share) : -HUGE_VAL;
+    drive->alone = phase_drive_alone(block, i, 0.0, 0.0);
+    drive->all = share > 0.0 ? drive->alone + log(share) : -HUGE_VAL;
+    drive->asked = true;
+    return drive;
 }
 
 /* Volume fraction of vapour and gases. */
@@ -238,13 +248,11 @@ static double phase_thin(const struct phase_block *block, size_t i)
 /* Would liquid evaporate that `onset` holds back? That at the shore is not held: behind it there is none. What is
  * stretched to below PHASE_TORN of its saturation pressure is not held: the vapour of such cells would else thin out
  * without end as they are pulled. */
-static bool phase_held(const struct phase_block *block, size_t i)
+static bool phase_held(const struct phase_block *block, size_t i, struct phase_drive *drive)
 {
     if (!(phase_thin(block, i) < block->phase->scene->onset)) return false;
     if (block->shore && block->shore[block->at[i]]) return false;
-    double share = phase_share(block, i), alone = phase_drive_alone(block, i, 0.0, 0.0);
-    bool evaporates = !(share > 0.0) || alone + log(share) < 0.0;
-    return evaporates && alone > log(PHASE_TORN);
+    return phase_drive(block, i, drive)->all < 0.0 && drive->alone > log(PHASE_TORN);
 }
 
 /* Volume fraction of the liquid. */
@@ -274,6 +282,7 @@ static bool phase_warm(const struct phase_block *block, size_t i, double near)
 static bool phase_fits(struct phase_block *block, size_t i)
 {
     const struct scene_phase *scene = block->phase->scene;
+    struct phase_drive asked = {0};
     double p = block->cells.p[i], near = PHASE_NEAR + 4.0 * DBL_EPSILON * block->blur[i] / fabs(p);
     double all = block->cells.m[EQUILIBRIUM_LIQUID][i] + block->cells.m[EQUILIBRIUM_VAPOUR][i];
     if (!isfinite(p) || !(block->cells.T[i] > 0.0) || !(all > 0.0)) return true; /* guard's */
@@ -281,13 +290,13 @@ static bool phase_fits(struct phase_block *block, size_t i)
     block->alone[i] = !(phase_thin(block, i) > PHASE_FELT);
     if (block->alone[i])
         return block->thermal[i] || !(phase_drive_alone(block, i, scene->tension, scene->superheat) < 0.0);
-    block->thermal[i] = block->thermal[i] || phase_held(block, i);
-    if (phase_wet(block, i) < scene->wet && phase_drive(block, i) > 0.0) return true;
-    if (phase_steam(block, i) <= scene->nucleus && phase_drive(block, i) > 0.0) return true;
+    block->thermal[i] = block->thermal[i] || phase_held(block, i, &asked);
+    if (phase_wet(block, i) < scene->wet && phase_drive(block, i, &asked)->all > 0.0) return true;
+    if (phase_steam(block, i) <= scene->nucleus && phase_drive(block, i, &asked)->all > 0.0) return true;
     block->warm[i] = phase_warm(block, i, near);
     if (!block->warm[i]) return false;
     if (block->thermal[i]) return true;
-    double drive = phase_drive(block, i);
+    double drive = phase_drive(block, i, &asked)->all;
     if (scene->direction == SCENE_PHASE_EVAPORATION && drive >= 0.0) return true;
     if (scene->direction == SCENE_PHASE_CONDENSATION && drive <= 0.0) return true;
     if (!(block->cells.m[EQUILIBRIUM_VAPOUR][i] > 0.0) && drive >= 0.0) return true;

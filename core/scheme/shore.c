@@ -1,7 +1,7 @@
 /* shore.c - see shore.h. */
 #include "scheme/shore.h"
 
-#include "base/mem.h"
+#include "bulla/module.h"
 #include "phys/phase.h"
 #include "phys/phase_pair.h"
 #include "phys/row.h"
@@ -9,13 +9,12 @@
 
 #include <string.h>
 
-/* Vapour and gases of a tile and the cells around it, and where in the row neighbours stand. */
+/* A tile and the cells around it. */
 struct shore {
     const struct mesh *mesh;
     struct box_block block;
-    size_t step[3]; /* from a cell to the next along an axis */
     double front, onset;
-    double *thin;
+    double *thin, *high; /* vapour and gases of the cells; the most of a cell and those beside it */
 };
 
 size_t shore_marks(const struct model *model, const struct mesh *mesh)
@@ -38,35 +37,67 @@ static void shore_add(const struct shore *shore, const struct model *path, unsig
     }
 }
 
-/* Is the cell at `at` of the row at the shore? */
-static bool shore_is(const struct shore *shore, size_t at)
+static BULLA_KERNEL void shore_rise(size_t n, const double *restrict before, const double *restrict after,
+                                    double *restrict high)
 {
-    double own = shore->thin[at];
-    bool dry = false, more = false;
-    for (int axis = 0; axis < shore->mesh->dim; axis++) {
-        double before = shore->thin[at - shore->step[axis]], after = shore->thin[at + shore->step[axis]];
-        dry = dry || before >= shore->onset || after >= shore->onset;
-        more = more || before > own + PHASE_FELT || after > own + PHASE_FELT;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = before[i], b = after[i], most = high[i];
+        most = a > most ? a : most;
+        high[i] = b > most ? b : most;
     }
-    return dry || (own >= shore->front && !more);
 }
 
+/* What is dry itself is at the shore, too: if others have more, they are as dry. */
+static BULLA_KERNEL void shore_mark(size_t n, double front, double onset, const double *restrict thin,
+                                    const double *restrict high, unsigned char *restrict ret_shore)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double own = thin[i], most = high[i];
+        ret_shore[i] = (most >= onset) | ((own >= front) & !(most > own + PHASE_FELT));
+    }
+}
+
+/* The most of each cell and those beside it, of all that lie between the first and the last cell of the tile. */
+static void shore_top(const struct shore *shore)
+{
+    const struct mesh *mesh = shore->mesh;
+    size_t from = box_at(&shore->block, 0, 0, 0), step = 1;
+    size_t n = box_at(&shore->block, mesh->n[0] - 1, mesh->n[1] - 1, mesh->n[2] - 1) + 1 - from;
+    const double *thin = shore->thin + from;
+    memcpy(shore->high + from, thin, n * sizeof *thin);
+    for (int axis = 0; axis < mesh->dim; step *= shore->block.size[axis++])
+        shore_rise(n, thin - step, thin + step, shore->high + from);
+}
+
+/* Where nothing reaches the surface of heat there is no shore: most tiles are liquid. */
 static void shore_pair(const struct shore *shore, unsigned char *ret_shore)
 {
     const struct mesh *mesh = shore->mesh;
+    if (row_most(shore->block.pitch, shore->thin) < shore->front) {
+        memset(ret_shore, 0, mesh->n_cell);
+        return;
+    }
+    shore_top(shore);
     for (int k = 0; k < mesh->n[2]; k++)
-        for (int j = 0; j < mesh->n[1]; j++) {
+        for (int j = 0; j < mesh->n[1]; j++, ret_shore += mesh->n[0]) {
             size_t from = box_at(&shore->block, 0, j, k);
-            for (int i = 0; i < mesh->n[0]; i++) *ret_shore++ = shore_is(shore, from + (size_t)i);
+            shore_mark((size_t)mesh->n[0], shore->front, shore->onset, shore->thin + from, shore->high + from,
+                       ret_shore);
         }
 }
 
-void shore_look(const struct model *path, const struct mesh *mesh, const double *around, unsigned char *ret_shore)
+size_t shore_room(const struct model *model, const struct mesh *mesh)
 {
-    struct shore shore = {.mesh = mesh, .block = patch_block(mesh, 1, NULL)};
-    shore.step[0] = 1;
-    for (int axis = 1; axis < 3; axis++) shore.step[axis] = shore.step[axis - 1] * shore.block.size[axis - 1];
-    shore.thin = mem_new(shore.block.pitch, sizeof *shore.thin);
+    return model->fronts ? 2 * patch_block(mesh, 1, NULL).pitch : 0;
+}
+
+void shore_look(const struct model *path, const struct mesh *mesh, const double *around, double *room,
+                unsigned char *ret_shore)
+{
+    struct shore shore = {.mesh = mesh, .block = patch_block(mesh, 1, NULL), .thin = room};
+    shore.high = room + shore.block.pitch;
     for (unsigned k = 0; k < path->n_phase; k++) {
         const struct model_phase *phase = &path->phases[k];
         shore.onset = phase->scene->onset;
@@ -75,5 +106,4 @@ void shore_look(const struct model *path, const struct mesh *mesh, const double 
         for (unsigned i = 1; i < phase->n; i++) shore_add(&shore, path, path->first + phase->member[i], around);
         shore_pair(&shore, ret_shore + k * mesh->n_cell);
     }
-    mem_free(shore.thin);
 }

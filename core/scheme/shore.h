@@ -15,8 +15,12 @@
 /* How many marks a tile has: one per cell and pair of the scene; 0 if no pair has an `onset`. */
 size_t shore_marks(const struct model *model, const struct mesh *mesh);
 
+/* How many doubles shore_look needs to work with; 0 likewise. */
+size_t shore_room(const struct model *model, const struct mesh *mesh);
+
 /* Marks the cells of a tile: 1 at the shore of pair k of its path, 0 elsewhere, at ret_shore[k * n_cell]. around: as
- * term_tile.around says. */
-void shore_look(const struct model *path, const struct mesh *mesh, const double *around, unsigned char *ret_shore);
+ * term_tile.around says; room: shore_room() doubles, overwritten. */
+void shore_look(const struct model *path, const struct mesh *mesh, const double *around, double *room,
+                unsigned char *ret_shore);
 
 #endif

@@ -11,6 +11,7 @@ struct around {
     const struct model *model;
     const struct mesh *mesh;
     enum patch_rule rules[MESH_FACES];
+    unsigned char given; /* by faces, of them */
     unsigned char parity[MODEL_FIELDS];
     double *patch; /* of a tile */
     double *layer; /* of all primitives behind a face */
@@ -33,6 +34,7 @@ static void around_rules(struct around *around)
     patch_state_rules(scene, true, around->rules);
     for (int face = 0; face < 2 * scene->domain.dim; face++)
         if (scene_boundary_is(scene, face, SCENE_BOUNDARY_REFERS)) around->rules[face] = PATCH_COPY;
+    around->given = patch_given(around->rules);
 }
 
 struct around *around_new(const struct model *model, const struct mesh *mesh)
@@ -77,6 +79,16 @@ static void around_give(void *data, unsigned local, int face, const struct box_b
                ret->pitch * sizeof *ret->data);
 }
 
+static struct rim *around_rim(const struct around *around, int l)
+{
+    const struct rim_form form = {.n_field = around->model->n_around,
+                                  .g = 1,
+                                  .slots = 2,
+                                  .given = around->given,
+                                  .fields = around->model->around};
+    return rim_of(around->mesh, l, &form);
+}
+
 /* `given` must live as long as the source. */
 static struct patch_source around_source(struct around *around, int l, struct bound *bound, struct around_given *given)
 {
@@ -89,12 +101,7 @@ static struct patch_source around_source(struct around *around, int l, struct bo
                                   .given = around_give,
                                   .data = given};
     memcpy(source.rules, around->rules, sizeof source.rules);
-    const struct rim_form form = {.n_field = around->model->n_around,
-                                  .g = 1,
-                                  .slots = 2,
-                                  .given = patch_given(around->rules),
-                                  .fields = around->model->around};
-    source.rim = rim_of(mesh, l, &form);
+    source.rim = around_rim(around, l);
     return source;
 }
 
@@ -122,20 +129,14 @@ void around_finer(struct around *around, int l, struct bound *bound, int slot)
     prolong_rim(&source, around_source(around, l + 1, bound, &finer).rim, slot, NULL);
 }
 
-void around_down(struct around *around, int l, struct bound *bound)
+void around_down(const struct around *around, int l)
 {
-    struct around_given given;
-    if (around) rim_down(around_source(around, l, bound, &given).rim);
+    if (around) rim_down(around_rim(around, l));
 }
 
-bool around_is_remote(struct around *around, int l, struct bound *bound, unsigned local)
+bool around_is_remote(const struct around *around, int l, unsigned local)
 {
-    struct around_given given;
-    if (!around) return false;
-    const struct rim_piece *pieces = around_source(around, l, bound, &given).rim->pieces[local];
-    for (int way = 0; way < RIM_WAYS; way++)
-        if (pieces[way].kind == RIM_REMOTE) return true;
-    return false;
+    return around && around_rim(around, l)->remote[local];
 }
 
 const double *around_gather(struct around *around, int l, struct bound *bound, unsigned local)
@@ -147,12 +148,11 @@ const double *around_gather(struct around *around, int l, struct bound *bound, u
     return around->patch;
 }
 
-int around_diagonal(struct around *around, int l, struct bound *bound, unsigned local, unsigned ret_tiles[static 26])
+int around_diagonal(const struct around *around, int l, unsigned local, unsigned ret_tiles[static 26])
 {
-    struct around_given given;
     int n = 0;
     if (!around) return 0;
-    const struct rim_piece *pieces = around_source(around, l, bound, &given).rim->pieces[local];
+    const struct rim_piece *pieces = around_rim(around, l)->pieces[local];
     for (int way = 0; way < RIM_WAYS; way++) {
         int steps = 0;
         for (int d = 0; d < 3; d++) steps += rim_step(way, d) != 0;

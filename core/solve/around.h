@@ -26,16 +26,16 @@ void around_finish(struct around *around, int l, struct bound *bound);
 void around_finer(struct around *around, int l, struct bound *bound, int slot);
 
 /* Sends both slots to the finer level l. Collective. */
-void around_down(struct around *around, int l, struct bound *bound);
+void around_down(const struct around *around, int l);
 
 /* Does what lies around a tile come from another rank? */
-bool around_is_remote(struct around *around, int l, struct bound *bound, unsigned local);
+bool around_is_remote(const struct around *around, int l, unsigned local);
 
 /* The block of a local tile, as term_tile.around; good until the next call. */
 const double *around_gather(struct around *around, int l, struct bound *bound, unsigned local);
 
 /* Local tiles across edges and corners of a tile: how many there are, and which; -1 if some lie elsewhere. Behind
  * boundaries there are none. */
-int around_diagonal(struct around *around, int l, struct bound *bound, unsigned local, unsigned ret_tiles[static 26]);
+int around_diagonal(const struct around *around, int l, unsigned local, unsigned ret_tiles[static 26]);
 
 #endif

@@ -27,6 +27,7 @@ struct replay {
     const struct tableau *tableau;
     double *rates, *K, *rho_c2, *c2, *u, *w, *grown;
     unsigned char *shore; /* where liquids end, as scheme/shore.h marks it; or NULL */
+    double *room;         /* for that */
 };
 
 static void blame_replay_mesh(struct replay *replay)
@@ -77,13 +78,15 @@ static struct replay *blame_replay_new(const struct model *model, const struct b
     replay->w = mem_new(model->n_field * n_cell, sizeof(double));
     size_t marks = replay->used->fronts ? shore_marks(model, &replay->mesh) : 0;
     if (marks) replay->shore = mem_new(marks, sizeof *replay->shore);
+    if (marks) replay->room = mem_new(shore_room(model, &replay->mesh), sizeof *replay->room);
     if (model->plastic && model->damaged) replay->grown = mem_new(model->n_solid * n_cell, sizeof(double));
     return replay;
 }
 
 static void blame_replay_free(struct replay *replay)
 {
-    double *blocks[] = {replay->rates, replay->K, replay->rho_c2, replay->c2, replay->u, replay->w, replay->grown};
+    double *blocks[] = {replay->rates, replay->K, replay->rho_c2, replay->c2,
+                        replay->u,     replay->w, replay->grown,  replay->room};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) mem_free(blocks[i]);
     mem_free(replay->shore);
     terms_free(replay->terms);
@@ -136,7 +139,7 @@ static void blame_replay_update(struct replay *replay)
     const struct rate_watch watch = {replay, blame_replay_gather, blame_replay_seen, NULL};
     if (replay->mesh.beta) metric_of_tile(&replay->mesh, replay->level, &replay->tile, &metric);
     rate_take(&tile, replay->own, &watch, facts->masked);
-    if (replay->shore) shore_look(replay->used, &replay->mesh, tile.around, replay->shore);
+    if (replay->shore) shore_look(replay->used, &replay->mesh, tile.around, replay->room, replay->shore);
     rate_apply(&tile, replay->own, replay->u);
     rate_mix(&tile, u_old, row->mix, replay->u);
 }

@@ -109,7 +109,7 @@ static void flow_down(struct stage *coarse, struct stage *fine)
     prolong_strips(work->prolong, coarse->mesh, coarse->l, coarse->bound, 0);
     around_finer(work->around, coarse->l, coarse->bound, 0);
     link_down(fine->level->link);
-    around_down(work->around, fine->l, fine->bound);
+    around_down(work->around, fine->l);
 }
 
 static void flow_level(const struct flow *flow, int l, int j)

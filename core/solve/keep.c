@@ -7,7 +7,7 @@
 static bool keep_rests_around(const struct stage *stage, unsigned local)
 {
     unsigned tiles[26];
-    int n = around_diagonal(stage->work->around, stage->l, stage->bound, local, tiles);
+    int n = around_diagonal(stage->work->around, stage->l, local, tiles);
     for (int i = 0; i < n; i++)
         if (!stage->census.tiles[tiles[i]].still) return false;
     return n >= 0;

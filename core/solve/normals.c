@@ -33,7 +33,7 @@ int normals_begin(struct state *state)
         normals_level(stage);
         if (l + 1 < mesh->n_level) {
             around_finer(stage->work->around, l, stage->bound, 0);
-            around_down(stage->work->around, l + 1, state->stages[l + 1]->bound);
+            around_down(stage->work->around, l + 1);
         }
         TRY(comm_agree(verdict_start(stage, &state->counts.relaxed)));
     }

@@ -143,7 +143,7 @@ void stage_rates(struct stage *stage, unsigned local, enum term_part part, doubl
     rate_take(&ret->tile, stage->work->own, &watch, stage->guard->masked);
     const struct model *path = ret->tile.model;
     if (path->fronts && part != TERM_DIFFUSION)
-        shore_look(path, stage->mesh, ret->tile.around, stage_shore(stage, local));
+        shore_look(path, stage->mesh, ret->tile.around, stage->work->shore, stage_shore(stage, local));
     if (sweep.concerned) reflux_keep(stage->reflux, path, local, ret->tile.w, path->kapila ? ret->tile.K : NULL);
 }
 

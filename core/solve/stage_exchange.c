@@ -37,5 +37,5 @@ void stage_exchange_ghosts(struct stage *stage)
 
 bool stage_exchange_waits(const struct stage *stage, unsigned local)
 {
-    return halo_is_remote(stage->level, local) || around_is_remote(stage->work->around, stage->l, stage->bound, local);
+    return halo_is_remote(stage->level, local) || around_is_remote(stage->work->around, stage->l, local);
 }

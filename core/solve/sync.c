@@ -34,7 +34,7 @@ void sync_down(struct stage *coarse, struct stage *fine)
     around_finer(around, coarse->l, coarse->bound, 1);
     curve_finer(curve, coarse->l, 1);
     link_down(fine->level->link);
-    around_down(around, fine->l, fine->bound);
+    around_down(around, fine->l);
     curve_down(curve, fine->l);
     census_receive(&fine->census);
     reflux_clear(coarse->reflux);

@@ -2,6 +2,7 @@
 #include "solve/work.h"
 
 #include "base/mem.h"
+#include "scheme/shore.h"
 #include "solve/tableau.h"
 
 static void work_add_terms(struct work *work, const struct model *path, struct face_work *faces)
@@ -32,6 +33,7 @@ struct work *work_new(const struct model *model, const struct mesh *mesh)
     work->c2 = mem_new(mesh->n_cell, sizeof(double));
     work->u_star = mem_new(model->n_field * mesh->n_cell, sizeof(double));
     if (model->plastic && model->damaged) work->grown = mem_new(model->n_solid * mesh->n_cell, sizeof(double));
+    if (model->fronts) work->shore = mem_new(shore_room(model, mesh), sizeof *work->shore);
     return work;
 }
 
@@ -53,6 +55,7 @@ void work_free(struct work *work)
     mem_free(work->c2);
     mem_free(work->u_star);
     mem_free(work->grown);
+    mem_free(work->shore);
     mem_free(work);
 }
 

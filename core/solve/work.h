@@ -26,6 +26,7 @@ struct work {
     enum term_part part;                      /* of the steps: TERM_SLOW while what diffuses goes apart (flow.h) */
     double *rates, *K, *rho_c2, *c2, *u_star; /* of one tile */
     double *grown;          /* [n_solid] rows of one tile (operator.h); NULL unless plastic solids can break */
+    double *shore;          /* where shore_look works; NULL: no pair of the scene asks */
     struct cost cost;       /* where the time goes, of all levels */
     struct balance balance; /* and how evenly */
 };

@@ -12,6 +12,8 @@
 
 enum { SIDE = 6, PATCH = (SIDE + 2) * (SIDE + 2) * (SIDE + 2) };
 
+static double room[2 * PATCH];
+
 static struct scene_phase pair = {.onset = 0.99};
 
 /* Family of materials `first` (liquid), `first` + 1 and + 2 of `n`; the vapour alone may stand first of all. */
@@ -34,7 +36,7 @@ static void marks(int dim, double (*thin)(int i, int j, int k), unsigned char *r
         for (int j = dim > 1 ? -1 : 0; j < mesh.n[1] + (dim > 1); j++)
             for (int i = -1; i <= SIDE; i++) around[box_at(&block, i, j, k)] = thin(i, j, k);
     assert_true(shore_marks(&path, &mesh) == mesh.n_cell);
-    shore_look(&path, &mesh, around, ret);
+    shore_look(&path, &mesh, around, room, ret);
 }
 
 static const double *row; /* from the ghost before to the ghost behind */
@@ -125,25 +127,65 @@ static void test_materials(void **state)
     }
     around[3] = 0.3;
     struct model path = family(3, 1, 0, 2);
-    shore_look(&path, &mesh, around, mark);
+    shore_look(&path, &mesh, around, room, mark);
     for (int i = 0; i < SIDE; i++) assert_int_equal(mark[i], i <= 2); /* thin: 1, 1, 1, 0.7, 0, 0, 0, 0 */
     path = family(3, 1, 2, 9);                                        /* the gas alone: 0.5 at most */
-    shore_look(&path, &mesh, around, mark);
+    shore_look(&path, &mesh, around, room, mark);
     for (int i = 0; i < SIDE; i++) assert_int_equal(mark[i], i <= 1);
     path = family(3, 0, 1, 2);
     path.phases[0].member[0] = 9, path.phases[0].member[1] = 0, path.phases[0].member[2] = 1;
     path.first = 1; /* a path of materials 1 and 2 */
-    shore_look(&path, &mesh, around, mark);
+    shore_look(&path, &mesh, around, room, mark);
     for (int i = 0; i < SIDE; i++) assert_int_equal(mark[i], i != 1); /* 0.5, 0.5, 0.7, 1 .. */
+}
+
+/* Marks of a line of materials 0 to 4 by two families of these members and onsets. */
+static void pairs(const struct model_phase *one, const struct model_phase *other, const double part[4][SIDE + 2],
+                  unsigned char *ret)
+{
+    const struct mesh mesh = {.dim = 1, .n = {SIDE, 1, 1}, .n_cell = SIDE};
+    const struct model path = {.n_phase = 2, .fronts = true, .n_around_alpha = 4, .phases = {*one, *other}};
+    assert_true(shore_marks(&path, &mesh) == (size_t)(2 * SIDE));
+    assert_true(shore_room(&path, &mesh) <= sizeof room / sizeof *room);
+    shore_look(&path, &mesh, part[0], room, ret);
+}
+
+static void each(const unsigned char *mark, const char *first, const char *second)
+{
+    for (int i = 0; i < SIDE; i++) {
+        assert_int_equal(mark[i], first[i] - '0');
+        assert_int_equal(mark[SIDE + i], second[i] - '0');
+    }
+}
+
+/* Two liquids, each with its vapour and an onset of its own: neither sees the other's vapour or onset, and the marks
+ * stand in the order of the pairs. What is the shore of one pair lies where the other has none. */
+static void test_pairs(void **state)
+{
+    (void)state;
+    static const double part[4][SIDE + 2] = {{0.9, 0.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},  /* 1: vapour of 3 */
+                                             {0.0, 0.0, 0.0, 0.0, 0.0, 0.2, 0.7, 0.7},  /* 2: vapour of 0 */
+                                             {0.1, 0.6, 1.0, 1.0, 0.5, 0.0, 0.0, 0.0},  /* 3 */
+                                             {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}}; /* 4: a gas of the second */
+    static struct scene_phase early = {.onset = 0.6}, late = {.onset = 0.9};
+    const struct model_phase first = {.n = 2, .member = {0, 2}, .scene = &early},
+                             second = {.n = 3, .member = {3, 1, 4}, .scene = &late},
+                             eager = {.n = 3, .member = {3, 1, 4}, .scene = &early},
+                             lazy = {.n = 2, .member = {0, 2}, .scene = &late};
+    unsigned char mark[2 * SIDE];
+    pairs(&first, &second, part, mark);
+    each(mark, "000011", "100000");
+    pairs(&second, &first, part, mark);
+    each(mark, "100000", "000011");
+    pairs(&lazy, &eager, part, mark); /* no cell is as dry as 0.9; that of 0.7 is beyond the surface of heat */
+    each(mark, "000001", "100000");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_line),
-        cmocka_unit_test(test_axes),
-        cmocka_unit_test(test_corner),
-        cmocka_unit_test(test_materials),
+        cmocka_unit_test(test_line),      cmocka_unit_test(test_axes),  cmocka_unit_test(test_corner),
+        cmocka_unit_test(test_materials), cmocka_unit_test(test_pairs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
