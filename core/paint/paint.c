@@ -15,12 +15,18 @@
 #include "paint/paint_stretch.h"
 #include "paint/paint_values.h"
 #include "phys/mix.h"
+#include "phys/phase.h"
+#include "phys/phase_pair.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
 enum { PAINT_GAUSS = 4, PAINT_POINTS = PAINT_GAUSS * PAINT_GAUSS * PAINT_GAUSS };
+
+/* How far a cell looks beyond its faces for surfaces that lie on them, over its size. What is seen has to be felt
+ * (PHASE_FELT) around an axis and a point, too. */
+#define PAINT_REACH 4e-6
 
 struct paint_block {
     double at[MODEL_FIELDS][PAINT_POINTS];
@@ -66,7 +72,7 @@ static double paint_cover_tile(const struct paint *paint)
         middle[d] = 0.5 * (lower + upper);
         square += 0.25 * (upper - lower) * (upper - lower);
     }
-    double level = shape_level(shape, middle), reach = sqrt(square);
+    double level = shape_level(shape, middle), reach = sqrt(square) * (paint->model->reaches ? 1.0 + PAINT_REACH : 1.0);
     return level >= reach ? 0.0 : level <= -reach ? 1.0 : -1.0;
 }
 
@@ -277,6 +283,37 @@ static int paint_donor(struct paint *paint, const struct scene_layer *layer)
     return STATUS_OK;
 }
 
+/* Does the layer bring a liquid to its vapour in this cell, or the vapour or a gas to the liquid? */
+static bool paint_joins(const struct paint *paint, size_t cell)
+{
+    const struct model *model = paint->model;
+    const double *fractions = paint->values.layer->fractions;
+    bool joins = false;
+    for (unsigned l = 0; fractions && l < model->n_material; l++)
+        for (unsigned m = 0; m < model->n_material && fractions[l] > 0.0; m++)
+            joins = joins || (paint->u[(model->i_alpha + m) * paint->mesh->n_cell + cell] > 0.0 &&
+                              phase_pair_joins(model, l, m));
+    return joins;
+}
+
+/* The fraction that a layer covers of a cell. */
+static double paint_cover(const struct paint *paint, const struct paint_cell *cell)
+{
+    const struct mesh *mesh = paint->mesh;
+    const struct shape *shape = paint->values.layer->shape;
+    double fraction = shape_fraction(shape, cell->lower, cell->upper, mesh->dim, mesh->beta);
+    struct paint_cell wide = *cell;
+    if (!paint->model->reaches || (fraction > 0.0 && fraction < 1.0) || !paint_joins(paint, cell->index))
+        return fraction;
+    for (int d = 0; d < mesh->dim; d++) {
+        double reach = PAINT_REACH * (cell->upper[d] - cell->lower[d]);
+        wide.lower[d] = cell->lower[d] - reach > mesh->lower[d] ? cell->lower[d] - reach : mesh->lower[d];
+        wide.upper[d] = cell->upper[d] + reach < mesh->upper[d] ? cell->upper[d] + reach : mesh->upper[d];
+    }
+    double seen = shape_fraction(shape, wide.lower, wide.upper, mesh->dim, mesh->beta);
+    return fabs(seen - fraction) > PHASE_FELT ? seen : fraction;
+}
+
 static int paint_layer(struct paint *paint)
 {
     const struct paint_values *values = &paint->values;
@@ -291,7 +328,7 @@ static int paint_layer(struct paint *paint)
     for (size_t c = 0; c < mesh->n_cell; c++) {
         struct paint_cell cell = paint_cell_at(paint, c);
         double fraction = cover;
-        if (cover < 0.0) fraction = shape_fraction(values->layer->shape, cell.lower, cell.upper, mesh->dim, mesh->beta);
+        if (cover < 0.0) fraction = paint_cover(paint, &cell);
         if (fraction <= 0.0) continue;
         if (constant) paint_mix(paint, c, fraction, u);
         else TRY(values->varying ? paint_varying(paint, &cell, fraction) : paint_overlay(paint, &cell, fraction));

@@ -11,7 +11,10 @@
  * averages of the scene's layers. A layer covers the fraction f of a cell that lies in its shape: mass, momentum,
  * energy and volume fractions become (1 - f) before + f layer. Values that vary in space are averaged over the cell,
  * or over its part inside the shape, by four Gauss points per axis. STATUS_CASE: a state that no material can have, or
- * a script that fails; the message names layer, place, field and value. */
+ * a script that fails; the message names layer, place, field and value.
+ *
+ * With model->reaches a shape's surface between a liquid and its vapour (or the gases beside it) that lies on faces of
+ * cells puts a trace of each, some 4e-6 of the cell, into the cells of the other. */
 int paint_tile(const struct model *model, const struct mesh *mesh, const struct level *level, const struct tile *tile,
                double *u);
 

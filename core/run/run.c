@@ -26,7 +26,7 @@
 #include "run/record.h"
 #include "run/stop.h"
 #include "run/travel.h"
-#include "run/unmixed.h"
+#include "run/unmixed_say.h"
 #include "solve/advance.h"
 #include "solve/tag.h"
 

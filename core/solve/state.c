@@ -12,6 +12,7 @@
 #include "solve/adopt.h"
 #include "solve/peak.h"
 #include "solve/stage.h"
+#include "solve/unmixed.h"
 #include "solve/verdict.h"
 
 #include <string.h>
@@ -80,10 +81,25 @@ static int state_hand_over(struct state *state, int status, struct state **ret_s
     return status;
 }
 
+/* Does some surface lie on faces of cells, to which heat or vapour is carried? */
+static bool state_touches(const struct state *state)
+{
+    bool carries = state->model->conducts || state->model->n_fick > 0, touches = false;
+    for (unsigned k = 0; carries && k < state->scene->n_phase; k++) touches = unmixed_is(state, k) || touches;
+    return touches;
+}
+
 int state_new(const struct scene *scene, struct state **ret_state)
 {
     struct state *state = state_blank(scene);
-    return state_hand_over(state, state_begin(state), ret_state);
+    int status = state_begin(state);
+    if (!status && state_touches(state)) {
+        state_free(state);
+        state = state_blank(scene);
+        state->model->reaches = true;
+        status = state_begin(state);
+    }
+    return state_hand_over(state, status, ret_state);
 }
 
 /* This rank's piece of sorted tiles: equal ones; few go to the lowest ranks. */

@@ -149,8 +149,43 @@ doubt "1e-07 of 'steam' in 'water' of initial\[0\] is a trace" 's/true, material
 doubt "at 550 K (initial\[0\]) the saturation pressure of 'water' is 4.*e+06 Pa, -2. % off that of water" 's/true, material: water, temperature: 360, pressure: 2 bar/true, material: water, temperature: 550, pressure: 100 bar/'
 "$BULLA" check heat.yaml 2>/dev/null | grep -q "would evaporate again from 1.9.* GPa" || fail "no second root"
 
-# A surface on faces of cells, where nothing would evaporate, is told of before the first step; one in cells is not, nor
-# is liquid that boils by itself, or a pair that exchanges no mass.
+# Superheated water and its vapour of one temperature at rest: where the surface lies on faces of cells, and of tiles, it
+# evaporates as within a cell, the same on any ranks, from its first steps. It is not told of then.
+cat >touch.yaml <<'END'
+bulla: 1
+title: A surface on a face
+domain: {lower: [0], upper: [8 um], cells: [32], boundaries: {x-: reflecting, x+: {type: non-reflecting, pressure: 1 atm}}}
+mesh: {tile: 8}
+materials:
+  water: {eos: {type: nasg, preset: water-2016}, conductivity: 0.68 W/m/K}
+  steam: {eos: {type: ideal-gas, preset: water-2016}, conductivity: 0.025 W/m/K}
+phase-change:
+  - {liquid: water, vapour: steam}
+initial:
+  - {everywhere: true, material: water, temperature: 373.7, pressure: 1 atm}
+  - {half-space: {normal: [-1], point: [2 um]}, material: steam, temperature: 373.7, pressure: 1 atm}
+run: {until: 0.02 us}
+output:
+  directory: out
+  checkpoints: {every: 12 steps}
+  history: {columns: {v: {mass: steam}, e: {evaporated: steam}}}
+expect:
+  - {value: "abs(last(v) - first(v) - last(e))/last(v)", at-most: 1e-13}
+END
+for onset in "" ", onset: 0.99"; do
+    sed "s/vapour: steam/&$onset/" touch.yaml >face.yaml
+    ranked face 1 2 3
+    resumed face 12 face-1
+    sed 's/2 um\]/2.005 um]/' face.yaml >within.yaml
+    rm -rf within
+    ran within within
+    tail -qn 1 face-1/out/history.csv within/out/history.csv | awk -F, '{e[NR] = $5} END {exit !(e[1] > 0.95*e[2] && e[1] < 1.05*e[2])}' ||
+        fail "what evaporates depends on where the surface begins" face-1/out/history.csv
+    "$BULLA" run face.yaml --dry-run 2>&1 | grep "no cell holds" && fail "told of a surface that evaporates"
+done
+
+# A surface on faces of cells to which nothing carries heat, where nothing would evaporate, is told of before the first
+# step; one in cells is not, nor is liquid that boils by itself, or a pair that exchanges no mass.
 sed -e '/half-space/d; s/sphere: .*radius: 0.3 mm}/half-space: {normal: [0, 1], point: [0, 0.5 mm]}/' -e '/levels/s/levels: 1.*}]/levels: 0/' \
     bubble.yaml >face.yaml
 for ranks in 1 2; do

@@ -1,8 +1,7 @@
 /* unmixed.c - see unmixed.h. */
-#include "run/unmixed.h"
+#include "solve/unmixed.h"
 
 #include "base/comm.h"
-#include "base/log.h"
 #include "phys/phase.h"
 #include "solve/wake.h"
 
@@ -34,19 +33,11 @@ static void unmixed_count(const struct state *state, const struct scene_phase *p
     comm_sum_counts(count, UNMIXED_COUNTS);
 }
 
-void unmixed_say(const struct state *state)
+bool unmixed_is(const struct state *state, unsigned k)
 {
-    const struct scene *scene = state->scene;
-    for (unsigned k = 0; k < scene->n_phase; k++) {
-        const struct scene_phase *pair = &scene->phases[k];
-        long long count[UNMIXED_COUNTS] = {0};
-        if (pair->everywhere || pair->rate == SCENE_PHASE_NONE) continue;
-        unmixed_count(state, pair, count);
-        if (count[UNMIXED_LIQUID] && count[UNMIXED_THIN] && !count[UNMIXED_BOTH])
-            log_warn(
-                "phase-change[%u]: no cell holds both '%s' and what it evaporates into; where they touch, their "
-                "surface lies on faces of cells, and no mass is exchanged until it moves into one: move it by part "
-                "of a cell",
-                k, scene->material[pair->liquid].name);
-    }
+    const struct scene_phase *pair = &state->scene->phases[k];
+    long long count[UNMIXED_COUNTS] = {0};
+    if (pair->everywhere || pair->rate == SCENE_PHASE_NONE) return false;
+    unmixed_count(state, pair, count);
+    return count[UNMIXED_LIQUID] && count[UNMIXED_THIN] && !count[UNMIXED_BOTH];
 }
