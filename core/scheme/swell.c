@@ -24,8 +24,9 @@ static BULLA_KERNEL void swell_own(size_t n, const double *restrict alpha, const
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a = alpha[i], part = a / rho_c2[i], volume = part * heat[i] / de_dp[i];
-        own[i] = a > MIX_ABSENT ? volume : 0.0;
-        compliance[i] = a > MIX_ABSENT ? part : 0.0;
+        int acts = (a > MIX_ABSENT) & (rho_c2[i] > 0.0); /* as in mix_closure() */
+        own[i] = acts ? volume : 0.0;
+        compliance[i] = acts ? part : 0.0;
     }
 }
 

@@ -50,13 +50,18 @@ static BULLA_KERNEL void viscous_heat_soften(size_t n, const double *restrict al
     }
 }
 
+/* Less of a cell than this strains more and more as the mixture does: a trace of gas near vacuum would take all of div
+ * u, and the square of 1/alpha times that as heat. */
+#define VISCOUS_HEAT_TRACE 1e-4
+
 /* d_l/div u = 1/(rho_l c_l^2 S) */
-static BULLA_KERNEL void viscous_heat_share(size_t n, const double *restrict rho_c2, const double *restrict compliance,
-                                            double *restrict r)
+static BULLA_KERNEL void viscous_heat_share(size_t n, const double *restrict alpha, const double *restrict rho_c2,
+                                            const double *restrict compliance, double *restrict r)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double K = rho_c2[i], s = compliance[i], share = 1.0 / (K * s);
+        double K = rho_c2[i], s = compliance[i], a = alpha[i] / VISCOUS_HEAT_TRACE, share = 1.0 / (K * s);
+        share = 1.0 + (a < 1.0 ? a : 1.0) * (share - 1.0);
         r[i] = ((K > 0.0) & (s > 0.0)) ? share : 1.0;
     }
 }
@@ -113,7 +118,8 @@ static void viscous_heat_own(const struct viscous_heat *at, unsigned l, const st
         viscous_heat_warm(n, rows, at->square, strain->div, heat);
         return;
     }
-    viscous_heat_share(n, viscous_heat_stiffness(at, l), at->compliance, r);
+    viscous_heat_share(n, viscous_heat_row(at, at->tile->model->i_alpha + l), viscous_heat_stiffness(at, l),
+                       at->compliance, r);
     viscous_strain_own(strain, at->square, r, square, dilatation);
     viscous_heat_warm(n, rows, square, dilatation, heat);
 }
