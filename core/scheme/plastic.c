@@ -16,11 +16,10 @@ static bool plastic_reads(const struct model *path)
     return flow_reads(path) || settle_wanted(path);
 }
 
-/* Where the middle of a step is only looked at: what flows there is not counted. On a line: planes are not measured
- * yet. */
+/* Where the middle of a step is only looked at: what flows there is not counted. */
 static bool plastic_wanted_between(const struct model *path)
 {
-    return path->plastic && path->dim == 1 && path->scene->scheme.integrator == SCENE_MIDPOINT;
+    return path->plastic && path->scene->scheme.integrator == SCENE_MIDPOINT;
 }
 
 static void plastic_acts(const struct operator_tile *tile)
