@@ -391,11 +391,13 @@ static void model_conduct(struct model *model)
     }
 }
 
-/* Do the materials of a cell share their traction? */
+/* Do the materials of a cell share their traction? In the plane the surfaces of solids that flow lack what mends them
+ * on a line, and are better with one pressure (docs/decisions/shells.md). */
 static bool model_is_split(const struct model *model)
 {
     enum scene_traction traction = model->scene->scheme.traction;
-    bool wanted = traction == SCENE_TRACTION_AUTO ? !model->scene->n_phase : traction == SCENE_TRACTION_COMMON;
+    bool flows = model->plastic || model->n_branch > 0, common = !model->scene->n_phase && (model->dim == 1 || !flows);
+    bool wanted = traction == SCENE_TRACTION_AUTO ? common : traction == SCENE_TRACTION_COMMON;
     return wanted && model->elastic && model->n_alpha > 0;
 }
 
