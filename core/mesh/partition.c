@@ -237,17 +237,36 @@ static void partition_select(struct partition_rank *ranks, int size, int n)
     }
 }
 
-/* One tile each to the n ranks with least load, the lower ranks where loads are equal. */
+/* Marks the n ranks with least load among those from `from` to `to` - 1, the lower ones where loads are equal. */
+static void partition_choose(const uint64_t *load, int from, int to, uint64_t n, struct partition_rank *room,
+                             bool *ret_chosen)
+{
+    for (int rank = from; rank < to; rank++) room[rank - from] = (struct partition_rank){load[rank], rank};
+    partition_select(room, to - from, (int)n);
+    for (uint64_t i = 0; i < n; i++) ret_chosen[room[i].rank] = true;
+}
+
+/* Which ranks get one of n tiles, fewer than ranks: the ranks in equal stretches, as many tiles for each. The least
+ * loaded of all ranks would often be neighbours, and the link of their node would carry all of a level. */
+static bool *partition_spread(const uint64_t *load, int n_rank, uint64_t n)
+{
+    uint64_t size = (uint64_t)n_rank, even = (size + PARTITION_STRETCH - 1) / PARTITION_STRETCH;
+    uint64_t stretches = n < even ? n : even;
+    struct partition_rank *room = mem_new((size_t)size, sizeof *room);
+    bool *chosen = mem_new((size_t)size, sizeof *chosen);
+    for (uint64_t s = 0; s < stretches; s++) {
+        int from = (int)(s * size / stretches), to = (int)((s + 1) * size / stretches);
+        partition_choose(load, from, to, (s + 1) * n / stretches - s * n / stretches, room, chosen);
+    }
+    mem_free(room);
+    return chosen;
+}
+
 static void partition_few(const struct partition_curve *curve, uint64_t weight, uint64_t *load, uint32_t *ret_first)
 {
-    int size = curve->size;
-    uint32_t n = curve->count[curve->runs->n], next = 0;
-    struct partition_rank *ranks = mem_new((size_t)size, sizeof *ranks);
-    bool *chosen = mem_new((size_t)size, sizeof *chosen);
-    for (int rank = 0; rank < size; rank++) ranks[rank] = (struct partition_rank){load[rank], rank};
-    partition_select(ranks, size, (int)n);
-    for (uint32_t i = 0; i < n; i++) chosen[ranks[i].rank] = true;
-    for (int rank = 0; rank < size; rank++) {
+    bool *chosen = partition_spread(load, curve->size, curve->count[curve->runs->n]);
+    uint32_t next = 0;
+    for (int rank = 0; rank < curve->size; rank++) {
         if (chosen[rank]) {
             struct partition_place from = partition_before(curve, next++);
             load[rank] += weight * curve->runs->list[from.run].cost;
@@ -255,7 +274,6 @@ static void partition_few(const struct partition_curve *curve, uint64_t weight, 
         ret_first[rank + 1] = next;
     }
     mem_free(chosen);
-    mem_free(ranks);
 }
 
 void partition_cut(const struct partition_runs *runs, int size, uint64_t weight, uint64_t *load, uint32_t *ret_first)

@@ -1,9 +1,10 @@
 /* partition.h - which rank owns which tile: per level, equal cost along the Morton curve.
  *
  * Each level is cut on its own, because each sub-step of each level synchronises (simulated: docs/scaling.md).
- * Levels with fewer tiles than ranks go to the ranks with least work so far. A level whose tiles change is cut anew:
- * keeping owners would save next to nothing. Costs are integers, so that sums have no order and no rounding. Pure
- * functions: they decide nothing by the clock or the rank. */
+ * Levels with fewer tiles than ranks are spread over stretches of ranks, in each of them they go to the ranks with
+ * least work so far. A level whose tiles change is cut anew: keeping owners would save next to nothing. Costs are
+ * integers, so that sums have no order and no rounding. Pure functions: they decide nothing by the clock or the rank.
+ */
 #ifndef PARTITION_H
 #define PARTITION_H
 
@@ -11,6 +12,11 @@
 
 /* Imbalance (largest over mean load, less 1) from which on a level whose tiles stay the same is cut anew. */
 #define PARTITION_SLACK 0.1
+
+/* Ranks of a stretch, at most, over which levels with fewer tiles than ranks are spread (where there are fewer tiles
+ * than stretches, as many as tiles, and longer ones): less than a node has, so that all nodes get their share, and
+ * enough to choose among. */
+#define PARTITION_STRETCH 16
 
 /* Tiles in a row that cost the same. */
 struct partition_run {
@@ -32,7 +38,7 @@ void partition_free(struct partition_runs *runs);
 
 /* Cuts a level for `size` ranks, so that the largest load is the least that contiguous pieces can have: rank r gets the
  * tiles ret_first[r] .. ret_first[r + 1] - 1 (ret_first[size + 1]). load[size]: work per coarse step that the ranks
- * have so far, `weight` * cost is added. */
+ * have so far, `weight` * cost is added; it decides who gets a tile where there are fewer tiles than ranks. */
 void partition_cut(const struct partition_runs *runs, int size, uint64_t weight, uint64_t *load, uint32_t *ret_first);
 
 /* Largest over mean of the loads that a level gives the ranks, less 1. The mean is over as many ranks as can have one

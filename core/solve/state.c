@@ -102,7 +102,7 @@ int state_new(const struct scene *scene, struct state **ret_state)
     return state_hand_over(state, status, ret_state);
 }
 
-/* This rank's piece of sorted tiles: equal ones; few go to the lowest ranks. */
+/* This rank's piece of sorted tiles: equal ones, few are spread over the ranks. */
 static struct mesh_set state_share(const struct tile *tiles, unsigned n, unsigned *ret_first)
 {
     size_t size = (size_t)comm_size(), rank = (size_t)comm_rank();

@@ -181,27 +181,58 @@ static void test_few(void **state)
     assert_memory_equal(load, after, sizeof load);
 }
 
-/* Of many ranks, with equal loads, those that come before in the order (load, rank). */
+/* Begin of a stretch of ranks, or of its share of the tiles. */
+static unsigned begin(unsigned stretch, unsigned stretches, unsigned n)
+{
+    return stretch * n / stretches;
+}
+
+/* Of each stretch of many ranks those that come before in the order (load, rank). */
 static void test_fewer(void **state)
 {
     (void)state;
-    enum { SIZE = 97 };
+    enum { SIZE = 97, STRETCHES = 7 }; /* of 13 and 14 ranks */
     struct tile tiles[SIZE] = {0};
     double cost[SIZE] = {0};
     uint64_t load[SIZE];
     for (unsigned n = 1; n < SIZE; n++) {
-        unsigned next = 0;
+        unsigned next = 0, stretches = n < STRETCHES ? n : STRETCHES;
         for (unsigned r = 0; r < SIZE; r++) load[r] = 10 * (r * r * (n + 3) % 11);
         uint64_t was[SIZE];
         memcpy(was, load, sizeof was);
         cut(tiles, n, cost, SIZE, 1, load);
-        for (unsigned r = 0; r < SIZE; r++) {
-            unsigned before = 0;
-            for (unsigned q = 0; q < SIZE; q++) before += was[q] < was[r] || (was[q] == was[r] && q < r);
-            if (before < n) assert_int_equal(tiles[next++].rank, r);
+        for (unsigned s = 0; s < stretches; s++) {
+            unsigned from = begin(s, stretches, SIZE), to = begin(s + 1, stretches, SIZE);
+            for (unsigned r = from; r < to; r++) {
+                unsigned before = 0;
+                for (unsigned q = from; q < to; q++) before += was[q] < was[r] || (was[q] == was[r] && q < r);
+                if (begin(s, stretches, n) + before < begin(s + 1, stretches, n))
+                    assert_int_equal(tiles[next++].rank, r);
+            }
         }
         assert_int_equal(next, n);
     }
+}
+
+/* Each node of 64 ranks gets its share of few tiles, within two, though only the ranks of one are idle. */
+static void test_spread(void **state)
+{
+    (void)state;
+    enum { NODE = 64, NODES = 5, SIZE = NODES * NODE };
+    static struct tile tiles[SIZE];
+    static double cost[SIZE];
+    for (unsigned n = 1; n < SIZE; n++)
+        for (unsigned idle = 0; idle < NODES; idle++) {
+            uint64_t load[SIZE];
+            unsigned count[NODES] = {0};
+            for (unsigned r = 0; r < SIZE; r++) load[r] = r / NODE == idle ? 0 : 100 + pick(100);
+            cut(tiles, n, cost, SIZE, 1, load);
+            for (unsigned i = 0; i < n; i++) count[tiles[i].rank / NODE]++;
+            for (unsigned k = 0; k < NODES; k++) {
+                assert_true(NODES * count[k] < n + 2 * NODES);
+                assert_true(NODES * count[k] + 2 * NODES > n);
+            }
+        }
 }
 
 static void test_imbalance(void **state)
@@ -216,9 +247,9 @@ static void test_imbalance(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_best),      cmocka_unit_test(test_even), cmocka_unit_test(test_units),
-        cmocka_unit_test(test_runs),      cmocka_unit_test(test_few),  cmocka_unit_test(test_fewer),
-        cmocka_unit_test(test_imbalance),
+        cmocka_unit_test(test_best),   cmocka_unit_test(test_even),      cmocka_unit_test(test_units),
+        cmocka_unit_test(test_runs),   cmocka_unit_test(test_few),       cmocka_unit_test(test_fewer),
+        cmocka_unit_test(test_spread), cmocka_unit_test(test_imbalance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
