@@ -412,9 +412,24 @@ static void edges_settle(const struct edges *edges, const struct model *model, c
     }
 }
 
+/* Two fractions over their sum, in one go. */
+static BULLA_KERNEL void edges_scale_two(size_t n, double *restrict one, double *restrict other)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = one[i], b = other[i], sum = a + b;
+        one[i] = a / sum;
+        other[i] = b / sum;
+    }
+}
+
 /* Rows of n fractions over their sum. */
 static void edges_scale(size_t n, unsigned n_alpha, size_t pitch, double *alpha, double *sum)
 {
+    if (n_alpha == 2) {
+        edges_scale_two(n, alpha, alpha + pitch);
+        return;
+    }
     memset(sum, 0, n * sizeof *sum);
     for (unsigned l = 0; l < n_alpha; l++) row_add(n, alpha + l * pitch, sum);
     for (unsigned l = 0; l < n_alpha; l++) row_divide(n, sum, alpha + l * pitch);

@@ -14,7 +14,7 @@
 /* What an instance holds, in this order. */
 enum { THINC_HALF, THINC_H, THINC_ONE_OVER_H, THINC_VALUES };
 
-#define LIMITER_STEP(values, near, far) thinc(values, near, far)
+#define LIMITER_STEPS(values, below, above) thinc_steps(values, below, above)
 
 static inline double thinc_tanh(double x)
 {
@@ -22,16 +22,24 @@ static inline double thinc_tanh(double x)
     return x * (15.0 + square) / (15.0 + 6.0 * square);
 }
 
-static inline double thinc(const double *values, double near, double far)
+static inline double thinc_step(const double *values, double near, double far, double jump, double H)
 {
-    double jump = near + far, H = thinc_tanh(values[THINC_HALF] * ((far - near) / jump));
     double share = (values[THINC_H] + H * values[THINC_ONE_OVER_H]) / (1.0 + H);
     double step = 0.5 * ((near - far) + jump * share);
     step = step > 0.0 ? step : 0.0;
     return step < near ? step : near;
 }
 
+static inline struct sides_steps thinc_steps(const double *values, double below, double above);
+
 #include "sides.h"
+
+/* H of the other side is -H. */
+static inline struct sides_steps thinc_steps(const double *values, double below, double above)
+{
+    double jump = below + above, H = thinc_tanh(values[THINC_HALF] * ((above - below) / jump));
+    return (struct sides_steps){thinc_step(values, below, above, jump, H), thinc_step(values, above, below, jump, -H)};
+}
 
 static const struct bulla_limiter thinc_table = SIDES_TABLE(BULLA_SURFACES);
 
