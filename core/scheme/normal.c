@@ -69,7 +69,11 @@ static BULLA_KERNEL void normal_uneven(size_t n, const double *restrict before, 
                                        const double *restrict behind, unsigned char *restrict uneven)
 {
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) uneven[i] |= (before[i] != here[i]) | (behind[i] != here[i]) ? 1 : 0;
+    for (size_t i = 0; i < n; i++) {
+        double c = here[i];
+        int differs = (before[i] != c) | (behind[i] != c);
+        uneven[i] |= differs ? 1 : 0;
+    }
 }
 
 /* Cells of a row of the tile that do not hold what all their neighbours hold: the others have no normal. Returns how
