@@ -331,7 +331,7 @@ int regrid_initial(struct state *state)
         curve_finer(state->work->curve, l - 1, 0);
         curve_down(state->work->curve, l);
         curve_take(state->work->curve, l, state->mesh->levels[l].u_old);
-        status = comm_agree(verdict_start(state->stages[l], &state->counts.relaxed));
+        status = comm_agree(verdict_start(state->stages[l], normals_count(state)));
     }
     if (!status) status = normals_begin(state);
     return status ? status : regrid_settle(state);

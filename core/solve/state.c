@@ -10,6 +10,7 @@
 #include "phys/mix.h"
 #include "solve/regrid.h"
 #include "solve/adopt.h"
+#include "solve/normals.h"
 #include "solve/peak.h"
 #include "solve/stage.h"
 #include "solve/unmixed.h"
@@ -66,7 +67,7 @@ static int state_begin(struct state *state)
     TRY(state_paint(state));
     TRY(state_enter(state, 0));
     curve_take(state->work->curve, 0, state->mesh->levels[0].u_old);
-    TRY(comm_agree(verdict_start(state->stages[0], &state->counts.relaxed)));
+    TRY(comm_agree(verdict_start(state->stages[0], normals_count(state))));
     TRY(regrid_initial(state));
     regrid_signals(state);
     for (int l = 0; l < state->mesh->n_level; l++) peak_take(state, l, state->t);

@@ -132,7 +132,7 @@ int verdict_start(struct stage *stage, long long *relaxed)
     bool repair = stage->guard->repair;
     verdict_reset(stage);
     guard_attempt(stage->guard);
-    stage->guard->repair = repair && stage->model->split;
+    stage->guard->repair = relaxed && repair && stage->model->split;
     for (unsigned tile = 0; tile < level->n_local; tile++) {
         memcpy(level->u_new[tile], level->u_old[tile], bytes); /* an earlier state, for verdict_touch */
         verdict_judge(stage, tile, verdict_last(stage), level->u_new[tile], level->u_old[tile], level->w[tile]);
@@ -140,10 +140,10 @@ int verdict_start(struct stage *stage, long long *relaxed)
         census_turn(&stage->census.tiles[tile]);
     }
     verdict_survey(stage);
-    *relaxed += stage->guard->relaxed;
+    if (relaxed) *relaxed += stage->guard->relaxed;
     stage->guard->repair = repair;
     guard_clear(stage->guard);
-    if (!stage->guard->cause[0]) return STATUS_OK;
+    if (!relaxed || !stage->guard->cause[0]) return STATUS_OK;
     return status_fail(STATUS_CASE, "the initial state is not admissible: %s", stage->guard->cause);
 }
 

@@ -27,7 +27,8 @@ void verdict_touch(struct stage *stage, unsigned local);
 void verdict_reset(struct stage *stage);
 
 /* An initial state in u_old: primitives, judgement, signal. Nothing is repaired but cells in which a solid pulls on a
- * fluid more than that bears, with one traction; their number is added. STATUS_CASE: inadmissible. Not collective. */
+ * fluid more than that bears, with one traction; their number is added. STATUS_CASE: inadmissible. relaxed: NULL before
+ * there are normals (normals.h): nothing is judged yet. Not collective. */
 int verdict_start(struct stage *stage, long long *relaxed);
 
 /* A tile whose primitives are there, from another rank or just made: census and signal. */
