@@ -62,32 +62,11 @@ expect:
 END_STRIPES
 "$BULLA" run stripes.yaml --quiet
 
-# The same of a gel that is squeezed and holds gas of 2 bar at -12 bar: with one pressure, before there are normals, such a start
-# would be none.
-cat >squeezed.yaml <<'END_SQUEEZED'
-bulla: 1
-title: Squeezed stripes at rest
-domain: {lower: [0, 0], upper: [1, 1], cells: [24, 24], boundaries: {x-: periodic, x+: periodic, y-: periodic, y+: periodic}}
-materials:
-  gel: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 616576970.0}, constitutive: {type: neo-hookean, shear-modulus: 2 MPa, reference-density: 1060}}
-  gas: {eos: {type: ideal-gas, gamma: 1.4}}
-initial:
-  - {everywhere: true, material: gas, density: 2, pressure: 0.2 MPa, velocity: [0, 0]}
-  - union:
-      - {intersection: [{half-space: {normal: [1, 1], point: [0.253, 0]}}, {half-space: {normal: [-1, -1], point: [0.753, 0]}}]}
-      - {intersection: [{half-space: {normal: [1, 1], point: [1.253, 0]}}, {half-space: {normal: [-1, -1], point: [1.753, 0]}}]}
-    material: gel
-    density: 1060
-    pressure: = 0.2e6 + 2e6*(4/9 - (4/9 + 3)/3)
-    velocity: [0, 0]
-    stretch: {xx: = (2/3 + math.sqrt(1.5))/2, yy: = (2/3 + math.sqrt(1.5))/2, zz: = math.sqrt(1.5), xy: = (2/3 - math.sqrt(1.5))/2}
-run: {until: 1 s, max-steps: 40}
-output:
-  directory: squeezed
-  history: {columns: {u: {max: "= math.sqrt(velocity_x^2 + velocity_y^2)"}}}
-expect:
-  - {value: "max(u)", at-most: 1e-8}
-END_SQUEEZED
+# A gel that is squeezed and bears -12 bar beside gas of 2 bar rests as well.
+sed -e 's/density: 10, pressure: 10 MPa/density: 2, pressure: 0.2 MPa/; s/directory: out/directory: squeezed/' \
+    -e 's|^    pressure: .*|    pressure: = 0.2e6 + 2e6*(4/9 - (4/9 + 3)/3)|' \
+    -e 's|^    stretch: .*|    stretch: {xx: = (2/3 + math.sqrt(1.5))/2, yy: = (2/3 + math.sqrt(1.5))/2, zz: = math.sqrt(1.5), xy: = (2/3 - math.sqrt(1.5))/2}|' \
+    stripes.yaml >squeezed.yaml
 "$BULLA" run squeezed.yaml --quiet
 
 "$BULLA" run "$BULLA_SOURCE/cases/verify/rest-gel.yaml" --variant quick -o rest-gel --quiet

@@ -4,16 +4,6 @@
 
 enum { DOZE_ROUNDS = 8, DOZE_UNSET = -1 };
 
-static bool whole(const struct levels *levels, int l, const int at[3])
-{
-    bool all = levels_has(levels, l, at);
-    for (int o = 0; o < 1 << levels->shape.dim; o++) {
-        const int below[3] = {2 * at[0] + (o & 1), 2 * at[1] + (o >> 1 & 1), 2 * at[2] + (o >> 2)};
-        all = all && levels_has(levels, l + 1, below);
-    }
-    return all;
-}
-
 /* Does a condition hold at a place and at all others at most `reach` steps along axes away, in the domain? */
 static bool around(const struct levels *levels, int l, const int at[3], int reach,
                    bool (*holds)(const struct levels *levels, int l, const int at[3]))
@@ -34,7 +24,7 @@ static bool around(const struct levels *levels, int l, const int at[3], int reac
 
 static bool hidden(const struct levels *levels, int l, const int at[3])
 {
-    return around(levels, l, at, 1, whole);
+    return around(levels, l, at, 1, levels_whole);
 }
 
 static unsigned depth(const struct levels *levels, int l, const int at[3])

@@ -78,16 +78,6 @@ static void test_find(void **state)
     each_mesh(check_find);
 }
 
-static bool whole(const struct levels *levels, int l, const int at[3])
-{
-    bool all = levels_has(levels, l, at);
-    for (int o = 0; o < 1 << levels->shape.dim; o++) {
-        const int below[3] = {2 * at[0] + (o & 1), 2 * at[1] + (o >> 1 & 1), 2 * at[2] + (o >> 2)};
-        all = all && levels_has(levels, l + 1, below);
-    }
-    return all;
-}
-
 static void check_flags(struct levels *levels)
 {
     const struct mesh *mesh = levels->mesh;
@@ -101,10 +91,10 @@ static void check_flags(struct levels *levels)
                 bool covered = o < 1 << mesh->dim && levels_has(levels, l + 1, below);
                 assert_int_equal(tile->covered >> o & 1, covered);
             }
-            bool hidden = whole(levels, l, tile->at);
+            bool hidden = levels_whole(levels, l, tile->at);
             for (int face = 0; face < 2 * mesh->dim; face++) {
                 int at[3];
-                if (levels_behind(levels, l, tile, face, at)) hidden = hidden && whole(levels, l, at);
+                if (levels_behind(levels, l, tile, face, at)) hidden = hidden && levels_whole(levels, l, at);
             }
             if (tile->rank == comm_rank()) assert_int_equal(tile->hidden, hidden); /* its owner knows */
         }

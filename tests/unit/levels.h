@@ -315,4 +315,15 @@ static inline int levels_main(int argc, char **argv, int (*run)(void))
     return failed;
 }
 
+/* Is a tile there, and all that lie over it? */
+static inline bool levels_whole(const struct levels *levels, int l, const int at[3])
+{
+    bool all = levels_has(levels, l, at);
+    for (int o = 0; o < 1 << levels->shape.dim; o++) {
+        const int below[3] = {2 * at[0] + (o & 1), 2 * at[1] + (o >> 1 & 1), 2 * at[2] + (o >> 2)};
+        all = all && levels_has(levels, l + 1, below);
+    }
+    return all;
+}
+
 #endif
