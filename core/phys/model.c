@@ -60,8 +60,6 @@ static void model_name_fields(struct model *model)
     for (unsigned k = 0; k < model->n_pair; k++)
         model->field_names[at++] = mem_print("curvature_%s_%s", model->scene->material[model->pairs[k].inside].name,
                                              model->scene->material[model->pairs[k].outside].name);
-    for (unsigned k = 0; k < model->n_pull; k++)
-        model->field_names[at++] = mem_print("pull_%s", model->scene->material[model->pulls[k].material].name);
 }
 
 /* Names that derive.c understands for this scene. */
@@ -129,12 +127,22 @@ static void model_viscosity(const struct instance *instance, struct model_viscos
     if (only && ret->law->zeta) ret->law->zeta(instance->self, 1, NULL, NULL, NULL, &ret->zeta);
 }
 
+static void model_around_state(struct model *model)
+{
+    model->i_around_rho = model->n_around;
+    for (unsigned l = 0; l < model->n_material; l++) model->around[model->n_around++] = (unsigned char)(model->i_m + l);
+    model->i_around_p = model->n_around;
+    model->around[model->n_around++] = (unsigned char)model->i_E;
+}
+
 /* Laws of transport, and what their terms look at across edges. */
 static void model_transport(struct model *model)
 {
+    bool sees = false; /* does a viscosity follow the state? */
     for (unsigned l = 0; l < model->n_material; l++) {
         model_viscosity(&model->scene->material[l].viscosity, &model->viscosity[l]);
         model->viscous = model->viscous || model->viscosity[l].law;
+        sees = sees || (model->viscosity[l].law && model->viscosity[l].mu.law->needs & ~(uint32_t)BULLA_NEEDS_RATE);
     }
     bool surfaces = model->viscous || model->fronts || model->n_normal;
     for (unsigned l = 1; surfaces && l < model->n_alpha; l++)
@@ -142,6 +150,7 @@ static void model_transport(struct model *model)
     model->n_around_alpha = model->n_around;
     for (unsigned d = 0; model->viscous && d < model->n_velocity; d++)
         model->around[model->n_around++] = (unsigned char)(model->i_u + d);
+    if (sees && model->n_alpha) model_around_state(model);
     model->calm = model->scene->scheme.calm && model->dim > 1;
     if (model->calm) model->around[model->n_around++] = (unsigned char)model->i_E;
 }
@@ -155,17 +164,6 @@ static void model_pair_narrow(const struct model *model, struct model *narrow)
         pair.inside -= narrow->first; /* wraps where it stands before */
         pair.outside -= narrow->first;
         if (pair.inside < narrow->n_alpha && pair.outside < narrow->n_alpha) narrow->pairs[narrow->n_pair++] = pair;
-    }
-}
-
-/* Pulls of those materials that a narrowed model of several has. */
-static void model_pull_narrow(const struct model *model, struct model *narrow)
-{
-    narrow->n_pull = 0;
-    for (unsigned k = 0; k < model->n_pull; k++) {
-        struct model_pull pull = model->pulls[k];
-        pull.material -= narrow->first; /* wraps where it stands before */
-        if (pull.material < narrow->n_alpha) narrow->pulls[narrow->n_pull++] = pull;
     }
 }
 
@@ -230,7 +228,6 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
     narrow->n_normal = 0; /* nothing meets there */
     narrow->split = model->split && narrow->n_solid && !model->n_normal;
     model_pair_narrow(model, narrow);
-    model_pull_narrow(model, narrow);
     model_family_narrow(model, narrow);
     narrow->lagged = narrow->split || model_jumps(narrow);
     for (unsigned l = 0; l < narrow->n_alpha; l++) narrow->active[narrow->n_active++] = narrow->i_alpha + l;
@@ -241,7 +238,6 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
         for (unsigned c = 0; c < narrow->n_stretch; c++)
             narrow->active[narrow->n_active++] = model_stretch(narrow, k) + c;
     for (unsigned k = 0; k < narrow->n_pair; k++) narrow->active[narrow->n_active++] = narrow->pairs[k].i_kappa;
-    for (unsigned k = 0; k < narrow->n_pull; k++) narrow->active[narrow->n_active++] = narrow->pulls[k].field;
     return narrow;
 }
 
@@ -353,18 +349,6 @@ static void model_pair_up(struct model *model)
                                               .sigma = scene->tension[k].sigma};
 }
 
-/* Viscous fluids that others meet in one dimension around an axis or a centre, and the fields of their pull. Solids and
- * phase change have pressures by rules of their own. */
-static void model_pull_all(struct model *model)
-{
-    const struct scene *scene = model->scene;
-    if (model->dim > 1 || !model->beta || !model->kapila || model->elastic || model->n_phase) return;
-    if (scene->scheme.diffusion == SCENE_DIFFUSION_RKL2) return; /* pulls are made of the strain of each stage */
-    for (unsigned l = 0; l < model->n_material; l++)
-        if (scene->material[l].viscosity.module)
-            model->pulls[model->n_pull++] = (struct model_pull){.material = l, .field = model->n_field++};
-}
-
 /* The fluids alone, if they stand together: they need neither the stretch nor the solids' components. */
 static struct model *model_liquefy(const struct model *model)
 {
@@ -432,7 +416,6 @@ struct model *model_new(const struct scene *scene)
     model_pair_up(model);
     model_family_all(model);
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
-    model_pull_all(model);
     model->lagged = model->split || model_jumps(model);
     model->forced = model_is_forced(scene) || model_jumps(model);
     model->linear = true;

@@ -6,9 +6,8 @@
  * xx, yy, zz, then xy, then xz, yz, as far as n_velocity reaches), then as many more for each Maxwell branch of a
  * solid, which has a stretch of its own (scheme/viscoelastic.h). Last, for each pair of materials with surface tension,
  * the curvature of their interface in the cell, which is no conserved field but made anew from the fractions in every
- * stage (scheme/tension.h); and around an axis or a centre in one dimension, for each viscous fluid that meets others,
- * its pull (scheme/viscous_pull.h), made anew likewise. Primitives w, same count: alpha_l, rho_l, u_i, p, eps_l and
- * D_l, V, those of the branches, kappa, pulls. For N = 1 m is rho.
+ * stage (scheme/tension.h). Primitives w, same count: alpha_l, rho_l, u_i, p, eps_l and D_l, V, those of the branches,
+ * kappa. For N = 1 m is rho.
  *
  * This folder, phys: materials at points: which fields there are, mixtures, elasticity, presence, relaxation.
  * Batches of points, no neighbours. */
@@ -101,13 +100,6 @@ struct model_pair {
     double sigma;             /* [N/m] */
 };
 
-/* A viscous fluid that meets others: the stress with which it pulls them along the radius (scheme/viscous_pull.h)
- * [Pa]. */
-struct model_pull {
-    unsigned material; /* of the same model */
-    unsigned field;
-};
-
 /* A liquid, its vapour and gases, which share a temperature and exchange mass (phys/phase.h). */
 struct model_phase {
     unsigned n, member[SCENE_MATERIALS]; /* liquid, vapour, gases: materials of the same model */
@@ -124,8 +116,8 @@ struct model_fick {
 enum { MODEL_STRETCHES = SCENE_MATERIALS + SCENE_BRANCHES };
 
 /* Most evolved fields a scene can have: fractions, densities, velocities, energy, memories of solids, stretches,
- * normals, curvatures, pulls. */
-enum { MODEL_FIELDS = 5 * SCENE_MATERIALS + 3 + 1 + 6 * MODEL_STRETCHES + 3 + SCENE_PAIRS };
+ * normals, curvatures. */
+enum { MODEL_FIELDS = 4 * SCENE_MATERIALS + 3 + 1 + 6 * MODEL_STRETCHES + 3 + SCENE_PAIRS };
 
 struct model {
     const struct scene *scene;
@@ -142,8 +134,6 @@ struct model {
     struct model_memory memories[2 * SCENE_MATERIALS];
     unsigned n_pair;
     struct model_pair pairs[SCENE_PAIRS];
-    unsigned n_pull;
-    struct model_pull pulls[SCENE_MATERIALS];
     unsigned n_phase;
     struct model_phase phases[SCENE_PHASES];
     bool fronts;  /* some of them evaporate at the end of their surface alone (scheme/shore.h) */
@@ -170,7 +160,7 @@ struct model {
     bool conducts;       /* some material of the scene conducts heat (scheme/conduction.h) */
     bool forced;         /* forces act at faces, and pressure is reconstructed relative to them (scheme/face.h) */
     bool split;          /* the materials of a cell share their normal traction, not their pressure (traction.h) */
-    bool lagged;         /* they have pressures of their own, by that, by surface tension or by viscosity */
+    bool lagged;         /* they have pressures of their own, by that or by surface tension */
     struct model_eos eos[SCENE_MATERIALS];
     struct model_viscosity viscosity[SCENE_MATERIALS];
     bool viscous; /* some material of the path is */
@@ -178,6 +168,8 @@ struct model {
     /* What terms that look across edges see there: components of the primitives, the same in all paths of a scene. 0:
      * no term does. Fractions but the first, then velocities (viscous); pressure is the last (calm). */
     unsigned n_around, n_around_alpha;
+    unsigned i_around_rho,
+        i_around_p; /* in it: densities of all materials and p, if viscosities of mixtures want them */
     unsigned char around[MODEL_FIELDS];
     struct model_conductivity conductivity[SCENE_MATERIALS];
     struct model_limiter {
@@ -200,10 +192,10 @@ static inline bool model_is_fraction(const struct model *model, unsigned q)
     return q - model->i_alpha < model->n_alpha; /* wraps below i_alpha */
 }
 
-/* Number of fields that are made anew in every stage, the last ones: normals, curvatures and pulls. */
+/* Number of fields that are made anew in every stage, the last ones: normals and curvatures. */
 static inline unsigned model_renewed(const struct model *model)
 {
-    return model->n_normal + model->n_pair + model->n_pull;
+    return model->n_normal + model->n_pair;
 }
 
 /* Number of active fields that faces see: all others. */
@@ -212,10 +204,10 @@ static inline unsigned model_edged(const struct model *model)
     return model->n_active - model_renewed(model);
 }
 
-/* Have the materials of a cell pressures that differ by what acts in their interface, tension or viscosity? */
+/* Have the materials of a cell pressures that differ by what acts in their interface? */
 static inline bool model_jumps(const struct model *path)
 {
-    return path->n_pair + path->n_pull > 0;
+    return path->n_pair > 0;
 }
 
 /* Has a path terms that look across edges? */

@@ -93,12 +93,6 @@ static void relax_lag(struct relax *relax)
         relax->own[pair->inside] += alpha[pair->outside] * jump;
         relax->own[pair->outside] -= alpha[pair->inside] * jump;
     }
-    for (unsigned k = 0; k < model->n_pull; k++) {
-        unsigned m = model->pulls[k].material;
-        double pull = relax->u[model->pulls[k].field];
-        for (unsigned l = 0; l < model->n_material; l++)
-            relax->own[l] += l == m ? (1.0 - alpha[m]) * pull : -alpha[m] * pull;
-    }
 }
 
 /* What the traction looks at beside densities: stretches, normals, and how far solids are broken. */

@@ -21,6 +21,16 @@ static BULLA_KERNEL void row_kernel_add_product(size_t n, const double *restrict
     }
 }
 
+static BULLA_KERNEL void row_kernel_add_both(size_t n, const double *restrict a, const double *restrict b,
+                                             double *restrict sum)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double old = sum[i];
+        sum[i] = old + (a[i] + b[i]);
+    }
+}
+
 static BULLA_KERNEL void row_kernel_take(size_t n, const double *restrict a, double *restrict from)
 {
 #pragma omp simd
@@ -58,6 +68,11 @@ void row_add(size_t n, const double *restrict a, double *restrict sum)
 void row_add_product(size_t n, const double *restrict a, const double *restrict b, double *restrict sum)
 {
     row_kernel_add_product(n, a, b, sum);
+}
+
+void row_add_both(size_t n, const double *restrict a, const double *restrict b, double *restrict sum)
+{
+    row_kernel_add_both(n, a, b, sum);
 }
 
 void row_take(size_t n, const double *restrict a, double *restrict from)

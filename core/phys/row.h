@@ -8,7 +8,9 @@
 
 void row_add(size_t n, const double *restrict a, double *restrict sum); /* sum += a */
 void row_add_product(size_t n, const double *restrict a, const double *restrict b,
-                     double *restrict sum);                               /* sum += a b */
+                     double *restrict sum); /* sum += a b */
+void row_add_both(size_t n, const double *restrict a, const double *restrict b,
+                  double *restrict sum);                                  /* sum += a + b */
 void row_take(size_t n, const double *restrict a, double *restrict from); /* from -= a */
 void row_divide(size_t n, const double *restrict by, double *restrict a); /* a /= by */
 void row_step(size_t n, double dt, const double *restrict u, const double *restrict rate,

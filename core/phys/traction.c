@@ -289,21 +289,6 @@ static void traction_curves(const struct model *model, size_t n, size_t stride, 
     }
 }
 
-/* What viscosity adds to them: the material's own pull, less the mean over the cell. */
-static void traction_pulls(const struct model *model, size_t n, size_t stride, const double *w,
-                           struct traction_pressures *ret)
-{
-    double mean[TRACTION_BATCH];
-    if (!model->n_pull) return;
-    memset(mean, 0, n * sizeof *mean);
-    for (unsigned k = 0; k < model->n_pull; k++) {
-        const double *pull = w + model->pulls[k].field * stride;
-        row_add_product(n, w + (model->i_alpha + model->pulls[k].material) * stride, pull, mean);
-        row_add(n, pull, ret->lag[model->pulls[k].material]);
-    }
-    for (unsigned l = 0; l < model->n_material; l++) row_take(n, mean, ret->lag[l]);
-}
-
 /* The lags of solids and of what lies beside them, where cells have a normal: the others have none. */
 static void traction_tilted(const struct model *model, size_t n, size_t stride, const double *w,
                             struct traction_pressures *ret)
@@ -343,7 +328,6 @@ void traction_part(const struct model *model, size_t n, size_t stride, const dou
     else
         for (unsigned l = 0; l < model->n_material; l++) memset(ret->lag[l], 0, n * sizeof *ret->lag[l]);
     traction_curves(model, n, stride, w, ret);
-    traction_pulls(model, n, stride, w, ret);
 }
 
 static BULLA_KERNEL void traction_give(size_t n, const double *restrict p, const double *restrict lag,

@@ -8,10 +8,8 @@
  *
  * Across an interface with surface tension p differs by sigma kappa. A smeared one has a part of that step in each of
  * its cells, p = p_outside + alpha_inside sigma kappa, and its materials lag behind the mean of the cell by p_l - p =
- * sum_m alpha_m sigma_lm kappa_lm, so that each has one pressure throughout (docs/decisions/tension.md). Viscous fluids
- * pull on a round interface that moves: p differs by the stress tau_rr that they have there, and likewise p_l - p =
- * tau_l,nn - sum_m alpha_m tau_m,nn                                     (scheme/viscous_pull.h). All may act in one
- * cell. */
+ * sum_m alpha_m sigma_lm kappa_lm, so that each has one pressure throughout (docs/decisions/tension.md). Both may act
+ * in one cell. */
 #ifndef TRACTION_H
 #define TRACTION_H
 

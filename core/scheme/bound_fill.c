@@ -346,7 +346,6 @@ static void bound_fill_fresh(const struct model *model, double *at, size_t strid
         elastic_identity(model, 1, stride, at + model_stretch(model, k) * stride);
     for (unsigned d = 0; d < model->n_normal; d++) at[(model->i_normal + d) * stride] = 0.0;
     for (unsigned k = 0; k < model->n_pair; k++) at[model->pairs[k].i_kappa * stride] = 0.0;
-    for (unsigned k = 0; k < model->n_pull; k++) at[model->pulls[k].field * stride] = 0.0;
 }
 
 static void bound_fill_compose_state(const struct bound_fill *fill, struct bound_row *row)

@@ -24,7 +24,6 @@
 #include "scheme/tension.h"
 #include "scheme/viscoelastic.h"
 #include "scheme/viscous.h"
-#include "scheme/viscous_pull.h"
 #include "scheme/weld.h"
 
 #include <assert.h>
@@ -50,7 +49,6 @@ const struct term *const terms_all[] = {
     &fraction_sum,      /* fractions sum to 1 */
     &lag_term,          /* pressures that materials have in an interface travel with them */
     &tension_term,      /* surface tension: its force, and what a surface that moves has stored */
-    &viscous_pull_term, /* what viscous fluids pull with at their surface */
     &normal_term,       /* how the surfaces of solids lie */
     &strain_term,       /* the stretch of solids */
     &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */

@@ -7,6 +7,8 @@
 
 #include "base/mem.h"
 #include "phys/coefficient.h"
+#include "phys/row.h"
+#include "scheme/viscous_film.h"
 #include "scheme/viscous_heat.h"
 #include "scheme/viscous_plain.h"
 
@@ -18,6 +20,7 @@ struct viscous {
     struct viscous_slopes slopes;
     struct viscous_strain strain;
     struct viscous_mix mix;
+    struct viscous_film film;
 };
 
 static bool viscous_wanted(const struct model *path)
@@ -30,6 +33,7 @@ static void *viscous_open(const struct term_room *room)
     struct viscous *viscous = mem_new(1, sizeof *viscous);
     viscous_slopes_open(room->mesh, &viscous->slopes);
     viscous_mix_open(room->model, &viscous->mix);
+    viscous_film_open(room->mesh, room->model, &viscous->film);
     return viscous;
 }
 
@@ -38,6 +42,7 @@ static void viscous_close(void *own)
     struct viscous *viscous = own;
     viscous_slopes_close(&viscous->slopes);
     viscous_mix_close(&viscous->mix);
+    viscous_film_close(&viscous->film);
     mem_free(viscous);
 }
 
@@ -45,12 +50,13 @@ static void viscous_begin(struct term_tile *tile)
 {
     struct viscous *viscous = tile->own;
     viscous_slopes_look(&viscous->slopes, tile);
+    viscous_film_make(&viscous->film, &viscous->slopes, &viscous->mix, &viscous->strain);
 }
 
 static void viscous_cells(struct term_tile *tile)
 {
     struct viscous *viscous = tile->own;
-    viscous_heat_cells(tile, &viscous->slopes, &viscous->strain, &viscous->mix);
+    viscous_heat_cells(tile, &viscous->slopes, &viscous->strain, &viscous->mix, &viscous->film);
 }
 
 /* Takes tau off the flux of momentum, and its power off that of energy. */
@@ -83,6 +89,7 @@ static void viscous_batch(const struct term_piece *piece, const struct viscous_b
     for (unsigned d = 0; d < piece->model->n_velocity; d++) {
         unsigned i = axis_component(frame->axis, d);
         viscous_mix_stress(&viscous->strain, &viscous->mix, i, (unsigned)frame->axis, tau);
+        viscous_film_faces(&viscous->film, block, i, tau);
         viscous_slopes_speed(&viscous->slopes, block, i, speed);
         viscous_push(block, tau, speed, faces->momentum + d * FACE_ROOM + block->face, faces->energy + block->face);
     }
@@ -117,11 +124,19 @@ static void viscous_faces(const struct term_piece *piece)
 }
 
 /* Directions beyond the axes go around the axis or the centre. */
-static void viscous_component(const struct viscous *viscous, unsigned i, unsigned j, double *tau)
+static void viscous_component(struct viscous *viscous, unsigned i, unsigned j, double *tau)
 {
-    const struct model *path = viscous->strain.path;
-    if (path->beta && i == j && i >= (unsigned)path->dim) viscous_mix_hoop(&viscous->strain, &viscous->mix, tau);
-    else viscous_mix_stress(&viscous->strain, &viscous->mix, i, j, tau);
+    struct viscous_strain *strain = &viscous->strain;
+    const struct model *path = strain->path;
+    double film[STRAIN_POINTS];
+    bool hoop = path->beta && i == j && i >= (unsigned)path->dim;
+    if (hoop) viscous_mix_hoop(strain, &viscous->mix, tau);
+    else viscous_mix_stress(strain, &viscous->mix, i, j, tau);
+    if (!strain->interface) return;
+    viscous_strain_across(strain);
+    if (hoop) viscous_mix_film_hoop(strain, viscous->mix.film, film);
+    else viscous_mix_film(strain, viscous->mix.film, i, j, film);
+    row_add(strain->n, film, tau);
 }
 
 void viscous_stress_field(const struct term_tile *tile, void *own, unsigned i, unsigned j, double *tau)

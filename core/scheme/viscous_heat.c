@@ -4,7 +4,6 @@
 #include "phys/mix.h"
 #include "phys/row.h"
 #include "scheme/swell.h"
-#include "scheme/viscous_pull.h"
 
 #include <string.h>
 
@@ -81,7 +80,7 @@ static BULLA_KERNEL void viscous_heat_warm(size_t n, const struct viscous_mix_ro
 /* A batch of cells. */
 struct viscous_heat {
     const struct term_tile *tile;
-    const struct viscous_strain *strain;
+    struct viscous_strain *strain;
     const struct viscous_mix *mix;
     size_t from;
     double rate[STRAIN_POINTS], square[STRAIN_POINTS], compliance[STRAIN_POINTS];
@@ -127,11 +126,12 @@ static void viscous_heat_own(const struct viscous_heat *at, unsigned l, const st
 /* What all materials need. */
 static void viscous_heat_begin(struct viscous_heat *at)
 {
-    const struct viscous_strain *strain = at->strain;
+    struct viscous_strain *strain = at->strain;
     const struct model *path = at->tile->model;
     viscous_strain_square(strain, at->square);
     if (viscous_mix_sees_rate(path)) viscous_strain_rate(strain, at->square, at->rate);
     if (!strain->interface || !path->kapila) return;
+    viscous_strain_across(strain);
     memset(at->compliance, 0, strain->n * sizeof *at->compliance);
     for (unsigned l = 0; l < path->n_material; l++)
         viscous_heat_soften(strain->n, viscous_heat_row(at, path->i_alpha + l), viscous_heat_stiffness(at, l),
@@ -169,17 +169,15 @@ static void viscous_heat_swell(struct viscous_heat *at)
     for (unsigned l = 0; l < path->n_material; l++) {
         const struct viscous_mix_rows rows = viscous_heat_ask(at, l, &room);
         viscous_heat_own(at, l, &rows, heat);
-        viscous_pull_make(at->tile, at->strain, l, at->from, rows.mu);
         swell_material(&swell, l, viscous_heat_row(at, path->i_alpha + l), viscous_heat_row(at, path->i_m + l),
                        viscous_heat_row(at, path->i_E), viscous_heat_stiffness(at, l), heat, NULL);
     }
     swell_share(&swell, at->tile, at->from);
-    viscous_pull_bound(at->tile, at->from, at->strain->n);
 }
 
 static void viscous_heat_block(const struct term_tile *tile, const struct viscous_slopes *slopes,
                                const struct viscous_block *block, struct viscous_strain *strain,
-                               struct viscous_mix *mix)
+                               struct viscous_mix *mix, const struct viscous_film *film)
 {
     const struct model *path = tile->model;
     size_t n = block->rows * block->n;
@@ -191,6 +189,7 @@ static void viscous_heat_block(const struct term_tile *tile, const struct viscou
         double tau[STRAIN_POINTS];
         viscous_mix_make(strain, &sides, mix);
         viscous_mix_hoop(strain, mix, tau);
+        viscous_film_cells(film, block, tau);
         viscous_heat_hoop(tile, block, tau);
     }
     if (mixed) {
@@ -201,14 +200,14 @@ static void viscous_heat_block(const struct term_tile *tile, const struct viscou
 }
 
 void viscous_heat_cells(const struct term_tile *tile, const struct viscous_slopes *slopes,
-                        struct viscous_strain *strain, struct viscous_mix *mix)
+                        struct viscous_strain *strain, struct viscous_mix *mix, const struct viscous_film *film)
 {
     size_t length = (size_t)tile->mesh->n[0], all = tile->n_cell / length, most = STRAIN_POINTS / length;
     if (!tile->model->beta && !tile->model->kapila) return;
     if (!tile->model->beta && most > VISCOUS_HEAT_LINES) most = VISCOUS_HEAT_LINES; /* many hold one material */
     for (size_t first = 0; first < all;) {
         const struct viscous_block block = viscous_slopes_cells(slopes, first, most);
-        viscous_heat_block(tile, slopes, &block, strain, mix);
+        viscous_heat_block(tile, slopes, &block, strain, mix, film);
         first += block.rows;
     }
 }

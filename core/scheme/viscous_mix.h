@@ -19,12 +19,10 @@ struct viscous_mix_number {
 
 struct viscous_mix {
     struct viscous_mix_number *number; /* [n_material] of the scene */
-    double mu[STRAIN_POINTS];          /* mu_a = sum alpha_l mu_l [Pa s] */
-    double zeta[STRAIN_POINTS];        /* sum alpha_l zeta_l */
-    /* Where the batch has an interface (strain->interface), else the same as above or not made: */
-    double own[STRAIN_POINTS];    /* sum alpha_l mu_l d_l/div u */
-    double series[STRAIN_POINTS]; /* mu_h - mu_a */
-    double iso[STRAIN_POINTS];    /* of the isotropic part: tau = 2 mu_a D + iso div u I + ... */
+    double mu[STRAIN_POINTS];          /* sum alpha_l mu_l [Pa s]; at an interface 1/(sum alpha_l/mu_l) */
+    double zeta[STRAIN_POINTS];        /* sum alpha_l zeta_l; with mu layers in series, too */
+    double iso[STRAIN_POINTS];         /* of the isotropic part: tau = 2 mu D + iso div u I */
+    double film[STRAIN_POINTS];        /* at an interface: what sum alpha_l mu_l is more, along it (viscous_film.h) */
 };
 
 void viscous_mix_open(const struct model *model, struct viscous_mix *ret);
@@ -40,13 +38,20 @@ struct viscous_mix_rows {
 struct viscous_mix_rows viscous_mix_ask(const struct viscous_mix *mix, const struct model *path, unsigned l,
                                         const struct coefficient_points *points, struct viscous_mix_number *room);
 
-/* mu_a is bounded by what the lighter side can bear (numerics.md): a time step that the cells' own viscosities set is
- * good for it. */
+/* Harmonic means are no more than twice what the lighter side of a face has: a time step that the cells' own
+ * viscosities set is good for them. */
 void viscous_mix_make(const struct viscous_strain *strain, const struct viscous_sides *sides, struct viscous_mix *ret);
 
 /* Component (i, axis) of tau, from both. tau[n]. */
 void viscous_mix_stress(const struct viscous_strain *strain, const struct viscous_mix *mix, unsigned i, unsigned axis,
                         double *tau);
+
+/* Component (i, j) of a film, 2 mu (D - m q - q m + (m D m) m m + (div u - m D m) (I - m m)), after
+ * viscous_strain_across. */
+void viscous_mix_film(const struct viscous_strain *strain, const double *mu, unsigned i, unsigned j, double *tau);
+
+/* Its theta theta. */
+void viscous_mix_film_hoop(const struct viscous_strain *strain, const double *mu, double *tau);
 
 /* Component theta theta in curved geometry. */
 void viscous_mix_hoop(const struct viscous_strain *strain, const struct viscous_mix *mix, double *tau);

@@ -63,40 +63,53 @@ static BULLA_KERNEL double viscous_strain_steepness(size_t n, double limit, cons
     return steep;
 }
 
-/* g/sqrt(g^4 + flat^4), or 0 where g is a thousandth of flat: then m is 0 to the bit whether or not there is an
- * interface elsewhere. */
+/* sqrt(w)/|g|, or 0 where g is a thousandth of flat: then m is 0 to the bit whether or not there is an interface
+ * elsewhere. */
 static BULLA_KERNEL void viscous_strain_scale(size_t n, double flat2, double limit, double *restrict g2)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double g = g2[i], scale = sqrt(g / (g * g + flat2 * flat2));
+        double g = g2[i], part = flat2 / g, square = part * part, scale = sqrt(1.0 / (g * (1.0 + square * square)));
         g2[i] = g > limit ? scale : 0.0;
     }
 }
 
-/* m, q = D m, m D m and |m|^2 from the gradient and its scale. Rows beyond the axes are 0. */
-static BULLA_KERNEL void viscous_strain_turn(size_t n, const double *restrict scale,
-                                             struct viscous_strain *restrict strain)
+/* m and |m|^2 from the gradient and its scale. Rows beyond the axes are 0. */
+static BULLA_KERNEL void viscous_strain_point(size_t n, const double *restrict scale,
+                                              struct viscous_strain *restrict strain)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double s = scale[i], a = s * strain->colour[0][i], b = s * strain->colour[1][i], c = s * strain->colour[2][i];
+        strain->colour[0][i] = a;
+        strain->colour[1][i] = b;
+        strain->colour[2][i] = c;
+        strain->sharp[i] = (a * a + b * b) + c * c;
+    }
+}
+
+static BULLA_KERNEL void viscous_strain_turn(size_t n, struct viscous_strain *restrict strain)
 {
     const double *restrict xx = strain->D[0], *restrict yy = strain->D[1], *restrict zz = strain->D[2];
     const double *restrict xy = strain->D[3], *restrict xz = strain->D[4], *restrict yz = strain->D[5];
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double s = scale[i], a = s * strain->colour[0][i], b = s * strain->colour[1][i], c = s * strain->colour[2][i];
+        double a = strain->colour[0][i], b = strain->colour[1][i], c = strain->colour[2][i];
         double p = (xx[i] * a + xy[i] * b) + xz[i] * c, q = (xy[i] * a + yy[i] * b) + yz[i] * c,
                r = (xz[i] * a + yz[i] * b) + zz[i] * c;
-        strain->colour[0][i] = a;
-        strain->colour[1][i] = b;
-        strain->colour[2][i] = c;
         strain->along[0][i] = p;
         strain->along[1][i] = q;
         strain->along[2][i] = r;
         strain->normal[i] = (a * p + b * q) + c * r;
-        strain->sharp[i] = (a * a + b * b) + c * c;
     }
 }
 
-/* m from the gradient of the colour, and what it makes of D. */
+void viscous_strain_across(struct viscous_strain *strain)
+{
+    viscous_strain_turn(strain->n, strain);
+}
+
+/* m from the gradient of the colour. */
 static void viscous_strain_normal(struct viscous_strain *strain, double h)
 {
     double scale[STRAIN_POINTS], flat2 = STRAIN_FLAT * STRAIN_FLAT / (h * h), limit = 1e-6 * flat2;
@@ -108,7 +121,7 @@ static void viscous_strain_normal(struct viscous_strain *strain, double h)
     if (!strain->interface) return;
     for (int e = dim; e < 3; e++) memset(strain->colour[e], 0, strain->n * sizeof *strain->colour[e]);
     viscous_strain_scale(strain->n, flat2, limit, scale);
-    viscous_strain_turn(strain->n, scale, strain);
+    viscous_strain_point(strain->n, scale, strain);
 }
 
 void viscous_strain_make(struct viscous_strain *strain, double h)

@@ -96,4 +96,4 @@ E2
 ranked ring 1 2 4
 resumed ring 16 ring-1
 "$BULLA" plan ring.yaml >said 2>&1
-grep -q 'core/scheme/viscous_pull.c' said || fail "the plan does not say that viscosity pulls" said
+grep -q 'core/scheme/viscous.c' said || fail "the plan does not say where viscosity is" said
