@@ -12,6 +12,7 @@
 #include "case/shape.h"
 #include "paint/paint_contact.h"
 #include "paint/paint_curvature.h"
+#include "paint/paint_smear.h"
 #include "paint/paint_stretch.h"
 #include "paint/paint_values.h"
 #include "phys/mix.h"
@@ -32,10 +33,12 @@ struct paint_block {
     double at[MODEL_FIELDS][PAINT_POINTS];
 };
 
-/* A tile while it is painted. */
+/* A tile while it is painted, and the cells around it that give it something (paint_smear.h). */
 struct paint {
     const struct model *model;
     const struct mesh *mesh;
+    int n[3], below[3]; /* cells along each axis, and how many of them lie before the tile */
+    size_t n_cell;
     double *edges[3]; /* [n + 1] along each axis; mirrored to the bit in a domain symmetric about 0 */
     double *u;        /* [n_field][n_cell] */
     double *covered;  /* [n_cell] part of a cell that has a state */
@@ -53,7 +56,7 @@ static struct paint_cell paint_cell_at(const struct paint *paint, size_t index)
     struct paint_cell cell = {.index = index};
     size_t rest = index;
     for (int d = 0; d < paint->mesh->dim; d++) {
-        size_t n = (size_t)paint->mesh->n[d], i = rest % n;
+        size_t n = (size_t)paint->n[d], i = rest % n;
         rest /= n;
         cell.lower[d] = paint->edges[d][i];
         cell.upper[d] = paint->edges[d][i + 1];
@@ -68,7 +71,7 @@ static double paint_cover_tile(const struct paint *paint)
     double middle[3] = {0.0}, square = 0.0;
     if (!shape) return 1.0;
     for (int d = 0; d < paint->mesh->dim; d++) {
-        double lower = paint->edges[d][0], upper = paint->edges[d][paint->mesh->n[d]];
+        double lower = paint->edges[d][0], upper = paint->edges[d][paint->n[d]];
         middle[d] = 0.5 * (lower + upper);
         square += 0.25 * (upper - lower) * (upper - lower);
     }
@@ -121,7 +124,7 @@ static void paint_normal(const struct paint *paint, size_t index, double ret_n[3
 static void paint_meet(struct paint *paint, size_t cell, const double *below, const double *layer)
 {
     const struct model *model = paint->model;
-    size_t n_cell = paint->mesh->n_cell;
+    size_t n_cell = paint->n_cell;
     double n[3], u[MODEL_FIELDS];
     paint_normal(paint, cell, n);
     for (unsigned q = 0; q < model->n_field; q++) u[q] = paint->u[q * n_cell + cell];
@@ -134,7 +137,7 @@ static void paint_meet(struct paint *paint, size_t cell, const double *below, co
 static void paint_lay(struct paint *paint, size_t cell, double fraction, const double *layer)
 {
     const struct model *model = paint->model;
-    size_t n_cell = paint->mesh->n_cell;
+    size_t n_cell = paint->n_cell;
     struct paint_stretch_layer stretch = {fraction, paint->covered[cell], layer, 1};
     double lost = 0.0;
     if (model->n_stretch) paint_stretch_mix(model, &stretch, n_cell, paint->u + cell);
@@ -153,7 +156,7 @@ static void paint_mix(struct paint *paint, size_t cell, double fraction, const d
     const struct model *model = paint->model;
     double below[MODEL_FIELDS];
     bool meets = fraction < 1.0 && paint->covered[cell] == 1.0 && paint->model->n_pair == 0; /* tension holds a jump */
-    for (unsigned q = 0; meets && q < model->n_field; q++) below[q] = paint->u[q * paint->mesh->n_cell + cell];
+    for (unsigned q = 0; meets && q < model->n_field; q++) below[q] = paint->u[q * paint->n_cell + cell];
     paint_lay(paint, cell, fraction, layer);
     if (meets) paint_meet(paint, cell, below, layer);
 }
@@ -165,7 +168,7 @@ static const double *paint_before(const struct paint *paint, size_t cell, double
     if (!(paint->covered[cell] > 0.0)) return NULL;
     for (unsigned q = 0; q < paint->model->n_field; q++) {
         double part = q < paint->model->i_V ? paint->covered[cell] : 1.0; /* the stretch is a mean already */
-        u[q] = paint->u[q * paint->mesh->n_cell + cell] / part;
+        u[q] = paint->u[q * paint->n_cell + cell] / part;
     }
     w[paint->model->i_E] = 1e5;
     mix_primitives(paint->model, 1, 1, u, w);
@@ -274,7 +277,7 @@ static int paint_donor(struct paint *paint, const struct scene_layer *layer)
     const struct mesh *mesh = paint->mesh;
     double mean[MODEL_FIELDS];
     if (!layer->donor) return status_fail(STATUS_CASE, "%s has not been read", layer->checkpoint);
-    for (size_t c = 0; c < mesh->n_cell; c++) {
+    for (size_t c = 0; c < paint->n_cell; c++) {
         struct paint_cell cell = paint_cell_at(paint, c);
         double part = donor_average(layer->donor, layer->at, cell.lower, cell.upper, mesh->dim, mesh->beta,
                                     paint->model->n_field, mean);
@@ -291,8 +294,8 @@ static bool paint_joins(const struct paint *paint, size_t cell)
     bool joins = false;
     for (unsigned l = 0; fractions && l < model->n_material; l++)
         for (unsigned m = 0; m < model->n_material && fractions[l] > 0.0; m++)
-            joins = joins || (paint->u[(model->i_alpha + m) * paint->mesh->n_cell + cell] > 0.0 &&
-                              phase_pair_joins(model, l, m));
+            joins =
+                joins || (paint->u[(model->i_alpha + m) * paint->n_cell + cell] > 0.0 && phase_pair_joins(model, l, m));
     return joins;
 }
 
@@ -317,7 +320,6 @@ static double paint_cover(const struct paint *paint, const struct paint_cell *ce
 static int paint_layer(struct paint *paint)
 {
     const struct paint_values *values = &paint->values;
-    const struct mesh *mesh = paint->mesh;
     double w[MODEL_FIELDS], u[MODEL_FIELDS], cover = paint_cover_tile(paint);
     bool constant = values->whole && !values->varying;
     if (cover == 0.0) return STATUS_OK;
@@ -325,7 +327,7 @@ static int paint_layer(struct paint *paint)
         TRY(paint_values_at(values, values->layer->centre, NULL, w));
         mix_conserved(paint->model, 1, 1, w, u);
     }
-    for (size_t c = 0; c < mesh->n_cell; c++) {
+    for (size_t c = 0; c < paint->n_cell; c++) {
         struct paint_cell cell = paint_cell_at(paint, c);
         double fraction = cover;
         if (cover < 0.0) fraction = paint_cover(paint, &cell);
@@ -339,7 +341,7 @@ static int paint_layer(struct paint *paint)
 /* Every cell must have got a state. */
 static int paint_check(const struct paint *paint)
 {
-    for (size_t c = 0; c < paint->mesh->n_cell; c++) {
+    for (size_t c = 0; c < paint->n_cell; c++) {
         if (paint->covered[c] > 1.0 - 1e-9) continue;
         struct paint_cell cell = paint_cell_at(paint, c);
         struct text place = {0};
@@ -365,27 +367,85 @@ static int paint_layers(struct paint *paint)
     return paint_check(paint);
 }
 
+/* Cells of the tile, and up to `pad` around it that the domain has. */
+static void paint_extend(struct paint *paint, const struct level *level, const struct tile *tile, int pad)
+{
+    const struct mesh *mesh = paint->mesh;
+    paint->n_cell = 1;
+    for (int d = 0; d < 3; d++) paint->n[d] = mesh->n[d];
+    for (int d = 0; d < mesh->dim; d++) {
+        int cells = level->extent[d] * mesh->n[d], first = tile->at[d] * mesh->n[d], after = cells - first - mesh->n[d];
+        paint->below[d] = first < pad ? first : pad;
+        paint->n[d] += paint->below[d] + (after < pad ? after : pad);
+        paint->edges[d] = mem_new((size_t)paint->n[d] + 1, sizeof **paint->edges);
+        first -= paint->below[d];
+        for (int i = 0; i <= paint->n[d]; i++)
+            paint->edges[d][i] = (mesh->lower[d] * (cells - first - i) + mesh->upper[d] * (first + i)) / cells;
+        paint->n_cell *= (size_t)paint->n[d];
+    }
+    paint->covered = mem_new(paint->n_cell, sizeof *paint->covered);
+}
+
+static void paint_done(struct paint *paint)
+{
+    for (int d = 0; d < paint->mesh->dim; d++) mem_free(paint->edges[d]);
+    mem_free(paint->covered);
+    mem_free(paint);
+}
+
+/* The fields of the tile itself. */
+static void paint_crop(const struct paint *paint, double *ret_u)
+{
+    const struct mesh *mesh = paint->mesh;
+    size_t length = (size_t)mesh->n[0];
+    for (unsigned q = 0; q < paint->model->n_field; q++)
+        for (int k = 0; k < mesh->n[2]; k++)
+            for (int j = 0; j < mesh->n[1]; j++, ret_u += length) {
+                size_t row = (size_t)(k + paint->below[2]) * (size_t)paint->n[1] + (size_t)(j + paint->below[1]);
+                size_t from = row * (size_t)paint->n[0] + (size_t)paint->below[0];
+                memcpy(ret_u, paint->u + q * paint->n_cell + from, length * sizeof *ret_u);
+            }
+}
+
+static int paint_start(struct paint *paint, double *u)
+{
+    const struct model *model = paint->model;
+    memset(u, 0, model->n_field * paint->n_cell * sizeof *u);
+    paint_stretch_relaxed(model, paint->n_cell, paint->n_cell, u);
+    paint->u = u;
+    return paint_layers(paint);
+}
+
+/* With a surface that is smeared. */
+static int paint_smeared(struct paint *paint, double *u)
+{
+    double *room = mem_new(paint->model->n_field * paint->n_cell, sizeof *room);
+    int code = paint_start(paint, room);
+    if (!code) {
+        paint_smear(&(struct paint_smear){.model = paint->model,
+                                          .dim = paint->mesh->dim,
+                                          .beta = paint->mesh->beta,
+                                          .n = {paint->n[0], paint->n[1], paint->n[2]},
+                                          .n_cell = paint->n_cell,
+                                          .edges = paint->edges,
+                                          .u = room});
+        paint_crop(paint, u);
+    }
+    mem_free(room);
+    return code;
+}
+
 int paint_tile(const struct model *model, const struct mesh *mesh, const struct level *level, const struct tile *tile,
                double *u)
 {
     struct paint *paint = mem_new(1, sizeof *paint);
+    bool smears = paint_smear_is(model);
     paint->model = model;
     paint->mesh = mesh;
-    paint->u = u;
-    paint->covered = mem_new(mesh->n_cell, sizeof *paint->covered);
-    memset(u, 0, model->n_field * mesh->n_cell * sizeof *u);
-    paint_stretch_relaxed(model, mesh->n_cell, mesh->n_cell, u);
-    for (int d = 0; d < mesh->dim; d++) {
-        int cells = level->extent[d] * mesh->n[d], first = tile->at[d] * mesh->n[d];
-        paint->edges[d] = mem_new((size_t)mesh->n[d] + 1, sizeof **paint->edges);
-        for (int i = 0; i <= mesh->n[d]; i++)
-            paint->edges[d][i] = (mesh->lower[d] * (cells - first - i) + mesh->upper[d] * (first + i)) / cells;
-    }
-    int code = paint_layers(paint);
+    paint_extend(paint, level, tile, smears ? PAINT_SMEAR_PAD : 0);
+    int code = smears ? paint_smeared(paint, u) : paint_start(paint, u);
     if (!code && model->n_pair && mesh->dim == 1) paint_curvature(model, mesh, level, tile, u);
     if (!code && model->n_stretch) paint_stretch_finish(model, mesh->n_cell, mesh->n_cell, u);
-    for (int d = 0; d < mesh->dim; d++) mem_free(paint->edges[d]);
-    mem_free(paint->covered);
-    mem_free(paint);
+    paint_done(paint);
     return code;
 }

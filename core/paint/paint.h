@@ -14,7 +14,8 @@
  * a script that fails; the message names layer, place, field and value.
  *
  * With model->reaches a shape's surface between a liquid and its vapour (or the gases beside it) that lies on faces of
- * cells puts a trace of each, some 4e-6 of the cell, into the cells of the other. */
+ * cells puts a trace of each, some 4e-6 of the cell, into the cells of the other. Where a pair has an `onset`, and heat
+ * is conducted, its surfaces are smeared at the end (paint_smear.h). */
 int paint_tile(const struct model *model, const struct mesh *mesh, const struct level *level, const struct tile *tile,
                double *u);
 
