@@ -13,6 +13,7 @@
 #include "base/mem.h"
 #include "phys/row.h"
 #include "plug/vet.h"
+#include "scheme/edges_front.h"
 
 #include <string.h>
 
@@ -463,6 +464,8 @@ void edges_fill(struct edges *edges, const struct model *model, const struct fra
     if (!model->reconstruction->bounded) edges_bound(edges, model, &row);
     if (row.lean[0]) edges_lean(edges, model, &row);
     else if (row.rise[0]) edges_press(edges, model, &row);
+    if (model->fronts && model->conducts)
+        edges_front(&(struct edges_front){model, row.cells, row.step, edges->pitch, row.w, state, edges->spare});
     edges_settle(edges, model, &row);
     edges_normalise(edges, model, &row);
 }

@@ -1,0 +1,75 @@
+/* Liquid that comes through the surface of a pair with an `onset` leaves the cell behind it with the density that the
+ * straight line from the surface to the cell before has at the face; no other edge changes, and a mirror changes
+ * nothing. */
+#include "flow.h"
+
+#include "scheme/edges_front.h"
+
+enum { CELLS = 4, PITCH = 8 };
+
+#define BEGIN                                                                                            \
+    "bulla: 1\ndomain: {lower: [0], upper: [16], cells: [16], boundaries: {x-: outflow, x+: outflow}}\n" \
+    "materials:\n  water: {eos: {type: nasg, preset: water-2016}, conductivity: 0.6 W/m/K}\n"            \
+    "  steam: {eos: {type: ideal-gas, preset: water-2016}}\n"                                            \
+    "phase-change:\n  - {liquid: water, vapour: steam, onset: 0.99}\ninitial:\n"                         \
+    "  - {everywhere: true, material: water, temperature: 360, pressure: 1 bar}\nrun: {until: 1}\n"
+
+/* Edges of the liquid's density, lower and upper by cell, from fractions of vapour; `back`: the row turned round. */
+static void edges(const struct model *model, const double thin[CELLS], const double rho[CELLS], bool back,
+                  double ret[CELLS][2])
+{
+    static double w[FLOW_FIELDS * PITCH], state[2 * FLOW_FIELDS * PITCH], room[PITCH];
+    double *upper = state + 2 * model->i_m * PITCH, *lower = upper + CELLS;
+    for (size_t i = 0; i < CELLS; i++) {
+        size_t at = back ? CELLS - 1 - i : i;
+        w[model->i_alpha * PITCH + at] = 1.0 - thin[i];
+        w[(model->i_alpha + 1) * PITCH + at] = thin[i];
+        w[model->i_m * PITCH + at] = lower[at] = upper[at] = rho[i];
+    }
+    edges_front(&(struct edges_front){model, CELLS, 1, PITCH, w, state, room});
+    for (size_t i = 0; i < CELLS; i++) {
+        size_t at = back ? CELLS - 1 - i : i;
+        ret[i][0] = back ? upper[at] : lower[at];
+        ret[i][1] = back ? lower[at] : upper[at];
+    }
+}
+
+/* d = (1/2 - before)/(behind - before) of 0.8, and of 1/2 and less. */
+static void test_line(void **state)
+{
+    (void)state;
+    static const double thin[][CELLS] = {{0.0, 0.1, 0.6, 1.0}, {0.0, 0.2, 0.8, 1.0}, {0.0, 0.4, 0.9, 1.0}};
+    static const double rho[CELLS] = {950.0, 952.0, 960.0, 961.0}, expected[] = {957.0, 960.0, 960.0};
+    struct flow flow;
+    flow_start(&flow, mem_print("%s", BEGIN));
+    for (int k = 0; k < 3; k++)
+        for (int back = 0; back < 2; back++) {
+            double at[CELLS][2];
+            edges(flow.state->model, thin[k], rho, back, at);
+            assert_true(fabs(at[2][0] - expected[k]) < 1e-10);
+            for (size_t i = 0; i < CELLS; i++) assert_true(at[i][1] == rho[i] && (i == 2 || at[i][0] == rho[i]));
+        }
+    flow_stop(&flow);
+}
+
+/* No surface: all before it, all behind it, or no liquid behind it. */
+static void test_none(void **state)
+{
+    (void)state;
+    static const double thin[][CELLS] = {{0.0, 0.1, 0.2, 0.3}, {0.6, 0.7, 0.8, 0.9}, {0.0, 0.1, 1.0, 1.0}};
+    static const double rho[CELLS] = {950.0, 952.0, 960.0, 961.0};
+    struct flow flow;
+    flow_start(&flow, mem_print("%s", BEGIN));
+    for (int k = 0; k < 3; k++) {
+        double at[CELLS][2];
+        edges(flow.state->model, thin[k], rho, false, at);
+        for (size_t i = 0; i < CELLS; i++) assert_true(at[i][0] == rho[i] && at[i][1] == rho[i]);
+    }
+    flow_stop(&flow);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_line), cmocka_unit_test(test_none)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
