@@ -180,6 +180,7 @@ static void blame_replay_judge(struct replay *replay, struct blame_outcome *outc
     struct guard_tile tile = {.model = replay->used,
                               .stage = blame_moves(facts) ? facts->stage : replay->tableau->n - 1,
                               .u_old = replay->blame->block[BLAME_U_OLD],
+                              .p_before = replay->rates,
                               .u = replay->u,
                               .w = replay->w,
                               .rho_c2 = replay->rho_c2,
@@ -228,6 +229,8 @@ void blame_replay(const struct model *model, const struct blame *blame, struct b
         blame_replay_update(replay);
         blame_replay_operate(replay);
     }
+    const double *p_before = replay->w + replay->used->i_E * facts->n_cell;
+    memcpy(replay->rates, p_before, facts->n_cell * sizeof *replay->rates);
     mix_primitives(replay->used, facts->n_cell, facts->n_cell, replay->u, replay->w);
     blame_result(replay->again, replay->used, replay->u, replay->w);
     ret_outcome->faces = blame_replay_differences(replay, BLAME_FACES);

@@ -7,7 +7,9 @@
 #include "phys/elastic.h"
 #include "phys/mix.h"
 #include "phys/relax.h"
+#include "phys/soft.h"
 #include "solve/guard_name.h"
+#include "solve/soften.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +19,7 @@
  * behind a front of traces (the midpoint rule keeps no sign); the material counts as absent there. */
 #define GUARD_ROUND_OFF 1e-8
 
-enum { GUARD_BATCH = 512 };
+enum { GUARD_BATCH = SOFTEN_BATCH };
 
 /* A mark of stage s is 1 + s until it is known whether earlier ones were clean everywhere. */
 static const double GUARD_MARK = 1.0;
@@ -282,15 +284,34 @@ static void guard_note(struct guard *guard, const struct guard_tile *tile, size_
     if (*mark == 0.0) *mark = GUARD_MARK + tile->stage;
 }
 
+/* Cells of a batch, n from `from`, in which pressure and fractions contradict each other. */
+static void guard_soften(struct guard *guard, const struct guard_tile *tile, size_t from, size_t n)
+{
+    const struct model *model = tile->model;
+    size_t n_cell = guard->mesh->n_cell;
+    struct soften_suspect suspects[SOFTEN_BATCH];
+    size_t found = soften_find(model, n, n_cell, tile->u + from, tile->w + from, tile->rho_c2 + from,
+                               tile->p_before + from, suspects);
+    for (size_t k = 0; k < found; k++) {
+        size_t cell = from + suspects[k].cell;
+        const double *u_old = tile->u_old + cell;
+        if (!soft_cell(model, n_cell, u_old, suspects[k].least, tile->u + cell, tile->w + cell)) continue;
+        guard_again(guard, tile, cell);
+        guard->relaxed++;
+    }
+}
+
 void guard_check(struct guard *guard, const struct guard_tile *tile)
 {
     size_t n_cell = guard->mesh->n_cell;
     bool kept = !guard_is_first(guard, tile);
+    bool softens = guard->repair && tile->p_before && tile->model->n_alpha > 1 && soften_applies(guard->model);
     for (int s = 0; s < tile->stage; s++)
         if (guard->bad[s]) return;
     for (size_t from = 0; from < n_cell; from += GUARD_BATCH) {
         size_t n = n_cell - from < GUARD_BATCH ? n_cell - from : GUARD_BATCH;
         double bad[GUARD_BATCH];
+        if (softens) guard_soften(guard, tile, from, n);
         if (guard_judge(guard, tile, from, n, bad) == 0.0) continue;
         if (!kept) guard_keep(guard, tile);
         kept = true;

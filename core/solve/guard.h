@@ -1,5 +1,6 @@
 /* guard.h - is a state admissible, and what is done when it is not.
  *
+ * First, a mixed cell whose energy and fractions contradict each other is softened (phys/soft.h).
  * Admissible: everything finite, rho > 0, no partial density below round-off, every present
  * material well-posed at its pressure (c_l^2 > 0). A mixed cell that fails gets its volume
  * fractions from pressure relaxation (phys/relax.h). The ladder for a step that still leaves
@@ -73,8 +74,9 @@ struct guard_tile {
     unsigned local;
     int stage; /* 0 to n_stage - 1 */
     const double *u_old;
-    double *u, *w;       /* conserved and primitives now; the fractions of repaired cells change */
-    double *rho_c2, *c2; /* rho_l c_l^2 and frozen c^2 (mix_stiffness), likewise */
+    const double *p_before; /* pressures before the stage, of cells that may be softened (phys/soft.h); or NULL */
+    double *u, *w;          /* conserved and primitives now; the fractions of repaired cells change */
+    double *rho_c2, *c2;    /* rho_l c_l^2 and frozen c^2 (mix_stiffness), likewise */
 };
 
 /* Checks a tile; repairs, notes and marks bad leaf cells; after a bad stage the later ones are not judged. */

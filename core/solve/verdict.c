@@ -19,6 +19,8 @@ void verdict_judge(struct stage *stage, unsigned local, int judged, const double
     struct work *work = stage->work;
     const struct model *model = stage->census.tiles[local].path;
     size_t n_cell = stage->mesh->n_cell;
+    double *p_before = work->rates; /* free between stages */
+    if (model->n_alpha) memcpy(p_before, w + model->i_E * n_cell, n_cell * sizeof *w);
     mix_pressure_sum(&stage->effort, mix_primitives(model, n_cell, n_cell, u, w));
     mix_stiffness(model, n_cell, n_cell, w, work->rho_c2);
     mix_speed2(model, n_cell, n_cell, w, work->rho_c2, work->c2);
@@ -27,6 +29,7 @@ void verdict_judge(struct stage *stage, unsigned local, int judged, const double
                               .local = local,
                               .stage = judged,
                               .u_old = before,
+                              .p_before = p_before,
                               .u = u,
                               .w = w,
                               .rho_c2 = work->rho_c2,
