@@ -46,7 +46,7 @@ static void test_many(void **state)
                            "levels: 3, tile: 8, regrid-every: 1, buffer: 2, patience: 1, refine: [{jump: alpha_air, "
                            "above: 0.01}]",
                            "box: {lower: [0.3], upper: [0.5]}", "[900]"),
-               500, 300);
+               500, 290);
     check_many("plane",
                bubble_case("{lower: [0, 0], upper: [1, 1], cells: [16, 16], " BOX2 "}",
                            "levels: 2, tile: 4, regrid-every: 1, buffer: 2, patience: 1, refine: [{jump: alpha_air, "
