@@ -1,6 +1,7 @@
 /* convection.c - see convection.h. */
 #include "scheme/convection.h"
 
+#include "mesh/metric.h"
 #include "phys/row.h"
 #include "scheme/terms.h"
 
@@ -81,6 +82,35 @@ static BULLA_KERNEL void convection_signal(size_t n, const double *restrict c2, 
     }
 }
 
+/* Cells that begin at an axis or a centre have less volume for the area of their outer face than others: what flows out
+ * of them faster than sound would take along more than there is. Their rate is at least that of what leaves. Nothing
+ * changes where a cell has CONVECTION_ROOM of its width behind its outer face: with a Courant number up to that, and
+ * any sound, it cannot lose all. */
+#define CONVECTION_ROOM 0.8
+
+/* What cells of column i along the first axis lose beyond the signal. */
+static void convection_leave(const struct term_pace *pace, size_t column, double per_width, const double *const *u,
+                             const double *per_h, double *rate)
+{
+    for (size_t i = column; i < pace->n_cell; i += (size_t)pace->mesh->n[0]) {
+        double across = per_h[1] * fabs(u[1][i]) + per_h[2] * fabs(u[2][i]), c = sqrt(pace->c2[i]);
+        double signal = per_h[0] * (fabs(u[0][i]) + c) + (across + (per_h[1] + per_h[2]) * c);
+        double out = u[0][i] > 0.0 ? per_width * u[0][i] + across : 0.0;
+        rate[i] += out > signal ? out - signal : 0.0;
+    }
+}
+
+static void convection_narrow(const struct term_pace *pace, const double *const *u, const double *per_h, double *rate)
+{
+    struct metric metric;
+    if (!pace->tile || pace->mesh->beta == 0) return;
+    metric_of_tile(pace->mesh, pace->level, pace->tile, &metric);
+    for (int i = 0; i < pace->mesh->n[0]; i++) {
+        double per_width = metric.area[i + 1] / metric.volume[i];
+        if (per_width * CONVECTION_ROOM > per_h[0]) convection_leave(pace, (size_t)i, per_width, u, per_h, rate);
+    }
+}
+
 static void convection_pace(const struct term_pace *pace, double *rate)
 {
     const struct model *model = pace->model;
@@ -92,6 +122,7 @@ static void convection_pace(const struct term_pace *pace, double *rate)
         per_h[d] = used ? 1.0 / pace->level->h[d] : 0.0;
     }
     convection_signal(pace->n_cell, pace->c2, u, per_h, rate);
+    convection_narrow(pace, u, per_h, rate);
 }
 
 const struct term convection_term = {

@@ -93,7 +93,9 @@ struct term_room {
 /* What a term asks of the time step. */
 struct term_pace {
     const struct model *model;
+    const struct mesh *mesh;
     const struct level *level;
+    const struct tile *tile; /* NULL: no cells, but a layer behind a boundary */
     size_t n_cell;
     const double *w, *c2; /* primitives; squares of the fastest signal */
     enum term_part part;

@@ -60,8 +60,13 @@ void verdict_measure(struct stage *stage, unsigned local, const double *w)
 {
     size_t n_cell = stage->mesh->n_cell;
     const struct model *path = stage->census.tiles[local].path; /* what a tile lacks cannot hold up its steps */
-    const struct term_pace pace = {
-        .model = path, .level = stage->level, .n_cell = n_cell, .w = w, .c2 = stage->work->c2};
+    const struct term_pace pace = {.model = path,
+                                   .mesh = stage->mesh,
+                                   .level = stage->level,
+                                   .tile = &stage->level->tiles[stage->level->first + local],
+                                   .n_cell = n_cell,
+                                   .w = w,
+                                   .c2 = stage->work->c2};
     stage->census.tiles[local].signal = verdict_pace(stage, pace);
 }
 
@@ -83,7 +88,8 @@ static double verdict_layer(struct stage *stage, unsigned local, const struct fr
     bound_ahead_row(stage->bound, local, frame, side, stage->level->w[local], FACE_ROOM, work->faces->frame, row);
     mix_stiffness(model, n, n, row, work->rho_c2);
     mix_speed2(model, n, n, row, work->rho_c2, work->c2);
-    const struct term_pace pace = {.model = model, .level = stage->level, .n_cell = n, .w = row, .c2 = work->c2};
+    const struct term_pace pace = {
+        .model = model, .mesh = stage->mesh, .level = stage->level, .n_cell = n, .w = row, .c2 = work->c2};
     return verdict_pace(stage, pace);
 }
 
