@@ -1,24 +1,29 @@
-/* viscous_film.c - see viscous_film.h. Lines of corners that follow each other are worked on together, with what lies
- * between two lines, which nobody reads. Sums begin with what lies opposite, so that mirrors and the exchange of axes
- * keep all bits. */
+/* viscous_film.c - see viscous_film.h. The corners that have a mixed cell beside them are worked on side by side. Sums
+ * begin with what lies opposite, so that mirrors and the exchange of axes keep all bits. */
 #include "scheme/viscous_film.h"
 
 #include "base/mem.h"
 #include "phys/elastic.h"
+#include "phys/pick.h"
 #include "phys/row.h"
 #include "scheme/patch.h"
 
 #include <string.h>
 
-/* Some corners, one behind the other in the patch. */
+/* Some corners, packed. */
 struct viscous_film_batch {
     struct viscous_film *film;
     const struct viscous_slopes *slopes;
     const struct viscous_mix *mix;
     struct viscous_strain *strain;
-    size_t n, at;                    /* how many, and the cell below the first */
-    double per[3][STRAIN_POINTS];    /* 1/(distance of the cells of a pair) */
-    double radius[2][STRAIN_POINTS]; /* of the cells below and above, in curved geometry */
+    size_t n;
+    const unsigned *at;                           /* [n] the cells below them */
+    double per[3][STRAIN_POINTS];                 /* 1/(distance of the cells of a pair) */
+    double radius[2][STRAIN_POINTS];              /* of the cells below and above, in curved geometry */
+    double value[HOLD_CORNERS][STRAIN_POINTS];    /* of the cells around them, of what is looked at */
+    double weight[3][HOLD_PAIRS][STRAIN_POINTS];  /* of a pair across an axis */
+    double ring[HOLD_CORNERS / 2][STRAIN_POINTS]; /* weights of the cells in curved geometry */
+    double packed[STRAIN_POINTS];
     struct viscous_hold hold;
 };
 
@@ -45,8 +50,10 @@ void viscous_film_open(const struct mesh *mesh, const struct model *model, struc
     *ret = (struct viscous_film){.pairs = pairs, .corners = corners, .line = block.size[0]};
     if (!model->n_alpha) return;
     ret->lines = block.pitch / block.size[0];
-    ret->held = mem_new(2 * ret->lines, sizeof *ret->held);
-    ret->mixed = ret->held + ret->lines;
+    ret->held = mem_new(ret->lines, sizeof *ret->held);
+    ret->mixed = mem_new(2 * block.pitch, sizeof *ret->mixed);
+    ret->touched = ret->mixed + block.pitch;
+    ret->at = mem_new(block.pitch, sizeof *ret->at);
     ret->room = mem_new(rows * block.pitch, sizeof *ret->room);
     double *room = ret->room;
     for (unsigned c = 0; c < STRAIN_TENSOR; c++, room += block.pitch) ret->stress[c] = room;
@@ -60,58 +67,64 @@ void viscous_film_open(const struct mesh *mesh, const struct model *model, struc
 void viscous_film_close(struct viscous_film *film)
 {
     mem_free(film->held);
+    mem_free(film->mixed);
+    mem_free(film->at);
     mem_free(film->room);
 }
 
-/* What two pairs add to a derivative. */
-static BULLA_KERNEL void viscous_film_slope(size_t n, size_t step, const double *restrict per,
-                                            const double *const weight[2], const double *const from[2],
-                                            double *restrict slope)
+/* The values around the corners of what lies over the patch. */
+static void viscous_film_take(struct viscous_film_batch *batch, const double *from)
 {
-    const double *restrict v = weight[0], *restrict w = weight[1], *restrict a = from[0], *restrict b = from[1];
+    for (unsigned c = 0; c < batch->film->corners; c++)
+        pick_take(batch->n, batch->at, from + batch->film->around[c], batch->value[c]);
+}
+
+/* What two pairs add to a derivative: v (b - a) + w (d - c). */
+static BULLA_KERNEL void viscous_film_slope(size_t n, const double *restrict per, const double *restrict v,
+                                            const double *restrict a, const double *restrict b,
+                                            const double *restrict w, const double *restrict c,
+                                            const double *restrict d, double *restrict slope)
+{
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double s = slope[i];
-        slope[i] = s + (v[i] * (a[i + step] - a[i]) + w[i] * (b[i + step] - b[i])) * per[i];
+        slope[i] = s + (v[i] * (b[i] - a[i]) + w[i] * (d[i] - c[i])) * per[i];
     }
 }
 
-/* d/dx_e of what lies over the patch; weight: of the pairs. */
-static void viscous_film_derive(const struct viscous_film_batch *batch, const double *from, int e,
-                                const double *const *weight, double *ret)
+/* d/dx_e of the values; weight: of the pairs, NULL: all alike. */
+static void viscous_film_derive(const struct viscous_film_batch *batch, int e, const double (*weight)[STRAIN_POINTS],
+                                double *ret)
 {
-    const struct viscous_film *film = batch->film;
-    const double *at = from + batch->at;
-    unsigned last = film->pairs - 1;
+    const double(*value)[STRAIN_POINTS] = batch->value;
+    unsigned last = batch->film->pairs - 1, bit = 1u << e;
     memset(ret, 0, batch->n * sizeof *ret);
     for (unsigned p = 0; p <= last / 2; p++) {
-        const double *const w[2] = {weight[p], last ? weight[last - p] : viscous_film_none};
-        const double *const pair[2] = {at + film->beside[e][p], at + film->beside[e][last - p]};
-        viscous_film_slope(batch->n, batch->slopes->stride[e], batch->per[e], w, pair, ret);
+        unsigned low = viscous_hold_low(p, e), other = viscous_hold_low(last - p, e);
+        const double *v = weight ? weight[p] : batch->film->even, *w = weight ? weight[last - p] : batch->film->even;
+        viscous_film_slope(batch->n, batch->per[e], v, value[low], value[low | bit], last ? w : viscous_film_none,
+                           value[other], value[other | bit], ret);
     }
 }
 
 /* Velocities by the weights of the pairs, the colour by one for all; even: that one for velocities, too. */
-static void viscous_film_gradients(const struct viscous_film_batch *batch, bool even)
+static void viscous_film_gradients(struct viscous_film_batch *batch, bool even)
 {
-    const struct viscous_film *film = batch->film;
     const struct model *path = batch->slopes->tile->model;
-    const double *const all[HOLD_PAIRS] = {film->even, film->even, film->even, film->even};
-    for (int e = 0; e < path->dim; e++) {
-        const double *own[HOLD_PAIRS];
-        for (unsigned p = 0; p < film->pairs; p++) own[p] = film->weight[e][p] + batch->at;
-        for (unsigned d = 0; d < path->n_velocity; d++)
-            viscous_film_derive(batch, viscous_slopes_velocity(batch->slopes, d), e, even ? all : own,
-                                batch->strain->gradient[d][e]);
-        viscous_film_derive(batch, batch->slopes->colour, e, all, batch->strain->colour[e]);
+    for (unsigned d = 0; d < path->n_velocity; d++) {
+        viscous_film_take(batch, viscous_slopes_velocity(batch->slopes, d));
+        for (int e = 0; e < path->dim; e++)
+            viscous_film_derive(batch, e, even ? NULL : batch->weight[e], batch->strain->gradient[d][e]);
     }
+    viscous_film_take(batch, batch->slopes->colour);
+    for (int e = 0; e < path->dim; e++) viscous_film_derive(batch, e, NULL, batch->strain->colour[e]);
 }
 
 /* u_r/r of the cells on one side, by their weights; the second pair only where there are two axes. */
-static BULLA_KERNEL void viscous_film_ring(size_t n, const double *restrict radius, const double *const weight[2],
-                                           const double *const u[2], double *restrict hoop)
+static BULLA_KERNEL void viscous_film_ring(size_t n, const double *restrict radius, const double *restrict v,
+                                           const double *restrict a, const double *restrict w, const double *restrict b,
+                                           double *restrict hoop)
 {
-    const double *restrict v = weight[0], *restrict w = weight[1], *restrict a = u[0], *restrict b = u[1];
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double h = hoop[i];
@@ -120,23 +133,21 @@ static BULLA_KERNEL void viscous_film_ring(size_t n, const double *restrict radi
 }
 
 /* The hoop of corners, of at most two axes. */
-static void viscous_film_hoop(const struct viscous_film_batch *batch, bool even)
+static void viscous_film_hoop(struct viscous_film_batch *batch, bool even)
 {
-    const struct viscous_film *film = batch->film;
-    const double *u = viscous_slopes_velocity(batch->slopes, 0) + batch->at;
-    double *part[HOLD_CORNERS], *hoop = batch->strain->hoop;
-    bool flat = film->corners == 4;
-    for (unsigned c = 0; c < film->corners; c++) part[c] = film->hoop[c] + batch->at;
-    viscous_hold_ring(even ? NULL : &batch->hold, batch->n, film->corners, part);
+    double *hoop = batch->strain->hoop, (*ring)[STRAIN_POINTS] = batch->ring;
+    bool flat = batch->film->corners == 4;
+    viscous_hold_ring(even ? NULL : &batch->hold, batch->n, batch->film->corners, ring);
+    viscous_film_take(batch, viscous_slopes_velocity(batch->slopes, 0));
     memset(hoop, 0, batch->n * sizeof *hoop);
     for (unsigned side = 0; side < 2; side++) {
-        const double *const weight[2] = {part[side], flat ? part[side + 2] : viscous_film_none};
-        const double *const of[2] = {u + side, u + film->around[flat ? side + 2 : side]};
-        viscous_film_ring(batch->n, batch->radius[side], weight, of, hoop);
+        unsigned other = flat ? side + 2 : side;
+        viscous_film_ring(batch->n, batch->radius[side], ring[side], batch->value[side],
+                          flat ? ring[other] : viscous_film_none, batch->value[other], hoop);
     }
 }
 
-static void viscous_film_strain(const struct viscous_film_batch *batch, bool even)
+static void viscous_film_strain(struct viscous_film_batch *batch, bool even)
 {
     const struct term_tile *tile = batch->slopes->tile;
     struct viscous_strain *strain = batch->strain;
@@ -183,29 +194,34 @@ static BULLA_KERNEL void viscous_film_times(size_t n, const double *restrict fac
     }
 }
 
-static void viscous_film_stress(const struct viscous_film_batch *batch, const double *mu)
+/* Writes packed values, and that there are some. */
+static void viscous_film_put(const struct viscous_film_batch *batch, const double *packed, double *row)
+{
+    pick_put(batch->n, batch->at, packed, row);
+}
+
+static void viscous_film_stress(struct viscous_film_batch *batch, const double *mu)
 {
     const struct viscous_film *film = batch->film;
     const struct viscous_strain *strain = batch->strain;
     const struct model *path = strain->path;
-    double hoop[STRAIN_POINTS];
     for (unsigned i = 0; i < path->n_velocity; i++)
-        for (unsigned j = 0; j <= i && j < (unsigned)path->dim; j++)
-            viscous_mix_film(strain, mu, i, j, film->stress[elastic_component(i, j)] + batch->at);
+        for (unsigned j = 0; j <= i && j < (unsigned)path->dim; j++) {
+            viscous_mix_film(strain, mu, i, j, batch->packed);
+            viscous_film_put(batch, batch->packed, film->stress[elastic_component(i, j)]);
+        }
+    for (int e = 0; e < path->dim; e++)
+        for (unsigned p = 0; p < film->pairs; p++) viscous_film_put(batch, batch->weight[e][p], film->weight[e][p]);
     if (!path->beta) return;
-    viscous_mix_film_hoop(strain, mu, hoop);
-    for (unsigned c = 0; c < film->corners; c++) viscous_film_times(batch->n, hoop, film->hoop[c] + batch->at);
-}
-
-/* Nothing at n corners. */
-static void viscous_film_clear(const struct viscous_film *film, size_t at, size_t n)
-{
-    for (unsigned c = 0; c < STRAIN_TENSOR; c++) memset(film->stress[c] + at, 0, n * sizeof **film->stress);
-    for (unsigned c = 0; c < HOLD_CORNERS && film->hoop[c]; c++) memset(film->hoop[c] + at, 0, n * sizeof **film->hoop);
+    viscous_mix_film_hoop(strain, mu, batch->packed);
+    for (unsigned c = 0; c < film->corners; c++) {
+        viscous_film_times(batch->n, batch->packed, batch->ring[c]);
+        viscous_film_put(batch, batch->ring[c], film->hoop[c]);
+    }
 }
 
 /* The rate of shear that laws are asked with: of the strain without weights. */
-static void viscous_film_rate(const struct viscous_film_batch *batch, double *rate)
+static void viscous_film_rate(struct viscous_film_batch *batch, double *rate)
 {
     double square[STRAIN_POINTS];
     viscous_film_strain(batch, true);
@@ -214,18 +230,17 @@ static void viscous_film_rate(const struct viscous_film_batch *batch, double *ra
 }
 
 /* The mean of what lies around the corners in the patch. */
-static void viscous_film_around(const struct viscous_film_batch *batch, unsigned row, double *mean)
+static void viscous_film_around(struct viscous_film_batch *batch, unsigned row, double *mean)
 {
-    const double *at = batch->slopes->data + row * batch->slopes->pitch + batch->at;
     unsigned last = batch->film->corners - 1;
+    viscous_film_take(batch, batch->slopes->data + row * batch->slopes->pitch);
     memset(mean, 0, batch->n * sizeof *mean);
-    for (unsigned c = 0; c <= last / 2; c++)
-        row_add_both(batch->n, at + batch->film->around[c], at + batch->film->around[last - c], mean);
+    for (unsigned c = 0; c <= last / 2; c++) row_add_both(batch->n, batch->value[c], batch->value[last - c], mean);
     for (size_t i = 0; i < batch->n; i++) mean[i] /= batch->film->corners;
 }
 
 /* Viscosity of material l at the corners. */
-static const double *viscous_film_ask(const struct viscous_film_batch *batch, unsigned l, const double *rate,
+static const double *viscous_film_ask(struct viscous_film_batch *batch, unsigned l, const double *rate,
                                       struct viscous_mix_number *room)
 {
     const struct model *path = batch->slopes->tile->model;
@@ -247,77 +262,73 @@ static void viscous_film_of(struct viscous_film_batch *batch)
     if (viscous_mix_sees_rate(path)) viscous_film_rate(batch, rate);
     for (unsigned l = 0; l < path->n_material; l++) rows[l] = viscous_film_ask(batch, l, rate, &room[l]);
     for (unsigned c = 0; c < batch->film->corners; c++)
-        viscous_hold_make(batch->slopes, batch->n, batch->at + batch->film->around[c], rows, c, &batch->hold);
-    for (int a = 0; a < path->dim; a++) {
-        double *weight[HOLD_PAIRS];
-        for (unsigned p = 0; p < batch->film->pairs; p++) weight[p] = batch->film->weight[a][p] + batch->at;
-        viscous_hold_weigh(&batch->hold, batch->n, a, batch->film->pairs, weight);
-    }
+        viscous_hold_make(batch->slopes, batch->n, batch->at, batch->film->around[c], rows, c, &batch->hold);
+    for (int a = 0; a < path->dim; a++)
+        viscous_hold_weigh(&batch->hold, batch->n, a, batch->film->pairs, batch->weight[a]);
     viscous_film_strain(batch, false);
-    if (!batch->strain->interface) {
-        viscous_film_clear(batch->film, batch->at, batch->n);
-        return;
-    }
+    if (!batch->strain->interface) return;
     viscous_strain_across(batch->strain);
     viscous_film_mean(batch, mu);
     viscous_film_stress(batch, mu);
 }
 
-/* Distances and radii of the corners of a batch, whose first is corner x of its line. Between two lines stands what the
- * last corner has. */
-static void viscous_film_place(struct viscous_film_batch *batch, size_t x)
+/* Distances and radii of the corners of a batch. The last cell of a line has no corner above: what stands there nobody
+ * reads. */
+static void viscous_film_place(struct viscous_film_batch *batch)
 {
     const struct viscous_slopes *slopes = batch->slopes;
     const struct mesh *mesh = slopes->tile->mesh;
     size_t line = batch->film->line, last = line - 2;
     for (int e = 0; e < mesh->dim; e++)
         for (size_t i = 0; i < batch->n; i++) batch->per[e][i] = slopes->across[e][0];
-    for (size_t i = 0, at = x; mesh->beta && i < batch->n; i++, at = at + 1 < line ? at + 1 : 0) {
-        size_t corner = at < last ? at : last;
+    for (size_t i = 0; mesh->beta && i < batch->n; i++) {
+        size_t x = batch->at[i] % line, corner = x < last ? x : last;
         batch->per[0][i] = slopes->across[0][corner];
         for (size_t side = 0; side < 2; side++) batch->radius[side][i] = slopes->centroid[corner + side];
     }
 }
 
-/* The corners above some lines of cells that follow each other. */
-static void viscous_film_lines(struct viscous_film_batch *batch, size_t from, size_t lines)
+/* Marks cells of which a fraction is neither 0 nor 1. */
+static BULLA_KERNEL void viscous_film_mark(size_t n, const double *restrict alpha, unsigned char *restrict mixed)
 {
-    size_t line = batch->film->line, all = lines * line - 1; /* no corner behind the last one */
-    for (size_t x = 0; x < all; x += batch->n) {
-        batch->n = all - x < STRAIN_POINTS ? all - x : STRAIN_POINTS;
-        batch->at = from * line + x;
-        viscous_film_place(batch, x % line);
-        viscous_film_of(batch);
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i];
+        int mark = (a != 0.0) & (a != 1.0);
+        mixed[i] |= mark ? 1 : 0;
     }
 }
 
-/* At how many cells a fraction is neither 0 nor 1. */
-static BULLA_KERNEL double viscous_film_count(size_t n, const double *restrict alpha)
+/* Marks corners with a marked cell. */
+static BULLA_KERNEL void viscous_film_touch(size_t n, const unsigned char *restrict mixed,
+                                            unsigned char *restrict touched)
 {
-    double found = 0.0;
-#pragma omp simd reduction(+ : found)
-    for (size_t i = 0; i < n; i++) found += ((alpha[i] != 0.0) & (alpha[i] != 1.0)) ? 1.0 : 0.0;
-    return found;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) touched[i] |= mixed[i];
 }
 
-static bool viscous_film_mixed(const struct viscous_film *film, const struct viscous_slopes *slopes, size_t number)
-{
-    for (unsigned l = 0; l < slopes->tile->model->n_around_alpha; l++)
-        if (viscous_film_count(film->line, slopes->data + l * slopes->pitch + number * film->line) > 0.0) return true;
-    return false;
-}
-
-/* Looks which lines of corners have a mixed cell beside them; others that had one have no stress any more. */
+/* The corners with a mixed cell beside them, and the lines that have any. */
 static void viscous_film_look(struct viscous_film *film, const struct viscous_slopes *slopes)
 {
-    for (size_t k = 0; k < film->lines; k++) film->mixed[k] = viscous_film_mixed(film, slopes, k);
-    for (size_t k = 0; k + film->beside[0][film->pairs - 1] / film->line < film->lines; k++) {
-        bool held = false;
-        for (unsigned p = 0; p < film->pairs; p++) held = held || film->mixed[k + film->beside[0][p] / film->line];
-        if (film->held[k] && !held) viscous_film_clear(film, k * film->line, film->line);
-        film->held[k] = held;
-        film->there = film->there || held;
-    }
+    size_t n = film->line * film->lines - film->around[film->corners - 1];
+    memset(film->mixed, 0, film->line * film->lines);
+    memset(film->touched, 0, n);
+    for (unsigned l = 0; l < slopes->tile->model->n_around_alpha; l++)
+        viscous_film_mark(film->line * film->lines, slopes->data + l * slopes->pitch, film->mixed);
+    for (unsigned c = 0; c < film->corners; c++) viscous_film_touch(n, film->mixed + film->around[c], film->touched);
+    film->count = pick_marked(n, 0, film->touched, film->at);
+    memset(film->held, 0, film->lines * sizeof *film->held);
+    for (size_t i = 0; i < film->count; i++) film->held[film->at[i] / film->line] = true;
+}
+
+/* Takes off what the last tile had. */
+static void viscous_film_clear(struct viscous_film *film)
+{
+    for (unsigned c = 0; c < STRAIN_TENSOR; c++)
+        for (size_t i = 0; i < film->count; i++) film->stress[c][film->at[i]] = 0.0;
+    for (unsigned c = 0; c < HOLD_CORNERS && film->hoop[c]; c++)
+        for (size_t i = 0; i < film->count; i++) film->hoop[c][film->at[i]] = 0.0;
+    film->count = 0;
 }
 
 void viscous_film_make(struct viscous_film *film, const struct viscous_slopes *slopes, const struct viscous_mix *mix,
@@ -325,14 +336,14 @@ void viscous_film_make(struct viscous_film *film, const struct viscous_slopes *s
 {
     struct viscous_film_batch batch; /* large: filled as far as it is used */
     batch.film = film, batch.slopes = slopes, batch.mix = mix, batch.strain = strain;
-    film->there = false;
+    viscous_film_clear(film);
     if (!slopes->tile->model->n_alpha) return;
     viscous_film_look(film, slopes);
-    size_t most = STRAIN_POINTS > film->line ? STRAIN_POINTS / film->line : 1;
-    for (size_t k = 0, count; film->there && k < film->lines; k += count) {
-        for (count = 0; count < most && k + count < film->lines && film->held[k + count];) count++;
-        if (count) viscous_film_lines(&batch, k, count);
-        else count = 1;
+    for (size_t from = 0; from < film->count; from += batch.n) {
+        batch.n = film->count - from < STRAIN_POINTS ? film->count - from : STRAIN_POINTS;
+        batch.at = film->at + from;
+        viscous_film_place(&batch);
+        viscous_film_of(&batch);
     }
 }
 
@@ -365,7 +376,7 @@ static void viscous_film_row(const struct viscous_film *film, int axis, const do
 
 void viscous_film_faces(const struct viscous_film *film, const struct viscous_block *block, unsigned i, double *tau)
 {
-    if (!film->there) return;
+    if (!film->count) return;
     const double *stress = film->stress[elastic_component(i, (unsigned)block->axis)];
     for (size_t r = 0; r < block->rows; r++)
         viscous_film_row(film, block->axis, stress, block->patch + r * block->patch_row, block->n, tau + r * block->n);
@@ -373,7 +384,7 @@ void viscous_film_faces(const struct viscous_film *film, const struct viscous_bl
 
 void viscous_film_cells(const struct viscous_film *film, const struct viscous_block *block, double *tau)
 {
-    if (!film->there) return;
+    if (!film->count) return;
     for (size_t r = 0; r < block->rows; r++)
         for (unsigned side = 0; side < 2; side++) {
             unsigned other = film->corners == 4 ? side + 2 : side;

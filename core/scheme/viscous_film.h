@@ -22,18 +22,19 @@
 /* The films of one tile. A corner is found by the cell of the patch below it along all axes; the cells around it by one
  * bit per axis, the pairs across an axis by one bit for each other axis. */
 struct viscous_film {
-    bool there;                    /* somewhere in the tile */
-    unsigned pairs, corners;       /* cells around a corner: 2^(dim - 1) pairs, 2^dim */
-    size_t line, lines;            /* of the patch: cells in a line, number of lines */
-    size_t beside[3][HOLD_PAIRS];  /* from the cell below a corner to the lower one of a pair across an axis */
-    size_t around[HOLD_CORNERS];   /* and to each cell */
-    bool *held;                    /* [lines] the corners of a line may have a film; else their stress is 0 */
-    bool *mixed;                   /* [lines] of cells */
-    double *stress[STRAIN_TENSOR]; /* over the patch [Pa] */
-    double *weight[3][HOLD_PAIRS]; /* of a pair */
-    double *hoop[HOLD_CORNERS];    /* theta theta times the weight of a cell, in curved geometry */
-    double *room;                  /* of all these */
-    double even[STRAIN_POINTS];    /* the weight of each pair where all are alike */
+    unsigned pairs, corners;        /* cells around a corner: 2^(dim - 1) pairs, 2^dim */
+    size_t line, lines;             /* of the patch: cells in a line, number of lines */
+    size_t beside[3][HOLD_PAIRS];   /* from the cell below a corner to the lower one of a pair across an axis */
+    size_t around[HOLD_CORNERS];    /* and to each cell */
+    size_t count;                   /* corners that have a mixed cell beside them: all others have no stress */
+    unsigned *at;                   /* [count] those */
+    bool *held;                     /* [lines] has a line some? */
+    unsigned char *mixed, *touched; /* marks of cells and corners */
+    double *stress[STRAIN_TENSOR];  /* over the patch [Pa] */
+    double *weight[3][HOLD_PAIRS];  /* of a pair */
+    double *hoop[HOLD_CORNERS];     /* theta theta times the weight of a cell, in curved geometry */
+    double *room;                   /* of all these */
+    double even[STRAIN_POINTS];     /* the weight of each pair where all are alike */
 };
 
 /* For tiles of a mesh. */

@@ -2,6 +2,7 @@
  * keep all bits. */
 #include "scheme/viscous_hold.h"
 
+#include "phys/pick.h"
 #include "phys/row.h"
 
 #include <string.h>
@@ -35,27 +36,24 @@ static BULLA_KERNEL void viscous_hold_lack(size_t n, const double *restrict mu, 
     }
 }
 
-/* Of material l of the scene, above 0. */
-static const double *viscous_hold_alpha(const struct viscous_slopes *slopes, unsigned l, size_t at)
-{
-    return slopes->data + (l - 1) * slopes->pitch + at;
-}
-
-void viscous_hold_make(const struct viscous_slopes *slopes, size_t n, size_t at, const double *const *mu, unsigned c,
-                       struct viscous_hold *ret)
+void viscous_hold_make(const struct viscous_slopes *slopes, size_t n, const unsigned *at, size_t around,
+                       const double *const *mu, unsigned c, struct viscous_hold *ret)
 {
     const struct model *path = slopes->tile->model;
-    double rest[STRAIN_POINTS], fluidity[STRAIN_POINTS]; /* rest: what material 0 fills */
+    double rest[STRAIN_POINTS], alpha[STRAIN_POINTS], fluidity[STRAIN_POINTS]; /* rest: what material 0 fills */
     size_t bytes = n * sizeof *rest;
     memset(ret->mu[c], 0, bytes);
     memset(ret->alone[c], 0, bytes);
     memset(fluidity, 0, bytes);
     for (size_t i = 0; i < n; i++) rest[i] = 1.0;
-    for (unsigned l = 1; l <= path->n_around_alpha; l++) row_take(n, viscous_hold_alpha(slopes, l, at), rest);
+    for (unsigned l = 1; l <= path->n_around_alpha; l++) {
+        pick_take(n, at, slopes->data + (l - 1) * slopes->pitch + around, alpha);
+        row_take(n, alpha, rest);
+    }
     for (unsigned l = 0; l < path->n_material; l++) {
         unsigned of = path->first + l;
-        viscous_hold_add(n, of + 1.0, of ? viscous_hold_alpha(slopes, of, at) : rest, mu[l], ret->mu[c], fluidity,
-                         ret->alone[c]);
+        if (of) pick_take(n, at, slopes->data + (of - 1) * slopes->pitch + around, alpha);
+        viscous_hold_add(n, of + 1.0, of ? alpha : rest, mu[l], ret->mu[c], fluidity, ret->alone[c]);
     }
     viscous_hold_lack(n, ret->mu[c], fluidity, ret->alone[c], ret->film[c]);
 }
@@ -88,14 +86,15 @@ static BULLA_KERNEL void viscous_hold_share(size_t n, const double *restrict sum
     }
 }
 
-void viscous_hold_weigh(const struct viscous_hold *hold, size_t n, int axis, unsigned pairs, double *const *weight)
+void viscous_hold_weigh(const struct viscous_hold *hold, size_t n, int axis, unsigned pairs,
+                        double (*weight)[STRAIN_POINTS])
 {
     double sum[STRAIN_POINTS], top[STRAIN_POINTS];
     unsigned last = pairs - 1;
     memset(sum, 0, n * sizeof *sum);
     memset(top, 0, n * sizeof *top);
     for (unsigned p = 0; p <= last; p++) {
-        unsigned low = (p & ((1u << axis) - 1u)) | (p >> axis << (axis + 1)), high = low | 1u << axis;
+        unsigned low = viscous_hold_low(p, axis), high = low | 1u << axis;
         viscous_hold_pair(n, hold->mu[low], hold->mu[high], hold->alone[low], hold->alone[high], weight[p], top);
     }
     for (unsigned p = 0; p <= last / 2; p++)
@@ -114,7 +113,7 @@ static BULLA_KERNEL void viscous_hold_own(size_t n, const double *restrict mu, c
     }
 }
 
-void viscous_hold_ring(const struct viscous_hold *hold, size_t n, unsigned corners, double *const *weight)
+void viscous_hold_ring(const struct viscous_hold *hold, size_t n, unsigned corners, double (*weight)[STRAIN_POINTS])
 {
     double sum[STRAIN_POINTS];
     memset(sum, 0, n * sizeof *sum);

@@ -1,7 +1,7 @@
 /* viscous_hold.h - what the cells around a corner hold of what is viscous, and what each of them counts there.
  *
  * The cells around a corner have one bit per axis: 0 below it, 1 above. Pairs across an axis have those of the other
- * axes. Rows are of n corners that follow each other in the patch. */
+ * axes. Rows are of n corners, packed (phys/pick.h). */
 #ifndef VISCOUS_HOLD_H
 #define VISCOUS_HOLD_H
 
@@ -15,15 +15,22 @@ struct viscous_hold {
     double alone[HOLD_CORNERS][STRAIN_POINTS]; /* 1 + the number of the only material; 0: a mixture */
 };
 
-/* Cell c of n corners, the first of which stands at `at` in the patch. mu: a row for each material of the path. */
-void viscous_hold_make(const struct viscous_slopes *slopes, size_t n, size_t at, const double *const *mu, unsigned c,
-                       struct viscous_hold *ret);
+/* The lower cell of pair p across an axis; the upper one has that bit, too. */
+static inline unsigned viscous_hold_low(unsigned p, int axis)
+{
+    return (p & ((1u << axis) - 1u)) | (p >> axis << (axis + 1));
+}
+
+/* Cell c of n corners, `around` behind the cells `at` of the patch. mu: a row for each material of the path. */
+void viscous_hold_make(const struct viscous_slopes *slopes, size_t n, const unsigned *at, size_t around,
+                       const double *const *mu, unsigned c, struct viscous_hold *ret);
 
 /* Weights of the pairs across an axis: by what the emptier cell of each holds, 1 in sum. Where that is little beside
  * the fullest cell of them, no pair can bear the stress, and all have less. Two cells of one material alone: 0. */
-void viscous_hold_weigh(const struct viscous_hold *hold, size_t n, int axis, unsigned pairs, double *const *weight);
+void viscous_hold_weigh(const struct viscous_hold *hold, size_t n, int axis, unsigned pairs,
+                        double (*weight)[STRAIN_POINTS]);
 
 /* Weights of the cells, at most 4: by what they hold, those of one material alone 0. hold NULL: all alike. */
-void viscous_hold_ring(const struct viscous_hold *hold, size_t n, unsigned corners, double *const *weight);
+void viscous_hold_ring(const struct viscous_hold *hold, size_t n, unsigned corners, double (*weight)[STRAIN_POINTS]);
 
 #endif
