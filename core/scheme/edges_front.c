@@ -19,8 +19,8 @@ static BULLA_KERNEL void edges_front_meet(size_t n, double front, const double *
         double part = 1.0 - 0.5 * (behind - before) / (front - before), line = part > 0.0 ? part : 0.0;
         int meets = (before < front) & (behind >= front) & (wet > 0.0);
         double left = l + (r - l) * line, right = r + (l - r) * line;
-        upper[i] = meets & (b < a) ? left : up;
-        lower[i] = meets & (a < b) ? right : low;
+        upper[i] = (meets & (b < a)) ? left : up;
+        lower[i] = (meets & (a < b)) ? right : low;
     }
 }
 
