@@ -249,7 +249,7 @@ static void viscous_say(const struct scene *scene, struct text *text)
 const struct term viscous_term = {
     .name = "viscosity",
     .owner = "core/scheme/viscous.c",
-    .equation = "d(rho u)/dt += div tau, d(rho E)/dt += div(tau u); tau of each material's own strain",
+    .equation = "d(rho u)/dt += div tau, d(rho E)/dt += div(tau u); layers across a surface, films along it",
     .wanted = viscous_wanted,
     .diffuses = true,
     .open = viscous_open,

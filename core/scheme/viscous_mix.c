@@ -1,14 +1,9 @@
-/* viscous_mix.c - see viscous_mix.h.
- *
- * A material's dilatation is d_l = r_l div u, r_l = 1/(rho_l c_l^2 S), S = sum s_l, s_l = alpha_l/(rho_l c_l^2). So
- * sum alpha_l mu_l r_l = sum s_l mu_l/S. All sums are exact where one material is alone: a model of one material
- * on the same numbers has the same bits. */
+/* viscous_mix.c - see viscous_mix.h. All sums are exact where one material is alone: a model of one material on the
+ * same numbers has the same bits. */
 #include "scheme/viscous_mix.h"
 
 #include "base/mem.h"
 #include "phys/elastic.h"
-#include "phys/mix.h"
-#include "phys/present.h"
 
 #include <string.h>
 

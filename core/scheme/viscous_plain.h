@@ -1,6 +1,6 @@
 /* viscous_plain.h - the stress of one material with constant viscosities in cartesian geometry: most faces of most
  * scenes, and in tiles with an interface the rows of faces between cells of one material. An interface beside them does
- * nothing there: own strains and layers in series are of cells that are mixed (viscous_mix.h). */
+ * nothing there: films and layers in series are of cells that are mixed (viscous_film.h). */
 #ifndef VISCOUS_PLAIN_H
 #define VISCOUS_PLAIN_H
 
