@@ -38,9 +38,19 @@ static double soften_least(const struct model *model, size_t stride, const doubl
     return least;
 }
 
+/* Does a source give heat, mass or volume? */
+static bool soften_fed(const struct scene_sources *sources)
+{
+    bool fed = sources && sources->script;
+    for (unsigned s = SCENE_SOURCE_HEATING; sources && s < SCENE_SOURCE_STRETCH; s++)
+        fed = fed || sources->value[s].given;
+    return fed;
+}
+
 bool soften_applies(const struct model *model)
 {
-    return model->n_alpha > 1 && model->kapila && !model->lagged && model->n_phase == 0;
+    bool adiabatic = model->n_phase == 0 && !model->conducts && !soften_fed(model->scene->sources);
+    return model->n_alpha > 1 && model->kapila && !model->lagged && adiabatic;
 }
 
 size_t soften_find(const struct model *model, size_t n, size_t stride, const double *u, const double *w,

@@ -112,8 +112,27 @@ static void test_energy_of_water(void **state)
     flow_stop(&flow);
 }
 
+/* Gas that a source heats tenfold in a step keeps that heat, in the mixed cell of its surface, too. */
+static void test_heated(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow,
+               mem_print("bulla: 1\ntitle: heated\ndomain: {lower: [0], upper: [10 um], cells: [10], boundaries: "
+                         "{x-: reflecting, x+: reflecting}}\nmaterials:\n" FLOW_WATER FLOW_AIR
+                         "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: 1e5}\n"
+                         "  - {box: {lower: [0], upper: [5.5 um]}, material: air, density: 1.2, pressure: 1e5}\n"
+                         "sources: {heating: {air: 1e16}}\nscheme: {dt: 0.25 ns}\nrun: {until: 1}\n"));
+    flow_steps(&flow, 1);
+    double *p = flow_primitive(&flow, flow.state->model->i_E), gas = 1e5 + 0.4 * 1e16 * 0.25e-9;
+    print_message("gas %.6g Pa, mixed %.6g Pa of %.6g\n", p[2], p[5], gas);
+    assert_true(fabs(p[2] / gas - 1.0) < 1e-3 && fabs(p[5] / gas - 1.0) < 0.02);
+    mem_free(p);
+    flow_stop(&flow);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_energy_of_water)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_energy_of_water), cmocka_unit_test(test_heated)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
