@@ -194,12 +194,6 @@ static BULLA_KERNEL void viscous_film_times(size_t n, const double *restrict fac
     }
 }
 
-/* Writes packed values, and that there are some. */
-static void viscous_film_put(const struct viscous_film_batch *batch, const double *packed, double *row)
-{
-    pick_put(batch->n, batch->at, packed, row);
-}
-
 static void viscous_film_stress(struct viscous_film_batch *batch, const double *mu)
 {
     const struct viscous_film *film = batch->film;
@@ -208,15 +202,16 @@ static void viscous_film_stress(struct viscous_film_batch *batch, const double *
     for (unsigned i = 0; i < path->n_velocity; i++)
         for (unsigned j = 0; j <= i && j < (unsigned)path->dim; j++) {
             viscous_mix_film(strain, mu, i, j, batch->packed);
-            viscous_film_put(batch, batch->packed, film->stress[elastic_component(i, j)]);
+            pick_put(batch->n, batch->at, batch->packed, film->stress[elastic_component(i, j)]);
         }
     for (int e = 0; e < path->dim; e++)
-        for (unsigned p = 0; p < film->pairs; p++) viscous_film_put(batch, batch->weight[e][p], film->weight[e][p]);
+        for (unsigned p = 0; p < film->pairs; p++)
+            pick_put(batch->n, batch->at, batch->weight[e][p], film->weight[e][p]);
     if (!path->beta) return;
     viscous_mix_film_hoop(strain, mu, batch->packed);
     for (unsigned c = 0; c < film->corners; c++) {
         viscous_film_times(batch->n, batch->packed, batch->ring[c]);
-        viscous_film_put(batch, batch->ring[c], film->hoop[c]);
+        pick_put(batch->n, batch->at, batch->ring[c], film->hoop[c]);
     }
 }
 
@@ -239,6 +234,34 @@ static void viscous_film_around(struct viscous_film_batch *batch, unsigned row, 
     for (size_t i = 0; i < batch->n; i++) mean[i] /= batch->film->corners;
 }
 
+/* What the cells around the corners have of a density, by volume: where there is none of the material it may be any. */
+static BULLA_KERNEL void viscous_film_heap(size_t n, const double *restrict alpha, const double *restrict alpha_b,
+                                           const double *restrict rho, const double *restrict rho_b,
+                                           double *restrict mass, double *restrict volume)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], b = alpha_b[i], m = mass[i], v = volume[i];
+        mass[i] = m + (a * rho[i] + b * rho_b[i]);
+        volume[i] = v + (a + b);
+    }
+}
+
+/* Density of what they have of material l of the scene; of a material that is not there the mean. */
+static void viscous_film_density(struct viscous_film_batch *batch, unsigned l, double *rho)
+{
+    const struct viscous_film *film = batch->film;
+    unsigned row = batch->slopes->tile->model->i_around_rho + l, last = film->corners - 1;
+    double alpha[2][STRAIN_POINTS], volume[STRAIN_POINTS] = {0}, mass[STRAIN_POINTS] = {0};
+    viscous_film_around(batch, row, rho);
+    for (unsigned c = 0; c <= last / 2; c++) {
+        viscous_hold_fraction(batch->slopes, batch->n, batch->at, film->around[c], l, alpha[0]);
+        viscous_hold_fraction(batch->slopes, batch->n, batch->at, film->around[last - c], l, alpha[1]);
+        viscous_film_heap(batch->n, alpha[0], alpha[1], batch->value[c], batch->value[last - c], mass, volume);
+    }
+    for (size_t i = 0; i < batch->n; i++) rho[i] = volume[i] > 0.0 ? mass[i] / volume[i] : rho[i];
+}
+
 /* Viscosity of material l at the corners. */
 static const double *viscous_film_ask(struct viscous_film_batch *batch, unsigned l, const double *rate,
                                       struct viscous_mix_number *room)
@@ -246,7 +269,7 @@ static const double *viscous_film_ask(struct viscous_film_batch *batch, unsigned
     const struct model *path = batch->slopes->tile->model;
     double p[STRAIN_POINTS], rho[STRAIN_POINTS];
     if (coefficient_sees_state(&path->viscosity[l].mu)) {
-        viscous_film_around(batch, path->i_around_rho + path->first + l, rho);
+        viscous_film_density(batch, path->first + l, rho);
         viscous_film_around(batch, path->i_around_p, p);
     }
     const struct coefficient_points points = {batch->n, rate, p, rho};

@@ -4,11 +4,9 @@
 
 #include "phys/pick.h"
 #include "phys/row.h"
+#include "scheme/viscous_mix.h"
 
 #include <string.h>
-
-/* Fluidity of a material without viscosity. */
-#define HOLD_FLUID 1e300
 
 static const double viscous_hold_none[STRAIN_POINTS];
 
@@ -18,8 +16,7 @@ static BULLA_KERNEL void viscous_hold_add(size_t n, double number, const double 
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = alpha[i], m = mu_l[i], sum = mu[i], f = fluidity[i], only = alone[i], fluid = 1.0 / m;
-        fluid = m > 1.0 / HOLD_FLUID ? fluid : HOLD_FLUID;
+        double a = alpha[i], m = mu_l[i], sum = mu[i], f = fluidity[i], only = alone[i], fluid = viscous_mix_fluid(m);
         mu[i] = sum + a * m;
         fluidity[i] = f + a * fluid;
         alone[i] = a == 1.0 ? number : only;
@@ -36,24 +33,35 @@ static BULLA_KERNEL void viscous_hold_lack(size_t n, const double *restrict mu, 
     }
 }
 
+void viscous_hold_fraction(const struct viscous_slopes *slopes, size_t n, const unsigned *at, size_t around, unsigned l,
+                           double *alpha)
+{
+    unsigned others = slopes->tile->model->n_around_alpha;
+    double other[STRAIN_POINTS];
+    if (l) {
+        pick_take(n, at, slopes->data + (l - 1) * slopes->pitch + around, alpha);
+        return;
+    }
+    for (size_t i = 0; i < n; i++) alpha[i] = 1.0;
+    for (unsigned k = 0; k < others; k++) {
+        pick_take(n, at, slopes->data + k * slopes->pitch + around, other);
+        row_take(n, other, alpha);
+    }
+}
+
 void viscous_hold_make(const struct viscous_slopes *slopes, size_t n, const unsigned *at, size_t around,
                        const double *const *mu, unsigned c, struct viscous_hold *ret)
 {
     const struct model *path = slopes->tile->model;
-    double rest[STRAIN_POINTS], alpha[STRAIN_POINTS], fluidity[STRAIN_POINTS]; /* rest: what material 0 fills */
-    size_t bytes = n * sizeof *rest;
+    double alpha[STRAIN_POINTS], fluidity[STRAIN_POINTS];
+    size_t bytes = n * sizeof *alpha;
     memset(ret->mu[c], 0, bytes);
     memset(ret->alone[c], 0, bytes);
     memset(fluidity, 0, bytes);
-    for (size_t i = 0; i < n; i++) rest[i] = 1.0;
-    for (unsigned l = 1; l <= path->n_around_alpha; l++) {
-        pick_take(n, at, slopes->data + (l - 1) * slopes->pitch + around, alpha);
-        row_take(n, alpha, rest);
-    }
     for (unsigned l = 0; l < path->n_material; l++) {
         unsigned of = path->first + l;
-        if (of) pick_take(n, at, slopes->data + (of - 1) * slopes->pitch + around, alpha);
-        viscous_hold_add(n, of + 1.0, of ? alpha : rest, mu[l], ret->mu[c], fluidity, ret->alone[c]);
+        viscous_hold_fraction(slopes, n, at, around, of, alpha);
+        viscous_hold_add(n, of + 1.0, alpha, mu[l], ret->mu[c], fluidity, ret->alone[c]);
     }
     viscous_hold_lack(n, ret->mu[c], fluidity, ret->alone[c], ret->film[c]);
 }

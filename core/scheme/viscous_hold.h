@@ -21,6 +21,10 @@ static inline unsigned viscous_hold_low(unsigned p, int axis)
     return (p & ((1u << axis) - 1u)) | (p >> axis << (axis + 1));
 }
 
+/* The fraction of material l of the scene in the cells `around` behind the cells `at` of the patch. */
+void viscous_hold_fraction(const struct viscous_slopes *slopes, size_t n, const unsigned *at, size_t around, unsigned l,
+                           double *alpha);
+
 /* Cell c of n corners, `around` behind the cells `at` of the patch. mu: a row for each material of the path. */
 void viscous_hold_make(const struct viscous_slopes *slopes, size_t n, const unsigned *at, size_t around,
                        const double *const *mu, unsigned c, struct viscous_hold *ret);

@@ -7,9 +7,6 @@
 
 #include <string.h>
 
-/* Fluidity of a material without viscosity. */
-#define VISCOUS_MIX_FLUID 1e300
-
 /* Sums over the materials, where there is an interface. */
 struct viscous_mix_sums {
     double fluidity[STRAIN_POINTS]; /* sum alpha_l/mu_l */
@@ -87,13 +84,6 @@ static BULLA_KERNEL void viscous_mix_weigh(const struct viscous_sides *sides, co
             ret->mu[k + i] = mu + mean * mu_l[k + i];
             ret->zeta[k + i] = zeta + mean * zeta_l[k + i];
         }
-}
-
-/* 1/x of a viscosity */
-static inline double viscous_mix_fluid(double x)
-{
-    double fluid = 1.0 / x;
-    return x > 1.0 / VISCOUS_MIX_FLUID ? fluid : VISCOUS_MIX_FLUID;
 }
 
 static BULLA_KERNEL void viscous_mix_series(size_t n, const struct viscous_mix_material *restrict material,

@@ -25,6 +25,16 @@ struct viscous_mix {
     double film[STRAIN_POINTS];        /* at an interface: what sum alpha_l mu_l is more, along it (viscous_film.h) */
 };
 
+/* Fluidity of a material without viscosity [1/(Pa s)]. */
+#define VISCOUS_MIX_FLUID 1e300
+
+/* 1/x of a viscosity */
+static inline double viscous_mix_fluid(double x)
+{
+    double fluid = 1.0 / x;
+    return x > 1.0 / VISCOUS_MIX_FLUID ? fluid : VISCOUS_MIX_FLUID;
+}
+
 void viscous_mix_open(const struct model *model, struct viscous_mix *ret);
 void viscous_mix_close(struct viscous_mix *mix);
 
