@@ -6,6 +6,7 @@
 #include "phys/row.h"
 #include "scheme/bound_ahead.h"
 #include "solve/rkl.h"
+#include "solve/soften.h"
 
 #include <string.h>
 
@@ -19,8 +20,9 @@ void verdict_judge(struct stage *stage, unsigned local, int judged, const double
     struct work *work = stage->work;
     const struct model *model = stage->census.tiles[local].path;
     size_t n_cell = stage->mesh->n_cell;
-    double *p_before = work->rates; /* free between stages */
-    if (model->n_alpha) memcpy(p_before, w + model->i_E * n_cell, n_cell * sizeof *w);
+    bool softens = model->n_alpha > 1 && soften_applies(stage->model);
+    double *p_before = softens ? work->rates : NULL; /* free between stages */
+    if (softens) memcpy(p_before, w + model->i_E * n_cell, n_cell * sizeof *w);
     mix_pressure_sum(&stage->effort, mix_primitives(model, n_cell, n_cell, u, w));
     mix_stiffness(model, n_cell, n_cell, w, work->rho_c2);
     mix_speed2(model, n_cell, n_cell, w, work->rho_c2, work->c2);
