@@ -116,7 +116,17 @@ static void model_name_derived(struct model *model)
     }
 }
 
-static void model_viscosity(const struct instance *instance, struct model_viscosity *ret)
+/* At 300 K and 1 bar. */
+static bool model_is_thick(const struct model_viscosity *viscosity, double rho)
+{
+    const struct bulla_coefficient *mu = &viscosity->law->mu;
+    double T = 300.0, p = 1e5, value;
+    if (mu->needs & BULLA_NEEDS_RATE) return false;
+    mu->value(viscosity->mu.self, 1, NULL, &T, &p, &rho, &value);
+    return value >= MODEL_THICK;
+}
+
+static void model_viscosity(const struct instance *instance, double rho, struct model_viscosity *ret)
 {
     if (!instance->module) return;
     ret->law = instance->module->table;
@@ -125,6 +135,7 @@ static void model_viscosity(const struct instance *instance, struct model_viscos
     if (rate) ret->mu.number = ret->mu.law->most(instance->self);
     else if (only) ret->mu.law->value(instance->self, 1, NULL, NULL, NULL, NULL, &ret->mu.number);
     if (only && ret->law->zeta) ret->law->zeta(instance->self, 1, NULL, NULL, NULL, &ret->zeta);
+    ret->thick = model_is_thick(ret, rho);
 }
 
 static void model_around_state(struct model *model)
@@ -140,7 +151,7 @@ static void model_transport(struct model *model)
 {
     bool sees = false; /* does a viscosity follow the state? */
     for (unsigned l = 0; l < model->n_material; l++) {
-        model_viscosity(&model->scene->material[l].viscosity, &model->viscosity[l]);
+        model_viscosity(&model->scene->material[l].viscosity, model->eos[l].rho_fill, &model->viscosity[l]);
         model->viscous = model->viscous || model->viscosity[l].law;
         sees = sees || (model->viscosity[l].law && model->viscosity[l].mu.law->needs & ~(uint32_t)BULLA_NEEDS_RATE);
     }

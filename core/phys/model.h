@@ -84,7 +84,11 @@ struct model_viscosity {
     struct model_coefficient mu;
     const struct bulla_viscosity *law; /* NULL: not at all */
     double zeta;                       /* of a law that looks at nothing but the rate */
+    bool thick;                        /* at least MODEL_THICK, and not of the rate: scheme/viscous_face.h */
 };
+
+/* Thrice that of water at room temperature [Pa s]. */
+#define MODEL_THICK 3e-3
 
 /* How a material conducts heat. */
 struct model_conductivity {

@@ -41,6 +41,10 @@ bool bound_has_rays(const struct model *model, int face);
 /* Callback for frame_source: primitives of all fields. `data` is a struct bound. Where a script fails they are NaN. */
 void bound_fill(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);
 
+/* The same at a face with rays: copies of what lies inside, but velocities as viscous stress wants them
+ * (bound_ray_flow). */
+void bound_fill_flow(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);
+
 /* Callback for fields that only need a neighbour of the same value (masks): copies. */
 void bound_copy(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);
 

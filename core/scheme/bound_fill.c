@@ -34,6 +34,7 @@ struct bound_fill {
     size_t pitch;
     double *w;
     int layer; /* that is composed, from 0 at the face */
+    bool flow; /* no waves: bound_fill_flow */
 };
 
 /* What lies inside, twice. Nobody looks behind periodic faces in this way: there are neighbours. */
@@ -273,7 +274,7 @@ static void bound_fill_rays_far(const struct bound_fill *fill, size_t c, struct 
         rays->far_u[axis][c] = 0.0; /* whatever flows at the start, it falls off as 1/r2 */
     for (unsigned k = 0; k + 1 < n; k++) rays->far_u[(axis + 1 + k) % n][c] = start[(2 + k) * cells];
     const struct scene_value *pressure = &bound_fill_boundary(fill)->pressure;
-    if (pressure->given) bound_fill_ask(fill, pressure, "far-field pressure", x, &rays->far_p[c]);
+    if (pressure->given && !fill->flow) bound_fill_ask(fill, pressure, "far-field pressure", x, &rays->far_p[c]);
 }
 
 /* Pressures and velocities of the cells inside. */
@@ -317,6 +318,10 @@ static void bound_fill_compose_rays(const struct bound_fill *fill, struct bound_
         rays.Z[c] = rays.rho[c] * rays.c_s[c];
         bound_fill_rays_far(fill, c, &rays);
         bound_fill_rays_inside(fill, c, &rays);
+    }
+    if (fill->flow) {
+        bound_ray_flow(&leave);
+        return;
     }
     memcpy(rays.old, leave.to_p, row->n * sizeof *rays.old);
     bound_ray_leave(&leave);
@@ -459,7 +464,13 @@ static void bound_fill_hold(const struct bound_fill *fill)
 
 void bound_fill(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w)
 {
-    const struct bound_fill fill = {data, local, frame, side, pitch, w, 0};
+    const struct bound_fill fill = {data, local, frame, side, pitch, w, 0, false};
     bound_fill_ways[bound_fill_boundary(&fill)->type](&fill);
     if (fill.bound->sources) bound_fill_hold(&fill);
+}
+
+void bound_fill_flow(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w)
+{
+    const struct bound_fill fill = {data, local, frame, side, pitch, w, 0, true};
+    bound_fill_composed(&fill, bound_fill_compose_rays);
 }

@@ -32,4 +32,9 @@ struct bound_ray_row {
 /* Pressure and velocity behind the faces. */
 void bound_ray_leave(const struct bound_ray_row *row);
 
+/* Velocity alone, as a flow out of the origin goes on that neither pressure nor viscosity changes: along e as 1/r^(2
+ * q), from the two cells inside. For viscous stress. A stress that is wrong by d at the face is taken for a wave in
+ * every cell that it crosses on its way: what lies inside drifts by some d r/h. */
+void bound_ray_flow(const struct bound_ray_row *row);
+
 #endif

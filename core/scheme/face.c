@@ -9,9 +9,11 @@
 #include "phys/present.h"
 #include "phys/row.h"
 #include "scheme/edges.h"
+#include "scheme/face_carry.h"
 #include "scheme/face_stress.h"
 #include "scheme/low_mach.h"
 #include "scheme/tilt.h"
+#include "scheme/viscous_face.h"
 #include "scheme/wood.h"
 
 #include <math.h>
@@ -223,13 +225,15 @@ static void face_load(struct face_work *work, const struct frame *frame, size_t 
     face_stress_complete(own->stress, model, &edges);
 }
 
-/* The mask of a frame, NULL without one, in which cells beside open boundaries are marked, too: low_mach.h. */
+/* The mask of the cells before the faces of a frame, NULL without one, in which cells beside open boundaries are
+ * marked, too: low_mach.h. */
 static const double *face_shore(struct face_work *work, const struct frame *frame, bool masked)
 {
     const bool *open = work->open[frame->axis];
     const struct face_own *own = work->own;
     double *shore = own->stiffness; /* of a material that is done */
-    if (!open[0] && !open[1]) return masked ? work->mask : NULL;
+    size_t first = frame_reach(frame);
+    if (!open[0] && !open[1]) return masked ? work->mask + first : NULL;
     if (masked) memcpy(shore, work->mask, frame->count * sizeof *shore);
     else memset(shore, 0, frame->count * sizeof *shore);
     for (size_t o = 0; o < frame->outer; o++)
@@ -237,7 +241,7 @@ static const double *face_shore(struct face_work *work, const struct frame *fram
             double *line = shore + frame_at(frame, o, side ? (int)frame->n - 1 : 0);
             for (size_t i = 0; open[side] && i < frame->inner; i++) line[i] = 1.0;
         }
-    return shore;
+    return shore + first;
 }
 
 static BULLA_KERNEL void face_lag(size_t n, const double *restrict p, const double *restrict lag, double *restrict own)
@@ -275,7 +279,6 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
     struct face_own *own = work->own;
     double least = model->scene->scheme.low_mach;
     if (least >= 1.0) return;
-    const double *mask = face_shore(work, frame, masked);
     size_t cells = frame_edged(frame);
     const struct low_mach faces = {.n = cells - frame->inner,
                                    .right = cells + frame->inner,
@@ -283,7 +286,7 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
                                    .rho = rho,
                                    .rho_c2 = own->c,
                                    .p = work->frame + model->i_E * FACE_ROOM + frame_reach(frame),
-                                   .mask = mask ? mask + frame_reach(frame) : NULL,
+                                   .mask = face_shore(work, frame, masked),
                                    .step = frame->inner,
                                    .part = own->term};
     double *normal = face_velocity(work, frame, 0);
@@ -305,15 +308,11 @@ static void face_slow(struct face_work *work, const struct frame *frame)
     wood_slow(&faces, own->c);
 }
 
-/* Partial densities, total energy and fastest speed of n edges. */
-static void face_complete(struct face_work *work, const struct frame *frame, size_t n, bool masked)
+/* Partial densities, internal energy and rho c^2 of n edges. */
+static void face_ask(struct face_work *work, const struct frame *frame, size_t n, const double *rho)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
-    if (model->split) face_stress_split(own->stress, model, n / 2, own->state);
-    const double *u[3] = {own->zero, own->zero, own->zero};
-    const double *rho = model->n_alpha ? own->rho : own->state + 2 * model->i_m * FACE_ROOM; /* one material: rho_l */
-    for (unsigned d = 0; d < model->n_velocity; d++) u[d] = own->state + 2 * (model->i_u + d) * FACE_ROOM;
     if (!model->n_alpha) {
         const double *own_p = face_pressure(work, frame, 0, n);
         model->eos[0].law->state(model->eos[0].self, n, rho, own_p, own->energy, own->c);
@@ -329,6 +328,46 @@ static void face_complete(struct face_work *work, const struct frame *frame, siz
         else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
         if (own->give) wood_give(n, l, alpha, stiffness, own->give);
     }
+}
+
+/* Draws the pressures at the faces of thick liquids together; are there any? */
+static bool face_thick(struct face_work *work, const struct frame *frame, const double *rho, bool masked)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    if (work->per_h[frame->axis] == 0.0 || !viscous_face_wanted(model)) return false;
+    double *p = own->state + 2 * model->i_E * FACE_ROOM;
+    size_t cells = frame_edged(frame);
+    const struct viscous_face faces = {.n = cells - frame->inner,
+                                       .right = cells + frame->inner,
+                                       .step = frame->inner,
+                                       .edges = 2 * cells,
+                                       .pitch = 2 * FACE_ROOM,
+                                       .per_h = work->per_h[frame->axis],
+                                       .room = FACE_ROOM,
+                                       .cells = work->frame + model->i_alpha * FACE_ROOM + frame_reach(frame),
+                                       .alpha = own->state + 2 * model->i_alpha * FACE_ROOM,
+                                       .rho_l = own->state + 2 * model->i_m * FACE_ROOM,
+                                       .rho = rho,
+                                       .rho_c2 = own->c,
+                                       .mask = face_shore(work, frame, masked),
+                                       .N = own->term,
+                                       .part = own->origin,
+                                       .mixed = own->strain};
+    return viscous_face_draw(model, &faces, p);
+}
+
+/* Partial densities, total energy and fastest speed of n edges. */
+static void face_complete(struct face_work *work, const struct frame *frame, size_t n, bool masked)
+{
+    const struct model *model = work->model;
+    struct face_own *own = work->own;
+    if (model->split) face_stress_split(own->stress, model, n / 2, own->state);
+    const double *u[3] = {own->zero, own->zero, own->zero};
+    const double *rho = model->n_alpha ? own->rho : own->state + 2 * model->i_m * FACE_ROOM; /* one material: rho_l */
+    for (unsigned d = 0; d < model->n_velocity; d++) u[d] = own->state + 2 * (model->i_u + d) * FACE_ROOM;
+    face_ask(work, frame, n, rho);
+    if (face_thick(work, frame, rho, masked)) face_ask(work, frame, n, rho);
     face_load(work, frame, n, rho);
     face_calm(work, frame, rho, masked);
     face_finish(n, rho, u[0], u[1], u[2], own->energy, own->c);
@@ -388,48 +427,6 @@ static void face_solve_robust(struct face_work *work, const struct frame *frame,
     }
 }
 
-/* The fluid at a face came from the side that u* points away from, and was compressed on the way
- * by (u_L - u*)/c_L or (u* - u_R)/c_R. */
-static BULLA_KERNEL void face_trace(size_t n, const double *restrict u, const double *restrict p_left,
-                                    const double *restrict p_right, const struct bulla_side *left,
-                                    const struct bulla_side *right, double *restrict origin, double *restrict strain)
-{
-    const double *restrict c_left = left->c, *restrict c_right = right->c, *restrict u_left = left->u[0],
-                           *restrict u_right = right->u[0];
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double v = u[i], pl = p_left[i], pr = p_right[i], cl = c_left[i], cr = c_right[i];
-        double dl = u_left[i] - v, dr = v - u_right[i];
-        origin[i] = v >= 0.0 ? pl : pr;
-        strain[i] = (v >= 0.0 ? dl : dr) / (v >= 0.0 ? cl : cr);
-    }
-}
-
-/* alpha* becomes the volume flux alpha* u*; it carries a pressure and a strain along. */
-static BULLA_KERNEL void face_carry(size_t n, const double *restrict u, const double *restrict origin,
-                                    const double *restrict strain, double *restrict alpha, double *restrict carried,
-                                    double *restrict strained)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double volume = alpha[i] * u[i];
-        alpha[i] = volume;
-        carried[i] = volume * origin[i];
-        strained[i] = volume * strain[i];
-    }
-}
-
-/* Fractions of the solids at the faces. Not alpha*, which takes a side even where nothing moves. */
-static void face_blend(struct face_work *work)
-{
-    const struct model *model = work->model;
-    const struct bulla_faces *faces = &work->faces;
-    for (unsigned s = 0; s < model->n_solid; s++) {
-        unsigned l = model->solids[s].material;
-        row_mean(faces->n, faces->left.alpha[l], faces->right.alpha[l], work->solid + s * FACE_ROOM);
-    }
-}
-
 /* Volume fluxes and what they carry. */
 static void face_transport(struct face_work *work, size_t right)
 {
@@ -440,11 +437,19 @@ static void face_transport(struct face_work *work, size_t right)
         face_stress_age(model, work->faces.n, right, own->state, work->m, work->strains);
     if (!model->n_alpha) return;
     const double *p = own->state + 2 * model->i_E * FACE_ROOM;
-    if (model->n_stretch) face_blend(work);
-    face_trace(work->faces.n, work->u, p, p + right, &work->faces.left, &work->faces.right, own->origin, own->strain);
-    for (unsigned l = 0; l < model->n_alpha; l++)
-        face_carry(work->faces.n, work->u, own->origin, own->strain, work->alpha + l * FACE_ROOM,
-                   work->carried + l * FACE_ROOM, work->strained + l * FACE_ROOM);
+    const struct face_carry carry = {.model = model,
+                                     .faces = &work->faces,
+                                     .pitch = FACE_ROOM,
+                                     .u = work->u,
+                                     .p_left = p,
+                                     .p_right = p + right,
+                                     .alpha = work->alpha,
+                                     .carried = work->carried,
+                                     .strained = work->strained,
+                                     .solid = work->solid,
+                                     .origin = own->origin,
+                                     .strain = own->strain};
+    face_carry_volumes(&carry);
 }
 
 void face_begin(struct face_work *work, const struct frame *frame)

@@ -27,9 +27,12 @@ void patch_state_rules(const struct scene *scene, bool given, enum patch_rule re
     }
 }
 
-/* One piece of a tile as a frame with nothing beside it but what bound_fill writes; its outer layers into the block. */
-static void patch_state_piece(struct bound *bound, unsigned local, int face, const struct frame *frame,
-                              const struct box_block *ret)
+/* bound_fill or bound_fill_flow */
+typedef void patch_state_fill(void *data, unsigned local, const struct frame *frame, int side, size_t pitch, double *w);
+
+/* One piece of a tile as a frame with nothing beside it but what `fill` writes; its outer layers into the block. */
+static void patch_state_piece(struct bound *bound, patch_state_fill *fill, unsigned local, int face,
+                              const struct frame *frame, const struct box_block *ret)
 {
     const double *own = bound->level->w[local];
     size_t n_cell = bound->mesh->n_cell, g = ret->size[face / 2], pitch = frame->count;
@@ -40,7 +43,7 @@ static void patch_state_piece(struct bound *bound, unsigned local, int face, con
             for (size_t i = 0; i < frame->n; i += run)
                 memcpy(w + q * pitch + frame_at(frame, o, (int)i), own + q * n_cell + frame_tile_at(frame, o, i),
                        run * line);
-    bound_fill(bound, local, frame, face % 2, pitch, w);
+    fill(bound, local, frame, face % 2, pitch, w);
     for (unsigned q = 0; q < bound->model->n_field; q++)
         for (size_t o = 0; o < frame->outer; o++)
             for (size_t i = 0; i < g; i++) {
@@ -51,13 +54,23 @@ static void patch_state_piece(struct bound *bound, unsigned local, int face, con
     mem_free(w);
 }
 
-void patch_state_given(void *data, unsigned local, int face, const struct box_block *ret)
+static void patch_state_pieces(struct bound *bound, patch_state_fill *fill, unsigned local, int face,
+                               const struct box_block *ret)
 {
-    struct bound *bound = data;
     for (size_t piece = 0; piece < frame_pieces(bound->mesh, face / 2); piece++) {
         struct frame frame = frame_piece(bound->mesh, face / 2, piece);
-        patch_state_piece(bound, local, face, &frame, ret);
+        patch_state_piece(bound, fill, local, face, &frame, ret);
     }
+}
+
+void patch_state_given(void *data, unsigned local, int face, const struct box_block *ret)
+{
+    patch_state_pieces(data, bound_fill, local, face, ret);
+}
+
+void patch_state_flow(void *data, unsigned local, int face, const struct box_block *ret)
+{
+    patch_state_pieces(data, bound_fill_flow, local, face, ret);
 }
 
 static void patch_state_describe(const struct model *model, struct patch_state *ret)

@@ -19,6 +19,9 @@ void patch_state_rules(const struct scene *scene, bool given, enum patch_rule re
 /* The `given` of a patch_source of all primitives; data: struct bound. */
 void patch_state_given(void *data, unsigned local, int face, const struct box_block *ret);
 
+/* The same for what a path looks at around a tile (model->around), where bound_fill_flow says what lies behind. */
+void patch_state_flow(void *data, unsigned local, int face, const struct box_block *ret);
+
 /* A source of the primitives w of a level, with g layers; slots as in rim_form. `bound`: of that level, its time set
  * (bound_fill says what is given); it and `keep` must live as long as the source. */
 struct patch_source patch_state_source(const struct model *model, const struct mesh *mesh, int l, int g, int slots,

@@ -56,14 +56,15 @@ static void rate_sweep(const struct term_tile *tile, void *const *own, int axis,
     if (watch->swept) watch->swept(watch->data, axis);
 }
 
-/* The sides of a tile at which waves leave the domain or come in. */
-static void rate_open(const struct term_tile *tile)
+/* The sides of a tile at which waves leave the domain or come in, and the size of its cells. */
+static void rate_place(const struct term_tile *tile)
 {
     for (int face = 0; face < 2 * tile->mesh->dim; face++) {
         int axis = face / 2, at = tile->tile->at[axis], end = face % 2 ? tile->level->extent[axis] - 1 : 0;
         tile->terms->faces->open[axis][face % 2] =
             at == end && scene_boundary_is(tile->model->scene, face, SCENE_BOUNDARY_OPEN);
     }
+    for (int axis = 0; axis < 3; axis++) tile->terms->faces->per_h[axis] = 1.0 / tile->level->h[axis];
 }
 
 void rate_take(struct term_tile *tile, void *const *own, const struct rate_watch *watch, bool masked)
@@ -72,7 +73,7 @@ void rate_take(struct term_tile *tile, void *const *own, const struct rate_watch
     tile->masked = masked;
     rate_clear(tile);
     terms->faces->model = tile->model;
-    rate_open(tile);
+    rate_place(tile);
     for (unsigned i = 0; i < terms->n; i++) {
         const struct term *term = terms->at[i];
         tile->own = own[terms->number[i]];

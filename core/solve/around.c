@@ -28,12 +28,19 @@ static size_t around_face_cells(const struct mesh *mesh)
     return most;
 }
 
+/* Do velocities go on behind a face as bound_fill_flow says? */
+static bool around_flows(const struct model *model, int face)
+{
+    return model->viscous && bound_has_rays(model, face);
+}
+
 static void around_rules(struct around *around)
 {
     const struct scene *scene = around->model->scene;
     patch_state_rules(scene, true, around->rules);
     for (int face = 0; face < 2 * scene->domain.dim; face++)
-        if (scene_boundary_is(scene, face, SCENE_BOUNDARY_REFERS)) around->rules[face] = PATCH_COPY;
+        if (scene_boundary_is(scene, face, SCENE_BOUNDARY_REFERS) && !around_flows(around->model, face))
+            around->rules[face] = PATCH_COPY;
     around->given = patch_given(around->rules);
 }
 
@@ -73,7 +80,8 @@ static void around_give(void *data, unsigned local, int face, const struct box_b
     struct around *around = given->around;
     struct box_block all = *ret;
     all.data = around->layer;
-    patch_state_given(given->bound, local, face, &all);
+    if (around_flows(around->model, face)) patch_state_flow(given->bound, local, face, &all);
+    else patch_state_given(given->bound, local, face, &all);
     for (unsigned k = 0; k < around->model->n_around; k++)
         memcpy(ret->data + k * ret->pitch, all.data + around->model->around[k] * all.pitch,
                ret->pitch * sizeof *ret->data);

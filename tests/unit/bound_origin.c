@@ -82,25 +82,34 @@ static void test_leaves(void **state)
     flow_stop(&flow);
 }
 
-/* A flow out of a sphere falls off as 1/r2 beyond the face, too: as a wave it would draw 2 Z u = 400 Pa. */
+/* How far the pressure beside the boundary drifts off in a flow out of a sphere, in 400 steps [Pa]. */
+static double drift(const char *viscosity)
+{
+    struct flow flow;
+    flow_start(
+        &flow,
+        mem_print("bulla: 1\ntitle: source\ndomain: {geometry: spherical, lower: [20 um], upper: [0.8 mm], cells: "
+                  "[50], boundaries: {x-: {type: reflecting, velocity: [0.2]}, x+: {type: non-reflecting, "
+                  "pressure: 1e5}}}\nmaterials:\n"
+                  "  water: {eos: {type: stiffened-gas, gamma: 4, p-inf: 639.9 MPa}%s}\n"
+                  "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: 1e5, "
+                  "velocity: ['= 0.2 * (20e-6 / r)^2']}\nrun: {until: 1}\n",
+                  viscosity));
+    flow_steps(&flow, 400);
+    double *p = flow_primitive(&flow, flow.state->model->i_E), off = fabs(p[49] - far);
+    print_message("far pressure %.1f Pa off\n", off);
+    mem_free(p);
+    flow_stop(&flow);
+    return off;
+}
+
+/* It falls off as 1/r2 beyond the face, too: as a wave it would draw 2 Z u = 400 Pa. Nor does viscosity make it one:
+ * a velocity that stays what it is behind the face would draw 250 Pa. */
 static void test_starts_in_motion(void **state)
 {
     (void)state;
-    struct flow flow;
-    flow_start(&flow,
-               mem_print(
-                   "bulla: 1\ntitle: source\ndomain: {geometry: spherical, lower: [20 um], upper: [0.8 mm], cells: "
-                   "[50], boundaries: {x-: {type: reflecting, velocity: [0.2]}, x+: {type: non-reflecting, "
-                   "pressure: 1e5}}}\nmaterials:\n"
-                   "  water: {eos: {type: stiffened-gas, gamma: 4, p-inf: 639.9 MPa}}\n"
-                   "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: 1e5, "
-                   "velocity: ['= 0.2 * (20e-6 / r)^2']}\nrun: {until: 1}\n"));
-    flow_steps(&flow, 400);
-    double *p = flow_primitive(&flow, flow.state->model->i_E);
-    print_message("far pressure %.1f Pa off\n", p[49] - far);
-    assert_true(fabs(p[49] - far) < 20.0);
-    mem_free(p);
-    flow_stop(&flow);
+    assert_true(drift("") < 20.0);
+    assert_true(drift(", viscosity: 10 Pa s") < 20.0);
 }
 
 int main(void)
