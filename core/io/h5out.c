@@ -27,6 +27,9 @@ enum { H5OUT_TAG = 77, H5OUT_HEAD = 8 }; /* bytes before a packed chunk: which f
 /* A data set while it is written; rows are numbered as in the file of their writer. */
 struct h5out {
     const struct h5out_rows *rows;
+    bool is_plain;       /* rows are stored as they are */
+    unsigned columns;    /* of the data set's shape; 0: none */
+    hid_t type;          /* of a number, or a record; of a writer */
     size_t row, chunk;   /* bytes of a row, rows of a chunk */
     size_t total;        /* rows of this writer */
     int leader;          /* the rank that writes */
@@ -35,7 +38,7 @@ struct h5out {
     double (*ranges)[2]; /* first, count, in the whole data set; the ranges of rank r are r * rows->n_range ... */
     const double (*own)[2];
     size_t *places;       /* [n_range] where the ranges of this writer begin in its file */
-    char *plain, *packed; /* one chunk; packed: with its head */
+    char *plain, *packed; /* one chunk; packed: with its head; NULL where nothing is packed */
 };
 
 /* What one rank holds of a chunk. */
@@ -56,7 +59,7 @@ static hid_t h5out_layout(struct h5 *file, const struct h5out *out)
 {
     hid_t layout = h5out_plain_layout(file);
     const struct h5out_rows *rows = out->rows;
-    if (!rows->chunk || rows->hash) return layout;
+    if (!rows->chunk || out->is_plain) return layout;
     hsize_t chunk[2] = {out->chunk, rows->columns};
     h5_check(file, H5Pset_chunk(layout, rows->columns ? 2 : 1, chunk), "set the chunks of a data set");
     h5_check(file, H5Pset_shuffle(layout), "set the compression of a data set");
@@ -120,7 +123,10 @@ static void h5out_begin(struct h5out *out, const struct h5out_rows *rows, int wr
 {
     struct h5out_part *parts;
     int writer = writers_of(writers, comm_rank());
-    *out = (struct h5out){.rows = rows, .row = h5_type_size(rows->type) * (rows->columns ? rows->columns : 1)};
+    *out = (struct h5out){.rows = rows,
+                          .is_plain = rows->hash || rows->central,
+                          .columns = rows->members ? 0 : rows->columns,
+                          .row = h5_type_size(rows->type) * (rows->columns ? rows->columns : 1)};
     h5out_collect(out, rows);
     out->leader = writers_first(writers, writer);
     out->own = h5out_ranges(out, writers, writer, &out->n_range);
@@ -133,7 +139,7 @@ static void h5out_begin(struct h5out *out, const struct h5out_rows *rows, int wr
     mem_free(parts);
     out->chunk = rows->chunk < out->total ? rows->chunk : out->total;
     out->plain = mem_new(out->chunk, out->row);
-    out->packed = mem_new(out->chunk * out->row + H5OUT_HEAD, 1);
+    if (!out->is_plain) out->packed = mem_new(out->chunk * out->row + H5OUT_HEAD, 1);
 }
 
 static void h5out_end(struct h5out *out)
@@ -279,7 +285,8 @@ static void h5out_store(struct h5 *file, hid_t set, struct h5out *out, const cha
 }
 
 /* Rows that are stored as they are go chunk by chunk in the order of the file, and nobody copies his part of
- * them whole: a writer takes one message after the other, and the others wait for it. */
+ * them whole: a writer takes one message after the other, and the others wait until it has theirs, so that small
+ * ones do not pile up where it is. */
 static void h5out_send_plain(struct h5out *out)
 {
     for (size_t first = 0; first < out->total; first += out->chunk)
@@ -288,8 +295,8 @@ static void h5out_send_plain(struct h5out *out)
             if (!piece.count || piece.rank != comm_rank()) continue;
             h5out_fill(out, &piece, out->plain);
             MPI_Request request;
-            MPI_Isend(out->plain, (int)(piece.count * out->row), MPI_BYTE, out->leader, H5OUT_TAG, comm_world(),
-                      &request);
+            MPI_Issend(out->plain, (int)(piece.count * out->row), MPI_BYTE, out->leader, H5OUT_TAG, comm_world(),
+                       &request);
             comm_wait(1, &request, MPI_STATUSES_IGNORE);
         }
 }
@@ -322,13 +329,13 @@ static void h5out_store_plain(struct h5 *file, hid_t set, struct h5out *out, con
         h5out_gather_plain(out, first);
         if (file->code) continue; /* the others go on sending */
         XXH64_update(sum, out->plain, count * out->row);
-        hid_t memory = h5out_space(file, count, out->rows->columns), space = h5_check(file, H5Dget_space(set), path);
-        h5out_select(file, space, first, count, out->rows->columns);
-        h5_check(file, H5Dwrite(set, h5_type_id(out->rows->type), memory, space, H5P_DEFAULT, out->plain), path);
+        hid_t memory = h5out_space(file, count, out->columns), space = h5_check(file, H5Dget_space(set), path);
+        h5out_select(file, space, first, count, out->columns);
+        h5_check(file, H5Dwrite(set, out->type, memory, space, H5P_DEFAULT, out->plain), path);
         if (memory >= 0) H5Sclose(memory);
         if (space >= 0) H5Sclose(space);
     }
-    *out->rows->hash = XXH64_digest(sum);
+    if (out->rows->hash) *out->rows->hash = XXH64_digest(sum);
     XXH64_freeState(sum);
 }
 
@@ -336,12 +343,12 @@ static void h5out_store_plain(struct h5 *file, hid_t set, struct h5out *out, con
 static void h5out_put(struct h5 *file, const char *path, struct h5out *out)
 {
     const struct h5out_rows *rows = out->rows;
-    hid_t layout = h5out_layout(file, out), space = h5out_space(file, out->total, rows->columns);
-    hid_t set =
-        h5_check(file, H5Dcreate2(file->id, path, h5_type_id(rows->type), space, H5P_DEFAULT, layout, H5P_DEFAULT),
-                 path);
-    (rows->hash ? h5out_store_plain : h5out_store)(file, set, out, path);
+    hid_t layout = h5out_layout(file, out), space = h5out_space(file, out->total, out->columns);
+    out->type = rows->members ? h5_record_type(file, rows->members, rows->columns) : h5_type_id(rows->type);
+    hid_t set = h5_check(file, H5Dcreate2(file->id, path, out->type, space, H5P_DEFAULT, layout, H5P_DEFAULT), path);
+    (out->is_plain ? h5out_store_plain : h5out_store)(file, set, out, path);
     if (set >= 0) h5_check(file, H5Dclose(set), path);
+    if (rows->members && out->type >= 0) H5Tclose(out->type);
     if (space >= 0) H5Sclose(space);
     if (layout >= 0) H5Pclose(layout);
 }
@@ -390,18 +397,18 @@ static void h5out_unite(struct h5 *file, const char *path, const struct h5out *o
 int h5out_write(struct h5 *file, const char *path, const struct h5out_rows *rows)
 {
     struct h5out out;
-    struct h5 *holder = file->part ? file->part : file;
+    struct h5 *part = rows->central ? NULL : file->part, *holder = part ? part : file;
     TRY(comm_agree(file->code ? file->code : holder->code));
-    h5out_begin(&out, rows, file->writers);
-    if (holder->idle && !rows->again) (rows->hash ? h5out_send_plain : h5out_send)(&out);
+    h5out_begin(&out, rows, part ? file->writers : 1);
+    if (holder->idle && !rows->again) (out.is_plain ? h5out_send_plain : h5out_send)(&out);
     else if (holder->idle)
         ; /* the writer has them */
-    else if (!file->part) h5out_put(holder, path, &out);
+    else if (!part) h5out_put(holder, path, &out);
     else if (out.total) {
         h5_parents(holder, path);
         h5out_put(holder, path, &out);
     }
-    if (file->part && !file->idle) h5out_unite(file, path, &out);
+    if (part && !file->idle) h5out_unite(file, path, &out);
     h5out_end(&out);
     return STATUS_OK;
 }
@@ -421,15 +428,6 @@ void h5out_array(struct h5 *file, const char *path, enum h5_type type, size_t n,
 {
     if (file->idle) return;
     h5out_whole(file, path, (hid_t[2]){h5_type_id(type), h5out_space(file, n, columns)}, values);
-}
-
-void h5out_records(struct h5 *file, const char *path, const char *const *members, unsigned n, size_t n_row,
-                   const int32_t *values)
-{
-    if (file->idle) return;
-    hid_t type = h5_record_type(file, members, n);
-    h5out_whole(file, path, (hid_t[2]){type, h5out_space(file, n_row, 0)}, values);
-    if (type >= 0) H5Tclose(type);
 }
 
 void h5out_text(struct h5 *file, const char *path, const char *text)
