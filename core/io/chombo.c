@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/h5out.h"
+#include "io/h5view.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,18 +23,18 @@ static const char *const *chombo_box(int dim)
 
 /* One column per component: a vector's components get the names of the scalar fields. */
 static unsigned chombo_columns(const struct vtkhdf_fields *fields, char (**ret_names)[2 * SCENE_NAME],
-                               struct h5out_column **ret_columns)
+                               struct h5view_column **ret_columns)
 {
     unsigned most = 3 * fields->n, n = 0;
     char(*names)[2 * SCENE_NAME] = mem_new(2 * (size_t)most + 1, sizeof *names); /* names, then paths */
-    struct h5out_column *columns = mem_new((size_t)most + 1, sizeof *columns);
+    struct h5view_column *columns = mem_new((size_t)most + 1, sizeof *columns);
     for (unsigned i = 0; i < fields->n; i++) {
         const struct derive *field = &fields->at[i];
         for (unsigned q = 0; q < field->components; q++, n++) {
             if (field->components == 1) snprintf(names[n], sizeof *names, "%s", field->name);
             else snprintf(names[n], sizeof *names, "%s_%c", field->name, "xyz"[q]);
             snprintf(names[most + n], sizeof *names, "/VTKHDF/CellData/%s", field->name);
-            columns[n] = (struct h5out_column){names[most + n], field->components > 1 ? field->components : 0, q};
+            columns[n] = (struct h5view_column){names[most + n], field->components > 1 ? field->components : 0, q};
         }
     }
     *ret_names = names;
@@ -180,9 +181,9 @@ static void chombo_data_attributes(struct h5 *file, int dim, const char *group, 
 }
 
 static int chombo_level(struct h5 *file, const struct state *state, const struct leaves *leaves, int l,
-                        struct h5out_view *view)
+                        struct h5view *view)
 {
-    struct h5out_groups runs[LEAVES_KINDS];
+    struct h5view_groups runs[LEAVES_KINDS];
     char group[CHOMBO_PATH / 2], path[CHOMBO_PATH];
     snprintf(group, sizeof group, "/level_%d", l);
     chombo_level_attributes(file, state, l, group);
@@ -191,12 +192,12 @@ static int chombo_level(struct h5 *file, const struct state *state, const struct
     chombo_data_attributes(file, state->mesh->dim, group, view->n_column);
     for (int kind = 0; kind < LEAVES_KINDS; kind++) {
         const struct leaves_run *run = &leaves->runs[l][kind];
-        runs[kind] = (struct h5out_groups){run->first, run->cells, run->all};
+        runs[kind] = (struct h5view_groups){run->first, run->cells, run->all};
     }
     view->runs = runs;
     view->n_run = LEAVES_KINDS;
     snprintf(path, sizeof path, "%s/data:datatype=0", group);
-    h5out_interleave(file, path, view);
+    h5view_write(file, path, view);
     return STATUS_OK;
 }
 
@@ -205,9 +206,9 @@ int chombo_write(struct h5 *file, const struct state *state, const struct leaves
 {
     const struct mesh *mesh = state->mesh;
     char(*names)[2 * SCENE_NAME];
-    struct h5out_column *columns;
+    struct h5view_column *columns;
     unsigned n = chombo_columns(fields, &names, &columns);
-    struct h5out_view view = {.type = fields->type, .n_column = n, .columns = columns, .total = leaves->n_cell};
+    struct h5view view = {.type = fields->type, .n_column = n, .columns = columns, .total = leaves->n_cell};
     chombo_root(file, mesh, n, names);
     int code = STATUS_OK;
     for (int l = 0; !code && l < mesh->n_level; l++) code = chombo_level(file, state, leaves, l, &view);

@@ -1,6 +1,6 @@
-/* h5out.h - data sets of a file being written: rows that the ranks hold, small arrays, texts, and
- * views that interleave other data sets. Rows of a file with parts go into these, and the file itself gets a view of
- * them; all else goes into the file. All calls are collective. */
+/* h5out.h - data sets of a file being written: rows that the ranks hold, small arrays and texts. Rows of a file with
+ * parts go into these, and the file itself gets a view of them; all else goes into the file. All calls are
+ * collective. */
 #ifndef H5OUT_H
 #define H5OUT_H
 
@@ -58,28 +58,5 @@ bool h5out_has(struct h5 *file, const char *path);
 
 /* Names the unit of a data set (attribute `units`). */
 void h5out_unit(struct h5 *file, const char *path, const char *unit);
-
-/* A column of a data set written before: what a view is made of. */
-struct h5out_column {
-    const char *path;
-    unsigned columns, column; /* columns 0: the data set has shape [rows] */
-};
-
-/* n_group groups of `group` rows, from row `first` on. */
-struct h5out_groups {
-    size_t first, group, n_group;
-};
-
-/* A virtual data set: for each group of rows, all columns one after the other. Stores no numbers itself. */
-struct h5out_view {
-    enum h5_type type;
-    unsigned n_column;
-    const struct h5out_column *columns;
-    size_t total; /* rows of the sources */
-    unsigned n_run;
-    const struct h5out_groups *runs; /* those without groups are passed over */
-};
-
-void h5out_interleave(struct h5 *file, const char *path, const struct h5out_view *view);
 
 #endif
