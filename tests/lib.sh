@@ -162,6 +162,22 @@ scheme: {$1, limiter: mc, dt: 20 us} # too long
 run: {until: 1, max-steps: $2, smallest-step: 0} # it creeps: what counts is that all ranks do
 END
 }
+drifting() { # CELLS STEPS: a scene of so many cells along a side, with two more levels that come, move and go
+    cat <<END
+bulla: 1
+title: A bubble and a blast drift through a periodic box
+domain: {lower: [0, 0], upper: [1, 1], cells: [$1, $1], boundaries: {x-: periodic, x+: periodic, y-: reflecting, y+: outflow}}
+mesh: {levels: 3, tile: 4, regrid-every: 2, buffer: 2, patience: 2, refine: [{jump: alpha_air, above: 0.2}, {jump: pressure, above: 0.8, finest: 2}]}
+materials:
+  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
+  air: {eos: {type: ideal-gas, gamma: 1.4}}
+initial:
+  - {everywhere: true, material: water, density: 1000, pressure: 1e5, velocity: [300, 90]}
+  - {sphere: {center: [0.3, 0.5], radius: 0.08}, material: water, density: 1100, pressure: 2e8}
+  - {sphere: {center: [0.85, 0.6], radius: 0.1}, material: air, density: 1.2, pressure: 1e5, velocity: [300, 90]}
+run: {until: 1, max-steps: $2}
+END
+}
 resting() { # INTEGRATOR STEPS: nothing moves where nothing happens, and it is all skipped
     cat <<END
 bulla: 1

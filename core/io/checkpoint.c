@@ -5,6 +5,7 @@
 #include "io/checkpoint.h"
 
 #include "base/comm.h"
+#include "base/gather.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "base/version.h"
@@ -12,9 +13,9 @@
 #include "io/h5out.h"
 #include "io/parts.h"
 #include "io/place.h"
+#include "io/roll.h"
 #include "io/room.h"
 #include "io/seal.h"
-#include "io/whole.h"
 #include "io/writers.h"
 #include "solve/evaporate.h"
 #include "solve/peak.h"
@@ -39,8 +40,7 @@ struct checkpoints {
 struct checkpoint {
     struct h5 *file;
     const struct state *state;
-    struct h5out_range tiles[MESH_LEVELS]; /* that this rank holds */
-    size_t n_tile;
+    struct roll roll;
     struct seal seal; /* rank 0 */
     struct seal part; /* of this rank's writer, if there are several */
 };
@@ -201,33 +201,26 @@ static void checkpoint_note_origin(const struct state *state, struct notes *note
     notes_put_text(notes, "case.title", state->scene->title ? state->scene->title : "");
 }
 
-/* Level and local index of a tile in the list of all. */
-static unsigned checkpoint_tile(const struct mesh *mesh, size_t tile, int *ret_level)
-{
-    int level = 0;
-    while (tile >= mesh->levels[level].n_tile) tile -= mesh->levels[level++].n_tile;
-    *ret_level = level;
-    return (unsigned)tile - mesh->levels[level].first;
-}
-
 static void checkpoint_fill_u(void *context, size_t first, size_t count, void *out)
 {
-    const struct mesh *mesh = ((struct checkpoint *)context)->state->mesh;
+    const struct roll *roll = &((struct checkpoint *)context)->roll;
+    const struct mesh *mesh = roll->mesh;
     size_t block = mesh->n_field * mesh->n_cell;
     for (size_t i = 0; i < count; i++) {
         int l;
-        unsigned local = checkpoint_tile(mesh, first + i, &l);
+        unsigned local = roll_local(roll, first + i, &l);
         memcpy((double *)out + i * block, mesh->levels[l].u_old[local], block * sizeof(double));
     }
 }
 
 static void checkpoint_fill_p(void *context, size_t first, size_t count, void *out)
 {
+    const struct roll *roll = &((struct checkpoint *)context)->roll;
     const struct state *state = ((struct checkpoint *)context)->state;
-    const struct mesh *mesh = state->mesh;
+    const struct mesh *mesh = roll->mesh;
     for (size_t i = 0; i < count; i++) {
         int l;
-        unsigned local = checkpoint_tile(mesh, first + i, &l);
+        unsigned local = roll_local(roll, first + i, &l);
         memcpy((double *)out + i * mesh->n_cell, mesh->levels[l].w[local] + state->model->i_E * mesh->n_cell,
                mesh->n_cell * sizeof(double));
     }
@@ -235,11 +228,12 @@ static void checkpoint_fill_p(void *context, size_t first, size_t count, void *o
 
 static void checkpoint_fill_kept(void *context, size_t first, size_t count, void *out)
 {
-    const struct mesh *mesh = ((struct checkpoint *)context)->state->mesh;
+    const struct roll *roll = &((struct checkpoint *)context)->roll;
+    const struct mesh *mesh = roll->mesh;
     size_t block = mesh->n_kept * mesh->n_cell;
     for (size_t i = 0; i < count; i++) {
         int l;
-        unsigned local = checkpoint_tile(mesh, first + i, &l);
+        unsigned local = roll_local(roll, first + i, &l);
         memcpy((double *)out + i * block, mesh->levels[l].kept[local], block * sizeof(double));
     }
 }
@@ -268,11 +262,11 @@ static int checkpoint_put_rows(struct checkpoint *point, const char *path, size_
     size_t rows = CHECKPOINT_MESSAGE / (columns * sizeof(double));
     const struct h5out_rows all = {.type = H5_F64,
                                    .columns = (unsigned)columns,
-                                   .total = point->n_tile,
+                                   .total = point->roll.n_tile,
                                    .chunk = rows ? rows : 1,
                                    .hash = &hash,
                                    .n_range = (unsigned)point->state->mesh->n_level,
-                                   .ranges = point->tiles,
+                                   .ranges = point->roll.tiles,
                                    .fill = fill,
                                    .context = point};
     TRY(h5out_write(point->file, path, &all));
@@ -289,41 +283,48 @@ static int checkpoint_put_kept(struct checkpoint *point)
     return checkpoint_put_rows(point, "/kept", mesh->n_kept * mesh->n_cell, checkpoint_fill_kept);
 }
 
-static void checkpoint_put_tiles(struct checkpoint *point)
+static void checkpoint_tile(int level, const struct tile *tile, int32_t *ret_row)
 {
-    const struct mesh *mesh = point->state->mesh;
-    int32_t *rows = mem_new(point->n_tile * CHECKPOINT_TILE, sizeof *rows), *row = rows;
-    for (int l = 0; l < mesh->n_level; l++) {
-        const struct level *level = &mesh->levels[l];
-        for (unsigned i = 0; i < level->n_tile; i++, row += CHECKPOINT_TILE) {
-            const struct tile *tile = &level->tiles[i];
-            const int32_t values[CHECKPOINT_TILE] = {l, tile->at[0], tile->at[1], tile->at[2], tile->unwanted};
-            memcpy(row, values, sizeof values);
-        }
-    }
-    h5out_array(point->file, "/tiles", H5_I32, point->n_tile, CHECKPOINT_TILE, rows);
-    checkpoint_list_part(point->file, &point->seal, "/tiles",
-                         seal_hash(rows, point->n_tile * CHECKPOINT_TILE * sizeof *rows));
-    mem_free(rows);
+    const int32_t row[CHECKPOINT_TILE] = {level, tile->at[0], tile->at[1], tile->at[2], tile->unwanted};
+    memcpy(ret_row, row, sizeof row);
 }
 
-/* Which tiles a part holds: runs of [part, tiles], in the order of all tiles. */
-static void checkpoint_put_runs(struct checkpoint *point)
+static int checkpoint_put_tiles(struct checkpoint *point)
 {
-    const struct mesh *mesh = point->state->mesh;
-    const int writers = point->file->writers;
-    if (writers == 1) return;
-    int32_t *runs = mem_new(point->n_tile * CHECKPOINT_RUN, sizeof *runs);
+    uint64_t hash = 0;
+    TRY(roll_write(point->file, "/tiles", &point->roll, CHECKPOINT_TILE, checkpoint_tile, &hash));
+    checkpoint_list_part(point->file, &point->seal, "/tiles", hash);
+    return STATUS_OK;
+}
+
+/* Which tiles a part holds: runs of [part, tiles], in the order of all tiles, from counts[rank][level]. */
+static void checkpoint_write_runs(struct checkpoint *point, const uint32_t *counts)
+{
+    int levels = point->roll.mesh->n_level, ranks = comm_size();
+    int32_t *runs = mem_new((size_t)levels * (size_t)point->file->writers * CHECKPOINT_RUN, sizeof *runs);
     size_t n = 0;
-    for (int l = 0; l < mesh->n_level; l++)
-        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++) {
-            int32_t writer = writers_of(writers, mesh->levels[l].tiles[i].rank);
+    for (int l = 0; l < levels; l++)
+        for (int rank = 0; rank < ranks; rank++) {
+            int32_t writer = writers_of(point->file->writers, rank), tiles = (int32_t)counts[rank * levels + l];
+            if (!tiles) continue;
             if (n == 0 || runs[(n - 1) * CHECKPOINT_RUN] != writer) runs[n++ * CHECKPOINT_RUN] = writer;
-            runs[(n - 1) * CHECKPOINT_RUN + 1]++;
+            runs[(n - 1) * CHECKPOINT_RUN + 1] += tiles;
         }
     h5out_array(point->file, "/runs", H5_I32, n, CHECKPOINT_RUN, runs);
     checkpoint_list_part(point->file, &point->seal, "/runs", seal_hash(runs, n * CHECKPOINT_RUN * sizeof *runs));
     mem_free(runs);
+}
+
+static void checkpoint_put_runs(struct checkpoint *point)
+{
+    const struct mesh *mesh = point->roll.mesh;
+    if (point->file->writers == 1) return;
+    uint32_t own[MESH_LEVELS];
+    unsigned n;
+    for (int l = 0; l < mesh->n_level; l++) own[l] = mesh->levels[l].n_local;
+    uint32_t *counts = gather_items(own, sizeof *own, (unsigned)mesh->n_level, &n);
+    if (comm_rank() == 0) checkpoint_write_runs(point, counts);
+    mem_free(counts);
 }
 
 static void checkpoint_put_text(struct checkpoint *point, const char *path, const char *text)
@@ -345,7 +346,7 @@ static int checkpoint_fill(struct checkpoint *point, const struct notes *outputs
     checkpoint_put_text(point, "/case.yaml", state->scene->resolved);
     checkpoint_put_text(point, "/notes", notes.text.at);
     text_done(&notes.text);
-    checkpoint_put_tiles(point);
+    TRY(checkpoint_put_tiles(point));
     checkpoint_put_runs(point);
     TRY(checkpoint_put_rows(point, "/u", mesh->n_field * mesh->n_cell, checkpoint_fill_u));
     if (!state->model->linear) TRY(checkpoint_put_rows(point, "/p", mesh->n_cell, checkpoint_fill_p));
@@ -367,12 +368,7 @@ static int checkpoint_seal_parts(struct checkpoint *point, const struct parts *p
 /* Writes the data; the header stays empty. */
 static int checkpoint_draft(struct checkpoint *point, const struct parts *parts, const struct notes *outputs)
 {
-    const struct mesh *mesh = point->state->mesh;
-    for (int l = 0; l < mesh->n_level; l++) {
-        const struct level *level = &mesh->levels[l];
-        point->tiles[l] = (struct h5out_range){point->n_tile + level->first, level->n_local};
-        point->n_tile += level->n_tile;
-    }
+    roll_take(point->state->mesh, &point->roll);
     TRY(parts_create(parts, SEAL_BYTES, &point->file));
     int code = checkpoint_fill(point, outputs);
     if (!code) code = checkpoint_seal_parts(point, parts);
@@ -417,9 +413,7 @@ static int checkpoint_put(struct checkpoints *checkpoints, const struct state *s
     char *draft = place_draft(path);
     struct parts *parts = parts_new(path, checkpoints->writers, false);
     struct checkpoint point = {.state = state};
-    struct whole *whole = whole_begin(state->mesh);
     int code = checkpoint_draft(&point, parts, outputs);
-    whole_end(whole, state->mesh);
     if (!code) code = parts_accept(parts);
     if (!code) code = comm_agree(comm_rank() == 0 ? checkpoint_accept(checkpoints, &point.seal, draft, path) : 0);
     if (code) place_reject(path);

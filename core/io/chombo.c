@@ -1,8 +1,11 @@
 /* chombo.c - see chombo.h. */
 #include "io/chombo.h"
 
+#include "base/comm.h"
 #include "base/mem.h"
+#include "base/status.h"
 #include "io/h5out.h"
+#include "io/h5view.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,18 +23,18 @@ static const char *const *chombo_box(int dim)
 
 /* One column per component: a vector's components get the names of the scalar fields. */
 static unsigned chombo_columns(const struct vtkhdf_fields *fields, char (**ret_names)[2 * SCENE_NAME],
-                               struct h5out_column **ret_columns)
+                               struct h5view_column **ret_columns)
 {
     unsigned most = 3 * fields->n, n = 0;
     char(*names)[2 * SCENE_NAME] = mem_new(2 * (size_t)most + 1, sizeof *names); /* names, then paths */
-    struct h5out_column *columns = mem_new((size_t)most + 1, sizeof *columns);
+    struct h5view_column *columns = mem_new((size_t)most + 1, sizeof *columns);
     for (unsigned i = 0; i < fields->n; i++) {
         const struct derive *field = &fields->at[i];
         for (unsigned q = 0; q < field->components; q++, n++) {
             if (field->components == 1) snprintf(names[n], sizeof *names, "%s", field->name);
             else snprintf(names[n], sizeof *names, "%s_%c", field->name, "xyz"[q]);
             snprintf(names[most + n], sizeof *names, "/VTKHDF/CellData/%s", field->name);
-            columns[n] = (struct h5out_column){names[most + n], field->components > 1 ? field->components : 0, q};
+            columns[n] = (struct h5view_column){names[most + n], field->components > 1 ? field->components : 0, q};
         }
     }
     *ret_names = names;
@@ -65,41 +68,88 @@ static void chombo_cells(const struct mesh *mesh, const struct level *level, con
     }
 }
 
-/* Blocks of a level: tiles, then octants. */
-static unsigned chombo_blocks(const struct leaves *leaves, int l)
+/* For h5out: a level of which boxes and offsets are told. */
+struct chombo_blocks {
+    const struct leaves *leaves;
+    int l;
+    unsigned n_column;
+};
+
+/* Blocks of a level, of all ranks: tiles, then octants. */
+static size_t chombo_count(const struct leaves *leaves, int l)
 {
-    return leaves->runs[l][0].n + leaves->runs[l][1].n;
+    return leaves->runs[l][0].all + leaves->runs[l][1].all;
 }
 
-static void chombo_boxes(struct h5 *file, const struct leaves *leaves, int l, const char *group)
+/* Boxes of own blocks from number `first` of the level on. */
+static void chombo_fill_boxes(void *context, size_t first, size_t count, void *out)
 {
-    const struct mesh *mesh = leaves->mesh;
-    char path[CHOMBO_PATH];
-    unsigned width = 2 * (unsigned)mesh->dim, n = chombo_blocks(leaves, l);
-    int32_t *boxes = mem_new((size_t)n * width + 1, sizeof *boxes);
-    for (unsigned i = 0; i < n; i++) {
-        unsigned block = leaves->runs[l][0].from + i;
-        const int *tile = mesh->levels[l].tiles[leaves->blocks[block].tile].at;
-        int at[3], count[3];
-        leaves_box(leaves, block, at, count);
+    const struct chombo_blocks *blocks = context;
+    const struct leaves_run *runs = blocks->leaves->runs[blocks->l];
+    const struct mesh *mesh = blocks->leaves->mesh;
+    const struct level *level = &mesh->levels[blocks->l];
+    int32_t *boxes = out;
+    for (size_t i = first; i < first + count; i++, boxes += 2 * mesh->dim) {
+        const struct leaves_run *run = &runs[i >= runs[0].all];
+        unsigned block = run->from + (unsigned)(i - (run == runs ? 0 : runs[0].all) - run->before);
+        const int *tile = level->tiles[blocks->leaves->blocks[block].tile].at;
+        int at[3], cells[3];
+        leaves_box(blocks->leaves, block, at, cells);
         for (int axis = 0; axis < 3; axis++) at[axis] += tile[axis] * mesh->n[axis];
-        chombo_cells(mesh, &mesh->levels[l], at, count, boxes + (size_t)i * width);
+        chombo_cells(mesh, level, at, cells, boxes);
     }
-    snprintf(path, sizeof path, "%s/boxes", group);
-    h5out_records(file, path, chombo_box(mesh->dim), width, n, boxes);
-    mem_free(boxes);
 }
 
-/* Where the data of each block begin. */
-static void chombo_offsets(struct h5 *file, const struct leaves *leaves, int l, const char *group, unsigned n_column)
+static int chombo_boxes(struct h5 *file, const struct leaves *leaves, int l, const char *group)
 {
     char path[CHOMBO_PATH];
-    unsigned from = leaves->runs[l][0].from, n = chombo_blocks(leaves, l);
-    int64_t *offsets = mem_new((size_t)n + 1, sizeof *offsets);
-    for (unsigned i = 0; i < n; i++) offsets[i + 1] = offsets[i] + (int64_t)(leaves_cells(leaves, from + i) * n_column);
+    const struct leaves_run *runs = leaves->runs[l];
+    unsigned width = 2 * (unsigned)leaves->mesh->dim;
+    struct chombo_blocks context = {leaves, l, 0};
+    const struct h5out_range ranges[LEAVES_KINDS] = {{runs[0].before, runs[0].n},
+                                                     {runs[0].all + runs[1].before, runs[1].n}};
+    const struct h5out_rows rows = {.type = H5_I32,
+                                    .columns = width,
+                                    .members = chombo_box(leaves->mesh->dim),
+                                    .total = chombo_count(leaves, l),
+                                    .chunk = H5OUT_TABLE / (width * sizeof(int32_t)),
+                                    .central = true,
+                                    .n_range = LEAVES_KINDS,
+                                    .ranges = ranges,
+                                    .fill = chombo_fill_boxes,
+                                    .context = &context};
+    snprintf(path, sizeof path, "%s/boxes", group);
+    return h5out_write(file, path, &rows);
+}
+
+static void chombo_fill_offsets(void *context, size_t first, size_t count, void *out)
+{
+    const struct chombo_blocks *blocks = context;
+    const struct leaves_run *runs = blocks->leaves->runs[blocks->l];
+    int64_t *offsets = out;
+    for (size_t i = first; i < first + count; i++) {
+        size_t tiles = i < runs[0].all ? i : runs[0].all;
+        *offsets++ = (int64_t)((tiles * runs[0].cells + (i - tiles) * runs[1].cells) * blocks->n_column);
+    }
+}
+
+/* Where the data of each block begin, and the last end: rank 0 knows it from their numbers alone. */
+static int chombo_offsets(struct h5 *file, const struct leaves *leaves, int l, const char *group, unsigned n_column)
+{
+    char path[CHOMBO_PATH];
+    size_t n = chombo_count(leaves, l) + 1;
+    struct chombo_blocks context = {leaves, l, n_column};
+    const struct h5out_range range = {0, comm_rank() == 0 ? n : 0};
+    const struct h5out_rows rows = {.type = H5_I64,
+                                    .total = n,
+                                    .chunk = H5OUT_TABLE / sizeof(int64_t),
+                                    .central = true,
+                                    .n_range = 1,
+                                    .ranges = &range,
+                                    .fill = chombo_fill_offsets,
+                                    .context = &context};
     snprintf(path, sizeof path, "%s/data:offsets=0", group);
-    h5out_array(file, path, H5_I64, (size_t)n + 1, 0, offsets);
-    mem_free(offsets);
+    return h5out_write(file, path, &rows);
 }
 
 static void chombo_level_attributes(struct h5 *file, const struct state *state, int l, const char *group)
@@ -130,36 +180,39 @@ static void chombo_data_attributes(struct h5 *file, int dim, const char *group, 
     h5_attribute_record(file, path, "outputGhost", chombo_vector, (unsigned)dim, none);
 }
 
-static void chombo_level(struct h5 *file, const struct state *state, const struct leaves *leaves, int l,
-                         struct h5out_view *view)
+static int chombo_level(struct h5 *file, const struct state *state, const struct leaves *leaves, int l,
+                        struct h5view *view)
 {
-    struct h5out_groups runs[LEAVES_KINDS];
+    struct h5view_groups runs[LEAVES_KINDS];
     char group[CHOMBO_PATH / 2], path[CHOMBO_PATH];
     snprintf(group, sizeof group, "/level_%d", l);
     chombo_level_attributes(file, state, l, group);
-    chombo_boxes(file, leaves, l, group);
-    chombo_offsets(file, leaves, l, group, view->n_column);
+    TRY(chombo_boxes(file, leaves, l, group));
+    TRY(chombo_offsets(file, leaves, l, group, view->n_column));
     chombo_data_attributes(file, state->mesh->dim, group, view->n_column);
     for (int kind = 0; kind < LEAVES_KINDS; kind++) {
         const struct leaves_run *run = &leaves->runs[l][kind];
-        runs[kind] = (struct h5out_groups){run->first, run->cells, run->n};
+        runs[kind] = (struct h5view_groups){run->first, run->cells, run->all};
     }
     view->runs = runs;
     view->n_run = LEAVES_KINDS;
     snprintf(path, sizeof path, "%s/data:datatype=0", group);
-    h5out_interleave(file, path, view);
+    h5view_write(file, path, view);
+    return STATUS_OK;
 }
 
-void chombo_write(struct h5 *file, const struct state *state, const struct leaves *leaves,
-                  const struct vtkhdf_fields *fields)
+int chombo_write(struct h5 *file, const struct state *state, const struct leaves *leaves,
+                 const struct vtkhdf_fields *fields)
 {
     const struct mesh *mesh = state->mesh;
     char(*names)[2 * SCENE_NAME];
-    struct h5out_column *columns;
+    struct h5view_column *columns;
     unsigned n = chombo_columns(fields, &names, &columns);
-    struct h5out_view view = {.type = fields->type, .n_column = n, .columns = columns, .total = leaves->n_cell};
+    struct h5view view = {.type = fields->type, .n_column = n, .columns = columns, .total = leaves->n_cell};
     chombo_root(file, mesh, n, names);
-    for (int l = 0; l < mesh->n_level; l++) chombo_level(file, state, leaves, l, &view);
+    int code = STATUS_OK;
+    for (int l = 0; !code && l < mesh->n_level; l++) code = chombo_level(file, state, leaves, l, &view);
     mem_free(columns);
     mem_free(names);
+    return code;
 }

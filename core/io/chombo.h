@@ -7,8 +7,9 @@
 
 #include "io/vtkhdf.h"
 
-/* Writes the view of fields that vtkhdf_write has written. 2D and 3D only. Collective. */
-void chombo_write(struct h5 *file, const struct state *state, const struct leaves *leaves,
-                  const struct vtkhdf_fields *fields);
+/* Writes the view of fields that vtkhdf_write has written. 2D and 3D only. Collective; returns what h5out_write does.
+ */
+int chombo_write(struct h5 *file, const struct state *state, const struct leaves *leaves,
+                 const struct vtkhdf_fields *fields);
 
 #endif

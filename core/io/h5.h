@@ -1,6 +1,6 @@
 /* h5.h - HDF5 files, checked: opening, closing, groups and attributes.
  *
- * HDF5 is called by h5.c, h5out.c (data sets out), h5in.c (back in) and h5join.c only. Every call is
+ * HDF5 is called by h5.c, h5out.c and h5view.c (data sets out), h5in.c (back in) and h5join.c only. Every call is
  * checked; a failure becomes one status message (STATUS_RUN) with the file, what was being
  * done, the innermost reason that HDF5 gives and, when the disk is full, the free space.
  * A file being written is written by rank 0, and each of its parts by a writer; all ranks make the same calls in the
@@ -73,11 +73,11 @@ void h5_attribute_text(struct h5 *file, const char *object, const char *name, co
 void h5_attribute_record(struct h5 *file, const char *object, const char *name, const char *const *members, unsigned n,
                          const int32_t *values);
 
-/* For h5out.c and h5in.c: notes a failed HDF5 call (a negative `id`) and returns `id`; HDF5's
+/* For h5out.c, h5view.c and h5in.c: notes a failed HDF5 call (a negative `id`) and returns `id`; HDF5's
  * reason is only known right after the call. `what` completes "cannot write FILE: ...". */
 int64_t h5_check(struct h5 *file, int64_t id, const char *what);
 
-/* For h5out.c and h5in.c: HDF5's handle of a type, and its size in bytes. */
+/* For h5out.c, h5view.c and h5in.c: HDF5's handle of a type, and its size in bytes. */
 int64_t h5_type_id(enum h5_type type);
 size_t h5_type_size(enum h5_type type);
 

@@ -1,9 +1,8 @@
 /* h5out.c - see h5out.h.
  *
- * The compressed path: a data set is cut into chunks; whoever holds all rows of a chunk packs it and
- * sends it to its writer, which files it as it is; pieces of a chunk that several ranks hold travel as
- * plain rows, and the writer packs it. So packing runs on all ranks at once, nobody holds more than his
- * own data set packed, and the bytes in the file do not depend on the ranks. All ranks know all
+ * The compressed path: a data set is cut into chunks; whoever holds most rows of a chunk gets the others as plain
+ * rows, packs it and sends it to its writer, which files it as it is. So packing runs on all ranks at once, nobody
+ * holds more than his own data set packed, and the bytes in the file do not depend on the ranks. All ranks know all
  * ranges, therefore who sends what, and a writer takes every message even after a failure. With several writers each
  * has a file with its rows alone, in their order, and rank 0 makes the view that unites them.
  * The plain path (`hash`): for what will be read back at its place in the file. */
@@ -24,9 +23,19 @@
 
 enum { H5OUT_TAG = 77, H5OUT_HEAD = 8 }; /* bytes before a packed chunk: which filters were left out */
 
+/* Messages on their way. */
+struct h5out_mail {
+    unsigned n;
+    MPI_Request *requests;
+    char **letters;
+};
+
 /* A data set while it is written; rows are numbered as in the file of their writer. */
 struct h5out {
     const struct h5out_rows *rows;
+    bool is_plain;       /* rows are stored as they are */
+    unsigned columns;    /* of the data set's shape; 0: none */
+    hid_t type;          /* of a number, or a record; of a writer */
     size_t row, chunk;   /* bytes of a row, rows of a chunk */
     size_t total;        /* rows of this writer */
     int leader;          /* the rank that writes */
@@ -34,8 +43,9 @@ struct h5out {
     unsigned n_all;      /* of all ranks */
     double (*ranges)[2]; /* first, count, in the whole data set; the ranges of rank r are r * rows->n_range ... */
     const double (*own)[2];
-    size_t *places;       /* [n_range] where the ranges of this writer begin in its file */
-    char *plain, *packed; /* one chunk; packed: with its head */
+    size_t *places; /* [n_range] where the ranges of this writer begin in its file */
+    struct h5out_mail mail;
+    char *plain, *packed; /* one chunk; packed: with its head; NULL where nothing is packed */
 };
 
 /* What one rank holds of a chunk. */
@@ -56,7 +66,7 @@ static hid_t h5out_layout(struct h5 *file, const struct h5out *out)
 {
     hid_t layout = h5out_plain_layout(file);
     const struct h5out_rows *rows = out->rows;
-    if (!rows->chunk || rows->hash) return layout;
+    if (!rows->chunk || out->is_plain) return layout;
     hsize_t chunk[2] = {out->chunk, rows->columns};
     h5_check(file, H5Pset_chunk(layout, rows->columns ? 2 : 1, chunk), "set the chunks of a data set");
     h5_check(file, H5Pset_shuffle(layout), "set the compression of a data set");
@@ -120,7 +130,10 @@ static void h5out_begin(struct h5out *out, const struct h5out_rows *rows, int wr
 {
     struct h5out_part *parts;
     int writer = writers_of(writers, comm_rank());
-    *out = (struct h5out){.rows = rows, .row = h5_type_size(rows->type) * (rows->columns ? rows->columns : 1)};
+    *out = (struct h5out){.rows = rows,
+                          .is_plain = rows->hash || rows->central,
+                          .columns = rows->members ? 0 : rows->columns,
+                          .row = h5_type_size(rows->type) * (rows->columns ? rows->columns : 1)};
     h5out_collect(out, rows);
     out->leader = writers_first(writers, writer);
     out->own = h5out_ranges(out, writers, writer, &out->n_range);
@@ -133,11 +146,15 @@ static void h5out_begin(struct h5out *out, const struct h5out_rows *rows, int wr
     mem_free(parts);
     out->chunk = rows->chunk < out->total ? rows->chunk : out->total;
     out->plain = mem_new(out->chunk, out->row);
-    out->packed = mem_new(out->chunk * out->row + H5OUT_HEAD, 1);
+    if (!out->is_plain) out->packed = mem_new(out->chunk * out->row + H5OUT_HEAD, 1);
 }
 
 static void h5out_end(struct h5out *out)
 {
+    if (out->mail.n) comm_wait((int)out->mail.n, out->mail.requests, MPI_STATUSES_IGNORE);
+    for (unsigned i = 0; i < out->mail.n; i++) mem_free(out->mail.letters[i]);
+    mem_free(out->mail.letters);
+    mem_free(out->mail.requests);
     mem_free(out->ranges);
     mem_free(out->places);
     mem_free(out->plain);
@@ -181,40 +198,14 @@ static size_t h5out_pack(struct h5out *out, size_t count)
     return size + H5OUT_HEAD;
 }
 
-/* Messages on their way to the writer. */
-struct h5out_mail {
-    unsigned n;
-    MPI_Request *requests;
-    char **letters;
-};
-
-static void h5out_post(struct h5out_mail *mail, int leader, const char *bytes, size_t size)
+static void h5out_post(struct h5out_mail *mail, int to, const char *bytes, size_t size)
 {
     mail->requests = mem_grow(mail->requests, mail->n, mail->n + 1u, sizeof *mail->requests);
     mail->letters = mem_grow(mail->letters, mail->n, mail->n + 1u, sizeof *mail->letters);
     mail->letters[mail->n] = mem_new(size, 1);
     memcpy(mail->letters[mail->n], bytes, size);
-    MPI_Isend(mail->letters[mail->n], (int)size, MPI_BYTE, leader, H5OUT_TAG, comm_world(), &mail->requests[mail->n]);
+    MPI_Isend(mail->letters[mail->n], (int)size, MPI_BYTE, to, H5OUT_TAG, comm_world(), &mail->requests[mail->n]);
     mail->n++;
-}
-
-/* The part of a rank that is no writer. */
-static void h5out_send(struct h5out *out)
-{
-    struct h5out_mail mail = {0};
-    for (size_t first = 0; first < out->total; first += out->chunk)
-        for (unsigned i = 0; i < out->n_range; i++) {
-            struct h5out_piece piece = h5out_piece(out, first, i);
-            if (!piece.count || piece.rank != comm_rank()) continue;
-            h5out_fill(out, &piece, out->plain);
-            bool whole = piece.count == h5out_count(out, first);
-            size_t size = whole ? h5out_pack(out, piece.count) : piece.count * out->row;
-            h5out_post(&mail, out->leader, whole ? out->packed : out->plain, size);
-        }
-    comm_wait((int)mail.n, mail.requests, MPI_STATUSES_IGNORE);
-    for (unsigned i = 0; i < mail.n; i++) mem_free(mail.letters[i]);
-    mem_free(mail.letters);
-    mem_free(mail.requests);
 }
 
 /* Receives from a rank into `to`, which has room; returns the size. */
@@ -229,19 +220,47 @@ static size_t h5out_receive(int rank, void *to, size_t room)
     return (size_t)size;
 }
 
-/* Brings a chunk together at its writer, packed; returns its size with head. */
-static size_t h5out_gather(struct h5out *out, size_t first)
+/* The rank that packs a chunk: that of the largest piece, so that packing is shared where pieces of several meet. */
+static int h5out_packer(const struct h5out *out, size_t first)
 {
-    size_t count = h5out_count(out, first);
+    struct h5out_piece most = h5out_piece(out, first, 0);
+    for (unsigned i = 1; i < out->n_range; i++) {
+        struct h5out_piece piece = h5out_piece(out, first, i);
+        if (piece.count > most.count) most = piece;
+    }
+    return most.rank;
+}
+
+/* Brings a chunk together in `plain` of the rank that packs it: which one it is. Nobody waits for what belongs to a
+ * later chunk, therefore the ranks do not wait for each other in a circle. */
+static int h5out_meet(struct h5out *out, size_t first)
+{
+    int packer = h5out_packer(out, first), rank = comm_rank();
     for (unsigned i = 0; i < out->n_range; i++) {
         struct h5out_piece piece = h5out_piece(out, first, i);
         if (!piece.count) continue;
-        char *to = out->plain + (piece.first - first) * out->row;
-        if (piece.rank == comm_rank()) h5out_fill(out, &piece, to);
-        else if (piece.count < count) h5out_receive(piece.rank, to, piece.count * out->row);
-        else return h5out_receive(piece.rank, out->packed, out->chunk * out->row + H5OUT_HEAD);
+        char *at = out->plain + (piece.first - first) * out->row;
+        if (piece.rank == rank) h5out_fill(out, &piece, at);
+        if (piece.rank == rank && packer != rank) h5out_post(&out->mail, packer, at, piece.count * out->row);
+        if (piece.rank != rank && packer == rank) h5out_receive(piece.rank, at, piece.count * out->row);
     }
-    return h5out_pack(out, count);
+    return packer;
+}
+
+/* The part of a rank that is no writer. */
+static void h5out_send(struct h5out *out)
+{
+    for (size_t first = 0; first < out->total; first += out->chunk)
+        if (h5out_meet(out, first) == comm_rank())
+            h5out_post(&out->mail, out->leader, out->packed, h5out_pack(out, h5out_count(out, first)));
+}
+
+/* A chunk at its writer, packed; returns its size with head. */
+static size_t h5out_gather(struct h5out *out, size_t first)
+{
+    int packer = h5out_meet(out, first);
+    if (packer == comm_rank()) return h5out_pack(out, h5out_count(out, first));
+    return h5out_receive(packer, out->packed, out->chunk * out->row + H5OUT_HEAD);
 }
 
 void h5out_forget(struct h5out_kept *kept)
@@ -279,7 +298,8 @@ static void h5out_store(struct h5 *file, hid_t set, struct h5out *out, const cha
 }
 
 /* Rows that are stored as they are go chunk by chunk in the order of the file, and nobody copies his part of
- * them whole: a writer takes one message after the other, and the others wait for it. */
+ * them whole: a writer takes one message after the other, and the others wait until it has theirs, so that small
+ * ones do not pile up where it is. */
 static void h5out_send_plain(struct h5out *out)
 {
     for (size_t first = 0; first < out->total; first += out->chunk)
@@ -288,8 +308,8 @@ static void h5out_send_plain(struct h5out *out)
             if (!piece.count || piece.rank != comm_rank()) continue;
             h5out_fill(out, &piece, out->plain);
             MPI_Request request;
-            MPI_Isend(out->plain, (int)(piece.count * out->row), MPI_BYTE, out->leader, H5OUT_TAG, comm_world(),
-                      &request);
+            MPI_Issend(out->plain, (int)(piece.count * out->row), MPI_BYTE, out->leader, H5OUT_TAG, comm_world(),
+                       &request);
             comm_wait(1, &request, MPI_STATUSES_IGNORE);
         }
 }
@@ -322,13 +342,13 @@ static void h5out_store_plain(struct h5 *file, hid_t set, struct h5out *out, con
         h5out_gather_plain(out, first);
         if (file->code) continue; /* the others go on sending */
         XXH64_update(sum, out->plain, count * out->row);
-        hid_t memory = h5out_space(file, count, out->rows->columns), space = h5_check(file, H5Dget_space(set), path);
-        h5out_select(file, space, first, count, out->rows->columns);
-        h5_check(file, H5Dwrite(set, h5_type_id(out->rows->type), memory, space, H5P_DEFAULT, out->plain), path);
+        hid_t memory = h5out_space(file, count, out->columns), space = h5_check(file, H5Dget_space(set), path);
+        h5out_select(file, space, first, count, out->columns);
+        h5_check(file, H5Dwrite(set, out->type, memory, space, H5P_DEFAULT, out->plain), path);
         if (memory >= 0) H5Sclose(memory);
         if (space >= 0) H5Sclose(space);
     }
-    *out->rows->hash = XXH64_digest(sum);
+    if (out->rows->hash) *out->rows->hash = XXH64_digest(sum);
     XXH64_freeState(sum);
 }
 
@@ -336,12 +356,12 @@ static void h5out_store_plain(struct h5 *file, hid_t set, struct h5out *out, con
 static void h5out_put(struct h5 *file, const char *path, struct h5out *out)
 {
     const struct h5out_rows *rows = out->rows;
-    hid_t layout = h5out_layout(file, out), space = h5out_space(file, out->total, rows->columns);
-    hid_t set =
-        h5_check(file, H5Dcreate2(file->id, path, h5_type_id(rows->type), space, H5P_DEFAULT, layout, H5P_DEFAULT),
-                 path);
-    (rows->hash ? h5out_store_plain : h5out_store)(file, set, out, path);
+    hid_t layout = h5out_layout(file, out), space = h5out_space(file, out->total, out->columns);
+    out->type = rows->members ? h5_record_type(file, rows->members, rows->columns) : h5_type_id(rows->type);
+    hid_t set = h5_check(file, H5Dcreate2(file->id, path, out->type, space, H5P_DEFAULT, layout, H5P_DEFAULT), path);
+    (out->is_plain ? h5out_store_plain : h5out_store)(file, set, out, path);
     if (set >= 0) h5_check(file, H5Dclose(set), path);
+    if (rows->members && out->type >= 0) H5Tclose(out->type);
     if (space >= 0) H5Sclose(space);
     if (layout >= 0) H5Pclose(layout);
 }
@@ -390,18 +410,18 @@ static void h5out_unite(struct h5 *file, const char *path, const struct h5out *o
 int h5out_write(struct h5 *file, const char *path, const struct h5out_rows *rows)
 {
     struct h5out out;
-    struct h5 *holder = file->part ? file->part : file;
+    struct h5 *part = rows->central ? NULL : file->part, *holder = part ? part : file;
     TRY(comm_agree(file->code ? file->code : holder->code));
-    h5out_begin(&out, rows, file->writers);
-    if (holder->idle && !rows->again) (rows->hash ? h5out_send_plain : h5out_send)(&out);
+    h5out_begin(&out, rows, part ? file->writers : 1);
+    if (holder->idle && !rows->again) (out.is_plain ? h5out_send_plain : h5out_send)(&out);
     else if (holder->idle)
         ; /* the writer has them */
-    else if (!file->part) h5out_put(holder, path, &out);
+    else if (!part) h5out_put(holder, path, &out);
     else if (out.total) {
         h5_parents(holder, path);
         h5out_put(holder, path, &out);
     }
-    if (file->part && !file->idle) h5out_unite(file, path, &out);
+    if (part && !file->idle) h5out_unite(file, path, &out);
     h5out_end(&out);
     return STATUS_OK;
 }
@@ -421,15 +441,6 @@ void h5out_array(struct h5 *file, const char *path, enum h5_type type, size_t n,
 {
     if (file->idle) return;
     h5out_whole(file, path, (hid_t[2]){h5_type_id(type), h5out_space(file, n, columns)}, values);
-}
-
-void h5out_records(struct h5 *file, const char *path, const char *const *members, unsigned n, size_t n_row,
-                   const int32_t *values)
-{
-    if (file->idle) return;
-    hid_t type = h5_record_type(file, members, n);
-    h5out_whole(file, path, (hid_t[2]){type, h5out_space(file, n_row, 0)}, values);
-    if (type >= 0) H5Tclose(type);
 }
 
 void h5out_text(struct h5 *file, const char *path, const char *text)
@@ -459,39 +470,4 @@ bool h5out_has(struct h5 *file, const char *path)
 void h5out_unit(struct h5 *file, const char *path, const char *unit)
 {
     h5_attribute_text(file, path, "units", unit);
-}
-
-/* Column q of a view with Q columns: block q of every group of Q blocks, from `to` on <- a run of the source. */
-static void h5out_map(struct h5 *file, const hid_t id[2], const struct h5out_view *view, const struct h5out_groups *run,
-                      size_t to, unsigned q)
-{
-    const struct h5out_column *column = &view->columns[q];
-    hid_t layout = id[0], space = id[1], source = h5out_space(file, view->total, column->columns);
-    hsize_t start[2] = {run->first, column->column}, extent[2] = {run->group * run->n_group, 1};
-    h5_check(file, H5Sselect_hyperslab(source, H5S_SELECT_SET, start, NULL, extent, NULL), "map a view");
-    hsize_t block = run->group, at = to + q * block, stride = view->n_column * block, n_group = run->n_group;
-    h5_check(file, H5Sselect_hyperslab(space, H5S_SELECT_SET, &at, &stride, &n_group, &block), "map a view");
-    h5_check(file, H5Pset_virtual(layout, space, ".", column->path, source), "map a view");
-    if (source >= 0) H5Sclose(source);
-}
-
-void h5out_interleave(struct h5 *file, const char *path, const struct h5out_view *view)
-{
-    if (file->idle) return;
-    size_t size = 0, to = 0;
-    for (unsigned i = 0; i < view->n_run; i++) size += view->runs[i].n_group * view->runs[i].group * view->n_column;
-    hid_t layout = h5_check(file, H5Pcreate(H5P_DATASET_CREATE), "prepare a view");
-    hid_t space = h5out_space(file, size, 0);
-    for (unsigned i = 0; i < view->n_run; i++) {
-        const struct h5out_groups *run = &view->runs[i];
-        for (unsigned q = 0; run->n_group && q < view->n_column; q++)
-            h5out_map(file, (const hid_t[2]){layout, space}, view, run, to, q);
-        to += run->n_group * run->group * view->n_column;
-    }
-    hid_t set =
-        h5_check(file, H5Dcreate2(file->id, path, h5_type_id(view->type), space, H5P_DEFAULT, layout, H5P_DEFAULT),
-                 path);
-    if (set >= 0) H5Dclose(set);
-    if (space >= 0) H5Sclose(space);
-    if (layout >= 0) H5Pclose(layout);
 }

@@ -1,6 +1,6 @@
-/* h5out.h - data sets of a file being written: rows that the ranks hold, small tables, texts, and
- * views that interleave other data sets. Rows of a file with parts go into these, and the file itself gets a view of
- * them; all else goes into the file. All calls are collective. */
+/* h5out.h - data sets of a file being written: rows that the ranks hold, small arrays and texts. Rows of a file with
+ * parts go into these, and the file itself gets a view of them; all else goes into the file. All calls are
+ * collective. */
 #ifndef H5OUT_H
 #define H5OUT_H
 
@@ -9,6 +9,9 @@
 struct h5out_range {
     size_t first, count;
 };
+
+/* Bytes of a table's rows that travel together. */
+enum { H5OUT_TABLE = 1 << 16 };
 
 /* Chunks as they were packed, kept by their writer to be written once more: start from {0}. */
 struct h5out_kept {
@@ -27,6 +30,8 @@ struct h5out_rows {
     size_t total;
     size_t chunk;   /* rows that are compressed together (shuffle + deflate 1), or travel together if they are not */
     uint64_t *hash; /* not NULL: the rows are stored as they are, in one piece; a writer gets the XXH64 of its rows */
+    bool central;   /* in the file itself, even if it has parts, and stored as they are */
+    const char *const *members; /* not NULL, of central rows: each is a record of `columns` i32 with these names */
     struct h5out_kept
         *kept;  /* not NULL: where the packed chunks are kept; `again`: nobody is asked, they are written */
     bool again; /* as they were. For rows that are compressed; the same on all ranks */
@@ -39,12 +44,8 @@ struct h5out_rows {
 /* Returns what has failed so far on any rank, this data set not included. */
 int h5out_write(struct h5 *file, const char *path, const struct h5out_rows *rows);
 
-/* A small array that every rank knows; rank 0 writes it. Shape as above. */
+/* A small array that rank 0 knows and writes (the others may give NULL). Shape as above. */
 void h5out_array(struct h5 *file, const char *path, enum h5_type type, size_t n, unsigned columns, const void *values);
-
-/* A table of `n_row` records of n named i32, that every rank knows. */
-void h5out_records(struct h5 *file, const char *path, const char *const *members, unsigned n, size_t n_row,
-                   const int32_t *values);
 
 /* One text that every rank knows. */
 void h5out_text(struct h5 *file, const char *path, const char *text);
@@ -57,28 +58,5 @@ bool h5out_has(struct h5 *file, const char *path);
 
 /* Names the unit of a data set (attribute `units`). */
 void h5out_unit(struct h5 *file, const char *path, const char *unit);
-
-/* A column of a data set written before: what a view is made of. */
-struct h5out_column {
-    const char *path;
-    unsigned columns, column; /* columns 0: the data set has shape [rows] */
-};
-
-/* n_group groups of `group` rows, from row `first` on. */
-struct h5out_groups {
-    size_t first, group, n_group;
-};
-
-/* A virtual data set: for each group of rows, all columns one after the other. Stores no numbers itself. */
-struct h5out_view {
-    enum h5_type type;
-    unsigned n_column;
-    const struct h5out_column *columns;
-    size_t total; /* rows of the sources */
-    unsigned n_run;
-    const struct h5out_groups *runs; /* those without groups are passed over */
-};
-
-void h5out_interleave(struct h5 *file, const char *path, const struct h5out_view *view);
 
 #endif

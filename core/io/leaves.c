@@ -4,35 +4,45 @@
 #include "base/comm.h"
 #include "base/mem.h"
 
-static void leaves_add(struct leaves *leaves, struct leaves_run *run, struct leaves_block block)
+static bool leaves_is_open(int kind, unsigned covered, int octant)
 {
-    block.first = leaves->n_cell;
-    if (leaves->mesh->levels[block.level].tiles[block.tile].rank == comm_rank()) {
-        if (!run->local) run->local_first = block.first;
-        run->local += run->cells;
-    }
-    leaves->blocks[leaves->n_block++] = block;
-    leaves->n_cell += run->cells;
-    run->n++;
+    if (!kind) return covered == 0 && octant == 0;
+    return covered != 0 && !(covered >> octant & 1);
 }
 
-static void leaves_add_level(struct leaves *leaves, int l)
+/* Appends this rank's blocks of a kind of a level. */
+static void leaves_add(struct leaves *leaves, int l, int kind)
 {
-    const struct mesh *mesh = leaves->mesh;
-    const struct level *level = &mesh->levels[l];
-    for (int kind = 0; kind < LEAVES_KINDS; kind++) {
-        struct leaves_run *run = &leaves->runs[l][kind];
-        *run = (struct leaves_run){.from = leaves->n_block, .first = leaves->n_cell};
-        run->cells = kind ? mesh->n_cell >> mesh->dim : mesh->n_cell;
-        run->local_first = leaves->n_cell;
-        for (unsigned t = 0; t < level->n_tile; t++) {
-            unsigned covered = level->tiles[t].covered;
-            if ((covered != 0) != kind) continue;
-            if (!kind) leaves_add(leaves, run, (struct leaves_block){.level = l, .tile = t, .octant = LEAVES_WHOLE});
-            for (int o = 0; kind && o < 1 << mesh->dim; o++)
-                if (!(covered >> o & 1))
-                    leaves_add(leaves, run, (struct leaves_block){.level = l, .tile = t, .octant = o});
-        }
+    const struct level *level = &leaves->mesh->levels[l];
+    struct leaves_run *run = &leaves->runs[l][kind];
+    *run =
+        (struct leaves_run){.from = leaves->n_block, .cells = leaves->mesh->n_cell >> (kind ? leaves->mesh->dim : 0)};
+    for (unsigned t = level->first; t < level->first + level->n_local; t++)
+        for (int o = 0; o < 1 << leaves->mesh->dim; o++)
+            if (leaves_is_open(kind, level->tiles[t].covered, o))
+                leaves->blocks[leaves->n_block++] =
+                    (struct leaves_block){.level = l, .tile = t, .octant = kind ? o : LEAVES_WHOLE};
+    run->n = leaves->n_block - run->from;
+}
+
+/* Numbers the cells: what lies before a rank's blocks is what others have. */
+static void leaves_number(struct leaves *leaves)
+{
+    struct leaves_run *runs = leaves->runs[0];
+    int n_run = leaves->mesh->n_level * LEAVES_KINDS;
+    long long all[MESH_LEVELS * LEAVES_KINDS], before[MESH_LEVELS * LEAVES_KINDS];
+    for (int i = 0; i < n_run; i++) all[i] = before[i] = runs[i].n;
+    comm_sum_before(before, n_run);
+    comm_sum_counts(all, n_run);
+    for (int i = 0; i < n_run; i++) {
+        struct leaves_run *run = &runs[i];
+        run->all = (size_t)all[i];
+        run->before = (size_t)before[i];
+        run->first = leaves->n_cell;
+        run->local_first = run->first + run->before * run->cells;
+        run->local = run->n * run->cells;
+        leaves->n_cell += run->all * run->cells;
+        for (unsigned b = 0; b < run->n; b++) leaves->blocks[run->from + b].first = run->local_first + b * run->cells;
     }
 }
 
@@ -40,10 +50,12 @@ struct leaves *leaves_new(const struct mesh *mesh)
 {
     struct leaves *leaves = mem_new(1, sizeof *leaves);
     size_t most = 0;
-    for (int l = 0; l < mesh->n_level; l++) most += mesh->levels[l].n_tile;
+    for (int l = 0; l < mesh->n_level; l++) most += mesh->levels[l].n_local;
     leaves->mesh = mesh;
     leaves->blocks = mem_new(most << mesh->dim, sizeof *leaves->blocks);
-    for (int l = 0; l < mesh->n_level; l++) leaves_add_level(leaves, l);
+    for (int l = 0; l < mesh->n_level; l++)
+        for (int kind = 0; kind < LEAVES_KINDS; kind++) leaves_add(leaves, l, kind);
+    leaves_number(leaves);
     return leaves;
 }
 

@@ -9,6 +9,9 @@
 
 #include "base/comm.h"
 #include "base/mem.h"
+#include "base/swap.h"
+#include "mesh/fringe.h"
+#include "mesh/morton.h"
 
 enum { NODES_REGIONS = 64, NODES_PLACES = 125, NODES_KINDS = 2 * NODES_PLACES, NODES_NONE = -1 };
 
@@ -123,33 +126,82 @@ static void nodes_look(const struct mesh *mesh, int l, unsigned tile, struct nod
 }
 
 /* Numbers the points that a tile owns from 0 on, the others -1; returns how many. */
-static size_t nodes_own(const struct nodes *nodes, const struct mesh *mesh, struct nodes_owner owner,
-                        int32_t *ret_number)
+static size_t nodes_number(const struct nodes *nodes, const struct nodes_tile *tile, int32_t *ret_number)
 {
-    struct nodes_around around;
-    nodes_look(mesh, owner.level, owner.tile, &around);
     int32_t count = 0;
-    for (size_t point = 0; point < nodes->n_point; point++)
-        ret_number[point] = nodes_same(around.owners[nodes->kinds[point]], owner) ? count++ : -1;
+    for (size_t point = 0; point < nodes->n_point; point++) {
+        unsigned kind = nodes->kinds[point];
+        ret_number[point] = tile->kinds[kind / 64] >> kind % 64 & 1 ? count++ : -1;
+    }
     return (size_t)count;
 }
 
-/* Counts of all tiles of a level, each found by the rank that holds the tile. */
-static void nodes_count(struct nodes *nodes, const struct mesh *mesh, int l)
+/* Which points an own tile owns; those before it are not counted yet. */
+static void nodes_own(struct nodes *nodes, const struct mesh *mesh, struct nodes_owner owner)
 {
-    const struct level *level = &mesh->levels[l];
-    double *own = mem_new(level->n_local + 1, sizeof *own), *all = mem_new(level->n_tile, sizeof *all);
-    for (unsigned i = 0; i < level->n_local; i++)
-        own[i] = (double)nodes_own(nodes, mesh, (struct nodes_owner){l, level->first + i}, nodes->number);
-    comm_join(own, (int)level->n_local, all);
-    nodes->first[l] = mem_new((size_t)level->n_tile + 1, sizeof *nodes->first[l]);
-    for (unsigned tile = 0; tile < level->n_tile; tile++) {
-        nodes->first[l][tile] = nodes->total;
-        nodes->total += (size_t)all[tile];
+    struct nodes_tile *tile = &nodes->tiles[owner.level][owner.tile];
+    struct nodes_around around;
+    nodes_look(mesh, owner.level, owner.tile, &around);
+    for (unsigned kind = 0; kind < NODES_KINDS; kind++)
+        if (nodes_same(around.owners[kind], owner)) tile->kinds[kind / 64] |= UINT64_C(1) << kind % 64;
+    tile->n = nodes_number(nodes, tile, nodes->number);
+    tile->first = nodes->own[owner.level];
+    nodes->own[owner.level] += tile->n;
+}
+
+/* Counts what lies before the points of this rank's tiles. */
+static void nodes_count(struct nodes *nodes, const struct mesh *mesh)
+{
+    long long all[MESH_LEVELS], before[MESH_LEVELS];
+    for (int l = 0; l < mesh->n_level; l++) {
+        const struct level *level = &mesh->levels[l];
+        nodes->tiles[l] = mem_new(level->n_known, sizeof *nodes->tiles[l]);
+        for (unsigned i = 0; i < level->n_local; i++) nodes_own(nodes, mesh, (struct nodes_owner){l, level->first + i});
+        all[l] = before[l] = (long long)nodes->own[l];
     }
-    nodes->first[l][level->n_tile] = nodes->total;
-    mem_free(all);
-    mem_free(own);
+    comm_sum_before(before, mesh->n_level);
+    comm_sum_counts(all, mesh->n_level);
+    for (int l = 0; l < mesh->n_level; l++) {
+        nodes->first[l] = nodes->total + (size_t)before[l];
+        nodes->total += (size_t)all[l];
+        struct nodes_tile *own = nodes->tiles[l] + mesh->levels[l].first;
+        for (unsigned i = 0; i < mesh->levels[l].n_local; i++) own[i].first += nodes->first[l];
+    }
+}
+
+/* What others are told of a tile. */
+struct nodes_told {
+    uint64_t key;
+    int level;
+    struct nodes_tile tile;
+};
+
+static struct nodes_tile *nodes_find(const struct nodes *nodes, const struct mesh *mesh, int l, uint64_t key)
+{
+    int at[3];
+    morton_at(key, at);
+    return &nodes->tiles[l][mesh_find(mesh, &mesh->levels[l], at)];
+}
+
+/* Tells of this rank's tiles whoever knows them, and learns of the others around. */
+static void nodes_tell(struct nodes *nodes, const struct mesh *mesh)
+{
+    struct fringe fringe = {0};
+    struct swap got;
+    if (comm_size() == 1) return;
+    for (int l = 0; l < mesh->n_level; l++) fringe_list(mesh, l, comm_rank(), &fringe);
+    fringe_sort(&fringe);
+    struct nodes_told *told = mem_new(fringe.n, sizeof *told);
+    for (unsigned i = 0; i < fringe.n; i++) {
+        int l = (int)fringe.items[i].level;
+        told[i] = (struct nodes_told){fringe.items[i].key, l, *nodes_find(nodes, mesh, l, fringe.items[i].key)};
+    }
+    swap_items(told, sizeof *told, fringe.n, fringe.to, &got);
+    mem_free(told);
+    fringe_free(&fringe);
+    told = got.items;
+    for (unsigned i = 0; i < got.n; i++) *nodes_find(nodes, mesh, told[i].level, told[i].key) = told[i].tile;
+    swap_done(&got);
 }
 
 struct nodes *nodes_new(const struct mesh *mesh)
@@ -167,14 +219,15 @@ struct nodes *nodes_new(const struct mesh *mesh)
         nodes_at(nodes, point, at);
         nodes->kinds[point] = nodes_kind(mesh, at);
     }
-    for (int level = 0; level < mesh->n_level; level++) nodes_count(nodes, mesh, level);
+    nodes_count(nodes, mesh);
+    nodes_tell(nodes, mesh);
     return nodes;
 }
 
 void nodes_free(struct nodes *nodes)
 {
     if (!nodes) return;
-    for (int level = 0; level < MESH_LEVELS; level++) mem_free(nodes->first[level]);
+    for (int level = 0; level < MESH_LEVELS; level++) mem_free(nodes->tiles[level]);
     mem_free(nodes->number);
     mem_free(nodes->kinds);
     mem_free(nodes);
@@ -185,7 +238,8 @@ static void nodes_take(struct nodes *nodes, const struct mesh *mesh, const struc
                        unsigned tile, struct nodes_owner owner, int32_t *ret_numbers)
 {
     const int *here = mesh->levels[l].tiles[tile].at, *there = mesh->levels[owner.level].tiles[owner.tile].at;
-    nodes_own(nodes, mesh, owner, nodes->number);
+    const struct nodes_tile *owned = &nodes->tiles[owner.level][owner.tile];
+    nodes_number(nodes, owned, nodes->number);
     for (size_t point = 0; point < nodes->n_point; point++) {
         int at[3];
         if (!nodes_same(around->owners[nodes->kinds[point]], owner)) continue;
@@ -195,7 +249,7 @@ static void nodes_take(struct nodes *nodes, const struct mesh *mesh, const struc
             at[axis] = (owner.level < l ? index / 2 : index) - there[axis] * mesh->n[axis];
         }
         int place = at[0] + nodes->n[0] * (at[1] + nodes->n[1] * at[2]);
-        ret_numbers[point] = (int32_t)nodes->first[owner.level][owner.tile] + nodes->number[place];
+        ret_numbers[point] = (int32_t)owned->first + nodes->number[place];
     }
 }
 
@@ -220,7 +274,7 @@ size_t nodes_positions(struct nodes *nodes, const struct mesh *mesh, int level, 
 {
     const struct level *here = &mesh->levels[level];
     size_t count = 0;
-    nodes_own(nodes, mesh, (struct nodes_owner){level, tile}, nodes->number);
+    nodes_number(nodes, &nodes->tiles[level][tile], nodes->number);
     for (size_t point = 0; point < nodes->n_point; point++) {
         if (nodes->number[point] < 0) continue;
         int at[3];

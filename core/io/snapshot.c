@@ -12,9 +12,9 @@
 #include "io/filelist.h"
 #include "io/h5out.h"
 #include "io/leaves.h"
-#include "io/whole.h"
 #include "io/parts.h"
 #include "io/place.h"
+#include "io/roll.h"
 #include "io/vtkhdf.h"
 #include "io/writers.h"
 
@@ -147,20 +147,11 @@ void snapshot_free(struct snapshots *snapshots)
     mem_free(snapshots);
 }
 
-/* Level, tile coordinates, rank and covered octants of every tile. */
-static void snapshot_write_blocks(struct h5 *file, const struct mesh *mesh)
+/* Level, tile coordinates, rank and covered octants of a tile. */
+static void snapshot_block(int level, const struct tile *tile, int32_t *ret_block)
 {
-    size_t n = 0, at = 0;
-    for (int l = 0; l < mesh->n_level; l++) n += mesh->levels[l].n_tile;
-    int32_t *blocks = mem_new(n * SNAPSHOT_BLOCK, sizeof *blocks);
-    for (int l = 0; l < mesh->n_level; l++)
-        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++) {
-            const struct tile *tile = &mesh->levels[l].tiles[i];
-            const int32_t block[SNAPSHOT_BLOCK] = {l, tile->at[0], tile->at[1], tile->at[2], tile->rank, tile->covered};
-            for (int q = 0; q < SNAPSHOT_BLOCK; q++) blocks[at++] = block[q];
-        }
-    h5out_array(file, "/bulla/blocks", H5_I32, n, SNAPSHOT_BLOCK, blocks);
-    mem_free(blocks);
+    const int32_t block[SNAPSHOT_BLOCK] = {level, tile->at[0], tile->at[1], tile->at[2], tile->rank, tile->covered};
+    memcpy(ret_block, block, sizeof block);
 }
 
 /* Who wrote it: format, program, case. */
@@ -180,10 +171,11 @@ static void snapshot_write_origin(struct h5 *file, const struct scene *scene)
     text_done(&materials);
 }
 
-static void snapshot_write_bulla(struct h5 *file, const struct state *state, const char *provenance)
+static int snapshot_write_bulla(struct h5 *file, const struct state *state, const char *provenance)
 {
     const struct mesh *mesh = state->mesh;
     int32_t dim = mesh->dim, beta = mesh->beta;
+    struct roll roll;
     snapshot_write_origin(file, state->scene);
     h5_attribute(file, "/bulla", "dim", H5_I32, 0, &dim);
     h5_attribute(file, "/bulla", "beta", H5_I32, 0, &beta);
@@ -191,7 +183,8 @@ static void snapshot_write_bulla(struct h5 *file, const struct state *state, con
     h5_attribute(file, "/bulla", "upper", H5_F64, 3, mesh->upper);
     h5out_text(file, "/bulla/case.yaml", state->scene->resolved ? state->scene->resolved : "");
     h5out_text(file, "/bulla/provenance.json", provenance);
-    snapshot_write_blocks(file, mesh);
+    roll_take(mesh, &roll);
+    return roll_write(file, "/bulla/blocks", &roll, SNAPSHOT_BLOCK, snapshot_block, NULL);
 }
 
 static int snapshot_fill(struct h5 *file, const struct state *state, const struct vtkhdf_fields *fields,
@@ -200,13 +193,11 @@ static int snapshot_fill(struct h5 *file, const struct state *state, const struc
     int32_t step = (int32_t)state->step;
     h5_attribute(file, "/", "time", H5_F64, 0, &state->t);
     h5_attribute(file, "/", "iteration", H5_I32, 0, &step);
-    struct whole *whole = whole_begin(state->mesh);
     struct leaves *leaves = leaves_new(state->mesh);
     int code = vtkhdf_write(file, state, leaves, fields, cells);
-    if (!code && state->mesh->dim > 1) chombo_write(file, state, leaves, fields);
-    if (!code) snapshot_write_bulla(file, state, provenance);
+    if (!code && state->mesh->dim > 1) code = chombo_write(file, state, leaves, fields);
+    if (!code) code = snapshot_write_bulla(file, state, provenance);
     leaves_free(leaves);
-    whole_end(whole, state->mesh);
     return code;
 }
 

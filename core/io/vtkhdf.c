@@ -7,7 +7,6 @@
 #include "base/status.h"
 #include "io/h5out.h"
 #include "io/nodes.h"
-#include "io/seal.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -119,13 +118,12 @@ static void vtkhdf_fill_points(void *context, size_t first, size_t count, void *
     double(*x)[3] = to;
     for (int l = 0; l < out->mesh->n_level; l++) {
         const struct level *level = &out->mesh->levels[l];
-        const size_t *start = out->nodes->first[l];
         for (unsigned tile = level->first; tile < level->first + level->n_local; tile++) {
-            if (start[tile + 1] <= first || start[tile] >= first + count) continue;
+            size_t start = out->nodes->tiles[l][tile].first, end = start + out->nodes->tiles[l][tile].n;
+            if (end <= first || start >= first + count) continue;
             nodes_positions(out->nodes, out->mesh, l, tile, out->x);
-            size_t low = start[tile] > first ? start[tile] : first;
-            size_t high = start[tile + 1] < first + count ? start[tile + 1] : first + count;
-            memcpy(x + (low - first), out->x + (low - start[tile]), (high - low) * sizeof *x);
+            size_t low = start > first ? start : first, high = end < first + count ? end : first + count;
+            memcpy(x + (low - first), out->x + (low - start), (high - low) * sizeof *x);
         }
     }
 }
@@ -180,14 +178,11 @@ static void vtkhdf_fill_types(void *context, size_t first, size_t count, void *t
 static void vtkhdf_divide(struct vtkhdf *out)
 {
     for (int l = 0; l < out->mesh->n_level; l++) {
-        const struct level *level = &out->mesh->levels[l];
-        const size_t *start = out->nodes->first[l];
         for (int kind = 0; kind < LEAVES_KINDS; kind++) {
             const struct leaves_run *run = &out->leaves->runs[l][kind];
             out->cells[out->n_range++] = (struct h5out_range){run->local_first, run->local};
         }
-        out->points[l] =
-            (struct h5out_range){start[level->first], start[level->first + level->n_local] - start[level->first]};
+        out->points[l] = (struct h5out_range){out->nodes->first[l], out->nodes->own[l]};
     }
 }
 
@@ -201,19 +196,6 @@ void vtkhdf_forget(struct vtkhdf_cells *cells)
     *cells = (struct vtkhdf_cells){.most = cells->most};
 }
 
-/* What tells one mesh from another: the tiles of all levels, who has them, what is under finer ones. */
-static uint64_t vtkhdf_mesh(const struct mesh *mesh)
-{
-    uint64_t sum = 0;
-    for (int l = 0; l < mesh->n_level; l++)
-        for (unsigned i = 0; i < mesh->levels[l].n_tile; i++) {
-            const struct tile *tile = &mesh->levels[l].tiles[i];
-            const uint64_t facts[] = {sum, tile->key, (uint64_t)tile->rank << 32 | (uint64_t)l << 8 | tile->covered};
-            sum = seal_hash(facts, sizeof facts);
-        }
-    return sum;
-}
-
 /* Bytes of points and connections. */
 static size_t vtkhdf_bytes(const struct vtkhdf *out)
 {
@@ -224,12 +206,11 @@ static size_t vtkhdf_bytes(const struct vtkhdf *out)
 /* Goes on with the points of the file before, if they are those of this mesh. */
 static void vtkhdf_recall(struct vtkhdf *out, struct vtkhdf_cells *cells)
 {
-    uint64_t mesh = vtkhdf_mesh(out->mesh);
-    out->again = cells->is_kept && cells->mesh == mesh;
+    out->again = cells->is_kept && cells->revision == out->mesh->revision;
     if (!out->again) {
         vtkhdf_forget(cells);
         cells->nodes = nodes_new(out->mesh);
-        cells->mesh = mesh;
+        cells->revision = out->mesh->revision;
     }
     out->nodes = cells->nodes;
     out->kept = vtkhdf_bytes(out) / (size_t)out->file->writers <= cells->most ? cells : NULL;

@@ -20,7 +20,7 @@ struct vtkhdf_fields {
  * the mesh has changed. Start from {0}. */
 struct vtkhdf_cells {
     size_t most; /* bytes of them, not packed, that a writer may keep packed in memory; with more, all are made anew */
-    uint64_t mesh; /* what is kept is of this mesh */
+    unsigned revision; /* what is kept is of this one of the mesh */
     bool is_kept;
     struct nodes *nodes; /* NULL: there was no file yet */
     struct h5out_kept points, connectivity, offsets, types;

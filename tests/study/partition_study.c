@@ -313,12 +313,13 @@ static void study_print_pieces(struct study *study, int size)
     struct pieces pieces = pieces_regrid(study, size);
     struct study_projection p = study_project(study, size);
     double shared = study_shared(study, &pieces, size), busy = p.compute + p.wait + p.network;
-    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2g | %.2g | %.2g | %.0f | %.2g | %.2g | %.2g | %.3f | %.3f | %.2f | "
-           "%.2f |\n",
+    printf("| %s %dD, %d | %d | %.3g | %.3g | %.2g | %.2g | %.2g | %.0f | %.2g | %.2g | %.2g | %.3g | %.2g | %.3f | "
+           "%.3f | %.2f | %.2f |\n",
            study->scene.name, study->scene.dim, study->scene.n, size, study->tiles / size,
            1e3 * study->topology * study->tiles, 1e3 * pieces.mean, 1e3 * pieces.most, 1e3 * pieces.cut,
-           pieces.messages, pieces.bytes / 1e3, pieces.held / 1e3, pieces.table / 1e3, p.topology / p.compute,
-           shared / p.compute, p.compute / (busy + p.topology), p.compute / (busy + shared));
+           pieces.messages, pieces.bytes / 1e3, pieces.held / 1e3, pieces.table / 1e3, pieces.files_of_all / 1e3,
+           pieces.files / 1e3, p.topology / p.compute, shared / p.compute, p.compute / (busy + p.topology),
+           p.compute / (busy + shared));
 }
 
 static void study_head(const char *title, const char *columns)
@@ -342,7 +343,8 @@ static void study_pieces(struct study *studies, int n_study)
 {
     study_head("Pieces",
                "| set | ranks | tiles per rank | list of all, ms | piece, mean | most | cut "
-               "| messages | kB | kB known | kB of keys | topology / ideal, list | now | efficiency, list | now |");
+               "| messages | kB | kB known | kB of keys | kB in files, list | now | topology / ideal, list | now "
+               "| efficiency, list | now |");
     for (int i = 0; i < n_study; i++)
         for (int s = 0; s < STUDY_RANKS; s++) study_print_pieces(&studies[i], RANKS[s]);
 }

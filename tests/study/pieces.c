@@ -5,6 +5,8 @@
 #include "../unit/replicated.h"
 #include "base/mem.h"
 #include "base/swap.h"
+#include "io/leaves.h"
+#include "io/nodes.h"
 #include "mesh/carry.h"
 #include "mesh/deal.h"
 #include "mesh/fringe.h"
@@ -28,7 +30,7 @@ struct pieces_mail {
 struct pieces_rank {
     struct nest_set sets[MESH_LEVELS];
     struct pieces_mail mail;
-    double seconds, least, bytes, messages, held;
+    double seconds, least, bytes, messages, held, files;
 };
 
 enum { PIECES_REPEATS = 3 }; /* the machine is shared: the least counts */
@@ -308,6 +310,17 @@ static struct pieces_fringe pieces_tell(struct pieces_world *world)
     return all;
 }
 
+/* Bytes of the numbered cells of n tiles. */
+static double pieces_blocks(const struct mesh *mesh, const struct tile *tiles, unsigned n)
+{
+    double blocks = 0.0;
+    for (unsigned t = 0; t < n; t++) {
+        blocks += !tiles[t].covered;
+        for (int o = 0; tiles[t].covered && o < 1 << mesh->dim; o++) blocks += !(tiles[t].covered >> o & 1);
+    }
+    return blocks * sizeof(struct leaves_block);
+}
+
 /* Lists of what a rank knows, and the flags that follow. They must be those that a rank has which knows all. */
 static void pieces_know(struct pieces_world *world, int r, const struct swap *got)
 {
@@ -328,8 +341,11 @@ static void pieces_know(struct pieces_world *world, int r, const struct swap *go
     }
     for (int l = 0; l < known.n_level; l++) level_cover(&known, l);
     rank->seconds += pieces_clock() - start;
+    rank->files = 0.0;
     for (int l = 0; l < known.n_level; l++) {
         const struct level *level = &known.levels[l], *all = &world->mesh->levels[l];
+        rank->files += (double)level->n_known * sizeof(struct nodes_tile) +
+                       pieces_blocks(&known, level->tiles + level->first, level->n_local);
         for (unsigned t = 0; t < level->n_local; t++) {
             const struct tile *own = &level->tiles[level->first + t], *same = &all->tiles[all->first + t];
             if (own->covered == same->covered && own->hidden == same->hidden) continue;
@@ -387,11 +403,14 @@ struct pieces pieces_regrid(struct study *study, int size)
         pieces.bytes = fmax(pieces.bytes, rank->bytes);
         pieces.messages = fmax(pieces.messages, rank->messages);
         pieces.held = fmax(pieces.held, rank->held);
+        pieces.files = fmax(pieces.files, rank->files);
         mem_free(rank->mail.list);
     }
     for (int l = 0; l < mesh->n_level; l++) {
         nest_keys_free(&wishes[l]);
         pieces.table += (double)size * sizeof(uint64_t);
+        pieces.files_of_all += (double)mesh->levels[l].n_tile * (sizeof(struct tile) + sizeof(size_t)) +
+                               pieces_blocks(mesh, mesh->levels[l].tiles, mesh->levels[l].n_tile);
     }
     pieces_stop(&world);
     return pieces;

@@ -12,6 +12,8 @@ struct pieces {
     double joined;          /* bytes that come to every rank: runs and tables of the cut, first keys */
     double held;            /* bytes of the lists of the rank that knows most */
     double table;           /* and of the first keys that every rank holds */
+    double files;           /* bytes of lists while a snapshot is written, of the rank that has most */
+    double files_of_all;    /* and of a rank that lists all tiles for that */
 };
 
 /* A regrid from level 0 that replaces all levels by what they are, on `size` ranks. */

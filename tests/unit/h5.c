@@ -5,6 +5,7 @@
 #include "base/status.h"
 #include "io/h5in.h"
 #include "io/h5out.h"
+#include "io/h5view.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -163,16 +164,16 @@ static void test_interleave(void **state)
     struct h5 *file;
     const float a[6] = {0, 1, 2, 3, 4, 5};
     const float b[18] = {0, 10, 20, 1, 11, 21, 2, 12, 22, 3, 13, 23, 4, 14, 24, 5, 15, 25};
-    const struct h5out_column columns[2] = {{"/a", 0, 0}, {"/b", 3, 1}};
-    const struct h5out_groups runs[3] = {{0, 2, 2}, {4, 2, 0}, {4, 1, 2}}; /* pairs, none, single rows */
-    const struct h5out_view view = {
+    const struct h5view_column columns[2] = {{"/a", 0, 0}, {"/b", 3, 1}};
+    const struct h5view_groups runs[3] = {{0, 2, 2}, {4, 2, 0}, {4, 1, 2}}; /* pairs, none, single rows */
+    const struct h5view view = {
         .type = H5_F32, .n_column = 2, .columns = columns, .total = 6, .n_run = 3, .runs = runs};
     const double expected[12] = {0, 1, 10, 11, 2, 3, 12, 13, 4, 14, 5, 15};
     double values[12];
     assert_int_equal(h5_create(path, &file), 0);
     h5out_array(file, "/a", H5_F32, 6, 0, a);
     h5out_array(file, "/b", H5_F32, 6, 3, b);
-    h5out_interleave(file, "/view", &view);
+    h5view_write(file, "/view", &view);
     assert_int_equal(h5_close(file), 0);
     assert_int_equal(h5_open(path, &file), 0);
     assert_int_equal(h5in_read(file, "/view", values), 0);

@@ -1,0 +1,174 @@
+/* Who writes a file holds its own tiles and what lies around them, never the list of all: on several ranks
+ * (program/ranks_mesh.sh starts them) all but the last have the same tiles in a small domain and in one of four times
+ * as many, and what they take to write a snapshot and a checkpoint is the same. */
+#include "base/comm.h"
+#include "io/checkpoint.h"
+#include "io/roll.h"
+#include "io/snapshot.h"
+#include "replicated.h"
+#include "small.h"
+
+#include <malloc.h>
+
+/* Tiles of all ranks but the last; tiles along a side of the domains; bytes by which blocks of the same use may differ
+ * (packed numbers, what the C library rounds to): less than two per tile that is more. */
+enum { OWN = 64, FEW = 92, MANY = 2 * FEW, SLACK = 4096 };
+
+/* Bytes that are in use, most of them so far, and all that were asked for. */
+static long long used, most, asked;
+
+void *__real_mem_new(size_t count, size_t size);
+void *__real_mem_new_large(size_t count, size_t size);
+void *__real_mem_grow(void *block, size_t old_count, size_t new_count, size_t size);
+void __real_mem_free(void *block);
+void *__wrap_mem_new(size_t count, size_t size);
+void *__wrap_mem_new_large(size_t count, size_t size);
+void *__wrap_mem_grow(void *block, size_t old_count, size_t new_count, size_t size);
+void __wrap_mem_free(void *block);
+
+static void *count_in(void *block)
+{
+    used += (long long)malloc_usable_size(block);
+    asked += (long long)malloc_usable_size(block);
+    if (used > most) most = used;
+    return block;
+}
+
+void *__wrap_mem_new(size_t count, size_t size)
+{
+    return count_in(__real_mem_new(count, size));
+}
+
+void *__wrap_mem_new_large(size_t count, size_t size)
+{
+    return count_in(__real_mem_new_large(count, size));
+}
+
+void *__wrap_mem_grow(void *block, size_t old_count, size_t new_count, size_t size)
+{
+    used -= (long long)malloc_usable_size(block);
+    return count_in(__real_mem_grow(block, old_count, new_count, size));
+}
+
+void __wrap_mem_free(void *block)
+{
+    used -= (long long)malloc_usable_size(block);
+    __real_mem_free(block);
+}
+
+/* Water in `side` x `side` tiles of 4 x 4 cells, wherever the domain ends; nothing is kept from one file to the next.
+ */
+static char *scene_of(int side)
+{
+    return mem_print("bulla: 1\ntitle: Water\ndomain: {lower: [0, 0], upper: [%d, %d], cells: [%d, %d],\n"
+                     "  boundaries: {x-: outflow, x+: outflow, y-: outflow, y+: outflow}}\nmesh: {tile: 4}\n%s"
+                     "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: 1e5}\n"
+                     "run: {until: 1 us}\noutput: {writers: 1, snapshots: {every: 1 us, memory: 0}}\n",
+                     side, side, 4 * side, 4 * side, SMALL_MATERIALS);
+}
+
+/* The first tiles along the curve go to the lower ranks, all others to the last. */
+static void share(struct mesh *mesh)
+{
+    unsigned n = mesh->levels[0].n_tile;
+    uint64_t *keys = mem_new(n, sizeof *keys);
+    struct tile *tiles = mem_new(n, sizeof *tiles);
+    struct mesh_change change;
+    unsigned known = 0;
+    for (unsigned i = 0; i < mesh->levels[0].n_local; i++)
+        keys[i] = mesh->levels[0].tiles[mesh->levels[0].first + i].key;
+    uint64_t *all = comm_join_keys(keys, mesh->levels[0].n_local, &known);
+    assert_int_equal(known, n);
+    for (unsigned i = 0; i < n; i++) {
+        int rank = (int)i / OWN, last = comm_size() - 1;
+        tiles[i] = (struct tile){.key = all[i], .rank = rank < last ? rank : last};
+        morton_at(all[i], tiles[i].at);
+    }
+    replicated_replace(mesh, 0, tiles, n, &change);
+    mesh_change_free(&change);
+    mem_free(all);
+    mem_free(keys);
+}
+
+enum { SNAPSHOT, SNAPSHOT_ALL, CHECKPOINT, CHECKPOINT_ALL, BYTES };
+
+/* Bytes since `before`, when so much was in use and had been asked for: most in use, and all. */
+static void tell(const long long before[2], long long ret_bytes[2])
+{
+    ret_bytes[0] = most - before[0];
+    ret_bytes[1] = asked - before[1];
+}
+
+/* What is taken while a snapshot and a checkpoint are written. */
+static void weigh(int side, long long ret_bytes[BYTES])
+{
+    struct small small;
+    struct snapshots *snapshots;
+    struct notes notes = {0};
+    char *text = scene_of(side);
+    small_start(&small, text);
+    share(small.state->mesh);
+    assert_int_equal(small.state->mesh->levels[0].n_tile, side * side);
+    if (comm_rank() + 1 < comm_size()) assert_int_equal(small.state->mesh->levels[0].n_local, OWN);
+    struct checkpoints *checkpoints = checkpoint_new(small.scene);
+    assert_int_equal(snapshot_new(small.state, &snapshots), 0);
+    const long long start[2] = {most = used, asked};
+    assert_int_equal(snapshot_write(snapshots, small.state, SMALL_NOW(small.state), "{}"), 0);
+    tell(start, ret_bytes + SNAPSHOT);
+    const long long next[2] = {most = used, asked};
+    assert_int_equal(checkpoint_write(checkpoints, small.state, &notes), 0);
+    tell(next, ret_bytes + CHECKPOINT);
+    checkpoint_free(checkpoints);
+    snapshot_free(snapshots);
+    small_stop(&small);
+    mem_free(text);
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    long long few[BYTES], many[BYTES];
+    weigh(FEW, few);
+    weigh(MANY, many);
+    printf("rank %d of %d, bytes:", comm_rank(), comm_size());
+    for (int i = 0; i < BYTES; i++) printf(" %lld %lld,", few[i], many[i]);
+    printf("\n");
+    if (comm_rank() + 1 == comm_size()) return; /* it has the other tiles */
+    for (int i = 0; i < BYTES; i++) {
+        bool reads_back = comm_rank() == 0 && i == CHECKPOINT_ALL; /* by pieces, of small parts by smaller ones */
+        if (!reads_back) assert_true(many[i] < few[i] + SLACK);
+    }
+}
+
+/* Places of own tiles are those of their keys among all. */
+static void test_places(void **state)
+{
+    (void)state;
+    struct small small;
+    struct roll roll;
+    char *text = scene_of(16);
+    small_start(&small, text);
+    const struct level *level = &small.state->mesh->levels[0];
+    roll_take(small.state->mesh, &roll);
+    assert_int_equal(roll.n_tile, 256);
+    for (unsigned i = 0; i < level->n_local; i++) {
+        int l = -1;
+        size_t place = 0; /* the curve of a square without the bits of z */
+        uint64_t key = level->tiles[level->first + i].key;
+        for (int b = 0; b < 4; b++) place |= (size_t)(key >> 3 * b & 3) << 2 * b;
+        assert_int_equal(roll_local(&roll, place, &l), i);
+        assert_int_equal(l, 0);
+    }
+    small_stop(&small);
+    mem_free(text);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_places), cmocka_unit_test(test_memory)};
+    comm_init(&argc, &argv);
+    if (registry_init()) return 1;
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    comm_done();
+    return failed;
+}
