@@ -19,6 +19,9 @@ enum { SETTLE_BATCH = 32, SETTLE_ROUNDS = 12 };
 /* Volumes that change by less from round to round have arrived, as parts of the cell. */
 #define SETTLE_ENOUGH 1e-11
 
+/* Where surfaces lie as they like less solid than that in a cell takes no heat: dust in gas would boil. */
+#define SETTLE_LEAST 1e-3
+
 /* No material loses more of its volume at once. */
 #define SETTLE_MOST 0.5
 
@@ -43,14 +46,15 @@ struct settle {
 
 bool settle_wanted(const struct model *path)
 {
-    return (path->plastic || path->n_branch) && path->split && !path->n_normal && path->n_alpha;
+    bool relaxes = path->n_branch && !path->n_normal;
+    return (path->plastic || relaxes) && path->split && path->n_alpha;
 }
 
 bool settle_is(const struct model *model, size_t stride, const double *u)
 {
     double solid = 0.0;
     for (unsigned s = 0; s < model->n_solid; s++) solid += u[(model->i_alpha + model->solids[s].material) * stride];
-    return solid > MIX_ABSENT && solid < 1.0 - SETTLE_TRACE;
+    return solid > (model->n_normal ? SETTLE_LEAST : MIX_ABSENT) && solid < 1.0 - settle_trace(model);
 }
 
 static bool settle_solid(const struct model *model, unsigned l)
