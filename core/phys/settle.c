@@ -42,6 +42,7 @@ struct settle {
     double heat[SETTLE_BATCH];                   /* energy that is left, per volume of the solids [J/m3] */
     double held[SETTLE_BATCH];                   /* what the cell holds, beside motion */
     double grown[SCENE_MATERIALS][SETTLE_BATCH]; /* of plastic strains */
+    bool done[SETTLE_BATCH];                     /* has arrived, and stays, whoever else is in the batch */
 };
 
 bool settle_wanted(const struct model *path)
@@ -154,8 +155,8 @@ static double settle_push(const struct settle *settle, unsigned l, size_t i)
     return settle_solid(settle->model, l) ? own + settle->heat[i] / settle->per_p[l][i] : own;
 }
 
-/* One cell towards one traction; returns the largest change of a volume. */
-static double settle_cell(struct settle *settle, size_t i)
+/* One cell towards one traction, unless it has arrived there: the volumes would hardly change. */
+static void settle_cell(struct settle *settle, size_t i)
 {
     const struct model *model = settle->model;
     double give = 0.0, sum = 0.0, step[SCENE_MATERIALS], scale = 1.0, most = 0.0;
@@ -173,10 +174,10 @@ static double settle_cell(struct settle *settle, size_t i)
     }
     for (unsigned l = 0; l < model->n_alpha; l++) {
         double moved = fabs(scale * step[l]) * settle->trial[model->i_alpha + l][i];
-        settle->x[l][i] += scale * step[l];
         most = moved > most ? moved : most;
     }
-    return most;
+    settle->done[i] = !(most > SETTLE_ENOUGH);
+    for (unsigned l = 0; l < model->n_alpha && !settle->done[i]; l++) settle->x[l][i] += scale * step[l];
 }
 
 /* What the laws say of the trial at p. */
@@ -207,19 +208,19 @@ static void settle_hold(struct settle *settle)
 /* From the trial, of which p, stiff and rho_c2 are known, to u. */
 static void settle_search(struct settle *settle)
 {
-    bool done = false;
+    size_t left = settle->n;
     memset(settle->x, 0, sizeof settle->x);
+    memset(settle->done, 0, sizeof settle->done);
     settle_hold(settle);
-    for (int round = 0; round < SETTLE_ROUNDS && !done; round++) {
-        double most = 0.0;
+    for (int round = 0; round < SETTLE_ROUNDS && left > 0; round++) {
         settle_strain(settle);
         settle_pull(settle);
         settle_heat(settle);
+        left = 0;
         for (size_t i = 0; i < settle->n; i++) {
-            double moved = settle_cell(settle, i);
-            most = moved > most ? moved : most;
+            if (!settle->done[i]) settle_cell(settle, i);
+            left += !settle->done[i];
         }
-        done = !(most > SETTLE_ENOUGH);
     }
 }
 
