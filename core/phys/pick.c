@@ -18,7 +18,7 @@ static BULLA_KERNEL void pick_mark_both(size_t n, const double *restrict one, co
                                         unsigned char *restrict mark)
 {
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) mark[i] |= (one[i] != 0.0) | (other[i] != 0.0) ? 1 : 0;
+    for (size_t i = 0; i < n; i++) mark[i] |= ((one[i] != 0.0) | (other[i] != 0.0)) ? 1 : 0;
 }
 
 /* Where a surface is, cells with and without a mark follow each other as they like: no branch within a group. */
