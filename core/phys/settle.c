@@ -58,13 +58,6 @@ bool settle_is(const struct model *model, size_t stride, const double *u)
     return solid > (model->n_normal ? SETTLE_LEAST : MIX_ABSENT) && solid < 1.0 - settle_trace(model);
 }
 
-static bool settle_solid(const struct model *model, unsigned l)
-{
-    bool solid = false;
-    for (unsigned s = 0; s < model->n_solid; s++) solid = solid || model->solids[s].material == l;
-    return solid;
-}
-
 /* alpha of a material; 0: it is not there. */
 static double settle_part(const struct settle *settle, unsigned l, size_t i)
 {
@@ -105,7 +98,7 @@ static void settle_heat(struct settle *settle)
     elastic_energy(model, settle->n, SETTLE_BATCH, settle->u[model->i_V], m, elastic);
     for (size_t i = 0; i < settle->n; i++) settle->heat[i] = settle->held[i] - elastic[i];
     for (unsigned l = 0; l < model->n_alpha; l++) {
-        bool is = settle_solid(model, l);
+        bool is = model_is_solid(model, l);
         for (size_t i = 0; i < settle->n; i++) p[i] = settle_pressure(settle, l, i);
         model->eos[l].law->state(model->eos[l].self, settle->n, settle->w[model->i_m + l], p, rho_e, rho_c2);
         for (size_t i = 0; i < settle->n; i++) {
@@ -152,7 +145,7 @@ static void settle_strain(struct settle *settle)
 static double settle_push(const struct settle *settle, unsigned l, size_t i)
 {
     double own = settle_pressure(settle, l, i) - settle->pull[l][i];
-    return settle_solid(settle->model, l) ? own + settle->heat[i] / settle->per_p[l][i] : own;
+    return model_is_solid(settle->model, l) ? own + settle->heat[i] / settle->per_p[l][i] : own;
 }
 
 /* One cell towards one traction, unless it has arrived there: the volumes would hardly change. */
@@ -272,7 +265,7 @@ static void settle_follow(struct settle *settle)
     for (size_t i = 0; i < settle->n; i++) {
         double sum = 0.0, all = 0.0;
         for (unsigned l = 0; l < model->n_alpha; l++) {
-            double alpha = settle_solid(model, l) ? 0.0 : settle_part(settle, l, i);
+            double alpha = model_is_solid(model, l) ? 0.0 : settle_part(settle, l, i);
             sum += alpha > 0.0 ? alpha * settle->p[l][i] : 0.0;
             all += alpha;
         }

@@ -119,7 +119,8 @@ void normal_make(const struct model *model, const struct mesh *mesh, const doubl
     struct normal_block block = {.box = patch_block(mesh, 1, NULL)};
     size_t cells = block.box.pitch;
     double *colour = mem_new(1, cells * (sizeof *colour + sizeof(unsigned) + 1) + sizeof(unsigned));
-    unsigned *at = (unsigned *)(colour + cells);
+    unsigned *some = (unsigned *)(colour + cells);
+    const unsigned *at = some;
     for (int a = 0; a < 3; a++) {
         block.stride[a] = a == 0 ? 1 : block.stride[a - 1] * (ptrdiff_t)block.box.size[a - 1];
         block.ratio[a] = a < mesh->dim ? h[0] / h[a] : 1.0;
@@ -127,10 +128,10 @@ void normal_make(const struct model *model, const struct mesh *mesh, const doubl
     block.colour = colour;
     normal_colour(model, cells, cells, around, colour);
     memset(ret_normal, 0, (size_t)mesh->dim * mesh->n_cell * sizeof *ret_normal);
-    at[normal_cells(mesh, &block, (unsigned char *)(at + cells + 1), at)] = UINT_MAX;
+    some[normal_cells(mesh, &block, (unsigned char *)(some + cells + 1), some)] = UINT_MAX;
     for (int k = 0; k < mesh->n[2]; k++)
         for (int j = 0; j < mesh->n[1]; j++, ret_normal += mesh->n[0])
-            at = (unsigned *)normal_row(mesh, &block, box_at(&block.box, 0, j, k), at, ret_normal);
+            at = normal_row(mesh, &block, box_at(&block.box, 0, j, k), at, ret_normal);
     mem_free(colour);
 }
 

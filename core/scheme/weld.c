@@ -80,7 +80,7 @@ static void weld_aim(struct weld *weld, size_t i, const double g[3], double size
     }
 }
 
-/* Marks cells in which a solid is. */
+/* Counts a solid where it is. */
 static BULLA_KERNEL void weld_count(size_t n, const double *restrict alpha, const double *restrict m,
                                     unsigned char *restrict there)
 {
