@@ -19,10 +19,7 @@ enum { SPREAD_BEAR_ROUNDS = 20 };
 /* Materials with a pressure of their own beside a solid need not bear what the solid does. */
 static bool spread_bear_asked(const struct model *model, unsigned l)
 {
-    if (!model->split) return true;
-    for (unsigned s = 0; s < model->n_solid; s++)
-        if (model->solids[s].material == l) return true;
-    return false;
+    return !model->split || model_is_solid(model, l);
 }
 
 /* Written so that a NaN counts as bad. */

@@ -288,46 +288,51 @@ struct elastic_out {
     double *normal, *shear_1, *shear_2, *stiff, *rigid;
 };
 
-#define ELASTIC_SIDES(nv)                                                                                             \
-    static BULLA_KERNEL void elastic_plain_##nv(size_t n, struct elastic_rows V, const struct elastic_batch *batch,   \
-                                                const double *restrict fluid, struct elastic_out out)                 \
-    {                                                                                                                 \
-        double *restrict normal = out.normal, *restrict stiff = out.stiff, *restrict rigid = out.rigid;               \
-        double *restrict shear_1 = out.shear_1, *restrict shear_2 = out.shear_2;                                      \
-        const double *restrict G1 = batch->G1;                                                                        \
-        ELASTIC_LOCAL(V);                                                                                             \
-        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                            \
-        {                                                                                                             \
-            struct elastic_face face = elastic_plain(ELASTIC_AT(i, nv), G1[i], fluid[i]);                             \
-            normal[i] = face.normal;                                                                                  \
-            stiff[i] = face.stiff;                                                                                    \
-            rigid[i] = face.rigid;                                                                                    \
-            if ((nv) > 1) shear_1[i] = face.shear_1;                                                                  \
-            if ((nv) > 2) shear_2[i] = face.shear_2;                                                                  \
-        }                                                                                                             \
-    }                                                                                                                 \
-    static BULLA_KERNEL void elastic_general_##nv(size_t n, struct elastic_rows V, const struct elastic_batch *batch, \
-                                                  const double *restrict fluid, struct elastic_out out)               \
-    {                                                                                                                 \
-        double *restrict normal = out.normal, *restrict stiff = out.stiff, *restrict rigid = out.rigid;               \
-        double *restrict shear_1 = out.shear_1, *restrict shear_2 = out.shear_2;                                      \
-        const double *restrict G1 = batch->G1, *restrict G2 = batch->G2, *restrict I1 = batch->I1;                    \
-        const double *restrict H11 = batch->H11, *restrict H12 = batch->H12, *restrict H22 = batch->H22;              \
-        ELASTIC_LOCAL(V);                                                                                             \
-        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                            \
-        {                                                                                                             \
-            struct elastic_slopes slopes = {G1[i], G2[i], H11[i], H12[i], H22[i], I1[i]};                             \
-            struct elastic_face face = elastic_general(ELASTIC_AT(i, nv), slopes, fluid[i]);                          \
-            normal[i] = face.normal;                                                                                  \
-            stiff[i] = face.stiff;                                                                                    \
-            rigid[i] = face.rigid;                                                                                    \
-            if ((nv) > 1) shear_1[i] = face.shear_1;                                                                  \
-            if ((nv) > 2) shear_2[i] = face.shear_2;                                                                  \
-        }                                                                                                             \
+#define ELASTIC_SIDES(kind, nv, op)                                                                             \
+    static BULLA_KERNEL void elastic_plain##kind##_##nv(size_t n, struct elastic_rows V,                        \
+                                                        const struct elastic_batch *batch,                      \
+                                                        const double *restrict fluid, struct elastic_out out)   \
+    {                                                                                                           \
+        double *restrict normal = out.normal, *restrict stiff = out.stiff, *restrict rigid = out.rigid;         \
+        double *restrict shear_1 = out.shear_1, *restrict shear_2 = out.shear_2;                                \
+        const double *restrict G1 = batch->G1;                                                                  \
+        ELASTIC_LOCAL(V);                                                                                       \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                      \
+        {                                                                                                       \
+            struct elastic_face face = elastic_plain(ELASTIC_AT(i, nv), G1[i], fluid[i]);                       \
+            normal[i] op face.normal;                                                                           \
+            stiff[i] op face.stiff;                                                                             \
+            rigid[i] op face.rigid;                                                                             \
+            if ((nv) > 1) shear_1[i] op face.shear_1;                                                           \
+            if ((nv) > 2) shear_2[i] op face.shear_2;                                                           \
+        }                                                                                                       \
+    }                                                                                                           \
+    static BULLA_KERNEL void elastic_general##kind##_##nv(size_t n, struct elastic_rows V,                      \
+                                                          const struct elastic_batch *batch,                    \
+                                                          const double *restrict fluid, struct elastic_out out) \
+    {                                                                                                           \
+        double *restrict normal = out.normal, *restrict stiff = out.stiff, *restrict rigid = out.rigid;         \
+        double *restrict shear_1 = out.shear_1, *restrict shear_2 = out.shear_2;                                \
+        const double *restrict G1 = batch->G1, *restrict G2 = batch->G2, *restrict I1 = batch->I1;              \
+        const double *restrict H11 = batch->H11, *restrict H12 = batch->H12, *restrict H22 = batch->H22;        \
+        ELASTIC_LOCAL(V);                                                                                       \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                      \
+        {                                                                                                       \
+            struct elastic_slopes slopes = {G1[i], G2[i], H11[i], H12[i], H22[i], I1[i]};                       \
+            struct elastic_face face = elastic_general(ELASTIC_AT(i, nv), slopes, fluid[i]);                    \
+            normal[i] op face.normal;                                                                           \
+            stiff[i] op face.stiff;                                                                             \
+            rigid[i] op face.rigid;                                                                             \
+            if ((nv) > 1) shear_1[i] op face.shear_1;                                                           \
+            if ((nv) > 2) shear_2[i] op face.shear_2;                                                           \
+        }                                                                                                       \
     }
-ELASTIC_SIDES(1)
-ELASTIC_SIDES(2)
-ELASTIC_SIDES(3)
+ELASTIC_SIDES(, 1, =)
+ELASTIC_SIDES(, 2, =)
+ELASTIC_SIDES(, 3, =)
+ELASTIC_SIDES(_add, 1, +=)
+ELASTIC_SIDES(_add, 2, +=)
+ELASTIC_SIDES(_add, 3, +=)
 
 /* The tensor with its axes renamed: the normal of the face first, then the tangents. */
 static struct elastic_rows elastic_turn(const struct model *model, int axis, size_t stride, const double *V)
@@ -339,7 +344,8 @@ static struct elastic_rows elastic_turn(const struct model *model, int axis, siz
     return rows;
 }
 
-/* What stretch k alone gives a row of faces; its energy is in the batch. `stiffness`: of the fluid, from 0. */
+/* What stretch k gives a row of faces, or adds to it behind the first one; its energy is in the batch. `stiffness`: of
+ * the fluid, from 0. */
 static void elastic_sides_of(const struct model *model, unsigned k, int axis, size_t n, size_t stride, const double *V,
                              size_t from, const double *const *m, const double *stiffness,
                              const struct elastic_out *out, struct elastic_batch *batch)
@@ -348,30 +354,14 @@ static void elastic_sides_of(const struct model *model, unsigned k, int axis, si
     struct elastic_rows rows = elastic_turn(model, axis, stride, own);
     bool plain = elastic_is_plain(model, k);
     if (!plain) elastic_curvature(&model->solids[k], n, m[k] + from, batch);
-    if (plain) ELASTIC_CHOOSE(model->n_velocity, elastic_plain, n, rows, batch, stiffness, *out);
+    if (plain && k) ELASTIC_CHOOSE(model->n_velocity, elastic_plain_add, n, rows, batch, stiffness, *out);
+    else if (plain) ELASTIC_CHOOSE(model->n_velocity, elastic_plain, n, rows, batch, stiffness, *out);
+    else if (k) ELASTIC_CHOOSE(model->n_velocity, elastic_general_add, n, rows, batch, stiffness, *out);
     else ELASTIC_CHOOSE(model->n_velocity, elastic_general, n, rows, batch, stiffness, *out);
 }
 
-/* What the stretches behind the first one add to a row of faces. The stiffness along the normal adds up to first order
- * in what couples it to the tangents, which is squared in it; all else is exact. */
-static void elastic_sides_add(const struct model *model, int axis, size_t n, size_t stride, const double *V,
-                              size_t from, const double *const *m, const double *stiffness,
-                              const struct elastic_out *out, double *energy)
-{
-    struct elastic_batch batch;
-    double row[5][ELASTIC_BATCH];
-    const struct elastic_out own = {row[0], row[1], row[2], row[3], row[4]};
-    for (unsigned k = 1; k < model_stretches(model); k++) {
-        elastic_sides_of(model, k, axis, n, stride, V, from, m, stiffness, &own, &batch);
-        if (energy) row_add(n, batch.energy, energy);
-        row_add(n, own.normal, out->normal);
-        row_add(n, own.stiff, out->stiff);
-        row_add(n, own.rigid, out->rigid);
-        if (model->n_velocity > 1) row_add(n, own.shear_1, out->shear_1);
-        if (model->n_velocity > 2) row_add(n, own.shear_2, out->shear_2);
-    }
-}
-
+/* Stretches add up. The stiffness along the normal does so to first order in what couples it to the tangents, which is
+ * squared in it; all else is exact. */
 void elastic_sides(const struct model *model, int axis, size_t n, size_t stride, const double *V,
                    const double *const *m, const double *stiffness, const struct elastic_side *ret)
 {
@@ -381,10 +371,12 @@ void elastic_sides(const struct model *model, int axis, size_t n, size_t stride,
         struct elastic_out out = {.normal = ret->normal + from, .stiff = ret->stiff + from, .rigid = ret->rigid + from};
         if (model->n_velocity > 1) out.shear_1 = ret->shear[0] + from;
         if (model->n_velocity > 2) out.shear_2 = ret->shear[1] + from;
-        elastic_sides_of(model, 0, axis, part, stride, V, from, m, stiffness + from, &out, &batch);
-        if (ret->energy) memcpy(ret->energy + from, batch.energy, part * sizeof *batch.energy);
-        elastic_sides_add(model, axis, part, stride, V, from, m, stiffness + from, &out,
-                          ret->energy ? ret->energy + from : NULL);
+        for (unsigned k = 0; k < model_stretches(model); k++) {
+            elastic_sides_of(model, k, axis, part, stride, V, from, m, stiffness + from, &out, &batch);
+            if (!ret->energy) continue;
+            if (k) row_add(part, batch.energy, ret->energy + from);
+            else memcpy(ret->energy + from, batch.energy, part * sizeof *batch.energy);
+        }
     }
 }
 
@@ -470,12 +462,13 @@ void elastic_sum(const struct model *model, size_t n, size_t stride, const doubl
     for (unsigned s = 0; s < model->n_solid; s++) row_add(n, block + model->solids[s].material * stride, sum);
 }
 
-void elastic_carriers(const struct model *model, unsigned k, size_t n, size_t stride, const double *block,
-                      double *restrict sum)
+const double *elastic_carrier(const struct model *model, unsigned k, size_t n, size_t stride, const double *block,
+                              double *room)
 {
-    memset(sum, 0, n * sizeof *sum);
-    for (unsigned s = 0; s < model->n_solid; s++)
-        if (model_carries(model, k, s)) row_add(n, block + model->solids[s].material * stride, sum);
+    unsigned s = model_bearer(model, k);
+    if (model_carries(model, k, s)) return block + model->solids[s].material * stride;
+    memset(room, 0, n * sizeof *room);
+    return room;
 }
 
 void elastic_identity(const struct model *model, size_t n, size_t stride, double *V)

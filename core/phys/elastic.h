@@ -91,9 +91,10 @@ void elastic_unimodular(const struct model *model, size_t n, size_t stride, doub
 /* Sum over the solids of a block that has one row per material of the model, such as fractions or partial densities. */
 void elastic_sum(const struct model *model, size_t n, size_t stride, const double *block, double *restrict sum);
 
-/* The row of the solid that carries stretch k (model_carries()); 0 where nothing bears it. */
-void elastic_carriers(const struct model *model, unsigned k, size_t n, size_t stride, const double *block,
-                      double *restrict sum);
+/* The row of the solid that carries stretch k (model_carries()), n values in such a block; where nothing bears it
+ * `room`, made 0. */
+const double *elastic_carrier(const struct model *model, unsigned k, size_t n, size_t stride, const double *block,
+                              double *room);
 
 /* V = 1: a stretch that nothing carries, or one that nothing has stretched yet. */
 void elastic_identity(const struct model *model, size_t n, size_t stride, double *V);

@@ -35,9 +35,9 @@ static void elastic_settle_nearest(const struct model *model, size_t n, size_t s
 static void elastic_settle_batch(const struct model *model, unsigned k, size_t n, size_t stride, const double *alpha,
                                  double *V)
 {
-    double before[6][SETTLE_BATCH] = {{0}}, phi[SETTLE_BATCH];
+    double before[6][SETTLE_BATCH] = {{0}}, none[SETTLE_BATCH];
+    const double *phi = alpha ? elastic_carrier(model, k, n, stride, alpha, none) : NULL;
     for (unsigned c = 0; c < model->n_stretch; c++) memcpy(before[c], V + c * stride, n * sizeof *V);
-    if (alpha) elastic_carriers(model, k, n, stride, alpha, phi);
     if (alpha) elastic_fade(model, n, stride, phi, V);
     elastic_settle_nearest(model, n, stride, V);
     elastic_unimodular(model, n, stride, V);

@@ -386,10 +386,12 @@ static void model_conduct(struct model *model)
     }
 }
 
-/* Do the materials of a cell share their traction? In the plane the surfaces of solids that flow lack what mends them
- * on a line, and are better with one pressure (docs/decisions/shells.md). */
+/* Do the materials of a cell share their traction? In the plane solids that flow have one pressure unless they are
+ * asked to, which takes less time (docs/decisions/shells.md). Solids that meet share their pressure there, so that
+ * without a fluid nothing is left to share. */
 static bool model_is_split(const struct model *model)
 {
+    if (model->dim > 1 && model->n_solid == model->n_material) return false;
     enum scene_traction traction = model->scene->scheme.traction;
     bool flows = model->plastic || model->n_branch > 0, common = !model->scene->n_phase && (model->dim == 1 || !flows);
     bool wanted = traction == SCENE_TRACTION_AUTO ? common : traction == SCENE_TRACTION_COMMON;

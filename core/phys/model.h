@@ -196,6 +196,14 @@ static inline bool model_is_fraction(const struct model *model, unsigned q)
     return q - model->i_alpha < model->n_alpha; /* wraps below i_alpha */
 }
 
+/* Is material l a solid of this path? */
+static inline bool model_is_solid(const struct model *model, unsigned l)
+{
+    for (unsigned s = 0; s < model->n_solid; s++)
+        if (model->solids[s].material == l) return true;
+    return false;
+}
+
 /* Number of fields that are made anew in every stage, the last ones: normals and curvatures. */
 static inline unsigned model_renewed(const struct model *model)
 {

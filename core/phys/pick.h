@@ -17,6 +17,10 @@ size_t pick_marked(size_t n, unsigned from, const unsigned char *mark, unsigned 
 /* packed = row at n cells. */
 void pick_take(size_t n, const unsigned *at, const double *restrict row, double *restrict packed);
 
+/* The same of `rows` rows: row k at first + k * pitch, packed at packed + k * packed_pitch. */
+void pick_take_rows(size_t n, const unsigned *at, unsigned rows, size_t pitch, const double *restrict first,
+                    size_t packed_pitch, double *restrict packed);
+
 /* row = packed there. The other cells keep what they have. */
 void pick_put(size_t n, const unsigned *at, const double *restrict packed, double *restrict row);
 

@@ -19,6 +19,9 @@ enum { SETTLE_BATCH = 32, SETTLE_ROUNDS = 12 };
 /* Volumes that change by less from round to round have arrived, as parts of the cell. */
 #define SETTLE_ENOUGH 1e-11
 
+/* Where surfaces lie as they like less solid than that in a cell takes no heat: dust in gas would boil. */
+#define SETTLE_LEAST 1e-3
+
 /* No material loses more of its volume at once. */
 #define SETTLE_MOST 0.5
 
@@ -39,25 +42,20 @@ struct settle {
     double heat[SETTLE_BATCH];                   /* energy that is left, per volume of the solids [J/m3] */
     double held[SETTLE_BATCH];                   /* what the cell holds, beside motion */
     double grown[SCENE_MATERIALS][SETTLE_BATCH]; /* of plastic strains */
+    bool done[SETTLE_BATCH];                     /* has arrived, and stays, whoever else is in the batch */
 };
 
 bool settle_wanted(const struct model *path)
 {
-    return (path->plastic || path->n_branch) && path->split && !path->n_normal && path->n_alpha;
+    bool relaxes = path->n_branch && !path->n_normal;
+    return (path->plastic || relaxes) && path->split && path->n_alpha;
 }
 
 bool settle_is(const struct model *model, size_t stride, const double *u)
 {
     double solid = 0.0;
     for (unsigned s = 0; s < model->n_solid; s++) solid += u[(model->i_alpha + model->solids[s].material) * stride];
-    return solid > MIX_ABSENT && solid < 1.0 - SETTLE_TRACE;
-}
-
-static bool settle_solid(const struct model *model, unsigned l)
-{
-    bool solid = false;
-    for (unsigned s = 0; s < model->n_solid; s++) solid = solid || model->solids[s].material == l;
-    return solid;
+    return solid > (model->n_normal ? SETTLE_LEAST : MIX_ABSENT) && solid < 1.0 - settle_trace(model);
 }
 
 /* alpha of a material; 0: it is not there. */
@@ -100,7 +98,7 @@ static void settle_heat(struct settle *settle)
     elastic_energy(model, settle->n, SETTLE_BATCH, settle->u[model->i_V], m, elastic);
     for (size_t i = 0; i < settle->n; i++) settle->heat[i] = settle->held[i] - elastic[i];
     for (unsigned l = 0; l < model->n_alpha; l++) {
-        bool is = settle_solid(model, l);
+        bool is = model_is_solid(model, l);
         for (size_t i = 0; i < settle->n; i++) p[i] = settle_pressure(settle, l, i);
         model->eos[l].law->state(model->eos[l].self, settle->n, settle->w[model->i_m + l], p, rho_e, rho_c2);
         for (size_t i = 0; i < settle->n; i++) {
@@ -147,11 +145,11 @@ static void settle_strain(struct settle *settle)
 static double settle_push(const struct settle *settle, unsigned l, size_t i)
 {
     double own = settle_pressure(settle, l, i) - settle->pull[l][i];
-    return settle_solid(settle->model, l) ? own + settle->heat[i] / settle->per_p[l][i] : own;
+    return model_is_solid(settle->model, l) ? own + settle->heat[i] / settle->per_p[l][i] : own;
 }
 
-/* One cell towards one traction; returns the largest change of a volume. */
-static double settle_cell(struct settle *settle, size_t i)
+/* One cell towards one traction, unless it has arrived there: the volumes would hardly change. */
+static void settle_cell(struct settle *settle, size_t i)
 {
     const struct model *model = settle->model;
     double give = 0.0, sum = 0.0, step[SCENE_MATERIALS], scale = 1.0, most = 0.0;
@@ -169,10 +167,10 @@ static double settle_cell(struct settle *settle, size_t i)
     }
     for (unsigned l = 0; l < model->n_alpha; l++) {
         double moved = fabs(scale * step[l]) * settle->trial[model->i_alpha + l][i];
-        settle->x[l][i] += scale * step[l];
         most = moved > most ? moved : most;
     }
-    return most;
+    settle->done[i] = !(most > SETTLE_ENOUGH);
+    for (unsigned l = 0; l < model->n_alpha && !settle->done[i]; l++) settle->x[l][i] += scale * step[l];
 }
 
 /* What the laws say of the trial at p. */
@@ -203,19 +201,19 @@ static void settle_hold(struct settle *settle)
 /* From the trial, of which p, stiff and rho_c2 are known, to u. */
 static void settle_search(struct settle *settle)
 {
-    bool done = false;
+    size_t left = settle->n;
     memset(settle->x, 0, sizeof settle->x);
+    memset(settle->done, 0, sizeof settle->done);
     settle_hold(settle);
-    for (int round = 0; round < SETTLE_ROUNDS && !done; round++) {
-        double most = 0.0;
+    for (int round = 0; round < SETTLE_ROUNDS && left > 0; round++) {
         settle_strain(settle);
         settle_pull(settle);
         settle_heat(settle);
+        left = 0;
         for (size_t i = 0; i < settle->n; i++) {
-            double moved = settle_cell(settle, i);
-            most = moved > most ? moved : most;
+            if (!settle->done[i]) settle_cell(settle, i);
+            left += !settle->done[i];
         }
-        done = !(most > SETTLE_ENOUGH);
     }
 }
 
@@ -267,7 +265,7 @@ static void settle_follow(struct settle *settle)
     for (size_t i = 0; i < settle->n; i++) {
         double sum = 0.0, all = 0.0;
         for (unsigned l = 0; l < model->n_alpha; l++) {
-            double alpha = settle_solid(model, l) ? 0.0 : settle_part(settle, l, i);
+            double alpha = model_is_solid(model, l) ? 0.0 : settle_part(settle, l, i);
             sum += alpha > 0.0 ? alpha * settle->p[l][i] : 0.0;
             all += alpha;
         }

@@ -16,8 +16,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Fluids that fill less of a cell of solids are traces: they share the strain of the solid and are let be. */
-#define SETTLE_TRACE 1e-2
+/* Fluids that fill less of a cell of solids are traces: they share the strain of the solid and are let be. Behind
+ * surfaces that lie as they like more is left (docs/decisions/shells.md). */
+static inline double settle_trace(const struct model *model)
+{
+    return model->n_normal ? 5e-2 : 1e-2;
+}
 
 /* Has a path cells of this kind, with solids that flow or relax? */
 bool settle_wanted(const struct model *path);

@@ -33,60 +33,85 @@ struct traction_vector {
     double x, y, z;
 };
 
-static ELASTIC_BODY struct traction_vector traction_times(struct elastic_tensor V, struct traction_vector n)
+/* In a plane, nv = 2, z is not there. */
+static ELASTIC_BODY struct traction_vector traction_times(int nv, struct elastic_tensor V, struct traction_vector n)
 {
+    if (nv < 3) return (struct traction_vector){V.xx * n.x + V.xy * n.y, V.xy * n.x + V.yy * n.y, 0.0};
     return (struct traction_vector){V.xx * n.x + V.xy * n.y + V.xz * n.z, V.xy * n.x + V.yy * n.y + V.yz * n.z,
                                     V.xz * n.x + V.yz * n.y + V.zz * n.z};
 }
 
-static ELASTIC_BODY double traction_dot(struct traction_vector a, struct traction_vector b)
+static ELASTIC_BODY double traction_square(int nv, struct traction_vector a)
 {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+    double plane = a.x * a.x + a.y * a.y;
+    return nv < 3 ? plane : plane + a.z * a.z;
 }
 
-#define TRACTION_LOCAL(row, normal)                                                                              \
-    const double *restrict xx = row[ELASTIC_XX], *restrict xy = row[ELASTIC_XY], *restrict xz = row[ELASTIC_XZ]; \
-    const double *restrict yy = row[ELASTIC_YY], *restrict yz = row[ELASTIC_YZ], *restrict zz = row[ELASTIC_ZZ]; \
-    const double *restrict nx = normal[0], *restrict ny = normal[1], *restrict nz = normal[2]
-#define TRACTION_V(i) ((struct elastic_tensor){xx[i], yy[i], zz[i], xy[i], xz[i], yz[i]})
+/* Invariants of B and slopes of the energy of a point. */
+struct traction_slopes {
+    double twice, G1, slope, first, trace; /* 2 rho, e_1 + I1 e_2, e_2, tr B, tr B^2 */
+};
 
-/* N.s'N with the normals of the cells: B N = V (V N). */
-static BULLA_KERNEL void traction_along(size_t n, const double *restrict rho, const double *const *row,
-                                        const double *const *normal, const double *restrict I1,
-                                        const double *restrict I2, const double *restrict e_1,
-                                        const double *restrict e_2, double *restrict own)
+/* N.s'N: B N = V (V N). */
+static ELASTIC_BODY double traction_on(int nv, struct traction_slopes g, struct traction_vector N,
+                                       struct traction_vector half, struct traction_vector BN)
 {
-    TRACTION_LOCAL(row, normal);
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        struct elastic_tensor V = TRACTION_V(i);
-        struct traction_vector N = {nx[i], ny[i], nz[i]}, half = traction_times(V, N), BN = traction_times(V, half);
-        double square = traction_dot(N, N), B = traction_dot(half, half), C = traction_dot(BN, BN);
-        double first = I1[i], slope = e_2[i], trace = first * first - 2.0 * I2[i], G1 = e_1[i] + first * slope;
-        own[i] = 2.0 * rho[i] * (G1 * (B - square * (first / 3.0)) - slope * (C - square * (trace / 3.0)));
+    double square = traction_square(nv, N), B = traction_square(nv, half), C = traction_square(nv, BN);
+    return g.twice * (g.G1 * (B - square * (g.first / 3.0)) - g.slope * (C - square * (g.trace / 3.0)));
+}
+
+/* Rows of the cells that a kernel looks at; of a plane the parts along z point at any row. */
+struct traction_rows {
+    struct elastic_rows V;
+    const double *normal[3], *rho, *I1, *I2, *e_1, *e_2;
+};
+
+#define TRACTION_LOCAL(rows)                                                                                           \
+    ELASTIC_LOCAL((rows)->V);                                                                                          \
+    const double *restrict nx = (rows)->normal[0], *restrict ny = (rows)->normal[1], *restrict nz = (rows)->normal[2]; \
+    const double *restrict rho = (rows)->rho, *restrict I1 = (rows)->I1, *restrict I2 = (rows)->I2;                    \
+    const double *restrict e_1 = (rows)->e_1, *restrict e_2 = (rows)->e_2
+#define TRACTION_N(i, nv) ((struct traction_vector){nx[i], ny[i], (nv) > 2 ? nz[(nv) > 2 ? (i) : 0] : 0.0})
+#define TRACTION_SLOPES(i) \
+    ((struct traction_slopes){2.0 * rho[i], e_1[i] + I1[i] * e_2[i], e_2[i], I1[i], I1[i] * I1[i] - 2.0 * I2[i]})
+
+/* N.s'N with the normals of the cells. */
+#define TRACTION_ALONG(nv)                                                                                         \
+    static BULLA_KERNEL void traction_along_##nv(size_t n, const struct traction_rows *rows, double *restrict own) \
+    {                                                                                                              \
+        TRACTION_LOCAL(rows);                                                                                      \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                         \
+        {                                                                                                          \
+            struct elastic_tensor V = ELASTIC_AT(i, nv);                                                           \
+            struct traction_vector N = TRACTION_N(i, nv), half = traction_times(nv, V, N);                         \
+            own[i] = traction_on(nv, TRACTION_SLOPES(i), N, half, traction_times(nv, V, half));                    \
+        }                                                                                                          \
     }
-}
+TRACTION_ALONG(2)
+TRACTION_ALONG(3)
 
-/* s'N, the whole vector. */
-static BULLA_KERNEL void traction_pull(size_t n, const double *restrict rho, const double *const *row,
-                                       const double *const *normal, const double *restrict I1,
-                                       const double *restrict I2, const double *restrict e_1,
-                                       const double *restrict e_2, double *const *pull)
-{
-    TRACTION_LOCAL(row, normal);
-    double *restrict px = pull[0], *restrict py = pull[1], *restrict pz = pull[2];
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        struct elastic_tensor V = TRACTION_V(i);
-        struct traction_vector N = {nx[i], ny[i], nz[i]}, BN = traction_times(V, traction_times(V, N));
-        struct traction_vector BBN = traction_times(V, traction_times(V, BN));
-        double first = I1[i], slope = e_2[i], G1 = e_1[i] + first * slope, twice = 2.0 * rho[i];
-        double mean = G1 * (first / 3.0) - slope * ((first * first - 2.0 * I2[i]) / 3.0);
-        px[i] = twice * (G1 * BN.x - slope * BBN.x - mean * N.x);
-        py[i] = twice * (G1 * BN.y - slope * BBN.y - mean * N.y);
-        pz[i] = twice * (G1 * BN.z - slope * BBN.z - mean * N.z);
+/* The same, and s'N, the whole vector. */
+#define TRACTION_PULL(nv)                                                                                         \
+    static BULLA_KERNEL void traction_pull_##nv(size_t n, const struct traction_rows *rows, double *restrict own, \
+                                                double *restrict px, double *restrict py, double *restrict pz)    \
+    {                                                                                                             \
+        TRACTION_LOCAL(rows);                                                                                     \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                        \
+        {                                                                                                         \
+            struct elastic_tensor V = ELASTIC_AT(i, nv);                                                          \
+            struct traction_slopes g = TRACTION_SLOPES(i);                                                        \
+            struct traction_vector N = TRACTION_N(i, nv), half = traction_times(nv, V, N);                        \
+            struct traction_vector BN = traction_times(nv, V, half);                                              \
+            struct traction_vector BBN = traction_times(nv, V, traction_times(nv, V, BN));                        \
+            double mean = g.G1 * (g.first / 3.0) - g.slope * (g.trace / 3.0);                                     \
+            own[i] = traction_on(nv, g, N, half, BN);                                                             \
+            px[i] = g.twice * (g.G1 * BN.x - g.slope * BBN.x - mean * N.x);                                       \
+            py[i] = g.twice * (g.G1 * BN.y - g.slope * BBN.y - mean * N.y);                                       \
+            if ((nv) > 2) pz[(nv) > 2 ? i : 0] = g.twice * (g.G1 * BN.z - g.slope * BBN.z - mean * N.z);          \
+        }                                                                                                         \
     }
-}
+TRACTION_PULL(2)
+TRACTION_PULL(3)
 
 /* The cells of a batch that have a stress on a normal. Of models with normals the few that have one, packed; of the
  * others all of them, in place. */
@@ -109,26 +134,28 @@ enum { TRACTION_PITCH = TRACTION_BATCH + 8 }; /* of packed rows, which shall not
 struct traction_view {
     const double *row[6], *normal[3]; /* [normal]: of models that have them */
     double I1[TRACTION_BATCH], I2[TRACTION_BATCH], e_1[TRACTION_BATCH], e_2[TRACTION_BATCH];
-    double packed_V[6 * TRACTION_PITCH], packed_normal[3 * TRACTION_PITCH];
+    double packed_V[6 * TRACTION_PITCH];
 };
 
-static void traction_aim(const struct model *model, const struct traction_cells *cells, size_t stride, const double *w,
-                         struct traction_view *ret)
+/* Points `ret` at n rows at those cells, the first of which is `first`; `room` is where packed ones go. */
+static void traction_point(const struct traction_cells *cells, unsigned n, size_t stride, const double *first,
+                           double *room, const double **ret)
 {
-    for (unsigned d = 0; d < 3; d++) {
-        const double *row = w + (model->i_normal + d) * stride;
-        ret->normal[d] = traction_zero;
-        if (d < model->n_normal) ret->normal[d] = traction_row(cells, row, ret->packed_normal + d * TRACTION_PITCH);
-    }
+    if (cells->at) pick_take_rows(cells->n, cells->at, n, stride, first, TRACTION_PITCH, room);
+    for (unsigned c = 0; c < n; c++) ret[c] = cells->at ? room + c * TRACTION_PITCH : first + c * stride;
+}
+
+/* Normals packed as the cells: row d at normal + d * pitch. */
+static void traction_aim(const struct model *model, size_t pitch, const double *normal, struct traction_view *ret)
+{
+    for (unsigned d = 0; d < 3; d++) ret->normal[d] = d < model->n_normal ? normal + d * pitch : traction_zero;
 }
 
 static void traction_look(const struct model *model, const struct traction_cells *cells, unsigned k, size_t stride,
                           const double *w, struct traction_view *ret)
 {
-    const double *V = w + model_stretch(model, k) * stride;
     for (unsigned c = 0; c < 6; c++) ret->row[c] = traction_zero;
-    for (unsigned c = 0; c < model->n_stretch; c++)
-        ret->row[c] = traction_row(cells, V + c * stride, ret->packed_V + c * TRACTION_PITCH);
+    traction_point(cells, model->n_stretch, stride, w + model_stretch(model, k) * stride, ret->packed_V, ret->row);
     size_t pitch = cells->at ? TRACTION_PITCH : stride;
     if (!elastic_is_plain(model, k)) {
         elastic_invariants(model, cells->n, pitch, ret->row[0], ret->I1, ret->I2);
@@ -143,16 +170,27 @@ struct traction_out {
     double *own, *pull[3];
 };
 
+static void traction_plain(size_t n, const double *rho, const struct traction_view *view, double *own)
+{
+    const double *const *row = view->row;
+    traction_normal(n, rho, row[ELASTIC_XX], row[ELASTIC_XY], row[ELASTIC_XZ], row[ELASTIC_YY], row[ELASTIC_YZ],
+                    row[ELASTIC_ZZ], view->I1, view->I2, view->e_1, view->e_2, own);
+}
+
 /* Both of the slopes e_1, e_2 of a view. */
 static void traction_of(const struct model *model, size_t n, const double *rho, const struct traction_view *view,
                         const struct traction_out *out)
 {
-    const double *const *row = view->row, *I1 = view->I1, *I2 = view->I2, *e_1 = view->e_1, *e_2 = view->e_2;
-    if (out->pull[0]) traction_pull(n, rho, row, view->normal, I1, I2, e_1, e_2, out->pull);
-    if (model->n_normal) traction_along(n, rho, row, view->normal, I1, I2, e_1, e_2, out->own);
-    else
-        traction_normal(n, rho, row[ELASTIC_XX], row[ELASTIC_XY], row[ELASTIC_XZ], row[ELASTIC_YY], row[ELASTIC_YZ],
-                        row[ELASTIC_ZZ], I1, I2, e_1, e_2, out->own);
+    struct traction_rows rows = {.rho = rho, .I1 = view->I1, .I2 = view->I2, .e_1 = view->e_1, .e_2 = view->e_2};
+    memcpy(rows.V.row, view->row, sizeof rows.V.row);
+    memcpy(rows.normal, view->normal, sizeof rows.normal);
+    double *const *pull = out->pull;
+    bool plane = model->n_velocity < 3;
+    if (!model->n_normal) traction_plain(n, rho, view, out->own);
+    else if (pull[0] && plane) traction_pull_2(n, &rows, out->own, pull[0], pull[1], pull[2]);
+    else if (pull[0]) traction_pull_3(n, &rows, out->own, pull[0], pull[1], pull[2]);
+    else if (plane) traction_along_2(n, &rows, out->own);
+    else traction_along_3(n, &rows, out->own);
 }
 
 /* What the Maxwell branches of solid s add: each a neo-Hookean spring on its own stretch. rho: of the solid. */
@@ -163,6 +201,7 @@ static void traction_branches(const struct model *model, const struct traction_c
     double room[4 * TRACTION_BATCH];
     struct traction_out part = {.own = room};
     for (unsigned d = 0; out->pull[0] && d < 3; d++) part.pull[d] = room + (d + 1) * TRACTION_BATCH;
+    unsigned parts = out->pull[0] ? model->n_velocity : 0;
     for (unsigned b = 0; b < model->n_branch; b++) {
         const struct model_branch *branch = &model->branches[b];
         if (branch->solid != s) continue;
@@ -170,7 +209,7 @@ static void traction_branches(const struct model *model, const struct traction_c
         for (size_t i = 0; i < cells->n; i++) view->e_1[i] = branch->k, view->e_2[i] = 0.0;
         traction_of(model, cells->n, rho, view, &part);
         row_add(cells->n, part.own, out->own);
-        for (unsigned d = 0; out->pull[0] && d < 3; d++) row_add(cells->n, part.pull[d], out->pull[d]);
+        for (unsigned d = 0; d < parts; d++) row_add(cells->n, part.pull[d], out->pull[d]);
     }
 }
 
@@ -199,13 +238,14 @@ static void traction_solid(const struct model *model, const struct traction_cell
     traction_branches(model, cells, s, stride, w, rho, view, out);
 }
 
-void traction_at(const struct model *model, size_t n, const unsigned *at, size_t stride, const double *w, size_t pitch,
-                 double *own, double *pull)
+void traction_at(const struct model *model, const struct traction_aimed *aimed, size_t stride, const double *w,
+                 size_t pitch, double *own, double *pull)
 {
     struct traction_view view;
-    for (size_t from = 0; from < n; from += TRACTION_BATCH) {
-        const struct traction_cells cells = {n - from < TRACTION_BATCH ? n - from : TRACTION_BATCH, at + from};
-        traction_aim(model, &cells, stride, w, &view);
+    for (size_t from = 0; from < aimed->n; from += TRACTION_BATCH) {
+        size_t n = aimed->n - from < TRACTION_BATCH ? aimed->n - from : TRACTION_BATCH;
+        const struct traction_cells cells = {n, aimed->at + from};
+        traction_aim(model, aimed->pitch, aimed->normal + from, &view);
         for (unsigned s = 0; s < model->n_solid; s++) {
             struct traction_out out = {.own = own + s * pitch + from};
             for (unsigned d = 0; pull && d < 3; d++) out.pull[d] = pull + (3 * s + d) * pitch + from;
@@ -218,8 +258,12 @@ void traction_at(const struct model *model, size_t n, const unsigned *at, size_t
 static size_t traction_packed(const struct model *model, size_t n, size_t stride, const double *w, unsigned *at,
                               double *own)
 {
-    n = pick_nonzero(n, model->n_normal, stride, w + model->i_normal * stride, at);
-    traction_at(model, n, at, stride, w, TRACTION_BATCH, own, NULL);
+    double normal[3 * TRACTION_PITCH];
+    const double *rows = w + model->i_normal * stride;
+    n = pick_nonzero(n, model->n_normal, stride, rows, at);
+    pick_take_rows(n, at, model->n_normal, stride, rows, TRACTION_PITCH, normal);
+    const struct traction_aimed aimed = {n, at, TRACTION_PITCH, normal};
+    traction_at(model, &aimed, stride, w, TRACTION_BATCH, own, NULL);
     return n;
 }
 
@@ -294,20 +338,21 @@ static void traction_tilted(const struct model *model, size_t n, size_t stride, 
                             struct traction_pressures *ret)
 {
     unsigned at[TRACTION_BATCH];
-    double own[SCENE_MATERIALS * TRACTION_BATCH], mean[TRACTION_BATCH];
+    double own[SCENE_MATERIALS * TRACTION_BATCH], alpha[TRACTION_BATCH], mean[TRACTION_BATCH], rest[TRACTION_BATCH];
     size_t count = traction_packed(model, n, stride, w, at, own);
     memset(mean, 0, count * sizeof *mean);
-    for (unsigned s = 0; s < model->n_solid; s++) {
-        const double *alpha = w + (model->i_alpha + model->solids[s].material) * stride;
-        for (size_t k = 0; k < count; k++) mean[k] += alpha[at[k]] * own[s * TRACTION_BATCH + k];
+    for (unsigned s = 0; count && s < model->n_solid; s++) {
+        pick_take(count, at, w + (model->i_alpha + model->solids[s].material) * stride, alpha);
+        row_add_product(count, alpha, own + s * TRACTION_BATCH, mean);
     }
+    for (size_t k = 0; k < count; k++) rest[k] = 0.0 - mean[k];
     for (unsigned l = 0; l < model->n_material; l++) {
         memset(ret->lag[l], 0, n * sizeof *ret->lag[l]);
-        for (size_t k = 0; k < count; k++) ret->lag[l][at[k]] = 0.0 - mean[k];
+        if (!model_is_solid(model, l)) pick_put(count, at, rest, ret->lag[l]);
     }
-    for (unsigned s = 0; s < model->n_solid; s++) {
-        double *lag = ret->lag[model->solids[s].material];
-        for (size_t k = 0; k < count; k++) lag[at[k]] = own[s * TRACTION_BATCH + k] - mean[k];
+    for (unsigned s = 0; count && s < model->n_solid; s++) {
+        row_take(count, mean, own + s * TRACTION_BATCH);
+        pick_put(count, at, own + s * TRACTION_BATCH, ret->lag[model->solids[s].material]);
     }
 }
 

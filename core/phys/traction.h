@@ -20,10 +20,18 @@
 /* s'_l,xx of each material in its own volume, from primitives w: row l at own + l * pitch, 0 for fluids [Pa]. */
 void traction_own(const struct model *model, size_t n, size_t stride, const double *w, size_t pitch, double *own);
 
-/* s'_nn of the solids at the n cells `at` that have a normal N, packed: row s at own + s * pitch. pull: NULL, or s'N
- * [Pa], component d of solid s at pull + (3 s + d) * pitch. */
-void traction_at(const struct model *model, size_t n, const unsigned *at, size_t stride, const double *w, size_t pitch,
-                 double *own, double *pull);
+/* Cells that have a normal N, and it, packed: component d at normal + d * pitch. */
+struct traction_aimed {
+    size_t n;
+    const unsigned *at;
+    size_t pitch;
+    const double *normal;
+};
+
+/* s'_nn of the solids at those cells of w, packed: row s at own + s * pitch. pull: NULL, or s'N [Pa], component d of
+ * solid s at pull + (3 s + d) * pitch. */
+void traction_at(const struct model *model, const struct traction_aimed *aimed, size_t stride, const double *w,
+                 size_t pitch, double *own, double *pull);
 
 /* S = sum_l alpha_l s'_l,xx [Pa], from primitives w. */
 void traction_mean(const struct model *model, size_t n, size_t stride, const double *w, double *mean);

@@ -81,6 +81,7 @@ struct face_work *face_new(const struct model *model)
     work->model = model;
     own->n_flux = model->n_alpha + n + model->n_velocity + 2 + face_slides(model);
     own->stress = face_stress_new(model);
+    if (model->n_normal) work->aimed = own->stress->aimed;
     work->frame = face_row(model->n_field);
     work->mask = face_row(1);
     if (model->scene->n_rigid) work->flat = face_row(1);
@@ -257,7 +258,7 @@ static const double *face_pressure(const struct face_work *work, const struct fr
     const struct face_own *own = work->own;
     const double *p = own->state + 2 * model->i_E * FACE_ROOM;
     size_t cells = n / 2;
-    if (model->split) p = face_stress_pressure(own->stress, l);
+    if (model->split) p = face_stress_pressure(own->stress, model, l, own->state);
     if (!model_jumps(model)) return p;
     const double *above = work->lag + l * FACE_ROOM + frame_reach(frame), *below = above - frame->inner;
     face_lag(cells, p, above, own->lagged);
@@ -483,7 +484,6 @@ const double *face_edges(struct face_work *work, const struct frame *frame, bool
     struct edges_cells in = {work->frame, face_flat(work, frame, masked), {work->rise[0], work->rise[1]}, {NULL, NULL}};
     if (model->n_normal) in.lean[0] = work->lean[0], in.lean[1] = work->lean[1];
     edges_fill(own->edges, model, frame, &in, own->state);
-    if (model->n_normal) tilt_aim(model, frame, work->frame, own->state, own->stress->aimed);
     return own->state;
 }
 

@@ -34,8 +34,9 @@ struct face_work {
                         going up, where it holds the forces [Pa]; NULL where the scene has none (model->forced) */
     double *lean[2]; /* of each cell of the frame: what its neighbours' normals make of the differences of the traction
                         to the cells before and behind [Pa]; NULL where normals are axes */
-    bool open[3][2]; /* [axis][side] does the tile of the frames end there, at a boundary that waves cross? */
-    double per_h[3]; /* of the tile, along each axis [1/m]; 0: thick liquids are as others */
+    struct tilt_aimed *aimed; /* the cells that have a normal (tilt.h); NULL where normals are axes */
+    bool open[3][2];          /* [axis][side] does the tile of the frames end there, at a boundary that waves cross? */
+    double per_h[3];          /* of the tile, along each axis [1/m]; 0: thick liquids are as others */
     double *lag; /* [n_material] p_l - p at the face between each cell of the frame and the next, at the place of the
                         cell before, by what acts in interfaces (lag.h) [Pa]; NULL where the scene has none */
     double *tension; /* force of surface tension at the faces: what p grows by across them [Pa]; likewise */

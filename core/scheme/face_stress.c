@@ -3,9 +3,9 @@
 
 #include "base/mem.h"
 #include "phys/elastic.h"
+#include "phys/pick.h"
 #include "phys/row.h"
 #include "phys/traction.h"
-#include "scheme/tilt.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,9 +14,9 @@ struct face_stress *face_stress_new(const struct model *model)
 {
     if (!model->n_stretch) return NULL;
     struct face_stress *stress = mem_new(1, sizeof *stress);
-    double **rows[] = {&stress->energy, &stress->normal,  &stress->shear[0], &stress->shear[1],
-                       &stress->stiff,  &stress->rigid,   &stress->traction, &stress->mean,
-                       stress->pull,    &stress->pull[0], &stress->pull[1],  &stress->pull[2]};
+    double **rows[] = {&stress->energy,       &stress->normal,       &stress->shear[0],    &stress->shear[1],
+                       &stress->stiff,        &stress->rigid,        &stress->traction,    &stress->held.mean,
+                       &stress->held.pull[0], &stress->held.pull[1], &stress->held.pull[2]};
     double *block = mem_new(sizeof rows / sizeof *rows * 2 * FACE_ROOM, sizeof *block);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) *rows[i] = block + i * 2 * FACE_ROOM;
     if (model->split) stress->own = mem_new((size_t)model->n_material * 2 * FACE_ROOM, sizeof *block);
@@ -54,27 +54,34 @@ static BULLA_KERNEL void face_stress_press(size_t n, const double *restrict trac
     for (size_t i = 0; i < n; i++) own[i] += traction[i];
 }
 
-/* Adds what solids have on the normals of the edges of one side, and leaves the means. Rows begin with the side. */
-static void face_stress_tilt(struct face_stress *stress, const struct model *model, size_t from, const double *state)
+/* Adds what solids have on the normals of the edges of one side, and leaves their sums. Rows begin with the side. */
+static void face_stress_tilt(struct face_stress *stress, const struct model *model, size_t side, size_t from,
+                             const double *state)
 {
     const struct tilt_aimed *aimed = stress->aimed;
-    double packed[SCENE_MATERIALS * FACE_ROOM], pull[3 * SCENE_MATERIALS * FACE_ROOM], *mean = stress->mean + from;
-    traction_at(model, aimed->n, aimed->at, 2 * FACE_ROOM, state + from, FACE_ROOM, packed, pull);
+    const struct traction_aimed cells = {aimed->n, aimed->at, FACE_ROOM, aimed->normal};
+    double packed[SCENE_MATERIALS * FACE_ROOM], pull[3 * SCENE_MATERIALS * FACE_ROOM], alpha[FACE_ROOM];
+    double *mean = stress->held.mean + side * FACE_ROOM;
+    traction_at(model, &cells, 2 * FACE_ROOM, state + from, FACE_ROOM, packed, pull);
+    memset(mean, 0, aimed->n * sizeof *mean);
+    for (unsigned d = 0; d < model->n_velocity; d++)
+        memset(stress->held.pull[d] + side * FACE_ROOM, 0, aimed->n * sizeof *mean);
     for (unsigned s = 0; s < model->n_solid; s++) {
         unsigned l = model->solids[s].material;
-        const double *alpha = state + 2 * (model->i_alpha + l) * FACE_ROOM + from, *part = packed + s * FACE_ROOM;
+        const double *part = packed + s * FACE_ROOM;
         double *own = stress->own + (size_t)l * 2 * FACE_ROOM + from;
-        for (size_t k = 0; k < aimed->n; k++) {
-            size_t i = aimed->at[k];
-            own[i] += part[k];
-            mean[i] += alpha[i] * part[k];
-        }
-        for (unsigned d = 0; d < model->n_velocity; d++) {
-            const double *held = pull + (3 * s + d) * FACE_ROOM;
-            double *sum = stress->pull[d] + from;
-            for (size_t k = 0; k < aimed->n; k++) sum[aimed->at[k]] += alpha[aimed->at[k]] * held[k];
-        }
+        for (size_t k = 0; k < aimed->n; k++) own[aimed->at[k]] += part[k];
+        pick_take(aimed->n, aimed->at, state + 2 * (model->i_alpha + l) * FACE_ROOM + from, alpha);
+        row_add_product(aimed->n, alpha, part, mean);
+        for (unsigned d = 0; d < model->n_velocity; d++)
+            row_add_product(aimed->n, alpha, pull + (3 * s + d) * FACE_ROOM, stress->held.pull[d] + side * FACE_ROOM);
     }
+}
+
+/* Does material l have pressures of its own at the edges? With normals fluids have the traction. */
+static bool face_stress_owns(const struct model *model, unsigned l)
+{
+    return !model->n_normal || model_is_solid(model, l);
 }
 
 void face_stress_split(struct face_stress *stress, const struct model *model, size_t n, const double *state)
@@ -83,13 +90,18 @@ void face_stress_split(struct face_stress *stress, const struct model *model, si
     if (!model->n_normal) traction_own(model, 2 * n, 2 * FACE_ROOM, state, 2 * FACE_ROOM, stress->own);
     for (unsigned l = 0; l < model->n_material; l++) {
         double *own = stress->own + (size_t)l * 2 * FACE_ROOM;
-        if (model->n_normal) memcpy(own, traction, 2 * n * sizeof *own);
-        else face_stress_press(2 * n, traction, own);
+        if (!model->n_normal) face_stress_press(2 * n, traction, own);
+        else if (face_stress_owns(model, l)) memcpy(own, traction, 2 * n * sizeof *own);
     }
     if (!model->n_normal) return;
-    memset(stress->mean, 0, 2 * n * sizeof *stress->mean);
-    for (unsigned d = 0; d < model->n_velocity; d++) memset(stress->pull[d], 0, 2 * n * sizeof *stress->pull[d]);
-    for (size_t side = 0; side < 2; side++) face_stress_tilt(stress, model, side * n, state);
+    for (size_t side = 0; side < 2; side++) face_stress_tilt(stress, model, side, side * n, state);
+}
+
+const double *face_stress_pressure(const struct face_stress *stress, const struct model *model, unsigned l,
+                                   const double *state)
+{
+    if (!face_stress_owns(model, l)) return state + 2 * model->i_E * FACE_ROOM;
+    return stress->own + (size_t)l * 2 * FACE_ROOM;
 }
 
 /* Elastic parts are added; the traction and the shear speed are made. */
@@ -119,9 +131,9 @@ void face_stress_complete(struct face_stress *stress, const struct model *model,
                   edges->m, edges->rho_c2, &side);
     face_stress_add(edges->n, stress, edges->state + 2 * model->i_E * FACE_ROOM, edges->rho, edges->energy,
                     edges->rho_c2);
-    if (model->split)
+    if (model->split && !model->n_normal)
         memcpy(stress->traction, edges->state + 2 * model->i_E * FACE_ROOM, edges->n * sizeof *edges->rho);
-    const struct tilt_edges tilt = {edges->state,   stress->aimed,    stress->mean, stress->pull,
+    const struct tilt_edges tilt = {edges->state,   stress->aimed,    &stress->held,
                                     stress->normal, stress->traction, stress->shear};
     if (model->n_normal) tilt_share(model, edges->frame, &tilt);
 }

@@ -8,15 +8,15 @@
 
 #include "scheme/face.h"
 #include "scheme/term.h"
+#include "scheme/tilt.h"
 
 /* Scratch of one face_work, for paths with a stretch. */
 struct face_stress {
     double *energy, *normal, *shear[2], *stiff, *rigid; /* of elastic_sides; `rigid` becomes c_s */
     double *traction;                                   /* -s_nn = p - s'_nn */
-    double *mean;                                       /* sum alpha_l s'_l,nn, of models with normals (tilt.h) */
-    double *pull[3];                                    /* sum alpha_l s'_l N of them */
+    struct tilt_held held;                              /* of models with normals (tilt.h) */
     double *own;                                        /* [n_material] pressures of the materials (split models) */
-    struct tilt_aimed *aimed;                           /* of models with normals */
+    struct tilt_aimed *aimed;                           /* of models with normals; tilt_frame() fills it */
     const double *sides[2][2];                          /* [side][tangent] shear tractions, for the solver */
     double *slide_left[2], *slide_right[2], *robust_left[2], *robust_right[2];
 };
@@ -31,10 +31,10 @@ extern const struct term face_stress_term;
 
 /* Pressures of the materials at the edges of n cells, from the traction. */
 void face_stress_split(struct face_stress *stress, const struct model *model, size_t n, const double *state);
-static inline const double *face_stress_pressure(const struct face_stress *stress, unsigned l)
-{
-    return stress->own + (size_t)l * 2 * FACE_ROOM;
-}
+
+/* That of material l, after that. */
+const double *face_stress_pressure(const struct face_stress *stress, const struct model *model, unsigned l,
+                                   const double *state);
 
 /* Edges of a row, as face.c has completed them without elasticity. */
 struct face_stress_edges {

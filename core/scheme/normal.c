@@ -6,13 +6,12 @@
 #include "phys/row.h"
 #include "scheme/patch.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
 /* Steps of fractions that small count less. */
 #define NORMAL_TRACE 1e-3
-
-enum { NORMAL_ROW = 256 }; /* at least the cells of a tile along x, and its ghosts */
 
 static bool normal_wanted(const struct model *path)
 {
@@ -50,13 +49,23 @@ static double normal_difference(const double *c, ptrdiff_t along, ptrdiff_t one,
     return 0.0625 * (corners + 2.0 * (sides + others) + 4.0 * middle);
 }
 
-static void normal_cell(int dim, const double *c, const ptrdiff_t stride[3], const double *h, double ret[3])
+/* Cells about a tile, and how they lie. */
+struct normal_block {
+    struct box_block box;
+    ptrdiff_t stride[3];
+    double ratio[3]; /* h of axis 0 over those of the axes */
+    const double *colour;
+};
+
+static void normal_cell(int dim, const struct normal_block *block, size_t at, double ret[3])
 {
+    const double *c = block->colour + at;
+    const ptrdiff_t *stride = block->stride;
     double square = 0.0, size = 0.0;
     for (int a = 0; a < dim; a++) {
         double d = normal_difference(c, stride[a], stride[(a + 1) % dim], dim > 2 ? stride[(a + 2) % dim] : 0);
         size += d * d;
-        ret[a] = d * (h[0] / h[a]);
+        ret[a] = d * block->ratio[a];
         square += ret[a] * ret[a];
     }
     size = sqrt(size) / NORMAL_TRACE;
@@ -76,35 +85,53 @@ static BULLA_KERNEL void normal_uneven(size_t n, const double *restrict before, 
     }
 }
 
-/* Cells of a row of the tile that do not hold what all their neighbours hold: the others have no normal. Returns how
- * many there are. */
-static size_t normal_cells(int dim, size_t n, const double *c, const ptrdiff_t stride[3], unsigned *at)
+/* Cells from the first of the tile to the last that do not hold what all their neighbours hold, some beside the tile
+ * among them: the others have no normal. Returns how many there are. */
+static size_t normal_cells(const struct mesh *mesh, const struct normal_block *block, unsigned char *uneven,
+                           unsigned *at)
 {
-    unsigned char uneven[NORMAL_ROW] = {0};
-    for (int a = 0; a < dim; a++) normal_uneven(n, c - stride[a], c, c + stride[a], uneven);
-    return pick_marked(n, 0, uneven, at);
+    size_t first = box_at(&block->box, 0, 0, 0), n = box_at(&block->box, mesh->n[0], mesh->n[1] - 1, mesh->n[2] - 1);
+    const double *c = block->colour + first;
+    n -= first;
+    memset(uneven, 0, n);
+    for (int a = 0; a < mesh->dim; a++) normal_uneven(n, c - block->stride[a], c, c + block->stride[a], uneven);
+    return pick_marked(n, (unsigned)first, uneven, at);
+}
+
+/* The normals of a row of the tile, whose cells `from` to `end` of the block are; those cells are the next of `at`.
+ * Returns the first that is not. */
+static const unsigned *normal_row(const struct mesh *mesh, const struct normal_block *block, size_t from,
+                                  const unsigned *at, double *ret_normal)
+{
+    size_t end = from + (size_t)mesh->n[0];
+    while (*at < from) at++;
+    for (; *at < end; at++) {
+        double n[3];
+        normal_cell(mesh->dim, block, *at, n);
+        for (int a = 0; a < mesh->dim; a++) ret_normal[(size_t)a * mesh->n_cell + (*at - from)] = n[a];
+    }
+    return at;
 }
 
 void normal_make(const struct model *model, const struct mesh *mesh, const double *h, const double *around,
                  double *ret_normal)
 {
-    const struct box_block block = patch_block(mesh, 1, NULL);
-    ptrdiff_t stride[3] = {1, (ptrdiff_t)block.size[0], (ptrdiff_t)(block.size[0] * block.size[1])};
-    double *colour = mem_new(block.pitch, sizeof *colour);
-    unsigned at[NORMAL_ROW];
-    size_t row = 0, length = (size_t)mesh->n[0];
-    normal_colour(model, block.pitch, block.pitch, around, colour);
+    struct normal_block block = {.box = patch_block(mesh, 1, NULL)};
+    size_t cells = block.box.pitch;
+    double *colour = mem_new(1, cells * (sizeof *colour + sizeof(unsigned) + 1) + sizeof(unsigned));
+    unsigned *some = (unsigned *)(colour + cells);
+    const unsigned *at = some;
+    for (int a = 0; a < 3; a++) {
+        block.stride[a] = a == 0 ? 1 : block.stride[a - 1] * (ptrdiff_t)block.box.size[a - 1];
+        block.ratio[a] = a < mesh->dim ? h[0] / h[a] : 1.0;
+    }
+    block.colour = colour;
+    normal_colour(model, cells, cells, around, colour);
     memset(ret_normal, 0, (size_t)mesh->dim * mesh->n_cell * sizeof *ret_normal);
+    some[normal_cells(mesh, &block, (unsigned char *)(some + cells + 1), some)] = UINT_MAX;
     for (int k = 0; k < mesh->n[2]; k++)
-        for (int j = 0; j < mesh->n[1]; j++, row += length) {
-            const double *c = colour + box_at(&block, 0, j, k);
-            size_t count = normal_cells(mesh->dim, length, c, stride, at);
-            for (size_t i = 0; i < count; i++) {
-                double n[3];
-                normal_cell(mesh->dim, c + at[i], stride, h, n);
-                for (int a = 0; a < mesh->dim; a++) ret_normal[(size_t)a * mesh->n_cell + row + at[i]] = n[a];
-            }
-        }
+        for (int j = 0; j < mesh->n[1]; j++, ret_normal += mesh->n[0])
+            at = normal_row(mesh, &block, box_at(&block.box, 0, j, k), at, ret_normal);
     mem_free(colour);
 }
 

@@ -13,9 +13,10 @@
 
 enum { RESPONSE_BATCH = 256 };
 
+/* On a line all solids; across surfaces that lie as they like those that flow, which settle afterwards. */
 static bool response_wanted(const struct model *path)
 {
-    return path->split && !path->n_normal && path->n_alpha && path->kapila;
+    return path->split && (!path->n_normal || path->plastic) && path->n_alpha && path->kapila;
 }
 
 static unsigned response_rows(const struct model *path)
@@ -55,13 +56,14 @@ static BULLA_KERNEL void response_own_of(size_t n, const double *restrict alpha,
 }
 
 /* The solid of a cell in which fluids are traces, or 0: its stiffness is theirs. */
-static BULLA_KERNEL void response_trace(size_t n, const double *restrict solid, const double *restrict stiff,
-                                        const double *restrict alpha, double *restrict own)
+static BULLA_KERNEL void response_trace(size_t n, double least, const double *restrict solid,
+                                        const double *restrict stiff, const double *restrict alpha,
+                                        double *restrict own)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a = alpha[i], s = solid[i], k = stiff[i], o = own[i];
-        double trace = a < SETTLE_TRACE && s > 1.0 - SETTLE_TRACE && k > o ? 1.0 : 0.0;
+        double trace = a < least && s > 1.0 - least && k > o ? 1.0 : 0.0;
         own[i] = trace > 0.0 ? k : o;
     }
 }
@@ -75,7 +77,8 @@ static void response_traces(const struct term_tile *tile, double *stiff)
         for (unsigned l = 0; l < model->n_alpha; l++) {
             size_t solid = model->solids[s].material * n_cell;
             if (l == model->solids[s].material) continue;
-            response_trace(n_cell, alpha + solid, stiff + solid, alpha + l * n_cell, stiff + l * n_cell);
+            response_trace(n_cell, settle_trace(model), alpha + solid, stiff + solid, alpha + l * n_cell,
+                           stiff + l * n_cell);
         }
 }
 

@@ -94,30 +94,25 @@ static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, 
     size_t fraction = model->i_alpha * n_cell + from, mass = model->i_m * n_cell + from;
     const double *div = tile->rates + terms_first(tile->terms, &convection_term) * n_cell + from;
     const double *gradient = tile->rates + terms_first(tile->terms, &strain_term) * n_cell + from;
-    double solid[STRAIN_BATCH], K[STRAIN_BATCH], squeeze[STRAIN_BATCH], m_old[STRAIN_BATCH], m_new[STRAIN_BATCH];
+    double room[STRAIN_BATCH], squeeze[STRAIN_BATCH], before[STRAIN_BATCH], after[STRAIN_BATCH];
     double *V = u_new + first;
     struct elastic_rates rates = {.carried = tile->rates + first,
-                                  .m_old = m_old,
-                                  .m_new = m_new,
+                                  .m_old = elastic_carrier(model, k, n, n_cell, tile->u + mass, before),
+                                  .m_new = elastic_carrier(model, k, n, n_cell, u_new + mass, after),
                                   .div = div,
                                   .gradient = gradient,
                                   .relaxes = relaxes};
-    elastic_carriers(model, k, n, n_cell, tile->u + mass, m_old);
-    elastic_carriers(model, k, n, n_cell, u_new + mass, m_new);
     if (model->kapila) {
-        elastic_carriers(model, k, n, n_cell, tile->K + from, K);
-        elastic_carriers(model, k, n, n_cell, tile->w + fraction, solid);
-        strain_squeeze(n, K, solid, div, squeeze);
-        if (response_own(tile)) {
-            elastic_carriers(model, k, n, n_cell, exchange_volume(tile) + from, K);
-            strain_moved(n, 1.0 / tile->dt, K, solid, squeeze);
-        }
+        const double *solid = elastic_carrier(model, k, n, n_cell, tile->w + fraction, room);
+        strain_squeeze(n, elastic_carrier(model, k, n, n_cell, tile->K + from, room), solid, div, squeeze);
+        if (response_own(tile))
+            strain_moved(n, 1.0 / tile->dt, elastic_carrier(model, k, n, n_cell, exchange_volume(tile) + from, room),
+                         solid, squeeze);
         rates.squeeze = squeeze;
         rates.slope = gradient + (model->n_velocity + model_bearer(model, k)) * (unsigned)model->dim * n_cell;
     }
     elastic_advance(model, n, n_cell, tile->dt, V_old + from, &rates, V);
-    if (model->n_alpha) elastic_carriers(model, k, n, n_cell, u_new + fraction, solid);
-    if (model->n_alpha) elastic_fade(model, n, n_cell, solid, V);
+    if (model->n_alpha) elastic_fade(model, n, n_cell, elastic_carrier(model, k, n, n_cell, u_new + fraction, room), V);
 }
 
 void strain_move(const struct term_tile *tile, unsigned k, double relaxes, const double *V_old, double *u_new)

@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "phys/bearing.h"
 #include "phys/elastic.h"
+#include "phys/elastic_tensor.h"
 #include "phys/pick.h"
 #include "phys/row.h"
 
@@ -15,13 +16,14 @@
 
 /* Work space of frames: rows of their cells, and packed ones of the cells about a surface. */
 struct tilt {
-    double *solid;            /* fraction of the solids */
-    double *stress;           /* [6] deviator, xx first, of the cells `wide`; those that the scene has not are 0 */
-    double *m;                /* [n_solid] partial densities, packed as `wide`, as far as they bear */
-    double *room;             /* [6] packed */
-    double *V;                /* [n_stretched] packed */
-    unsigned at[FACE_ROOM];   /* cells that have a normal */
-    unsigned wide[FACE_ROOM]; /* and their neighbours along the axis */
+    double *solid;             /* fraction of the solids */
+    double *stress;            /* [n_stretch] deviator, xx first, packed as `wide` */
+    double *room;              /* [3] packed as `wide` */
+    double *m;                 /* [n_solid] partial densities, packed as `wide`, as far as they bear */
+    double *V;                 /* [n_stretched] packed as `wide` */
+    unsigned at[FACE_ROOM];    /* cells that have a normal */
+    unsigned wide[FACE_ROOM];  /* and their neighbours along the axis */
+    unsigned place[FACE_ROOM]; /* of a cell that is one of them, among them */
 };
 
 void *tilt_open(const struct term_room *room)
@@ -30,14 +32,30 @@ void *tilt_open(const struct term_room *room)
     if (!model->n_normal) return NULL;
     double *rows;
     struct tilt *tilt =
-        mem_new(1, sizeof *tilt + (13 + model->n_solid + model->n_stretched) * FACE_ROOM * sizeof *rows);
+        mem_new(1, sizeof *tilt + (10 + model->n_solid + model->n_stretched) * FACE_ROOM * sizeof *rows);
     rows = (double *)(tilt + 1);
     tilt->solid = rows;
     tilt->stress = tilt->solid + FACE_ROOM;
     tilt->room = tilt->stress + 6 * FACE_ROOM;
-    tilt->m = tilt->room + 6 * FACE_ROOM;
+    tilt->m = tilt->room + 3 * FACE_ROOM;
     tilt->V = tilt->m + model->n_solid * FACE_ROOM;
     return tilt;
+}
+
+/* Fraction of the solids: of one its own row. */
+static const double *tilt_solid(const struct model *model, size_t n, const double *w, struct tilt *tilt)
+{
+    const double *alpha = w + model->i_alpha * FACE_ROOM;
+    if (model->n_solid == 1) return alpha + model->solids[0].material * FACE_ROOM;
+    elastic_sum(model, n, FACE_ROOM, alpha, tilt->solid);
+    return tilt->solid;
+}
+
+/* Does cell i have neighbours along the axis in its slice? */
+static bool tilt_is_inside(const struct frame *frame, size_t i)
+{
+    size_t layers = frame_layers(frame), layer = i / frame->inner % layers;
+    return layer > 0 && layer < layers - 1;
 }
 
 /* Where a cell and both neighbours hold the same nothing meets along this axis: a path of one material says so, too.
@@ -45,30 +63,48 @@ void *tilt_open(const struct term_room *room)
 static size_t tilt_forget(const struct model *model, const struct frame *frame, size_t n, const double *solid,
                           double *w, unsigned *at)
 {
-    size_t step = frame->inner, last = frame_layers(frame) - 1, kept = 0;
+    size_t step = frame->inner, kept = 0;
     for (size_t k = 0; k < n; k++) {
-        size_t i = at[k], layer = i / step % (last + 1);
+        size_t i = at[k];
         double a = solid[i];
-        bool whole = a == 0.0 || a == 1.0, inside = layer > 0 && layer < last;
-        if (whole && inside && solid[i - step] == a && solid[i + step] == a)
+        bool whole = a == 0.0 || a == 1.0, between = i >= step && i + step < frame->count;
+        if (whole && between && solid[i - step] == a && solid[i + step] == a && tilt_is_inside(frame, i))
             for (unsigned d = 0; d < model->n_normal; d++) w[(model->i_normal + d) * FACE_ROOM + i] = 0.0;
         else at[kept++] = (unsigned)i;
     }
     return kept;
 }
 
+/* Those of the n cells `at` that have edges, and their normals. */
+static void tilt_aim(const struct model *model, const struct frame *frame, size_t n, const double *w,
+                     const unsigned *at, struct tilt_aimed *ret)
+{
+    size_t reach = frame_reach(frame), edged = frame_edged(frame);
+    ret->n = 0;
+    for (size_t k = 0; k < n; k++) {
+        if (at[k] < reach || at[k] - reach >= edged) continue;
+        ret->at[ret->n++] = (unsigned)(at[k] - reach);
+    }
+    pick_take_rows(ret->n, ret->at, model->n_normal, FACE_ROOM, w + model->i_normal * FACE_ROOM + reach, FACE_ROOM,
+                   ret->normal);
+    for (unsigned d = 0; d < 3; d++) ret->normal[d * FACE_ROOM + ret->n] = 0.0;
+}
+
 /* The n cells `at` and their neighbours along the axis. Returns how many there are. */
 static size_t tilt_widen(const struct frame *frame, size_t n, struct tilt *tilt)
 {
-    unsigned char mark[FACE_ROOM] = {0};
+    unsigned char room[3 * FACE_ROOM], *mark = room + FACE_ROOM; /* neighbours may lie outside */
     size_t step = frame->inner;
+    memset(mark - step, 0, frame->count + 2 * step);
     for (size_t k = 0; k < n; k++) {
-        size_t i = tilt->at[k];
-        mark[i] = 1;
-        if (i >= step) mark[i - step] = 1;
-        if (i + step < frame->count) mark[i + step] = 1;
+        unsigned char *here = mark + tilt->at[k];
+        here[0] = 1;
+        *(here - step) = 1;
+        here[step] = 1;
     }
-    return pick_marked(frame->count, 0, mark, tilt->wide);
+    n = pick_marked(frame->count, 0, mark, tilt->wide);
+    for (size_t k = 0; k < n; k++) tilt->place[tilt->wide[k]] = (unsigned)k;
+    return n;
 }
 
 /* Partial density of solid s in the n cells `wide`, as far as it bears. */
@@ -93,28 +129,8 @@ static void tilt_stress(const struct model *model, size_t n, const double *w, st
 {
     const double *m[SCENE_MATERIALS];
     for (unsigned s = 0; s < model->n_solid; s++) m[s] = tilt_mass(model, s, n, w, tilt);
-    for (unsigned q = 0; q < model->n_stretched; q++)
-        pick_take(n, tilt->wide, w + (model->i_V + q) * FACE_ROOM, tilt->V + q * FACE_ROOM);
-    elastic_stress(model, n, FACE_ROOM, tilt->V, m, tilt->room);
-    for (unsigned c = 0; c < model->n_stretch; c++)
-        pick_put(n, tilt->wide, tilt->room + c * FACE_ROOM, tilt->stress + c * FACE_ROOM);
-}
-
-/* N.s'N of n cells, with their own normals and the stress of the cells `by` further on. */
-static void tilt_on(const struct model *model, size_t n, const unsigned *at, const double *w, const double *stress,
-                    ptrdiff_t by, double *ret)
-{
-    static const double zero[FACE_ROOM];
-    const double *normal[3], *s[6];
-    for (unsigned d = 0; d < 3; d++) normal[d] = d < model->n_normal ? w + (model->i_normal + d) * FACE_ROOM : zero;
-    for (unsigned c = 0; c < 6; c++) s[c] = stress + (ptrdiff_t)(c * FACE_ROOM) + by;
-    for (size_t k = 0; k < n; k++) {
-        size_t i = at[k];
-        double a = normal[0][i], b = normal[1][i], c = normal[2][i];
-        double straight = a * a * s[ELASTIC_XX][i] + b * b * s[ELASTIC_YY][i] + c * c * s[ELASTIC_ZZ][i];
-        double crossed = a * b * s[ELASTIC_XY][i] + (a * s[ELASTIC_XZ][i] + b * s[ELASTIC_YZ][i]) * c;
-        ret[k] = straight + 2.0 * crossed;
-    }
+    pick_take_rows(n, tilt->wide, model->n_stretched, FACE_ROOM, w + model->i_V * FACE_ROOM, FACE_ROOM, tilt->V);
+    elastic_stress(model, n, FACE_ROOM, tilt->V, m, tilt->stress);
 }
 
 /* The differences of p: of the cells `next` to those before them. */
@@ -125,25 +141,58 @@ static BULLA_KERNEL void tilt_plain(size_t n, const double *restrict next, const
     for (size_t i = 0; i < n; i++) lean[i] = next[i] - before[i];
 }
 
+/* What a stress has on a normal: a sum of its components, that of xy and so on with twice the weight. */
+struct tilt_weights {
+    double xx, yy, zz, xy, x, y, z; /* products of N with itself; and N */
+};
+
+static inline struct tilt_weights tilt_weights(double x, double y, double z)
+{
+    return (struct tilt_weights){x * x, y * y, z * z, x * y, x, y, z};
+}
+
+static inline double tilt_on(bool plane, struct tilt_weights N, const struct elastic_rows *s, size_t i)
+{
+    double straight = N.xx * s->row[0][i] + N.yy * s->row[1][i], crossed = N.xy * s->row[3][i];
+    if (plane) return straight + 2.0 * crossed;
+    return straight + N.zz * s->row[2][i] + 2.0 * (crossed + (N.x * s->row[4][i] + N.y * s->row[5][i]) * N.z);
+}
+
+/* A frame and where the differences of its P go. */
+struct tilt_slope {
+    const double *normal[3];
+    struct elastic_rows stress; /* packed as `wide` */
+    double *p, *below, *above;
+    size_t step, last; /* cells to the neighbour along the axis; first cell without one behind it */
+};
+
 /* The differences at n cells with a normal, of their P to p of the neighbours less the stress there on the same normal,
  * and P itself in place of p. */
-static void tilt_lean(const struct model *model, const struct frame *frame, size_t n, const struct tilt *tilt,
-                      double *w, double *const *lean)
+static inline void tilt_lean(bool plane, const struct tilt *tilt, const struct tilt_slope *to, size_t n)
 {
-    double held[FACE_ROOM], other[FACE_ROOM], *p = w + model->i_E * FACE_ROOM;
-    size_t step = frame->inner, first = 0, end = n;
-    while (first < n && tilt->at[first] < step) first++;
-    while (end > first && tilt->at[end - 1] >= frame->count - step) end--;
-    tilt_on(model, n, tilt->at, w, tilt->stress, 0, held);
-    for (int side = 0; side < 2; side++) {
-        ptrdiff_t by = side ? (ptrdiff_t)step : -(ptrdiff_t)step;
-        tilt_on(model, end - first, tilt->at + first, w, tilt->stress, by, other);
-        for (size_t k = first; k < end; k++) {
-            double more = held[k] - other[k - first];
-            lean[side][tilt->at[k]] -= side ? -more : more;
-        }
+    for (size_t k = 0; k < n; k++) {
+        size_t i = tilt->at[k];
+        struct tilt_weights N = tilt_weights(to->normal[0][i], to->normal[1][i], plane ? 0.0 : to->normal[2][i]);
+        double held = tilt_on(plane, N, &to->stress, tilt->place[i]);
+        bool inside = i >= to->step && i < to->last;
+        if (inside) to->below[i] -= held - tilt_on(plane, N, &to->stress, tilt->place[i - to->step]);
+        if (inside) to->above[i] += held - tilt_on(plane, N, &to->stress, tilt->place[i + to->step]);
+        to->p[i] -= held;
     }
-    for (size_t k = 0; k < n; k++) p[tilt->at[k]] -= held[k];
+}
+
+static void tilt_slopes(const struct model *model, const struct frame *frame, size_t n, const struct tilt *tilt,
+                        double *w, double *const *lean)
+{
+    struct tilt_slope to = {.stress = elastic_tensor_rows(tilt->stress, FACE_ROOM, model->n_stretch),
+                            .p = w + model->i_E * FACE_ROOM,
+                            .below = lean[0],
+                            .above = lean[1],
+                            .step = frame->inner,
+                            .last = frame->count - frame->inner};
+    for (unsigned d = 0; d < 3; d++) to.normal[d] = w + (model->i_normal + d % model->n_normal) * FACE_ROOM;
+    if (model->n_velocity < 3) tilt_lean(true, tilt, &to, n);
+    else tilt_lean(false, tilt, &to, n);
 }
 
 void tilt_frame(const struct term_piece *piece)
@@ -157,35 +206,34 @@ void tilt_frame(const struct term_piece *piece)
     for (size_t side = 0; side < 2; side++)
         tilt_plain(n - 2 * step, p + (side + 1) * step, p + side * step, lean[side] + step);
     size_t count = pick_nonzero(n, model->n_normal, FACE_ROOM, w + model->i_normal * FACE_ROOM, tilt->at);
+    count = tilt_forget(model, frame, count, tilt_solid(model, n, w, tilt), w, tilt->at);
+    tilt_aim(model, frame, count, w, tilt->at, piece->faces->aimed);
     if (!count) return;
-    elastic_sum(model, n, FACE_ROOM, w + model->i_alpha * FACE_ROOM, tilt->solid);
-    count = tilt_forget(model, frame, count, tilt->solid, w, tilt->at);
     tilt_stress(model, tilt_widen(frame, count, tilt), w, tilt);
-    tilt_lean(model, frame, count, tilt, w, lean);
+    tilt_slopes(model, frame, count, tilt, w, lean);
 }
 
-void tilt_aim(const struct model *model, const struct frame *frame, const double *cells, double *state,
-              struct tilt_aimed *ret)
-{
-    size_t n = frame_edged(frame), reach = frame_reach(frame);
-    const double *normal = cells + model->i_normal * FACE_ROOM + reach;
-    for (unsigned q = model->i_normal; q < model->i_normal + model->n_normal; q++)
-        for (size_t side = 0; side < 2; side++)
-            memcpy(state + 2 * q * FACE_ROOM + side * n, cells + q * FACE_ROOM + reach, n * sizeof *state);
-    ret->n = pick_nonzero(n, model->n_normal, FACE_ROOM, normal, ret->at);
-}
+/* Faces of which one side has a normal. */
+struct tilt_faces {
+    size_t n;
+    unsigned at[FACE_ROOM];
+    unsigned of[2][FACE_ROOM]; /* which of the cells that have one lies below, and above; their number: none */
+};
 
-/* Faces of which one side has a normal: those above and below the cells that have one, of n. Returns how many. */
-static size_t tilt_faces(const struct tilt_aimed *aimed, size_t step, size_t n, unsigned *at)
+/* Those above and below the cells that have one, of n. */
+static void tilt_faces(const struct tilt_aimed *aimed, size_t step, size_t n, struct tilt_faces *ret)
 {
-    size_t count = 0, above = 0, below = 0;
+    size_t above = 0, below = 0;
     const size_t none = SIZE_MAX;
+    ret->n = 0;
     while (below < aimed->n && aimed->at[below] < step) below++;
     for (;;) {
         size_t up = above < aimed->n && aimed->at[above] < n ? aimed->at[above] : none;
         size_t down = below < aimed->n ? aimed->at[below] - step : none, next = up < down ? up : down;
-        if (next == none) return count;
-        at[count++] = (unsigned)next;
+        if (next == none) return;
+        ret->at[ret->n] = (unsigned)next;
+        ret->of[0][ret->n] = (unsigned)(up == next ? above : aimed->n);
+        ret->of[1][ret->n++] = (unsigned)(down == next ? below : aimed->n);
         above += up == next;
         below += down == next;
     }
@@ -217,65 +265,98 @@ static void tilt_fractions(const struct model *model, size_t n, const unsigned *
     }
 }
 
-/* What faces bear of which no side has a normal: what the edge's own fractions say. */
-static BULLA_KERNEL void tilt_leave(size_t n, const double *restrict stress, double *restrict traction)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) traction[i] -= stress[i];
-}
-
-/* Component d of t at an edge, the traction on its normal N without what is along N; and of N. */
+/* What of t, the traction on a normal N without what is along N, the faces of axis f take as it is: c 2 N_f t_f and
+ * c (N_f t_g + N_g t_f), c = 1 where they lie in the surface. Packed as the cells that have a normal, with a 0 more. */
 struct tilt_slip {
-    double t, N;
+    double along[FACE_ROOM], alike[FACE_ROOM], t[FACE_ROOM]; /* mean/N^2, c, t_f */
+    double straight[FACE_ROOM], across[2][FACE_ROOM];
 };
 
-static struct tilt_slip tilt_slip(const struct model *model, const struct tilt_edges *edges, size_t i, unsigned d)
+static BULLA_KERNEL void tilt_slip_straight(size_t n, const double *restrict normal, const double *restrict N,
+                                            const double *restrict mean, const double *restrict pull,
+                                            struct tilt_slip *ret)
 {
-    double square = 0.0, N = 0.0;
-    for (unsigned e = 0; e < model->n_normal; e++) {
-        double n = edges->state[2 * (model->i_normal + e) * FACE_ROOM + i];
-        square += n * n;
-        if (e == d) N = n;
+    const double *restrict nx = normal, *restrict ny = normal + FACE_ROOM, *restrict nz = ny + FACE_ROOM;
+    double *restrict along = ret->along, *restrict alike = ret->alike, *restrict t = ret->t;
+    double *restrict straight = ret->straight;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double square = nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i], f = N[i], part = mean[i] / square;
+        double c = 2.0 * f * f - 1.0;
+        part = square > 0.0 ? part : 0.0;
+        c = c > 0.0 ? c : 0.0;
+        double over = pull[i] - f * part;
+        along[i] = part;
+        alike[i] = c;
+        t[i] = over;
+        straight[i] = c * 2.0 * f * over;
     }
-    double along = square > 0.0 ? edges->mean[i] / square : 0.0;
-    return (struct tilt_slip){edges->pull[d][i] - N * along, N};
 }
 
-/* How much of t a face takes as it is: all where it lies in the surface. */
-static double tilt_alike(double N)
+static BULLA_KERNEL void tilt_slip_across(size_t n, const double *restrict N, const double *restrict across,
+                                          const double *restrict pull, const struct tilt_slip *slip,
+                                          double *restrict ret)
 {
-    double c = 2.0 * N * N - 1.0;
-    return c > 0.0 ? c : 0.0;
+    const double *restrict along = slip->along, *restrict alike = slip->alike, *restrict t = slip->t;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double f = N[i], g = across[i], over = pull[i] - g * along[i];
+        ret[i] = alike[i] * (f * over + g * t[i]);
+    }
 }
 
-/* What all of them bear seen from one side, whose n rows begin at `from`; `part`: of the `count` faces `at`. */
-static void tilt_bear(const struct model *model, int axis, size_t n, size_t from, size_t count, const unsigned *at,
+/* The same for all cells, seen from one side. */
+static void tilt_slip(const struct model *model, int axis, size_t side, const struct tilt_edges *edges,
+                      struct tilt_slip *ret)
+{
+    const struct tilt_aimed *aimed = edges->aimed;
+    const double *N = aimed->normal + axis * FACE_ROOM, *zero = aimed->normal + 2 * FACE_ROOM;
+    size_t from = side * FACE_ROOM, n = aimed->n;
+    tilt_slip_straight(n, aimed->normal, N, edges->held->mean + from, edges->held->pull[axis] + from, ret);
+    for (unsigned d = 0; d + 1 < model->n_velocity; d++) {
+        unsigned g = axis_component(axis, d + 1);
+        const double *across = g < model->n_normal ? aimed->normal + g * FACE_ROOM : zero;
+        tilt_slip_across(n, N, across, edges->held->pull[g] + from, ret, ret->across[d]);
+        ret->across[d][n] = 0.0;
+    }
+    ret->straight[n] = edges->held->mean[from + n] = 0.0;
+}
+
+/* What all of them bear seen from one side, whose rows begin at `from`. */
+static void tilt_bear(const struct model *model, int axis, size_t side, size_t from, const struct tilt_faces *faces,
                       const double *part, const struct tilt_edges *edges)
 {
-    double borne[FACE_ROOM], *traction = edges->traction + from;
-    for (size_t k = 0; k < count; k++) {
-        size_t i = from + at[k];
-        struct tilt_slip f = tilt_slip(model, edges, i, axis_component(axis, 0));
-        double alike = tilt_alike(f.N), slip = alike * 2.0 * f.N * f.t;
-        borne[k] = traction[at[k]] - slip - part[k] * (edges->stress[i] - edges->mean[i] - slip);
-        for (unsigned d = 0; d + 1 < model->n_velocity; d++) {
-            struct tilt_slip g = tilt_slip(model, edges, i, axis_component(axis, d + 1));
-            double shear = edges->shear[d][i], slide = alike * (f.N * g.t + g.N * f.t);
-            edges->shear[d][i] = slide + part[k] * (shear - slide);
+    struct tilt_slip slip;
+    tilt_slip(model, axis, side, edges, &slip);
+    const unsigned *at = faces->at, *of = faces->of[side];
+    const double *mean = edges->held->mean + side * FACE_ROOM, *stress = edges->stress + from;
+    const double *P = edges->state + 2 * model->i_E * FACE_ROOM + from;
+    double *traction = edges->traction + from;
+    for (size_t k = 0; k < faces->n; k++) {
+        size_t i = at[k], own = of[k];
+        double slides = slip.straight[own];
+        traction[i] = P[i] - slides - part[k] * (stress[i] - mean[own] - slides);
+    }
+    for (unsigned d = 0; d + 1 < model->n_velocity; d++) {
+        double *shear = edges->shear[d] + from;
+        const double *across = slip.across[d];
+        for (size_t k = 0; k < faces->n; k++) {
+            double slides = across[of[k]];
+            shear[at[k]] = slides + part[k] * (shear[at[k]] - slides);
         }
     }
-    tilt_leave(n, edges->stress + from, traction);
-    pick_put(count, at, borne, traction);
 }
 
 void tilt_share(const struct model *model, const struct frame *frame, const struct tilt_edges *edges)
 {
     double part[2][FACE_ROOM];
-    unsigned at[FACE_ROOM];
+    struct tilt_faces faces;
     size_t cells = frame_edged(frame), n = cells - frame->inner, right = cells + frame->inner;
-    size_t count = tilt_faces(edges->aimed, frame->inner, n, at);
-    for (size_t side = 0; side < 2; side++) tilt_fractions(model, count, at, edges->state + side * right, part[side]);
-    tilt_parts(count, part[0], part[1]);
+    tilt_faces(edges->aimed, frame->inner, n, &faces);
+    if (!faces.n) return;
     for (size_t side = 0; side < 2; side++)
-        tilt_bear(model, frame->axis, n, side * right, count, at, part[side], edges);
+        tilt_fractions(model, faces.n, faces.at, edges->state + side * right, part[side]);
+    tilt_parts(faces.n, part[0], part[1]);
+    for (size_t side = 0; side < 2; side++)
+        tilt_bear(model, frame->axis, side, side * right, &faces, part[side], edges);
 }

@@ -19,27 +19,31 @@
 /* Work space of a scene, of mem_new; NULL: it has no normals. */
 void *tilt_open(const struct term_room *room);
 
-/* P in place of p in the gathered cells, and the differences. */
-void tilt_frame(const struct term_piece *piece);
-
-/* The cells with edges, as frame_edged() counts them, that have a normal. */
+/* The cells with edges, as frame_edged() counts them, that have a normal, and it, packed; component d at
+ * normal + d * FACE_ROOM. One value more than that is there in each row, 0. */
 struct tilt_aimed {
     size_t n;
     unsigned at[FACE_ROOM];
+    double normal[3 * FACE_ROOM];
 };
 
-/* Normals at the edges, and which cells have one. `cells`: primitives of the frame; state: as of edges_fill. */
-void tilt_aim(const struct model *model, const struct frame *frame, const double *cells, double *state,
-              struct tilt_aimed *ret);
+/* P in place of p in the gathered cells, and the differences; and which cells have a normal. */
+void tilt_frame(const struct term_piece *piece);
+
+/* What solids have on the normals of the edges: packed rows, those of upper edges first, of lower ones from FACE_ROOM
+ * on; with room for one value more. */
+struct tilt_held {
+    double *mean;    /* sum alpha_l s'_l,nn */
+    double *pull[3]; /* [n_velocity] sum alpha_l s'_l N */
+};
 
 /* Rows of the edges of a frame, upper ones first. */
 struct tilt_edges {
     const double *state; /* primitives, component q at 2 q FACE_ROOM */
     const struct tilt_aimed *aimed;
-    const double *mean;   /* sum alpha_l s'_l,nn */
-    double *const *pull;  /* [n_velocity] sum alpha_l s'_l N */
+    const struct tilt_held *held;
     const double *stress; /* s'_ff of the cell */
-    double *traction;     /* in: P; out: -s_ff */
+    double *traction;     /* -s_ff: in: P - s'_ff of the cell; out: of the face */
     double *const *shear; /* [n_velocity - 1] s'_ft: in: of the cell; out: of the face */
 };
 

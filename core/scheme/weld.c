@@ -7,14 +7,16 @@
 #include "base/mem.h"
 #include "phys/bearing.h"
 #include "phys/elastic.h"
+#include "phys/elastic_tensor.h"
 #include "phys/mix.h"
+#include "phys/pick.h"
 #include "scheme/strain.h"
 #include "scheme/terms.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { WELD_BATCH = 64 };
+enum { WELD_BATCH = 64, WELD_LOOK = 512 }; /* cells that are worked on, and looked at, together */
 
 /* Steps of fractions that small count less: an even mixture has no interface. */
 #define WELD_TRACE 1e-3
@@ -25,7 +27,8 @@ enum { WELD_BATCH = 64 };
 /* The cells of a tile in which solids meet. */
 struct weld {
     const struct model *model;
-    size_t n, cell[WELD_BATCH];
+    size_t n;
+    unsigned cell[WELD_BATCH];
     double frame[3][3][WELD_BATCH];                                            /* n and two tangents */
     double part[WELD_BATCH];                                                   /* of the way to one traction */
     double alpha[SCENE_MATERIALS][WELD_BATCH], m[SCENE_MATERIALS][WELD_BATCH]; /* by solid; m as far as it bears */
@@ -77,18 +80,33 @@ static void weld_aim(struct weld *weld, size_t i, const double g[3], double size
     }
 }
 
-/* Does the cell hold several solids, and an interface? Then it comes into the batch. */
-static void weld_look(struct weld *weld, const struct term_tile *tile, const double *u, size_t cell)
+/* Counts a solid where it is. */
+static BULLA_KERNEL void weld_count(size_t n, const double *restrict alpha, const double *restrict m,
+                                    unsigned char *restrict there)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++)
+        there[i] = (unsigned char)(there[i] + ((alpha[i] > MIX_ABSENT) & (m[i] > ELASTIC_NOTHING)));
+}
+
+/* Of n cells from cell `from` on those that hold several solids. Returns how many there are. */
+static size_t weld_pick(const struct term_tile *tile, const double *u, size_t from, size_t n, unsigned *at)
 {
     const struct model *model = tile->model;
-    unsigned there = 0;
-    double g[3];
+    unsigned char there[WELD_LOOK] = {0};
     for (unsigned s = 0; s < model->n_solid; s++) {
         unsigned l = model->solids[s].material;
-        double alpha = u[(model->i_alpha + l) * tile->n_cell + cell], m = u[(model->i_m + l) * tile->n_cell + cell];
-        there += alpha > MIX_ABSENT && m > ELASTIC_NOTHING;
+        weld_count(n, u + (model->i_alpha + l) * tile->n_cell + from, u + (model->i_m + l) * tile->n_cell + from,
+                   there);
     }
-    if (there < 2) return;
+    for (size_t i = 0; i < n; i++) there[i] = there[i] > 1;
+    return pick_marked(n, (unsigned)from, there, at);
+}
+
+/* Has a cell that holds several solids an interface? Then it comes into the batch. */
+static void weld_look(struct weld *weld, const struct term_tile *tile, const double *u, unsigned cell)
+{
+    double g[3];
     weld_colour(tile, u, cell, g);
     double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]), weight = size / WELD_TRACE;
     if (!(size > 0.0)) return;
@@ -97,50 +115,98 @@ static void weld_look(struct weld *weld, const struct term_tile *tile, const dou
     weld->cell[weld->n++] = cell;
 }
 
-/* V of a stretch of point i: R V R^T with the rows of the frame as R, or back. */
-static void weld_turn(struct weld *weld, size_t i, double *V, bool back)
+struct weld_vector {
+    double x, y, z;
+};
+
+static ELASTIC_BODY struct weld_vector weld_times(struct elastic_tensor V, struct weld_vector r)
 {
-    unsigned n = weld->model->n_stretch;
-    double full[3][3], half[3][3];
+    return (struct weld_vector){r.x * V.xx + r.y * V.xy + r.z * V.xz, r.x * V.xy + r.y * V.yy + r.z * V.yz,
+                                r.x * V.xz + r.y * V.yz + r.z * V.zz};
+}
+
+static ELASTIC_BODY double weld_dot(struct weld_vector a, struct weld_vector r)
+{
+    return a.x * r.x + a.y * r.y + a.z * r.z;
+}
+
+/* R V R^T of points with the rows of R. */
+static BULLA_KERNEL void weld_turn_space(size_t n, const double *const R[3][3], double *const *V)
+{
+    const double *restrict xx = R[0][0], *restrict xy = R[0][1], *restrict xz = R[0][2];
+    const double *restrict yx = R[1][0], *restrict yy = R[1][1], *restrict yz = R[1][2];
+    const double *restrict zx = R[2][0], *restrict zy = R[2][1], *restrict zz = R[2][2];
+    double *restrict v_xx = V[0], *restrict v_yy = V[1], *restrict v_zz = V[2];
+    double *restrict v_xy = V[3], *restrict v_xz = V[4], *restrict v_yz = V[5];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        struct elastic_tensor full = {v_xx[i], v_yy[i], v_zz[i], v_xy[i], v_xz[i], v_yz[i]};
+        struct weld_vector x = {xx[i], xy[i], xz[i]}, y = {yx[i], yy[i], yz[i]}, z = {zx[i], zy[i], zz[i]};
+        struct weld_vector a = weld_times(full, x), b = weld_times(full, y);
+        v_xx[i] = weld_dot(a, x);
+        v_xy[i] = weld_dot(a, y);
+        v_xz[i] = weld_dot(a, z);
+        v_yy[i] = weld_dot(b, y);
+        v_yz[i] = weld_dot(b, z);
+        v_zz[i] = weld_dot(weld_times(full, z), z);
+    }
+}
+
+/* In a plane, where z stands alone. */
+static BULLA_KERNEL void weld_turn_plane(size_t n, const double *const R[3][3], double *const *V)
+{
+    const double *restrict xx = R[0][0], *restrict xy = R[0][1], *restrict yx = R[1][0], *restrict yy = R[1][1];
+    const double *restrict zz = R[2][2];
+    double *restrict v_xx = V[0], *restrict v_yy = V[1], *restrict v_zz = V[2], *restrict v_xy = V[3];
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = v_xx[i], b = v_xy[i], d = v_yy[i], z = zz[i];
+        double ax = xx[i] * a + xy[i] * b, ay = xx[i] * b + xy[i] * d;
+        double bx = yx[i] * a + yy[i] * b, by = yx[i] * b + yy[i] * d;
+        v_xx[i] = ax * xx[i] + ay * xy[i];
+        v_xy[i] = ax * yx[i] + ay * yy[i];
+        v_yy[i] = bx * yx[i] + by * yy[i];
+        v_zz[i] = z * v_zz[i] * z;
+    }
+}
+
+/* A stretch of all points: R V R^T with the rows of the frame as R, or back. */
+static void weld_turn(struct weld *weld, double *V, bool back)
+{
+    const double *R[3][3];
+    double *rows[6] = {NULL};
     for (unsigned a = 0; a < 3; a++)
-        for (unsigned b = 0; b < 3; b++) {
-            unsigned c = elastic_component(a < b ? a : b, a < b ? b : a);
-            full[a][b] = c < n ? V[c * WELD_BATCH + i] : 0.0;
-        }
-    for (unsigned a = 0; a < 3; a++)
-        for (unsigned b = 0; b < 3; b++) {
-            half[a][b] = 0.0;
-            for (unsigned d = 0; d < 3; d++)
-                half[a][b] += (back ? weld->frame[d][a][i] : weld->frame[a][d][i]) * full[d][b];
-        }
-    for (unsigned a = 0; a < 3; a++)
-        for (unsigned b = a; b < 3; b++) {
-            unsigned c = elastic_component(a, b);
-            double sum = 0.0;
-            for (unsigned d = 0; d < 3; d++) sum += half[a][d] * (back ? weld->frame[d][b][i] : weld->frame[b][d][i]);
-            if (c < n) V[c * WELD_BATCH + i] = sum;
-        }
+        for (unsigned d = 0; d < 3; d++) R[a][d] = back ? weld->frame[d][a] : weld->frame[a][d];
+    for (unsigned c = 0; c < weld->model->n_stretch; c++) rows[c] = V + c * WELD_BATCH;
+    if (weld->model->n_velocity < 3) weld_turn_plane(weld->n, R, rows);
+    else weld_turn_space(weld->n, R, rows);
+}
+
+/* Partial densities of solid s, as far as it bears. */
+static void weld_bear(struct weld *weld, const struct term_tile *tile, unsigned s, const double *u)
+{
+    const struct model_solid *solid = &weld->model->solids[s];
+    double *m = weld->m[s], broken[WELD_BATCH];
+    pick_take(weld->n, weld->cell, u + (weld->model->i_m + solid->material) * tile->n_cell, m);
+    if (solid->damage.law) pick_take(weld->n, weld->cell, u + solid->damage.field * tile->n_cell, broken);
+    for (size_t i = 0; i < weld->n; i++) {
+        double part = solid->damage.law && m[i] > ELASTIC_NOTHING ? bearing_part(broken[i] / m[i]) : 1.0;
+        m[i] = m[i] > ELASTIC_NOTHING ? m[i] * part : 0.0;
+    }
 }
 
 static void weld_gather(struct weld *weld, const struct term_tile *tile, const double *u)
 {
     const struct model *model = weld->model;
     for (unsigned s = 0; s < model->n_solid; s++) {
-        const struct model_solid *solid = &model->solids[s];
-        for (size_t i = 0; i < weld->n; i++) {
-            const double *at = u + weld->cell[i];
-            double m = at[(model->i_m + solid->material) * tile->n_cell];
-            double broken = solid->damage.law ? at[solid->damage.field * tile->n_cell] : 0.0;
-            weld->alpha[s][i] = at[(model->i_alpha + solid->material) * tile->n_cell];
-            weld->m[s][i] = m > ELASTIC_NOTHING ? m * bearing_part(broken / m) : 0.0;
-        }
+        pick_take(weld->n, weld->cell, u + (model->i_alpha + model->solids[s].material) * tile->n_cell, weld->alpha[s]);
+        weld_bear(weld, tile, s, u);
     }
     for (unsigned k = 0; k < model_stretches(model); k++) {
         double *V = weld->V[elastic_block(model, k, 1)];
-        for (unsigned c = 0; c < model->n_stretch; c++)
-            for (size_t i = 0; i < weld->n; i++)
-                V[c * WELD_BATCH + i] = u[(model_stretch(model, k) + c) * tile->n_cell + weld->cell[i]];
-        for (size_t i = 0; i < weld->n; i++) weld_turn(weld, i, V, false);
+        pick_take_rows(weld->n, weld->cell, model->n_stretch, tile->n_cell, u + model_stretch(model, k) * tile->n_cell,
+                       WELD_BATCH, V);
+        weld_turn(weld, V, false);
     }
 }
 
@@ -166,22 +232,39 @@ static void weld_pull(struct weld *weld)
     }
 }
 
-/* What the solids of point i slide by. One that bears no shear takes no part. */
-static void weld_slide(struct weld *weld, size_t i)
+/* Adds a solid's share in what gives. One that bears no shear takes no part. */
+static BULLA_KERNEL void weld_share(size_t n, const double *restrict alpha, const double *restrict k,
+                                    const double *restrict t, double *restrict sum, double *restrict give)
 {
-    const struct model *model = weld->model;
-    for (unsigned d = 0; d + 1 < model->n_velocity; d++) {
-        double sum = 0.0, give = 0.0;
-        for (unsigned s = 0; s < model->n_solid; s++) {
-            double k = weld->k[s][i], share = k > 0.0 ? weld->alpha[s][i] / k : 0.0;
-            sum += share * weld->t[d][s][i];
-            give += share;
-        }
-        for (unsigned s = 0; s < model->n_solid; s++) {
-            double k = weld->k[s][i], a = k > 0.0 ? weld->part[i] * (sum / give - weld->t[d][s][i]) / k : 0.0;
-            weld->a[d][s][i] = fabs(a) > WELD_NOTHING ? a : 0.0;
-        }
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double stiff = k[i], share = alpha[i] / stiff;
+        share = stiff > 0.0 ? share : 0.0;
+        sum[i] += share * t[i];
+        give[i] += share;
     }
+}
+
+static BULLA_KERNEL void weld_way(size_t n, const double *restrict part, const double *restrict sum,
+                                  const double *restrict give, const double *restrict t, const double *restrict k,
+                                  double *restrict slide)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double stiff = k[i], a = part[i] * (sum[i] / give[i] - t[i]) / stiff;
+        a = stiff > 0.0 ? a : 0.0;
+        slide[i] = fabs(a) > WELD_NOTHING ? a : 0.0;
+    }
+}
+
+/* What the solids slide by along tangent d. */
+static void weld_slide(struct weld *weld, unsigned d)
+{
+    double sum[WELD_BATCH] = {0}, give[WELD_BATCH] = {0};
+    unsigned n_solid = weld->model->n_solid;
+    for (unsigned s = 0; s < n_solid; s++) weld_share(weld->n, weld->alpha[s], weld->k[s], weld->t[d][s], sum, give);
+    for (unsigned s = 0; s < n_solid; s++)
+        weld_way(weld->n, weld->part, sum, give, weld->t[d][s], weld->k[s], weld->a[d][s]);
 }
 
 /* Stretch k of all points sheared by what its solid slides by: (1 + a n^T) in two halves. */
@@ -208,9 +291,9 @@ static void weld_scatter(struct weld *weld, const struct term_tile *tile, double
         double *V = weld->V[elastic_block(model, k, 1)];
         unsigned s = model_bearer(model, k);
         weld_shear(weld, k);
+        weld_turn(weld, V, true);
         for (size_t i = 0; i < weld->n; i++) {
             if (weld->a[0][s][i] == 0.0 && weld->a[1][s][i] == 0.0) continue;
-            weld_turn(weld, i, V, true);
             for (unsigned c = 0; c < model->n_stretch; c++)
                 u[(model_stretch(model, k) + c) * tile->n_cell + weld->cell[i]] = V[c * WELD_BATCH + i];
         }
@@ -222,7 +305,7 @@ static void weld_batch(struct weld *weld, const struct term_tile *tile, double *
     if (!weld->n) return;
     weld_gather(weld, tile, u);
     weld_pull(weld);
-    for (size_t i = 0; i < weld->n; i++) weld_slide(weld, i);
+    for (unsigned d = 0; d + 1 < tile->model->n_velocity; d++) weld_slide(weld, d);
     weld_scatter(weld, tile, u);
     weld->n = 0;
 }
@@ -230,11 +313,15 @@ static void weld_batch(struct weld *weld, const struct term_tile *tile, double *
 static size_t weld_apply(const struct term_tile *tile, double *u_new)
 {
     struct weld *weld = tile->own;
+    unsigned at[WELD_LOOK];
     weld->model = tile->model;
     weld->n = 0;
-    for (size_t cell = 0; cell < tile->n_cell; cell++) {
-        weld_look(weld, tile, u_new, cell);
-        if (weld->n == WELD_BATCH) weld_batch(weld, tile, u_new);
+    for (size_t from = 0; from < tile->n_cell; from += WELD_LOOK) {
+        size_t left = tile->n_cell - from, n = weld_pick(tile, u_new, from, left < WELD_LOOK ? left : WELD_LOOK, at);
+        for (size_t i = 0; i < n; i++) {
+            weld_look(weld, tile, u_new, at[i]);
+            if (weld->n == WELD_BATCH) weld_batch(weld, tile, u_new);
+        }
     }
     weld_batch(weld, tile, u_new);
     return 0;

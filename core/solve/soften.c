@@ -50,7 +50,8 @@ static bool soften_fed(const struct scene_sources *sources)
 bool soften_applies(const struct model *model)
 {
     bool adiabatic = model->n_phase == 0 && !model->conducts && !soften_fed(model->scene->sources);
-    return model->n_alpha > 1 && model->kapila && !model->lagged && adiabatic;
+    bool fluid = model->n_solid < model->n_material;
+    return model->n_alpha > 1 && fluid && model->kapila && !model->lagged && adiabatic;
 }
 
 size_t soften_find(const struct model *model, size_t n, size_t stride, const double *u, const double *w,

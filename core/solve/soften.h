@@ -9,9 +9,9 @@
 
 enum { SOFTEN_BATCH = 512 };
 
-/* Does a scene soften at all? With kapila, where the materials of a cell have one pressure, and where nothing but waves
- * gives heat or volume to a material: no phase changes, nothing conducts, no source heats. model: of the scene, not of
- * a path. */
+/* Does a scene soften at all? With kapila and a fluid, where materials of a cell have one pressure, and where only
+ * waves give heat or volume to a material: no phase changes, nothing conducts, no source heats. model: of the scene,
+ * not of a path. */
 bool soften_applies(const struct model *model);
 
 struct soften_suspect {
