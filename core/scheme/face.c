@@ -226,25 +226,6 @@ static void face_load(struct face_work *work, const struct frame *frame, size_t 
     face_stress_complete(own->stress, model, &edges);
 }
 
-/* The mask of the cells before the faces of a frame, NULL without one, in which cells beside open boundaries are
- * marked, too: low_mach.h. */
-static const double *face_shore(struct face_work *work, const struct frame *frame, bool masked)
-{
-    const bool *open = work->open[frame->axis];
-    const struct face_own *own = work->own;
-    double *shore = own->stiffness; /* of a material that is done */
-    size_t first = frame_reach(frame);
-    if (!open[0] && !open[1]) return masked ? work->mask + first : NULL;
-    if (masked) memcpy(shore, work->mask, frame->count * sizeof *shore);
-    else memset(shore, 0, frame->count * sizeof *shore);
-    for (size_t o = 0; o < frame->outer; o++)
-        for (int side = 0; side < 2; side++) {
-            double *line = shore + frame_at(frame, o, side ? (int)frame->n - 1 : 0);
-            for (size_t i = 0; open[side] && i < frame->inner; i++) line[i] = 1.0;
-        }
-    return shore + first;
-}
-
 static BULLA_KERNEL void face_lag(size_t n, const double *restrict p, const double *restrict lag, double *restrict own)
 {
 #pragma omp simd
@@ -273,13 +254,29 @@ static double *face_velocity(const struct face_work *work, const struct frame *f
     return own->state + 2 * (work->model->i_u + axis_component(frame->axis, d)) * FACE_ROOM;
 }
 
+/* Cells in which a liquid evaporates at its surface, NULL without any. */
+static const double *face_fronts(struct face_work *work, const struct frame *frame)
+{
+    const struct model *model = work->model;
+    const struct face_own *own = work->own;
+    double *front = own->strain;
+    if (!model->fronts || model->scene->scheme.low_mach <= LOW_MACH_FRONT) return NULL;
+    memset(front, 0, frame->count * sizeof *front);
+    for (unsigned k = 0; k < model->n_phase; k++) {
+        unsigned liquid = model->phases[k].member[0];
+        if (model->phases[k].scene->onset > 0.0)
+            low_mach_surface(frame->count, work->frame + (model->i_alpha + liquid) * FACE_ROOM, front);
+    }
+    return front + frame_reach(frame);
+}
+
 /* Velocities at the faces of a row of cells, before they have an energy; rho c^2 is still that in own->c. */
 static void face_calm(struct face_work *work, const struct frame *frame, const double *rho, bool masked)
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
     double least = model->scene->scheme.low_mach;
-    if (least >= 1.0) return;
+    if (least >= 1.0 && !model->fronts) return;
     size_t cells = frame_edged(frame);
     const struct low_mach faces = {.n = cells - frame->inner,
                                    .right = cells + frame->inner,
@@ -287,8 +284,10 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
                                    .rho = rho,
                                    .rho_c2 = own->c,
                                    .p = work->frame + model->i_E * FACE_ROOM + frame_reach(frame),
-                                   .mask = face_shore(work, frame, masked),
+                                   .mask = low_mach_kept(frame, work->open[frame->axis], masked ? work->mask : NULL,
+                                                         own->stiffness),
                                    .step = frame->inner,
+                                   .front = face_fronts(work, frame),
                                    .part = own->term};
     double *normal = face_velocity(work, frame, 0);
     low_mach_weigh(&faces, normal);
@@ -351,7 +350,8 @@ static bool face_thick(struct face_work *work, const struct frame *frame, const 
                                        .rho_l = own->state + 2 * model->i_m * FACE_ROOM,
                                        .rho = rho,
                                        .rho_c2 = own->c,
-                                       .mask = face_shore(work, frame, masked),
+                                       .mask = low_mach_kept(frame, work->open[frame->axis], masked ? work->mask : NULL,
+                                                             own->stiffness),
                                        .N = own->term,
                                        .part = own->origin,
                                        .mixed = own->strain};

@@ -4,11 +4,15 @@
 #include "bulla/module.h"
 
 #include <math.h>
+#include <string.h>
 
 /* From the second difference of pressure over rho c^2 to its part of z: bends of more than 1/200 of rho c^2, 13 MPa in
  * water, see the whole jump; with less the tubes R08 and R09 overshoot by more than 2 %
  * (docs/decisions/low-mach.md). */
 #define LOW_MACH_BEND 200.0
+
+/* Less than this of a liquid, or of all else, makes no surface. */
+#define LOW_MACH_TRACE 1e-6
 
 /* Both neighbours first: mirror images keep their bits. */
 static inline double low_mach_bend(double before, double here, double after)
@@ -56,10 +60,51 @@ static BULLA_KERNEL void low_mach_light(size_t n, const double *restrict rho_l, 
     }
 }
 
+/* Another `least` at the faces of marked cells. */
+static BULLA_KERNEL void low_mach_ease(size_t n, size_t step, double less, const double *restrict front,
+                                       double *restrict part)
+{
+    const double *next = front + step;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double z = part[i], eased = z - less;
+        part[i] = front[i] + next[i] > 0.0 ? eased : z;
+    }
+}
+
+static BULLA_KERNEL void low_mach_share(size_t n, const double *restrict liquid, double *restrict front)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = liquid[i], before = front[i];
+        front[i] = a > LOW_MACH_TRACE && a < 1.0 - LOW_MACH_TRACE ? 1.0 : before;
+    }
+}
+
+void low_mach_surface(size_t n, const double *liquid, double *front)
+{
+    low_mach_share(n, liquid, front);
+}
+
+const double *low_mach_kept(const struct frame *frame, const bool open[2], const double *mask, double *room)
+{
+    const size_t first = frame_reach(frame);
+    if (!open[0] && !open[1]) return mask ? mask + first : NULL;
+    if (mask) memcpy(room, mask, frame->count * sizeof *room);
+    else memset(room, 0, frame->count * sizeof *room);
+    for (size_t o = 0; o < frame->outer; o++)
+        for (int side = 0; side < 2; side++) {
+            double *line = room + frame_at(frame, o, side ? (int)frame->n - 1 : 0);
+            for (size_t i = 0; open[side] && i < frame->inner; i++) line[i] = 1.0;
+        }
+    return room + first;
+}
+
 void low_mach_weigh(const struct low_mach *faces, const double *u)
 {
     const size_t n = faces->n;
     low_mach_part(n, faces->step, faces->least, faces->rho, faces->rho_c2, u, faces->right, faces->p, faces->part);
+    if (faces->front) low_mach_ease(n, faces->step, faces->least - LOW_MACH_FRONT, faces->front, faces->part);
     for (size_t i = 0; faces->mask && i < n; i++)
         if (faces->mask[i] + faces->mask[i + faces->step] != 0.0) faces->part[i] = 1.0;
 }

@@ -12,11 +12,18 @@
  * left of the resistance is at least that of the upwind side, z rho c >= |rho u|, in a liquid and in a gas; between
  * them, where the lighter side resists and the heavier one carries, the jump stays. Other solvers carry u_t from the
  * upwind side, and keep it. Faces of troubled cells and of those beside boundaries that waves cross keep their jumps:
- * what leaves there is a wave, and with two means in place of its invariants it would not. */
+ * what leaves there is a wave, and with two means in place of its invariants it would not.
+ *
+ * Where a liquid evaporates at its surface (pairs with an `onset`), evaporation makes volume, and the velocity jumps
+ * from that of the vapour to that of the liquid within the smear, on any mesh. There `least` is at most LOW_MACH_FRONT,
+ * with the key or without: a face that resists holds the liquid back, and the bubble grows too slowly. */
 #ifndef LOW_MACH_H
 #define LOW_MACH_H
 
-#include <stddef.h>
+#include "scheme/frame.h"
+
+/* The most that `least` is at surfaces where a liquid evaporates (docs/decisions/phase-change.md). */
+#define LOW_MACH_FRONT 0.05
 
 /* Faces between edges of a row: the left one of face i stands at i, the right one at right + i. They lie between the
  * cells i and i + step of a row that goes on by `step` cells on both sides. */
@@ -26,8 +33,16 @@ struct low_mach {
     const double *rho, *rho_c2; /* at the edges; rho_c2: of the mixture, frozen */
     const double *p;            /* of the cells */
     const double *mask;         /* of the cells; 1: its faces keep their jump; or NULL */
+    const double *front;        /* of the cells; 1: its faces take z from LOW_MACH_FRONT on, not `least`; or NULL */
     double *part;               /* [n] z: work space */
 };
+
+/* The mask of the cells before the faces of a frame: those marked in `mask` (NULL: none), and those beside the sides
+ * that are `open`, where waves cross. NULL where there are none. room: frame->count, overwritten. */
+const double *low_mach_kept(const struct frame *frame, const bool open[2], const double *mask, double *room);
+
+/* Marks the cells that hold a part of a liquid, whose fraction is given. */
+void low_mach_surface(size_t n, const double *liquid, double *front);
 
 /* z of all faces, from the velocities `u` normal to them. */
 void low_mach_weigh(const struct low_mach *faces, const double *u);
