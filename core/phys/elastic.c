@@ -288,31 +288,38 @@ struct elastic_out {
     double *normal, *shear_1, *shear_2, *stiff, *rigid;
 };
 
+#define ELASTIC_ROOM(out)                                                                                 \
+    double *restrict normal = (out).normal, *restrict stiff = (out).stiff, *restrict rigid = (out).rigid; \
+    double *restrict shear_1 = (out).shear_1, *restrict shear_2 = (out).shear_2
+
+#define ELASTIC_PUT(nv, op)                       \
+    do {                                          \
+        normal[i] op face.normal;                 \
+        stiff[i] op face.stiff;                   \
+        rigid[i] op face.rigid;                   \
+        if ((nv) > 1) shear_1[i] op face.shear_1; \
+        if ((nv) > 2) shear_2[i] op face.shear_2; \
+    } while (0)
+
 #define ELASTIC_SIDES(kind, nv, op)                                                                             \
     static BULLA_KERNEL void elastic_plain##kind##_##nv(size_t n, struct elastic_rows V,                        \
                                                         const struct elastic_batch *batch,                      \
                                                         const double *restrict fluid, struct elastic_out out)   \
     {                                                                                                           \
-        double *restrict normal = out.normal, *restrict stiff = out.stiff, *restrict rigid = out.rigid;         \
-        double *restrict shear_1 = out.shear_1, *restrict shear_2 = out.shear_2;                                \
+        ELASTIC_ROOM(out);                                                                                      \
         const double *restrict G1 = batch->G1;                                                                  \
         ELASTIC_LOCAL(V);                                                                                       \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                      \
         {                                                                                                       \
             struct elastic_face face = elastic_plain(ELASTIC_AT(i, nv), G1[i], fluid[i]);                       \
-            normal[i] op face.normal;                                                                           \
-            stiff[i] op face.stiff;                                                                             \
-            rigid[i] op face.rigid;                                                                             \
-            if ((nv) > 1) shear_1[i] op face.shear_1;                                                           \
-            if ((nv) > 2) shear_2[i] op face.shear_2;                                                           \
+            ELASTIC_PUT(nv, op);                                                                                \
         }                                                                                                       \
     }                                                                                                           \
     static BULLA_KERNEL void elastic_general##kind##_##nv(size_t n, struct elastic_rows V,                      \
                                                           const struct elastic_batch *batch,                    \
                                                           const double *restrict fluid, struct elastic_out out) \
     {                                                                                                           \
-        double *restrict normal = out.normal, *restrict stiff = out.stiff, *restrict rigid = out.rigid;         \
-        double *restrict shear_1 = out.shear_1, *restrict shear_2 = out.shear_2;                                \
+        ELASTIC_ROOM(out);                                                                                      \
         const double *restrict G1 = batch->G1, *restrict G2 = batch->G2, *restrict I1 = batch->I1;              \
         const double *restrict H11 = batch->H11, *restrict H12 = batch->H12, *restrict H22 = batch->H22;        \
         ELASTIC_LOCAL(V);                                                                                       \
@@ -320,11 +327,7 @@ struct elastic_out {
         {                                                                                                       \
             struct elastic_slopes slopes = {G1[i], G2[i], H11[i], H12[i], H22[i], I1[i]};                       \
             struct elastic_face face = elastic_general(ELASTIC_AT(i, nv), slopes, fluid[i]);                    \
-            normal[i] op face.normal;                                                                           \
-            stiff[i] op face.stiff;                                                                             \
-            rigid[i] op face.rigid;                                                                             \
-            if ((nv) > 1) shear_1[i] op face.shear_1;                                                           \
-            if ((nv) > 2) shear_2[i] op face.shear_2;                                                           \
+            ELASTIC_PUT(nv, op);                                                                                \
         }                                                                                                       \
     }
 ELASTIC_SIDES(, 1, =)
