@@ -8,8 +8,9 @@
  *     p_L += N_L (p_R - p_L)/(Z_L + N_L + Z_R + N_R),  p_R -= N_R (p_R - p_L)/(Z_L + N_L + Z_R + N_R).
  * Both sides have energies of these pressures. N has a factor of VISCOUS_FACE_HOLD, as waves of the length of a cell
  * are all that this resistance is for; where N is less than VISCOUS_FACE_THIN of Z the jumps stay, and up to twice that
- * less of them is drawn (docs/decisions/viscous-faces.md). Faces of troubled cells and of those beside boundaries that
- * waves cross keep their jumps, as in low_mach.h.
+ * less of them is drawn (docs/decisions/viscous-faces.md). All this within two cells of a mixture: elsewhere pressures
+ * jump in shocks alone. Faces of troubled cells and of those beside boundaries that waves cross keep their jumps, as in
+ * low_mach.h.
  *
  * Left out: scenes with solids, whose traction has jumps of its own. What is thinner than MODEL_THICK, and a viscosity
  * that follows the rate of shear, which the faces do not know, count as none: layers in series with them hold nothing.
