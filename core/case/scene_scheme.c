@@ -91,7 +91,7 @@ static const struct key scene_scheme_rows[] = {
      .doc =
          "Faces in slow flow: how much of a jump of velocity a fluid at rest shows to the Riemann solver; more where "
          "it moves and where pressure jumps. 0.05 leaves a tenth of the numerical damping of slow bubbles; 1: all "
-         "of it everywhere."},
+         "of it, but at surfaces where a liquid evaporates (onset), which have at most 0.05."},
     {.name = "shock-fronts",
      .type = KEYS_CHOICE,
      .choices = "plain|calm",
