@@ -445,6 +445,21 @@ static void edges_normalise(const struct edges *edges, const struct model *model
     edges_scale(2 * row->cells, model->n_alpha, 2 * edges->pitch, edges_upper(edges, row, model->i_alpha), edges->sum);
 }
 
+/* Surfaces that evaporate: what is left of them for edges to know. */
+static void edges_beside(struct edges *edges, const struct model *model, const struct edges_row *row)
+{
+    if (!row->mask) memset(edges->mark, 0, row->cells * sizeof *edges->mark);
+    edges_front(&(struct edges_front){.model = model,
+                                      .n = row->cells,
+                                      .step = row->step,
+                                      .pitch = edges->pitch,
+                                      .w = row->w,
+                                      .state = row->state,
+                                      .mask = row->mask ? row->mask : edges->mark,
+                                      .axis = row->frame->axis,
+                                      .thin = edges->spare});
+}
+
 void edges_fill(struct edges *edges, const struct model *model, const struct frame *frame, const struct edges_cells *in,
                 double *state)
 {
@@ -464,8 +479,7 @@ void edges_fill(struct edges *edges, const struct model *model, const struct fra
     if (!model->reconstruction->bounded) edges_bound(edges, model, &row);
     if (row.lean[0]) edges_lean(edges, model, &row);
     else if (row.rise[0]) edges_press(edges, model, &row);
-    if (model->fronts && model->conducts)
-        edges_front(&(struct edges_front){model, row.cells, row.step, edges->pitch, row.w, state, edges->spare});
+    if (model->fronts && model->conducts) edges_beside(edges, model, &row);
     edges_settle(edges, model, &row);
     edges_normalise(edges, model, &row);
 }

@@ -7,20 +7,64 @@
 
 #include <string.h>
 
-static BULLA_KERNEL void edges_front_meet(size_t n, double front, const double *restrict thin_l,
-                                          const double *restrict thin_r, const double *restrict liquid_l,
-                                          const double *restrict liquid_r, const double *restrict rho_l,
-                                          const double *restrict rho_r, double *restrict upper, double *restrict lower)
+/* From behind the surface to before it at a face: the mean of `line` and of what the cell before and the next one
+ * before it go on to, which lies between the cell behind and the cell before. */
+static inline double edges_front_between(double line, double behind, double before, double next)
 {
+    double slope = 1.5 * before - 0.5 * next, low = behind < before ? behind : before,
+           high = behind < before ? before : behind;
+    slope = slope > low ? slope : low;
+    slope = slope < high ? slope : high;
+    return 0.5 * (line + slope);
+}
+
+static BULLA_KERNEL void edges_front_meet(size_t n, size_t step, double front, const double *restrict thin,
+                                          const double *restrict liquid, const double *restrict rho,
+                                          double *restrict upper, double *restrict lower)
+{
+    const double *thin_r = thin + step, *liquid_r = liquid + step, *rho_r = rho + step;
+    const double *rho_ll = rho - step, *rho_rr = rho_r + step;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = thin_l[i], b = thin_r[i], l = rho_l[i], r = rho_r[i], up = upper[i], low = lower[i];
-        double before = a < b ? a : b, behind = a < b ? b : a, wet = liquid_l[i] * liquid_r[i];
-        double part = 1.0 - 0.5 * (behind - before) / (front - before), line = part > 0.0 ? part : 0.0;
+        double a = thin[i], b = thin_r[i], l = rho[i], r = rho_r[i], ll = rho_ll[i], rr = rho_rr[i];
+        double before = a < b ? a : b, behind = a < b ? b : a, wet = liquid[i] * liquid_r[i], up = upper[i];
+        double low = lower[i], part = 1.0 - 0.5 * (behind - before) / (front - before), line = part > 0.0 ? part : 0.0;
         int meets = (before < front) & (behind >= front) & (wet > 0.0);
-        double left = l + (r - l) * line, right = r + (l - r) * line;
+        double left = edges_front_between(l + (r - l) * line, l, r, rr);
+        double right = edges_front_between(r + (l - r) * line, r, l, ll);
         upper[i] = (meets & (b < a)) ? left : up;
         lower[i] = (meets & (a < b)) ? right : low;
+    }
+}
+
+/* Less than this of vapour and gases in a cell is none. */
+#define EDGES_FRONT_TRACE 1e-6
+
+/* At least so much of them, and the velocity of a cell is theirs. */
+#define EDGES_FRONT_DRY 0.99
+
+/* Is the second cell wet beside a dry first one? */
+static inline int edges_front_ends(double dry, double thin_dry, double thin_wet, double liquid_wet)
+{
+    return (thin_dry >= dry) & (thin_wet < dry) & (thin_wet > EDGES_FRONT_TRACE) & (liquid_wet > 1.0 - dry);
+}
+
+/* The velocity of a wet edge beside a dry one. */
+static BULLA_KERNEL void edges_front_still(size_t n, size_t step, double dry, const double *restrict thin,
+                                           const double *restrict liquid, const double *restrict p,
+                                           const double *restrict mask, double *restrict upper, double *restrict lower)
+{
+    const double *thin_r = thin + step, *liquid_r = liquid + step, *p_r = p + step, *mask_r = mask + step;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = thin[i], b = thin_r[i], wet_l = liquid[i], wet_r = liquid_r[i], pl = p[i], pr = p_r[i];
+        double up = upper[i], low = lower[i], held = mask[i] + mask_r[i];
+        double gap = pl < pr ? pr - pl : pl - pr, least = pl < pr ? pl : pr, rest = 1.0 - gap / least;
+        int calm = (gap < least) & !(held > 0.0);
+        int right = calm & edges_front_ends(dry, a, b, wet_r), left = calm & edges_front_ends(dry, b, a, wet_l);
+        double from_l = low + rest * (up - low), from_r = up + rest * (low - up);
+        lower[i] = right ? from_l : low;
+        upper[i] = left ? from_r : up;
     }
 }
 
@@ -34,8 +78,12 @@ static void edges_front_pair(const struct edges_front *row, const struct model_p
     memset(thin, 0, row->n * sizeof *thin);
     for (unsigned j = 1; j < phase->n; j++) row_add(row->n, alpha + phase->member[j] * row->pitch, thin);
     if (row_most(row->n, thin) < front) return;
-    edges_front_meet(n, front, thin, thin + row->step, liquid, liquid + row->step, rho, rho + row->step, upper,
-                     upper + row->n + row->step);
+    unsigned normal = model->i_u + (unsigned)row->axis;
+    double *u = row->state + 2 * normal * row->pitch;
+    double dry = phase->scene->onset > EDGES_FRONT_DRY ? phase->scene->onset : EDGES_FRONT_DRY;
+    edges_front_still(n, row->step, dry, thin, liquid, row->w + model->i_E * row->pitch, row->mask, u,
+                      u + row->n + row->step);
+    edges_front_meet(n, row->step, front, thin, liquid, rho, upper, upper + row->n + row->step);
 }
 
 void edges_front(const struct edges_front *row)

@@ -9,6 +9,7 @@
 #include "scheme/convection.h"
 #include "scheme/cut.h"
 #include "scheme/drag.h"
+#include "scheme/drain.h"
 #include "scheme/exchange.h"
 #include "scheme/face_stress.h"
 #include "scheme/fick.h"
@@ -37,6 +38,7 @@ const struct term *const terms_all[] = {
     &hoop_term,         /* what stands against p / r and the hoop stress in curved geometry */
     &conduction_term,   /* heat from cell to cell and from material to material */
     &fick_term,         /* gases through each other */
+    &drain_term,        /* liquid that a surface has left behind goes back to it */
     &face_stress_term,  /* one traction for the materials of a cell */
     &source_term,       /* forces, heat, mass, Lua */
     &drag_term,         /* resistance of porous media */
