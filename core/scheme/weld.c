@@ -13,6 +13,7 @@
 #include "scheme/strain.h"
 #include "scheme/terms.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -31,6 +32,7 @@ struct weld {
     unsigned cell[WELD_BATCH];
     double frame[3][3][WELD_BATCH];                                            /* n and two tangents */
     double part[WELD_BATCH];                                                   /* of the way to one traction */
+    double steep[WELD_BATCH];                                                  /* |grad| of the fractions [1/m] */
     double alpha[SCENE_MATERIALS][WELD_BATCH], m[SCENE_MATERIALS][WELD_BATCH]; /* by solid; m as far as it bears */
     double V[6 * MODEL_STRETCHES][WELD_BATCH];                                 /* in the frame of the interface */
     double t[2][SCENE_MATERIALS][WELD_BATCH], k[SCENE_MATERIALS][WELD_BATCH];  /* per own volume */
@@ -65,6 +67,14 @@ static void weld_colour(const struct term_tile *tile, const double *u, size_t ce
     for (unsigned s = 0; s < model->n_solid; s++)
         for (unsigned d = 0; d < dim; d++)
             g[d] += (sum - s * all) * slope[((model->n_velocity + s) * dim + d) * tile->n_cell] * tile->level->h[d];
+}
+
+/* Area of the interface per volume [1/m]; g is per cell. */
+static double weld_steep(const struct term_tile *tile, const double g[3])
+{
+    double sum = 0.0;
+    for (int d = 0; d < tile->model->dim; d++) sum += g[d] / tile->level->h[d] * (g[d] / tile->level->h[d]);
+    return sqrt(sum);
 }
 
 /* n, and tangents that turn with it. */
@@ -112,6 +122,7 @@ static void weld_look(struct weld *weld, const struct term_tile *tile, const dou
     if (!(size > 0.0)) return;
     weld_aim(weld, weld->n, g, size);
     weld->part[weld->n] = weight < 1.0 ? weight * weight : 1.0;
+    weld->steep[weld->n] = weld_steep(tile, g);
     weld->cell[weld->n++] = cell;
 }
 
@@ -232,6 +243,39 @@ static void weld_pull(struct weld *weld)
     }
 }
 
+/* Adds how fast shear waves of a solid run, c^2/alpha, and looks for the slowest c^2. */
+static BULLA_KERNEL void weld_run(size_t n, const double *restrict alpha, const double *restrict m,
+                                  const double *restrict k, double *restrict sum, double *restrict least)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double stiff = k[i], all = sum[i], old = least[i], run = stiff / m[i], c2 = run * alpha[i];
+        int bears = stiff > 0.0;
+        sum[i] = all + (bears ? run : 0.0);
+        least[i] = (bears & (c2 < old)) ? c2 : old;
+    }
+}
+
+static BULLA_KERNEL void weld_shorten(size_t n, double dt, const double *restrict steep, const double *restrict sum,
+                                      const double *restrict least, double *restrict part)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double x = dt * steep[i] * sum[i] / sqrt(least[i]), way = part[i] * (x / (1.0 + x));
+        part[i] = sum[i] > 0.0 ? way : 0.0;
+    }
+}
+
+/* How much of the way to one traction waves can take in dt. */
+static void weld_haste(struct weld *weld, double dt)
+{
+    double sum[WELD_BATCH] = {0}, least[WELD_BATCH];
+    for (size_t i = 0; i < weld->n; i++) least[i] = DBL_MAX;
+    for (unsigned s = 0; s < weld->model->n_solid; s++)
+        weld_run(weld->n, weld->alpha[s], weld->m[s], weld->k[s], sum, least);
+    weld_shorten(weld->n, dt, weld->steep, sum, least, weld->part);
+}
+
 /* Adds a solid's share in what gives. One that bears no shear takes no part. */
 static BULLA_KERNEL void weld_share(size_t n, const double *restrict alpha, const double *restrict k,
                                     const double *restrict t, double *restrict sum, double *restrict give)
@@ -305,6 +349,7 @@ static void weld_batch(struct weld *weld, const struct term_tile *tile, double *
     if (!weld->n) return;
     weld_gather(weld, tile, u);
     weld_pull(weld);
+    weld_haste(weld, tile->dt);
     for (unsigned d = 0; d + 1 < tile->model->n_velocity; d++) weld_slide(weld, d);
     weld_scatter(weld, tile, u);
     weld->n = 0;

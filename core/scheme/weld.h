@@ -6,7 +6,11 @@
  * n, V_l <- polar((1 + a_l n^T) V_l),   t_l + k_l a_l = t for all,   sum alpha_l a_l = 0, t = sum (alpha_l t_l/k_l)/sum
  * (alpha_l/k_l) with t_l the shear traction of s'_l on n and k_l its stiffness against shear along n, per own volume
  * (neo-Hookean: G n.Bn, exact). The velocity gradient of the cell, their mean, stays. Elastic energy falls, as both lie
- * in one cell; it is heat. docs/decisions/unlike-solids.md. */
+ * in one cell; it is heat.
+ *
+ * They do not get all the way at once: what one solid is sheared by reaches the other with shear waves, the slowest of
+ * which has the speed c. In a time dt they go, of the way to one traction, the part
+ *     x/(1 + x),   x = dt |grad alpha| sum (c_l^2/alpha_l)/c. docs/decisions/unlike-solids.md. */
 #ifndef WELD_H
 #define WELD_H
 
