@@ -1,10 +1,11 @@
-/* Who writes a file holds its own tiles and what lies around them, never the list of all: on several ranks
- * (program/ranks_mesh.sh starts them) all but the last have the same tiles in a small domain and in one of four times
- * as many, and what they take to write a snapshot and a checkpoint is the same. */
+/* Who writes a file or adds up a history holds its own tiles and what lies around them, never the list of all: on
+ * several ranks (program/ranks_mesh.sh starts them) all but the last have the same tiles in a small domain and in one
+ * of four times as many, and what they take to write a snapshot and a checkpoint and for sums is the same. */
 #include "base/comm.h"
 #include "io/checkpoint.h"
 #include "io/roll.h"
 #include "io/snapshot.h"
+#include "mesh/tally.h"
 #include "replicated.h"
 #include "small.h"
 
@@ -90,7 +91,7 @@ static void share(struct mesh *mesh)
     mem_free(keys);
 }
 
-enum { SNAPSHOT, SNAPSHOT_ALL, CHECKPOINT, CHECKPOINT_ALL, BYTES };
+enum { SNAPSHOT, SNAPSHOT_ALL, CHECKPOINT, CHECKPOINT_ALL, SUMS, SUMS_ALL, BYTES };
 
 /* Bytes since `before`, when so much was in use and had been asked for: most in use, and all. */
 static void tell(const long long before[2], long long ret_bytes[2])
@@ -99,7 +100,19 @@ static void tell(const long long before[2], long long ret_bytes[2])
     ret_bytes[1] = asked - before[1];
 }
 
-/* What is taken while a snapshot and a checkpoint are written. */
+/* Totals of as many values as some columns of a history have. */
+static void add_up(const struct mesh *mesh)
+{
+    enum { VALUES = 24 };
+    size_t n = tally_tiles(mesh) * VALUES;
+    double *local = mem_new(n + 1, sizeof *local), totals[VALUES];
+    for (size_t i = 0; i < n; i++) local[i] = (double)(i % VALUES);
+    tally_add(mesh, VALUES, local, totals);
+    for (int i = 0; i < VALUES; i++) assert_true(totals[i] == (double)mesh->levels[0].n_tile * i);
+    mem_free(local);
+}
+
+/* What is taken while a snapshot and a checkpoint are written, and for the row of a history. */
 static void weigh(int side, long long ret_bytes[BYTES])
 {
     struct small small;
@@ -118,6 +131,9 @@ static void weigh(int side, long long ret_bytes[BYTES])
     const long long next[2] = {most = used, asked};
     assert_int_equal(checkpoint_write(checkpoints, small.state, &notes), 0);
     tell(next, ret_bytes + CHECKPOINT);
+    const long long last[2] = {most = used, asked};
+    add_up(small.state->mesh);
+    tell(last, ret_bytes + SUMS);
     checkpoint_free(checkpoints);
     snapshot_free(snapshots);
     small_stop(&small);
