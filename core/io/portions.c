@@ -140,8 +140,8 @@ static void portions_join(const struct portions *own, struct portions *ret)
     ret->list = mem_new(own->n + 1u, sizeof *ret->list);
     ret->n = 0;
     for (unsigned i = 0; i < own->n; i++) {
-        struct portion *last = ret->list + ret->n - 1;
-        if (ret->n && last->first + last->count == own->list[i].first) last->count += own->list[i].count;
+        struct portion *last = ret->n ? &ret->list[ret->n - 1] : NULL;
+        if (last && last->first + last->count == own->list[i].first) last->count += own->list[i].count;
         else ret->list[ret->n++] = own->list[i];
     }
 }
