@@ -1,8 +1,9 @@
 /* account.h - sums of numbers that come in any order and in any pieces: the same bits, whoever adds what, and when.
  *
  * What is added goes, without rounding, into a fixed-point number that is wide enough for every double (Kulisch,
- * Advanced arithmetic for the digital computer, Springer 2002): whole numbers know no order. Ranks keep accounts of
- * their own and add them up where the sum is looked at; a run that is ended and goes on has the same sum, too. */
+ * Advanced arithmetic for the digital computer, Springer 2002): whole numbers know no order. Only the value is rounded,
+ * once and to the nearest. Ranks keep accounts of their own and add them up where the sum is looked at; a run that is
+ * ended and goes on has the same sum, too. */
 #ifndef ACCOUNT_H
 #define ACCOUNT_H
 
@@ -14,16 +15,19 @@ enum { ACCOUNT_DIGITS = 70 };
 /* Start from {0}. */
 struct account {
     long long digit[ACCOUNT_DIGITS]; /* the least first; carries may be due */
-    long due;                        /* numbers added since the last carry */
+    long long odd[3];                /* how many were infinite, minus infinite, no numbers */
+    long long due;                   /* numbers added since the last carry */
 };
 
-/* What is not finite is left out. */
+/* All of an account, from its first digit on. */
+enum { ACCOUNT_NUMBERS = sizeof(struct account) / sizeof(long long) };
+
 void account_add(struct account *account, double value);
 
-/* Carries: then 0 <= digit < 2^32, but for the last one, which has the sign. Accounts are added digit by digit. */
+/* Carries: then 0 <= digit < 2^32, but for the last one, which has the sign. Accounts are added number by number. */
 void account_carry(struct account *account);
 
-/* The sum, rounded; to the same bits for the same sum. */
+/* The sum, rounded; infinite beyond doubles, NaN of NaN or of both infinities. */
 double account_value(const struct account *account);
 
 #endif

@@ -2,16 +2,17 @@
  *
  * The compressed path: a data set is cut into chunks; whoever holds most rows of a chunk gets the others as plain
  * rows, packs it and sends it to its writer, which files it as it is. So packing runs on all ranks at once, nobody
- * holds more than his own data set packed, and the bytes in the file do not depend on the ranks. All ranks know all
- * ranges, therefore who sends what, and a writer takes every message even after a failure. With several writers each
- * has a file with its rows alone, in their order, and rank 0 makes the view that unites them.
- * The plain path (`hash`): for what will be read back at its place in the file. */
+ * holds more than his own data set packed, and the bytes in the file do not depend on the ranks. All that have rows of
+ * a chunk know who else has (portions.h), therefore who sends what, and a writer takes every message even after a
+ * failure. With several writers each has a file with its rows alone, in their order, and rank 0 makes the view that
+ * unites them. The plain path (`hash`): for what will be read back at its place in the file. */
 #include "io/h5out.h"
 
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/chunk.h"
+#include "io/portions.h"
 #include "io/writers.h"
 
 #include <hdf5.h>
@@ -33,17 +34,12 @@ struct h5out_mail {
 /* A data set while it is written; rows are numbered as in the file of their writer. */
 struct h5out {
     const struct h5out_rows *rows;
-    bool is_plain;       /* rows are stored as they are */
-    unsigned columns;    /* of the data set's shape; 0: none */
-    hid_t type;          /* of a number, or a record; of a writer */
-    size_t row, chunk;   /* bytes of a row, rows of a chunk */
-    size_t total;        /* rows of this writer */
-    int leader;          /* the rank that writes */
-    unsigned n_range;    /* of the ranks that hand their rows to it */
-    unsigned n_all;      /* of all ranks */
-    double (*ranges)[2]; /* first, count, in the whole data set; the ranges of rank r are r * rows->n_range ... */
-    const double (*own)[2];
-    size_t *places; /* [n_range] where the ranges of this writer begin in its file */
+    bool is_plain;    /* rows are stored as they are */
+    unsigned columns; /* of the data set's shape; 0: none */
+    hid_t type;       /* of a number, or a record; of a writer */
+    size_t row;       /* bytes */
+    struct portions portions;
+    struct portions_letter letter; /* of a writer, for the view */
     struct h5out_mail mail;
     char *plain, *packed; /* one chunk; packed: with its head; NULL where nothing is packed */
 };
@@ -67,7 +63,7 @@ static hid_t h5out_layout(struct h5 *file, const struct h5out *out)
     hid_t layout = h5out_plain_layout(file);
     const struct h5out_rows *rows = out->rows;
     if (!rows->chunk || out->is_plain) return layout;
-    hsize_t chunk[2] = {out->chunk, rows->columns};
+    hsize_t chunk[2] = {out->portions.chunk, rows->columns};
     h5_check(file, H5Pset_chunk(layout, rows->columns ? 2 : 1, chunk), "set the chunks of a data set");
     h5_check(file, H5Pset_shuffle(layout), "set the compression of a data set");
     h5_check(file, H5Pset_deflate(layout, 1), "set the compression of a data set");
@@ -80,73 +76,15 @@ static hid_t h5out_space(struct h5 *file, size_t rows, unsigned columns)
     return h5_check(file, H5Screate_simple(columns ? 2 : 1, extent, NULL), "shape a data set");
 }
 
-/* The ranges of all ranks. */
-static void h5out_collect(struct h5out *out, const struct h5out_rows *rows)
-{
-    out->n_all = rows->n_range * (unsigned)comm_size();
-    out->ranges = mem_new(out->n_all, sizeof *out->ranges);
-    double(*own)[2] = mem_new(rows->n_range, sizeof *own);
-    for (unsigned i = 0; i < rows->n_range; i++) {
-        own[i][0] = (double)rows->ranges[i].first;
-        own[i][1] = (double)rows->ranges[i].count;
-    }
-    comm_join(*own, 2 * (int)rows->n_range, *out->ranges);
-    mem_free(own);
-}
-
-/* A range of a writer, while they are put in order. */
-struct h5out_part {
-    size_t first, count;
-    unsigned at;
-};
-
-static int h5out_compare(const void *a, const void *b)
-{
-    size_t x = ((const struct h5out_part *)a)->first, y = ((const struct h5out_part *)b)->first;
-    return (x > y) - (x < y);
-}
-
-/* The ranges of n ranges that have rows, in the order of the whole data set: that of a writer's file; their number. */
-static unsigned h5out_order(const double (*ranges)[2], unsigned n, struct h5out_part **ret_parts)
-{
-    struct h5out_part *parts = mem_new(n + 1u, sizeof *parts);
-    unsigned found = 0;
-    for (unsigned i = 0; i < n; i++)
-        if (ranges[i][1] > 0.0) parts[found++] = (struct h5out_part){(size_t)ranges[i][0], (size_t)ranges[i][1], i};
-    qsort(parts, found, sizeof *parts, h5out_compare);
-    *ret_parts = parts;
-    return found;
-}
-
-/* The ranges of a writer's ranks. */
-static const double (*h5out_ranges(const struct h5out *out, int writers, int writer, unsigned *ret_n))[2]
-{
-    unsigned first = (unsigned)writers_first(writers, writer), end = (unsigned)writers_first(writers, writer + 1);
-    *ret_n = (end - first) * out->rows->n_range;
-    return (const double(*)[2])out->ranges + (size_t)first * out->rows->n_range;
-}
-
 static void h5out_begin(struct h5out *out, const struct h5out_rows *rows, int writers)
 {
-    struct h5out_part *parts;
-    int writer = writers_of(writers, comm_rank());
     *out = (struct h5out){.rows = rows,
                           .is_plain = rows->hash || rows->central,
                           .columns = rows->members ? 0 : rows->columns,
                           .row = h5_type_size(rows->type) * (rows->columns ? rows->columns : 1)};
-    h5out_collect(out, rows);
-    out->leader = writers_first(writers, writer);
-    out->own = h5out_ranges(out, writers, writer, &out->n_range);
-    out->places = mem_new(out->n_range + 1u, sizeof *out->places);
-    unsigned n = h5out_order(out->own, out->n_range, &parts);
-    for (unsigned i = 0; i < n; i++) {
-        out->places[parts[i].at] = out->total;
-        out->total += parts[i].count;
-    }
-    mem_free(parts);
-    out->chunk = rows->chunk < out->total ? rows->chunk : out->total;
-    out->plain = mem_new(out->chunk, out->row);
-    if (!out->is_plain) out->packed = mem_new(out->chunk * out->row + H5OUT_HEAD, 1);
+    portions_take(writers, rows->chunk, rows->n_range, rows->ranges, &out->portions);
+    out->plain = mem_new(out->portions.chunk, out->row);
+    if (!out->is_plain) out->packed = mem_new(out->portions.chunk * out->row + H5OUT_HEAD, 1);
 }
 
 static void h5out_end(struct h5out *out)
@@ -155,8 +93,7 @@ static void h5out_end(struct h5out *out)
     for (unsigned i = 0; i < out->mail.n; i++) mem_free(out->mail.letters[i]);
     mem_free(out->mail.letters);
     mem_free(out->mail.requests);
-    mem_free(out->ranges);
-    mem_free(out->places);
+    portions_free(&out->portions);
     mem_free(out->plain);
     mem_free(out->packed);
 }
@@ -164,20 +101,21 @@ static void h5out_end(struct h5out *out)
 /* Rows of a chunk; fewer in the last one. */
 static size_t h5out_count(const struct h5out *out, size_t first)
 {
-    return out->total - first < out->chunk ? out->total - first : out->chunk;
+    return out->portions.total - first < out->portions.chunk ? out->portions.total - first : out->portions.chunk;
 }
 
-/* The part of range `i` that lies in the chunk from row `first` on; count 0: none. */
+/* The part of portion `i` that lies in the chunk from row `first` on; count 0: none. */
 static struct h5out_piece h5out_piece(const struct h5out *out, size_t first, unsigned i)
 {
-    size_t begin = out->places[i], from = begin, to = from + (size_t)out->own[i][1];
+    const struct portion *portion = &out->portions.list[i];
+    size_t begin = portion->place, from = begin, to = from + portion->count;
     size_t end = first + h5out_count(out, first);
     from = from > first ? from : first;
     to = to < end ? to : end;
-    return (struct h5out_piece){.rank = out->leader + (int)(i / out->rows->n_range),
+    return (struct h5out_piece){.rank = portion->rank,
                                 .first = from,
                                 .count = to > from ? to - from : 0,
-                                .source = (size_t)out->own[i][0] + (from - begin)};
+                                .source = portion->first + (from - begin)};
 }
 
 /* Asks for the rows of a piece. */
@@ -190,9 +128,9 @@ static void h5out_fill(const struct h5out *out, const struct h5out_piece *piece,
 static size_t h5out_pack(struct h5out *out, size_t count)
 {
     uint32_t skipped;
-    memset(out->plain + count * out->row, 0, (out->chunk - count) * out->row);
-    size_t size = chunk_pack(out->plain, out->chunk * out->row, h5_type_size(out->rows->type), out->packed + H5OUT_HEAD,
-                             &skipped);
+    memset(out->plain + count * out->row, 0, (out->portions.chunk - count) * out->row);
+    size_t size = chunk_pack(out->plain, out->portions.chunk * out->row, h5_type_size(out->rows->type),
+                             out->packed + H5OUT_HEAD, &skipped);
     memset(out->packed, 0, H5OUT_HEAD);
     memcpy(out->packed, &skipped, sizeof skipped);
     return size + H5OUT_HEAD;
@@ -224,7 +162,7 @@ static size_t h5out_receive(int rank, void *to, size_t room)
 static int h5out_packer(const struct h5out *out, size_t first)
 {
     struct h5out_piece most = h5out_piece(out, first, 0);
-    for (unsigned i = 1; i < out->n_range; i++) {
+    for (unsigned i = 1; i < out->portions.n; i++) {
         struct h5out_piece piece = h5out_piece(out, first, i);
         if (piece.count > most.count) most = piece;
     }
@@ -236,7 +174,7 @@ static int h5out_packer(const struct h5out *out, size_t first)
 static int h5out_meet(struct h5out *out, size_t first)
 {
     int packer = h5out_packer(out, first), rank = comm_rank();
-    for (unsigned i = 0; i < out->n_range; i++) {
+    for (unsigned i = 0; i < out->portions.n; i++) {
         struct h5out_piece piece = h5out_piece(out, first, i);
         if (!piece.count) continue;
         char *at = out->plain + (piece.first - first) * out->row;
@@ -247,12 +185,22 @@ static int h5out_meet(struct h5out *out, size_t first)
     return packer;
 }
 
+/* Has this rank rows of a chunk? Of others it does not know all that have. */
+static bool h5out_concerned(const struct h5out *out, size_t first)
+{
+    for (unsigned i = 0; i < out->portions.n; i++) {
+        struct h5out_piece piece = h5out_piece(out, first, i);
+        if (piece.count && piece.rank == comm_rank()) return true;
+    }
+    return false;
+}
+
 /* The part of a rank that is no writer. */
 static void h5out_send(struct h5out *out)
 {
-    for (size_t first = 0; first < out->total; first += out->chunk)
-        if (h5out_meet(out, first) == comm_rank())
-            h5out_post(&out->mail, out->leader, out->packed, h5out_pack(out, h5out_count(out, first)));
+    for (size_t first = 0; first < out->portions.total; first += out->portions.chunk)
+        if (h5out_concerned(out, first) && h5out_meet(out, first) == comm_rank())
+            h5out_post(&out->mail, out->portions.leader, out->packed, h5out_pack(out, h5out_count(out, first)));
 }
 
 /* A chunk at its writer, packed; returns its size with head. */
@@ -260,7 +208,7 @@ static size_t h5out_gather(struct h5out *out, size_t first)
 {
     int packer = h5out_meet(out, first);
     if (packer == comm_rank()) return h5out_pack(out, h5out_count(out, first));
-    return h5out_receive(packer, out->packed, out->chunk * out->row + H5OUT_HEAD);
+    return h5out_receive(packer, out->packed, out->portions.chunk * out->row + H5OUT_HEAD);
 }
 
 void h5out_forget(struct h5out_kept *kept)
@@ -285,7 +233,7 @@ static void h5out_store(struct h5 *file, hid_t set, struct h5out *out, const cha
 {
     const struct h5out_rows *rows = out->rows;
     size_t i = 0;
-    for (size_t first = 0; first < out->total; first += out->chunk, i++) {
+    for (size_t first = 0; first < out->portions.total; first += out->portions.chunk, i++) {
         uint32_t skipped;
         hsize_t at[2] = {first, 0};
         size_t size = rows->again ? rows->kept->sizes[i] : h5out_gather(out, first);
@@ -302,14 +250,14 @@ static void h5out_store(struct h5 *file, hid_t set, struct h5out *out, const cha
  * ones do not pile up where it is. */
 static void h5out_send_plain(struct h5out *out)
 {
-    for (size_t first = 0; first < out->total; first += out->chunk)
-        for (unsigned i = 0; i < out->n_range; i++) {
+    for (size_t first = 0; first < out->portions.total; first += out->portions.chunk)
+        for (unsigned i = 0; i < out->portions.n; i++) {
             struct h5out_piece piece = h5out_piece(out, first, i);
             if (!piece.count || piece.rank != comm_rank()) continue;
             h5out_fill(out, &piece, out->plain);
             MPI_Request request;
-            MPI_Issend(out->plain, (int)(piece.count * out->row), MPI_BYTE, out->leader, H5OUT_TAG, comm_world(),
-                       &request);
+            MPI_Issend(out->plain, (int)(piece.count * out->row), MPI_BYTE, out->portions.leader, H5OUT_TAG,
+                       comm_world(), &request);
             comm_wait(1, &request, MPI_STATUSES_IGNORE);
         }
 }
@@ -317,7 +265,7 @@ static void h5out_send_plain(struct h5out *out)
 /* Brings a chunk together at its writer as it is. */
 static void h5out_gather_plain(struct h5out *out, size_t first)
 {
-    for (unsigned i = 0; i < out->n_range; i++) {
+    for (unsigned i = 0; i < out->portions.n; i++) {
         struct h5out_piece piece = h5out_piece(out, first, i);
         char *to = out->plain + (piece.first - first) * out->row;
         if (!piece.count) continue;
@@ -337,7 +285,7 @@ static void h5out_store_plain(struct h5 *file, hid_t set, struct h5out *out, con
 {
     XXH64_state_t *sum = XXH64_createState();
     XXH64_reset(sum, 0);
-    for (size_t first = 0; first < out->total; first += out->chunk) {
+    for (size_t first = 0; first < out->portions.total; first += out->portions.chunk) {
         size_t count = h5out_count(out, first);
         h5out_gather_plain(out, first);
         if (file->code) continue; /* the others go on sending */
@@ -356,7 +304,7 @@ static void h5out_store_plain(struct h5 *file, hid_t set, struct h5out *out, con
 static void h5out_put(struct h5 *file, const char *path, struct h5out *out)
 {
     const struct h5out_rows *rows = out->rows;
-    hid_t layout = h5out_layout(file, out), space = h5out_space(file, out->total, out->columns);
+    hid_t layout = h5out_layout(file, out), space = h5out_space(file, out->portions.total, out->columns);
     out->type = rows->members ? h5_record_type(file, rows->members, rows->columns) : h5_type_id(rows->type);
     hid_t set = h5_check(file, H5Dcreate2(file->id, path, out->type, space, H5P_DEFAULT, layout, H5P_DEFAULT), path);
     (out->is_plain ? h5out_store_plain : h5out_store)(file, set, out, path);
@@ -366,28 +314,23 @@ static void h5out_put(struct h5 *file, const char *path, struct h5out *out)
     if (layout >= 0) H5Pclose(layout);
 }
 
-/* Rows of the whole data set <- rows of a writer's part; neighbours become one. */
+/* Rows of the whole data set <- rows of a writer's part. */
 static void h5out_map_part(struct h5 *file, const char *path, const struct h5out *out, const hid_t id[2], int writer)
 {
-    struct h5out_part *parts;
-    unsigned n_range, columns = out->rows->columns;
-    const double(*ranges)[2] = h5out_ranges(out, file->writers, writer, &n_range);
-    unsigned n = h5out_order(ranges, n_range, &parts);
-    size_t total = 0, at = 0;
+    struct portions portions;
+    unsigned columns = out->rows->columns;
     char *name = mem_print("%s%d", file->stem, writer + 1);
-    for (unsigned i = 0; i < n; i++) total += parts[i].count;
-    hid_t source = h5out_space(file, total, columns);
-    for (unsigned i = 0, next; i < n; i = next) {
-        size_t count = parts[i].count;
-        for (next = i + 1; next < n && parts[next].first == parts[i].first + count; next++) count += parts[next].count;
-        h5out_select(file, id[1], parts[i].first, count, columns);
-        h5out_select(file, source, at, count, columns);
+    portions_receive(&out->letter, writers_first(file->writers, writer), &portions);
+    hid_t source = h5out_space(file, portions.total, columns);
+    for (unsigned i = 0; i < portions.n; i++) {
+        const struct portion *run = &portions.list[i];
+        h5out_select(file, id[1], run->first, run->count, columns);
+        h5out_select(file, source, run->place, run->count, columns);
         h5_check(file, H5Pset_virtual(id[0], id[1], name, path, source), "map a part");
-        at += count;
     }
     if (source >= 0) H5Sclose(source);
     mem_free(name);
-    mem_free(parts);
+    portions_free(&portions);
 }
 
 /* The whole data set, as a view of those of the parts. What a part should have said and does not, because it is lost,
@@ -413,15 +356,17 @@ int h5out_write(struct h5 *file, const char *path, const struct h5out_rows *rows
     struct h5 *part = rows->central ? NULL : file->part, *holder = part ? part : file;
     TRY(comm_agree(file->code ? file->code : holder->code));
     h5out_begin(&out, rows, part ? file->writers : 1);
+    if (part) portions_send(&out.portions, &out.letter);
     if (holder->idle && !rows->again) (out.is_plain ? h5out_send_plain : h5out_send)(&out);
     else if (holder->idle)
         ; /* the writer has them */
     else if (!part) h5out_put(holder, path, &out);
-    else if (out.total) {
+    else if (out.portions.total) {
         h5_parents(holder, path);
         h5out_put(holder, path, &out);
     }
     if (part && !file->idle) h5out_unite(file, path, &out);
+    if (part) portions_sent(&out.letter);
     h5out_end(&out);
     return STATUS_OK;
 }

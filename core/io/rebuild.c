@@ -201,6 +201,7 @@ static int rebuild_nests(const struct rebuild *rebuild, int n_level)
     const struct resume *resume = rebuild->from;
     struct mesh *mesh = mem_new(1, sizeof *mesh);
     struct tile *tiles = resume->tiles;
+    double n_tile = 0.0;
     mesh->dim = scene->domain.dim;
     mesh->n_level = n_level;
     for (int d = 0; d < 3; d++) {
@@ -210,17 +211,19 @@ static int rebuild_nests(const struct rebuild *rebuild, int n_level)
     for (int l = 0; l < n_level; l++) {
         struct level *level = &mesh->levels[l];
         level->n_tile = resume->n_tile[l];
-        level->n_known = level->n_local = level->n_tile; /* every rank looks at all of it */
-        level->n_rank = 1;
+        level->n_known = level->n_local = resume->n_own[l];
+        level->n_rank = resume->size;
+        level->first_keys = resume->first_keys[l];
         level->tiles = tiles;
-        tiles += level->n_tile;
+        tiles += level->n_local;
+        n_tile += level->n_tile;
         for (int d = 0; d < 3; d++)
             level->extent[d] = d < scene->domain.dim ? scene->domain.cells[d] / rebuild->tile << l : 1;
     }
     int code = nest_check(mesh);
     if (code) status_wrap(code, "%s: impossible checkpoint: ", resume->path);
     mem_free(mesh);
-    return code ? code : rebuild_affords(rebuild, (double)(tiles - resume->tiles));
+    return code ? code : rebuild_affords(rebuild, n_tile);
 }
 
 static int rebuild_source(struct rebuild *rebuild, struct state **ret_state)
@@ -228,7 +231,7 @@ static int rebuild_source(struct rebuild *rebuild, struct state **ret_state)
     const struct resume *resume = rebuild->from;
     struct state_source source = {.fill = rebuild_fill, .data = rebuild};
     struct state_counts counts;
-    struct tile *tiles = resume->tiles;
+    const struct tile *tiles = resume->tiles;
     if (!rebuild->tile) return STATUS_CASE;
     TRY(rebuild_match(rebuild));
     TRY(rebuild_kept(rebuild));
@@ -240,8 +243,11 @@ static int rebuild_source(struct rebuild *rebuild, struct state **ret_state)
     TRY(rebuild_laws(rebuild, &counts));
     for (int l = 0; l < source.n_level; l++) {
         source.n_tile[l] = resume->n_tile[l];
+        source.first[l] = resume->first[l];
+        source.n_own[l] = resume->n_own[l];
+        source.first_keys[l] = resume->first_keys[l];
         source.tiles[l] = tiles;
-        tiles += resume->n_tile[l];
+        tiles += resume->n_own[l];
     }
     TRY(state_resume(rebuild->scene, &source, ret_state));
     (*ret_state)->counts = counts;

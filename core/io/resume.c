@@ -8,6 +8,7 @@
 #include "io/checkpoint.h"
 #include "io/parts.h"
 #include "mesh/morton.h"
+#include "mesh/partition.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -94,40 +95,117 @@ static int resume_read_notes(struct resume *resume)
     return STATUS_OK;
 }
 
-/* One row of /tiles; rows are sorted by level and along the curve, and no level is left out. */
-static int resume_take_tile(struct resume *resume, size_t i, const int32_t row[CHECKPOINT_TILE])
+/* STATUS_OK on all that share the lists, or a failure on all. */
+static int resume_agree(const struct resume *resume, int code)
 {
-    struct tile *tile = &resume->tiles[i];
-    bool next = i > 0 && row[0] == resume->n_level, same = i > 0 && row[0] == resume->n_level - 1;
-    if (i == 0 && row[0] == 0) next = true;
-    if ((!next && !same) || row[0] >= MESH_LEVELS) return resume_damaged(resume, "levels are not in order");
+    return resume->size > 1 ? comm_agree(code) : code;
+}
+
+/* A row of /tiles, of which some rank has looked at what is in it. */
+static struct tile resume_tile(const int32_t row[CHECKPOINT_TILE])
+{
+    struct tile tile = {.at = {row[1], row[2], row[3]}, .unwanted = (unsigned char)row[4]};
+    tile.key = morton_key(tile.at);
+    return tile;
+}
+
+/* A row of /tiles, and the one before it (NULL: it is the first); rows are sorted by level and along the curve, and no
+ * level is left out. */
+static int resume_check_tile(const struct resume *resume, const int32_t row[CHECKPOINT_TILE], const int32_t *before)
+{
+    bool same = before && row[0] == before[0], next = row[0] == (before ? before[0] + 1 : 0);
+    if ((!next && !same) || row[0] < 0 || row[0] >= MESH_LEVELS)
+        return resume_damaged(resume, "levels are not in order");
     if (row[4] < 0 || row[4] > UINT8_MAX) return resume_damaged(resume, "a tile has been unwanted too often");
-    for (int d = 0; d < 3; d++) {
+    for (int d = 0; d < 3; d++)
         if (row[1 + d] < 0 || row[1 + d] > 0x1fffff) return resume_damaged(resume, "a tile outside of any domain");
-        tile->at[d] = row[1 + d];
-    }
-    tile->unwanted = (unsigned char)row[4];
-    tile->key = morton_key(tile->at);
-    if (same && tile[-1].key >= tile->key) return resume_damaged(resume, "tiles are not in order");
-    resume->n_level = row[0] + 1;
-    resume->n_tile[row[0]]++;
+    if (same && resume_tile(before).key >= resume_tile(row).key)
+        return resume_damaged(resume, "tiles are not in order");
     return STATUS_OK;
+}
+
+/* Rows of /tiles from `first` on. */
+static int resume_rows(const struct resume *resume, const struct seal_part *part, size_t first, size_t n, int32_t *rows)
+{
+    size_t row = CHECKPOINT_TILE * sizeof *rows;
+    return seal_bytes(resume->file, resume->path, part->offset + first * row, n * row, rows);
+}
+
+/* Looks at an equal part of the whole list; how many of each level it has. */
+static int resume_survey(const struct resume *resume, const struct seal_part *part, long long ret_counts[MESH_LEVELS])
+{
+    size_t size = (size_t)resume->size, rank = (size_t)resume->rank;
+    size_t from = resume->n_all * rank / size, end = resume->n_all * (rank + 1) / size, seen = from ? from - 1 : 0;
+    int32_t *rows = mem_new((end - seen + 1) * CHECKPOINT_TILE, sizeof *rows), *row = rows;
+    int code = resume_rows(resume, part, seen, end - seen, rows);
+    if (from) row += CHECKPOINT_TILE;
+    for (size_t i = from; !code && i < end; i++, row += CHECKPOINT_TILE) {
+        code = resume_check_tile(resume, row, i ? row - CHECKPOINT_TILE : NULL);
+        if (!code) ret_counts[row[0]]++;
+    }
+    mem_free(rows);
+    return code;
+}
+
+/* Which tiles of each level are this rank's. */
+static void resume_cut(struct resume *resume, const long long counts[MESH_LEVELS])
+{
+    uint32_t *first = mem_new((size_t)resume->size + 1, sizeof *first);
+    for (int l = 0; l < MESH_LEVELS && counts[l]; l++) {
+        resume->n_level = l + 1;
+        resume->n_tile[l] = (unsigned)counts[l];
+        partition_equal(resume->n_tile[l], resume->size, first);
+        resume->first[l] = first[resume->rank];
+        resume->n_own[l] = first[resume->rank + 1] - first[resume->rank];
+        resume->n_here += resume->n_own[l];
+    }
+    mem_free(first);
+}
+
+static int resume_read_pieces(struct resume *resume, const struct seal_part *part)
+{
+    size_t begin = 0;
+    int code = STATUS_OK;
+    struct tile *tile = resume->tiles = mem_new(resume->n_here + 1, sizeof *tile);
+    for (int l = 0; l < resume->n_level && !code; begin += resume->n_tile[l++]) {
+        size_t n = resume->n_own[l];
+        int32_t *rows = mem_new((n + 1) * CHECKPOINT_TILE, sizeof *rows);
+        code = resume_rows(resume, part, begin + resume->first[l], n, rows);
+        for (size_t i = 0; i < n && !code; i++) *tile++ = resume_tile(rows + i * CHECKPOINT_TILE);
+        mem_free(rows);
+    }
+    return code;
+}
+
+/* An empty piece begins where the next one does. */
+static void resume_tell_keys(struct resume *resume)
+{
+    const struct tile *tile = resume->tiles;
+    for (int l = 0; l < resume->n_level; tile += resume->n_own[l++]) {
+        uint64_t own = resume->n_own[l] ? tile->key : UINT64_MAX;
+        uint64_t *keys = resume->first_keys[l] = mem_new((size_t)resume->size, sizeof *keys);
+        keys[0] = own;
+        if (resume->size > 1) comm_join_rows(&own, 1, keys);
+        for (int r = resume->size - 1; r-- > 0;)
+            if (keys[r] == UINT64_MAX) keys[r] = keys[r + 1];
+    }
 }
 
 static int resume_read_tiles(struct resume *resume)
 {
     const struct seal_part *part;
+    long long counts[MESH_LEVELS] = {0};
     TRY(resume_part(resume, "/tiles", &part));
     size_t row = CHECKPOINT_TILE * sizeof(int32_t), n = part->length / row;
     if (part->length % row || !n || n > UINT32_MAX)
         return resume_damaged(resume, "a list of tiles of no possible length");
-    int32_t *rows = mem_new(n * CHECKPOINT_TILE, sizeof *rows);
-    int code = seal_bytes(resume->file, resume->path, part->offset, part->length, rows);
-    resume->tiles = mem_new(n, sizeof *resume->tiles);
     resume->n_all = n;
-    for (size_t i = 0; !code && i < n; i++) code = resume_take_tile(resume, i, rows + i * CHECKPOINT_TILE);
-    mem_free(rows);
-    return code;
+    TRY(resume_agree(resume, resume_survey(resume, part, counts)));
+    if (resume->size > 1) comm_sum_counts(counts, MESH_LEVELS);
+    resume_cut(resume, counts);
+    TRY(resume_agree(resume, resume_read_pieces(resume, part)));
+    resume_tell_keys(resume);
+    return STATUS_OK;
 }
 
 /* A checkpoint that holds its tiles itself. */
@@ -171,18 +249,21 @@ static int resume_read_runs(struct resume *resume)
 /* Everything but the fields. */
 static int resume_read(struct resume *resume)
 {
-    TRY(resume_read_notes(resume));
+    TRY(resume_agree(resume, resume_read_notes(resume)));
     TRY(resume_read_tiles(resume));
     if (resume->seal.kind == SEAL_HEAD) return resume_read_runs(resume);
     resume_read_alone(resume);
     return STATUS_OK;
 }
 
-static struct resume *resume_handle(const char *path)
+/* For this rank of so many that share the lists. */
+static struct resume *resume_handle(const char *path, int rank, int size)
 {
     struct resume *resume = mem_new(1, sizeof *resume);
     resume->path = mem_text(path);
     resume->file = -1;
+    resume->rank = rank;
+    resume->size = size;
     return resume;
 }
 
@@ -230,7 +311,7 @@ static int resume_look_at(struct resume *resume)
 
 int resume_look(const char *path, struct resume **ret_resume)
 {
-    struct resume *resume = resume_handle(path);
+    struct resume *resume = resume_handle(path, 0, 1);
     int code = resume_look_at(resume);
     if (code) resume_close(resume);
     else *ret_resume = resume;
@@ -260,7 +341,7 @@ static int resume_take_all(struct resume *resume)
 
 static int resume_take(const char *path, struct resume **ret_resume)
 {
-    struct resume *resume = resume_handle(path);
+    struct resume *resume = resume_handle(path, comm_rank(), comm_size());
     int code = resume_take_all(resume);
     if (code) resume_close(resume);
     else *ret_resume = resume;
@@ -322,6 +403,7 @@ void resume_close(struct resume *resume)
     mem_free(resume->runs);
     text_done(&resume->notes.text);
     mem_free(resume->tiles);
+    for (int l = 0; l < resume->n_level; l++) mem_free(resume->first_keys[l]);
     mem_free(resume->path);
     mem_free(resume);
 }

@@ -32,10 +32,12 @@ struct resume {
     size_t n_run;
     struct resume_run *runs;
     struct notes notes; /* what the state and the outputs left for the continued run */
+    int rank, size;     /* who shares the lists of tiles: this rank of all, or 0 of 1, which has all of each */
     int n_level;
-    unsigned n_tile[MESH_LEVELS];
-    size_t n_all;       /* tiles of all levels */
-    struct tile *tiles; /* [n_all] `at`, `key` and `unwanted`; by level, sorted along the curve */
+    unsigned n_tile[MESH_LEVELS], first[MESH_LEVELS], n_own[MESH_LEVELS]; /* the piece of a level (partition_equal) */
+    size_t n_all, n_here;                                                 /* tiles of all levels; of these pieces */
+    struct tile *tiles;                /* [n_here] `at`, `key` and `unwanted`; by level, sorted along the curve */
+    uint64_t *first_keys[MESH_LEVELS]; /* [size] where the pieces begin */
 };
 
 /* Opens and verifies a file for a restart. STATUS_CASE with one line that says what is wrong. Collective. */

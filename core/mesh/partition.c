@@ -286,6 +286,16 @@ void partition_cut(const struct partition_runs *runs, int size, uint64_t weight,
     partition_stop(&curve);
 }
 
+void partition_equal(uint32_t n, int size, uint32_t *ret_first)
+{
+    uint64_t *load = mem_new((size_t)size, sizeof *load);
+    struct partition_runs runs = {0};
+    if (n) partition_add(&runs, n, 1);
+    partition_cut(&runs, size, 1, load, ret_first);
+    partition_free(&runs);
+    mem_free(load);
+}
+
 double partition_imbalance(const uint64_t *load, uint32_t n, int size)
 {
     uint64_t largest = 0, total = 0;

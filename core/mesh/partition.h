@@ -41,6 +41,9 @@ void partition_free(struct partition_runs *runs);
  * have so far, `weight` * cost is added; it decides who gets a tile where there are fewer tiles than ranks. */
 void partition_cut(const struct partition_runs *runs, int size, uint64_t weight, uint64_t *load, uint32_t *ret_first);
 
+/* The same of n tiles that cost the same, for ranks that have nothing yet. */
+void partition_equal(uint32_t n, int size, uint32_t *ret_first);
+
 /* Largest over mean of the loads that a level gives the ranks, less 1. The mean is over as many ranks as can have one
  * of its n tiles: 0 is reached with fewer tiles than ranks, too. */
 double partition_imbalance(const uint64_t *load, uint32_t n, int size);

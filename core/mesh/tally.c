@@ -1,6 +1,7 @@
 /* tally.c - see tally.h. */
 #include "mesh/tally.h"
 
+#include "base/account.h"
 #include "base/comm.h"
 #include "base/mem.h"
 #include "mesh/metric.h"
@@ -58,28 +59,15 @@ size_t tally_tiles(const struct mesh *mesh)
     return tiles;
 }
 
-/* sum + lost, where lost is what rounding has taken from the sum so far. */
-static void tally_put(double value, double *sum, double *lost)
-{
-    double next = *sum + value;
-    *lost += fabs(*sum) >= fabs(value) ? (*sum - next) + value : (value - next) + *sum;
-    *sum = next;
-}
-
 void tally_add(const struct mesh *mesh, unsigned n_value, const double *local, double *ret_totals)
 {
-    double *lost = mem_new(n_value, sizeof *lost);
-    for (unsigned q = 0; q < n_value; q++) ret_totals[q] = 0.0;
-    for (int l = 0; l < mesh->n_level; l++) {
-        const struct level *level = &mesh->levels[l];
-        double *all = mem_new((size_t)level->n_tile * n_value, sizeof *all);
-        comm_join(local, (int)(level->n_local * n_value), all);
-        for (unsigned tile = 0; tile < level->n_tile; tile++)
-            for (unsigned q = 0; q < n_value; q++) tally_put(all[(size_t)tile * n_value + q], &ret_totals[q], &lost[q]);
-        local += (size_t)level->n_local * n_value;
-        mem_free(all);
+    size_t tiles = tally_tiles(mesh);
+    struct account *sums = mem_new(n_value, sizeof *sums);
+    for (unsigned q = 0; q < n_value; q++) {
+        for (size_t i = 0; i < tiles; i++) account_add(&sums[q], local[i * n_value + q]);
+        account_carry(&sums[q]);
     }
-    for (unsigned q = 0; q < n_value; q++)
-        if (isfinite(lost[q])) ret_totals[q] += lost[q];
-    mem_free(lost);
+    comm_sum_counts((long long *)sums, (int)n_value * ACCOUNT_NUMBERS);
+    for (unsigned q = 0; q < n_value; q++) ret_totals[q] = account_value(&sums[q]);
+    mem_free(sums);
 }

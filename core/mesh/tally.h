@@ -1,7 +1,7 @@
 /* tally.h - sums over the mesh that do not depend on the ranks.
  *
- * Sums are taken per tile, every rank gets the sums of all tiles, and adds them in the order of
- * levels and of the Morton curve: the same additions in the same order on any number of ranks.
+ * Sums are taken per tile and added up exactly, own tiles first, then ranks: no order changes a bit, and no rank hears
+ * of another one's tiles.
  * Only leaves count: the cells that no finer tile covers. */
 #ifndef TALLY_H
 #define TALLY_H
@@ -22,8 +22,7 @@ double tally_row(size_t n, const double *a, const double *b);
 void tally_extremes(size_t n, const double *values, const double *a, const double *b, double ret_extremes[2]);
 
 /* Adds per-tile values up: `local` is [local tiles of level 0, then of level 1, ...][n_value]; the
- * totals of each value, with compensated summation (Neumaier 1974), are the same on all ranks.
- * Collective. */
+ * totals of each value, exact but for one rounding (account.h), are the same on all ranks. Collective. */
 void tally_add(const struct mesh *mesh, unsigned n_value, const double *local, double *ret_totals);
 
 /* Local tiles of all levels: rows of `local` above. */

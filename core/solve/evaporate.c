@@ -97,7 +97,7 @@ struct account evaporate_account(const struct state *state, unsigned pair)
 {
     struct account all = state->evaporated[pair];
     account_carry(&all);
-    comm_sum_counts(all.digit, ACCOUNT_DIGITS);
+    comm_sum_counts((long long *)&all, ACCOUNT_NUMBERS);
     account_carry(&all);
     return all;
 }

@@ -103,26 +103,17 @@ int state_new(const struct scene *scene, struct state **ret_state)
     return state_hand_over(state, status, ret_state);
 }
 
-/* This rank's piece of sorted tiles: equal ones, few are spread over the ranks. */
-static struct mesh_set state_share(const struct tile *tiles, unsigned n, unsigned *ret_first)
+/* This rank's piece of a level. */
+static struct mesh_set state_piece(const struct state_source *source, int l)
 {
-    size_t size = (size_t)comm_size(), rank = (size_t)comm_rank();
-    uint64_t *load = mem_new(size, sizeof *load);
-    uint32_t *first = mem_new(size + 1, sizeof *first);
-    struct partition_runs runs = {0};
-    if (n) partition_add(&runs, n, 1);
-    partition_cut(&runs, comm_size(), 1, load, first);
-    *ret_first = first[rank];
-    struct mesh_set set = {.n_tile = n, .n = first[rank + 1] - first[rank]};
+    size_t size = (size_t)comm_size();
+    struct mesh_set set = {.n_tile = source->n_tile[l], .n = source->n_own[l]};
     set.tiles = mem_new(set.n, sizeof *set.tiles);
     set.from = mem_new(set.n, sizeof *set.from);
     set.first_keys = mem_new(size, sizeof *set.first_keys);
-    if (set.n) memcpy(set.tiles, tiles + first[rank], set.n * sizeof *tiles);
+    if (set.n) memcpy(set.tiles, source->tiles[l], set.n * sizeof *set.tiles);
     for (unsigned i = 0; i < set.n; i++) set.from[i] = -1;
-    for (size_t r = 0; r < size; r++) set.first_keys[r] = first[r] < n ? tiles[first[r]].key : UINT64_MAX;
-    partition_free(&runs);
-    mem_free(first);
-    mem_free(load);
+    memcpy(set.first_keys, source->first_keys[l], size * sizeof *set.first_keys);
     return set;
 }
 
@@ -133,8 +124,8 @@ static int state_load_level(struct state *state, const struct state_source *sour
     struct mesh_set sets[MESH_LEVELS];
     struct mesh_change changes[MESH_LEVELS];
     size_t n_cell = mesh->n_cell;
-    unsigned first;
-    sets[l] = state_share(source->tiles[l], source->n_tile[l], &first);
+    unsigned first = source->first[l];
+    sets[l] = state_piece(source, l);
     mesh_replace(mesh, l, l, sets, changes);
     mesh_change_free(&changes[l]);
     const struct level *level = &mesh->levels[l];

@@ -72,8 +72,9 @@ struct state_source {
     double t, dt, dt_shrink, dt_longest;
     long step, level_steps[MESH_LEVELS];
     int n_level;
-    unsigned n_tile[MESH_LEVELS];
-    struct tile *tiles[MESH_LEVELS]; /* [n_tile] at and unwanted, in Morton order, replicated; copied */
+    unsigned n_tile[MESH_LEVELS], first[MESH_LEVELS], n_own[MESH_LEVELS]; /* of all ranks; pieces: partition_equal() */
+    const struct tile *tiles[MESH_LEVELS];   /* [n_own] of this rank, in Morton order: at, key, unwanted; copied */
+    const uint64_t *first_keys[MESH_LEVELS]; /* [ranks] where their pieces begin (mesh/span.h); copied */
     /* Fills the conserved fields u[n_field][n_cell] of a tile of a level (its place in the list), its pressure
      * p[n_cell], from which iterated closures start, and what outputs keep, kept[n_kept][n_cell] (NULL: nothing).
      * Called for local tiles only. */

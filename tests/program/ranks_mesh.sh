@@ -5,7 +5,7 @@ set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_rmaps_base_oversubscribe=1
-for name in post levels link patch nest deal roll; do
+for name in post levels link patch nest deal roll portions; do
     for ranks in 2 3 4; do
         limited mpirun -n $ranks --bind-to none "$BULLA_BUILD/tests/test-unit-$name" >log 2>&1 ||
             { echo "$name on $ranks ranks"; cat log; exit 1; }

@@ -1,10 +1,13 @@
-/* Who writes a file holds its own tiles and what lies around them, never the list of all: on several ranks
- * (program/ranks_mesh.sh starts them) all but the last have the same tiles in a small domain and in one of four times
- * as many, and what they take to write a snapshot and a checkpoint is the same. */
+/* Who writes or reads a file or adds up a history holds its own tiles and what lies around them, never the list of all:
+ * on several ranks (program/ranks_mesh.sh starts them) all but the last have the same tiles in a small domain and in
+ * one of four times as many, and what they take to write a snapshot and a checkpoint and for sums is the same; of the
+ * list of tiles in a checkpoint they take an equal part. */
 #include "base/comm.h"
 #include "io/checkpoint.h"
+#include "io/resume.h"
 #include "io/roll.h"
 #include "io/snapshot.h"
+#include "mesh/tally.h"
 #include "replicated.h"
 #include "small.h"
 
@@ -90,7 +93,7 @@ static void share(struct mesh *mesh)
     mem_free(keys);
 }
 
-enum { SNAPSHOT, SNAPSHOT_ALL, CHECKPOINT, CHECKPOINT_ALL, BYTES };
+enum { SNAPSHOT, SNAPSHOT_ALL, CHECKPOINT, CHECKPOINT_ALL, SUMS, SUMS_ALL, READ, READ_ALL, BYTES };
 
 /* Bytes since `before`, when so much was in use and had been asked for: most in use, and all. */
 static void tell(const long long before[2], long long ret_bytes[2])
@@ -99,7 +102,28 @@ static void tell(const long long before[2], long long ret_bytes[2])
     ret_bytes[1] = asked - before[1];
 }
 
-/* What is taken while a snapshot and a checkpoint are written. */
+/* Totals of as many values as some columns of a history have. */
+static void add_up(const struct mesh *mesh)
+{
+    enum { VALUES = 24 };
+    size_t n = tally_tiles(mesh) * VALUES;
+    double *local = mem_new(n + 1, sizeof *local), totals[VALUES];
+    for (size_t i = 0; i < n; i++) local[i] = (double)(i % VALUES);
+    tally_add(mesh, VALUES, local, totals);
+    for (int i = 0; i < VALUES; i++) assert_true(totals[i] == (double)mesh->levels[0].n_tile * i);
+    mem_free(local);
+}
+
+/* The checkpoint that has just been written: its lists of tiles. */
+static void read_back(const struct small *small)
+{
+    struct resume *resume;
+    assert_int_equal(resume_newest(small->scene->output.directory, &resume), 0);
+    assert_int_equal(resume->n_tile[0], small->state->mesh->levels[0].n_tile);
+    resume_close(resume);
+}
+
+/* What is taken while a snapshot and a checkpoint are written, for the row of a history, and for a restart. */
 static void weigh(int side, long long ret_bytes[BYTES])
 {
     struct small small;
@@ -118,6 +142,12 @@ static void weigh(int side, long long ret_bytes[BYTES])
     const long long next[2] = {most = used, asked};
     assert_int_equal(checkpoint_write(checkpoints, small.state, &notes), 0);
     tell(next, ret_bytes + CHECKPOINT);
+    const long long last[2] = {most = used, asked};
+    add_up(small.state->mesh);
+    tell(last, ret_bytes + SUMS);
+    const long long back[2] = {most = used, asked};
+    read_back(&small);
+    tell(back, ret_bytes + READ);
     checkpoint_free(checkpoints);
     snapshot_free(snapshots);
     small_stop(&small);
@@ -133,8 +163,11 @@ static void test_memory(void **state)
     printf("rank %d of %d, bytes:", comm_rank(), comm_size());
     for (int i = 0; i < BYTES; i++) printf(" %lld %lld,", few[i], many[i]);
     printf("\n");
+    const long long all = MANY * MANY * (sizeof(struct tile) + CHECKPOINT_TILE * sizeof(int32_t));
+    if (comm_rank() > 0) /* tiles and rows of an equal part; rank 0 verifies the file, a MiB at a time */
+        assert_true(many[READ] < all / comm_size() + all / 8);
     if (comm_rank() + 1 == comm_size()) return; /* it has the other tiles */
-    for (int i = 0; i < BYTES; i++) {
+    for (int i = 0; i < READ; i++) {
         bool reads_back = comm_rank() == 0 && i == CHECKPOINT_ALL; /* by pieces, of small parts by smaller ones */
         if (!reads_back) assert_true(many[i] < few[i] + SLACK);
     }
