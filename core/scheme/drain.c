@@ -6,7 +6,6 @@
 #include "mesh/axis.h"
 #include "phys/row.h"
 
-#include <math.h>
 #include <string.h>
 
 /* Rows of a frame with pitch FACE_ROOM. */
@@ -18,9 +17,27 @@ struct drain {
     double *volume;                  /* of one material through the faces */
 };
 
+/* Does vapour of the pair diffuse through gases? */
+static bool drain_diffuses(const struct model *path, const struct model_phase *phase)
+{
+    for (unsigned k = 0; k < path->n_fick; k++)
+        for (unsigned g = 0; g < path->ficks[k].n; g++)
+            if (path->ficks[k].member[g] == phase->member[1]) return true;
+    return false;
+}
+
+/* Does the pair evaporate at a surface that heat or diffusion feeds? */
+static bool drain_acts(const struct model *path, const struct model_phase *phase)
+{
+    const struct scene_phase *scene = phase->scene;
+    return scene->onset > 0.0 ? path->conducts : !(scene->wet > 0.0) && drain_diffuses(path, phase);
+}
+
 static bool drain_wanted(const struct model *path)
 {
-    return path->fronts && path->conducts;
+    for (unsigned k = 0; k < path->n_phase; k++)
+        if (drain_acts(path, &path->phases[k])) return true;
+    return false;
 }
 
 static void *drain_open(const struct term_room *room)
@@ -58,7 +75,7 @@ static void drain_frame(const struct term_piece *piece)
     size_t n = piece->frame->count;
     const double *w = piece->faces->frame, *p = w + path->i_E * FACE_ROOM;
     for (unsigned k = 0; k < path->n_phase; k++)
-        for (unsigned j = 0; path->phases[k].scene->onset > 0.0 && j < path->phases[k].n; j++) {
+        for (unsigned j = 0; drain_acts(path, &path->phases[k]) && j < path->phases[k].n; j++) {
             unsigned l = path->phases[k].member[j];
             const double *rho = w + (path->i_m + l) * FACE_ROOM;
             path->eos[l].law->state(path->eos[l].self, n, rho, p, own->energy + l * FACE_ROOM, own->c2);
@@ -75,9 +92,9 @@ static BULLA_KERNEL void drain_weigh(size_t n, size_t step, double most, const d
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a = liquid[i], b = next[i], dry = a < b ? a : b, sum = a + b;
-        double speed = DRAIN_SPEED * fabs(after[i] - before[i]), w = speed < most ? speed : most;
+        double apart = after[i] - before[i], speed = DRAIN_SPEED * apart, w = speed < most ? speed : most;
         double q = w * dry * ((b - a) / sum);
-        open[i] = dry > 0.0 ? q : 0.0;
+        open[i] = (dry > 0.0) & (apart > 0.0) ? q : 0.0;
     }
 }
 
@@ -188,17 +205,7 @@ static void drain_pair(const struct term_piece *piece, const struct model_phase 
 static void drain_faces(const struct term_piece *piece)
 {
     for (unsigned k = 0; k < piece->model->n_phase; k++)
-        if (piece->model->phases[k].scene->onset > 0.0) drain_pair(piece, &piece->model->phases[k]);
-}
-
-static void drain_say(const struct scene *scene, struct text *text)
-{
-    const char *before = ": ";
-    for (unsigned k = 0; k < scene->n_phase; k++) {
-        if (!(scene->phases[k].onset > 0.0)) continue;
-        text_add(text, "%s%s", before, scene->material[scene->phases[k].liquid].name);
-        before = ", ";
-    }
+        if (drain_acts(piece->model, &piece->model->phases[k])) drain_pair(piece, &piece->model->phases[k]);
 }
 
 const struct term drain_term = {
@@ -210,5 +217,4 @@ const struct term drain_term = {
     .close = drain_close,
     .frame = drain_frame,
     .faces = drain_faces,
-    .say = drain_say,
 };

@@ -6,12 +6,14 @@
  * change places across faces, as in schemes that compress interfaces (Weller, OpenCFD technical report TR/HGW/04, 2008;
  * here bounded by what both cells hold): per area and time the volume
  *
- *     q = w a_D g_W (a_W - a_D)/(a_W + a_D),   w = min(DRAIN_SPEED |du|, DRAIN_MOST h/dt)
+ *     q = w a_D g_W (a_W - a_D)/(a_W + a_D),   w = min(DRAIN_SPEED max(du, 0), DRAIN_MOST h/dt)
  *
  * of liquid goes from the drier cell D to the wetter W, and as much of vapour and gases back. a: fraction of the
- * liquid; g: of vapour and gases; du: the difference of the normal velocity over four cells, the speed at which such a
- * surface leaves its vapour. Both take along their mass, energy and momentum; at one pressure no pressure changes.
- * Pairs with an `onset`, in scenes with conduction. Not at faces of troubled cells. */
+ * liquid; g: of vapour and gases; du: by how much the normal velocity rises over four cells, the speed at which such a
+ * surface leaves its vapour; none where they meet. Both take along their mass, energy and momentum; at one pressure no
+ * pressure changes. Pairs with an `onset` in scenes with conduction, and those without `condense-from` whose vapour
+ * diffuses through gases: else drops of the liquid follow the gas. Not where vapour only condenses, nor at faces of
+ * troubled cells. */
 #ifndef DRAIN_H
 #define DRAIN_H
 

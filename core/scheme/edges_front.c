@@ -60,7 +60,7 @@ static BULLA_KERNEL void edges_front_still(size_t n, size_t step, double dry, co
         double a = thin[i], b = thin_r[i], wet_l = liquid[i], wet_r = liquid_r[i], pl = p[i], pr = p_r[i];
         double up = upper[i], low = lower[i], held = mask[i] + mask_r[i];
         double gap = pl < pr ? pr - pl : pl - pr, least = pl < pr ? pl : pr, rest = 1.0 - gap / least;
-        int calm = (gap < least) & !(held > 0.0);
+        int calm = (gap < least) & (low > up) & !(held > 0.0);
         int right = calm & edges_front_ends(dry, a, b, wet_r), left = calm & edges_front_ends(dry, b, a, wet_l);
         double from_l = low + rest * (up - low), from_r = up + rest * (low - up);
         lower[i] = right ? from_l : low;

@@ -10,10 +10,10 @@
  *
  * And the velocity at a face behind which there is only vapour. The velocity of a mixed cell is that of its mass, which
  * is liquid; vapour that the surface leaves behind is at rest beside it. Where a dry cell (vapour and gases fill the
- * `onset` of it) meets one with more liquid than that, there is no wave between them, but the volume that evaporation
- * makes: the mixed cell's edge has the normal velocity of the dry one's. The less so the more pressures differ, and not
- * at all where they do by as much as the smaller one: a wave is on its way then. Faces of troubled cells keep theirs.
- */
+ * `onset` of it, 0.99 at least) and one with more liquid move apart, there is no wave between them, but the volume that
+ * evaporation makes: the mixed cell's edge has the normal velocity of the dry one's. The less so the more pressures
+ * differ, and not at all where they do by as much as the smaller one: a wave is on its way then. Faces of troubled
+ * cells keep theirs. */
 #ifndef EDGES_FRONT_H
 #define EDGES_FRONT_H
 

@@ -73,24 +73,25 @@ static void test_none(void **state)
     flow_stop(&flow);
 }
 
-/* Velocities at the face between a wet cell and a dry one behind it: of the wet cell's edge, and of the dry cell's. */
-static void meet(const struct model *model, const double thin[2], const double p[2], bool troubled, bool back,
-                 double ret_u[2])
+/* Velocities at the face between a wet cell and a dry one, below or above it: of the wet cell's edge, and of the dry
+ * cell's. u, thin, p: of the wet cell and the dry one. */
+static void meet(const struct model *model, const double thin[2], const double p[2], bool troubled, const double u[2],
+                 bool above, double ret_u[2])
 {
     static double w[FLOW_FIELDS * PITCH], state[2 * FLOW_FIELDS * PITCH], room[PITCH];
     double mask[2] = {0.0, troubled ? 1.0 : 0.0}, *upper = state + 2 * model->i_u * PITCH, *lower = upper + 2;
     for (size_t i = 0; i < 2; i++) {
-        size_t at = back ? 1 - i : i;
+        size_t at = above ? 1 - i : i;
         w[model->i_alpha * PITCH + at] = 1.0 - thin[i];
         w[(model->i_alpha + 1) * PITCH + at] = thin[i];
         w[model->i_E * PITCH + at] = p[i];
-        upper[at] = lower[at] = i ? 0.25 : 2.25;
+        upper[at] = lower[at] = u[i];
     }
     edges_front(&(struct edges_front){
         .model = model, .n = 2, .step = 1, .pitch = PITCH, .w = w, .state = state, .mask = mask, .thin = room});
-    ret_u[0] = back ? lower[1] : upper[0];
-    ret_u[1] = back ? upper[0] : lower[1];
-    assert_true((back ? upper[1] : lower[0]) == 2.25 && (back ? lower[0] : upper[1]) == 0.25);
+    ret_u[0] = above ? lower[1] : upper[0];
+    ret_u[1] = above ? upper[0] : lower[1];
+    assert_true((above ? upper[1] : lower[0]) == u[0] && (above ? lower[0] : upper[1]) == u[1]);
 }
 
 static void test_velocity(void **state)
@@ -110,10 +111,13 @@ static void test_velocity(void **state)
     struct flow flow;
     flow_start(&flow, mem_print("%s", BEGIN));
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
-        for (int back = 0; back < 2; back++) {
-            double u[2];
-            meet(flow.state->model, cases[k].thin, cases[k].p, cases[k].troubled, back, u);
-            assert_true(u[0] == cases[k].u && u[1] == 0.25);
+        for (int above = 0; above < 2; above++) {
+            double away = above ? 1.0 : -1.0, u[2];
+            const double leaves[2] = {away * 2.25, away * 0.25}, meets[2] = {away * 0.25, away * 2.25};
+            meet(flow.state->model, cases[k].thin, cases[k].p, cases[k].troubled, leaves, above, u);
+            assert_true(u[0] == away * cases[k].u && u[1] == leaves[1]);
+            meet(flow.state->model, cases[k].thin, cases[k].p, cases[k].troubled, meets, above, u);
+            assert_true(u[0] == meets[0] && u[1] == meets[1]);
         }
     flow_stop(&flow);
 }
