@@ -5,6 +5,7 @@
 #include "phys/phase_pair.h"
 #include "phys/row.h"
 
+#include <math.h>
 #include <string.h>
 
 /* From behind the surface to before it at a face: the mean of `line` and of what the cell before and the next one
@@ -43,24 +44,30 @@ static BULLA_KERNEL void edges_front_meet(size_t n, size_t step, double front, c
 /* At least so much of them, and the velocity of a cell is theirs. */
 #define EDGES_FRONT_DRY 0.99
 
+/* Over this, the part of the vapour's sqrt(p/rho) at which cells that move apart keep their velocities. */
+#define EDGES_FRONT_MACH 10.0
+
 /* Is the second cell wet beside a dry first one? */
 static inline int edges_front_ends(double dry, double thin_dry, double thin_wet, double liquid_wet)
 {
     return (thin_dry >= dry) & (thin_wet < dry) & (thin_wet > EDGES_FRONT_TRACE) & (liquid_wet > 1.0 - dry);
 }
 
-/* The velocity of a wet edge beside a dry one. */
+/* The velocity of a wet edge beside a dry one. rho: of the vapour. */
 static BULLA_KERNEL void edges_front_still(size_t n, size_t step, double dry, const double *restrict thin,
-                                           const double *restrict liquid, const double *restrict p,
-                                           const double *restrict mask, double *restrict upper, double *restrict lower)
+                                           const double *restrict liquid, const double *restrict rho,
+                                           const double *restrict p, const double *restrict mask,
+                                           double *restrict upper, double *restrict lower)
 {
-    const double *thin_r = thin + step, *liquid_r = liquid + step, *p_r = p + step, *mask_r = mask + step;
+    const double *thin_r = thin + step, *liquid_r = liquid + step, *rho_r = rho + step, *p_r = p + step;
+    const double *mask_r = mask + step;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a = thin[i], b = thin_r[i], wet_l = liquid[i], wet_r = liquid_r[i], pl = p[i], pr = p_r[i];
-        double up = upper[i], low = lower[i], held = mask[i] + mask_r[i];
-        double gap = pl < pr ? pr - pl : pl - pr, least = pl < pr ? pl : pr, rest = 1.0 - gap / least;
-        int calm = (gap < least) & (low > up) & !(held > 0.0);
+        double up = upper[i], low = lower[i], held = mask[i] + mask_r[i], vapour = a > b ? rho[i] : rho_r[i];
+        double gap = pl < pr ? pr - pl : pl - pr, least = pl < pr ? pl : pr, apart = low - up;
+        double rest = 1.0 - gap / least - EDGES_FRONT_MACH * sqrt(apart * apart * vapour / least);
+        int calm = (least > 0.0) & (rest > 0.0) & (apart > 0.0) & !(held > 0.0);
         int right = calm & edges_front_ends(dry, a, b, wet_r), left = calm & edges_front_ends(dry, b, a, wet_l);
         double from_l = low + rest * (up - low), from_r = up + rest * (low - up);
         lower[i] = right ? from_l : low;
@@ -81,7 +88,8 @@ static void edges_front_pair(const struct edges_front *row, const struct model_p
     unsigned normal = model->i_u + (unsigned)row->axis;
     double *u = row->state + 2 * normal * row->pitch;
     double dry = phase->scene->onset > EDGES_FRONT_DRY ? phase->scene->onset : EDGES_FRONT_DRY;
-    edges_front_still(n, row->step, dry, thin, liquid, row->w + model->i_E * row->pitch, row->mask, u,
+    const double *vapour = row->w + (model->i_m + phase->member[1]) * row->pitch;
+    edges_front_still(n, row->step, dry, thin, liquid, vapour, row->w + model->i_E * row->pitch, row->mask, u,
                       u + row->n + row->step);
     edges_front_meet(n, row->step, front, thin, liquid, rho, upper, upper + row->n + row->step);
 }

@@ -12,8 +12,9 @@
  * is liquid; vapour that the surface leaves behind is at rest beside it. Where a dry cell (vapour and gases fill the
  * `onset` of it, 0.99 at least) and one with more liquid move apart, there is no wave between them, but the volume that
  * evaporation makes: the mixed cell's edge has the normal velocity of the dry one's. The less so the more pressures
- * differ, and not at all where they do by as much as the smaller one: a wave is on its way then. Faces of troubled
- * cells keep theirs. */
+ * differ, and not at all where they do by as much as the smaller one: a wave is on its way then; nor where the jump is
+ * a tenth of the vapour's sqrt(p/rho): nothing evaporates so fast, and a liquid that is torn away would leave vapour
+ * behind that nothing fills. Faces of troubled cells keep theirs. */
 #ifndef EDGES_FRONT_H
 #define EDGES_FRONT_H
 

@@ -73,6 +73,8 @@ static void test_none(void **state)
     flow_stop(&flow);
 }
 
+static double w_vapour; /* density of the vapour */
+
 /* Velocities at the face between a wet cell and a dry one, below or above it: of the wet cell's edge, and of the dry
  * cell's. u, thin, p: of the wet cell and the dry one. */
 static void meet(const struct model *model, const double thin[2], const double p[2], bool troubled, const double u[2],
@@ -85,6 +87,7 @@ static void meet(const struct model *model, const double thin[2], const double p
         w[model->i_alpha * PITCH + at] = 1.0 - thin[i];
         w[(model->i_alpha + 1) * PITCH + at] = thin[i];
         w[model->i_E * PITCH + at] = p[i];
+        w[(model->i_m + 1) * PITCH + at] = w_vapour;
         upper[at] = lower[at] = u[i];
     }
     edges_front(&(struct edges_front){
@@ -100,13 +103,14 @@ static void test_velocity(void **state)
     static const struct {
         double thin[2], p[2];
         bool troubled;
-        double u; /* of the wet cell's edge */
+        double u, rho; /* of the wet cell's edge; of the vapour */
     } cases[] = {
-        {{0.8, 0.995}, {1e5, 1e5}, false, 0.25}, {{0.8, 1.0}, {1e5, 1.25e5}, false, 0.75},
-        {{0.8, 1.0}, {1.5e5, 1e5}, false, 1.25}, {{0.8, 1.0}, {2e5, 1e5}, false, 2.25},
-        {{0.8, 1.0}, {-1e5, 1e5}, false, 2.25},  {{0.8, 1.0}, {1e5, 1e5}, true, 2.25},
-        {{0.8, 0.98}, {1e5, 1e5}, false, 2.25},  {{0.995, 1.0}, {1e5, 1e5}, false, 2.25},
-        {{0.0, 1.0}, {1e5, 1e5}, false, 2.25},
+        {{0.8, 1.0}, {1e5, 1e5}, false, 1.25, 62.5}, /* half of a tenth of sqrt(p/rho) */
+        {{0.8, 1.0}, {1e5, 1e5}, false, 2.25, 250.0},  {{0.8, 0.995}, {1e5, 1e5}, false, 0.25, 0.0},
+        {{0.8, 1.0}, {1e5, 1.25e5}, false, 0.75, 0.0}, {{0.8, 1.0}, {1.5e5, 1e5}, false, 1.25, 0.0},
+        {{0.8, 1.0}, {2e5, 1e5}, false, 2.25, 0.0},    {{0.8, 1.0}, {-1e5, 1e5}, false, 2.25, 0.0},
+        {{0.8, 1.0}, {1e5, 1e5}, true, 2.25, 0.0},     {{0.8, 0.98}, {1e5, 1e5}, false, 2.25, 0.0},
+        {{0.995, 1.0}, {1e5, 1e5}, false, 2.25, 0.0},  {{0.0, 1.0}, {1e5, 1e5}, false, 2.25, 0.0},
     };
     struct flow flow;
     flow_start(&flow, mem_print("%s", BEGIN));
@@ -114,6 +118,7 @@ static void test_velocity(void **state)
         for (int above = 0; above < 2; above++) {
             double away = above ? 1.0 : -1.0, u[2];
             const double leaves[2] = {away * 2.25, away * 0.25}, meets[2] = {away * 0.25, away * 2.25};
+            w_vapour = cases[k].rho;
             meet(flow.state->model, cases[k].thin, cases[k].p, cases[k].troubled, leaves, above, u);
             assert_true(u[0] == away * cases[k].u && u[1] == leaves[1]);
             meet(flow.state->model, cases[k].thin, cases[k].p, cases[k].troubled, meets, above, u);
