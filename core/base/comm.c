@@ -6,27 +6,16 @@
 #include "base/mem.h"
 #include "base/status.h"
 
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/socket.h>
 
-enum { COMM_FILES = 256 }; /* a process that has just begun has fewer open */
 enum { COMM_LOOKS = 100 }; /* a message from a rank at work next door takes fewer */
 
 static bool comm_is_active;
 static bool comm_has_threads = true;       /* without MPI nobody minds */
 static MPI_Comm comm_near = MPI_COMM_NULL; /* the ranks of this machine, once asked for */
-
-/* A rank says good-bye to mpirun through a socket and in two pieces, the second of which would wait 40 ms for the first
- * to be acknowledged: pieces go at once. What is no such socket stays as it is. */
-static void comm_hurry(void)
-{
-    for (int file = 3, yes = 1; file < COMM_FILES; file++) setsockopt(file, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-}
 
 void comm_init(int *argc, char ***argv)
 {
@@ -36,7 +25,6 @@ void comm_init(int *argc, char ***argv)
     MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &given);
     comm_has_threads = given >= MPI_THREAD_FUNNELED;
     comm_is_active = true;
-    comm_hurry();
 }
 
 void comm_done(void)

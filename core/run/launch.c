@@ -64,8 +64,7 @@ static void launch_become(char **arguments, const sigset_t *mask)
     sigprocmask(SIG_SETMASK, mask, NULL);
     setpgid(0, 0);
     system_end_with_parent();
-    setenv("OMPI_MCA_pml", "^cm", 0);  /* not to look for networks of one kind saves 0.2 s at every start */
-    setenv("PMIX_MCA_gds", "hash", 0); /* what ranks tell each other at the start is small: no file for it, 10 ms */
+    setenv("OMPI_MCA_pml", "^cm", 0); /* not to look for networks of one kind saves 0.2 s at every start */
     int null = open("/dev/null", O_RDONLY);
     if (null >= 0) dup2(null, STDIN_FILENO);
     execvp(arguments[0], arguments);
