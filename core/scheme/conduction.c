@@ -21,7 +21,8 @@
 struct conduction {
     double *rows; /* all of the below */
     double *T, *part, *c, *k;
-    double *left, *right; /* what is left of the materials on both sides of the faces */
+    double *left, *right;    /* what is left of the materials on both sides of the faces */
+    const double *beside[2]; /* their fractions there */
     double *rest, *width, *series, *q, *pair, *per_d;
     double *wet[2];                   /* on both sides of the faces */
     struct conduction_front *surface; /* of pairs with an `onset`, or NULL */
@@ -165,8 +166,7 @@ static void conduction_frame(const struct term_piece *piece)
     struct conduction *own = piece->own;
     size_t n = frame_edged(piece->frame);
     const double *w = piece->faces->frame + frame_reach(piece->frame);
-    own->traces = false;
-    own->plain = -1;
+    own->traces = false, own->plain = -1;
     if (!conduction_is_heated(piece, 0) && !conduction_is_heated(piece, 1))
         own->plain = conduction_plain_find(piece->model, n, FACE_ROOM, w);
     if (own->plain >= 0) {
@@ -193,9 +193,9 @@ struct conduction_piece {
 
 static struct conduction_channel_side conduction_side(const struct conduction_piece *at, unsigned l, bool right)
 {
-    size_t from = l * (size_t)FACE_ROOM + (right ? at->step : 0);
+    size_t row = l * (size_t)FACE_ROOM, from = row + (right ? at->step : 0);
     const struct conduction *own = at->own;
-    return (struct conduction_channel_side){own->part + from, own->T + from, own->k + from, own->c + from};
+    return (struct conduction_channel_side){own->beside[right] + row, own->T + from, own->k + from, own->c + from};
 }
 
 /* k_lm of a liquid and its vapour. */
@@ -237,7 +237,7 @@ static void conduction_alike(const struct term_piece *piece, const struct conduc
     memset(own->rest, 0, at->n * sizeof *own->rest);
     for (unsigned l = 0; l < path->n_material; l++) {
         size_t row = l * (size_t)FACE_ROOM;
-        conduction_channel_own(at->n, own->part + row, own->part + row + at->step, own->width, own->left + row,
+        conduction_channel_own(at->n, own->beside[0] + row, own->beside[1] + row, own->width, own->left + row,
                                own->right + row, own->rest);
         if (conduction_joins(path, l, l)) conduction_through(at, l, l, own->width, own->q);
         else memset(own->q, 0, at->n * sizeof *own->q);
@@ -316,7 +316,9 @@ static void conduction_faces(const struct term_piece *piece)
         conduction_only(piece, &at, (unsigned)own->plain);
         return;
     }
+    own->beside[0] = own->part, own->beside[1] = own->part + at.step;
     if (own->front) conduction_front_meet(own->surface, at.path, at.n, at.step, at.most, own->k, own->c);
+    if (own->front) conduction_front_turn(own->surface, at.path, at.n, at.step, own->T, own->beside);
     conduction_alike(piece, &at);
     conduction_unlike(piece, &at);
     conduction_walls(piece, &at);

@@ -14,24 +14,35 @@
 #define CONDUCTION_FRONT_NEAR 0.02
 
 /* Rows of one pair: fraction of vapour and gases; above 0 where liquid is at a surface or behind, and as warm as the
- * vapour; what liquid, vapour and gases of a cell hold [J/(m3 K)]; conductivity of faces. */
+ * vapour; what liquid, vapour and gases of a cell hold [J/(m3 K)]; conductivity of faces; 1 at faces through which the
+ * surface warms its liquid. */
 struct conduction_front_rows {
-    double thin[FACE_ROOM], tied[FACE_ROOM], heat[FACE_ROOM], k[FACE_ROOM];
+    double thin[FACE_ROOM], tied[FACE_ROOM], heat[FACE_ROOM], k[FACE_ROOM], warms[FACE_ROOM];
+    bool there; /* the piece has vapour or gases of the pair */
 };
 
+/* Rows of all materials, with pitch FACE_ROOM: fractions as they were before liquids took in what is in them, and those
+ * of the cells on the left and on the right of the faces. */
 struct conduction_front {
     struct conduction_front_rows pair[SCENE_PHASES];
+    double *rows, *own, *beside[2];
 };
 
 struct conduction_front *conduction_front_new(const struct model *model)
 {
     bool wanted = false;
     for (unsigned k = 0; k < model->n_phase; k++) wanted = wanted || model->phases[k].scene->onset > 0.0;
-    return wanted ? mem_new(1, sizeof(struct conduction_front)) : NULL;
+    if (!wanted) return NULL;
+    struct conduction_front *front = mem_new(1, sizeof *front);
+    size_t block = model->n_material * (size_t)FACE_ROOM;
+    front->own = front->rows = mem_new(3 * block, sizeof *front->rows);
+    for (size_t side = 0; side < 2; side++) front->beside[side] = front->rows + (side + 1) * block;
+    return front;
 }
 
 void conduction_front_free(struct conduction_front *front)
 {
+    if (front) mem_free(front->rows);
     mem_free(front);
 }
 
@@ -66,12 +77,16 @@ static BULLA_KERNEL void conduction_front_empty(size_t n, double half, const dou
     }
 }
 
-static bool conduction_front_pair(const struct model_phase *phase, size_t n, double *part, double *thin)
+static bool conduction_front_pair(const struct model_phase *phase, size_t n, double *part, double *own, double *thin)
 {
     double half = phase_pair_front(phase->scene), *liquid = part + phase->member[0] * (size_t)FACE_ROOM;
     memset(thin, 0, n * sizeof *thin);
     for (unsigned j = 1; j < phase->n; j++) row_add(n, part + phase->member[j] * (size_t)FACE_ROOM, thin);
     if (conduction_front_count(n, thin) == 0.0) return false;
+    for (unsigned j = 0; j < phase->n; j++) {
+        size_t row = phase->member[j] * (size_t)FACE_ROOM;
+        memcpy(own + row, part + row, n * sizeof *own);
+    }
     conduction_front_fill(n, half, thin, liquid);
     for (unsigned j = 1; j < phase->n; j++)
         conduction_front_empty(n, half, thin, liquid, part + phase->member[j] * (size_t)FACE_ROOM);
@@ -81,9 +96,12 @@ static bool conduction_front_pair(const struct model_phase *phase, size_t n, dou
 bool conduction_front_look(struct conduction_front *front, const struct model *path, size_t n, double *part)
 {
     bool any = false;
-    for (unsigned k = 0; k < path->n_phase && front; k++)
-        if (path->phases[k].scene->onset > 0.0)
-            any = conduction_front_pair(&path->phases[k], n, part, front->pair[k].thin) || any;
+    for (unsigned k = 0; k < path->n_phase && front; k++) {
+        struct conduction_front_rows *rows = &front->pair[k];
+        rows->there = path->phases[k].scene->onset > 0.0 &&
+                      conduction_front_pair(&path->phases[k], n, part, front->own, rows->thin);
+        any = any || rows->there;
+    }
     return any;
 }
 
@@ -161,6 +179,69 @@ static BULLA_KERNEL void conduction_front_pass(size_t n, double onset, double mo
         double passes = least < onset ? limit : touches;
         k[i] = both > 0.0 ? passes : touches;
     }
+}
+
+/* Of two cells with liquid the wetter one is the colder: the surface warms its liquid. At how many faces. */
+static BULLA_KERNEL double conduction_front_warm(size_t n, const double *restrict thin_l, const double *restrict thin_r,
+                                                 const double *restrict liquid_l, const double *restrict liquid_r,
+                                                 const double *restrict T_l, const double *restrict T_r,
+                                                 double *restrict warms)
+{
+    double count = 0.0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) {
+        double both = liquid_l[i] * liquid_r[i], into = (thin_r[i] - thin_l[i]) * (T_r[i] - T_l[i]);
+        double wet = both > 0.0 ? 1.0 : 0.0, here = into > 0.0 ? wet : 0.0;
+        warms[i] = here;
+        count += here;
+    }
+    return count;
+}
+
+/* Where `warms`, take `own`. */
+static BULLA_KERNEL void conduction_front_choose(size_t n, const double *restrict warms, const double *restrict own,
+                                                 double *restrict value)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = own[i], b = value[i];
+        value[i] = warms[i] > 0.0 ? a : b;
+    }
+}
+
+/* The fractions on both sides of faces, as they are in cells where the surface warms its liquid. */
+static void conduction_front_mend(struct conduction_front *front, const struct model *path, size_t n, size_t step,
+                                  const double *ret_part[2])
+{
+    for (size_t side = 0; side < 2; side++) {
+        for (size_t row = 0; row < path->n_material * (size_t)FACE_ROOM; row += FACE_ROOM)
+            memcpy(front->beside[side] + row, ret_part[side] + row, n * sizeof **ret_part);
+        for (unsigned p = 0; p < path->n_phase; p++)
+            for (unsigned j = 0; j < path->phases[p].n && front->pair[p].there; j++) {
+                size_t row = path->phases[p].member[j] * (size_t)FACE_ROOM;
+                conduction_front_choose(n, front->pair[p].warms, front->own + row + side * step,
+                                        front->beside[side] + row);
+            }
+        ret_part[side] = front->beside[side];
+    }
+}
+
+static const double conduction_front_none[FACE_ROOM];
+
+void conduction_front_turn(struct conduction_front *front, const struct model *path, size_t n, size_t step,
+                           const double *T, const double *ret_part[2])
+{
+    double any = 0.0;
+    for (unsigned p = 0; p < path->n_phase; p++) {
+        struct conduction_front_rows *at = &front->pair[p];
+        size_t row = path->phases[p].member[0] * (size_t)FACE_ROOM;
+        if (!at->there) continue;
+        const double *liquid = front->own + row, *warmth = T + row;
+        any += conduction_front_warm(n, at->thin, at->thin + step, liquid, liquid + step, warmth, warmth + step,
+                                     at->warms);
+        conduction_front_choose(n, at->warms, conduction_front_none, at->k);
+    }
+    if (any > 0.0) conduction_front_mend(front, path, n, step, ret_part);
 }
 
 void conduction_front_meet(struct conduction_front *front, const struct model *path, size_t n, size_t step, double most,

@@ -8,7 +8,12 @@
  * 205-227, 2.2): q = k_l (T_l - T_next)/d,   d = h (front - thin_l)/(thin_next - thin_l). Behind it, up to cells of
  * `onset`, heat goes on as fast as the step allows: the cells share it by the heat that they hold, those of `onset` and
  * more, and those beside such, evaporate (scheme/shore.h). What a face lets through depends on the cells beside it
- * alone, not on where a tile ends. */
+ * alone, not on where a tile ends.
+ *
+ * That is a surface that liquid gives heat to. Where of two cells with liquid the wetter one is the colder, vapour
+ * condenses in all cells that hold some, and the surface warms its liquid: faces there are those of any mixture
+ * (conduction_channel.h). The first cell before the surface would else take so much heat from it that a bubble in
+ * slightly subcooled water vanishes where it should swing. */
 #ifndef CONDUCTION_FRONT_H
 #define CONDUCTION_FRONT_H
 
@@ -35,6 +40,12 @@ void conduction_front_weigh(struct conduction_front *front, const struct model *
  */
 void conduction_front_meet(struct conduction_front *front, const struct model *path, size_t n, size_t step, double most,
                            const double *k, const double *c);
+
+/* After conduction_front_meet: faces through which the surface warms its liquid have neither those conductivities nor
+ * liquid that has taken in what is in its cells. T: as above. ret_part: fractions of the materials on the left and on
+ * the right of the faces, [n_material] with pitch FACE_ROOM; they point into `front` if any face is such a one. */
+void conduction_front_turn(struct conduction_front *front, const struct model *path, size_t n, size_t step,
+                           const double *T, const double *ret_part[2]);
 
 /* They take the place of k_lm where l and m are of a pair, at its surface and behind. */
 void conduction_front_take(const struct conduction_front *front, const struct model *path, unsigned l, unsigned m,

@@ -95,6 +95,9 @@ static void test_resistance(void **state)
 enum { FRONT_CELLS = 6 };
 static double front_part[2 * FACE_ROOM], front_T[2 * FACE_ROOM], front_k[2 * FACE_ROOM], front_c[2 * FACE_ROOM];
 
+static double front_side[2][2 * FACE_ROOM]; /* on the left and on the right of the faces */
+static double front_last = 380.0;           /* of the liquid in the cell of 0.2 vapour [K] */
+
 static struct scene_phase front_pair = {.onset = 0.9};
 static struct model front_path;
 
@@ -102,11 +105,12 @@ static void front_row(bool mirrored, double T_v, double most, double *k)
 {
     static const double vapour[FRONT_CELLS] = {0.0, 0.0, 0.2, 0.7, 0.95, 1.0};
     front_path.n_phase = 1;
+    front_path.n_material = 2;
     front_path.phases[0] = (struct model_phase){.n = 2, .member = {0, 1}, .scene = &front_pair};
     for (int j = 0; j < FRONT_CELLS; j++) {
         int i = mirrored ? FRONT_CELLS - 1 - j : j, v = FACE_ROOM + i;
         front_part[i] = 1.0 - vapour[j], front_part[v] = vapour[j];
-        front_T[i] = 380.0, front_T[v] = T_v;
+        front_T[i] = j == 2 ? front_last : 380.0, front_T[v] = T_v;
         front_k[i] = K_WATER * (1.0 + 0.1 * j), front_k[v] = K_AIR;
         front_c[i] = 4e6, front_c[v] = 800.0;
     }
@@ -114,6 +118,11 @@ static void front_row(bool mirrored, double T_v, double most, double *k)
     assert_true(conduction_front_look(front, &front_path, FRONT_CELLS, front_part));
     conduction_front_weigh(front, &front_path, FRONT_CELLS, front_part, front_c, front_T);
     conduction_front_meet(front, &front_path, FRONT_CELLS - 1, 1, most, front_k, front_c);
+    const double *beside[2] = {front_part, front_part + 1};
+    conduction_front_turn(front, &front_path, FRONT_CELLS - 1, 1, front_T, beside);
+    for (int side = 0; side < 2; side++)
+        for (int l = 0; l < 2; l++)
+            memcpy(front_side[side] + l * FACE_ROOM, beside[side] + l * FACE_ROOM, (FRONT_CELLS - 1) * sizeof **beside);
     for (int i = 0; i < FRONT_CELLS - 1; i++) k[i] = -1.0;
     conduction_front_take(front, &front_path, 0, 1, FRONT_CELLS - 1, k);
     conduction_front_free(front);
@@ -137,6 +146,24 @@ static void test_front(void **state)
     assert_true(fabs(k[2] / (0.5 * 1e-9 * 4e6) - 1.0) < 1e-12); /* what the step allows */
     front_row(false, 400.0, most, k);
     assert_true(k[2] > 0.0 && k[3] == -1.0); /* a cell whose vapour is warmer is no surface */
+}
+
+/* Where the last cell of liquid is colder than the surface, which warms it, the face is one of materials: neither the
+ * distance of the surface counts there, nor has the liquid what is in its cell. */
+static void test_front_cold(void **state)
+{
+    (void)state;
+    double k[FRONT_CELLS - 1], back[FRONT_CELLS - 1];
+    for (int turn = 0; turn < 2; turn++) {
+        front_last = turn ? 379.0 : 381.0;
+        front_row(true, 380.0, 1e-3, back);
+        front_row(false, 380.0, 1e-3, k);
+        for (int i = 0; i < FRONT_CELLS - 1; i++) assert_true(k[i] == back[FRONT_CELLS - 2 - i]);
+        assert_true((k[2] == -1.0) == (turn == 1) && k[3] > 0.0);
+        assert_true(front_side[0][2] == (turn ? 0.8 : 1.0) && front_side[0][FACE_ROOM + 2] == (turn ? 0.2 : 0.0));
+        assert_true(front_side[1][2] == front_part[3] && front_side[1][1] == (turn ? 1.0 : 0.8));
+    }
+    front_last = 380.0;
 }
 
 /* A piece that ends before the surface has the same liquid as one that goes on: where a tile ends changes nothing. */
@@ -361,6 +388,7 @@ int main(void)
         cmocka_unit_test(test_surface),
         cmocka_unit_test(test_resistance),
         cmocka_unit_test(test_front),
+        cmocka_unit_test(test_front_cold),
         cmocka_unit_test(test_front_tiles),
         cmocka_unit_test(test_series),
         cmocka_unit_test(test_mixed_cell),
