@@ -1,5 +1,6 @@
 /* scene_boil.c - doubts about pairs of a liquid and its vapour: cells that the heat which feeds their surface does not
- * see, superheated liquid without `onset`, states beyond the end of the curve. */
+ * see, superheated liquid without `onset`, painted mixtures with keys of surfaces, states beyond the end of the curve.
+ */
 #include "case/saturation.h"
 #include "case/scene_draft.h"
 
@@ -10,6 +11,7 @@
 
 static const double scene_boil_cells = 4.0;  /* per layer of heat at the end of the run */
 static const double scene_boil_super = 0.05; /* [K] of superheat that are none */
+static const double scene_boil_trace = 1e-3; /* of a cell: less is no mixture */
 
 /* Least side of the finest cells. */
 static double scene_boil_cell(const struct scene *scene)
@@ -34,18 +36,11 @@ static double scene_boil_layer(const struct scene *scene, const struct scene_mat
     return sqrt(k * v * scene->run.until / c_p);
 }
 
-/* Is what evaporates at a surface decided by heat that flows there? */
-static bool scene_boil_by_heat(const struct scene *scene, const struct scene_phase *pair)
-{
-    return pair->rate == SCENE_PHASE_EQUILIBRIUM && !pair->everywhere &&
-           scene->material[pair->liquid].conductivity.module;
-}
-
 static void scene_boil_heat(struct draft *draft, const struct keys_value *value, const struct scene_phase *pair)
 {
     const struct scene *scene = draft->scene;
     const struct scene_material *liquid = &scene->material[pair->liquid];
-    if (!scene_boil_by_heat(scene, pair)) return;
+    if (!scene_phase_surface_fed(scene, pair)) return;
     double T = pair->curve.T_max < 373.0 ? pair->curve.T_max : 373.0, layer = scene_boil_layer(scene, liquid, T);
     double h = scene_boil_cell(scene);
     if (!(h * scene_boil_cells > layer)) return;
@@ -81,7 +76,7 @@ static void scene_boil_onset(struct draft *draft, const struct keys_value *value
     const struct scene *scene = draft->scene;
     struct saturation both;
     double p, T;
-    if (!scene_boil_by_heat(scene, pair) || pair->onset > 0.0) return;
+    if (!scene_phase_surface_fed(scene, pair) || pair->onset > 0.0) return;
     if (!scene_boil_state(scene, &scene->layers[index], pair->liquid, &p, &T)) return;
     if (!saturation_of(&scene->material[pair->liquid].eos, &scene->material[pair->vapour].eos, &both)) return;
     double over = T - saturation_temperature(&both, p);
@@ -90,6 +85,24 @@ static void scene_boil_onset(struct draft *draft, const struct keys_value *value
               "%s: '%s' of initial[%u] is superheated by %.3g K and boils wherever the mesh brings a trace of vapour",
               value->path, scene->material[pair->liquid].name, index, over);
     diag_help(draft->keys.diag, "'onset: 0.99' lets it evaporate at its surface only");
+}
+
+/* A mixture that is painted is no smeared surface: what pairs have by themselves is not for it. */
+static void scene_boil_mixed(struct draft *draft, const struct keys_value *value, const struct scene_phase *pair,
+                             unsigned index)
+{
+    const struct scene *scene = draft->scene;
+    const struct scene_layer *layer = &scene->layers[index];
+    bool onset = pair->onset > 0.0 && !keys_at(value->map, "onset")->given;
+    bool wet = pair->wet > 0.0 && !keys_at(value->map, "condense-from")->given;
+    if (!(onset || wet) || !layer->has_material || !layer->fractions) return;
+    double liquid = layer->fractions[pair->liquid], vapour = layer->fractions[pair->vapour];
+    if (!(liquid > scene_boil_trace && vapour > scene_boil_trace)) return;
+    diag_warn(draft->keys.diag, &value->node->mark,
+              "%s: '%s' and '%s' of initial[%u] are mixed, and %s only at surfaces, where %s fills %.2g of a cell",
+              value->path, scene->material[pair->liquid].name, scene->material[pair->vapour].name, index,
+              onset ? "evaporate" : "condense", onset ? "vapour" : "liquid", onset ? pair->onset : pair->wet);
+    diag_help(draft->keys.diag, "'%s: 0' for bubbly mixtures", onset ? "onset" : "condense-from");
 }
 
 static void scene_boil_range(struct draft *draft, const struct keys_value *value, const struct scene_phase *pair,
@@ -118,6 +131,7 @@ void scene_boil(struct draft *draft)
         scene_boil_heat(draft, &section->list[k], &scene->phases[k]);
         for (unsigned i = 0; i < scene->n_layer; i++) {
             scene_boil_onset(draft, &section->list[k], &scene->phases[k], i);
+            scene_boil_mixed(draft, &section->list[k], &scene->phases[k], i);
             scene_boil_range(draft, &section->list[k], &scene->phases[k], i);
         }
     }

@@ -38,6 +38,14 @@ void scene_tension(struct draft *draft);
 void scene_contact(struct draft *draft);
 void scene_phase(struct draft *draft);
 
+/* scene_phase_surface.c: keys of a pair that say in which cells of a surface it changes phase, read from its map when
+ * its rate, places and gases are known. Not given: 0.99 as onset, 0.9 as condense-from where scene_phase_surface_fed.
+ */
+void scene_phase_surface(struct draft *draft, const struct keys_map *map, struct scene_phase *pair);
+
+/* Does heat that the liquid conducts decide what evaporates and condenses at the surface of a pair? */
+bool scene_phase_surface_fed(const struct scene *scene, const struct scene_phase *pair);
+
 /* Gas constant of the law of a material [J/(kg K)]; 0: it becomes no ideal gas, or does not say. */
 double scene_phase_gas(const struct scene *scene, unsigned material);
 

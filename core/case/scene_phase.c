@@ -166,20 +166,21 @@ static const struct key scene_phase_rows[] = {
     {.name = "onset",
      .type = KEYS_NUMBER,
      .unit = "1",
-     .min = KEYS_POSITIVE,
+     .min = 0.0,
      .max = 0.999,
      .doc = "Liquid evaporates only where vapour and gases fill this share of a cell or of one beside it; wherever "
-            "they are felt, if not given. 0.99 keeps the surface of superheated liquid sharp. Liquid below a tenth of "
-            "its saturation pressure evaporates, and vapour condenses, all the same."},
+            "they are felt, if 0. Not given: 0.99 for pairs without gases whose liquid conducts, with `rate: "
+            "equilibrium` at interfaces, so that their surface stays sharp; else 0. Liquid below a tenth of its "
+            "saturation pressure evaporates, and vapour condenses, all the same."},
     {.name = "condense-from",
      .type = KEYS_NUMBER,
      .unit = "1",
-     .min = KEYS_POSITIVE,
+     .min = 0.0,
      .max = 0.99,
-     .doc =
-         "Vapour condenses only where the liquid fills this share of a cell; wherever it is felt, if not given. 0.9 "
-         "keeps vapour among gases from condensing, and gases from cooling, in all cells that the surface is smeared "
-         "over."},
+     .doc = "Vapour condenses only where the liquid fills this share of a cell; wherever it is felt, if 0. Not given: "
+            "0.9 for pairs with gases whose liquid conducts, with `rate: equilibrium` at interfaces and no `onset`, so "
+            "that vapour does not condense, and gases do not cool, in all cells that the surface is smeared over; "
+            "else 0."},
     {.name = "nucleus",
      .type = KEYS_NUMBER,
      .unit = "1",
@@ -321,16 +322,6 @@ static void scene_phase_places(struct draft *draft, const struct keys_map *map, 
     pair->everywhere = keys_at(map, "where")->integer == 1;
     pair->direction = (enum scene_phase_direction)keys_at(map, "direction")->integer;
     pair->mixing = keys_at(map, "mixing")->integer == 0;
-    pair->onset = keys_at(map, "onset")->given ? keys_at(map, "onset")->number : 0.0;
-    if (pair->everywhere && keys_at(map, "onset")->given)
-        keys_error(&draft->keys, keys_at(map, "onset"),
-                   "with 'where: everywhere' liquid evaporates from nothing: 'onset' is for surfaces");
-    pair->wet = keys_at(map, "condense-from")->given ? keys_at(map, "condense-from")->number : 0.0;
-    pair->nucleus = keys_at(map, "nucleus")->given ? keys_at(map, "nucleus")->number : 0.0;
-    static const char *const condensing[] = {"condense-from", "nucleus"};
-    for (int i = 0; i < 2; i++)
-        if (pair->direction == SCENE_PHASE_EVAPORATION && keys_at(map, condensing[i])->given)
-            keys_error(&draft->keys, keys_at(map, condensing[i]), "with 'direction: evaporation' nothing condenses");
     scene_phase_apart(draft, map, pair);
     if (!nucleation->map) return;
     const struct keys_value *tension = keys_at(nucleation->map, "tension"),
@@ -428,6 +419,7 @@ static void scene_phase_pair(struct draft *draft, const struct keys_value *value
     scene_phase_pace(draft, map, &pair);
     scene_phase_places(draft, map, &pair);
     if (liquid < 0 || vapour < 0 || !gases) return;
+    scene_phase_surface(draft, map, &pair);
     scene_phase_set(draft, keys_at(map, "calibrate"), &pair);
     scene_phase_curve(draft, value, &pair);
     scene->phases[scene->n_phase++] = pair;
@@ -477,6 +469,15 @@ static void scene_phase_warn(struct draft *draft, const struct keys_value *secti
               "give the materials a 'conductivity', or a finite rate; for bubbly mixtures it is right");
 }
 
+/* Is the scene one of boiling mixtures: nothing but liquids and their vapours, whose surfaces are not resolved? */
+static bool scene_phase_bubbly(const struct scene *scene)
+{
+    for (unsigned k = 0; k < scene->n_phase; k++)
+        if (scene_phase_surface_fed(scene, &scene->phases[k]) || scene->phases[k].rate == SCENE_PHASE_NONE)
+            return false;
+    return scene->n_phase > 0 && scene->n_material == 2 * scene->n_phase;
+}
+
 void scene_phase(struct draft *draft)
 {
     const struct keys_value *section = keys_at(draft->root, "phase-change");
@@ -485,6 +486,8 @@ void scene_phase(struct draft *draft)
         keys_error(&draft->keys, section, "%u pairs are more than %d", section->count, SCENE_PHASES);
     for (unsigned i = 0; i < section->count && i < SCENE_PHASES; i++) scene_phase_pair(draft, &section->list[i]);
     scene_phase_company(draft, section);
+    if (keys_at(keys_at(draft->root, "scheme")->map, "mixture-speed")->integer == 0)
+        draft->scene->scheme.wood = scene_phase_bubbly(draft->scene);
     if (!diag_errors(draft->keys.diag)) scene_phase_warn(draft, section);
 }
 

@@ -76,12 +76,13 @@ static const struct key scene_scheme_rows[] = {
             "(plastic, or with Maxwell branches)."},
     {.name = "mixture-speed",
      .type = KEYS_CHOICE,
-     .choices = "frozen|wood",
-     .fallback = "frozen",
+     .choices = "auto|frozen|wood",
+     .fallback = "auto",
      .doc =
          "Speed of sound that mixtures show to the Riemann solver at faces where cells move apart. frozen: the largest "
          "there is, which nothing breaks and which smears slow waves of boiling mixtures; wood: that of one pressure. "
-         "Time steps have the frozen one."},
+         "auto: wood where all materials are liquids and vapours of pairs that change phase, and no liquid conducts; "
+         "else frozen. Time steps have the frozen one."},
     {.name = "low-mach",
      .type = KEYS_NUMBER,
      .unit = "1",
@@ -310,11 +311,11 @@ static double scene_scheme_first(struct draft *draft, const struct keys_map *sch
 static bool scene_scheme_wood(struct draft *draft, const struct keys_map *scheme)
 {
     const struct keys_value *speed = keys_at(scheme, "mixture-speed");
-    bool wood = speed->integer == 1;
+    bool wood = speed->integer == 2;
     if (wood && scene_matter_solid(draft)) {
         keys_error(&draft->keys, speed,
                    "'wood' is for mixtures of fluids: with solids the speeds of shear would be lost");
-        diag_help(draft->keys.diag, "'mixture-speed: frozen', the default");
+        diag_help(draft->keys.diag, "'mixture-speed: frozen', what scenes with solids have by themselves");
     }
     return wood;
 }

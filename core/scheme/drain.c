@@ -30,7 +30,7 @@ static bool drain_diffuses(const struct model *path, const struct model_phase *p
 static bool drain_acts(const struct model *path, const struct model_phase *phase)
 {
     const struct scene_phase *scene = phase->scene;
-    return scene->onset > 0.0 ? path->conducts : !(scene->wet > 0.0) && drain_diffuses(path, phase);
+    return scene->onset > 0.0 ? path->conducts : drain_diffuses(path, phase);
 }
 
 static bool drain_wanted(const struct model *path)

@@ -39,7 +39,10 @@ static void phase_change_say(const struct scene *scene, struct text *text)
         text_add(text, "%s%s to %s, %s, %s", k ? "; " : ": ", scene->material[pair->liquid].name,
                  scene->material[pair->vapour].name, rates[pair->rate],
                  pair->everywhere ? "everywhere" : "at interfaces");
+        if (pair->onset > 0.0) text_add(text, " from %g of vapour on", pair->onset);
+        if (pair->wet > 0.0) text_add(text, ", condensing from %g of liquid on", pair->wet);
     }
+    if (scene->scheme.wood) text_add(text, "; expanding mixtures have Wood's speed of sound (core/scheme/wood.c)");
 }
 
 const struct operator phase_change_operator = {

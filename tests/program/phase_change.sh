@@ -49,6 +49,11 @@ sed 's/^run:/scheme: {integrator: ssprk3}\nrun:/' bubble.yaml >three.yaml
 "$BULLA" plan bubble.yaml >plan 2>said
 grep -q '^  phase .*water to steam, equilibrium, at interfaces.*core/scheme/phase_change.c' plan || fail "no operator" plan
 grep -q "rate: equilibrium' without conduction" said || fail "no warning" said
+sed -e 's/water-2016}}/water-2016}, conductivity: 0.6 W\/m\/K}/' bubble.yaml >warm.yaml # what a pair has by itself
+"$BULLA" plan warm.yaml >plan 2>said
+grep -q '^  phase .*equilibrium, at interfaces, condensing from 0.9 of liquid on  \[' plan || fail "gases, and not told" plan
+"$BULLA" plan warm.yaml --set 'phase-change=[{liquid: water, vapour: steam}]' >plan 2>said
+grep -q '^  phase .*equilibrium, at interfaces from 0.99 of vapour on  \[' plan || fail "no gases, and not told" plan
 
 # Heat flows, and superheated liquid evaporates at the vapour's end of its surface; faces of expanding mixtures have Wood's speed.
 sed -e 's/water-2016}}/water-2016}, conductivity: 0.6 W\/m\/K}/' -e 's/gases: \[air\]/&, onset: 0.5/' \
@@ -139,6 +144,11 @@ doubt() { # WORDS SED-EXPRESSION: the warmed case, changed so, is warned of with
 doubt "0.76 of the finest cells of 1.56e-05 m" ''
 "$BULLA" check heat.yaml --set run.until=1 2>&1 | grep "of the finest cells of 1.56" && fail "a layer that is wide enough"
 doubt "superheated by .* and boils wherever" 's/, onset: 0.5//; s/everywhere: true, material: water, temperature: 360/everywhere: true, material: water, temperature: 420/'
+doubt "'water' and 'steam' of initial\[2\] are mixed, and condense only at surfaces, where liquid fills 0.9" \
+    's/, onset: 0.5//; s/fractions: {steam/fractions: {water: 0.1, steam/; s/air: 0.6/air: 0.5/'
+doubt "'water' and 'steam' of initial\[2\] are mixed, and evaporate only at surfaces, where vapour fills 0.99" \
+    's/, onset: 0.5//; s/, gases: \[air\]//; s/fractions: {steam/fractions: {water: 0.1, steam/; s/air: 0.6/air: 0.5/'
+"$BULLA" check heat.yaml 2>&1 | grep "are mixed" && fail "a mixture where there is none"
 doubt "beyond the end of the curve" 's/pressure: 40 bar/pressure: 1 GPa/'
 doubt "'steam' of initial\[2\], 8e+04 Pa at 360 K, condenses at once where it meets 'water': saturation is 6.361e+04 Pa" ''
 sed 's/{steam: 0.4, air: 0.6}/{steam: 0.31, air: 0.69}/' heat.yaml >wet.yaml

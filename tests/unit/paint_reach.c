@@ -13,7 +13,7 @@ static void begin(const char *domain, const char *heat, const char *initial)
     flow_start(&flow, mem_print("bulla: 1\n%s\nmaterials:\n  water: {eos: {type: nasg, preset: water-2016}%s}\n"
                                 "  steam: {eos: {type: ideal-gas, preset: water-2016}}\n"
                                 "  stone: {eos: {type: stiffened-gas, preset: begostone}}\n"
-                                "phase-change:\n  - {liquid: water, vapour: steam}\ninitial:\n"
+                                "phase-change:\n  - {liquid: water, vapour: steam, onset: 0}\ninitial:\n"
                                 "  - {everywhere: true, material: water, temperature: 360, pressure: 1 bar}\n"
                                 "%srun: {until: 1}\n",
                                 domain, heat, initial));

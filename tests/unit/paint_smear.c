@@ -66,7 +66,7 @@ static void test_shares(void **state)
 static void test_others(void **state)
 {
     (void)state;
-    static const char *const heat[] = {HEAT, ""}, *const onset[] = {"", ONSET};
+    static const char *const heat[] = {HEAT, ""}, *const onset[] = {", onset: 0", ONSET};
     for (int i = 0; i < 2; i++) {
         begin(LINE, 16, heat[i], onset[i], "  - {box: {lower: [4.5], upper: [8]}, " STEAM);
         assert_true(steam(4) == 0.5 && steam(5) == 1.0 && steam(3) == 0.0);

@@ -1,0 +1,40 @@
+/* scene_phase_surface.c - in which cells of a smeared surface a liquid and its vapour change phase: what the case file
+ * says, and what a pair has where it says nothing (docs/decisions/phase-change.md, "What a pair has by itself"). */
+#include "case/scene_draft.h"
+
+/* Of a cell: vapour at which liquid evaporates, and liquid at which vapour among gases condenses. */
+static const double scene_phase_surface_dry = 0.99, scene_phase_surface_wet = 0.9;
+
+bool scene_phase_surface_fed(const struct scene *scene, const struct scene_phase *pair)
+{
+    return pair->rate == SCENE_PHASE_EQUILIBRIUM && !pair->everywhere &&
+           scene->material[pair->liquid].conductivity.module;
+}
+
+static double scene_phase_surface_onset(const struct scene *scene, const struct scene_phase *pair)
+{
+    bool evaporates = pair->direction != SCENE_PHASE_CONDENSATION;
+    return evaporates && !pair->n_gas && scene_phase_surface_fed(scene, pair) ? scene_phase_surface_dry : 0.0;
+}
+
+static double scene_phase_surface_condense(const struct scene *scene, const struct scene_phase *pair)
+{
+    bool condenses = pair->direction != SCENE_PHASE_EVAPORATION;
+    bool among = pair->n_gas && pair->mixing && !(pair->onset > 0.0);
+    return condenses && among && scene_phase_surface_fed(scene, pair) ? scene_phase_surface_wet : 0.0;
+}
+
+void scene_phase_surface(struct draft *draft, const struct keys_map *map, struct scene_phase *pair)
+{
+    const struct keys_value *onset = keys_at(map, "onset"), *wet = keys_at(map, "condense-from"),
+                            *nucleus = keys_at(map, "nucleus"), *const condensing[] = {wet, nucleus};
+    pair->onset = onset->given ? onset->number : scene_phase_surface_onset(draft->scene, pair);
+    pair->wet = wet->given ? wet->number : scene_phase_surface_condense(draft->scene, pair);
+    pair->nucleus = nucleus->given ? nucleus->number : 0.0;
+    if (pair->everywhere && pair->onset > 0.0)
+        keys_error(&draft->keys, onset,
+                   "with 'where: everywhere' liquid evaporates from nothing: 'onset' is for surfaces");
+    for (int i = 0; i < 2; i++)
+        if (pair->direction == SCENE_PHASE_EVAPORATION && condensing[i]->given && condensing[i]->number > 0.0)
+            keys_error(&draft->keys, condensing[i], "with 'direction: evaporation' nothing condenses");
+}
