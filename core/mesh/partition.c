@@ -74,10 +74,17 @@ static uint64_t partition_total(const struct partition_curve *curve)
     return curve->sum[curve->runs->n];
 }
 
+/* Most quotients are of small numbers, which many processors divide several times as fast. */
+static inline uint64_t partition_divide(uint64_t a, uint64_t b)
+{
+    return (a | b) >> 32 ? a / b : (uint32_t)a / (uint32_t)b;
+}
+
 /* The last run from `run` on that begins at a sum of at most `most`: by steps that double, then halve. */
-static unsigned partition_ahead(const struct partition_curve *curve, unsigned run, uint64_t most)
+static inline unsigned partition_ahead(const struct partition_curve *curve, unsigned run, uint64_t most)
 {
     unsigned step = 1, n = curve->runs->n;
+    if (run == n || curve->sum[run + 1] > most) return run;
     while (run + step <= n && curve->sum[run + step] <= most) {
         run += step;
         step *= 2;
@@ -87,19 +94,19 @@ static unsigned partition_ahead(const struct partition_curve *curve, unsigned ru
     return run;
 }
 
-static struct partition_place partition_inside(const struct partition_curve *curve, unsigned run, uint64_t tiles)
+static inline struct partition_place partition_inside(const struct partition_curve *curve, unsigned run, uint64_t tiles)
 {
     uint64_t cost = run < curve->runs->n ? curve->runs->list[run].cost : 0;
     return (struct partition_place){run, curve->count[run] + (uint32_t)tiles, curve->sum[run] + tiles * cost};
 }
 
 /* The largest end of a piece from `from` on that costs at most `most`. */
-static struct partition_place partition_reach(const struct partition_curve *curve, struct partition_place from,
-                                              uint64_t most)
+static inline struct partition_place partition_reach(const struct partition_curve *curve, struct partition_place from,
+                                                     uint64_t most)
 {
     unsigned run = partition_ahead(curve, from.run, from.sum + most);
     uint64_t rest = from.sum + most - curve->sum[run];
-    return partition_inside(curve, run, run < curve->runs->n ? rest / curve->runs->list[run].cost : 0);
+    return partition_inside(curve, run, run < curve->runs->n ? partition_divide(rest, curve->runs->list[run].cost) : 0);
 }
 
 /* The least begin of a piece up to `to` that costs at most `most`. */
@@ -111,7 +118,7 @@ static struct partition_place partition_reach_back(const struct partition_curve 
     for (unsigned step = 1; curve->sum[run] > to.sum - most; step *= 2) run = run > step ? run - step : 0;
     run = partition_ahead(curve, run, to.sum - most);
     uint64_t rest = to.sum - most - curve->sum[run], cost = curve->runs->list[run].cost;
-    return partition_inside(curve, run, (rest + cost - 1) / cost);
+    return partition_inside(curve, run, partition_divide(rest + cost - 1, cost));
 }
 
 /* The place before a tile. */
@@ -126,29 +133,53 @@ static struct partition_place partition_before(const struct partition_curve *cur
     return partition_inside(curve, low, tile - curve->count[low]);
 }
 
-/* Do pieces of at most `most` suffice? Then *ret_load is the largest of them; else the least load, above `most`, with
- * which any piece would be longer. */
+/* How many pieces follow one from `from` to `to` that are like it, all in the same run and not at its end. */
+static int partition_alike(const struct partition_curve *curve, struct partition_place from, struct partition_place to)
+{
+    uint32_t tiles = to.tile - from.tile;
+    if (to.run != from.run || curve->count[to.run + 1] - to.tile <= tiles) return 0;
+    return (int)((curve->count[to.run + 1] - to.tile - 1) / tiles);
+}
+
+/* What the most loaded of `ranks` ranks has at least. */
+static uint64_t partition_share(uint64_t sum, uint64_t ranks)
+{
+    return ranks ? (sum + ranks - 1) / ranks : UINT64_MAX;
+}
+
+/* Do pieces of at most `most` suffice? Then *ret_load is the largest of them; else a load above `most` that the largest
+ * cannot be less than: with less the pieces so far would be the same, and the ranks that are left could not take the
+ * rest. */
 static bool partition_probe(const struct partition_curve *curve, uint64_t most, uint64_t *ret_load)
 {
     uint64_t largest = 0, total = partition_total(curve), next = total;
     struct partition_place from = {0};
-    for (int rank = 0; rank < curve->size && from.sum < total; rank++) {
+    for (int ranks = curve->size; from.sum < total;) {
+        if (total - from.sum > most * (uint64_t)ranks) {
+            uint64_t share = partition_share(total - from.sum, (uint64_t)ranks);
+            *ret_load = share < next ? share : next;
+            return false;
+        }
         struct partition_place to = partition_reach(curve, from, most);
         uint64_t load = to.sum - from.sum;
         if (load > largest) largest = load;
-        if (to.sum < total) load += curve->runs->list[to.run].cost;
-        if (to.sum < total && load < next) next = load;
-        from = to;
+        if (to.sum < total && load + curve->runs->list[to.run].cost < next)
+            next = load + curve->runs->list[to.run].cost;
+        int alike = partition_alike(curve, from, to);
+        if (alike >= ranks) alike = ranks - 1;
+        from = (struct partition_place){to.run, to.tile + (uint32_t)alike * (to.tile - from.tile),
+                                        to.sum + (uint64_t)alike * load};
+        ranks -= 1 + alike;
     }
-    *ret_load = from.sum == total ? largest : next;
-    return from.sum == total;
+    *ret_load = largest;
+    return true;
 }
 
 /* The least load of the most loaded rank. */
 static uint64_t partition_bottleneck(const struct partition_curve *curve)
 {
     uint64_t most = 0, load, size = (uint64_t)curve->size, total = partition_total(curve);
-    uint64_t mean = (total + size - 1) / size;
+    uint64_t mean = partition_share(total, size);
     for (unsigned r = 0; r < curve->runs->n; r++)
         if (curve->runs->list[r].cost > most) most = curve->runs->list[r].cost;
     uint64_t low = mean > most ? mean : most, high = partition_probe(curve, mean + most, &load) ? load : total;
@@ -173,16 +204,37 @@ static uint32_t *partition_earliest(const struct partition_curve *curve, uint64_
     return earliest;
 }
 
-/* The end of a piece from `from` on nearest to where the first `ranks` ranks have an equal share. */
-static struct partition_place partition_nearest(const struct partition_curve *curve, struct partition_place from,
-                                                uint64_t ranks)
+/* Where the first ranks have an equal share of the cost: `sum` and `rest` of a division by their number. A step from
+ * rank to rank adds `share` and `more`: it needs no division. */
+struct partition_goal {
+    uint64_t sum, rest, share, more;
+};
+
+static struct partition_goal partition_goal(const struct partition_curve *curve)
 {
-    uint64_t size = (uint64_t)curve->size, total = partition_total(curve), goal = total * ranks / size;
-    if (goal <= from.sum) return from;
-    struct partition_place to = partition_reach(curve, from, goal - from.sum);
-    if (to.sum == total) return to;
-    uint64_t cost = curve->runs->list[to.run].cost;
-    if ((2 * to.sum + cost) * size < 2 * total * ranks) to = partition_reach(curve, to, cost);
+    uint64_t size = (uint64_t)curve->size, total = partition_total(curve);
+    return (struct partition_goal){.share = total / size, .more = total % size};
+}
+
+static void partition_goal_step(const struct partition_curve *curve, struct partition_goal *goal)
+{
+    uint64_t size = (uint64_t)curve->size;
+    goal->sum += goal->share;
+    goal->rest += goal->more;
+    if (goal->rest < size) return;
+    goal->rest -= size;
+    goal->sum++;
+}
+
+/* The end of a piece from `from` on nearest to a goal. */
+static inline struct partition_place partition_nearest(const struct partition_curve *curve, struct partition_place from,
+                                                       const struct partition_goal *goal)
+{
+    if (goal->sum <= from.sum) return from;
+    struct partition_place to = partition_reach(curve, from, goal->sum - from.sum);
+    if (to.run == curve->runs->n) return to;
+    uint64_t cost = curve->runs->list[to.run].cost, size = (uint64_t)curve->size;
+    if ((2 * to.sum + cost) * size < 2 * (goal->sum * size + goal->rest)) to = partition_reach(curve, to, cost);
     return to;
 }
 
@@ -190,17 +242,19 @@ static struct partition_place partition_nearest(const struct partition_curve *cu
 static void partition_place_all(const struct partition_curve *curve, uint64_t most, uint64_t weight, uint64_t *load,
                                 uint32_t *ret_first)
 {
-    uint32_t *earliest = partition_earliest(curve, most), n = curve->count[curve->runs->n];
+    uint32_t *earliest = partition_earliest(curve, most), last = curve->count[curve->runs->n] - (uint32_t)curve->size;
+    struct partition_goal goal = partition_goal(curve);
     struct partition_place from = {0};
     for (int rank = 0; rank < curve->size; rank++) {
-        struct partition_place to = partition_nearest(curve, from, (uint64_t)rank + 1);
+        partition_goal_step(curve, &goal);
+        struct partition_place to = partition_nearest(curve, from, &goal);
         uint32_t least = from.tile + 1 > earliest[rank + 1] ? from.tile + 1 : earliest[rank + 1];
-        uint32_t limit = partition_reach(curve, from, most).tile, rest = n - (uint32_t)(curve->size - rank - 1);
-        if (limit > rest) limit = rest;
-        uint32_t tile = to.tile < least ? least : to.tile > limit ? limit : to.tile;
-        if (tile != to.tile) to = partition_before(curve, tile);
+        last++;
+        if (to.tile >= least && to.sum - from.sum > most) to = partition_reach(curve, from, most);
+        if (to.tile < least) to = partition_before(curve, least);
+        else if (to.tile > last) to = partition_before(curve, last);
         load[rank] += weight * (to.sum - from.sum);
-        ret_first[rank + 1] = tile;
+        ret_first[rank + 1] = to.tile;
         from = to;
     }
     mem_free(earliest);

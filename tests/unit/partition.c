@@ -137,6 +137,21 @@ static void test_units(void **state)
     }
 }
 
+/* Each piece ends where the ranks so far have an equal share, to the nearest tile, the lower one of two. */
+static void test_nearest(void **state)
+{
+    (void)state;
+    enum { TILES = 1013, RANKS = 100 };
+    struct partition_runs runs = {0};
+    uint32_t first[RANKS + 1];
+    uint64_t load[RANKS] = {0};
+    partition_add(&runs, TILES, 1);
+    partition_cut(&runs, RANKS, 1, load, first);
+    for (uint32_t rank = 0; rank <= RANKS; rank++)
+        assert_int_equal(first[rank], (2 * TILES * rank + RANKS - 1) / (2 * RANKS));
+    partition_free(&runs);
+}
+
 /* Runs are the tiles they stand for, one by one. */
 static void test_runs(void **state)
 {
@@ -247,9 +262,9 @@ static void test_imbalance(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_best),   cmocka_unit_test(test_even),      cmocka_unit_test(test_units),
-        cmocka_unit_test(test_runs),   cmocka_unit_test(test_few),       cmocka_unit_test(test_fewer),
-        cmocka_unit_test(test_spread), cmocka_unit_test(test_imbalance),
+        cmocka_unit_test(test_best),    cmocka_unit_test(test_even),   cmocka_unit_test(test_units),
+        cmocka_unit_test(test_nearest), cmocka_unit_test(test_runs),   cmocka_unit_test(test_few),
+        cmocka_unit_test(test_fewer),   cmocka_unit_test(test_spread), cmocka_unit_test(test_imbalance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
