@@ -6,10 +6,13 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "io/facts.h"
+#include "mesh/fringe.h"
+#include "mesh/level.h"
 #include "mesh/nest.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 struct rebuild {
     const struct resume *from;
@@ -193,15 +196,13 @@ static int rebuild_affords(const struct rebuild *rebuild, double tiles)
         rebuild->from->path, bytes / 0x1p30, limit / 0x1p30);
 }
 
-/* Do the tiles make a mesh of the scene? Asked of a mesh that has nothing but its lists: links and memory of
- * tiles that do not nest cannot be made. */
-static int rebuild_nests(const struct rebuild *rebuild, int n_level)
+/* A mesh that has nothing but its lists. */
+static struct mesh *rebuild_lists(const struct rebuild *rebuild, int n_level)
 {
     const struct scene *scene = rebuild->scene;
     const struct resume *resume = rebuild->from;
+    const struct tile *tiles = resume->tiles;
     struct mesh *mesh = mem_new(1, sizeof *mesh);
-    struct tile *tiles = resume->tiles;
-    double n_tile = 0.0;
     mesh->dim = scene->domain.dim;
     mesh->n_level = n_level;
     for (int d = 0; d < 3; d++) {
@@ -214,14 +215,29 @@ static int rebuild_nests(const struct rebuild *rebuild, int n_level)
         level->n_known = level->n_local = resume->n_own[l];
         level->n_rank = resume->size;
         level->first_keys = resume->first_keys[l];
-        level->tiles = tiles;
+        level->tiles = mem_new(level->n_local, sizeof *tiles);
+        if (level->n_local) memcpy(level->tiles, tiles, level->n_local * sizeof *tiles);
         tiles += level->n_local;
-        n_tile += level->n_tile;
         for (int d = 0; d < 3; d++)
             level->extent[d] = d < scene->domain.dim ? scene->domain.cells[d] / rebuild->tile << l : 1;
     }
+    return mesh;
+}
+
+/* Do the tiles make a mesh of the scene? Asked before there is one: links and memory of tiles that do not nest cannot
+ * be made. What lies around its own tiles each rank is told by others. */
+static int rebuild_nests(const struct rebuild *rebuild, int n_level)
+{
+    struct mesh *mesh = rebuild_lists(rebuild, n_level);
+    double n_tile = 0.0;
+    if (rebuild->from->size > 1) fringe_learn(mesh, 0, n_level - 1);
     int code = nest_check(mesh);
-    if (code) status_wrap(code, "%s: impossible checkpoint: ", resume->path);
+    if (code) status_wrap(code, "%s: impossible checkpoint: ", rebuild->from->path);
+    for (int l = 0; l < n_level; l++) {
+        n_tile += mesh->levels[l].n_tile;
+        mesh->levels[l].first_keys = NULL; /* is the checkpoint's */
+        level_drop(&mesh->levels[l]);
+    }
     mem_free(mesh);
     return code ? code : rebuild_affords(rebuild, n_tile);
 }

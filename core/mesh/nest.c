@@ -220,7 +220,7 @@ void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes
     for (int l = mesh->most_level; l > base; l--) {
         struct nest_families families = {0};
         nest_add_wishes(mesh, base, l, &wishes[l], &ground, &families);
-        if (l < mesh->most_level) nest_share_needs(mesh, l + 1, 1, &ret_sets[l + 1], &families);
+        if (l < mesh->most_level) nest_share_needs(mesh, l + 1, &ret_sets[l + 1], &families);
         ret_sets[l] = nest_piece(mesh, l, &families, patience);
         nest_family_free(&families);
     }
@@ -269,7 +269,7 @@ static bool nest_is_needed_by(const struct mesh *mesh, int l, const struct tile 
     return found;
 }
 
-/* The owner of the place knows what is missing there; who needs it says so. */
+/* Who needs what is missing says so. */
 static int nest_fail(const struct mesh *mesh, int l, uint64_t missing)
 {
     const struct level *level = &mesh->levels[l];
@@ -285,42 +285,48 @@ static int nest_fail(const struct mesh *mesh, int l, uint64_t missing)
     return STATUS_OK;
 }
 
-bool nest_lacks(const struct mesh *mesh, int l, struct nest_families *needs, uint64_t *ret_missing)
+bool nest_lacks(const struct mesh *mesh, int l, uint64_t *ret_missing)
 {
-    const struct level *level = &mesh->levels[l];
-    const struct tile *tile = level->tiles + level->first, *end = tile + level->n_local;
+    const struct level *level = &mesh->levels[l], *coarse = &mesh->levels[l - 1];
+    const struct tile *tile = coarse->tiles, *end = tile + coarse->n_known;
+    struct nest_families needs = {0};
     uint32_t missing = 0;
-    nest_family_sort(needs);
-    for (unsigned i = 0; i < needs->n && !missing; i++) {
-        uint64_t family = needs->list[i].key;
-        missing = needs->list[i].mask;
+    nest_family_needs(mesh, l, level->tiles + level->first, level->n_local, &needs);
+    nest_family_sort(&needs);
+    for (unsigned i = 0; i < needs.n && !missing; i++) {
+        uint64_t family = needs.list[i].key;
+        missing = needs.list[i].mask;
         while (tile < end && tile->key >> 3 < family) tile++;
         for (; tile < end && tile->key >> 3 == family; tile++) missing &= ~(1u << (tile->key & 7u));
         if (missing) *ret_missing = family << 3 | (unsigned)__builtin_ctz(missing);
     }
+    nest_family_free(&needs);
     return missing != 0;
 }
 
-/* A tile that is not there. */
+/* A tile that is not there, by how it is named: that of the coarsest level first. */
 struct nest_hole {
-    uint64_t key;
-    int l; /* of the tile that needs it */
+    uint64_t l, key; /* of the tile that needs it; its own */
 };
 
-/* The first tile in this rank's pieces that one of the next finer level needs and that is not there. */
-static bool nest_misses(const struct mesh *mesh, struct nest_hole *ret_hole)
+/* The first hole in what this rank's pieces need; l = MESH_LEVELS: there is none. */
+static struct nest_hole nest_hole(const struct mesh *mesh)
 {
-    struct nest_set pieces[MESH_LEVELS];
-    struct nest_families *needs = mem_new(MESH_LEVELS, sizeof *needs);
-    for (int l = 0; l < mesh->n_level; l++)
-        pieces[l] = (struct nest_set){mesh->levels[l].n_local, mesh->levels[l].tiles + mesh->levels[l].first};
-    nest_share_needs(mesh, 1, mesh->n_level - 1, pieces + 1, needs);
-    int l = 1;
-    while (l < mesh->n_level && !nest_lacks(mesh, l - 1, &needs[l - 1], &ret_hole->key)) l++;
-    ret_hole->l = l;
-    for (int k = 0; k < MESH_LEVELS; k++) nest_family_free(&needs[k]);
-    mem_free(needs);
-    return l < mesh->n_level;
+    struct nest_hole hole = {.l = MESH_LEVELS};
+    for (int l = 1; l < mesh->n_level && hole.l == MESH_LEVELS; l++)
+        if (nest_lacks(mesh, l, &hole.key)) hole.l = (uint64_t)l;
+    return hole;
+}
+
+/* The first of all ranks' holes. Collective. */
+static struct nest_hole nest_first_hole(struct nest_hole hole)
+{
+    struct nest_hole *all = mem_new((size_t)comm_size(), sizeof *all), first = hole;
+    comm_join_rows(&hole.l, 2, &all->l);
+    for (int rank = 0; rank < comm_size(); rank++)
+        if (all[rank].l < first.l || (all[rank].l == first.l && all[rank].key < first.key)) first = all[rank];
+    mem_free(all);
+    return first;
 }
 
 static int nest_check_cover(const struct mesh *mesh)
@@ -334,12 +340,11 @@ static int nest_check_cover(const struct mesh *mesh)
 
 int nest_check(const struct mesh *mesh)
 {
-    struct nest_hole hole = {0};
     int code = nest_check_cover(mesh);
     for (int l = 0; l < mesh->n_level && !code; l++) code = nest_check_order(mesh, l);
-    int first = comm_first(nest_misses(mesh, &hole) || code);
-    if (first == comm_size()) return STATUS_OK;
+    struct nest_hole hole = nest_hole(mesh);
+    if (comm_first(code || hole.l < MESH_LEVELS) == comm_size()) return STATUS_OK;
     TRY(comm_agree(code));
-    comm_bcast_from(&hole, sizeof hole, first);
-    return comm_agree(nest_fail(mesh, hole.l, hole.key));
+    hole = nest_first_hole(hole);
+    return comm_agree(nest_fail(mesh, (int)hole.l, hole.key));
 }

@@ -30,7 +30,8 @@ void nest_sets(const struct mesh *mesh, int base, const struct nest_keys *wishes
 bool nest_same(const struct mesh *mesh, int l, const struct nest_set *set);
 
 /* Do all levels nest, are they sorted, and in the domain, and does level 0 cover it? STATUS_RUN with the offending
- * tile; always checked. Each rank checks its own tiles, and what all need of them. Collective. */
+ * tile, the same one for any number of ranks; always checked. Each rank checks its own tiles, and that it knows what
+ * they need: a tile that the fringe has not brought is missed, too. Collective, one reduction where all is well. */
 int nest_check(const struct mesh *mesh);
 
 struct nest_families;
@@ -38,7 +39,7 @@ struct nest_families;
 /* What a rank does with what is asked of its piece of level l, without messages. The new piece, from what is used: */
 struct nest_set nest_piece(const struct mesh *mesh, int l, struct nest_families *used, int patience);
 
-/* Is a tile of the piece needed that is not there? */
-bool nest_lacks(const struct mesh *mesh, int l, struct nest_families *needs, uint64_t *ret_missing);
+/* Does its piece of level l need a tile of level l - 1 that it does not know? Then *ret_missing is the first. */
+bool nest_lacks(const struct mesh *mesh, int l, uint64_t *ret_missing);
 
 #endif

@@ -18,10 +18,9 @@ static int *nest_share_owners(const struct span *span, const struct nest_keys *k
     return to;
 }
 
-/* A key, or a family, of some level on its way. */
+/* A key of some level on its way. */
 struct nest_share_item {
-    uint64_t key;
-    uint32_t mask, level;
+    uint64_t key, level;
 };
 
 bool nest_share_keys(const struct mesh *mesh, int lowest, int count, struct nest_keys *keys)
@@ -36,7 +35,7 @@ bool nest_share_keys(const struct mesh *mesh, int lowest, int count, struct nest
         struct span span = span_of(mesh, lowest + k);
         int *owners = nest_share_owners(&span, &keys[k]);
         for (unsigned i = 0; i < keys[k].n; i++, next++) {
-            items[next] = (struct nest_share_item){.key = keys[k].keys[i], .level = (uint32_t)k};
+            items[next] = (struct nest_share_item){.key = keys[k].keys[i], .level = (uint64_t)k};
             to[next] = owners[i];
         }
         mem_free(owners);
@@ -100,50 +99,25 @@ void nest_share_take(const struct span *span, int rank, const struct nest_family
     }
 }
 
-/* What a piece of level l needs, by owners: appended to `items` and `to`. */
-static void nest_share_ask(const struct mesh *mesh, int l, const struct nest_set *set, unsigned *n,
-                           struct nest_share_item **items, int **to)
+void nest_share_needs(const struct mesh *mesh, int l, const struct nest_set *set, struct nest_families *families)
 {
     struct span span = span_of(mesh, l - 1);
     struct nest_families needs = {0};
-    int *owners;
-    nest_family_needs(mesh, l, set->tiles, set->n, &needs);
-    nest_family_sort(&needs);
-    struct nest_families dealt = nest_share_deal(&span, &needs, &owners);
-    *items = mem_grow(*items, *n, *n + dealt.n, sizeof **items);
-    *to = mem_grow(*to, *n, *n + dealt.n, sizeof **to);
-    for (unsigned i = 0; i < dealt.n; i++, ++*n) {
-        (*items)[*n] = (struct nest_share_item){dealt.list[i].key, dealt.list[i].mask, (uint32_t)l};
-        (*to)[*n] = owners[i];
-    }
-    mem_free(owners);
-    nest_family_free(&dealt);
-    nest_family_free(&needs);
-}
-
-void nest_share_needs(const struct mesh *mesh, int lowest, int count, const struct nest_set *sets,
-                      struct nest_families *families)
-{
-    struct nest_share_item *items = NULL;
     struct swap got;
-    unsigned n = 0;
-    int *to = NULL;
-    if (span_of(mesh, lowest - 1).size == 1) {
-        for (int k = 0; k < count; k++) nest_family_needs(mesh, lowest + k, sets[k].tiles, sets[k].n, &families[k]);
+    int *to;
+    if (span.size == 1) {
+        nest_family_needs(mesh, l, set->tiles, set->n, families);
         return;
     }
-    for (int k = 0; k < count; k++) nest_share_ask(mesh, lowest + k, &sets[k], &n, &items, &to);
-    swap_sort(items, sizeof *items, n, to);
-    swap_items(items, sizeof *items, n, to, &got);
-    const struct nest_share_item *item = got.items;
-    for (unsigned i = 0; i < got.n; i++) {
-        struct span span = span_of(mesh, (int)item[i].level - 1);
-        const struct nest_family family = {item[i].key, item[i].mask};
-        nest_share_take(&span, comm_rank(), &family, 1, &families[(int)item[i].level - lowest]);
-    }
+    nest_family_needs(mesh, l, set->tiles, set->n, &needs);
+    nest_family_sort(&needs);
+    struct nest_families dealt = nest_share_deal(&span, &needs, &to);
+    swap_items(dealt.list, sizeof *dealt.list, dealt.n, to, &got);
+    nest_share_take(&span, comm_rank(), got.items, got.n, families);
     swap_done(&got);
-    mem_free(items);
     mem_free(to);
+    nest_family_free(&dealt);
+    nest_family_free(&needs);
 }
 
 static uint32_t nest_share_look(const struct mesh *mesh, const struct level *level, uint64_t key)

@@ -1,4 +1,4 @@
-/* nest_share.h - what making and checking tile sets asks of other ranks: each answers for the keys in its piece of
+/* nest_share.h - what making tile sets asks of other ranks: each answers for the keys in its piece of
  * the curve (mesh/span.h), one message per pair of ranks that have something for each other. Used by nest.c; the
  * lists of what goes where are pure functions of a rank's tiles, so that the partition study counts with them. */
 #ifndef NEST_SHARE_H
@@ -12,10 +12,9 @@
  * rank: false if that is still sorted. Collective. */
 bool nest_share_keys(const struct mesh *mesh, int lowest, int count, struct nest_keys *keys);
 
-/* Adds what the tiles of `count` levels of all ranks, from `lowest` on, need of the next coarser ones in this rank's
- * pieces: families[0] of level lowest - 1; sets[0] is this rank's piece of level `lowest`. Collective. */
-void nest_share_needs(const struct mesh *mesh, int lowest, int count, const struct nest_set *sets,
-                      struct nest_families *families);
+/* Adds what the tiles of level l of all ranks, of which `set` is this rank's piece, need of level l - 1 in this rank's
+ * piece of that. Collective. */
+void nest_share_needs(const struct mesh *mesh, int l, const struct nest_set *set, struct nest_families *families);
 
 /* Of the 3^d tiles around each of `places` (sorted keys of level l), which exist or lie outside the domain: new
  * array (mem_free); 0 where the place itself is no tile. Collective. */

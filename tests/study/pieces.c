@@ -101,10 +101,9 @@ static void pieces_post(struct pieces_mail *mail, const struct nest_family *fami
 }
 
 /* Each rank tells the others what its tiles of level l need of level l - 1. */
-static void pieces_needs(struct pieces_world *world, int l, bool check)
+static void pieces_needs(struct pieces_world *world, int l)
 {
     struct span span = span_of(world->mesh, l - 1);
-    const struct level *level = &world->mesh->levels[l];
     for (int r = 0; r < world->size; r++) world->ranks[r].mail.n = 0;
     for (int r = 0; r < world->size; r++) {
         struct pieces_rank *rank = &world->ranks[r];
@@ -112,15 +111,14 @@ static void pieces_needs(struct pieces_world *world, int l, bool check)
         int *to, last = r;
         pieces_be(world, r);
         double start = pieces_clock();
-        if (check) nest_family_needs(world->mesh, l, level->tiles + level->first, level->n_local, &needs);
-        else nest_family_needs(world->mesh, l, rank->sets[l].tiles, rank->sets[l].n, &needs);
+        nest_family_needs(world->mesh, l, rank->sets[l].tiles, rank->sets[l].n, &needs);
         nest_family_sort(&needs);
         struct nest_families dealt = nest_share_deal(&span, &needs, &to);
         rank->seconds += pieces_clock() - start;
         for (unsigned i = 0; i < dealt.n; i++) {
             pieces_post(&world->ranks[to[i]].mail, &dealt.list[i]);
             rank->bytes += to[i] != r ? sizeof *dealt.list : 0.0;
-            rank->messages += !check && to[i] != r && to[i] != last;
+            rank->messages += to[i] != r && to[i] != last;
             last = to[i];
         }
         mem_free(to);
@@ -141,7 +139,7 @@ static void pieces_sets(struct pieces_world *world, int l, const struct nest_key
 {
     struct span span = span_of(world->mesh, l);
     unsigned from = 0;
-    if (l + 1 < world->mesh->n_level) pieces_needs(world, l + 1, false);
+    if (l + 1 < world->mesh->n_level) pieces_needs(world, l + 1);
     for (int r = 0; r < world->size; r++) {
         struct pieces_rank *rank = &world->ranks[r];
         struct nest_families families = {0};
@@ -175,49 +173,6 @@ static void pieces_carry(struct pieces_world *world, const struct study *study)
         carry_values(world->mesh, 0, n_level - 1, world->ranks[r].sets, before, carried);
         for (int l = 0; l < n_level; l++) mem_free(carried[l]);
         world->ranks[r].seconds += pieces_clock() - start;
-    }
-}
-
-/* The check of all levels is one exchange: one message for each rank that any level needs something of. */
-static void pieces_check_messages(struct pieces_world *world)
-{
-    int *seen = mem_new((size_t)world->size, sizeof *seen);
-    for (int r = 0; r < world->size; r++) {
-        pieces_be(world, r);
-        for (int l = 1; l < world->mesh->n_level; l++) {
-            const struct level *level = &world->mesh->levels[l];
-            struct span span = span_of(world->mesh, l - 1);
-            struct nest_families needs = {0};
-            int *to;
-            nest_family_needs(world->mesh, l, level->tiles + level->first, level->n_local, &needs);
-            nest_family_sort(&needs);
-            struct nest_families dealt = nest_share_deal(&span, &needs, &to);
-            for (unsigned i = 0; i < dealt.n; i++) {
-                world->ranks[r].messages += to[i] != r && seen[to[i]] != r + 1;
-                seen[to[i]] = r + 1;
-            }
-            mem_free(to);
-            nest_family_free(&dealt);
-            nest_family_free(&needs);
-        }
-    }
-    mem_free(seen);
-}
-
-static void pieces_check(struct pieces_world *world, int l)
-{
-    struct span span = span_of(world->mesh, l - 1);
-    uint64_t missing;
-    pieces_needs(world, l, true);
-    for (int r = 0; r < world->size; r++) {
-        struct pieces_rank *rank = &world->ranks[r];
-        struct nest_families needs = {0};
-        pieces_be(world, r);
-        double start = pieces_clock();
-        nest_share_take(&span, r, rank->mail.list, rank->mail.n, &needs);
-        if (nest_lacks(world->mesh, l - 1, &needs, &missing)) exit(1);
-        rank->seconds += pieces_clock() - start;
-        nest_family_free(&needs);
     }
 }
 
@@ -321,11 +276,12 @@ static double pieces_blocks(const struct mesh *mesh, const struct tile *tiles, u
     return blocks * sizeof(struct leaves_block);
 }
 
-/* Lists of what a rank knows, and the flags that follow. They must be those that a rank has which knows all. */
+/* Lists of what a rank knows, the flags that follow, and the check. Flags must be those of a rank that knows all. */
 static void pieces_know(struct pieces_world *world, int r, const struct swap *got)
 {
     struct pieces_rank *rank = &world->ranks[r];
     struct mesh known = *world->mesh;
+    uint64_t missing;
     pieces_be(world, r);
     double start = pieces_clock();
     rank->held = 0.0;
@@ -340,6 +296,8 @@ static void pieces_know(struct pieces_world *world, int r, const struct swap *go
         rank->held += (double)level->n_known * sizeof *level->tiles;
     }
     for (int l = 0; l < known.n_level; l++) level_cover(&known, l);
+    for (int l = 1; l < known.n_level; l++)
+        if (nest_lacks(&known, l, &missing)) exit(1);
     rank->seconds += pieces_clock() - start;
     rank->files = 0.0;
     for (int l = 0; l < known.n_level; l++) {
@@ -376,8 +334,6 @@ static void pieces_run(struct pieces_world *world, const struct study *study, co
         world->ranks[r].seconds = world->ranks[r].bytes = world->ranks[r].messages = 0.0;
     for (int l = n_level - 1; l > 0; l--) pieces_sets(world, l, &wishes[l]);
     pieces_carry(world, study);
-    for (int l = 1; l < n_level; l++) pieces_check(world, l);
-    pieces_check_messages(world);
     pieces_fringes(world);
     for (int r = 0; r < world->size; r++) {
         struct pieces_rank *rank = &world->ranks[r];

@@ -376,11 +376,14 @@ static void test_broken(void **state)
     struct level *level = &mesh.levels[1];
     assert_int_equal(level->n_tile, 4);
     struct tile last = level->tiles[3];
+    unsigned n_local = level->n_local, n_known = level->n_known;
     level->n_tile = 3;
-    level->n_local -= level->n_local > 0;
+    level->n_local -= n_local > 0;
+    level->n_known -= n_known > 0;
     refused(&mesh, "tile (6, 9, 0) of level 2 needs tile (3, 5, 0) of level 1");
     level->n_tile = 4;
-    level->n_local += level->n_local > 0;
+    level->n_local = n_local;
+    level->n_known = n_known;
     level->tiles[3].at[1] = 8;
     refused(&mesh, "tile (3, 8, 0) of level 1 is outside the domain");
     level->tiles[3].at[1] = 6;
