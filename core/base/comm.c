@@ -82,6 +82,18 @@ void comm_wait(int count, MPI_Request *requests, MPI_Status *ret_statuses)
     }
 }
 
+size_t comm_expect(int from, int tag)
+{
+    MPI_Status status;
+    int here = 0, bytes;
+    for (int looks = 0; !here; looks++) {
+        if (looks >= COMM_LOOKS) sched_yield();
+        MPI_Iprobe(from, tag, MPI_COMM_WORLD, &here, &status);
+    }
+    MPI_Get_count(&status, MPI_BYTE, &bytes);
+    return (size_t)bytes;
+}
+
 static void comm_copy(void *data, size_t bytes, int source, MPI_Comm ranks)
 {
     MPI_Request request;
@@ -143,16 +155,6 @@ int comm_first(bool here)
 void comm_sum_counts(long long *values, int count)
 {
     comm_reduce(values, count, MPI_LONG_LONG, MPI_SUM);
-}
-
-void comm_sum_before(long long *values, int count)
-{
-    MPI_Request request;
-    if (comm_is_active) {
-        MPI_Iexscan(MPI_IN_PLACE, values, count, MPI_LONG_LONG, MPI_SUM, MPI_COMM_WORLD, &request);
-        comm_wait(1, &request, MPI_STATUSES_IGNORE);
-    }
-    for (int i = 0; i < count && comm_rank() == 0; i++) values[i] = 0; /* nobody has written them */
 }
 
 /* Copies the recorded message of the lowest rank with `has` to all. */

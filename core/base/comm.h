@@ -40,13 +40,13 @@ void comm_near_barrier(void);
  * neighbours are more than the processors, each wait would last until the system takes it away. */
 void comm_wait(int count, MPI_Request *requests, MPI_Status *ret_statuses);
 
+/* Waits alike until a message from a rank is there to be received: its bytes. */
+size_t comm_expect(int from, int tag);
+
 /* In place, over all ranks. */
 void comm_min(double *values, int count);
 void comm_max(double *values, int count);
 void comm_sum_counts(long long *values, int count);
-
-/* In place, over the ranks below this one; 0 on rank 0. */
-void comm_sum_before(long long *values, int count);
 
 /* The first rank on which `here` is true; comm_size() where there is none. */
 int comm_first(bool here);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SWAP_TAG = 900, SWAP_LOOKS = 100 };
+enum { SWAP_TAG = 900, SWAP_ANSWER = 902, SWAP_LOOKS = 100 };
 
 struct swap_mail {
     int rank;
@@ -64,27 +64,33 @@ static void swap_wait(struct swap_box *box, int n, MPI_Request *sends)
     }
 }
 
-static unsigned swap_run(const int *to, unsigned from, unsigned n)
+/* Items in a row for the same rank. */
+static struct swap_piece *swap_pieces(const int *to, unsigned n, unsigned *ret_n)
 {
-    unsigned end = from + 1;
-    while (end < n && to[end] == to[from]) end++;
-    return end;
+    unsigned n_piece = 0, count = 0;
+    for (unsigned i = 0; i < n; i++) n_piece += !i || to[i] != to[i - 1];
+    struct swap_piece *pieces = mem_new(n_piece, sizeof *pieces);
+    for (unsigned i = 0; i < n; i++) {
+        if (!i || to[i] != to[i - 1]) pieces[count++].rank = to[i];
+        pieces[count - 1].n++;
+    }
+    *ret_n = n_piece;
+    return pieces;
 }
 
-static void swap_send(struct swap_box *box, const char *items, size_t size, unsigned n, const int *to)
+static void swap_send(struct swap_box *box, const char *items, size_t size, const struct swap *swap)
 {
-    MPI_Request *sends = mem_new(n, sizeof *sends);
+    MPI_Request *sends = mem_new(swap->n_sent, sizeof *sends);
     int n_send = 0;
-    for (unsigned from = 0, end; from < n; from = end) {
-        end = swap_run(to, from, n);
-        const char *data = items + from * size;
-        size_t bytes = (end - from) * size;
-        if (to[from] != comm_rank())
-            MPI_Issend(data, (int)bytes, MPI_BYTE, to[from], box->tag, comm_world(), &sends[n_send++]);
+    for (const struct swap_piece *to = swap->sent; to < swap->sent + swap->n_sent; to++) {
+        size_t bytes = to->n * size;
+        if (to->rank != comm_rank())
+            MPI_Issend(items, (int)bytes, MPI_BYTE, to->rank, box->tag, comm_world(), &sends[n_send++]);
         else {
-            box->own = data;
+            box->own = items;
             swap_keep(box, (struct swap_mail){comm_rank(), bytes, NULL});
         }
+        items += bytes;
     }
     if (comm_active()) swap_wait(box, n_send, sends);
     mem_free(sends);
@@ -101,10 +107,13 @@ void swap_items(const void *items, size_t size, unsigned n, const int *to, struc
     static int turn;
     struct swap_box box = {.tag = SWAP_TAG + (turn ^= 1)};
     size_t bytes = 0;
-    swap_send(&box, items, size, n, to);
+    *ret = (struct swap){0};
+    ret->sent = swap_pieces(to, n, &ret->n_sent);
+    swap_send(&box, items, size, ret);
     if (box.n) qsort(box.mail, box.n, sizeof *box.mail, swap_compare);
     for (unsigned i = 0; i < box.n; i++) bytes += box.mail[i].bytes;
-    *ret = (struct swap){.n = (unsigned)(bytes / size), .n_piece = box.n};
+    ret->n = (unsigned)(bytes / size);
+    ret->n_piece = box.n;
     char *next = ret->items = mem_new(ret->n, size);
     ret->pieces = mem_new(box.n, sizeof *ret->pieces);
     for (unsigned i = 0; i < box.n; next += box.mail[i++].bytes) {
@@ -145,21 +154,44 @@ void swap_sort(void *items, size_t size, unsigned n, int *to)
     mem_free(places);
 }
 
+static unsigned swap_count(const struct swap_piece *pieces, unsigned n)
+{
+    unsigned count = 0;
+    for (unsigned p = 0; p < n; p++) count += pieces[p].n;
+    return count;
+}
+
+/* Where this rank's own items begin in what `pieces` are of; NULL: there are none. */
+static char *swap_own(const struct swap_piece *pieces, unsigned n, char *items, size_t size)
+{
+    for (unsigned p = 0; p < n; items += pieces[p++].n * size)
+        if (pieces[p].rank == comm_rank()) return items;
+    return NULL;
+}
+
 void *swap_answer(const struct swap *asked, const void *answers, size_t size)
 {
-    struct swap got;
-    int *to = mem_new(asked->n, sizeof *to), *next = to;
-    for (unsigned p = 0; p < asked->n_piece; p++)
-        for (unsigned i = 0; i < asked->pieces[p].n; i++) *next++ = asked->pieces[p].rank;
-    swap_items(answers, size, asked->n, to, &got);
-    mem_free(to);
-    mem_free(got.pieces);
-    return got.items;
+    MPI_Request *requests = mem_new(asked->n_sent + asked->n_piece, sizeof *requests);
+    char *got = mem_new(swap_count(asked->sent, asked->n_sent), size), *to = got;
+    const char *from = answers;
+    int n = 0;
+    for (const struct swap_piece *p = asked->sent; p < asked->sent + asked->n_sent; to += p++->n * size)
+        if (p->rank != comm_rank())
+            MPI_Irecv(to, (int)(p->n * size), MPI_BYTE, p->rank, SWAP_ANSWER, comm_world(), &requests[n++]);
+    to = swap_own(asked->sent, asked->n_sent, got, size);
+    for (const struct swap_piece *p = asked->pieces; p < asked->pieces + asked->n_piece; from += p++->n * size)
+        if (p->rank != comm_rank())
+            MPI_Isend(from, (int)(p->n * size), MPI_BYTE, p->rank, SWAP_ANSWER, comm_world(), &requests[n++]);
+        else memcpy(to, from, p->n * size);
+    if (n) comm_wait(n, requests, MPI_STATUSES_IGNORE);
+    mem_free(requests);
+    return got;
 }
 
 void swap_done(struct swap *swap)
 {
     mem_free(swap->items);
     mem_free(swap->pieces);
+    mem_free(swap->sent);
     *swap = (struct swap){0};
 }

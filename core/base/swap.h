@@ -19,6 +19,8 @@ struct swap {
     void *items; /* [n], of the lowest rank first, each rank's in the order it gave them */
     unsigned n_piece;
     struct swap_piece *pieces; /* ranks ascending; none is empty */
+    unsigned n_sent;
+    struct swap_piece *sent; /* what this rank gave, alike */
 };
 
 /* Item i of `items` (n of `size` bytes) goes to rank to[i], which must ascend; the own rank is one like others.
@@ -29,7 +31,8 @@ void swap_items(const void *items, size_t size, unsigned n, const int *to, struc
 void swap_sort(void *items, size_t size, unsigned n, int *to);
 
 /* Answers to what has come: item i of `answers` (of `size` bytes) belongs to item i of `asked`. Returns the answers
- * to what this rank had asked, in the order it had asked (mem_free). Collective. */
+ * to what this rank had asked, in the order it had asked (mem_free). Only those who have asked each other meet, since
+ * each knows what will come. Collective. */
 void *swap_answer(const struct swap *asked, const void *answers, size_t size);
 
 void swap_done(struct swap *swap);

@@ -1,6 +1,7 @@
 /* leaves.c - see leaves.h. */
 #include "io/leaves.h"
 
+#include "base/gather.h"
 #include "base/comm.h"
 #include "base/mem.h"
 
@@ -31,9 +32,8 @@ static void leaves_number(struct leaves *leaves)
     struct leaves_run *runs = leaves->runs[0];
     int n_run = leaves->mesh->n_level * LEAVES_KINDS;
     long long all[MESH_LEVELS * LEAVES_KINDS], before[MESH_LEVELS * LEAVES_KINDS];
-    for (int i = 0; i < n_run; i++) all[i] = before[i] = runs[i].n;
-    comm_sum_before(before, n_run);
-    comm_sum_counts(all, n_run);
+    for (int i = 0; i < n_run; i++) all[i] = runs[i].n;
+    gather_sums(all, n_run, before);
     for (int i = 0; i < n_run; i++) {
         struct leaves_run *run = &runs[i];
         run->all = (size_t)all[i];

@@ -7,6 +7,7 @@
  * cells. So the owner is found once per class, for both kinds of points. */
 #include "io/nodes.h"
 
+#include "base/gather.h"
 #include "base/comm.h"
 #include "base/mem.h"
 #include "base/swap.h"
@@ -157,10 +158,9 @@ static void nodes_count(struct nodes *nodes, const struct mesh *mesh)
         const struct level *level = &mesh->levels[l];
         nodes->tiles[l] = mem_new(level->n_known, sizeof *nodes->tiles[l]);
         for (unsigned i = 0; i < level->n_local; i++) nodes_own(nodes, mesh, (struct nodes_owner){l, level->first + i});
-        all[l] = before[l] = (long long)nodes->own[l];
+        all[l] = (long long)nodes->own[l];
     }
-    comm_sum_before(before, mesh->n_level);
-    comm_sum_counts(all, mesh->n_level);
+    gather_sums(all, mesh->n_level, before);
     for (int l = 0; l < mesh->n_level; l++) {
         nodes->first[l] = nodes->total + (size_t)before[l];
         nodes->total += (size_t)all[l];

@@ -1,6 +1,7 @@
 /* roll.c - see roll.h. */
 #include "io/roll.h"
 
+#include "base/gather.h"
 #include "base/comm.h"
 
 /* For h5out: what a row is made of. */
@@ -12,10 +13,10 @@ struct roll_rows {
 
 void roll_take(const struct mesh *mesh, struct roll *ret_roll)
 {
-    long long before[MESH_LEVELS] = {0};
+    long long all[MESH_LEVELS] = {0}, before[MESH_LEVELS];
     *ret_roll = (struct roll){.mesh = mesh};
-    for (int l = 0; l < mesh->n_level; l++) before[l] = mesh->levels[l].n_local;
-    comm_sum_before(before, mesh->n_level);
+    for (int l = 0; l < mesh->n_level; l++) all[l] = mesh->levels[l].n_local;
+    gather_sums(all, mesh->n_level, before);
     for (int l = 0; l < mesh->n_level; l++) {
         const struct level *level = &mesh->levels[l];
         ret_roll->tiles[l] = (struct h5out_range){ret_roll->n_tile + (size_t)before[l], level->n_local};

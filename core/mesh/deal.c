@@ -70,20 +70,60 @@ void deal_share(struct deal *deal, const struct deal_run *runs, unsigned n, int 
     for (int l = 0; l < deal->n_level; l++) partition_free(&levels[l]);
 }
 
+/* Before its runs a rank tells their number and what it has to do already. */
+struct deal_head {
+    uint64_t load, n;
+};
+
+enum { DEAL_HEAD = sizeof(struct deal_head) / sizeof(struct deal_run) };
+
+/* Heads and runs of all ranks, on rank 0. */
+static struct deal_run *deal_gather(const struct deal *deal, unsigned *ret_n)
+{
+    struct deal_head head = {deal->load, deal->n};
+    struct deal_run *own = mem_new(deal->n + DEAL_HEAD, sizeof *own);
+    memcpy(own, &head, sizeof head);
+    if (deal->n) memcpy(own + DEAL_HEAD, deal->runs, deal->n * sizeof *own);
+    struct deal_run *all = gather_items(own, sizeof *own, deal->n + DEAL_HEAD, ret_n);
+    mem_free(own);
+    return all;
+}
+
+/* Leaves the runs, their new number, and takes the loads out. */
+static unsigned deal_behead(struct deal_run *all, unsigned n, uint64_t *ret_load)
+{
+    unsigned count = 0;
+    for (unsigned i = 0; i < n;) {
+        struct deal_head head;
+        memcpy(&head, all + i, sizeof head);
+        *ret_load++ = head.load;
+        memmove(all + count, all + i + DEAL_HEAD, head.n * sizeof *all);
+        i += (unsigned)head.n + DEAL_HEAD;
+        count += (unsigned)head.n;
+    }
+    return count;
+}
+
+static void deal_decide(struct deal *deal, struct deal_run *all, unsigned n, int size)
+{
+    uint64_t *load = mem_new((size_t)size, sizeof *load);
+    n = deal_behead(all, n, load);
+    deal_share(deal, all, n, size, load);
+    mem_free(load);
+}
+
 void deal_cut(struct deal *deal)
 {
     int size = comm_size();
-    unsigned n, n_load;
-    struct deal_run *runs = gather_items(deal->runs, sizeof *runs, deal->n, &n);
-    uint64_t *load = gather_items(&deal->load, sizeof *load, 1, &n_load);
-    if (comm_rank() == 0) deal_share(deal, runs, n, size, load);
-    else deal->first = mem_new(deal_room(deal, size), sizeof *deal->first);
     size_t room = deal_room(deal, size);
+    unsigned n;
+    struct deal_run *all = deal_gather(deal, &n);
+    if (comm_rank() == 0) deal_decide(deal, all, n, size);
+    else deal->first = mem_new(room, sizeof *deal->first);
     deal->first[room - 1] = deal->root;
     comm_bcast(deal->first, room * sizeof *deal->first);
     deal->root = deal->first[room - 1];
-    mem_free(runs);
-    mem_free(load);
+    mem_free(all);
 }
 
 const uint32_t *deal_first(const struct deal *deal, int l)

@@ -122,17 +122,14 @@ static void hand_firsts(int lowest, int highest, struct mesh_set *sets)
 }
 
 void hand_sets(const struct mesh *mesh, int lowest, int highest, const struct nest_set *made, const long long *n_tile,
-               const struct deal *deal, struct mesh_set *ret_sets)
+               const long long *before, const struct deal *deal, struct mesh_set *ret_sets)
 {
     struct hand hand = {.mesh = mesh, .lowest = lowest, .highest = highest, .made = made};
-    long long starts[MESH_LEVELS + 1] = {0};
     struct swap got;
     unsigned n = 0;
-    for (int l = lowest; l <= highest; l++) starts[l] = made[l].n;
-    comm_sum_before(starts, MESH_LEVELS + 1);
     for (int l = lowest; l <= highest; l++) {
         const uint32_t *first = comm_size() > 1 && n_tile[l] ? deal_first(deal, l) : NULL;
-        hand_owners(&hand, l, (uint32_t)starts[l], first);
+        hand_owners(&hand, l, (uint32_t)before[l], first);
         ret_sets[l] = (struct mesh_set){.n_tile = (unsigned)n_tile[l], .to = hand_leave(&hand, l)};
         n += made[l].n;
     }

@@ -6,6 +6,7 @@
 #include "solve/regrid.h"
 
 #include "base/comm.h"
+#include "base/gather.h"
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
@@ -38,7 +39,8 @@ struct regrid {
     bool root; /* level 0 gets other owners, too: those it has share the work badly */
     struct nest_keys wishes[MESH_LEVELS + 1];
     struct nest_set sets[MESH_LEVELS + 1]; /* this rank's pieces */
-    long long n_tile[MESH_LEVELS + 1];     /* of the sets, on all ranks */
+    long long n_tile[MESH_LEVELS + 1];     /* of the sets, on all ranks; level 0 as it is */
+    long long before[MESH_LEVELS + 2];     /* alike, on the ranks below this one */
 };
 
 bool regrid_due(const struct state *state, int base)
@@ -111,12 +113,12 @@ static void regrid_free(struct regrid *regrid)
 static bool regrid_is_idle(struct regrid *regrid)
 {
     struct mesh *mesh = regrid->state->mesh;
-    long long sums[MESH_LEVELS + 2] = {0}; /* the last one: pieces that differ */
+    long long sums[MESH_LEVELS + 2] = {mesh->levels[0].n_local}; /* the last one: pieces that differ */
     for (int l = regrid->base + 1; l <= mesh->most_level; l++) {
         sums[l] = regrid->sets[l].n;
         sums[MESH_LEVELS + 1] += !nest_same(mesh, l, &regrid->sets[l]);
     }
-    comm_sum_counts(sums, MESH_LEVELS + 2);
+    gather_sums(sums, MESH_LEVELS + 2, regrid->before);
     memcpy(regrid->n_tile, sums, sizeof regrid->n_tile);
     if (sums[MESH_LEVELS + 1]) return false;
     for (int l = regrid->base + 1; l < mesh->n_level; l++) {
@@ -181,7 +183,6 @@ static void regrid_take_root(struct regrid *regrid)
     struct nest_set *set = &regrid->sets[0];
     *set = (struct nest_set){level->n_local, mem_new(level->n_local, sizeof *set->tiles)};
     if (set->n) memcpy(set->tiles, level->tiles + level->first, set->n * sizeof *set->tiles);
-    regrid->n_tile[0] = level->n_tile;
 }
 
 /* The new sets in the hands of their owners: of the levels from *ret_lowest to `highest`. */
@@ -197,7 +198,7 @@ static void regrid_deal(struct regrid *regrid, int highest, int *ret_lowest, str
     }
     *ret_lowest = regrid->root ? 0 : regrid->base + 1;
     if (regrid->root) regrid_take_root(regrid);
-    hand_sets(mesh, *ret_lowest, highest, regrid->sets, regrid->n_tile, &deal, ret_sets);
+    hand_sets(mesh, *ret_lowest, highest, regrid->sets, regrid->n_tile, regrid->before, &deal, ret_sets);
     deal_free(&deal);
 }
 
