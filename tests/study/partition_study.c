@@ -19,7 +19,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { STUDY_REGRID = 4, STUDY_RANKS = 6, STUDY_REPEATS = 5, STUDY_MEETINGS = 15, STUDY_RIPPLE = 2 };
+enum { STUDY_REGRID = 4, STUDY_RANKS = 6, STUDY_REPEATS = 5, STUDY_MEETINGS = 9, STUDY_RIPPLE = 2 };
 
 /* The machine of the projection: seconds per cell and stage of cost 1, per message, per byte. */
 static const double STUDY_CELL = 45e-9, STUDY_MESSAGE = 2e-6, STUDY_BYTE = 1e-10;
@@ -89,13 +89,20 @@ static void study_print_efficiency(struct study *study, int n_size, const int *s
     }
 }
 
+/* Regrids from level b in a coarse step: one is due every STUDY_REGRID steps of the level, unless one from a coarser
+ * one is. */
+static double study_regrids(int b)
+{
+    return ldexp(1.0, b) / STUDY_REGRID * (b ? 0.5 : 1.0);
+}
+
 /* How often in a coarse step the tiles of level l that sleep `depth` levels deep are woken: after the steps of the
  * level that they sleep down to, and before regrids from levels between. */
 static double study_wakes(int l, int depth)
 {
     int down = l - depth;
     double wakes = down >= 0 ? ldexp(1.0, down) : 0.0;
-    for (int b = down + 1; b <= l; b++) wakes += ldexp(1.0, b) / STUDY_REGRID * (b ? 0.5 : 1.0);
+    for (int b = down + 1; b <= l; b++) wakes += study_regrids(b);
     return wakes;
 }
 
@@ -214,14 +221,13 @@ static double study_step(const struct study *study)
     return 2.0 * STUDY_CELL * (double)study->mesh.n_cell;
 }
 
-/* Tiles in all the regrids of a coarse step: one from base b replaces the levels above b. It is due every
- * STUDY_REGRID steps of level b, unless one from a coarser base is. */
+/* Tiles in all the regrids of a coarse step: one from base b replaces the levels above b. */
 static double study_regridded(const struct study *study)
 {
     double tiles = 0.0, above = 0.0;
     for (int b = study->mesh.n_level - 2; b >= 0; b--) {
         above += study->mesh.levels[b + 1].n_tile;
-        tiles += above * ldexp(1.0, b) / STUDY_REGRID * (b ? 0.5 : 1.0);
+        tiles += above * study_regrids(b);
     }
     return tiles;
 }
@@ -292,18 +298,19 @@ static double study_meetings(const struct study *study)
 {
     int finest = study->mesh.n_level - 1;
     double meetings = 0.0;
-    for (int b = 0; b < finest; b++)
-        meetings += (STUDY_MEETINGS + STUDY_RIPPLE * (finest - b)) * ldexp(1.0, b) / STUDY_REGRID * (b ? 0.5 : 1.0);
+    for (int b = 0; b < finest; b++) meetings += (STUDY_MEETINGS + STUDY_RIPPLE * (finest - b)) * study_regrids(b);
     return meetings;
 }
 
-/* Seconds of a rank in all regrids of a coarse step: its piece, waiting for the cut, and messages. To meet takes two
- * messages, there and back, for each doubling of the ranks. */
+/* Seconds of a rank in all regrids of a coarse step: its piece, waiting for the cut, which follows the ranks of each
+ * level that is cut more than its tiles, and messages. To meet takes two messages, there and back, for each doubling of
+ * the ranks. */
 static double study_shared(const struct study *study, const struct pieces *pieces, int size)
 {
     double regrids = study_regridded(study) / study->tiles;
-    double meetings = study_meetings(study) * 2.0 * ceil(log2(size));
-    return regrids * (pieces->most + pieces->cut + (pieces->bytes + pieces->joined) * STUDY_BYTE) +
+    double meetings = study_meetings(study) * 2.0 * ceil(log2(size)), cuts = 0.0;
+    for (int b = 0; b + 1 < study->mesh.n_level; b++) cuts += study_regrids(b) * pieces->cut[b];
+    return cuts + regrids * (pieces->most + (pieces->bytes + pieces->joined) * STUDY_BYTE) +
            (regrids * pieces->messages + meetings) * STUDY_MESSAGE;
 }
 
@@ -316,7 +323,7 @@ static void study_print_pieces(struct study *study, int size)
     printf("| %s %dD, %d | %d | %.3g | %.3g | %.2g | %.2g | %.2g | %.0f | %.2g | %.2g | %.2g | %.3g | %.2g | %.3f | "
            "%.3f | %.2f | %.2f |\n",
            study->scene.name, study->scene.dim, study->scene.n, size, study->tiles / size,
-           1e3 * study->topology * study->tiles, 1e3 * pieces.mean, 1e3 * pieces.most, 1e3 * pieces.cut,
+           1e3 * study->topology * study->tiles, 1e3 * pieces.mean, 1e3 * pieces.most, 1e3 * pieces.cut[0],
            pieces.messages, pieces.bytes / 1e3, pieces.held / 1e3, pieces.table / 1e3, pieces.files_of_all / 1e3,
            pieces.files / 1e3, p.topology / p.compute, shared / p.compute, p.compute / (busy + p.topology),
            p.compute / (busy + shared));

@@ -176,48 +176,66 @@ static void pieces_carry(struct pieces_world *world, const struct study *study)
     }
 }
 
-/* Runs of all ranks as they come to rank 0. */
-static struct deal pieces_runs(const struct study *study, int size)
+/* Appends what a rank tells at a regrid from level `base`. */
+static void pieces_append(struct deal *all, const struct deal *own, uint64_t *load)
 {
-    struct deal all = {0};
+    if (all->n + own->n > all->room) {
+        all->runs = mem_grow(all->runs, all->room, 2 * (all->n + own->n), sizeof *all->runs);
+        all->room = 2 * (all->n + own->n);
+    }
+    if (own->n) memcpy(all->runs + all->n, own->runs, own->n * sizeof *own->runs);
+    all->n += own->n;
+    *load = own->load;
+}
+
+/* Runs of all ranks as they come to rank 0, and their loads. */
+static struct deal pieces_runs(const struct study *study, int base, int size, uint64_t *load)
+{
+    struct deal all = {.base = base, .subcycle = true};
     unsigned at[MESH_LEVELS] = {0};
     for (int r = 0; r < size; r++) {
-        struct deal own = {0};
+        struct deal own = {.base = base, .subcycle = true};
         for (int l = 0; l < study->mesh.n_level; l++) {
             const struct level *level = &study->mesh.levels[l];
             unsigned from = at[l];
             while (at[l] < level->n_tile && level->tiles[at[l]].rank == r) at[l]++;
             deal_add(&own, l, study->costs[l] + from, at[l] - from);
         }
-        if (all.n + own.n > all.room) {
-            all.runs = mem_grow(all.runs, all.room, 2 * (all.n + own.n), sizeof *all.runs);
-            all.room = 2 * (all.n + own.n);
-        }
-        if (own.n) memcpy(all.runs + all.n, own.runs, own.n * sizeof *own.runs);
-        all.n += own.n;
+        pieces_append(&all, &own, &load[r]);
         deal_free(&own);
     }
+    all.n_level = study->mesh.n_level;
     return all;
 }
 
-/* What rank 0 does for all: they wait. */
-static void pieces_cut(const struct study *study, int size, struct pieces *pieces)
+/* What rank 0 does for all at a regrid from level `base`: they wait. */
+static double pieces_cut(const struct study *study, int base, int size, unsigned *ret_runs)
 {
-    struct deal all = pieces_runs(study, size);
+    uint64_t *before = mem_new((size_t)size, sizeof *before), *load = mem_new((size_t)size, sizeof *load);
+    struct deal all = pieces_runs(study, base, size, before);
     double least = HUGE_VAL;
     for (int repeat = 0; repeat < PIECES_REPEATS; repeat++) {
-        struct deal deal = {.subcycle = true, .n_level = study->mesh.n_level};
-        uint64_t *load = mem_new((size_t)size, sizeof *load);
+        struct deal deal = {.base = base, .subcycle = true, .n_level = study->mesh.n_level};
+        memcpy(load, before, (size_t)size * sizeof *load);
         double start = pieces_clock();
         deal_share(&deal, all.runs, all.n, size, load);
         least = fmin(least, pieces_clock() - start);
-        mem_free(load);
         deal_free(&deal);
     }
-    pieces->cut = least;
-    pieces->joined =
-        (double)all.n * sizeof *all.runs + (double)study->mesh.n_level * size * (sizeof *all.first + sizeof(uint64_t));
+    *ret_runs = all.n;
     deal_free(&all);
+    mem_free(before);
+    mem_free(load);
+    return least;
+}
+
+static void pieces_cuts(const struct study *study, int size, struct pieces *pieces)
+{
+    unsigned runs = 0;
+    for (int b = study->mesh.n_level - 2; b >= 0; b--) pieces->cut[b] = pieces_cut(study, b, size, &runs);
+    pieces->joined = (double)runs * sizeof(struct deal_run) +
+                     2.0 * (double)size * sizeof(uint64_t) + /* their number, and what the rank has */
+                     (double)study->mesh.n_level * size * (sizeof(uint32_t) + sizeof(uint64_t));
 }
 
 /* What the ranks tell each other of their tiles, by who gets it. */
@@ -348,7 +366,7 @@ struct pieces pieces_regrid(struct study *study, int size)
     struct pieces pieces = {0};
     struct nest_keys wishes[MESH_LEVELS] = {0};
     for (int l = 1; l < mesh->n_level; l++) wishes[l] = sets_wishes(&study->scene, mesh, l);
-    pieces_cut(study, size, &pieces);
+    pieces_cuts(study, size, &pieces);
     struct pieces_world world = pieces_start(study, size);
     mallopt(M_MXFAST, 0); /* else a rank now and then pays for sorting what thousands have freed */
     for (int repeat = 0; repeat < PIECES_REPEATS; repeat++) pieces_run(&world, study, wishes);
