@@ -65,7 +65,7 @@ targets() { # REGEX
         case $test in
         unit-* | module-*) echo "test-$test" ;;
         program-ranks-mesh) sed -n '/^for name in/{s///;s/; do//;s/ \([a-z]\)/ test-unit-\1/gp;}' tests/program/ranks_mesh.sh ;;
-        *) echo program test-unit-snapshot test-unit-checkpoint ;;
+        *) echo program test-unit-snapshot test-unit-checkpoint test-unit-forged ;;
         esac
     done
     echo tait-murnaghan fault skeleton-boundary
