@@ -5,8 +5,10 @@
 #include "base/log.h"
 #include "base/mem.h"
 #include "base/status.h"
+#include "base/swap.h"
 #include "io/checkpoint.h"
 #include "io/parts.h"
+#include "io/resume_runs.h"
 #include "mesh/morton.h"
 #include "mesh/partition.h"
 
@@ -32,7 +34,13 @@ static int resume_part(const struct resume *resume, const char *name, const stru
     return *ret_part ? STATUS_OK : resume_lacks(resume->path, name);
 }
 
-int resume_has_rows(const struct resume *resume, const char *name, uint64_t bytes)
+/* STATUS_OK on all that share the lists, or a failure on all. */
+static int resume_agree(const struct resume *resume, int code)
+{
+    return resume->size > 1 ? comm_agree(code) : code;
+}
+
+static int resume_check_rows(const struct resume *resume, const char *name, uint64_t bytes)
 {
     for (unsigned i = 0; i < resume->n_part; i++) {
         const struct resume_file *file = &resume->parts[i];
@@ -44,16 +52,9 @@ int resume_has_rows(const struct resume *resume, const char *name, uint64_t byte
     return STATUS_OK;
 }
 
-/* The run that a tile is in. */
-static const struct resume_run *resume_run(const struct resume *resume, size_t tile)
+int resume_has_rows(const struct resume *resume, const char *name, uint64_t bytes)
 {
-    size_t low = 0, high = resume->n_run;
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (resume->runs[middle].first <= tile) low = middle;
-        else high = middle;
-    }
-    return &resume->runs[low];
+    return resume_agree(resume, resume->rank == 0 ? resume_check_rows(resume, name, bytes) : STATUS_OK);
 }
 
 /* Each rank opens the parts that have its tiles. */
@@ -66,7 +67,7 @@ static int resume_reach(struct resume_file *file)
 
 int resume_row(const struct resume *resume, const char *name, size_t tile, uint64_t bytes, void *out)
 {
-    const struct resume_run *run = resume_run(resume, tile);
+    const struct resume_run *run = resume_runs_find(resume, tile);
     struct resume_file *file = &resume->parts[run->part];
     const struct seal_part *part = seal_find(&file->seal, name);
     if (!part) return resume_lacks(file->path, name);
@@ -93,12 +94,6 @@ static int resume_read_notes(struct resume *resume)
     text_add(&resume->notes.text, "%s", text);
     mem_free(text);
     return STATUS_OK;
-}
-
-/* STATUS_OK on all that share the lists, or a failure on all. */
-static int resume_agree(const struct resume *resume, int code)
-{
-    return resume->size > 1 ? comm_agree(code) : code;
 }
 
 /* A row of /tiles, of which some rank has looked at what is in it. */
@@ -247,13 +242,16 @@ static int resume_read_runs(struct resume *resume)
 }
 
 /* Everything but the fields. */
-static int resume_read(struct resume *resume)
+static int resume_read(struct resume *resume, const struct parts_list *list)
 {
     TRY(resume_agree(resume, resume_read_notes(resume)));
     TRY(resume_read_tiles(resume));
-    if (resume->seal.kind == SEAL_HEAD) return resume_read_runs(resume);
-    resume_read_alone(resume);
-    return STATUS_OK;
+    if (resume->seal.kind != SEAL_HEAD) {
+        resume_read_alone(resume);
+        return STATUS_OK;
+    }
+    TRY(resume_agree(resume, resume->rank == 0 ? resume_read_runs(resume) : STATUS_OK));
+    return resume->size > 1 ? resume_runs_deal(resume, list) : STATUS_OK;
 }
 
 /* For this rank of so many that share the lists. */
@@ -267,46 +265,110 @@ static struct resume *resume_handle(const char *path, int rank, int size)
     return resume;
 }
 
-/* The files that hold tiles, of which parts[i].seal is not known yet. */
-static int resume_read_parts(struct resume *resume, struct parts_list *ret_list)
+static int resume_reach_head(struct resume *resume)
 {
-    char *text;
     resume->file = open(resume->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (resume->file < 0)
-        return status_fail(STATUS_RUN, "%s: rank %d cannot open it: %s", resume->path, comm_rank(), strerror(errno));
-    if (resume->seal.kind == SEAL_HEAD) {
-        TRY(resume_text(resume, "/parts", &text));
-        int code = parts_read(resume->path, text, ret_list);
-        mem_free(text);
-        TRY(code);
-        if (!ret_list->n) return resume_damaged(resume, "an empty list of parts");
-    }
-    resume->n_part = ret_list->n ? ret_list->n : 1;
+    if (resume->file >= 0) return STATUS_OK;
+    return status_fail(STATUS_RUN, "%s: rank %d cannot open it: %s", resume->path, comm_rank(), strerror(errno));
+}
+
+/* A text of rank 0 (NULL elsewhere), on all. */
+static char *resume_spread(char *text)
+{
+    size_t bytes = text ? strlen(text) + 1 : 0;
+    comm_bcast(&bytes, sizeof bytes);
+    if (!text) text = mem_new(bytes, 1);
+    comm_bcast(text, bytes);
+    return text;
+}
+
+/* The list of parts of a head, which rank 0 reads. */
+static int resume_read_list(struct resume *resume, struct parts_list *ret_list)
+{
+    char *text = NULL;
+    TRY(resume_agree(resume, resume->rank == 0 ? resume_text(resume, "/parts", &text) : STATUS_OK));
+    if (resume->size > 1) text = resume_spread(text);
+    int code = parts_read(resume->path, text, ret_list);
+    mem_free(text);
+    if (!code && !ret_list->n) code = resume_damaged(resume, "an empty list of parts");
+    return code;
+}
+
+/* The files that hold tiles: of several parts rank 0 alone knows all, and has their seals later. */
+static void resume_name_parts(struct resume *resume, const struct parts_list *list)
+{
+    if (resume->seal.kind == SEAL_HEAD && resume->rank > 0) return;
+    resume->n_part = list->n ? list->n : 1;
     resume->parts = mem_new(resume->n_part, sizeof *resume->parts);
     for (unsigned i = 0; i < resume->n_part; i++) {
-        resume->parts[i].path = mem_text(ret_list->n ? ret_list->at[i].path : resume->path);
+        resume->parts[i].path = mem_text(list->n ? list->at[i].path : resume->path);
         resume->parts[i].file = -1;
     }
-    if (!ret_list->n) resume->parts[0].seal = resume->seal;
+    if (!list->n) resume->parts[0].seal = resume->seal;
+}
+
+/* The seal of a part, from who has verified it. */
+struct resume_seal {
+    uint64_t part;
+    struct seal seal;
+};
+
+/* Verifies the parts that are this rank's to verify, *ret_n of them. */
+static int resume_check_parts(const struct resume *resume, const struct parts_list *list, struct resume_seal *ret_seals,
+                              unsigned *ret_n)
+{
+    *ret_n = 0;
+    for (unsigned i = (unsigned)resume->rank; i < list->n; i += (unsigned)resume->size) {
+        ret_seals[*ret_n].part = i;
+        TRY(parts_check(resume->path, list, i, seal_check, &ret_seals[(*ret_n)++].seal));
+    }
     return STATUS_OK;
 }
 
-/* Verifies parts, each `step`-th from `first` on. */
-static int resume_check_parts(struct resume *resume, const struct parts_list *list, int first, int step)
+/* Rank 0 gets the seals. */
+static void resume_join_seals(struct resume *resume, const struct resume_seal *seals, unsigned n)
 {
-    for (unsigned i = (unsigned)first; i < list->n; i += (unsigned)step)
-        TRY(parts_check(resume->path, list, i, seal_check, &resume->parts[i].seal));
-    return STATUS_OK;
+    struct swap got = {0};
+    int *to = mem_new(n, sizeof *to);
+    if (resume->size > 1) {
+        swap_items(seals, sizeof *seals, n, to, &got);
+        seals = got.items;
+        n = got.n;
+    }
+    for (unsigned i = 0; i < n; i++) resume->parts[seals[i].part].seal = seals[i].seal;
+    swap_done(&got);
+    mem_free(to);
+}
+
+/* The ranks share the parts among them. */
+static int resume_take_parts(struct resume *resume, const struct parts_list *list)
+{
+    unsigned n;
+    if (!list->n) return STATUS_OK;
+    struct resume_seal *seals = mem_new(list->n / (unsigned)resume->size + 1u, sizeof *seals);
+    int code = resume_agree(resume, resume_check_parts(resume, list, seals, &n));
+    if (!code) resume_join_seals(resume, seals, n);
+    mem_free(seals);
+    return code;
+}
+
+/* A file whose seal is known. */
+static int resume_take_lists(struct resume *resume, struct parts_list *list)
+{
+    TRY(resume_agree(resume, resume_reach_head(resume)));
+    if (resume->seal.kind == SEAL_HEAD) TRY(resume_read_list(resume, list));
+    resume_name_parts(resume, list);
+    TRY(resume_take_parts(resume, list));
+    return resume_read(resume, list);
 }
 
 static int resume_look_at(struct resume *resume)
 {
     struct parts_list list = {0};
     TRY(seal_check(resume->path, &resume->seal));
-    int code = resume_read_parts(resume, &list);
-    if (!code) code = resume_check_parts(resume, &list, 0, 1);
+    int code = resume_take_lists(resume, &list);
     parts_done(&list);
-    return code ? code : resume_read(resume);
+    return code;
 }
 
 int resume_look(const char *path, struct resume **ret_resume)
@@ -318,25 +380,15 @@ int resume_look(const char *path, struct resume **ret_resume)
     return code;
 }
 
-/* The ranks share the parts among them; all learn what each has found. */
-static int resume_take_parts(struct resume *resume)
-{
-    struct parts_list list = {0};
-    int code = comm_agree(resume_read_parts(resume, &list));
-    if (!code) code = comm_agree(resume_check_parts(resume, &list, comm_rank(), comm_size()));
-    for (unsigned i = 0; !code && i < list.n; i++)
-        comm_bcast_from(&resume->parts[i].seal, sizeof resume->parts[i].seal, (int)(i % (unsigned)comm_size()));
-    parts_done(&list);
-    return code;
-}
-
 /* Rank 0 verifies the file for all. */
 static int resume_take_all(struct resume *resume)
 {
+    struct parts_list list = {0};
     TRY(comm_agree(comm_rank() == 0 ? seal_check(resume->path, &resume->seal) : STATUS_OK));
     comm_bcast(&resume->seal, sizeof resume->seal);
-    TRY(resume_take_parts(resume));
-    return comm_agree(resume_read(resume));
+    int code = comm_agree(resume_take_lists(resume, &list));
+    parts_done(&list);
+    return code;
 }
 
 static int resume_take(const char *path, struct resume **ret_resume)

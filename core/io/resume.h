@@ -20,16 +20,16 @@ struct resume_file {
     char *path;
     int file; /* open for reading, or -1: nobody has asked for a tile yet */
     struct seal seal;
-    size_t n_tile;
+    size_t n_tile; /* known to rank 0 */
 };
 
 struct resume {
     char *path;
     int file; /* open for reading */
     struct seal seal;
-    unsigned n_part; /* files with tiles: 1, the checkpoint itself, or its parts */
+    unsigned n_part; /* files with tiles: 1, the checkpoint itself, or its parts: on ranks above 0 those of own tiles */
     struct resume_file *parts;
-    size_t n_run;
+    size_t n_run; /* alike (resume_runs.h) */
     struct resume_run *runs;
     struct notes notes; /* what the state and the outputs left for the continued run */
     int rank, size;     /* who shares the lists of tiles: this rank of all, or 0 of 1, which has all of each */
@@ -51,10 +51,12 @@ int resume_look(const char *path, struct resume **ret_resume);
 
 void resume_close(struct resume *resume); /* NULL is fine */
 
-/* Has each tile a row of so many bytes in the part `name` of the file? Else STATUS_RUN. */
+/* Has each tile a row of so many bytes in the part `name` of the file? Else STATUS_RUN. Collective where lists are
+ * shared
+ * (`size`). */
 int resume_has_rows(const struct resume *resume, const char *name, uint64_t bytes);
 
-/* Reads the row of a tile (its number among all) that has so many bytes. */
+/* Reads the row of a tile (its number among all; one of this rank's) that has so many bytes. */
 int resume_row(const struct resume *resume, const char *name, size_t tile, uint64_t bytes, void *out);
 
 /* STATUS_RUN: right checksums, but content that no run can have written. */
