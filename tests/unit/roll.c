@@ -61,13 +61,13 @@ void __wrap_mem_free(void *block)
 
 /* Water in `side` x `side` tiles of 4 x 4 cells, wherever the domain ends; nothing is kept from one file to the next.
  */
-static char *scene_of(int side)
+static char *scene_of(int side, int writers)
 {
     return mem_print("bulla: 1\ntitle: Water\ndomain: {lower: [0, 0], upper: [%d, %d], cells: [%d, %d],\n"
                      "  boundaries: {x-: outflow, x+: outflow, y-: outflow, y+: outflow}}\nmesh: {tile: 4}\n%s"
                      "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: 1e5}\n"
-                     "run: {until: 1 us}\noutput: {writers: 1, snapshots: {every: 1 us, memory: 0}}\n",
-                     side, side, 4 * side, 4 * side, SMALL_MATERIALS);
+                     "run: {until: 1 us}\noutput: {writers: %d, snapshots: {every: 1 us, memory: 0}}\n",
+                     side, side, 4 * side, 4 * side, SMALL_MATERIALS, writers);
 }
 
 /* The first tiles along the curve go to the lower ranks, all others to the last. */
@@ -129,7 +129,7 @@ static void weigh(int side, long long ret_bytes[BYTES])
     struct small small;
     struct snapshots *snapshots;
     struct notes notes = {0};
-    char *text = scene_of(side);
+    char *text = scene_of(side, 1);
     small_start(&small, text);
     share(small.state->mesh);
     assert_int_equal(small.state->mesh->levels[0].n_tile, side * side);
@@ -173,13 +173,53 @@ static void test_memory(void **state)
     }
 }
 
+/* The first and the last tile of this rank in the fields of the checkpoint. */
+static int read_ends(const struct resume *resume, const struct mesh *mesh)
+{
+    size_t row = mesh->n_field * mesh->n_cell * sizeof(double), first = resume->first[0];
+    double *rows = mem_new(row, 1);
+    int code = resume_has_rows(resume, "/u", row);
+    if (!code) code = resume_row(resume, "/u", first, row, rows);
+    if (!code) code = resume_row(resume, "/u", first + resume->n_own[0] - 1, row, rows);
+    mem_free(rows);
+    return code;
+}
+
+/* Each rank is a writer, and takes its own tiles up again: rank 0 knows all parts, others the one that they wrote. Who
+ * finds something wrong goes on: the others would wait for it for ever. */
+static void test_parts(void **state)
+{
+    (void)state;
+    struct small small;
+    struct resume *resume;
+    struct notes notes = {0};
+    char *text = scene_of(12, comm_size()); /* 144 tiles: as many for each of 2, 3, 4 ranks */
+    small_start(&small, text);
+    comm_bcast(small.scene->output.directory, strlen(small.scene->output.directory));
+    struct checkpoints *checkpoints = checkpoint_new(small.scene);
+    assert_int_equal(checkpoint_write(checkpoints, small.state, &notes), 0);
+    const long long before = asked;
+    assert_int_equal(resume_newest(small.scene->output.directory, &resume), 0);
+    printf("rank %d of %d, bytes for parts: %lld\n", comm_rank(), comm_size(), asked - before);
+    unsigned known = comm_rank() ? 1 : (unsigned)comm_size();
+    bool right = resume->n_part == known && resume->n_run == known;
+    int code = read_ends(resume, small.state->mesh);
+    resume_close(resume);
+    checkpoint_free(checkpoints);
+    comm_barrier();
+    small_stop(&small);
+    mem_free(text);
+    assert_true(right);
+    assert_int_equal(code, 0);
+}
+
 /* Places of own tiles are those of their keys among all. */
 static void test_places(void **state)
 {
     (void)state;
     struct small small;
     struct roll roll;
-    char *text = scene_of(16);
+    char *text = scene_of(16, 1);
     small_start(&small, text);
     const struct level *level = &small.state->mesh->levels[0];
     roll_take(small.state->mesh, &roll);
@@ -198,7 +238,8 @@ static void test_places(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_places), cmocka_unit_test(test_memory)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_places), cmocka_unit_test(test_parts),
+                                       cmocka_unit_test(test_memory)};
     comm_init(&argc, &argv);
     if (registry_init()) return 1;
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
