@@ -1,6 +1,7 @@
 # More ranks than a stretch of owners has, and than coarse levels have tiles: on 32 ranks, whose 16 tiles of the coarsest level
 # are spread over two stretches, levels come, move and go and three ranks write, with the bits of one rank; from their
-# checkpoint the run goes on with 5 ranks and then with one. (program/ranks_topology.sh has fewer ranks and one writer.)
+# checkpoint the run goes on with 20 ranks, still more than tiles, with 5 and then with one. (program/ranks_topology.sh has
+# fewer ranks and one writer.)
 set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
 drifting 16 8 >spread.yaml
@@ -33,7 +34,8 @@ END
 fi
 
 cp -r spread-32 chain
-ran chain spread -n 5 --max-steps 6 --restart=out/checkpoints/spread_000004.chk
+ran chain spread -n 20 --max-steps 5 --restart=out/checkpoints/spread_000004.chk
+ran chain spread -n 5 --max-steps 6 --restart
 ran chain spread --restart
 cmp spread-1/out/history.csv chain/out/history.csv
 "$BULLA_BUILD/tests/test-unit-snapshot" spread-1/out/fields/spread_000008.hdf chain/out/fields/spread_000008.hdf
