@@ -25,6 +25,17 @@ enum { WELD_BATCH = 64, WELD_LOOK = 512 }; /* cells that are worked on, and look
 /* Shears below this are round-off, and leave bits as they are. */
 #define WELD_NOTHING 1e-14
 
+/* What the waves of a solid count in how fast tractions become one: each alike, and by its part of the impedance.
+ * Measured: with less of the first a contact that moves into the stiffer solid sends more, with more of it one of a dense
+ * stiff solid; with less of both 100 : 1 is sheared as if the solids lay beside each other. */
+#define WELD_EACH 0.3
+#define WELD_STIFF 0.9
+
+/* Shear waves of the solids of each cell: impedances, c^2/alpha, that times the impedance, the slowest c^2. */
+struct weld_waves {
+    double *impedance, *run, *rush, *least;
+};
+
 /* The cells of a tile in which solids meet. */
 struct weld {
     const struct model *model;
@@ -243,37 +254,47 @@ static void weld_pull(struct weld *weld)
     }
 }
 
-/* Adds how fast shear waves of a solid run, c^2/alpha, and looks for the slowest c^2. */
+/* Adds a solid: its impedance rho c, how fast its shear waves run, c^2/alpha, and both times each other; and looks for
+ * the slowest c^2. */
 static BULLA_KERNEL void weld_run(size_t n, const double *restrict alpha, const double *restrict m,
-                                  const double *restrict k, double *restrict sum, double *restrict least)
+                                  const double *restrict k, const struct weld_waves *waves)
 {
+    double *restrict impedance = waves->impedance, *restrict run = waves->run, *restrict rush = waves->rush;
+    double *restrict least = waves->least;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double stiff = k[i], all = sum[i], old = least[i], run = stiff / m[i], c2 = run * alpha[i];
+        double stiff = k[i], a = alpha[i], Z = impedance[i], all = run[i], sum = rush[i], old = least[i];
+        double own = stiff / m[i], c2 = own * a, z = sqrt(stiff * m[i] / a);
         int bears = stiff > 0.0;
-        sum[i] = all + (bears ? run : 0.0);
+        impedance[i] = Z + (bears ? z : 0.0);
+        run[i] = all + (bears ? own : 0.0);
+        rush[i] = sum + (bears ? z * own : 0.0);
         least[i] = (bears & (c2 < old)) ? c2 : old;
     }
 }
 
-static BULLA_KERNEL void weld_shorten(size_t n, double dt, const double *restrict steep, const double *restrict sum,
-                                      const double *restrict least, double *restrict part)
+static BULLA_KERNEL void weld_shorten(size_t n, double dt, const double *restrict steep, const struct weld_waves *waves,
+                                      double *restrict part)
 {
+    const double *restrict impedance = waves->impedance, *restrict run = waves->run, *restrict rush = waves->rush;
+    const double *restrict least = waves->least;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double x = dt * steep[i] * sum[i] / sqrt(least[i]), way = part[i] * (x / (1.0 + x));
-        part[i] = sum[i] > 0.0 ? way : 0.0;
+        double Z = impedance[i], all = WELD_EACH * run[i] + WELD_STIFF * (rush[i] / Z);
+        double x = dt * steep[i] * all / sqrt(least[i]), way = part[i] * (x / (1.0 + x));
+        part[i] = Z > 0.0 ? way : 0.0;
     }
 }
 
 /* How much of the way to one traction waves can take in dt. */
 static void weld_haste(struct weld *weld, double dt)
 {
-    double sum[WELD_BATCH] = {0}, least[WELD_BATCH];
+    double impedance[WELD_BATCH] = {0}, run[WELD_BATCH] = {0}, rush[WELD_BATCH] = {0}, least[WELD_BATCH];
+    const struct weld_waves waves = {impedance, run, rush, least};
     for (size_t i = 0; i < weld->n; i++) least[i] = DBL_MAX;
     for (unsigned s = 0; s < weld->model->n_solid; s++)
-        weld_run(weld->n, weld->alpha[s], weld->m[s], weld->k[s], sum, least);
-    weld_shorten(weld->n, dt, weld->steep, sum, least, weld->part);
+        weld_run(weld->n, weld->alpha[s], weld->m[s], weld->k[s], &waves);
+    weld_shorten(weld->n, dt, weld->steep, &waves, weld->part);
 }
 
 /* Adds a solid's share in what gives. One that bears no shear takes no part. */

@@ -8,9 +8,10 @@
  * (neo-Hookean: G n.Bn, exact). The velocity gradient of the cell, their mean, stays. Elastic energy falls, as both lie
  * in one cell; it is heat.
  *
- * They do not get all the way at once: what one solid is sheared by reaches the other with shear waves, the slowest of
- * which has the speed c. In a time dt they go, of the way to one traction, the part
- *     x/(1 + x),   x = dt |grad alpha| sum (c_l^2/alpha_l)/c. docs/decisions/unlike-solids.md. */
+ * They do not get all the way at once: what one solid is sheared by reaches the other with shear waves, of speeds c_l
+ * and impedances Z_l = rho_l c_l. In a time dt they go, of the way to one traction, the part
+ *     x/(1 + x),   x = dt |grad alpha| sum (0.3 + 0.9 Z_l/sum Z)(c_l^2/alpha_l)/c,   c the slowest of c_l.
+ * docs/decisions/unlike-solids.md. */
 #ifndef WELD_H
 #define WELD_H
 
