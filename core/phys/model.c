@@ -155,11 +155,11 @@ static void model_transport(struct model *model)
         model->viscous = model->viscous || model->viscosity[l].law;
         sees = sees || (model->viscosity[l].law && model->viscosity[l].mu.law->needs & ~(uint32_t)BULLA_NEEDS_RATE);
     }
-    bool surfaces = model->viscous || model->fronts || model->n_normal;
+    bool clings = model_clings(model), surfaces = model->viscous || model->fronts || model->n_normal || clings;
     for (unsigned l = 1; surfaces && l < model->n_alpha; l++)
         model->around[model->n_around++] = (unsigned char)(model->i_alpha + l);
     model->n_around_alpha = model->n_around;
-    for (unsigned d = 0; model->viscous && d < model->n_velocity; d++)
+    for (unsigned d = 0; (model->viscous || clings) && d < model->n_velocity; d++)
         model->around[model->n_around++] = (unsigned char)(model->i_u + d);
     if (sees && model->n_alpha) model_around_state(model);
     model->calm = model->scene->scheme.calm && model->dim > 1;

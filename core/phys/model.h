@@ -222,10 +222,16 @@ static inline bool model_jumps(const struct model *path)
     return path->n_pair > 0;
 }
 
+/* Do solids of a path meet whose shear waves differ in speed (scheme/cling.h)? */
+static inline bool model_clings(const struct model *path)
+{
+    return path->n_solid > 1 && path->n_velocity > 1 && path->n_alpha > 0 && !path->beta;
+}
+
 /* Has a path terms that look across edges? */
 static inline bool model_looks_around(const struct model *path)
 {
-    return path->viscous || path->calm || path->fronts || path->n_normal > 0;
+    return path->viscous || path->calm || path->fronts || path->n_normal > 0 || model_clings(path);
 }
 
 /* Number of stretches of a path: those of its solids, then those of the branches. */

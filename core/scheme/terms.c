@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "base/status.h"
 #include "scheme/calm.h"
+#include "scheme/cling.h"
 #include "scheme/closure.h"
 #include "scheme/conduction.h"
 #include "scheme/convection.h"
@@ -43,6 +44,7 @@ const struct term *const terms_all[] = {
     &source_term,       /* forces, heat, mass, Lua */
     &drag_term,         /* resistance of porous media */
     &viscous_term,      /* stress and heat of what is viscous */
+    &cling_term,        /* where solids meet a jump of velocity is drawn upon at once */
     &calm_term,         /* shear beside strong shocks */
     &fraction_term,     /* volume fractions move with the flow */
     &exchange_term,     /* volume that brings materials back to one pressure */

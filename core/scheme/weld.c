@@ -28,8 +28,8 @@ enum { WELD_BATCH = 64, WELD_LOOK = 512 }; /* cells that are worked on, and look
 /* What the waves of a solid count in how fast tractions become one: each alike, and by its part of the impedance.
  * Measured: with less of the first a contact that moves into the stiffer solid sends more, with more of it one of a dense
  * stiff solid; with less of both 100 : 1 is sheared as if the solids lay beside each other. */
-#define WELD_EACH 0.3
-#define WELD_STIFF 0.9
+#define WELD_EACH 0.2
+#define WELD_STIFF 1.1
 
 /* Shear waves of the solids of each cell: impedances, c^2/alpha, that times the impedance, the slowest c^2. */
 struct weld_waves {
