@@ -26,8 +26,8 @@ enum { WELD_BATCH = 64, WELD_LOOK = 512 }; /* cells that are worked on, and look
 #define WELD_NOTHING 1e-14
 
 /* What the waves of a solid count in how fast tractions become one: each alike, and by its part of the impedance.
- * Measured: with less of the first a contact that moves into the stiffer solid sends more, with more of it one of a dense
- * stiff solid; with less of both 100 : 1 is sheared as if the solids lay beside each other. */
+ * Measured: with less of the first a contact that moves into the stiffer solid sends more, with more of it one of a
+ * dense stiff solid; with less of both 100 : 1 is sheared as if the solids lay beside each other. */
 #define WELD_EACH 0.2
 #define WELD_STIFF 1.1
 

@@ -49,13 +49,14 @@ cmp most-8 most-16
 
 "$BULLA" plan plate.yaml >plan
 grep -q '^  weld .*core/scheme/weld.c' plan || fail 'the plan has no weld' plan
+grep -q '^  cling .*core/scheme/cling.c' plan || fail 'the plan has no cling' plan
 "$BULLA" check plate.yaml >check
 grep -q 'stretch_gel_xx' check && grep -q 'stretch_plate_xy' check || fail 'the check does not name the stretches' check
-! "$BULLA" plan "$BULLA_SOURCE/cases/verify/es1.yaml" | grep -q weld.c || fail 'a weld of one solid'
-! "$BULLA" plan "$BULLA_SOURCE/cases/verify/h22-al-cu.yaml" | grep -q weld.c || fail 'a weld without shear'
+! "$BULLA" plan "$BULLA_SOURCE/cases/verify/es1.yaml" | grep -q 'weld.c\|cling.c' || fail 'a weld of one solid'
+! "$BULLA" plan "$BULLA_SOURCE/cases/verify/h22-al-cu.yaml" | grep -q 'weld.c\|cling.c' || fail 'a weld without shear'
 
 # Closed forms: the shear traction of welded halves that are carried, and stripes that keep theirs.
-for case in weld-10 weld-100 weld-carried; do
+for case in weld-10 weld-100 weld-dense weld-light weld-carried; do
     "$BULLA" run "$BULLA_SOURCE/cases/verify/$case.yaml" --variant quick -o "$case" --quiet >said || fail "$case is wrong" said
 done
 
