@@ -222,7 +222,7 @@ static inline bool model_jumps(const struct model *path)
     return path->n_pair > 0;
 }
 
-/* Do solids of a path meet whose shear waves differ in speed (scheme/cling.h)? */
+/* Do solids of a path draw upon each other where they meet (scheme/cling.h)? */
 static inline bool model_clings(const struct model *path)
 {
     return path->n_solid > 1 && path->n_velocity > 1 && path->n_alpha > 0 && !path->beta;
