@@ -15,6 +15,9 @@ for page in README.md CHANGELOG.md docs/*.md docs/decisions/*.md; do
         [ -z "$wide" ] || complain "$page" "wider than 120 characters: $wide"
         ;;
     esac
+    marks=$(grep '^<!-- .* -->$' "$page" | grep -v '^<!-- end ' | sed 's/^<!-- \(verify \)*//') # --save writes between
+    ends=$(sed -n 's/^<!-- end \(.* -->\)$/\1/p' "$page")
+    [ "$marks" = "$ends" ] || complain "$page" "marks of tables without their ends, or ends without marks"
     folder=$(dirname "$page")
     for link in $(grep -o ']([^)# ]*' "$page" | cut -c3- | sort -u); do
         case $link in http*) continue ;; esac
