@@ -188,6 +188,25 @@ void *swap_answer(const struct swap *asked, const void *answers, size_t size)
     return got;
 }
 
+void swap_add(struct swap_list *list, const void *item, size_t size, int to)
+{
+    if (list->n == list->room) {
+        unsigned room = 2 * list->room + 64;
+        list->items = mem_grow(list->items, list->room, room, size);
+        list->to = mem_grow(list->to, list->room, room, sizeof *list->to);
+        list->room = room;
+    }
+    memcpy((char *)list->items + list->n * size, item, size);
+    list->to[list->n++] = to;
+}
+
+void swap_list_free(struct swap_list *list)
+{
+    mem_free(list->items);
+    mem_free(list->to);
+    *list = (struct swap_list){0};
+}
+
 void swap_done(struct swap *swap)
 {
     mem_free(swap->items);

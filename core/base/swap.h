@@ -23,6 +23,18 @@ struct swap {
     struct swap_piece *sent; /* what this rank gave, alike */
 };
 
+/* Items of one size, and the ranks that they will go to, in the order they were added. All zero: empty. */
+struct swap_list {
+    unsigned n, room;
+    void *items;
+    int *to;
+};
+
+/* One more item of `size` bytes, for rank `to`. */
+void swap_add(struct swap_list *list, const void *item, size_t size, int to);
+
+void swap_list_free(struct swap_list *list);
+
 /* Item i of `items` (n of `size` bytes) goes to rank to[i], which must ascend; the own rank is one like others.
  * *ret is freed by swap_done. Collective. */
 void swap_items(const void *items, size_t size, unsigned n, const int *to, struct swap *ret);

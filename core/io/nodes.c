@@ -186,19 +186,20 @@ static struct nodes_tile *nodes_find(const struct nodes *nodes, const struct mes
 /* Tells of this rank's tiles whoever knows them, and learns of the others around. */
 static void nodes_tell(struct nodes *nodes, const struct mesh *mesh)
 {
-    struct fringe fringe = {0};
+    struct swap_list fringe = {0};
     struct swap got;
     if (comm_size() == 1) return;
     for (int l = 0; l < mesh->n_level; l++) fringe_list(mesh, l, comm_rank(), &fringe);
     fringe_sort(&fringe);
+    const struct fringe_item *items = fringe.items;
     struct nodes_told *told = mem_new(fringe.n, sizeof *told);
     for (unsigned i = 0; i < fringe.n; i++) {
-        int l = (int)fringe.items[i].level;
-        told[i] = (struct nodes_told){fringe.items[i].key, l, *nodes_find(nodes, mesh, l, fringe.items[i].key)};
+        int l = (int)items[i].level;
+        told[i] = (struct nodes_told){items[i].key, l, *nodes_find(nodes, mesh, l, items[i].key)};
     }
     swap_items(told, sizeof *told, fringe.n, fringe.to, &got);
     mem_free(told);
-    fringe_free(&fringe);
+    swap_list_free(&fringe);
     told = got.items;
     for (unsigned i = 0; i < got.n; i++) *nodes_find(nodes, mesh, told[i].level, told[i].key) = told[i].tile;
     swap_done(&got);

@@ -20,39 +20,20 @@ const struct resume_run *resume_runs_find(const struct resume *resume, size_t ti
     return &resume->runs[low];
 }
 
-/* Runs on their way, by the ranks that get them. */
-struct resume_runs_mail {
-    unsigned n, room;
-    struct resume_run *runs;
-    int *to;
-};
-
-static void resume_runs_post(struct resume_runs_mail *mail, const struct resume_run *run, int to)
-{
-    if (mail->n == mail->room) {
-        unsigned room = 2 * mail->room + 64;
-        mail->runs = mem_grow(mail->runs, mail->room, room, sizeof *mail->runs);
-        mail->to = mem_grow(mail->to, mail->room, room, sizeof *mail->to);
-        mail->room = room;
-    }
-    mail->runs[mail->n] = *run;
-    mail->to[mail->n++] = to;
-}
-
 /* The runs that the tiles `from` to `end` - 1 are in, from `next` on; returns what is behind them. */
 static const struct resume_run *resume_runs_pick(const struct resume *resume, size_t from, size_t end, int to,
-                                                 const struct resume_run *next, struct resume_runs_mail *mail)
+                                                 const struct resume_run *next, struct swap_list *mail)
 {
     if (from == end) return next;
     const struct resume_run *run = resume_runs_find(resume, from), *behind = resume->runs + resume->n_run;
-    for (run = run > next ? run : next; run < behind && run->first < end; run++) resume_runs_post(mail, run, to);
+    for (run = run > next ? run : next; run < behind && run->first < end; run++) swap_add(mail, run, sizeof *run, to);
     return run > next ? run : next;
 }
 
 /* What all ranks but the first need: the cut is known to all (partition_equal). */
-static struct resume_runs_mail resume_runs_pack(const struct resume *resume)
+static struct swap_list resume_runs_pack(const struct resume *resume)
 {
-    struct resume_runs_mail mail = {0};
+    struct swap_list mail = {0};
     size_t room = (size_t)resume->size + 1;
     uint32_t *first = mem_new((size_t)resume->n_level * room, sizeof *first);
     for (int l = 0; l < resume->n_level; l++)
@@ -84,11 +65,11 @@ static int resume_runs_part(struct resume *resume, const struct parts_list *list
 
 int resume_runs_deal(struct resume *resume, const struct parts_list *list)
 {
-    struct resume_runs_mail mail = {0};
+    struct swap_list mail = {0};
     struct swap got;
     int code = STATUS_OK;
     if (resume->rank == 0) mail = resume_runs_pack(resume);
-    swap_items(mail.runs, sizeof *mail.runs, mail.n, mail.to, &got);
+    swap_items(mail.items, sizeof *resume->runs, mail.n, mail.to, &got);
     if (resume->rank > 0) {
         resume->n_run = got.n;
         resume->runs = got.items;
@@ -97,7 +78,6 @@ int resume_runs_deal(struct resume *resume, const struct parts_list *list)
     for (size_t i = 0; resume->rank > 0 && i < resume->n_run && !code; i++)
         code = resume_runs_part(resume, list, resume->runs[i].part, &resume->runs[i].part);
     swap_done(&got);
-    mem_free(mail.runs);
-    mem_free(mail.to);
+    swap_list_free(&mail);
     return comm_agree(code);
 }

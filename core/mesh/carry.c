@@ -16,22 +16,9 @@ struct carry_question {
 
 /* Who asks: born tiles of one parent, from tile `first` of a level on. */
 struct carry_questions {
-    unsigned n, room, n_born;
-    struct carry_question *list;
-    int *to;
+    unsigned n_born;
+    struct swap_list list; /* of struct carry_question */
 };
-
-static void carry_ask(struct carry_questions *questions, const struct carry_question *question, int to)
-{
-    if (questions->n == questions->room) {
-        unsigned room = 2 * questions->room + 64;
-        questions->list = mem_grow(questions->list, questions->room, room, sizeof *questions->list);
-        questions->to = mem_grow(questions->to, questions->room, room, sizeof *questions->to);
-        questions->room = room;
-    }
-    questions->list[questions->n] = *question;
-    questions->to[questions->n++] = to;
-}
 
 /* Numbers of tiles that were there; NAN: it is born. */
 static double *carry_kept(const struct nest_set *set, const struct carry *before)
@@ -64,7 +51,7 @@ static void carry_list(const struct mesh *mesh, int base, int l, const struct ne
         for (int m = l - 1 < mesh->n_level ? l - 1 : mesh->n_level - 1; m >= base; m--) {
             struct span span = span_of(mesh, m);
             const struct carry_question question = {set->tiles[i].key >> 3 * (l - m), (uint32_t)m, questions->n_born};
-            carry_ask(questions, &question, span_owner(&span, question.key));
+            swap_add(&questions->list, &question, sizeof question, span_owner(&span, question.key));
         }
         questions->n_born++;
     }
@@ -86,16 +73,17 @@ static double carry_look(const struct carry *before, uint64_t key)
 static double *carry_answers(struct carry_questions *questions, const struct carry *before)
 {
     struct swap asked;
-    swap_sort(questions->list, sizeof *questions->list, questions->n, questions->to);
-    swap_items(questions->list, sizeof *questions->list, questions->n, questions->to, &asked);
+    const struct swap_list *list = &questions->list;
+    const struct carry_question *own = list->items;
+    swap_sort(list->items, sizeof *own, list->n, list->to);
+    swap_items(list->items, sizeof *own, list->n, list->to, &asked);
     const struct carry_question *question = asked.items;
     double *found = mem_new(asked.n, sizeof *found), *best = mem_new(questions->n_born, sizeof *best);
     int *level = mem_new(questions->n_born, sizeof *level);
     for (unsigned i = 0; i < asked.n; i++) found[i] = carry_look(&before[question[i].level], question[i].key);
     double *answers = swap_answer(&asked, found, sizeof *found);
     for (unsigned i = 0; i < questions->n_born; i++) level[i] = -1;
-    for (unsigned i = 0; i < questions->n; i++) {
-        const struct carry_question *own = &questions->list[i];
+    for (unsigned i = 0; i < list->n; i++, own++) {
         if (isnan(answers[i]) || (int)own->level <= level[own->born]) continue;
         level[own->born] = (int)own->level;
         best[own->born] = answers[i];
@@ -125,6 +113,5 @@ void carry_values(const struct mesh *mesh, int base, int highest, const struct n
         }
     }
     mem_free(answers);
-    mem_free(questions.list);
-    mem_free(questions.to);
+    swap_list_free(&questions.list);
 }

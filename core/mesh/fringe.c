@@ -17,18 +17,6 @@ struct fringe_box {
     int from[3], to[3];
 };
 
-static void fringe_add(struct fringe *fringe, const struct fringe_item *item, int to)
-{
-    if (fringe->n == fringe->room) {
-        unsigned room = 2 * fringe->room + 64;
-        fringe->items = mem_grow(fringe->items, fringe->room, room, sizeof *fringe->items);
-        fringe->to = mem_grow(fringe->to, fringe->room, room, sizeof *fringe->to);
-        fringe->room = room;
-    }
-    fringe->items[fringe->n] = *item;
-    fringe->to[fringe->n++] = to;
-}
-
 /* The box as far as it is in the domain; false where it goes round a periodic axis. */
 static bool fringe_clip(const struct mesh *mesh, const struct level *level, struct fringe_box *box)
 {
@@ -57,7 +45,7 @@ static int fringe_digits(const struct level *level, const struct fringe_box *box
 
 /* Sends a tile to whoever answers for a place of the box. */
 static void fringe_reach(const struct mesh *mesh, int l, int rank, struct fringe_box box,
-                         const struct fringe_item *item, struct fringe *fringe)
+                         const struct fringe_item *item, struct swap_list *fringe)
 {
     const struct level *level = &mesh->levels[l];
     const struct span span = span_of(mesh, l);
@@ -72,7 +60,7 @@ static void fringe_reach(const struct mesh *mesh, int l, int rank, struct fringe
                 uint64_t key = digits[0][i] | digits[1][j] | digits[2][k];
                 if (span_holds(&span, rank, key) || (last != rank && span_holds(&span, last, key))) continue;
                 last = span_owner(&span, key);
-                fringe_add(fringe, item, last);
+                swap_add(fringe, item, sizeof *item, last);
             }
 }
 
@@ -89,7 +77,7 @@ static struct fringe_box fringe_box(const struct mesh *mesh, const struct tile *
     return box;
 }
 
-void fringe_list(const struct mesh *mesh, int l, int rank, struct fringe *fringe)
+void fringe_list(const struct mesh *mesh, int l, int rank, struct swap_list *fringe)
 {
     const struct level *level = &mesh->levels[l];
     for (unsigned t = level->first; t < level->first + level->n_local; t++) {
@@ -102,25 +90,20 @@ void fringe_list(const struct mesh *mesh, int l, int rank, struct fringe *fringe
 }
 
 /* Tiles were listed level by level along the curve, each for several ranks. */
-void fringe_sort(struct fringe *fringe)
+void fringe_sort(struct swap_list *fringe)
 {
-    unsigned n = fringe->n;
-    swap_sort(fringe->items, sizeof *fringe->items, n, fringe->to);
-    fringe->n = 0;
+    struct fringe_item *items = fringe->items;
+    unsigned n = fringe->n, *kept = &fringe->n;
+    swap_sort(items, sizeof *items, n, fringe->to);
+    *kept = 0;
     for (unsigned i = 0; i < n; i++) {
-        const struct fringe_item item = fringe->items[i];
-        const struct fringe_item *last = fringe->n ? &fringe->items[fringe->n - 1] : NULL;
-        bool again =
-            last && fringe->to[fringe->n - 1] == fringe->to[i] && last->level == item.level && last->key == item.key;
-        if (!again) fringe_add(fringe, &item, fringe->to[i]);
+        const struct fringe_item *last = *kept ? &items[*kept - 1] : NULL;
+        bool again = last && fringe->to[*kept - 1] == fringe->to[i] && last->level == items[i].level &&
+                     last->key == items[i].key;
+        if (again) continue;
+        items[*kept] = items[i];
+        fringe->to[(*kept)++] = fringe->to[i];
     }
-}
-
-void fringe_free(struct fringe *fringe)
-{
-    mem_free(fringe->items);
-    mem_free(fringe->to);
-    *fringe = (struct fringe){0};
 }
 
 static void fringe_take(struct tile **to, const struct fringe_item *item, int rank)
@@ -159,17 +142,17 @@ struct tile *fringe_merge(const struct level *level, int l, int rank, const stru
 
 void fringe_learn(struct mesh *mesh, int lowest, int highest)
 {
-    struct fringe fringe = {0};
+    struct swap_list fringe = {0};
     struct swap got;
     if (comm_size() == 1) return; /* nobody else has tiles */
     for (int l = lowest; l <= highest; l++) fringe_list(mesh, l, comm_rank(), &fringe);
     fringe_sort(&fringe);
-    swap_items(fringe.items, sizeof *fringe.items, fringe.n, fringe.to, &got);
+    swap_items(fringe.items, sizeof(struct fringe_item), fringe.n, fringe.to, &got);
     for (int l = lowest; l <= highest; l++) {
         unsigned n;
         struct tile *tiles = fringe_merge(&mesh->levels[l], l, comm_rank(), &got, &n);
         level_adopt(&mesh->levels[l], tiles, n);
     }
     swap_done(&got);
-    fringe_free(&fringe);
+    swap_list_free(&fringe);
 }

@@ -9,6 +9,7 @@
 #ifndef FRINGE_H
 #define FRINGE_H
 
+#include "base/swap.h"
 #include "mesh/mesh.h"
 
 /* A tile of some level for another rank. */
@@ -17,20 +18,12 @@ struct fringe_item {
     uint32_t level, born;
 };
 
-/* What the ranks will be sent, ranks ascending, then levels and keys. */
-struct fringe {
-    unsigned n, room;
-    struct fringe_item *items;
-    int *to;
-};
-
-/* What `rank`, the tiles of which are level->tiles + first, has of level l for others; nothing is sent. In order: */
-void fringe_list(const struct mesh *mesh, int l, int rank, struct fringe *fringe);
-void fringe_sort(struct fringe *fringe);
-void fringe_free(struct fringe *fringe);
+/* What `rank`, the tiles of which are level->tiles + first, has of level l for others, as struct fringe_item; nothing
+ * is sent. In order, ranks ascending, then levels and keys: */
+void fringe_list(const struct mesh *mesh, int l, int rank, struct swap_list *fringe);
+void fringe_sort(struct swap_list *fringe);
 
 /* The list of level l that `rank` knows then, ret_n tiles (mem_free): its own and those it has got. */
-struct swap;
 struct tile *fringe_merge(const struct level *level, int l, int rank, const struct swap *got, unsigned *ret_n);
 
 /* Makes the lists of the levels `lowest` to `highest` anew: own tiles (now tiles[first .. first + n_local), whatever

@@ -11,9 +11,8 @@
  * of liquid goes from the drier cell D to the wetter W, and as much of vapour and gases back. a: fraction of the
  * liquid; g: of vapour and gases; du: by how much the normal velocity rises over four cells, the speed at which such a
  * surface leaves its vapour; none where they meet. Both take along their mass, energy and momentum; at one pressure no
- * pressure changes. Pairs with an `onset` in scenes with conduction, and those whose vapour
- * diffuses through gases: else drops of the liquid follow the gas. Not where vapour only condenses, nor at faces of
- * troubled cells. */
+ * pressure changes. Pairs with an `onset` in scenes with conduction, and those whose vapour diffuses through gases:
+ * else drops of the liquid follow the gas. Not where vapour only condenses, nor at faces of troubled cells. */
 #ifndef DRAIN_H
 #define DRAIN_H
 

@@ -267,18 +267,19 @@ static struct pieces_fringe pieces_tell(struct pieces_world *world)
                                 mem_new((size_t)world->size, sizeof *all.room)};
     for (int r = 0; r < world->size; r++) {
         struct pieces_rank *rank = &world->ranks[r];
-        struct fringe fringe = {0};
+        struct swap_list fringe = {0};
         pieces_be(world, r);
         double start = pieces_clock();
         for (int l = 0; l < world->mesh->n_level; l++) fringe_list(world->mesh, l, r, &fringe);
         fringe_sort(&fringe);
         rank->seconds += pieces_clock() - start;
+        const struct fringe_item *items = fringe.items;
         for (unsigned i = 0; i < fringe.n; i++) {
-            pieces_deliver(&all, r, fringe.to[i], &fringe.items[i]);
+            pieces_deliver(&all, r, fringe.to[i], &items[i]);
             rank->messages += !i || fringe.to[i] != fringe.to[i - 1];
         }
-        rank->bytes += (double)fringe.n * sizeof *fringe.items;
-        fringe_free(&fringe);
+        rank->bytes += (double)fringe.n * sizeof *items;
+        swap_list_free(&fringe);
     }
     return all;
 }

@@ -99,21 +99,11 @@ static void take_steps(struct small *small, int n)
     }
 }
 
-/* SMALL_AXISYMMETRIC with two finer levels around the bubble. */
-static const char levels[] =
-    "bulla: 1\ntitle: A bubble, half of it\n"
-    "domain:\n  geometry: axisymmetric\n  lower: [0, -1 mm]\n  upper: [1 mm, 1 mm]\n"
-    "  cells: [32, 64]\n  boundaries: {x-: axis, x+: outflow, y-: outflow, y+: non-reflecting}\n"
-    "mesh: {tile: 8, levels: 2, refine: [{interface: air}]}\n" SMALL_MATERIALS
-    "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: = 1e5 + 1e8 * y, velocity: [1, 2]}\n"
-    "  - {sphere: {center: [0, 0], radius: 0.5 mm}, material: air, density: 1.2, pressure: 1e5, velocity: [0, -3]}\n"
-    "run: {until: 1 us}\n";
-
 static void levels_come_back(void **state)
 {
     (void)state;
     struct small small;
-    small_start_levels(&small, levels, 2);
+    small_start_levels(&small, SMALL_LEVELS, 2);
     take_steps(&small, 6);
     assert_int_equal(small.state->mesh->n_level, 3);
     there_and_back(&small);
@@ -128,7 +118,7 @@ static void iterated_pressures_come_back(void **state)
     struct small small;
     struct bulla_module modules[2];
     struct bulla_eos tables[2];
-    small_start_levels(&small, levels, 1);
+    small_start_levels(&small, SMALL_LEVELS, 1);
     for (int l = 0; l < 2; l++) {
         modules[l] = *small.scene->material[l].eos.module;
         tables[l] = *(const struct bulla_eos *)modules[l].table;

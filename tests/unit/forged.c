@@ -108,23 +108,13 @@ static unsigned part_of(const struct original *original, const char *name)
     return (unsigned)(part - original->seal.parts);
 }
 
-/* A bubble, half of it, with two finer levels around. */
-static const char levels[] =
-    "bulla: 1\ntitle: A bubble, half of it\n"
-    "domain:\n  geometry: axisymmetric\n  lower: [0, -1 mm]\n  upper: [1 mm, 1 mm]\n"
-    "  cells: [32, 64]\n  boundaries: {x-: axis, x+: outflow, y-: outflow, y+: non-reflecting}\n"
-    "mesh: {tile: 8, levels: 2, refine: [{interface: air}]}\n" SMALL_MATERIALS
-    "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: = 1e5 + 1e8 * y, velocity: [1, 2]}\n"
-    "  - {sphere: {center: [0, 0], radius: 0.5 mm}, material: air, density: 1.2, pressure: 1e5, velocity: [0, -3]}\n"
-    "run: {until: 1 us}\n";
-
 static void forged_files_do_no_harm(void **state)
 {
     (void)state;
     struct small small;
     struct notes outputs = {0};
     int refused = 0;
-    small_start_levels(&small, levels, 2);
+    small_start_levels(&small, SMALL_LEVELS, 2);
     struct checkpoints *checkpoints = checkpoint_new(small.scene);
     assert_int_equal(checkpoint_write(checkpoints, small.state, &outputs), 0);
     struct original original = read_original(checkpoint_last(checkpoints));

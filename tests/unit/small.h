@@ -95,13 +95,16 @@ static inline void small_skip(struct small *small, double dt)
     "  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}\n" \
     "  air: {eos: {type: ideal-gas, gamma: 1.4}}\n"
 
-#define SMALL_AXISYMMETRIC                                                                                            \
+/* A bubble, half of it; with two finer levels around it. */
+#define SMALL_BUBBLE(above, mesh)                                                                                     \
     "bulla: 1\ntitle: A bubble, half of it\n"                                                                         \
     "domain:\n  geometry: axisymmetric\n  lower: [0, -1 mm]\n  upper: [1 mm, 1 mm]\n"                                 \
-    "  cells: [32, 64]\n  boundaries: {x-: axis, x+: outflow, y-: outflow, y+: outflow}\n"                            \
-    "mesh: {tile: 16}\n" SMALL_MATERIALS                                                                              \
+    "  cells: [32, 64]\n  boundaries: {x-: axis, x+: outflow, y-: outflow, y+: " above "}\n"                          \
+    "mesh: {" mesh "}\n" SMALL_MATERIALS                                                                              \
     "initial:\n  - {everywhere: true, material: water, density: 1000, pressure: = 1e5 + 1e8 * y, velocity: [1, 2]}\n" \
     "  - {sphere: {center: [0, 0], radius: 0.5 mm}, material: air, density: 1.2, pressure: 1e5, velocity: [0, -3]}\n" \
     "run: {until: 1 us}\n"
+#define SMALL_AXISYMMETRIC SMALL_BUBBLE("outflow", "tile: 16")
+#define SMALL_LEVELS SMALL_BUBBLE("non-reflecting", "tile: 8, levels: 2, refine: [{interface: air}]")
 
 #endif
