@@ -8,6 +8,7 @@
 #include "plug/vet.h"
 
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define MODULE_SECTION(kind_name, what)                                                                   \
@@ -88,11 +89,12 @@ static const struct key scene_scheme_rows[] = {
      .unit = "1",
      .min = KEYS_POSITIVE,
      .max = 1,
-     .fallback = "1",
      .doc =
          "Faces in slow flow: how much of a jump of velocity a fluid at rest shows to the Riemann solver; more where "
          "it moves and where pressure jumps. 0.05 leaves a tenth of the numerical damping of slow bubbles; 1: all "
-         "of it, but at surfaces where a liquid evaporates (onset), which have at most 0.05."},
+         "of it, but at surfaces where a liquid evaporates (onset), which have at most 0.05. Default: 0.05 for several "
+         "fluids, or a viscous one, around a centre or an axis, in the plane or in space; 1 on a line, for one fluid "
+         "without viscosity and beside solids."},
     {.name = "shock-fronts",
      .type = KEYS_CHOICE,
      .choices = "plain|calm",
@@ -278,16 +280,27 @@ static bool scene_scheme_long(struct draft *draft)
     return !keys_at(draft->root, "phase-change")->given && !keys_at(draft->root, "bodies")->given;
 }
 
-/* It stands in the resolved case. */
-static double scene_scheme_cfl(struct draft *draft, const struct keys_map *scheme)
+/* A number that the case gives, or `fallback`, which then stands in the resolved case. */
+static double scene_scheme_number(struct draft *draft, const struct keys_map *scheme, const char *key,
+                                  const char *fallback)
 {
-    const struct keys_value *cfl = keys_at(scheme, "cfl");
+    const struct keys_value *value = keys_at(scheme, key);
     struct forest *forest = draft->keys.forest;
-    bool far = scene_scheme_long(draft);
-    if (!scheme || cfl->node || cfl->meant) return cfl->number;
-    tree_set(forest, scheme->node, "cfl", tree_scalar(forest, &scheme->node->mark, TREE_PLAIN, far ? "0.8" : "0.4"));
+    if (!scheme || value->node || value->meant) return value->number;
+    tree_set(forest, scheme->node, key, tree_scalar(forest, &scheme->node->mark, TREE_PLAIN, fallback));
     scene_scheme_order(scheme->node);
-    return far ? 0.8 : 0.4;
+    return strtod(fallback, NULL);
+}
+
+/* Bubbles, drops and what viscosity rules are slow beside sound, and faces that answer as to sound damp them. On a
+ * line, in one inviscid fluid and beside solids waves are what matters (docs/decisions/low-mach.md). */
+static bool scene_scheme_slow(struct draft *draft)
+{
+    const struct scene *scene = draft->scene;
+    bool several = scene->n_material > 1;
+    if (scene->domain.dim < 2 && scene->domain.geometry == SCENE_CARTESIAN) return false;
+    for (unsigned l = 0; l < scene->n_material && !several; l++) several = scene->material[l].viscosity.module;
+    return several && !scene_matter_solid(draft);
 }
 
 /* Courant numbers of an axis above this one begin with small steps, and with how small ones. */
@@ -332,8 +345,8 @@ void scene_scheme(struct draft *draft)
     scene->scheme.guard = (enum scene_guard)keys_at(scheme, "guard")->integer;
     scene->scheme.calm = keys_at(scheme, "shock-fronts")->integer == 1;
     scene->scheme.wood = scene_scheme_wood(draft, scheme);
-    scene->scheme.low_mach = keys_at(scheme, "low-mach")->number;
-    scene->scheme.cfl = scene_scheme_cfl(draft, scheme);
+    scene->scheme.low_mach = scene_scheme_number(draft, scheme, "low-mach", scene_scheme_slow(draft) ? "0.05" : "1");
+    scene->scheme.cfl = scene_scheme_number(draft, scheme, "cfl", scene_scheme_long(draft) ? "0.8" : "0.4");
     scene->scheme.dt_fixed = keys_at(scheme, "dt")->number;
     scene->scheme.first_step = scene_scheme_first(draft, scheme);
     scene_scheme_riemann_open(draft, scheme);

@@ -37,15 +37,19 @@ static BULLA_KERNEL void low_mach_part(size_t n, size_t step, double least, cons
     }
 }
 
-static BULLA_KERNEL void low_mach_blend(size_t n, const double *restrict part, double *restrict u_l,
+/* Each side goes towards the velocity of a contact: the less the more impedance it has. Differences first: equal
+ * velocities keep their bits. */
+static BULLA_KERNEL void low_mach_blend(size_t n, const double *restrict part, const double *restrict rho,
+                                        const double *restrict rho_c2, size_t right, double *restrict u_l,
                                         double *restrict u_r)
 {
+    const double *rho_r = rho + right, *rho_c2_r = rho_c2 + right;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double z = part[i], left = u_l[i], right = u_r[i], mean = 0.5 * (left + right), half = 0.5 * z * (right - left);
-        double lower = mean - half, upper = mean + half;
+        double z = part[i], left = u_l[i], go = u_r[i], a = sqrt(rho[i] * rho_c2[i]), b = sqrt(rho_r[i] * rho_c2_r[i]);
+        double step = (1.0 - z) * (go - left) / (a + b), lower = left + b * step, upper = go - a * step;
         u_l[i] = z < 1.0 ? lower : left;
-        u_r[i] = z < 1.0 ? upper : right;
+        u_r[i] = z < 1.0 ? upper : go;
     }
 }
 
@@ -116,5 +120,5 @@ void low_mach_lighten(const struct low_mach *faces)
 
 void low_mach_draw(const struct low_mach *faces, double *u)
 {
-    low_mach_blend(faces->n, faces->part, u, u + faces->right);
+    low_mach_blend(faces->n, faces->part, faces->rho, faces->rho_c2, faces->right, u, u + faces->right);
 }

@@ -3,16 +3,22 @@
  * Where a fluid is slow, its velocity differs between the two sides of a face by what the reconstruction leaves out,
  * and a solver answers every such difference with a pressure of rho c (u_L - u_R)/2: a viscosity of some c h/2 that has
  * nothing to do with the flow. With `low-mach` the normal velocities at a face are drawn together first, whatever the
- * solver, u = (u_L + u_R)/2 -+ z (u_R - u_L)/2,      z = min(1, least + max(M_L, M_R) + LOW_MACH_BEND b / max rho c^2),
+ * solver, each by the impedance Z = rho c of the other side,
+ *
+ *     u_L += (1 - z) Z_R (u_R - u_L)/(Z_L + Z_R),  u_R -= (1 - z) Z_L (u_R - u_L)/(Z_L + Z_R),
+ *     z = min(1, least + max(M_L, M_R) + LOW_MACH_BEND b / max rho c^2),
+ *
  * after Thornber, Mosedale, Drikakis, Youngs & Williams, J. Comput. Phys. 227 (2008) 4873-4894, who have z = max(M_L,
- * M_R). b is the larger second difference of pressure of the two cells of the face: a shock wants its jump of velocity
- * whole, and so do the cells behind it, where the jump of pressure is small again; a pressure that rises evenly is no
- * shock. Solvers that resist shear (bulla/riemann.h) answer a jump of velocities along the face, too, by half of rho c
- * times it. There those are drawn together as well, by z_t = 1 - (1 - z) min(rho_L, rho_R)/max(rho_L, rho_R): what is
- * left of the resistance is at least that of the upwind side, z rho c >= |rho u|, in a liquid and in a gas; between
- * them, where the lighter side resists and the heavier one carries, the jump stays. Other solvers carry u_t from the
- * upwind side, and keep it. Faces of troubled cells and of those beside boundaries that waves cross keep their jumps:
- * what leaves there is a wave, and with two means in place of its invariants it would not.
+ * M_R) and the mean of both sides. That of a contact, (Z_L u_L + Z_R u_R)/(Z_L + Z_R), stays: with the plain mean air
+ * moves the water beside it, and mixtures that differ from cell to cell shake (docs/decisions/low-mach.md). b is the
+ * larger second difference of pressure of the two cells of the face: a shock wants its jump of velocity whole, and so
+ * do the cells behind it, where the jump of pressure is small again; a pressure that rises evenly is no shock.
+ * Solvers that resist shear (bulla/riemann.h) answer a jump of velocities along the face, too, by half of rho c times
+ * it. There those are drawn together as well, by z_t = 1 - (1 - z) min(rho_L, rho_R)/max(rho_L, rho_R): what is left
+ * of the resistance is at least that of the upwind side, z rho c >= |rho u|, in a liquid and in a gas; between them,
+ * where the lighter side resists and the heavier one carries, the jump stays. Other solvers carry u_t from the upwind
+ * side, and keep it. Faces of troubled cells and of those beside boundaries that waves cross keep their jumps: what
+ * leaves there is a wave, and with two means in place of its invariants it would not.
  *
  * Where a liquid evaporates at its surface (pairs with an `onset`), evaporation makes volume, and the velocity jumps
  * from that of the vapour to that of the liquid within the smear, on any mesh. There `least` is at most LOW_MACH_FRONT,

@@ -59,6 +59,7 @@ static double advance_attempt(struct stage *stage, double *ret_signal, bool *ret
     int n = stage->tableau->n, first = 0;
     double found[TABLEAU_STAGES + 2];
     guard_attempt(stage->guard);
+    stage->clipped = 0; /* what an attempt that fails has clipped depends on where it stops */
     evaporate_forget(stage);
     stage->fault.status = STATUS_OK;
     advance_run(stage);
@@ -80,7 +81,7 @@ static double advance_attempt(struct stage *stage, double *ret_signal, bool *ret
 static double advance_rounds(struct state *state, struct stage *stage, double *ret_signal, bool *ret_blind)
 {
     bool strict = state->scene->scheme.guard == SCENE_GUARD_STRICT;
-    stage->cells = stage->carried = stage->clipped = 0;
+    stage->cells = stage->carried = 0;
     stage->effort = (struct mix_effort){0};
     stage->steps = state->level_steps[stage->l];
     guard_clear(stage->guard);

@@ -57,7 +57,8 @@ static char *rest_case(const char *domain, const char *materials, const char *sc
 
 /* Largest |p - p0| and largest |u| rho c [Pa]. The last bit of rho E of a liquid, of which the pressure is the small
  * part, is 4e-7 Pa; the tests allow 1e-8
- * of the pressure where every cell differs from the next at random, and 2e-10 around a bubble. */
+ * of the pressure where every cell differs from the next at random, ten times that with faces for slow flow, and 2e-10
+ * around a bubble. */
 static void check_rest(const struct flow *flow, double most, const char *what, double *worst_p, double *worst_u)
 {
     const struct model *model = flow->state->model;
@@ -80,7 +81,7 @@ static void check_rest(const struct flow *flow, double most, const char *what, d
     mem_free(c);
 }
 
-static void check_scheme(const char *scheme)
+static void check_faces(const char *scheme, double most)
 {
     double worst_p = 0.0, worst_u = 0.0;
     for (int d = 0; d < N_DOMAIN; d++)
@@ -89,10 +90,21 @@ static void check_scheme(const char *scheme)
             flow_start(&flow, rest_case(DOMAINS[d], PAIRS[pair], scheme));
             flow_set(&flow, set_random);
             flow_steps(&flow, STEPS);
-            check_rest(&flow, 1e-8 * PRESSURE, DOMAINS[d], &worst_p, &worst_u);
+            check_rest(&flow, most * PRESSURE, DOMAINS[d], &worst_p, &worst_u);
             flow_stop(&flow);
         }
     print_message("%s: p off by %.1e Pa, u by %.1e Pa / (rho c)\n", scheme, worst_p, worst_u);
+}
+
+/* Drawn to the plain mean of both sides velocities grow to 4e5 Pa. */
+static void check_scheme(const char *scheme)
+{
+    static const double LEAST[] = {1.0, 0.05}, MOST[] = {1e-8, 1e-7};
+    for (int i = 0; i < 2; i++) {
+        char *all = mem_print("%s, low-mach: %g", scheme, LEAST[i]);
+        check_faces(all, MOST[i]);
+        mem_free(all);
+    }
 }
 
 static void test_hllc(void **state)
