@@ -275,15 +275,16 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
-    double least = model->scene->scheme.low_mach;
-    if (least >= 1.0 && !model->fronts) return;
+    if (model->scene->scheme.low_mach >= 1.0 && !model->fronts) return;
     size_t cells = frame_edged(frame);
     const struct low_mach faces = {.n = cells - frame->inner,
                                    .right = cells + frame->inner,
-                                   .least = least,
+                                   .least = model->scene->scheme.low_mach,
                                    .rho = rho,
                                    .rho_c2 = own->c,
-                                   .p = work->frame + model->i_E * FACE_ROOM + frame_reach(frame),
+                                   .reach = frame_reach(frame),
+                                   .p = work->frame + model->i_E * FACE_ROOM,
+                                   .lean = {work->lean[0], work->lean[1]},
                                    .mask = low_mach_kept(frame, work->open[frame->axis], masked ? work->mask : NULL,
                                                          own->stiffness),
                                    .step = frame->inner,
@@ -465,9 +466,8 @@ void face_begin(struct face_work *work, const struct frame *frame)
 /* Cells whose faces get first-order states: troubled ones, and those that terms have marked. */
 static const double *face_flat(const struct face_work *work, const struct frame *frame, bool masked)
 {
-    if (!work->flat) return masked ? work->mask : NULL;
-    if (masked) row_add(frame->count, work->mask, work->flat);
-    return work->flat;
+    if (masked && work->flat) row_add(frame->count, work->mask, work->flat);
+    return work->flat ? work->flat : masked ? work->mask : NULL;
 }
 
 void face_rest(struct face_work *work, const struct frame *frame)

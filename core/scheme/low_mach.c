@@ -20,6 +20,26 @@ static inline double low_mach_bend(double before, double here, double after)
     return fabs(before + after - 2.0 * here);
 }
 
+/* The same from differences to both neighbours. */
+static inline double low_mach_turn(double below, double above)
+{
+    return fabs(above - below);
+}
+
+/* M of one side, squared. */
+static inline double low_mach_square(double rho, double rho_c2, double u)
+{
+    return u * u * rho / rho_c2;
+}
+
+/* What both sides of a face add up to; stiff: rho c^2 of the stiffer one. */
+static inline double low_mach_sum(double least, double fast_l, double fast_r, double bend_l, double bend_r,
+                                  double stiff)
+{
+    double fast = fast_l > fast_r ? fast_l : fast_r, bend = bend_l > bend_r ? bend_l : bend_r;
+    return least + sqrt(fast) + LOW_MACH_BEND * bend / stiff;
+}
+
 static BULLA_KERNEL void low_mach_part(size_t n, size_t step, double least, const double *restrict rho,
                                        const double *restrict rho_c2, const double *restrict u, size_t right,
                                        const double *restrict p, double *restrict part)
@@ -28,12 +48,26 @@ static BULLA_KERNEL void low_mach_part(size_t n, size_t step, double least, cons
     const double *rho_r = rho + right, *rho_c2_r = rho_c2 + right, *u_r = u + right;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = rho_c2[i], b = rho_c2_r[i], left = u[i], go = u_r[i];
-        double fast_l = left * left * rho[i] / a, fast_r = go * go * rho_r[i] / b;
-        double fast = fast_l > fast_r ? fast_l : fast_r, stiff = a > b ? a : b;
+        double a = rho_c2[i], b = rho_c2_r[i];
+        double fast_l = low_mach_square(rho[i], a, u[i]), fast_r = low_mach_square(rho_r[i], b, u_r[i]);
         double bend_l = low_mach_bend(before[i], p[i], next[i]), bend_r = low_mach_bend(p[i], next[i], after[i]);
-        double bend = bend_l > bend_r ? bend_l : bend_r;
-        part[i] = least + sqrt(fast) + LOW_MACH_BEND * bend / stiff;
+        part[i] = low_mach_sum(least, fast_l, fast_r, bend_l, bend_r, a > b ? a : b);
+    }
+}
+
+static BULLA_KERNEL void low_mach_lean(size_t n, size_t step, double least, const double *restrict rho,
+                                       const double *restrict rho_c2, const double *restrict u, size_t right,
+                                       const double *restrict below, const double *restrict above,
+                                       double *restrict part)
+{
+    const double *below_r = below + step, *above_r = above + step;
+    const double *rho_r = rho + right, *rho_c2_r = rho_c2 + right, *u_r = u + right;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = rho_c2[i], b = rho_c2_r[i];
+        double fast_l = low_mach_square(rho[i], a, u[i]), fast_r = low_mach_square(rho_r[i], b, u_r[i]);
+        double bend_l = low_mach_turn(below[i], above[i]), bend_r = low_mach_turn(below_r[i], above_r[i]);
+        part[i] = low_mach_sum(least, fast_l, fast_r, bend_l, bend_r, a > b ? a : b);
     }
 }
 
@@ -107,7 +141,12 @@ const double *low_mach_kept(const struct frame *frame, const bool open[2], const
 void low_mach_weigh(const struct low_mach *faces, const double *u)
 {
     const size_t n = faces->n;
-    low_mach_part(n, faces->step, faces->least, faces->rho, faces->rho_c2, u, faces->right, faces->p, faces->part);
+    if (faces->lean[0])
+        low_mach_lean(n, faces->step, faces->least, faces->rho, faces->rho_c2, u, faces->right,
+                      faces->lean[0] + faces->reach, faces->lean[1] + faces->reach, faces->part);
+    else
+        low_mach_part(n, faces->step, faces->least, faces->rho, faces->rho_c2, u, faces->right, faces->p + faces->reach,
+                      faces->part);
     if (faces->front) low_mach_ease(n, faces->step, faces->least - LOW_MACH_FRONT, faces->front, faces->part);
     for (size_t i = 0; faces->mask && i < n; i++)
         if (faces->mask[i] + faces->mask[i + faces->step] != 0.0) faces->part[i] = 1.0;

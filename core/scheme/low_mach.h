@@ -37,7 +37,10 @@ struct low_mach {
     size_t n, right, step;
     double least;               /* z of a fluid at rest */
     const double *rho, *rho_c2; /* at the edges; rho_c2: of the mixture, frozen */
-    const double *p;            /* of the cells */
+    size_t reach;               /* from the first cell of `p` and `lean` to that before the first face */
+    const double *p;            /* of the cells of the frame */
+    const double *lean[2];      /* of the same: differences of the traction to the cells below and above, where
+                                   neighbours' normals tell (face.h); or NULL */
     const double *mask;         /* of the cells; 1: its faces keep their jump; or NULL */
     const double *front;        /* of the cells; 1: its faces take z from LOW_MACH_FRONT on, not `least`; or NULL */
     double *part;               /* [n] z: work space */

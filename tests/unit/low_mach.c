@@ -34,7 +34,8 @@ static struct low_mach water(struct edges_of *row, double least)
                              .least = least,
                              .rho = row->rho,
                              .rho_c2 = row->rho_c2,
-                             .p = row->p + 1,
+                             .reach = 1,
+                             .p = row->p,
                              .mask = row->mask,
                              .step = 1,
                              .part = row->part};
