@@ -94,7 +94,7 @@ static const struct key scene_scheme_rows[] = {
          "it moves and where pressure jumps. 0.05 leaves a tenth of the numerical damping of slow bubbles; 1: all "
          "of it, but at surfaces where a liquid evaporates (onset), which have at most 0.05. Default: 0.05 for several "
          "fluids, or a viscous one, around a centre or an axis, in the plane or in space; 1 on a line, for one fluid "
-         "without viscosity and beside solids."},
+         "without viscosity, beside solids, and with surface tension but around a centre."},
     {.name = "shock-fronts",
      .type = KEYS_CHOICE,
      .choices = "plain|calm",
@@ -292,15 +292,17 @@ static double scene_scheme_number(struct draft *draft, const struct keys_map *sc
     return strtod(fallback, NULL);
 }
 
-/* Bubbles, drops and what viscosity rules are slow beside sound, and faces that answer as to sound damp them. On a
- * line, in one inviscid fluid and beside solids waves are what matters (docs/decisions/low-mach.md). */
+/* Bubbles and what viscosity rules are slow beside sound, and faces that answer as to sound damp them. On a line, in
+ * one inviscid fluid and beside solids waves are what matters, and where the curvature of a surface with tension is an
+ * estimate, its rest (docs/decisions/low-mach.md). */
 static bool scene_scheme_slow(struct draft *draft)
 {
     const struct scene *scene = draft->scene;
     bool several = scene->n_material > 1;
     if (scene->domain.dim < 2 && scene->domain.geometry == SCENE_CARTESIAN) return false;
     for (unsigned l = 0; l < scene->n_material && !several; l++) several = scene->material[l].viscosity.module;
-    return several && !scene_matter_solid(draft);
+    bool drawn = scene->domain.dim > 1 && keys_at(draft->root, "surface-tension")->count > 0;
+    return several && !drawn && !scene_matter_solid(draft);
 }
 
 /* Courant numbers of an axis above this one begin with small steps, and with how small ones. */

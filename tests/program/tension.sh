@@ -130,6 +130,6 @@ grep -q 'a sphere beside the axis is a ring' said || fail "the ring" said
 "$BULLA" show bubble.yaml --set 'mesh.refine=[{region: {box: {lower: [0], upper: [9 um]}}}]' >said 2>&1 || true
 grep -q 'nothing refines there' said || fail "no warning where the surface is coarse" said
 
-# Traces of viscous gas near vacuum, in a film of water under tension, take no heat that moves volume: 3.9 m/s after 1 ns, not 326.
+# Traces of viscous gas near vacuum, in a film of water under tension, take no heat that moves volume: 1.4 m/s after 1 ns, not 326.
 "$BULLA" run "$BULLA_SOURCE/cases/verify/k15-wall.yaml" -o film --quiet --set 'parameters.p=5 atm' --set run.until=1e-9 >film.log || true
-tail -n 1 film/history.csv | awk -F, '{ exit !($2 > 9e-10 && $7 < 6) }' || fail 'fast gas in a film' film.log
+tail -n 1 film/history.csv | awk -F, '{ exit !($2 > 9e-10 && $7 < 3) }' || fail 'fast gas in a film' film.log
