@@ -94,7 +94,8 @@ static const struct key scene_scheme_rows[] = {
          "it moves and where pressure jumps. 0.05 leaves a tenth of the numerical damping of slow bubbles; 1: all "
          "of it, but at surfaces where a liquid evaporates (onset), which have at most 0.05. Default: 0.05 for several "
          "fluids, or a viscous one, around a centre or an axis, in the plane or in space; 1 on a line, for one fluid "
-         "without viscosity, beside solids, and with surface tension but around a centre."},
+         "without viscosity, beside solids, with surface tension but around a centre, and for hancock with a cfl above "
+         "0.5 per axis, which is wrong without the damping."},
     {.name = "shock-fronts",
      .type = KEYS_CHOICE,
      .choices = "plain|calm",
@@ -292,21 +293,29 @@ static double scene_scheme_number(struct draft *draft, const struct keys_map *sc
     return strtod(fallback, NULL);
 }
 
+/* Courant numbers of an axis above this one begin with small steps. */
+#define SCENE_SCHEME_RAMP 0.5
+
+static bool scene_scheme_far(const struct scene *scene)
+{
+    return scene->scheme.cfl > SCENE_SCHEME_RAMP * scene->domain.dim;
+}
+
 /* Bubbles and what viscosity rules are slow beside sound, and faces that answer as to sound damp them. On a line, in
  * one inviscid fluid and beside solids waves are what matters, and where the curvature of a surface with tension is an
- * estimate, its rest (docs/decisions/low-mach.md). */
+ * estimate, its rest; hancock with long steps needs the damping (docs/decisions/low-mach.md). */
 static bool scene_scheme_slow(struct draft *draft)
 {
     const struct scene *scene = draft->scene;
     bool several = scene->n_material > 1;
     if (scene->domain.dim < 2 && scene->domain.geometry == SCENE_CARTESIAN) return false;
     for (unsigned l = 0; l < scene->n_material && !several; l++) several = scene->material[l].viscosity.module;
+    if (scene->scheme.integrator == SCENE_HANCOCK && scene_scheme_far(scene)) return false;
     bool drawn = scene->domain.dim > 1 && keys_at(draft->root, "surface-tension")->count > 0;
     return several && !drawn && !scene_matter_solid(draft);
 }
 
-/* Courant numbers of an axis above this one begin with small steps, and with how small ones. */
-#define SCENE_SCHEME_RAMP 0.5
+/* How small the first steps of Courant numbers are that begin with small ones. */
 #define SCENE_SCHEME_FIRST 0.05
 
 /* A fixed step is as long as the case says, from the start. */
@@ -314,7 +323,7 @@ static double scene_scheme_first(struct draft *draft, const struct keys_map *sch
 {
     const struct keys_value *first = keys_at(scheme, "first-step"), *dt = keys_at(scheme, "dt");
     const struct scene *scene = draft->scene;
-    bool ramp = scene->scheme.cfl > SCENE_SCHEME_RAMP * scene->domain.dim && !dt->given;
+    bool ramp = scene_scheme_far(scene) && !dt->given;
     if (first->given && dt->given) {
         keys_error(&draft->keys, first, "steps are fixed by 'dt': there is no smaller first one");
         diag_help(draft->keys.diag, "give one of the two");
@@ -347,8 +356,8 @@ void scene_scheme(struct draft *draft)
     scene->scheme.guard = (enum scene_guard)keys_at(scheme, "guard")->integer;
     scene->scheme.calm = keys_at(scheme, "shock-fronts")->integer == 1;
     scene->scheme.wood = scene_scheme_wood(draft, scheme);
-    scene->scheme.low_mach = scene_scheme_number(draft, scheme, "low-mach", scene_scheme_slow(draft) ? "0.05" : "1");
     scene->scheme.cfl = scene_scheme_number(draft, scheme, "cfl", scene_scheme_long(draft) ? "0.8" : "0.4");
+    scene->scheme.low_mach = scene_scheme_number(draft, scheme, "low-mach", scene_scheme_slow(draft) ? "0.05" : "1");
     scene->scheme.dt_fixed = keys_at(scheme, "dt")->number;
     scene->scheme.first_step = scene_scheme_first(draft, scheme);
     scene_scheme_riemann_open(draft, scheme);

@@ -356,7 +356,8 @@ static void check_print(const struct scene *scene, const struct model *model, co
     check_print_module("scheme", &scene->scheme.reconstruction);
     check_print_module("limiter", &scene->scheme.limiter);
     if (scene->scheme.low_mach < 1.0)
-        printf("  %-12s %g of a jump of velocity is what faces see of fluids at rest\n", "low-mach", scene->scheme.low_mach);
+        printf("  %-12s %g of a jump of velocity is what faces see of fluids at rest\n", "low-mach",
+               scene->scheme.low_mach);
     check_print_modules(scene);
     check_print_sources(scene);
     check_print_tension(scene, model);
