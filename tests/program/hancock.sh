@@ -82,6 +82,10 @@ done
     --set "expect=[{norm: L1, field: R_over_R0, reference: $BULLA_SOURCE/cases/verify/reference/collapse-353.csv, column: R/R0, at-most: 0.0185}]" \
     --set 'domain.cells=[1024]'
 
+# With long steps around a centre it needs the damping of the faces (docs/decisions/low-mach.md), else it has none by itself.
+slow() { "$BULLA" show "$BULLA_SOURCE/cases/verify/a4-collapse-20.yaml" --set scheme.integrator=$1 --set scheme.cfl=$2 | grep -c 'low-mach: 0.05' || true; }
+[ "$(slow hancock 0.4)$(slow hancock 0.8)$(slow midpoint 0.8)" = 101 ] || fail "low-mach of hancock"
+
 # Without the first steps of the midpoint rule the air of this tube has 20 m/s too much (docs/decisions/hancock.md).
 "$BULLA" run "$BULLA_SOURCE/cases/verify/r07.yaml" --set scheme.integrator=hancock --set 'domain.cells=[250]' -o tube --quiet \
     --set 'expect=[{norm: L1, field: velocity_x, reference: exact-riemann, at-most: 4.2}]'

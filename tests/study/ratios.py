@@ -17,7 +17,7 @@ PAGE = ROOT / "docs" / "decisions" / "low-mach.md"
 RATIOS = [5, 20, 100, 353, 1000]
 CELLS = [10, 20, 41]  # per R0
 SCHEMES = {
-    "default": {},
+    "low-mach 1": {"low-mach": "1"},
     "low-mach 0.05": {"low-mach": "0.05"},
     "koren, thinc, low-mach 0.05": {"limiter": "koren", "interface-limiter": "thinc", "low-mach": "0.05"},
 }
