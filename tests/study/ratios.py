@@ -86,7 +86,7 @@ def lines(bulla, where):
         for name, scheme in SCHEMES.items():
             row = []
             for cells in CELLS:
-                history = run(bulla, where / f"{ratio}-{cells}-{'-'.join(scheme)}", ratio, cells, scheme)
+                history = run(bulla, where / f"{ratio}-{cells}-{name.replace(', ', '-').replace(' ', '-')}", ratio, cells, scheme)
                 late = min(history, key=lambda point: point[1])[0] / t_c
                 row.append(f"{late:.4f}, {compare(history, path, t_c):.1e}")
             yield f"| {ratio} ({collapse:.4f}) | {name} | " + " | ".join(row) + " |"
