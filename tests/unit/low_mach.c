@@ -249,11 +249,40 @@ static void test_shear(void **state)
     assert_true(sheared("hllc", 0.05) > 0.0 && sheared("hllc", 0.05) == sheared("hllc", 1.0)); /* the upwind side */
 }
 
+/* Several fluids or a viscous one, not on a line, beside solids, or with tension where curvature is an estimate. */
+static void test_default(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        double low_mach;
+    } scenes[] = {{"a4-collapse-20", 0.05},
+                  {"a4-axisymmetric-20", 0.05},
+                  {"sb1", 0.05},
+                  {"v04-poiseuille", 0.05},
+                  {"k1-rest", 0.05},
+                  {"k5-drop", 1.0},
+                  {"h8", 1.0},
+                  {"a3-acoustic-2d", 1.0},
+                  {"rest-gel", 1.0},
+                  {"rest-slow", 0.05}};
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        char path[256];
+        struct scene *scene = NULL;
+        const struct scene_options options = {0};
+        snprintf(path, sizeof path, "cases/verify/%s.yaml", scenes[i].name);
+        if (scene_read(path, &options, &scene)) fail_msg("%s is refused", path);
+        if (scene->scheme.low_mach != scenes[i].low_mach) fail_msg("%s: %g", path, scene->scheme.low_mach);
+        scene_free(scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_front),  cmocka_unit_test(test_jump),
                                        cmocka_unit_test(test_sides),  cmocka_unit_test(test_kept),
                                        cmocka_unit_test(test_mirror), cmocka_unit_test(test_along),
-                                       cmocka_unit_test(test_shear),  cmocka_unit_test(test_solvers)};
+                                       cmocka_unit_test(test_shear),  cmocka_unit_test(test_solvers),
+                                       cmocka_unit_test(test_default)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

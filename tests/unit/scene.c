@@ -212,34 +212,6 @@ static void the_least_case_has_all_defaults(void **state)
     scene_free(scene);
 }
 
-/* Several fluids or a viscous one, not on a line, beside solids, or with tension where curvature is an estimate. */
-static void what_is_slow_is_not_damped(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *name;
-        double low_mach;
-    } scenes[] = {{"a4-collapse-20", 0.05},
-                  {"a4-axisymmetric-20", 0.05},
-                  {"sb1", 0.05},
-                  {"v04-poiseuille", 0.05},
-                  {"k1-rest", 0.05},
-                  {"k5-drop", 1.0},
-                  {"h8", 1.0},
-                  {"a3-acoustic-2d", 1.0},
-                  {"rest-gel", 1.0},
-                  {"rest-slow", 0.05}};
-    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
-        char path[256], *said = NULL;
-        struct scene *scene = NULL;
-        snprintf(path, sizeof path, "cases/verify/%s.yaml", scenes[i].name);
-        if (read_case(path, &scene, &said)) fail_msg("%s is refused:\n%s", path, said);
-        if (scene->scheme.low_mach != scenes[i].low_mach) fail_msg("%s: %g", path, scene->scheme.low_mach);
-        free(said);
-        scene_free(scene);
-    }
-}
-
 static void the_design_case_is_understood(void **state)
 {
     (void)state;
@@ -508,7 +480,6 @@ int main(void)
         cmocka_unit_test(bad_cases_are_refused_with_their_message),
         cmocka_unit_test(good_cases_resolve_to_a_fixed_point),
         cmocka_unit_test(the_least_case_has_all_defaults),
-        cmocka_unit_test(what_is_slow_is_not_damped),
         cmocka_unit_test(the_design_case_is_understood),
         cmocka_unit_test(expressions_become_numbers_or_scripts),
         cmocka_unit_test(overlays_are_laid_in_order),
