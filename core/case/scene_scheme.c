@@ -308,10 +308,10 @@ static bool scene_scheme_slow(struct draft *draft)
 {
     const struct scene *scene = draft->scene;
     bool several = scene->n_material > 1;
+    bool drawn = scene->domain.dim > 1 && keys_at(draft->root, "surface-tension")->count > 0;
     if (scene->domain.dim < 2 && scene->domain.geometry == SCENE_CARTESIAN) return false;
     for (unsigned l = 0; l < scene->n_material && !several; l++) several = scene->material[l].viscosity.module;
     if (scene->scheme.integrator == SCENE_HANCOCK && scene_scheme_far(scene)) return false;
-    bool drawn = scene->domain.dim > 1 && keys_at(draft->root, "surface-tension")->count > 0;
     return several && !drawn && !scene_matter_solid(draft);
 }
 
