@@ -60,10 +60,25 @@ static BULLA_KERNEL void elastic_fill_second(size_t n, const double *restrict m,
     }
 }
 
+static bool elastic_plain_law(const struct bulla_constitutive *law)
+{
+    return !law->second && law->first_only;
+}
+
 bool elastic_is_plain(const struct model *model, unsigned k)
 {
-    const struct bulla_constitutive *law = k < model->n_solid ? model->solids[k].law : NULL;
-    return !law || (!law->second && law->first_only);
+    return k >= model->n_solid || elastic_plain_law(model->solids[k].law);
+}
+
+/* Are all solids of the scene? A path has the speeds that any other one has. */
+static bool elastic_are_plain(const struct model *model)
+{
+    bool plain = true;
+    for (unsigned l = 0; l < model->scene->n_material; l++) {
+        const struct bulla_module *module = model->scene->material[l].constitutive.module;
+        plain = plain && (!module || elastic_plain_law(module->table));
+    }
+    return plain;
 }
 
 /* The spring of a branch: what it adds to the energy, and its modulus. */
@@ -439,9 +454,8 @@ void elastic_speed2(const struct model *model, size_t n, size_t stride, const do
                     const double *rho, double *c2)
 {
     double most[ELASTIC_BATCH], fluid[ELASTIC_BATCH];
-    bool plain = true; /* other laws find all stretches at once */
+    bool plain = elastic_are_plain(model); /* other laws find all stretches at once */
     struct elastic_batch batch;
-    for (unsigned k = 0; k < model_stretches(model); k++) plain = plain && elastic_is_plain(model, k);
     for (size_t from = 0; from < n; from += ELASTIC_BATCH) {
         size_t part = elastic_part(n, from);
         for (unsigned k = 0; plain && k < model_stretches(model); k++) {

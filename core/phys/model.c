@@ -424,7 +424,8 @@ struct model *model_new(const struct scene *scene)
     model_stretch_all(model);
     model->i_normal = model->n_field;
     model->split = model_is_split(model);
-    if (model->split && model->dim > 1) model->n_normal = (unsigned)model->dim;
+    model->tilted = model->split && model->dim > 1;
+    if (model->tilted) model->n_normal = (unsigned)model->dim;
     model->n_field += model->n_normal;
     model_pair_up(model);
     model_family_all(model);

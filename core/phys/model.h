@@ -151,6 +151,7 @@ struct model {
     unsigned first;                          /* material of the scene that eos[0] is: 0, but in a pure model */
     bool mixed;                              /* the scene has several materials */
     bool elastic;                            /* the scene has a solid (this path need not) */
+    bool tilted;                             /* the scene has normals (this path need not) */
     bool plastic;                            /* some solid of this path has a strength (flow.h) */
     bool aged;                               /* the scene has a plastic strain as a field */
     bool damaged;                            /* some solid of this path can break (damage.h) */

@@ -21,7 +21,7 @@ struct calm {
 
 static bool calm_wanted(const struct model *path)
 {
-    return path->calm && path->dim > 1 && !path->n_stretch;
+    return path->calm && path->dim > 1 && path->n_solid < path->n_material;
 }
 
 static void *calm_open(const struct term_room *room)
@@ -149,15 +149,32 @@ static BULLA_KERNEL void calm_shear(size_t n, const double *restrict resist, con
     }
 }
 
+/* Faces of cells that hold some of a solid resist nothing; alpha: of the cells, those before the faces first. */
+static BULLA_KERNEL void calm_let(size_t n, size_t step, const double *restrict alpha, double *restrict share)
+{
+    const double *next = alpha + step;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double own = share[i];
+        share[i] = alpha[i] + next[i] > 0.0 ? 0.0 : own;
+    }
+}
+
 static void calm_faces(const struct term_piece *piece)
 {
+    const struct model *path = piece->model;
+    const struct frame *frame = piece->frame;
     struct calm *calm = piece->own;
     struct face_work *work = piece->faces;
     const struct bulla_faces *faces = &work->faces;
     if (!calm->any) return;
     calm_gather(calm, piece);
     calm_resist(faces->n, faces, calm->share);
-    for (unsigned k = 1; k < piece->model->n_velocity; k++)
+    for (unsigned s = 0; s < path->n_solid; s++)
+        calm_let(faces->n, frame->inner,
+                 work->frame + (path->i_alpha + path->solids[s].material) * FACE_ROOM + frame_reach(frame),
+                 calm->share);
+    for (unsigned k = 1; k < path->n_velocity; k++)
         calm_shear(faces->n, calm->share, faces->left.u[k], faces->right.u[k], work->momentum + k * FACE_ROOM,
                    work->energy);
 }

@@ -8,7 +8,7 @@
  * one of the two cells, along an axis that the face lies in, differ by CALM_LEAST to CALM_MOST of the lesser rho c^2 of
  * both sides, and by CALM_LEAST of the lesser of these pressures: the switch of Quirk, without a jump. Contacts are as
  * sharp as without, and so is shear away from shocks. Pressures come with the layer around the tile (tile->around), so
- * tiles do not show. Not in tiles that hold a solid, whose shear is what hlld is for. */
+ * tiles do not show. Not at faces of cells that hold a solid, whose shear is what hlld is for. */
 #ifndef CALM_H
 #define CALM_H
 

@@ -33,11 +33,12 @@ struct edges_limited {
 struct edges {
     size_t pitch;
     struct edges_limited plain, fraction;
-    bool steep, sided;             /* do fractions, does all else have edges of two sides? */
-    double *rows;                  /* all work space */
-    double *mark, *spare;          /* where a row needs limited edges; these */
-    double *sum;                   /* of fractions at edges */
-    double *three;                 /* three rows of cells, for limiters of two sides */
+    bool steep, sided;    /* do fractions, does all else have edges of two sides? */
+    bool leans;           /* do paths of the scene have leans, where another scheme than slopes is asked for? */
+    double *rows;         /* all work space */
+    double *mark, *spare; /* where a row needs limited edges; these */
+    double *sum;          /* of fractions at edges */
+    double *three;        /* three rows of cells, for limiters of two sides */
     const double *w[MODEL_FIELDS]; /* for schemes that take all rows */
     double *lower[MODEL_FIELDS], *upper[MODEL_FIELDS];
     const struct bulla_limited *limited[MODEL_FIELDS];
@@ -102,6 +103,7 @@ struct edges *edges_new(const struct model *model, size_t pitch)
     edges->fraction.limiter = model->limiter_alpha;
     edges->steep = vet_two_sided(model->limiter_alpha.law);
     edges->sided = vet_two_sided(model->limiter.law);
+    edges->leans = model->tilted && !model->reconstruction->bounded;
     return edges;
 }
 
@@ -375,6 +377,16 @@ static void edges_lean(const struct edges *edges, const struct model *model, con
     edges_drawn(edges, model, row, below, above);
 }
 
+/* The same of a path without leans, as one with them has it: tiles on both sides of a face find the same. */
+static void edges_plain(const struct edges *edges, const struct model *model, const struct edges_row *row)
+{
+    size_t n = row->cells, step = row->step;
+    const double *p = edges_inside(edges, row, model->i_E);
+    double *difference = edges->plain.difference;
+    edges_differ(n + step, p - step, p, difference);
+    edges_drawn(edges, model, row, difference, difference + step);
+}
+
 /* First-order states at the faces of troubled cells. */
 static void edges_flatten(size_t n, size_t step, const double *w, const double *mask, double *left, double *right)
 {
@@ -479,6 +491,7 @@ void edges_fill(struct edges *edges, const struct model *model, const struct fra
     if (!model->reconstruction->bounded) edges_bound(edges, model, &row);
     if (row.lean[0]) edges_lean(edges, model, &row);
     else if (row.rise[0]) edges_press(edges, model, &row);
+    else if (edges->leans) edges_plain(edges, model, &row);
     if (model->fronts && model->conducts) edges_beside(edges, model, &row);
     edges_settle(edges, model, &row);
     edges_normalise(edges, model, &row);

@@ -11,12 +11,12 @@
 #include "scheme/edges.h"
 #include "scheme/face_carry.h"
 #include "scheme/face_stress.h"
+#include "scheme/face_sum.h"
 #include "scheme/low_mach.h"
 #include "scheme/tilt.h"
 #include "scheme/viscous_face.h"
 #include "scheme/wood.h"
 
-#include <math.h>
 #include <string.h>
 
 /* Both edges of the cells of a row lie behind each other, upper then lower, n_cell each: face i
@@ -166,51 +166,6 @@ void face_free(struct face_work *work)
     mem_free(work);
 }
 
-/* One material's share: m = alpha rho, and its parts of rho, rho e and rho c_f^2; the first
- * material starts the sums. */
-static BULLA_KERNEL void face_first_material(size_t n, const double *restrict alpha, const double *restrict rho_l,
-                                             const double *restrict e, const double *restrict rho_c2,
-                                             double *restrict m, double *restrict rho, double *restrict energy,
-                                             double *restrict sum_c2)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double a = alpha[i], mass = a * rho_l[i], share = a * e[i], stiff = a * rho_c2[i];
-        m[i] = mass;
-        rho[i] = mass;
-        energy[i] = share;
-        sum_c2[i] = stiff;
-    }
-}
-
-static BULLA_KERNEL void face_add_material(size_t n, const double *restrict alpha, const double *restrict rho_l,
-                                           const double *restrict e, const double *restrict rho_c2, double *restrict m,
-                                           double *restrict rho, double *restrict energy, double *restrict sum_c2)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double a = alpha[i], mass = a * rho_l[i], share = a * e[i], stiff = a * rho_c2[i];
-        double r = rho[i], sum_e = energy[i], sum_c = sum_c2[i];
-        m[i] = mass;
-        rho[i] = r + mass;
-        energy[i] = sum_e + share;
-        sum_c2[i] = sum_c + stiff;
-    }
-}
-
-/* Kinetic energy, and c from rho c^2. */
-static BULLA_KERNEL void face_finish(size_t n, const double *restrict rho, const double *restrict u,
-                                     const double *restrict v, const double *restrict w, double *restrict energy,
-                                     double *restrict c)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double r = rho[i], a = u[i], b = v[i], d = w[i], e = energy[i], s = c[i];
-        energy[i] = e + 0.5 * r * (a * a + b * b + d * d);
-        c[i] = sqrt(s / r);
-    }
-}
-
 /* Elastic energy, stress and speeds of n edges. */
 static void face_load(struct face_work *work, const struct frame *frame, size_t n, const double *rho)
 {
@@ -284,7 +239,7 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
                                    .rho_c2 = own->c,
                                    .reach = frame_reach(frame),
                                    .p = work->frame + model->i_E * FACE_ROOM,
-                                   .lean = {work->lean[0], work->lean[1]},
+                                   .lean = {model->n_normal ? work->lean[0] : NULL, work->lean[1]},
                                    .mask = low_mach_kept(frame, work->open[frame->axis], masked ? work->mask : NULL,
                                                          own->stiffness),
                                    .step = frame->inner,
@@ -293,7 +248,7 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
     double *normal = face_velocity(work, frame, 0);
     low_mach_weigh(&faces, normal);
     low_mach_draw(&faces, normal);
-    if (!model->resists || model->n_stretch) return; /* shear of solids is a wave of its own */
+    if (!model->resists || model->elastic) return; /* shear of solids is a wave of its own */
     low_mach_lighten(&faces);
     for (unsigned d = 1; d < model->n_velocity; d++) low_mach_draw(&faces, face_velocity(work, frame, d));
 }
@@ -314,6 +269,7 @@ static void face_ask(struct face_work *work, const struct frame *frame, size_t n
 {
     const struct model *model = work->model;
     struct face_own *own = work->own;
+    const struct face_sum sum = {n, own->rho, own->energy, own->c};
     if (!model->n_alpha) {
         const double *own_p = face_pressure(work, frame, 0, n);
         model->eos[0].law->state(model->eos[0].self, n, rho, own_p, own->energy, own->c);
@@ -325,8 +281,7 @@ static void face_ask(struct face_work *work, const struct frame *frame, size_t n
         const double *own_p = face_pressure(work, frame, l, n);
         struct present present = {n, alpha, rho_l, own_p};
         present_state(&model->eos[l], &present, own->term, stiffness);
-        if (l == 0) face_first_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
-        else face_add_material(n, alpha, rho_l, own->term, stiffness, m, own->rho, own->energy, own->c);
+        face_sum_material(&sum, l == 0, &(struct face_sum_share){alpha, rho_l, own->term, stiffness}, m);
         if (own->give) wood_give(n, l, alpha, stiffness, own->give);
     }
 }
@@ -372,7 +327,7 @@ static void face_complete(struct face_work *work, const struct frame *frame, siz
     if (face_thick(work, frame, rho, masked)) face_ask(work, frame, n, rho);
     face_load(work, frame, n, rho);
     face_calm(work, frame, rho, masked);
-    face_finish(n, rho, u[0], u[1], u[2], own->energy, own->c);
+    face_sum_finish(&(struct face_sum){n, own->rho, own->energy, own->c}, rho, u);
     if (own->give) face_slow(work, frame);
 }
 

@@ -14,16 +14,16 @@
 /* Less than this of a liquid, or of all else, makes no surface. */
 #define LOW_MACH_TRACE 1e-6
 
-/* Both neighbours first: mirror images keep their bits. */
-static inline double low_mach_bend(double before, double here, double after)
-{
-    return fabs(before + after - 2.0 * here);
-}
-
-/* The same from differences to both neighbours. */
+/* From the differences to both neighbours. */
 static inline double low_mach_turn(double below, double above)
 {
     return fabs(above - below);
+}
+
+/* The same in the same order: paths with normals and without see the same of cells that have none. */
+static inline double low_mach_bend(double before, double here, double after)
+{
+    return low_mach_turn(here - before, after - here);
 }
 
 /* M of one side, squared. */

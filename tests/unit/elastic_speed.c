@@ -160,6 +160,9 @@ static void test_bound(void **state)
 {
     (void)state;
     struct model model = model_of(&CURVED);
+    const struct bulla_module module = {.table = model.solids[0].law};
+    const struct scene scene = {.n_material = 1, .material = {{.constitutive = {.module = &module}}}};
+    model.scene = &scene;
     srand(5);
     for (int i = 0; i < 20; i++) {
         matrix V;
