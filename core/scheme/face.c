@@ -425,11 +425,26 @@ static const double *face_flat(const struct face_work *work, const struct frame 
     return work->flat ? work->flat : masked ? work->mask : NULL;
 }
 
+/* No flux in these rows; NULL: there are none. */
+static void face_none(double *rows, unsigned n)
+{
+    if (rows) memset(rows, 0, n * (size_t)FACE_ROOM * sizeof *rows);
+}
+
 void face_rest(struct face_work *work, const struct frame *frame)
 {
-    const struct face_own *own = work->own;
+    struct face_own *own = work->own;
+    const struct model *model = work->model;
     work->faces.n = frame_edged(frame) - frame->inner;
-    memset(work->alpha, 0, own->n_flux * (size_t)FACE_ROOM * sizeof *work->alpha);
+    face_none(work->alpha, own->n_flux);
+    face_none(work->stretch, model->n_stretched);
+    face_none(work->strains, model->n_inner);
+    face_none(work->solid, model->n_solid);
+    face_none(work->tension, 1);
+    for (unsigned side = 0; side < 2; side++)
+        for (unsigned d = 0; d < model->n_velocity; d++) own->side_u[side][d] = own->zero;
+    work->faces.left.u = own->side_u[0];
+    work->faces.right.u = own->side_u[1];
 }
 
 const double *face_edges(struct face_work *work, const struct frame *frame, bool masked)
