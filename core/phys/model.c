@@ -117,13 +117,13 @@ static void model_name_derived(struct model *model)
 }
 
 /* At 300 K and 1 bar. */
-static bool model_is_thick(const struct model_viscosity *viscosity, double rho)
+static double model_usual(const struct model_viscosity *viscosity, double rho)
 {
     const struct bulla_coefficient *mu = &viscosity->law->mu;
     double T = 300.0, p = 1e5, value;
-    if (mu->needs & BULLA_NEEDS_RATE) return false;
+    if (mu->needs & BULLA_NEEDS_RATE) return viscosity->mu.number;
     mu->value(viscosity->mu.self, 1, NULL, &T, &p, &rho, &value);
-    return value >= MODEL_THICK;
+    return value;
 }
 
 static void model_viscosity(const struct instance *instance, double rho, struct model_viscosity *ret)
@@ -135,7 +135,8 @@ static void model_viscosity(const struct instance *instance, double rho, struct 
     if (rate) ret->mu.number = ret->mu.law->most(instance->self);
     else if (only) ret->mu.law->value(instance->self, 1, NULL, NULL, NULL, NULL, &ret->mu.number);
     if (only && ret->law->zeta) ret->law->zeta(instance->self, 1, NULL, NULL, NULL, &ret->zeta);
-    ret->thick = model_is_thick(ret, rho);
+    ret->usual = model_usual(ret, rho);
+    ret->thick = !rate && ret->usual >= MODEL_THICK;
 }
 
 static void model_around_state(struct model *model)
@@ -144,6 +145,18 @@ static void model_around_state(struct model *model)
     for (unsigned l = 0; l < model->n_material; l++) model->around[model->n_around++] = (unsigned char)(model->i_m + l);
     model->i_around_p = model->n_around;
     model->around[model->n_around++] = (unsigned char)model->i_E;
+}
+
+/* Two materials have 0 and 1. Of more those of like viscosity have like colours, so that no mixture of the thick and
+ * the thin looks like something between them: the fourth root of what part of the largest viscosity they have. */
+static void model_colours(struct model *model)
+{
+    double most = 0.0, own[SCENE_MATERIALS] = {0};
+    for (unsigned l = 0; l < model->n_material; l++)
+        if (model->viscosity[l].usual > most) most = model->viscosity[l].usual;
+    for (unsigned l = 0; l < model->n_material && most > 0.0; l++) own[l] = pow(model->viscosity[l].usual / most, 0.25);
+    for (unsigned l = 0; l < model->n_material; l++)
+        model->colour[l] = model->n_material > 2 ? own[l] - own[0] : (double)l;
 }
 
 /* Laws of transport, and what their terms look at across edges. */
@@ -155,6 +168,7 @@ static void model_transport(struct model *model)
         model->viscous = model->viscous || model->viscosity[l].law;
         sees = sees || (model->viscosity[l].law && model->viscosity[l].mu.law->needs & ~(uint32_t)BULLA_NEEDS_RATE);
     }
+    model_colours(model);
     bool clings = model_clings(model), surfaces = model->viscous || model->fronts || model->n_normal || clings;
     for (unsigned l = 1; surfaces && l < model->n_alpha; l++)
         model->around[model->n_around++] = (unsigned char)(model->i_alpha + l);

@@ -84,6 +84,7 @@ struct model_viscosity {
     struct model_coefficient mu;
     const struct bulla_viscosity *law; /* NULL: not at all */
     double zeta;                       /* of a law that looks at nothing but the rate */
+    double usual;                      /* mu at 300 K and 1 bar; of a law that looks at the rate the most [Pa s] */
     bool thick;                        /* at least MODEL_THICK, and not of the rate: scheme/viscous_face.h */
 };
 
@@ -173,6 +174,7 @@ struct model {
     /* What terms that look across edges see there: components of the primitives, the same in all paths of a scene. 0:
      * no term does. Fractions but the first, then velocities (viscous); pressure is the last (calm). */
     unsigned n_around, n_around_alpha;
+    double colour[SCENE_MATERIALS]; /* what tells materials of the scene apart, by viscosity, less that of the first */
     unsigned i_around_rho,
         i_around_p; /* in it: densities of all materials and p, if viscosities of mixtures want them */
     unsigned char around[MODEL_FIELDS];

@@ -27,13 +27,14 @@ void viscous_slopes_close(struct viscous_slopes *slopes)
 
 static const double *viscous_slopes_colour(const struct viscous_slopes *slopes)
 {
-    unsigned n = slopes->tile->model->n_around_alpha;
-    if (!slopes->tile->model->n_alpha) return NULL;
+    const struct model *path = slopes->tile->model;
+    unsigned n = path->n_around_alpha;
+    if (!path->n_alpha) return NULL;
     if (n < 2) return slopes->data;
     memset(slopes->mixed, 0, slopes->pitch * sizeof *slopes->mixed);
     for (unsigned l = 0; l < n; l++) {
         const double *alpha = slopes->data + l * slopes->pitch;
-        for (size_t i = 0; i < slopes->pitch; i++) slopes->mixed[i] += (l + 1.0) / n * alpha[i];
+        for (size_t i = 0; i < slopes->pitch; i++) slopes->mixed[i] += path->colour[l + 1] * alpha[i];
     }
     return slopes->mixed;
 }

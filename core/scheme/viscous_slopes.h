@@ -1,6 +1,6 @@
 /* viscous_slopes.h - velocities and the colour of a tile, with the layer around it, and their slopes.
  *
- * The colour tells materials apart: with two it is the fraction of the second, else sum (l - 1)/(N - 1) alpha_l.
+ * The colour tells materials apart: with two it is the fraction of the second, else sum c_l alpha_l (model->colour).
  * Batches of faces or cells are cut out of the patch as blocks of rows, and slopes are taken where its values lie:
  * nothing is copied. */
 #ifndef VISCOUS_SLOPES_H
