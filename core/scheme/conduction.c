@@ -9,6 +9,7 @@
 #include "scheme/conduction_channel.h"
 #include "scheme/conduction_front.h"
 #include "scheme/conduction_law.h"
+#include "scheme/conduction_pace.h"
 #include "scheme/conduction_plain.h"
 #include "scheme/conduction_wall.h"
 #include "scheme/distance.h"
@@ -20,7 +21,7 @@
 /* Rows of a frame: [n_material] of cells or faces with pitch FACE_ROOM. */
 struct conduction {
     double *rows; /* all of the below */
-    double *T, *part, *c, *k;
+    double *T, *part, *sets, *c, *k;
     double *left, *right;    /* what is left of the materials on both sides of the faces */
     const double *beside[2]; /* their fractions there */
     double *rest, *width, *series, *q, *pair, *per_d;
@@ -29,7 +30,7 @@ struct conduction {
     bool front;                       /* the piece has one */
     struct conduction_wall_fault fault;
     int plain;   /* the piece is one of conduction_plain.h, of this material, whose T alone is made; or -1 */
-    bool traces; /* some material of the piece is less than CONDUCTION_CHANNEL_FELT of its cell */
+    bool traces; /* some material of the piece does not set the time step */
 };
 
 static bool conduction_wanted(const struct model *path)
@@ -67,10 +68,10 @@ static void *conduction_open(const struct term_room *room)
 {
     struct conduction *own = mem_new(1, sizeof *own);
     size_t n = room->model->n_material, block = n * FACE_ROOM;
-    double **blocks[] = {&own->T, &own->part, &own->c, &own->k, &own->left, &own->right};
+    double **blocks[] = {&own->T, &own->part, &own->sets, &own->c, &own->k, &own->left, &own->right};
     double **single[] = {&own->rest, &own->width, &own->series, &own->q,
                          &own->pair, &own->per_d, &own->wet[0], &own->wet[1]};
-    double *at = own->rows = mem_new(6 * block + 8 * FACE_ROOM, sizeof *own->rows);
+    double *at = own->rows = mem_new(7 * block + 8 * FACE_ROOM, sizeof *own->rows);
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++, at += block) *blocks[i] = at;
     for (size_t i = 0; i < sizeof single / sizeof *single; i++, at += FACE_ROOM) *single[i] = at;
     own->surface = conduction_front_new(room->model);
@@ -104,13 +105,13 @@ static BULLA_KERNEL void conduction_feel_alone(size_t n, const double *restrict 
     for (size_t i = 0; i < n; i++) part[i] = T[i] > 0.0 ? 1.0 : 0.0;
 }
 
-/* How many cells hold a trace. */
-static BULLA_KERNEL double conduction_traces(size_t n, const double *restrict part)
+/* How many cells hold what does not set the time step. */
+static BULLA_KERNEL double conduction_traces(size_t n, const double *restrict part, const double *restrict sets)
 {
     double count = 0.0;
 #pragma omp simd reduction(+ : count)
     for (size_t i = 0; i < n; i++) {
-        double a = part[i], trace = a <= CONDUCTION_CHANNEL_FELT ? 1.0 : 0.0;
+        double a = part[i], trace = sets[i] > 0.0 ? 0.0 : 1.0;
         count += a > 0.0 ? trace : 0.0;
     }
     return count;
@@ -138,11 +139,13 @@ static bool conduction_is_heated(const struct term_piece *piece, int side)
 static void conduction_look(const struct term_piece *piece, size_t n, const double *w, struct conduction *own)
 {
     const struct model *path = piece->model;
+    const double *rho = conduction_pace_density(path, n, FACE_ROOM, w, own->rest);
     for (unsigned l = 0; l < path->n_material; l++) {
-        double *T = own->T + l * FACE_ROOM, *part = own->part + l * FACE_ROOM;
+        double *T = own->T + l * FACE_ROOM, *part = own->part + l * FACE_ROOM, *sets = own->sets + l * FACE_ROOM;
         if (path->n_alpha) conduction_feel(n, w + (path->i_alpha + l) * FACE_ROOM, T, part);
         else conduction_feel_alone(n, T, part);
-        own->traces = own->traces || conduction_traces(n, part) > 0.0;
+        conduction_channel_heed(n, part, w + (path->i_m + l) * FACE_ROOM, rho, sets);
+        own->traces = own->traces || conduction_traces(n, part, sets) > 0.0;
         if (conduction_law_is(path, l) && path->conductivity[l].law->needs)
             conduction_law_ask(path, l, n, T, w + path->i_E * FACE_ROOM, w + (path->i_m + l) * FACE_ROOM,
                                own->k + l * FACE_ROOM);
@@ -195,7 +198,8 @@ static struct conduction_channel_side conduction_side(const struct conduction_pi
 {
     size_t row = l * (size_t)FACE_ROOM, from = row + (right ? at->step : 0);
     const struct conduction *own = at->own;
-    return (struct conduction_channel_side){own->beside[right] + row, own->T + from, own->k + from, own->c + from};
+    return (struct conduction_channel_side){own->beside[right] + row, own->sets + from, own->T + from, own->k + from,
+                                            own->c + from};
 }
 
 /* k_lm of a liquid and its vapour. */
@@ -287,7 +291,7 @@ static void conduction_unlike(const struct term_piece *piece, const struct condu
 static void conduction_walls(const struct term_piece *piece, const struct conduction_piece *at)
 {
     struct conduction *own = at->own;
-    const struct conduction_wall_cells cells = {own->T, own->part, own->traces ? own->c : NULL, at->most};
+    const struct conduction_wall_cells cells = {own->T, own->part, own->sets, own->traces ? own->c : NULL, at->most};
     for (int side = 0; side < 2; side++)
         if (conduction_is_heated(piece, side)) conduction_wall_add(piece, side, &cells, &own->fault);
 }
@@ -404,50 +408,6 @@ static void conduction_cells(struct term_tile *tile)
     }
 }
 
-/* The largest diffusivity k_l/c_l of the materials that count. */
-static BULLA_KERNEL void conduction_diffuse(size_t n, const double *restrict k, const double *restrict alpha,
-                                            const double *restrict c, double *restrict most)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double D = k[i] / c[i], old = most[i], larger = D > old ? D : old;
-        most[i] = alpha[i] > CONDUCTION_CHANNEL_FELT ? larger : old;
-    }
-}
-
-static BULLA_KERNEL void conduction_hurry(size_t n, double a, const double *restrict D, double *restrict rate)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) rate[i] += a * D[i];
-}
-
-/* The same of n <= CONDUCTION_LAW_BATCH cells with primitives w. */
-static void conduction_swiftest(const struct model *path, size_t n, size_t stride, const double *w, double *D)
-{
-    double one[CONDUCTION_LAW_BATCH], T[CONDUCTION_LAW_BATCH], c[CONDUCTION_LAW_BATCH], k[CONDUCTION_LAW_BATCH];
-    const double *p = w + path->i_E * stride;
-    for (size_t i = 0; i < n; i++) one[i] = 1.0, D[i] = 0.0;
-    for (unsigned l = 0; l < path->n_material; l++) {
-        const double *rho = w + (path->i_m + l) * stride;
-        if (!conduction_law_is(path, l)) continue;
-        conduction_law_capacity(&path->eos[l], n, rho, p, T, c);
-        conduction_law_ask(path, l, n, T, p, rho, k);
-        conduction_diffuse(n, k, path->n_alpha ? w + (path->i_alpha + l) * stride : one, c, D);
-    }
-}
-
-static void conduction_pace(const struct term_pace *pace, double *rate)
-{
-    const struct model *path = pace->model;
-    double D[CONDUCTION_LAW_BATCH]; /* dt = cfl / rate */
-    double factor = distance_squares(pace->level, path->dim) * (DISTANCE_PACE * path->scene->scheme.cfl);
-    for (size_t from = 0; from < pace->n_cell; from += CONDUCTION_LAW_BATCH) {
-        size_t n = pace->n_cell - from < CONDUCTION_LAW_BATCH ? pace->n_cell - from : CONDUCTION_LAW_BATCH;
-        conduction_swiftest(path, n, pace->n_cell, pace->w + from, D);
-        conduction_hurry(n, factor, D, rate + from);
-    }
-}
-
 double conduction_step(double diffusivity, double sum)
 {
     return 1.0 / (DISTANCE_PACE * diffusivity * sum);
@@ -495,6 +455,6 @@ const struct term conduction_term = {
     .frame = conduction_frame,
     .faces = conduction_faces,
     .cells = conduction_cells,
-    .pace = conduction_pace,
+    .pace = conduction_pace_add,
     .say = conduction_say,
 };

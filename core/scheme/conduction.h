@@ -8,8 +8,8 @@
  * there is no length in that.
  *
  * Time step: 1/dt = signal/CFL + (8/1.8) max_l k_l/(rho_l cv_l) sum_a 1/h_a^2 of the materials with more than
- * CONDUCTION_CHANNEL_FELT of the cell. Less of a material conducts at most what keeps it stable. Distances are those of
- * the centroids of cells: a radius counts with its weight. */
+ * CONDUCTION_CHANNEL_FELT of the cell and CONDUCTION_CHANNEL_LIGHT of its mass. What is less conducts at most what
+ * keeps it stable. Distances are those of the centroids of cells: a radius counts with its weight. */
 #ifndef CONDUCTION_H
 #define CONDUCTION_H
 

@@ -46,7 +46,7 @@ static double conduction_wall_warm(const struct term_piece *piece, const struct 
     double part = cells->part[at], own = cells->T[at], mean = 0.5 * (T + own), k;
     if (!(part > 0.0) || !conduction_law_is(path, l)) return 0.0;
     conduction_law_ask(path, l, 1, &mean, w + path->i_E * FACE_ROOM, w + (path->i_m + l) * FACE_ROOM, &k);
-    double most = cells->c && part <= CONDUCTION_CHANNEL_FELT ? 0.5 * cells->most * cells->c[at] : k;
+    double most = cells->c && !(cells->sets[at] > 0.0) ? 0.5 * cells->most * cells->c[at] : k;
     return part * (k < most ? k : most) * (T - own) / d;
 }
 

@@ -9,6 +9,7 @@
 /* Rows of the cells beside the faces of a piece, [n_material] with pitch FACE_ROOM, as conduction.c has them. */
 struct conduction_wall_cells {
     const double *T, *part; /* [K]; fractions that are felt */
+    const double *sets;     /* those that set the time step, else 0 */
     const double *c;        /* rho cv for the bound on traces; NULL: there are none */
     double most;            /* as in conduction_channel_bound */
 };

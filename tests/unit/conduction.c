@@ -195,6 +195,20 @@ static void test_series(void **state)
     assert_true(k == 0.0);
 }
 
+/* Little of a cell, or of its mass, does not set the time step, and is bounded. */
+static void test_light(void **state)
+{
+    (void)state;
+    const double part[] = {0.5, 0.005, 0.03, 1.0, 0.0}, rho_l[] = {1.2, 1.2, 1e-3, 1e-3, 1.2},
+                 rho[] = {500.0, 1000.0, 970.0, 1e-3, 1000.0}, c[] = {1.0, 1.0, 1.0, 1.0, 1.0};
+    double sets[5], k[] = {9.0, 9.0, 9.0, 9.0, 9.0};
+    conduction_channel_heed(5, part, rho_l, rho, sets);
+    assert_true(sets[0] == 0.5 && sets[1] == 0.0 && sets[2] == 0.0 && sets[3] == 1.0 && sets[4] == 0.0);
+    const struct conduction_channel_side side = {.part = part, .sets = sets, .c = c};
+    conduction_channel_bound(5, 2.0, &side, &side, k);
+    assert_true(k[0] == 9.0 && k[1] == 1.0 && k[2] == 1.0 && k[3] == 9.0);
+}
+
 /* --- mixed cells --- */
 
 static double jump_water, jump_air; /* in the left half [K] */
@@ -391,6 +405,7 @@ int main(void)
         cmocka_unit_test(test_front_cold),
         cmocka_unit_test(test_front_tiles),
         cmocka_unit_test(test_series),
+        cmocka_unit_test(test_light),
         cmocka_unit_test(test_mixed_cell),
         cmocka_unit_test(test_conserved),
         cmocka_unit_test(test_symmetry),
