@@ -50,12 +50,23 @@ static void phase_family(const struct model *model, const struct model_phase *ph
     }
 }
 
+/* Does one phase lack mass that the other one has? See phase_owe. */
+static bool phase_owes(const struct model *model, const struct model_phase *phase, size_t stride, const double *u,
+                       size_t i)
+{
+    const double *m = u + model->i_m * stride + i;
+    double liquid = m[phase->member[EQUILIBRIUM_LIQUID] * stride],
+           vapour = m[phase->member[EQUILIBRIUM_VAPOUR] * stride];
+    return (liquid < 0.0 || vapour < 0.0) && liquid + vapour > 0.0;
+}
+
 /* Is there liquid, and something that it can evaporate into? */
 static bool phase_meets(const struct model *model, const struct model_phase *phase, size_t stride, const double *u,
                         size_t i)
 {
     const double *alpha = u + model->i_alpha * stride + i;
     double thin = 0.0;
+    if (phase_owes(model, phase, stride, u, i)) return true;
     if (!(alpha[phase->member[EQUILIBRIUM_LIQUID] * stride] > PHASE_FELT)) return false;
     for (unsigned k = EQUILIBRIUM_VAPOUR; k < phase->n; k++) thin += alpha[phase->member[k] * stride];
     return thin > PHASE_FELT || phase->scene->everywhere;

@@ -115,6 +115,7 @@ static void advance_stamp(const struct state *state, const struct stage *stage, 
 {
     int s = blame->facts.stage;
     double at = s == BLAME_FAILED_SYNC ? 1.0 : s < stage->tableau->n ? stage->tableau->stage[s].at : 0.0;
+    blame->facts.integrator = tableau_number(stage->tableau);
     blame->facts.step = state->step + 1;
     blame->facts.t = stage->t;
     blame->facts.dt = stage->dt;
@@ -243,9 +244,23 @@ static int advance_script(const struct state *state, struct stage *stage)
     return comm_agree(status);
 }
 
-/* One step of a level, from stage->t over stage->dt: STATUS_OK, or a script's failure. *ret_good: accepted. */
-static int advance_once(struct state *state, struct stage *stage, bool *ret_good)
+/* The last of all tries is one explicit step. With first-order fluxes that leaves no cell less than nothing; stages
+ * that start from u can, however short the step is: they take out of a cell what only the middle of the step has there.
+ */
+static void advance_choose(struct stage *stage, int retries)
 {
+    const struct scene *scene = stage->model->scene;
+    const struct tableau *tableau = retries == GUARD_RETRIES ? tableau_numbered(TABLEAU_SINGLE) : tableau_of(scene);
+    if (stage->tableau == tableau) return;
+    stage->tableau = tableau;
+    for (unsigned local = 0; local < stage->level->n_local; local++) stage->census.tiles[local].streak = 0;
+}
+
+/* One step of a level, from stage->t over stage->dt, after so many that failed: STATUS_OK, or a script's failure.
+ * *ret_good: accepted. */
+static int advance_once(struct state *state, struct stage *stage, int retries, bool *ret_good)
+{
+    advance_choose(stage, retries);
     cost_open(&state->work->cost, COST_STEP);
     double signal = 0.0;
     wake_leave(stage);
@@ -338,7 +353,7 @@ static int advance_through(struct state *state, int l, double t, double dt)
         stage->from = done;
         stage->part = part;
         if (!pace_allows(state, l, stage->t, stage->dt)) return advance_too_slow(state, l, stage->t, stage->dt);
-        TRY(advance_once(state, stage, &good));
+        TRY(advance_once(state, stage, retries, &good));
         if (!good) {
             if (state->scene->scheme.guard == SCENE_GUARD_STRICT || ++retries > GUARD_RETRIES)
                 return advance_give_up(state, stage);
@@ -409,7 +424,7 @@ int advance_step(struct state *state, double dt_most)
         stage->dt = dt;
         stage->from = 0.0;
         stage->part = 1.0;
-        TRY(advance_once(state, stage, &good));
+        TRY(advance_once(state, stage, retry, &good));
         if (good) return advance_follow(state);
         if (state->scene->scheme.guard == SCENE_GUARD_STRICT) break;
         state->counts.retries++;

@@ -20,11 +20,20 @@ static const struct tableau tableau_all[] = {
                        .n = 2,
                        .stage = {{"slopes", "w* = w - dt/2 A(w) s(w)", false, 0.5, 1.0, 0.0, 0.0, .slopes = true},
                                  {"full", "u = u + dt L(w*)", false, 1.0, 1.0, 0.5, 1.0}}},
+    [TABLEAU_SINGLE] = {.name = "single",
+                        .doc = "one explicit step, first order",
+                        .n = 1,
+                        .stage = {{"whole", "u = u + dt L(w)", false, 1.0, 1.0, 0.0, 1.0}}},
 };
 
 const struct tableau *tableau_numbered(int integrator)
 {
     return &tableau_all[integrator];
+}
+
+int tableau_number(const struct tableau *tableau)
+{
+    return (int)(tableau - tableau_all);
 }
 
 const struct tableau *tableau_of(const struct scene *scene)

@@ -13,6 +13,9 @@
 
 enum { TABLEAU_STAGES = 4 }; /* most of any method */
 
+/* The number of one explicit step, which no case asks for: the guard's last try (advance.c). */
+enum { TABLEAU_SINGLE = SCENE_HANCOCK + 1 };
+
 struct tableau_stage {
     const char *name;
     const char *doc; /* the formula, for people */
@@ -34,8 +37,9 @@ struct tableau {
 /* The integrator that a scene asks for. */
 const struct tableau *tableau_of(const struct scene *scene);
 
-/* By enum scene_integrator, and the number of a name; -1: there is none. */
+/* By enum scene_integrator or TABLEAU_SINGLE, and the number of one or of a name; -1: there is none. */
 const struct tableau *tableau_numbered(int integrator);
+int tableau_number(const struct tableau *tableau);
 int tableau_named(const char *name);
 
 /* Time of the state that a stage makes, since the step began, in dt. */
