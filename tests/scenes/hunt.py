@@ -1,0 +1,104 @@
+"""hunt.py SEED|FIRST..LAST ... - runs scenes of draw.py and looks for what must never be.
+
+Each scene goes 16 steps on one rank, on three, and on two for 8 steps and then on one from the checkpoint. Histories and
+checkpoints are the same to the bit; in a closed domain masses and energy stay to round-off; no program crashes or hangs. A
+run may end by itself with a message (exit code 3): what is drawn can be too wild. Those seeds are named at the end, and
+`-s` counts them as failures. Prints what failed, and ends with 1.
+"""
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from draw import draw  # noqa: E402
+
+BULLA, BUILD = os.environ["BULLA"], os.environ["BULLA_BUILD"]
+DRIFT = 1e-12  # of a mass or the energy
+HANGS = 1200  # s
+
+
+def run(folder, *options):
+    """Exit code, and the message of an error."""
+    command = [BULLA, "run", "scene.yaml", "-o", "out", "--quiet", *options]
+    try:
+        end = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=HANGS, check=False)
+    except subprocess.TimeoutExpired:
+        return 124, "hangs"
+    said = [line for line in end.stderr.splitlines() if "error: " in line]
+    return end.returncode, said[0] if said else "no message"
+
+
+def drifts(case, scene, folder):
+    """Masses and the energy that do not stay."""
+    with open(f"{folder}/out/history.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    kept = {name: [name] for name in case["materials"]}
+    for liquid, vapour in scene.pairs:
+        kept[liquid].append(kept.pop(vapour)[0])
+    if not (scene.works or scene.tense):
+        kept["E"] = ["E"]
+    for name, columns in kept.items() if scene.closed else ():
+        sums = [sum(float(row[column]) for column in columns) for row in rows]
+        drift = max(abs(value / sums[0] - 1) for value in sums) if sums[0] else 0.0
+        if not drift <= DRIFT:
+            yield f"drift of {name} {drift:.1e}"
+
+
+def differs(one, other):
+    """What is not the same of two runs."""
+    histories = [open(f"{folder}/out/history.csv", encoding="utf-8").read() for folder in (one, other)]
+    if histories[0] != histories[1]:
+        return "another history"
+    last = [f"{folder}/out/checkpoints/scene_000016.chk" for folder in (one, other)]
+    if all(os.path.exists(path) for path in last):
+        look = subprocess.run([f"{BUILD}/tests/test-unit-checkpoint", *last], capture_output=True, text=True, check=False)
+        return f"another checkpoint: {look.stdout.strip()[:60]}" if look.returncode else None
+    return None
+
+
+def hunt(seed):
+    """Messages of a scene: what failed, and whether the run ended by itself."""
+    case, scene = draw(seed)
+    shutil.rmtree(str(seed), ignore_errors=True)
+    places = {name: f"{seed}/{name}" for name in ("one", "three", "again")}
+    for place in places.values():
+        os.makedirs(place)
+        with open(f"{place}/scene.yaml", "w", encoding="utf-8") as file:
+            json.dump(case, file, indent=1)
+    code, said = run(places["one"], "-n", "1")
+    if code:
+        return [] if code == 3 else [f"exit code {code}: {said}"], said
+    failed = list(drifts(case, scene, places["one"]))
+    for name, parts in (("three", [("-n", "3")]), ("again", [("-n", "2", "--max-steps", "8"), ("-n", "1", "--restart")])):
+        ends = [run(places[name], *options) for options in parts]
+        bad = [f"{name}: exit code {code}: {said}" for code, said in ends if code]
+        other = None if bad else differs(places["one"], places[name])
+        failed += bad + ([f"{name}: {other}"] if other else [])
+    if not failed:
+        shutil.rmtree(str(seed))
+    return failed, None
+
+
+def main(words):
+    strict = "-s" in words
+    seeds, ended, count = [], [], 0
+    for word in words:
+        first, _, last = word.partition("..")
+        seeds += [] if word == "-s" else range(int(first), int(last or first) + 1)
+    for seed in seeds:
+        failed, early = hunt(seed)
+        if early and not failed:
+            ended.append(seed)
+            print(f"scene {seed} ends by itself: {early}", flush=True)
+        for message in failed:
+            print(f"scene {seed} FAILS: {message}", flush=True)
+        count += bool(failed)
+    print(f"{len(seeds)} scenes, {count} failed, {len(ended)} ended by themselves")
+    return 1 if count or (strict and ended) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
