@@ -374,12 +374,13 @@ static void model_pair_up(struct model *model)
                                               .sigma = scene->tension[k].sigma};
 }
 
-/* The fluids alone, if they stand together: they need neither the stretch nor the solids' components. */
+/* The fluids alone, if they stand together: they need neither the stretch nor the solids' components. Viscous films at
+ * corners see tiles across them, which may hold a solid. */
 static struct model *model_liquefy(const struct model *model)
 {
     unsigned from = 0, n = model->n_material - model->n_solid;
     while (from < model->n_material && model->scene->material[from].constitutive.module) from++;
-    if (!model->elastic || n < 2) return NULL;
+    if (!model->elastic || n < 2 || model->viscous) return NULL;
     for (unsigned l = from; l < from + n; l++)
         if (l >= model->n_material || model->scene->material[l].constitutive.module) return NULL;
     return model_narrow(model, from, n);

@@ -158,15 +158,14 @@ struct model {
     bool damaged;                            /* some solid of this path can break (damage.h) */
     struct model *pure[SCENE_MATERIALS];     /* the same scene where only material l is present (NULL for N = 1): one
                                             material, no fractions, indices into the same storage */
-    struct model
-        *fluids;         /* the same scene where only its fluids are present; NULL without a solid, with less
-                                           than two fluids, or if they do not stand together in the list of materials */
-    bool kapila, linear; /* linear: every law is linear in p, closed-form mixture pressure */
-    bool thermal;        /* materials of a cell exchange volume in full: temperatures are meant (scheme/exchange.h) */
-    bool conducts;       /* some material of the scene conducts heat (scheme/conduction.h) */
-    bool forced;         /* forces act at faces, and pressure is reconstructed relative to them (scheme/face.h) */
-    bool split;          /* the materials of a cell share their normal traction, not their pressure (traction.h) */
-    bool lagged;         /* they have pressures of their own, by that or by surface tension */
+    struct model *fluids; /* the same scene where only its fluids are present; NULL without a solid, with less than two
+                             fluids, with a viscous one, or if they do not stand together in the list of materials */
+    bool kapila, linear;  /* linear: every law is linear in p, closed-form mixture pressure */
+    bool thermal;         /* materials of a cell exchange volume in full: temperatures are meant (scheme/exchange.h) */
+    bool conducts;        /* some material of the scene conducts heat (scheme/conduction.h) */
+    bool forced;          /* forces act at faces, and pressure is reconstructed relative to them (scheme/face.h) */
+    bool split;           /* the materials of a cell share their normal traction, not their pressure (traction.h) */
+    bool lagged;          /* they have pressures of their own, by that or by surface tension */
     struct model_eos eos[SCENE_MATERIALS];
     struct model_viscosity viscosity[SCENE_MATERIALS];
     bool viscous; /* some material of the path is */

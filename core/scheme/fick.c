@@ -15,6 +15,7 @@
 /* Rows of a frame with pitch FACE_ROOM: of cells, and of the gases in them. */
 struct fick_cells {
     double *alpha, *rho, *D; /* of all gases of a mixture */
+    double *sets;            /* 1 where they set the time step */
 };
 
 struct fick {
@@ -55,11 +56,11 @@ static void *fick_open(const struct term_room *room)
     size_t n = room->model->n_material, block = n * FACE_ROOM;
     double **blocks[] = {&own->share, &own->h, &own->v};
     double **single[] = {&own->e, &own->c2, &own->T, &own->per_d, &own->through};
-    double *at = own->rows = mem_new(3 * block + (5 + 3 * (size_t)room->model->n_fick) * FACE_ROOM, sizeof *own->rows);
+    double *at = own->rows = mem_new(3 * block + (5 + 4 * (size_t)room->model->n_fick) * FACE_ROOM, sizeof *own->rows);
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++, at += block) *blocks[i] = at;
     for (size_t i = 0; i < sizeof single / sizeof *single; i++, at += FACE_ROOM) *single[i] = at;
-    for (unsigned k = 0; k < room->model->n_fick; k++, at += 3 * FACE_ROOM)
-        own->of[k] = (struct fick_cells){at, at + FACE_ROOM, at + 2 * FACE_ROOM};
+    for (unsigned k = 0; k < room->model->n_fick; k++, at += 4 * FACE_ROOM)
+        own->of[k] = (struct fick_cells){at, at + FACE_ROOM, at + 2 * FACE_ROOM, at + 3 * FACE_ROOM};
     return own;
 }
 
@@ -92,6 +93,17 @@ static BULLA_KERNEL void fick_shares(size_t n, const double *restrict sum, doubl
     for (size_t i = 0; i < n; i++) {
         double m = mass[i], s = sum[i], share = m / s;
         mass[i] = s > 0.0 ? share : 0.0;
+    }
+}
+
+/* 1 where there is enough gas, of the cell and of its mass, to set the time step. */
+static BULLA_KERNEL void fick_heed(size_t n, const double *restrict alpha, const double *restrict mass,
+                                   const double *restrict all, double *restrict sets)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double much = alpha[i] > FICK_FELT ? 1.0 : 0.0;
+        sets[i] = mass[i] > FICK_LIGHT * all[i] ? much : 0.0;
     }
 }
 
@@ -138,6 +150,10 @@ static void fick_mix(const struct model *path, unsigned k, size_t n, size_t stri
         fick_gather(n, w + (path->i_alpha + l) * stride, rho, T, share + l * room, of->alpha, of->rho, of->D);
     }
     for (unsigned g = 0; g < fick->n; g++) fick_shares(n, of->rho, share + fick->member[g] * room);
+    memset(T, 0, n * sizeof *T);
+    for (unsigned l = 0; l < path->n_alpha; l++)
+        row_add_product(n, w + (path->i_alpha + l) * stride, w + (path->i_m + l) * stride, T);
+    fick_heed(n, of->alpha, of->rho, T, of->sets);
     if (scene->constant) fick_steady(n, scene->D, of->alpha, of->rho, of->D);
     else fick_quicken(n, scene->D, scene->T, scene->p, p, of->alpha, of->rho, of->D);
 }
@@ -174,12 +190,13 @@ static void fick_frame(const struct term_piece *piece)
 /* min(alpha) rho D/d of the faces: rho D by the harmonic mean, D at most `most` where there is next to no gas. */
 static BULLA_KERNEL void fick_open_faces(size_t n, size_t step, double most, const double *restrict alpha,
                                          const double *restrict rho, const double *restrict D,
-                                         const double *restrict per_d, double *restrict through)
+                                         const double *restrict sets, const double *restrict per_d,
+                                         double *restrict through)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a = alpha[i], b = alpha[i + step], least = a < b ? a : b, Da = D[i], Db = D[i + step];
-        double bound = least > FICK_FELT ? HUGE_VAL : most;
+        double bound = sets[i] * sets[i + step] > 0.0 ? HUGE_VAL : most;
         double left = rho[i] * (Da < bound ? Da : bound), right = rho[i + step] * (Db < bound ? Db : bound);
         double sum = left + right, both = 2.0 * left * right / sum, flux = least * both * per_d[i];
         through[i] = ((least > 0.0) & (sum > 0.0)) ? flux : 0.0;
@@ -213,7 +230,7 @@ static void fick_faces(const struct term_piece *piece)
     distance_faces(piece, own->per_d);
     for (unsigned k = 0; k < path->n_fick; k++) {
         const struct fick_cells *of = &own->of[k];
-        fick_open_faces(n, step, most, of->alpha, of->rho, of->D, own->per_d, own->through);
+        fick_open_faces(n, step, most, of->alpha, of->rho, of->D, of->sets, own->per_d, own->through);
         for (unsigned g = 0; g < path->ficks[k].n; g++, row++) {
             size_t at = path->ficks[k].member[g] * (size_t)FACE_ROOM;
             fick_pass(n, step, own->through, own->share + at, own->h + at, own->v + at, faces->m + at, faces->energy,
@@ -249,13 +266,13 @@ static void fick_cells(struct term_tile *tile)
         fick_swell(tile, from, tile->n_cell - from < SWELL_BATCH ? tile->n_cell - from : SWELL_BATCH);
 }
 
-static BULLA_KERNEL void fick_hurry(size_t n, double a, const double *restrict alpha, const double *restrict D,
+static BULLA_KERNEL void fick_hurry(size_t n, double a, const double *restrict sets, const double *restrict D,
                                     double *restrict rate)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double old = rate[i], more = a * D[i];
-        rate[i] = old + (alpha[i] > FICK_FELT ? more : 0.0);
+        rate[i] = old + (sets[i] > 0.0 ? more : 0.0);
     }
 }
 
@@ -263,13 +280,14 @@ static void fick_pace(const struct term_pace *pace, double *rate)
 {
     const struct model *path = pace->model;
     double factor = DISTANCE_PACE * path->scene->scheme.cfl * distance_squares(pace->level, path->dim);
-    double share[SCENE_MATERIALS * SWELL_BATCH], T[SWELL_BATCH], alpha[SWELL_BATCH], rho[SWELL_BATCH], D[SWELL_BATCH];
-    const struct fick_cells of = {alpha, rho, D};
+    double share[SCENE_MATERIALS * SWELL_BATCH], T[SWELL_BATCH], alpha[SWELL_BATCH], rho[SWELL_BATCH], D[SWELL_BATCH],
+        sets[SWELL_BATCH];
+    const struct fick_cells of = {alpha, rho, D, sets};
     for (size_t from = 0; from < pace->n_cell; from += SWELL_BATCH) {
         size_t n = pace->n_cell - from < SWELL_BATCH ? pace->n_cell - from : SWELL_BATCH;
         for (unsigned k = 0; k < path->n_fick; k++) {
             fick_mix(path, k, n, pace->n_cell, pace->w + from, T, share, SWELL_BATCH, &of);
-            fick_hurry(n, factor, alpha, D, rate + from);
+            fick_hurry(n, factor, sets, D, rate + from);
         }
     }
 }
