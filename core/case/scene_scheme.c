@@ -1,6 +1,8 @@
 /* scene_scheme.c - the numerical method. */
 #include "case/scene_draft.h"
 
+#include "bulla/constitutive.h"
+#include "bulla/eos.h"
 #include "bulla/reconstruction.h"
 #include "bulla/riemann.h"
 #include "case/keys_read.h"
@@ -54,8 +56,10 @@ static const struct key scene_scheme_rows[] = {
      .section = &scene_scheme_limiter,
      .doc =
          "The limiter of the volume fractions. Default: thinc where fluids have surface tension in the plane, around "
-         "an axis or in space, because slopes let such surfaces grow teeth; else superbee, which keeps material "
-         "interfaces within two or three cells. Give the same as `limiter` for one limiter throughout."},
+         "an axis or in space, because slopes let such surfaces grow teeth; van-albada where an elastic solid whose "
+         "shear waves are faster than 100 m/s meets a gas there, because steeper slopes let it shake; else superbee, "
+         "which keeps material interfaces within two or three cells. Give the same as `limiter` for one limiter "
+         "throughout."},
     {.name = "exchange",
      .type = KEYS_CHOICE,
      .choices = "auto|fast|full",
@@ -227,15 +231,59 @@ static void scene_scheme_slopes(struct draft *draft, const struct keys_map *sche
                       wrong[i]);
 }
 
-/* With tension, surfaces of columns whose fractions have slopes grow teeth (docs/decisions/tension.md). */
+/* A solid whose shear waves are faster than this is stiff [m/s], and a gas at 1 atm softer than that [Pa]. */
+#define SCENE_SCHEME_STIFF 100.0
+#define SCENE_SCHEME_SOFT 1e7
+
+/* c_s^2 = mu/rho0 = 2 (e_1 + e_2) without strain. */
+static bool scene_scheme_is_stiff(const struct scene_material *material)
+{
+    double I = 3.0, e, e_1, e_2;
+    if (!material->constitutive.module) return false;
+    const struct bulla_constitutive *law = material->constitutive.module->table;
+    law->energy(material->constitutive.self, 1, &I, &I, &e, &e_1, &e_2);
+    return 2.0 * (e_1 + e_2) > SCENE_SCHEME_STIFF * SCENE_SCHEME_STIFF;
+}
+
+static bool scene_scheme_is_gas(const struct scene_material *material)
+{
+    double p = 101325.0, T = 298.15, rho, e, rho_c2;
+    if (material->constitutive.module || !material->eos.module) return false;
+    const struct bulla_eos *law = material->eos.module->table;
+    law->density(material->eos.self, 1, &p, &T, &rho);
+    law->state(material->eos.self, 1, &rho, &p, &e, &rho_c2);
+    return rho_c2 < SCENE_SCHEME_SOFT;
+}
+
+/* Does a stiff elastic solid share traction with a gas, on a surface that lies as it likes? */
+static bool scene_scheme_hard(struct draft *draft)
+{
+    const struct scene *scene = draft->scene;
+    bool stiff = false, gas = false;
+    if (scene->domain.dim < 2 || scene->scheme.traction == SCENE_TRACTION_PRESSURE) return false;
+    if (scene_matter_strength(draft) || scene_matter_branched(draft)) return false;
+    for (unsigned l = 0; l < scene->n_material; l++) {
+        stiff = stiff || scene_scheme_is_stiff(&scene->material[l]);
+        gas = gas || scene_scheme_is_gas(&scene->material[l]);
+    }
+    return stiff && gas;
+}
+
+/* With tension, surfaces of columns whose fractions have slopes grow teeth (docs/decisions/tension.md); stiff solids in
+ * a gas shake where steep slopes make their surfaces sharp (docs/decisions/oblique-surfaces.md). */
+static const char *scene_scheme_edge(struct draft *draft)
+{
+    bool drawn = keys_at(draft->root, "surface-tension")->count > 0 && draft->scene->domain.dim > 1;
+    if (drawn && !scene_matter_solid(draft)) return "thinc";
+    return scene_scheme_hard(draft) ? "van-albada" : "superbee";
+}
+
 static void scene_scheme_surfaces(struct draft *draft, const struct keys_value *surface)
 {
     struct keys_value value = *surface;
     struct scene *scene = draft->scene;
-    bool drawn =
-        keys_at(draft->root, "surface-tension")->count > 0 && scene->domain.dim > 1 && !scene_matter_solid(draft);
     if (!surface->node && !surface->meant)
-        value = scene_scheme_default(draft, surface, &scene_scheme_limiter, drawn ? "thinc" : "superbee");
+        value = scene_scheme_default(draft, surface, &scene_scheme_limiter, scene_scheme_edge(draft));
     scene_matter_open(draft, &value, &scene->scheme.interface_limiter);
 }
 

@@ -6,7 +6,8 @@
  * fractions from pressure relaxation (phys/relax.h). The ladder for a step that still leaves
  * an inadmissible cell: redo the step with first-order states and the robust solver at the faces
  * of the troubled cells (conservative: both sides see the same flux), at most GUARD_ROUNDS times;
- * then halve the time step, at most GUARD_RETRIES times; then stop with the place and the cause.
+ * then halve the time step, at most GUARD_RETRIES times, the last time as one explicit step (tableau.h);
+ * then stop with the place and the cause.
  * Cells under finer tiles are not judged: one that fails and cannot be repaired keeps the state from before the step
  * until the next average of the finer level. Nothing is floored. (MOOD: Clain, Diot & Loubere 2011; retry as in
  * Castro.) */

@@ -69,6 +69,25 @@ sed -e 's/density: 10, pressure: 10 MPa/density: 2, pressure: 0.2 MPa/; s/direct
     stripes.yaml >squeezed.yaml
 "$BULLA" run squeezed.yaml --quiet
 
+# A disc of stone rests in air, with the limiter that it has there by itself; in water it keeps its sharp surface.
+sed -e 's/^title: .*/title: A stone in air/; s/cells: \[24, 24\]/cells: [32, 32]/' -e '/^materials:/,$d' stripes.yaml >stone.yaml
+cat >>stone.yaml <<'END_STONE'
+materials:
+  stone: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 5 GPa, cv: 2451}, constitutive: {type: neo-hookean, shear-modulus: 5 GPa, reference-density: 2000}}
+  air: {eos: {type: ideal-gas, gamma: 1.4, cv: 717.5}}
+initial:
+  - {everywhere: true, material: air, temperature: 300, pressure: 65 kPa}
+  - {sphere: {center: [0.5, 0.5], radius: 0.2}, material: stone, temperature: 300, pressure: 65 kPa}
+run: {until: 1 s, max-steps: 60}
+output: {history: {columns: {u: {max: "= math.sqrt(velocity_x^2 + velocity_y^2)"}}}}
+expect:
+  - {value: "max(u)", at-most: 1e-8} # 348 with superbee
+END_STONE
+"$BULLA" run stone.yaml --quiet
+"$BULLA" check stone.yaml | grep -q 'interface  *limiter:van-albada' || fail 'a stone in air has sharp surfaces'
+"$BULLA" check stone.yaml --set 'materials.air.eos={type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa, cv: 590}' |
+    grep -q 'interface  *limiter:superbee' || fail 'a stone in water has blunt surfaces'
+
 "$BULLA" run "$BULLA_SOURCE/cases/verify/rest-gel.yaml" --variant quick -o rest-gel --quiet
 "$BULLA" run "$BULLA_SOURCE/cases/verify/rest-stiff.yaml" --variant quick -o rest-stiff --quiet
 # Faces of slow flow, too, are the same to a tile of one material and to a mixed one: energy stays.

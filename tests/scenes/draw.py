@@ -216,10 +216,11 @@ def scheme(scene):
         "cfl": (0.2, (0.3, 0.5)),
     }
     chosen = {word: dice.pick(*values) for word, (chance, values) in words.items() if dice.coin(chance)}
-    flows = scene.viscous or scene.conducts
+    flows = scene.viscous or scene.conducts or any("drag" in m for m in scene.case["materials"].values())
     if dice.coin(0.2):
-        chosen["integrator"] = "ssprk3" if scene.solids or flows or scene.pairs or scene.tense or scene.bodies else "hancock"
-    elif flows and not scene.pairs and dice.coin():
+        plain = not (scene.solids or flows or scene.pairs or scene.tense or scene.bodies or "closure" in chosen)
+        chosen["integrator"] = "hancock" if plain else "ssprk3"
+    elif (scene.viscous or scene.conducts) and not scene.pairs and dice.coin():
         chosen["diffusion"] = "rkl2"
     if chosen:
         scene.case["scheme"] = chosen
