@@ -50,14 +50,16 @@ static void phase_family(const struct model *model, const struct model_phase *ph
     }
 }
 
-/* Does one phase lack mass that the other one has? See phase_owe. */
-static bool phase_owes(const struct model *model, const struct model_phase *phase, size_t stride, const double *u,
-                       size_t i)
+/* What one phase lacks the other one owes, as in phase_owe, also where they do not meet: the lacking one is gone. */
+static void phase_repay(const struct model *model, const struct model_phase *phase, size_t stride, double *u, size_t i)
 {
-    const double *m = u + model->i_m * stride + i;
-    double liquid = m[phase->member[EQUILIBRIUM_LIQUID] * stride],
-           vapour = m[phase->member[EQUILIBRIUM_VAPOUR] * stride];
-    return (liquid < 0.0 || vapour < 0.0) && liquid + vapour > 0.0;
+    unsigned liquid = phase->member[EQUILIBRIUM_LIQUID], vapour = phase->member[EQUILIBRIUM_VAPOUR];
+    double *m = u + model->i_m * stride + i, *alpha = u + model->i_alpha * stride + i;
+    unsigned from = m[liquid * stride] < 0.0 ? vapour : liquid, to = from == vapour ? liquid : vapour;
+    if (!(m[to * stride] < 0.0) || !(m[from * stride] + m[to * stride] > 0.0)) return;
+    m[from * stride] += m[to * stride];
+    alpha[from * stride] += alpha[to * stride];
+    m[to * stride] = alpha[to * stride] = 0.0;
 }
 
 /* Is there liquid, and something that it can evaporate into? */
@@ -66,7 +68,6 @@ static bool phase_meets(const struct model *model, const struct model_phase *pha
 {
     const double *alpha = u + model->i_alpha * stride + i;
     double thin = 0.0;
-    if (phase_owes(model, phase, stride, u, i)) return true;
     if (!(alpha[phase->member[EQUILIBRIUM_LIQUID] * stride] > PHASE_FELT)) return false;
     for (unsigned k = EQUILIBRIUM_VAPOUR; k < phase->n; k++) thin += alpha[phase->member[k] * stride];
     return thin > PHASE_FELT || phase->scene->everywhere;
@@ -482,7 +483,10 @@ int phase_act(const struct model *model, unsigned k, size_t n, size_t stride, do
     block.status = 0;
     phase_family(model, block.phase, &block.family);
     for (size_t i = 0; i < n; i++) {
-        if (!phase_meets(model, block.phase, stride, u, i)) continue;
+        if (!phase_meets(model, block.phase, stride, u, i)) {
+            phase_repay(model, block.phase, stride, u, i);
+            continue;
+        }
         block.at[block.n++] = i;
         if (block.n < PHASE_BLOCK) continue;
         phase_run(&block, stride, dt, w, u, effort);
