@@ -13,6 +13,7 @@
 #include "scheme/conduction_plain.h"
 #include "scheme/conduction_wall.h"
 #include "scheme/distance.h"
+#include "scheme/heed.h"
 #include "scheme/swell.h"
 #include "scheme/terms.h"
 
@@ -139,12 +140,12 @@ static bool conduction_is_heated(const struct term_piece *piece, int side)
 static void conduction_look(const struct term_piece *piece, size_t n, const double *w, struct conduction *own)
 {
     const struct model *path = piece->model;
-    const double *rho = conduction_pace_density(path, n, FACE_ROOM, w, own->rest);
+    const double *rho = heed_density(path, n, FACE_ROOM, w, own->rest);
     for (unsigned l = 0; l < path->n_material; l++) {
         double *T = own->T + l * FACE_ROOM, *part = own->part + l * FACE_ROOM, *sets = own->sets + l * FACE_ROOM;
         if (path->n_alpha) conduction_feel(n, w + (path->i_alpha + l) * FACE_ROOM, T, part);
         else conduction_feel_alone(n, T, part);
-        conduction_channel_heed(n, part, w + (path->i_m + l) * FACE_ROOM, rho, sets);
+        heed_parts(n, part, w + (path->i_m + l) * FACE_ROOM, rho, sets);
         own->traces = own->traces || conduction_traces(n, part, sets) > 0.0;
         if (conduction_law_is(path, l) && path->conductivity[l].law->needs)
             conduction_law_ask(path, l, n, T, w + path->i_E * FACE_ROOM, w + (path->i_m + l) * FACE_ROOM,

@@ -7,9 +7,9 @@
  * too much pressure. Materials that lie in a cell side by side with nothing different in the next one exchange nothing:
  * there is no length in that.
  *
- * Time step: 1/dt = signal/CFL + (8/1.8) max_l k_l/(rho_l cv_l) sum_a 1/h_a^2 of the materials with more than
- * CONDUCTION_CHANNEL_FELT of the cell and CONDUCTION_CHANNEL_LIGHT of its mass. What is less conducts at most what
- * keeps it stable. Distances are those of the centroids of cells: a radius counts with its weight. */
+ * Time step: 1/dt = signal/CFL + (8/1.8) max_l k_l/(rho_l cv_l) sum_a 1/h_a^2 of the materials that are enough of the
+ * cell (heed.h). What is less conducts at most what keeps it stable. Distances are those of the centroids of cells: a
+ * radius counts with its weight. */
 #ifndef CONDUCTION_H
 #define CONDUCTION_H
 

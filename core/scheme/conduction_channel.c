@@ -111,21 +111,6 @@ static BULLA_KERNEL void conduction_channel_limit(size_t n, double most, const d
     }
 }
 
-static BULLA_KERNEL void conduction_channel_set(size_t n, const double *restrict part, const double *restrict rho_l,
-                                                const double *restrict rho, double *restrict sets)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double a = part[i], much = a > CONDUCTION_CHANNEL_FELT ? a : 0.0;
-        sets[i] = a * rho_l[i] > CONDUCTION_CHANNEL_LIGHT * rho[i] ? much : 0.0;
-    }
-}
-
-void conduction_channel_heed(size_t n, const double *part, const double *rho_l, const double *rho, double *sets)
-{
-    conduction_channel_set(n, part, rho_l, rho, sets);
-}
-
 void conduction_channel_bound(size_t n, double most, const struct conduction_channel_side *left,
                               const struct conduction_channel_side *right, double *k)
 {

@@ -14,15 +14,10 @@
 
 #include <stddef.h>
 
-/* Below this fraction of a cell, or this part of its mass, a material does not set the time step; instead what it
- * conducts is bounded. What little gas there is in torn liquid is so thin that it would ask for steps of 1e-16 s. */
-#define CONDUCTION_CHANNEL_FELT 0.01
-#define CONDUCTION_CHANNEL_LIGHT 1e-6
-
 /* A material on one side of a row of faces. */
 struct conduction_channel_side {
     const double *part; /* its fraction, 0 where it is not felt */
-    const double *sets; /* the same where it sets the time step, else 0; for the bound */
+    const double *sets; /* the same where it sets the time step, else 0 (heed.h); for the bound */
     const double *T;    /* [K] */
     const double *k;    /* conductivity [W/(m K)] */
     const double *c;    /* rho cv, capacity of its own volume [J/(m3 K)]; for the bound */
@@ -52,9 +47,6 @@ void conduction_channel_wet(size_t n, const struct conduction_channel_side *l, c
 void conduction_channel_surface(size_t n, const struct conduction_channel_side *left,
                                 const struct conduction_channel_side *right, const double *wet_left,
                                 const double *wet_right, double *k);
-
-/* Of n fractions those that set the time step, else 0; rho_l: the material's density, rho: that of the cell. */
-void conduction_channel_heed(size_t n, const double *part, const double *rho_l, const double *rho, double *sets);
 
 /* k_lm where a side does not set the time step: at most `most` c_l c_m/(c_l + c_m), most in m2/s. Values at the face
  * alone decide. */

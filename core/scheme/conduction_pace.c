@@ -1,21 +1,9 @@
 /* conduction_pace.c - see conduction_pace.h. */
 #include "scheme/conduction_pace.h"
 
-#include "phys/row.h"
-#include "scheme/conduction_channel.h"
 #include "scheme/conduction_law.h"
 #include "scheme/distance.h"
-
-#include <string.h>
-
-const double *conduction_pace_density(const struct model *path, size_t n, size_t stride, const double *w, double *room)
-{
-    const double *rho = w + path->i_m * stride, *alpha = w + path->i_alpha * stride;
-    if (!path->n_alpha) return rho;
-    memset(room, 0, n * sizeof *room);
-    for (unsigned l = 0; l < path->n_alpha; l++) row_add_product(n, alpha + l * stride, rho + l * stride, room);
-    return room;
-}
+#include "scheme/heed.h"
 
 /* The largest diffusivity k_l/c_l of the materials that count. */
 static BULLA_KERNEL void conduction_pace_diffuse(size_t n, const double *restrict k, const double *restrict sets,
@@ -39,14 +27,14 @@ static void conduction_pace_swiftest(const struct model *path, size_t n, size_t 
 {
     double one[CONDUCTION_LAW_BATCH], T[CONDUCTION_LAW_BATCH], c[CONDUCTION_LAW_BATCH], k[CONDUCTION_LAW_BATCH],
         room[CONDUCTION_LAW_BATCH], sets[CONDUCTION_LAW_BATCH];
-    const double *p = w + path->i_E * stride, *sum = conduction_pace_density(path, n, stride, w, room);
+    const double *p = w + path->i_E * stride, *sum = heed_density(path, n, stride, w, room);
     for (size_t i = 0; i < n; i++) one[i] = 1.0, D[i] = 0.0;
     for (unsigned l = 0; l < path->n_material; l++) {
         const double *rho = w + (path->i_m + l) * stride;
         if (!conduction_law_is(path, l)) continue;
         conduction_law_capacity(&path->eos[l], n, rho, p, T, c);
         conduction_law_ask(path, l, n, T, p, rho, k);
-        conduction_channel_heed(n, path->n_alpha ? w + (path->i_alpha + l) * stride : one, rho, sum, sets);
+        heed_parts(n, path->n_alpha ? w + (path->i_alpha + l) * stride : one, rho, sum, sets);
         conduction_pace_diffuse(n, k, sets, c, D);
     }
 }

@@ -6,6 +6,7 @@
 #include "phys/mix.h"
 #include "phys/row.h"
 #include "scheme/distance.h"
+#include "scheme/heed.h"
 #include "scheme/swell.h"
 #include "scheme/terms.h"
 
@@ -15,7 +16,7 @@
 /* Rows of a frame with pitch FACE_ROOM: of cells, and of the gases in them. */
 struct fick_cells {
     double *alpha, *rho, *D; /* of all gases of a mixture */
-    double *sets;            /* 1 where they set the time step */
+    double *sets;            /* where they set the time step (heed.h) */
 };
 
 struct fick {
@@ -96,17 +97,6 @@ static BULLA_KERNEL void fick_shares(size_t n, const double *restrict sum, doubl
     }
 }
 
-/* 1 where there is enough gas, of the cell and of its mass, to set the time step. */
-static BULLA_KERNEL void fick_heed(size_t n, const double *restrict alpha, const double *restrict mass,
-                                   const double *restrict all, double *restrict sets)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double much = alpha[i] > FICK_FELT ? 1.0 : 0.0;
-        sets[i] = mass[i] > FICK_LIGHT * all[i] ? much : 0.0;
-    }
-}
-
 /* The density of the gases, and D: T comes as the sum of alpha T. x^1.75 = x^2/x^(1/4). */
 static BULLA_KERNEL void fick_quicken(size_t n, double D0, double T0, double p0, const double *restrict p,
                                       const double *restrict alpha, double *restrict rho, double *restrict D)
@@ -150,12 +140,9 @@ static void fick_mix(const struct model *path, unsigned k, size_t n, size_t stri
         fick_gather(n, w + (path->i_alpha + l) * stride, rho, T, share + l * room, of->alpha, of->rho, of->D);
     }
     for (unsigned g = 0; g < fick->n; g++) fick_shares(n, of->rho, share + fick->member[g] * room);
-    memset(T, 0, n * sizeof *T);
-    for (unsigned l = 0; l < path->n_alpha; l++)
-        row_add_product(n, w + (path->i_alpha + l) * stride, w + (path->i_m + l) * stride, T);
-    fick_heed(n, of->alpha, of->rho, T, of->sets);
     if (scene->constant) fick_steady(n, scene->D, of->alpha, of->rho, of->D);
     else fick_quicken(n, scene->D, scene->T, scene->p, p, of->alpha, of->rho, of->D);
+    heed_parts(n, of->alpha, of->rho, heed_density(path, n, stride, w, T), of->sets);
 }
 
 /* What a mass of a gas takes along. */

@@ -11,15 +11,12 @@
  * D0 (p0/p) (T/T0)^1.75 (Fuller, Schettler & Giddings, Ind. Eng. Chem. 58 (1966) 18), T the gases' mean by volume; more
  * than two gases share one D.
  *
- * Time step: 1/dt = signal/CFL + DISTANCE_PACE D sum 1/h^2 where gas is more than FICK_FELT of a cell and FICK_LIGHT of
- * its mass; where it is less, D is bounded by what keeps it stable. */
+ * Time step: 1/dt = signal/CFL + DISTANCE_PACE D sum 1/h^2 where the gases are enough of a cell (heed.h); where they
+ * are less, D is bounded by what keeps it stable. */
 #ifndef FICK_H
 #define FICK_H
 
 #include "scheme/term.h"
-
-#define FICK_FELT 0.01
-#define FICK_LIGHT 1e-6
 
 /* Owns a row for each gas of the path's mixtures: the volume that it takes along [1/s]. */
 extern const struct term fick_term;

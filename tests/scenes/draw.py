@@ -98,8 +98,8 @@ def solids(scene, materials):
                "reference-density": 2000 if stiff else 1000}
         if law["type"] == "gent":
             law["limit"] = 10
-        solid = {"eos": {"type": "stiffened-gas", "gamma": 4.4, "p-inf": "5 GPa" if stiff else "600 MPa", "cv": 2451 if stiff else 588},
-                 "constitutive": law}
+        rest = {"p-inf": "5 GPa", "cv": 2451} if stiff else {"p-inf": "600 MPa", "cv": 588}
+        solid = {"eos": dict({"type": "stiffened-gas", "gamma": 4.4}, **rest), "constitutive": law}
         if dice.coin(0.3):
             solid["viscoelastic"] = [{"shear-modulus": shear, "relaxation-time": scene.length / 1500}]
         elif stiff and dice.coin(0.4):
@@ -146,7 +146,8 @@ def exchange(scene):
     if dice.coin(0.1) and scene.kind != "ball":
         case["sources"] = {"acceleration": [0.0] * (scene.dim - 1) + [-1e4]}
         scene.works = True
-    if scene.dim > 1 and not (scene.solids or scene.conducts or scene.viscous or scene.tense or scene.pairs) and dice.coin(0.2):
+    busy = scene.solids or scene.conducts or scene.viscous or scene.tense or scene.pairs
+    if scene.dim > 1 and not busy and dice.coin(0.2):
         at = [0.5 * scene.length] * scene.dim
         case["bodies"] = {"rock": {"sphere": {"center": at, "radius": 0.15 * scene.length}}}
         scene.bodies = True

@@ -1,8 +1,8 @@
 """hunt.py SEED|FIRST..LAST ... - runs scenes of draw.py and looks for what must never be.
 
-Each scene goes 16 steps on one rank, on three, and on two for 8 steps and then on one from the checkpoint. Histories and
-checkpoints are the same to the bit; in a closed domain masses and energy stay to round-off; no program crashes or hangs. A
-run may end by itself with a message (exit code 3): what is drawn can be too wild. Those seeds are named at the end, and
+Each scene goes 16 steps on one rank, on three, and on two for 8 steps and then on one from the checkpoint. Histories
+and checkpoints are the same to the bit; in a closed domain masses and energy stay to round-off; no program crashes or
+hangs. A run may end by itself with a message (exit code 3): what is drawn can be too wild. Such seeds are named, and
 `-s` counts them as failures. Prints what failed, and ends with 1.
 """
 import csv

@@ -5,6 +5,7 @@
 #include "scheme/conduction_channel.h"
 #include "scheme/conduction_front.h"
 #include "scheme/face.h"
+#include "scheme/heed.h"
 
 /* --- the channels themselves --- */
 
@@ -202,7 +203,7 @@ static void test_light(void **state)
     const double part[] = {0.5, 0.005, 0.03, 1.0, 0.0}, rho_l[] = {1.2, 1.2, 1e-3, 1e-3, 1.2},
                  rho[] = {500.0, 1000.0, 970.0, 1e-3, 1000.0}, c[] = {1.0, 1.0, 1.0, 1.0, 1.0};
     double sets[5], k[] = {9.0, 9.0, 9.0, 9.0, 9.0};
-    conduction_channel_heed(5, part, rho_l, rho, sets);
+    heed_parts(5, part, rho_l, rho, sets);
     assert_true(sets[0] == 0.5 && sets[1] == 0.0 && sets[2] == 0.0 && sets[3] == 1.0 && sets[4] == 0.0);
     const struct conduction_channel_side side = {.part = part, .sets = sets, .c = c};
     conduction_channel_bound(5, 2.0, &side, &side, k);
