@@ -285,6 +285,13 @@ static void scene_scheme_surfaces(struct draft *draft, const struct keys_value *
     if (!surface->node && !surface->meant)
         value = scene_scheme_default(draft, surface, &scene_scheme_limiter, scene_scheme_edge(draft));
     scene_matter_open(draft, &value, &scene->scheme.interface_limiter);
+    const struct bulla_module *module = scene->scheme.interface_limiter.module;
+    bool rests = !module || !strcmp(module->name, "van-albada") || !strcmp(module->name, "minmod");
+    if (!rests && scene_scheme_hard(draft))
+        diag_warn(draft->keys.diag, &value.node->mark,
+                  "with interface-limiter '%s' a stiff solid in a gas can shake itself to pieces; van-albada is the "
+                  "default there",
+                  module->name);
 }
 
 /* Some limiters are for the surfaces of fluids: elsewhere they make steps of waves, and slip and traction at the
