@@ -4,6 +4,7 @@
 
 #include "base/mem.h"
 #include "phys/mix.h"
+#include "phys/traction.h"
 #include "phys/phase_pair.h"
 #include "phys/row.h"
 #include "scheme/conduction_channel.h"
@@ -23,6 +24,7 @@
 struct conduction {
     double *rows; /* all of the below */
     double *T, *part, *sets, *c, *k;
+    const struct model *of;  /* the path whose numbers stand in k: a narrow one has other materials in the same rows */
     double *left, *right;    /* what is left of the materials on both sides of the faces */
     const double *beside[2]; /* their fractions there */
     double *rest, *width, *series, *q, *pair, *per_d;
@@ -56,9 +58,11 @@ static void conduction_list(struct terms *terms, int axis, unsigned first, const
                    "heat", model->scene->material[model->first + l].name);
 }
 
-/* Conductivities that are numbers stand in their rows for good. */
+/* Conductivities that are numbers stand in their rows as long as the path is the same. */
 static void conduction_set(const struct model *path, struct conduction *own)
 {
+    if (own->of == path) return;
+    own->of = path;
     for (unsigned l = 0; l < path->n_material; l++) {
         if (!conduction_law_is(path, l) || path->conductivity[l].law->needs) continue;
         for (size_t i = 0; i < FACE_ROOM; i++) own->k[l * (size_t)FACE_ROOM + i] = path->conductivity[l].k;
@@ -76,7 +80,6 @@ static void *conduction_open(const struct term_room *room)
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++, at += block) *blocks[i] = at;
     for (size_t i = 0; i < sizeof single / sizeof *single; i++, at += FACE_ROOM) *single[i] = at;
     own->surface = conduction_front_new(room->model);
-    conduction_set(room->model, own);
     return own;
 }
 
@@ -118,15 +121,23 @@ static BULLA_KERNEL double conduction_traces(size_t n, const double *restrict pa
     return count;
 }
 
-/* Capacities of the cells of a row. */
-static void conduction_weigh(const struct model *path, size_t n, const double *w, struct conduction *own)
+/* Capacities of n <= CONDUCTION_LAW_BATCH cells, of each material at its own pressure. */
+static void conduction_weigh_batch(const struct model *path, size_t n, const double *w, double *c)
 {
     double T[CONDUCTION_LAW_BATCH];
-    for (unsigned l = 0; l < path->n_material; l++)
-        for (size_t from = 0; from < n; from += CONDUCTION_LAW_BATCH)
-            conduction_law_capacity(&path->eos[l], n - from < CONDUCTION_LAW_BATCH ? n - from : CONDUCTION_LAW_BATCH,
-                                    w + (path->i_m + l) * FACE_ROOM + from, w + path->i_E * FACE_ROOM + from, T,
-                                    own->c + l * FACE_ROOM + from);
+    struct traction_pressures parts;
+    traction_part(path, n, FACE_ROOM, w, &parts);
+    for (unsigned l = 0; l < path->n_material; l++) {
+        const double *p = traction_pressure(path, n, l, w + path->i_E * FACE_ROOM, &parts);
+        conduction_law_capacity(&path->eos[l], n, w + (path->i_m + l) * FACE_ROOM, p, T, c + l * FACE_ROOM);
+    }
+}
+
+static void conduction_weigh(const struct model *path, size_t n, const double *w, struct conduction *own)
+{
+    for (size_t from = 0; from < n; from += CONDUCTION_LAW_BATCH)
+        conduction_weigh_batch(path, n - from < CONDUCTION_LAW_BATCH ? n - from : CONDUCTION_LAW_BATCH, w + from,
+                               own->c + from);
 }
 
 /* Does a wall at one of the ends of a piece give heat? */
@@ -140,6 +151,7 @@ static bool conduction_is_heated(const struct term_piece *piece, int side)
 static void conduction_look(const struct term_piece *piece, size_t n, const double *w, struct conduction *own)
 {
     const struct model *path = piece->model;
+    conduction_set(path, own);
     const double *rho = heed_density(path, n, FACE_ROOM, w, own->rest);
     for (unsigned l = 0; l < path->n_material; l++) {
         double *T = own->T + l * FACE_ROOM, *part = own->part + l * FACE_ROOM, *sets = own->sets + l * FACE_ROOM;

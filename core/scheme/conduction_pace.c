@@ -1,6 +1,7 @@
 /* conduction_pace.c - see conduction_pace.h. */
 #include "scheme/conduction_pace.h"
 
+#include "phys/traction.h"
 #include "scheme/conduction_law.h"
 #include "scheme/distance.h"
 #include "scheme/heed.h"
@@ -27,11 +28,14 @@ static void conduction_pace_swiftest(const struct model *path, size_t n, size_t 
 {
     double one[CONDUCTION_LAW_BATCH], T[CONDUCTION_LAW_BATCH], c[CONDUCTION_LAW_BATCH], k[CONDUCTION_LAW_BATCH],
         room[CONDUCTION_LAW_BATCH], sets[CONDUCTION_LAW_BATCH];
-    const double *p = w + path->i_E * stride, *sum = heed_density(path, n, stride, w, room);
+    const double *sum = heed_density(path, n, stride, w, room);
+    struct traction_pressures parts;
+    traction_part(path, n, stride, w, &parts);
     for (size_t i = 0; i < n; i++) one[i] = 1.0, D[i] = 0.0;
     for (unsigned l = 0; l < path->n_material; l++) {
         const double *rho = w + (path->i_m + l) * stride;
         if (!conduction_law_is(path, l)) continue;
+        const double *p = traction_pressure(path, n, l, w + path->i_E * stride, &parts);
         conduction_law_capacity(&path->eos[l], n, rho, p, T, c);
         conduction_law_ask(path, l, n, T, p, rho, k);
         heed_parts(n, path->n_alpha ? w + (path->i_alpha + l) * stride : one, rho, sum, sets);
