@@ -53,6 +53,8 @@ static bool bound_fill_is_crossed(const struct model *model, int axis, unsigned 
     return c == elastic_component(n, (n + 1) % 3) || c == elastic_component(n, (n + 2) % 3);
 }
 
+/* Behind a wall that holds the matter stretches lie as they are, so that both sides bear one stress; a surface then
+ * lies as it is, too: turned, it would bear another pressure there (tilt.h), and the wall would leak. */
 static void bound_fill_mirror(const struct bound_fill *fill, bool no_slip)
 {
     const struct model *model = fill->bound->model;
@@ -61,7 +63,7 @@ static void bound_fill_mirror(const struct bound_fill *fill, bool no_slip)
         unsigned q = model->active[i];
         bool velocity = q >= model->i_u && q < model->i_E;
         bool normal = model->n_normal && q == model->i_normal + (unsigned)axis;
-        bool turned = normal || (!no_slip && bound_fill_is_crossed(model, axis, q));
+        bool turned = !no_slip && (normal || bound_fill_is_crossed(model, axis, q));
         bool reversed = velocity ? no_slip || q == model->i_u + (unsigned)axis : turned;
         bound_layer_fill(fill->frame, fill->side, true, reversed ? -1.0 : 1.0, fill->w + q * fill->pitch);
     }
@@ -227,7 +229,7 @@ static void bound_fill_characteristic(const struct bound_fill *fill, struct boun
     const struct model *model = fill->bound->model;
     const struct frame *frame = fill->frame;
     size_t n = row->n, cells = frame->tile_outer * frame->tile_inner;
-    double far[BOUND_ROW], gauge[BOUND_ROW], old[BOUND_ROW], rho[BOUND_ROW], c_s[BOUND_ROW];
+    double far[BOUND_ROW], gauge[BOUND_ROW], old[BOUND_ROW], old_u[BOUND_ROW], rho[BOUND_ROW], c_s[BOUND_ROW];
     const double *reference = bound_fill_start(fill);
     double *p = row->w + model->i_E * row->stride, *u = row->w + (model->i_u + (unsigned)frame->axis) * row->stride;
     double outward = fill->side ? 1.0 : -1.0;
@@ -235,6 +237,7 @@ static void bound_fill_characteristic(const struct bound_fill *fill, struct boun
     bound_fill_outside(fill, n, wave, far, gauge);
     bound_row_sound(model, row, rho, c_s);
     memcpy(old, p, n * sizeof *p);
+    memcpy(old_u, u, n * sizeof *u);
     for (size_t c = 0; c < n; c++) {
         double inside = outward * u[c];
         if (inside >= c_s[c]) continue; /* supersonic outflow: nothing comes back */
@@ -244,7 +247,9 @@ static void bound_fill_characteristic(const struct bound_fill *fill, struct boun
         p[c] = 0.5 * (leaving + entering);
         u[c] = outward * (0.5 * (leaving - entering) / Z);
     }
-    bound_row_follow(model, row, old);
+    const double *inside[SCENE_AXES] = {NULL};
+    inside[frame->axis] = old_u;
+    bound_row_follow(model, row, old, inside);
 }
 
 static void bound_fill_compose_far(const struct bound_fill *fill, struct bound_row *row)
@@ -255,7 +260,7 @@ static void bound_fill_compose_far(const struct bound_fill *fill, struct bound_r
 /* What bound_ray.h wants: centres of the faces, the far field, the cells inside. */
 struct bound_fill_rays {
     double x[SCENE_AXES][BOUND_ROW], far_p[BOUND_ROW], far_u[SCENE_AXES][BOUND_ROW];
-    double rho[BOUND_ROW], c_s[BOUND_ROW], Z[BOUND_ROW], old[BOUND_ROW];
+    double rho[BOUND_ROW], c_s[BOUND_ROW], Z[BOUND_ROW], old[BOUND_ROW], old_u[SCENE_AXES][BOUND_ROW];
     double p[BOUND_RAY_DEPTHS][BOUND_ROW], u[BOUND_RAY_DEPTHS][SCENE_AXES][BOUND_ROW];
 };
 
@@ -324,8 +329,10 @@ static void bound_fill_compose_rays(const struct bound_fill *fill, struct bound_
         return;
     }
     memcpy(rays.old, leave.to_p, row->n * sizeof *rays.old);
+    for (unsigned d = 0; d < model->n_velocity; d++) memcpy(rays.old_u[d], leave.to_u[d], row->n * sizeof *rays.old);
     bound_ray_leave(&leave);
-    bound_row_follow(model, row, rays.old);
+    const double *inside[SCENE_AXES] = {rays.old_u[0], rays.old_u[1], rays.old_u[2]};
+    bound_row_follow(model, row, rays.old, inside);
 }
 
 static void bound_fill_far(const struct bound_fill *fill)
@@ -402,7 +409,8 @@ static void bound_fill_rest(const struct bound_fill *fill, struct bound_row *row
 {
     const struct model *model = fill->bound->model;
     const struct scene_boundary *boundary = bound_fill_boundary(fill);
-    if (bound_law_is_isentropic(boundary)) bound_row_follow(model, row, old);
+    static const double *const kept[SCENE_AXES]; /* velocities stay the module's */
+    if (bound_law_is_isentropic(boundary)) bound_row_follow(model, row, old, kept);
     if (bound_law_mirrors(boundary)) bound_fill_reverse(fill, row);
     for (size_t c = 0; c < row->n && bound_law_brings(boundary); c++) bound_fill_fresh(model, row->w + c, row->stride);
 }

@@ -4,6 +4,7 @@
 #include "phys/mix.h"
 
 #include <math.h>
+#include <string.h>
 
 void bound_row_sound(const struct model *model, const struct bound_row *row, double *rho, double *sound)
 {
@@ -33,10 +34,27 @@ static void bound_row_isentrope(const struct model_eos *eos, size_t n, const dou
     for (size_t i = 0; i < n; i++) rho[i] += (p_new[i] - p[i]) * half_rho[i] / rho_c2[i];
 }
 
-void bound_row_follow(const struct model *model, struct bound_row *row, const double *old)
+/* Puts the point c back to what lies inside. */
+static void bound_row_restore(const struct model *model, struct bound_row *row, size_t c, const double *old,
+                              const double *const *old_u, const double *rho)
 {
-    double scratch[4 * BOUND_ROW];
-    const double *p = row->w + model->i_E * row->stride;
+    row->w[model->i_E * row->stride + c] = old[c];
+    for (unsigned d = 0; d < model->n_velocity; d++)
+        if (old_u[d]) row->w[(model->i_u + d) * row->stride + c] = old_u[d][c];
     for (unsigned l = 0; l < model->n_material; l++)
-        bound_row_isentrope(&model->eos[l], row->n, old, p, row->w + (model->i_m + l) * row->stride, scratch);
+        row->w[(model->i_m + l) * row->stride + c] = rho[l * BOUND_ROW + c];
+}
+
+void bound_row_follow(const struct model *model, struct bound_row *row, const double *old, const double *const *old_u)
+{
+    double scratch[4 * BOUND_ROW], inside[SCENE_MATERIALS * BOUND_ROW], rho[BOUND_ROW], sound[BOUND_ROW];
+    const double *p = row->w + model->i_E * row->stride;
+    for (unsigned l = 0; l < model->n_material; l++) {
+        double *own = row->w + (model->i_m + l) * row->stride;
+        memcpy(inside + l * BOUND_ROW, own, row->n * sizeof *own);
+        bound_row_isentrope(&model->eos[l], row->n, old, p, own, scratch);
+    }
+    bound_row_sound(model, row, rho, sound);
+    for (size_t c = 0; c < row->n; c++)
+        if (!(sound[c] > 0.0 && rho[c] > 0.0)) bound_row_restore(model, row, c, old, old_u, inside);
 }

@@ -16,7 +16,10 @@ struct bound_row {
 /* Density and speed of sound of the mixture. */
 void bound_row_sound(const struct model *model, const struct bound_row *row, double *rho, double *sound);
 
-/* Each material along its isentrope from the pressures `old` to those that the row has. */
-void bound_row_follow(const struct model *model, struct bound_row *row, const double *old);
+/* Each material along its isentrope from the pressures `old` to those that the row has. Where the mixture bears no such
+ * pressure (a gas that leaves fast: linear waves take more from it than it has) p, velocities and densities are those
+ * of the cell inside, as behind an outflow. old_u: [n_velocity] rows of velocities inside; NULL: that one is as it was.
+ */
+void bound_row_follow(const struct model *model, struct bound_row *row, const double *old, const double *const *old_u);
 
 #endif

@@ -44,19 +44,36 @@ static void source_weight_cells(struct source_value *values, const struct source
     source_weight_half(frame->count, place->level->h[frame->axis], acceleration, rho, half);
 }
 
-/* What p has gained from the cell inside, or (not `whole`) from the face, up to a layer behind a boundary. */
-static void source_weight_layer(const struct frame *frame, int side, int ghost, bool whole, const double *half,
-                                double *p)
+/* Where p in the layers behind a boundary comes from: from the layer inside that each mirrors, from the outermost one,
+ * or from the face. */
+enum source_weight_start { SOURCE_WEIGHT_MIRRORED, SOURCE_WEIGHT_COPIED, SOURCE_WEIGHT_BROUGHT };
+
+static enum source_weight_start source_weight_start(const struct scene *scene, int face)
 {
+    if (scene_boundary_is(scene, face, SCENE_BOUNDARY_BRINGS)) return SOURCE_WEIGHT_BROUGHT;
+    bool mirrors =
+        scene_boundary_is(scene, face, SCENE_BOUNDARY_RESTS) && !scene_boundary_is(scene, face, SCENE_BOUNDARY_OPEN);
+    return mirrors ? SOURCE_WEIGHT_MIRRORED : SOURCE_WEIGHT_COPIED;
+}
+
+/* Layer k from a boundary: behind it from 0 on, inside from -1 down. */
+static int source_weight_at(const struct frame *frame, int side, int k)
+{
+    return k < 0 ? bound_layer_inside(frame, side, -1 - k) : bound_layer_behind(frame, side, k);
+}
+
+/* What p has gained up to a layer behind a boundary. */
+static void source_weight_layer(const struct frame *frame, int side, int ghost, enum source_weight_start start,
+                                const double *half, double *p)
+{
+    int first = start == SOURCE_WEIGHT_MIRRORED ? -1 - ghost : start == SOURCE_WEIGHT_COPIED ? -1 : 0;
     for (size_t o = 0; o < frame->outer; o++)
         for (size_t i = 0; i < frame->inner; i++) {
-            double sum = 0.0;
-            for (int g = 0; g <= ghost; g++) {
-                size_t own = frame_at(frame, o, bound_layer_behind(frame, side, g)) + i;
-                size_t before = g ? frame_at(frame, o, bound_layer_behind(frame, side, g - 1)) + i
-                                  : frame_at(frame, o, bound_layer_inside(frame, side, 0)) + i;
-                sum += g || whole ? half[before] + half[own] : half[own];
-            }
+            const double *of = half + i;
+            double sum = first < 0 ? 0.0 : of[frame_at(frame, o, source_weight_at(frame, side, 0))];
+            for (int k = first; k < ghost; k++)
+                sum += of[frame_at(frame, o, source_weight_at(frame, side, k))] +
+                       of[frame_at(frame, o, source_weight_at(frame, side, k + 1))];
             p[frame_at(frame, o, bound_layer_behind(frame, side, ghost)) + i] += side ? sum : -sum;
         }
 }
@@ -65,13 +82,13 @@ void source_weight_continue(struct source_value *values, const struct source_val
                             const struct frame *frame, int side, size_t pitch, double *w)
 {
     const struct model *path = values->path;
-    bool whole = !scene_boundary_is(path->scene, 2 * frame->axis + side, SCENE_BOUNDARY_BRINGS);
+    enum source_weight_start start = source_weight_start(path->scene, 2 * frame->axis + side);
     int n = (int)frame->n, ghosts = (int)frame->ghosts;
     double half[FACE_ROOM];
     if (!source_weight_any(path->scene, frame->axis)) return;
-    source_weight_cells(values, place, frame, side ? n - 1 : -ghosts, side ? n + ghosts : 1, pitch, w, half);
+    source_weight_cells(values, place, frame, side ? n - ghosts : -ghosts, side ? n + ghosts : ghosts, pitch, w, half);
     for (int ghost = 0; ghost < ghosts; ghost++)
-        source_weight_layer(frame, side, ghost, whole, half, w + path->i_E * pitch);
+        source_weight_layer(frame, side, ghost, start, half, w + path->i_E * pitch);
 }
 
 void source_weight_frame(struct source_value *values, const struct term_piece *piece)

@@ -16,8 +16,9 @@
 /* Is there an acceleration along an axis? Those of a Lua table do not count. */
 bool source_weight_any(const struct scene *scene, int axis);
 
-/* Pressure in the layers behind a boundary, filled without forces, goes on in balance: what mirrors, copies and waves
- * put there has the pressure of the cell inside, what flows in that of the face. Rows of all fields, `pitch` apart. */
+/* Pressure in the layers behind a boundary, filled without forces, goes on in balance: what mirrors put there has the
+ * pressure of the layer that it mirrors, what copies and waves do that of the cell inside, what flows in that of the
+ * face. Rows of all fields, `pitch` apart. */
 void source_weight_continue(struct source_value *values, const struct source_value_place *place,
                             const struct frame *frame, int side, size_t pitch, double *w);
 

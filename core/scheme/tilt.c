@@ -191,7 +191,7 @@ static void tilt_slopes(const struct model *model, const struct frame *frame, si
                             .step = frame->inner,
                             .last = frame->count - frame->inner};
     for (unsigned d = 0; d < 3; d++) to.normal[d] = w + (model->i_normal + d % model->n_normal) * FACE_ROOM;
-    if (model->n_velocity < 3) tilt_lean(true, tilt, &to, n);
+    if (model->n_normal < 3) tilt_lean(true, tilt, &to, n);
     else tilt_lean(false, tilt, &to, n);
 }
 
