@@ -114,8 +114,9 @@ static void cut_flux_face(const struct term_piece *piece, const struct rigid_cel
         face.upper /= both;
     }
     face.keep = both < 1.0 ? 1.0 - both : 0.0;
-    if (face.lower > 0.0) face.below = cut_flux_slot(piece, cell - line->step, below);
-    if (face.upper > 0.0) face.above = cut_flux_slot(piece, cell, above);
+    if (face.lower > 0.0 || (both > 0.0 && piece->tile->masked))
+        face.below = cut_flux_slot(piece, cell - line->step, below);
+    if (face.upper > 0.0 || (both > 0.0 && piece->tile->masked)) face.above = cut_flux_slot(piece, cell, above);
     cut->faces[cut->n_face++] = face;
 }
 
@@ -133,19 +134,22 @@ static void cut_flux_find(const struct term_piece *piece, const struct rigid_cel
     cut_rows_press(cut->rows, piece->model, cells, piece->tile->masked);
 }
 
-/* G of one flux in a compact row: of what slides along the wall. */
-static double cut_flux_push(const struct term_piece *piece, const struct term_flux *flux, size_t i)
+/* G of one flux in a compact row: of what slides along the wall, or with it. A repeated attempt takes what comes into
+ * the cell from the one `before` the face: what the wall's cell holds of a material, that one may not have. */
+static double cut_flux_push(const struct term_piece *piece, const struct term_flux *flux, size_t i, size_t before,
+                            double inward)
 {
     const struct cut_rows *rows = ((const struct cut_flux *)piece->own)->rows;
     const struct model *model = piece->model;
     unsigned axis = model->i_u + (unsigned)piece->frame->axis;
     double speed = rows->w[axis * rows->stride + i], G = flux->rate == axis ? rows->p[i] : 0.0;
-    if (flux->rate < model->n_field) G += speed * rows->u[flux->rate * rows->stride + i];
+    size_t from = piece->tile->masked && speed * inward > 0.0 ? before : i;
+    if (flux->rate < model->n_field) G += speed * rows->u[flux->rate * rows->stride + from];
     if (flux->rate == model->i_E) G += speed * rows->p[i];
     if (flux->below == piece->faces->u) return speed;
     for (unsigned l = 0; l < model->n_alpha; l++)
         if (flux->below == piece->faces->carried + l * FACE_ROOM)
-            G = speed * rows->w[(model->i_alpha + l) * rows->stride + i] * rows->w[model->i_E * rows->stride + i];
+            G = speed * rows->w[(model->i_alpha + l) * rows->stride + from] * rows->w[model->i_E * rows->stride + from];
     return G;
 }
 
@@ -155,8 +159,8 @@ static void cut_flux_change(const struct term_piece *piece, const struct term_fl
     for (size_t f = 0; f < cut->n_face; f++) {
         const struct cut_flux_face *face = &cut->faces[f];
         double value = face->keep * row[face->k];
-        if (face->lower > 0.0) value += face->lower * cut_flux_push(piece, flux, face->below);
-        if (face->upper > 0.0) value += face->upper * cut_flux_push(piece, flux, face->above);
+        if (face->lower > 0.0) value += face->lower * cut_flux_push(piece, flux, face->below, face->above, -1.0);
+        if (face->upper > 0.0) value += face->upper * cut_flux_push(piece, flux, face->above, face->below, 1.0);
         row[face->k] = face->open * value;
     }
 }
