@@ -11,6 +11,7 @@
 #include "case/donor.h"
 #include "case/shape.h"
 #include "paint/paint_contact.h"
+#include "paint/paint_press.h"
 #include "paint/paint_curvature.h"
 #include "paint/paint_smear.h"
 #include "paint/paint_stretch.h"
@@ -154,10 +155,14 @@ static void paint_lay(struct paint *paint, size_t cell, double fraction, const d
 static void paint_mix(struct paint *paint, size_t cell, double fraction, const double *layer)
 {
     const struct model *model = paint->model;
-    double below[MODEL_FIELDS];
-    bool meets = fraction < 1.0 && paint->covered[cell] == 1.0 && paint->model->n_pair == 0; /* tension holds a jump */
-    for (unsigned q = 0; meets && q < model->n_field; q++) below[q] = paint->u[q * paint->n_cell + cell];
+    double below[MODEL_FIELDS], mean[MODEL_FIELDS];
+    bool cuts = fraction < 1.0 && paint->covered[cell] == 1.0,
+         meets = cuts && model->n_pair == 0; /* tension holds a jump */
+    for (unsigned q = 0; cuts && q < model->n_field; q++) below[q] = paint->u[q * paint->n_cell + cell];
     paint_lay(paint, cell, fraction, layer);
+    for (unsigned q = 0; cuts && q < model->n_field; q++) mean[q] = paint->u[q * paint->n_cell + cell];
+    if (cuts) paint_press(model, below, layer, fraction, mean);
+    if (cuts) paint->u[model->i_E * paint->n_cell + cell] = mean[model->i_E];
     if (meets) paint_meet(paint, cell, below, layer);
 }
 

@@ -17,6 +17,10 @@
 
 #define MIX_PRESSURE_NEAR 1e-12 /* of p: a step that small is none */
 
+/* Of p: a bracket that narrow holds nothing but the noise of a law that is iterated itself (IAPWS-95 as it stands has
+ * 5e-14 of its energies, hundreds of times what round-off has). */
+#define MIX_PRESSURE_NOISE 1e-9
+
 struct mix_pressure_row {
     double value[MIX_PRESSURE_BATCH];
 };
@@ -201,6 +205,14 @@ static void mix_pressure_residual(struct mix_pressure_points *points)
 
 enum mix_pressure_end { MIX_PRESSURE_MOVES, MIX_PRESSURE_DONE, MIX_PRESSURE_LOST };
 
+/* Of a point that cannot be moved on. Nothing is known of its floor, so that is no end of a bracket. */
+static enum mix_pressure_end mix_pressure_end(const struct mix_pressure_points *points, size_t k)
+{
+    double low = points->low.value[k], width = points->high.value[k] - low;
+    bool found = low > points->floor.value[k] && width <= MIX_PRESSURE_NOISE * fabs(points->p.value[k]);
+    return found ? MIX_PRESSURE_DONE : MIX_PRESSURE_LOST;
+}
+
 /* Judges point k at its p, and moves it on if need be. */
 static enum mix_pressure_end mix_pressure_step(struct mix_pressure_points *points, size_t k)
 {
@@ -217,8 +229,9 @@ static enum mix_pressure_end mix_pressure_step(struct mix_pressure_points *point
         next = excess > 0.0 ? p - stride : p + stride;
         if (isfinite(low) && isfinite(high)) next = 0.5 * (low + high);
     }
+    if (!(next > low && next < high)) return mix_pressure_end(points, k); /* a bracket may shrink to nothing */
     points->p.value[k] = next;
-    return next > low && next < high ? MIX_PRESSURE_MOVES : MIX_PRESSURE_LOST; /* a bracket may shrink to nothing */
+    return MIX_PRESSURE_MOVES;
 }
 
 /* Point k takes the place of another that is done. */
@@ -265,8 +278,11 @@ static struct mix_effort mix_pressure_iterate(struct mix_pressure_points *points
 {
     struct mix_effort effort = {.solved = (long long)points->n};
     for (int round = 0; round <= MIX_PRESSURE_ROUNDS && points->n > 0; round++) mix_pressure_round(points, p, &effort);
-    for (size_t k = 0; k < points->n; k++) p[points->at[k]] = mix_pressure_below(points->floor.value[k]);
-    effort.failed += (long long)points->n;
+    for (size_t k = 0; k < points->n; k++) {
+        bool lost = mix_pressure_end(points, k) == MIX_PRESSURE_LOST;
+        p[points->at[k]] = lost ? mix_pressure_below(points->floor.value[k]) : points->p.value[k];
+        effort.failed += lost;
+    }
     return effort;
 }
 
