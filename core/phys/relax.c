@@ -272,6 +272,14 @@ static void relax_shift(struct relax *relax, double p)
     }
 }
 
+static bool relax_has_solid(const struct relax *relax)
+{
+    bool some = false;
+    for (unsigned s = 0; s < relax->model->n_solid; s++)
+        some = some || relax->present[relax->model->solids[s].material];
+    return some;
+}
+
 bool relax_cell(const struct model *model, size_t stride, const double *u_old, double *u, double *w)
 {
     struct relax relax = {.model = model};
@@ -295,7 +303,8 @@ bool relax_cell(const struct model *model, size_t stride, const double *u_old, d
         relax_normalise(&relax);
         closed = relax_close(&relax);
     }
-    for (int i = 0; model->split && i < RELAX_AGAIN && !(closed - relax.floor > 0.5 * (p - relax.floor)); i++) {
+    bool bears = model->split && relax_has_solid(&relax); /* the path of a cell without one may have them */
+    for (int i = 0; bears && i < RELAX_AGAIN && !(closed - relax.floor > 0.5 * (p - relax.floor)); i++) {
         traction_own(model, 1, 1, relax.w, 1, relax.own); /* a solid of another density bears another stress */
         relax_lag(&relax);
         relax_shift(&relax, p);

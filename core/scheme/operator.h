@@ -35,10 +35,11 @@ struct operator_tile {
     const struct level *level;
     const struct tile *tile;
     size_t n_cell;
-    double t;      /* of the state [s] */
-    double dt;     /* that it has gone through since the step began [s] */
-    double *u;     /* conserved fields, which it may change */
-    double *w;     /* primitives of u, for operators that ask for them; core makes them anew afterwards */
+    double t;             /* of the state [s] */
+    double dt;            /* that it has gone through since the step began [s] */
+    double *u;            /* conserved fields, which it may change */
+    double *w;            /* primitives of u, for operators that ask for them; core makes them anew afterwards */
+    const double *before; /* [n_cell] the pressures that stand in w before any operator acts */
     double *grown; /* [n_solid][n_cell] what plastic strains have grown by in this step: from plastic.c to rupture.c; or
                       NULL */
     const unsigned char *shore;   /* [n_phase][n_cell] where liquids end (shore.h); NULL: no pair of the scene asks */

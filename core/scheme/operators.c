@@ -7,6 +7,7 @@
 #include "scheme/rupture.h"
 
 #include <assert.h>
+#include <string.h>
 
 const struct operator* operators_all[OPERATORS_MOST + 1] = {
     &phase_change_operator, /* liquids evaporate, vapours condense */
@@ -30,6 +31,7 @@ void operators_of(const struct model *path, struct operators *ret_operators)
         assert(i < OPERATORS_MOST);
         ret_operators->at[operator->when][ret_operators->n[operator->when]++] = operator;
         ret_operators->moves = ret_operators->moves || operator->moves;
+        ret_operators->reads = ret_operators->reads || (operator->reads && operator->reads(path));
     }
 }
 
@@ -58,6 +60,8 @@ struct mix_effort operators_act(const struct operators *operators, bool last, co
 {
     struct mix_effort effort = operators_act_when(operators, OPERATOR_STAGE, tile);
     mix_pressure_sum(&effort, operators_act_when(operators, last ? OPERATOR_STEP : OPERATOR_BETWEEN, tile));
+    if (operators->reads)
+        memcpy(tile->w + tile->model->i_E * tile->n_cell, tile->before, tile->n_cell * sizeof *tile->before);
     return effort;
 }
 

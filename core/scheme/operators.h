@@ -15,6 +15,7 @@ struct operators {
     unsigned n[OPERATOR_TIMES];
     const struct operator* at[OPERATOR_TIMES][OPERATORS_MOST];
     bool moves; /* some operator may change what rests */
+    bool reads; /* some operator reads primitives */
 };
 
 /* Every operator there is, in the order in which they act; ends with NULL. There is room for OPERATORS_MOST, to which
@@ -26,8 +27,9 @@ void operators_of(const struct model *path, struct operators *ret_operators);
 /* Does some operator bring a material to tiles without it? Then none is narrowed (census.h). */
 bool operators_spread(const struct scene *scene);
 
-/* The state of a tile after a stage; `last`: of the step. Primitives are made where an operator asks for them; w then
- * holds pressures from which an iterated closure starts. Returns what that took. */
+/* The state of a tile after a stage; `last`: of the step. Primitives are made where an operator asks for them; w
+ * then has the pressures `before` again: those from which a closure is iterated decide its last digits, which must not
+ * depend on whether a path has such an operator. Returns what that took. */
 struct mix_effort operators_act(const struct operators *operators, bool last, const struct operator_tile *tile);
 
 /* The list for people, a line each: name, equation, owner. Nothing if the scene has none of this time. */

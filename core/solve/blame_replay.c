@@ -159,6 +159,7 @@ static void blame_replay_operate(struct replay *replay)
                                        .dt = dt,
                                        .u = replay->u,
                                        .w = replay->w,
+                                       .before = replay->rates,
                                        .shore = replay->shore,
                                        .grown = replay->grown};
     operators_of(replay->used, &operators);
@@ -225,12 +226,10 @@ void blame_replay(const struct model *model, const struct blame *blame, struct b
     size_t bytes = model->n_field * facts->n_cell * sizeof(double);
     memcpy(replay->u, blame->block[blame_moves(facts) ? BLAME_U_OLD : BLAME_U], bytes);
     memcpy(replay->w, blame->block[BLAME_W], bytes); /* where an iteration starts */
-    if (blame_moves(facts)) {
-        blame_replay_update(replay);
-        blame_replay_operate(replay);
-    }
+    if (blame_moves(facts)) blame_replay_update(replay);
     const double *p_before = replay->w + replay->used->i_E * facts->n_cell;
-    memcpy(replay->rates, p_before, facts->n_cell * sizeof *replay->rates);
+    memcpy(replay->rates, p_before, facts->n_cell * sizeof *replay->rates); /* as verdict_hold: before operators */
+    if (blame_moves(facts)) blame_replay_operate(replay);
     mix_primitives(replay->used, facts->n_cell, facts->n_cell, replay->u, replay->w);
     blame_result(replay->again, replay->used, replay->u, replay->w);
     ret_outcome->faces = blame_replay_differences(replay, BLAME_FACES);

@@ -16,6 +16,7 @@ void operate_tile(struct stage *stage, unsigned local, double *u, double *w)
                                        .dt = dt,
                                        .u = u,
                                        .w = w,
+                                       .before = stage->work->rates, /* of verdict_hold */
                                        .grown = stage->work->grown,
                                        .shore = stage_shore(stage, local),
                                        .fault = &stage->fault};

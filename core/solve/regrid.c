@@ -329,6 +329,7 @@ int regrid_initial(struct state *state)
     }
     state->counts.regrids = 0;
     for (int l = 1; l < state->mesh->n_level && !status; l++) {
+        curve_take(state->work->curve, l - 1, state->mesh->levels[l - 1].w); /* of tiles that have changed hands */
         curve_finer(state->work->curve, l - 1, 0);
         curve_down(state->work->curve, l);
         curve_take(state->work->curve, l, state->mesh->levels[l].u_old);

@@ -246,6 +246,7 @@ static void rkl_close(struct stage *stage)
         double *u = level->u_new[local], *w = level->w[local];
         row_add(rkl->block, rkl->z + local * rkl->block, u);
         if (last) continue;
+        verdict_hold(stage, local, w);
         operate_tile(stage, local, u, w);
         verdict_judge(stage, local, stage->turn, level->u_old[local], u, w);
         census_turn(&stage->census.tiles[local]);

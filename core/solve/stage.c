@@ -207,6 +207,7 @@ static void stage_inner_tile(struct stage *stage, unsigned local)
     stage_advance_tile(stage, local, stage->work->u_star);
     keep_rows(stage, local, w, w_next);
     memcpy(w_next + p, w + p, n_cell * sizeof *w); /* where an iteration starts */
+    verdict_hold(stage, local, w_next);
     operate_tile(stage, local, stage->work->u_star, w_next);
     verdict_judge(stage, local, stage->turn, level->u_old[local], stage->work->u_star, w_next);
     keep_stage(stage, local, stage->work->u_star);
@@ -265,6 +266,7 @@ void stage_close(struct stage *stage)
     for (unsigned tile = 0; tile < level->n_local; tile++) {
         if (!stage->census.tiles[tile].skipped) {
             foresee_close(stage, tile + 1);
+            verdict_hold(stage, tile, level->w[tile]);
             operate_tile(stage, tile, level->u_new[tile], level->w[tile]);
             verdict_judge(stage, tile, stage->turn, level->u_old[tile], level->u_new[tile], level->w[tile]);
             verdict_measure(stage, tile, level->w[tile]);

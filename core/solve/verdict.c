@@ -10,9 +10,26 @@
 
 #include <string.h>
 
+static const double VERDICT_START = 1e5; /* [Pa] */
+
 static int verdict_last(const struct stage *stage)
 {
     return stage->tableau->n - 1;
+}
+
+void verdict_hold(struct stage *stage, unsigned local, const double *w)
+{
+    size_t n_cell = stage->mesh->n_cell;
+    bool read = work_operators(stage->work, stage->census.tiles[local].path)->reads;
+    if (!read && !soften_applies(stage->model)) return;
+    memcpy(stage->work->rates, w + stage->model->i_E * n_cell, n_cell * sizeof *w);
+}
+
+void verdict_forget(struct stage *stage, unsigned local)
+{
+    size_t n_cell = stage->mesh->n_cell;
+    double *p = stage->level->w[local] + stage->model->i_E * n_cell;
+    for (size_t i = 0; i < n_cell; i++) p[i] = VERDICT_START;
 }
 
 void verdict_judge(struct stage *stage, unsigned local, int judged, const double *before, double *u, double *w)
@@ -21,8 +38,6 @@ void verdict_judge(struct stage *stage, unsigned local, int judged, const double
     const struct model *model = stage->census.tiles[local].path;
     size_t n_cell = stage->mesh->n_cell;
     bool softens = model->n_alpha > 1 && soften_applies(stage->model);
-    double *p_before = softens ? work->rates : NULL; /* free between stages */
-    if (softens) memcpy(p_before, w + model->i_E * n_cell, n_cell * sizeof *w);
     mix_pressure_sum(&stage->effort, mix_primitives(model, n_cell, n_cell, u, w));
     mix_stiffness(model, n_cell, n_cell, w, work->rho_c2);
     mix_speed2(model, n_cell, n_cell, w, work->rho_c2, work->c2);
@@ -31,7 +46,7 @@ void verdict_judge(struct stage *stage, unsigned local, int judged, const double
                               .local = local,
                               .stage = judged,
                               .u_old = before,
-                              .p_before = p_before,
+                              .p_before = softens ? work->rates : NULL, /* of verdict_hold */
                               .u = u,
                               .w = w,
                               .rho_c2 = work->rho_c2,
@@ -120,6 +135,7 @@ void verdict_touch(struct stage *stage, unsigned local)
     double *u = level->u_old[local], *w = level->w[local];
     unsigned present = census_materials(stage->model, stage->mesh->n_cell, u);
     if (tile->path != stage->model && present != tile->present) tile->path = stage->model;
+    verdict_hold(stage, local, w);
     verdict_judge(stage, local, verdict_last(stage), level->u_new[local], u, w);
     verdict_measure(stage, local, w);
     census_turn(tile);
@@ -131,6 +147,7 @@ void verdict_reset(struct stage *stage)
     size_t n_cell = stage->mesh->n_cell;
     for (unsigned tile = 0; tile < level->n_local; tile++) {
         if (stage_tile(stage, tile)->sleeps && level->stale) continue;
+        verdict_forget(stage, tile);
         mix_primitives(stage->model, n_cell, n_cell, level->u_old[tile], level->w[tile]);
         census_forget(&stage->census, tile);
     }
@@ -146,6 +163,7 @@ int verdict_start(struct stage *stage, long long *relaxed)
     stage->guard->repair = relaxed && repair && stage->model->split;
     for (unsigned tile = 0; tile < level->n_local; tile++) {
         memcpy(level->u_new[tile], level->u_old[tile], bytes); /* an earlier state, for verdict_touch */
+        verdict_hold(stage, tile, level->w[tile]);
         verdict_judge(stage, tile, verdict_last(stage), level->u_new[tile], level->u_old[tile], level->w[tile]);
         verdict_measure(stage, tile, level->w[tile]);
         census_turn(&stage->census.tiles[tile]);

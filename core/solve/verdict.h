@@ -5,6 +5,15 @@
 
 #include "solve/stage.h"
 
+/* Keeps the pressures w of a tile from before what is judged next, in the rates, which are free between stages: for who
+ * asks how far they have gone (soften.h), and for operators that put their own there (operators.h). To be called before
+ * these. */
+void verdict_hold(struct stage *stage, unsigned local, const double *w);
+
+/* Iterated pressures of a tile start anew, not from what w holds: a failed attempt, of which every rank has done as
+ * much as it did, and what a tile held before it slept would show in their last digits. */
+void verdict_forget(struct stage *stage, unsigned local);
+
 /* Primitives of u, into w, made with the path the tile was advanced with, and the guard's judgement as stage `judged`;
  * `before`: an earlier admissible state. */
 void verdict_judge(struct stage *stage, unsigned local, int judged, const double *before, double *u, double *w);

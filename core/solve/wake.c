@@ -8,17 +8,14 @@
 
 #include <string.h>
 
-/* Where iterated pressures start [Pa]: from what the tile held before they would end in other last digits. */
-static const double WAKE_START = 1e5;
-
 static void wake_tile(struct stage *stage, unsigned local)
 {
     const struct level *level = stage->level;
     size_t n_cell = stage->mesh->n_cell, block = stage->model->n_field * n_cell;
-    double *u = level->u_old[local], *p = level->w[local] + stage->model->i_E * n_cell;
+    double *u = level->u_old[local];
     elastic_settle(stage->model, n_cell, n_cell, u);
     memcpy(level->u_new[local], u, block * sizeof *u); /* an earlier state, for verdict_touch */
-    for (size_t i = 0; i < n_cell; i++) p[i] = WAKE_START;
+    verdict_forget(stage, local);
     census_forget(&stage->census, local);
     guard_attempt(stage->guard);
     verdict_touch(stage, local);

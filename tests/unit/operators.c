@@ -213,12 +213,36 @@ static void test_dump(void **state)
     flow_stop(&flow);
 }
 
+/* Closures begin at the pressures from before, whatever an operator has had made on the way: a path without it would.
+ */
+static void test_before(void **state)
+{
+    (void)state;
+    struct flow flow;
+    struct operators operators;
+    add(&heat_operator, NULL);
+    start(&flow, line, "mesh: {tile: 16}\n", "[20]", "{cfl: 0.4}");
+    const struct model *model = flow.state->model;
+    const struct level *level = &flow.state->mesh->levels[0];
+    size_t n_cell = flow.state->mesh->n_cell;
+    double before[64], *p = level->w[0] + model->i_E * n_cell;
+    for (size_t i = 0; i < n_cell; i++) before[i] = 7.0 + (double)i;
+    const struct operator_tile tile = {
+        .model = model, .n_cell = n_cell, .dt = 1e-6, .u = level->u_old[0], .w = level->w[0], .before = before};
+    operators_of(model, &operators);
+    operators_act(&operators, true, &tile);
+    assert_memory_equal(p, before, n_cell * sizeof *p);
+    assert_true(level->u_old[0][model->i_E * n_cell] > 2.5e5); /* it had the pressure, 1e5, and not those */
+    flow_stop(&flow);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_step, end),   cmocka_unit_test_teardown(test_levels, end),
         cmocka_unit_test_teardown(test_stages, end), cmocka_unit_test_teardown(test_undone, end),
         cmocka_unit_test_teardown(test_rest, end),   cmocka_unit_test_teardown(test_dump, end),
+        cmocka_unit_test_teardown(test_before, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
