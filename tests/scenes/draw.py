@@ -227,6 +227,129 @@ def scheme(scene):
         scene.case["scheme"] = chosen
 
 
+# What seeds from WIDE on have as well: laws from tables, voids, liquids that thin in shear, walls that move or are hot, bodies
+# that move, meshes of odd sizes, and words of a phase change. After all else, so that lower seeds give what they always gave.
+WIDE = 1000
+OTHER_LIQUIDS = [{"type": "tait", "preset": "water"}, {"type": "modified-tait", "preset": "refit"},
+                 {"type": "iapws95", "preset": "water", "table-size": 64}, {"type": "stiffened-gas", "preset": "glycerol"}]
+OTHER_GASES = [{"type": "helmholtz-air", "preset": "air", "table-size": 64}, {"type": "rkpr", "preset": "air"},
+               {"type": "peng-robinson", "preset": "air", "eval": "table"}, {"type": "ideal-gas", "preset": "sf6"}]
+OTHER_SOLIDS = [{"type": "mooney-rivlin", "ratio": 0.3}, {"type": "quadratic"}, {"type": "fung", "stiffening": 3}]
+BREAKS = [{"type": "strain", "begins": 0.01}, {"type": "stretch", "begins": 1.02, "ends": 1.1},
+          {"type": "energy", "begins": 100}, {"type": "tension", "stress": "1 MPa", "of": "principal"}]
+THIN = [{"type": "carreau", "preset": "blood"}, {"type": "herschel-bulkley", "preset": "gel"},
+        {"type": "power", "preset": "blood"}, {"type": "casson", "preset": "blood"}]
+
+
+def wide_matter(scene):
+    dice = scene.dice
+    for name, material in scene.case["materials"].items():
+        if name in scene.fluids:
+            if not scene.pairs and dice.coin(0.35):
+                material["eos"] = dice.pick(*(OTHER_GASES if name == "air" else OTHER_LIQUIDS))
+            if "viscosity" in material and name != "air" and dice.coin(0.4):
+                material["viscosity"] = dice.pick(*THIN)
+            continue
+        law = material["constitutive"]
+        if dice.coin(0.3) and "plastic" not in material and "viscoelastic" not in material:
+            kept = {key: law[key] for key in ("shear-modulus", "reference-density")}
+            material["constitutive"] = dict(kept, **dice.pick(*OTHER_SOLIDS))
+        if dice.coin(0.3):
+            material["damage"] = dict(dice.pick(*BREAKS[0 if material.get("plastic", {}).get("hardening") else 1:]))
+        if "damage" in material and "air" in scene.fluids and dice.coin(0.6):
+            material["damage"]["opens"] = "air"
+
+
+def wide_walls(scene):
+    dice, ends = scene.dice, scene.case["domain"]["boundaries"]
+    for side, end in ends.items():
+        if end != "reflecting" or not dice.coin(0.4):
+            continue
+        wall = {"type": "no-slip" if scene.viscous else "reflecting"}
+        if scene.viscous and not scene.curved and dice.coin(0.4):
+            wall["velocity"] = [0.0 if d == "xyz".index(side[0]) else 10.0 for d in range(scene.dim)]
+            scene.works = True
+        if scene.conducts and dice.coin(0.5):
+            wall.update(dice.pick({"temperature": 350}, {"heat-flux": 1e6}))
+            scene.works = True
+        if scene.tense and scene.viscous and dice.coin(0.5):
+            wall["contact-angle"] = {next(iter(scene.case["surface-tension"])): f"{dice.pick(60, 120)} deg"}
+        ends[side] = wall
+    if not scene.closed and dice.coin(0.3):
+        for side, end in ends.items():
+            ends[side] = "non-reflecting" if end == "outflow" else end
+
+
+def wide_forces(scene):
+    dice, case = scene.dice, scene.case
+    if scene.bodies and dice.coin(0.6):
+        turns = scene.kind == "plane" and dice.coin(0.3)
+        L = scene.length
+        swing = f"= {0.1 * L}*math.sin({500 / L}*t)"
+        case["bodies"]["rock"]["displacement"] = ["= 0" if scene.curved and d == 0 else swing for d in range(scene.dim)]
+        if turns:
+            del case["bodies"]["rock"]["displacement"]
+            case["bodies"]["rock"].update({"angle": f"= math.sin({500 / L}*t)", "pivot": [0.4 * L] * 2})
+        scene.works, scene.closed = True, False
+        case.get("scheme", {}).pop("integrator", None)
+    if scene.kind in ("line", "plane") and dice.coin(0.15):
+        case["domain"]["velocity-components"] = 3
+        for end in case["domain"]["boundaries"].values():
+            if "velocity" in end and isinstance(end, dict):
+                end["velocity"] += [0.0] * (3 - scene.dim)
+        for layer in case["initial"]:
+            layer["velocity"] = layer["velocity"] + [dice.number(-20, 20) for _ in range(3 - scene.dim)]
+        if "sources" in case:
+            case["sources"]["acceleration"] += [0.0] * (3 - scene.dim)
+    if dice.coin(0.1):
+        case.setdefault("sources", {})["heating"] = dice.power(8, 11)
+        scene.works = True
+    if scene.conducts and not scene.pairs:
+        for layer in case["initial"]:
+            layer["temperature"] = dice.number(280, 400)
+
+
+def wide_mesh(scene):
+    dice, case = scene.dice, scene.case
+    mesh, domain = case["mesh"], case["domain"]
+    if dice.coin(0.4):
+        mesh["tile"] = dice.pick(6 if "reconstruction" in case.get("scheme", {}) else 4, 6, 10, 16)
+    for d in range(scene.dim):
+        n = domain["cells"][d]
+        factor = dice.pick(0.5, 0.75, 1.25) if d and dice.coin(0.4) else 1
+        domain["cells"][d] = max(1, round(n * factor / mesh["tile"])) * mesh["tile"]
+        domain["upper"][d] = domain["upper"][d] * domain["cells"][d] / n
+    if mesh["levels"] and dice.coin(0.2):
+        mesh["levels"] = min(mesh["levels"] + 1, 3 if scene.dim < 3 else 1)
+    if mesh["levels"] and dice.coin(0.2):
+        mesh["buffer"], mesh["patience"] = dice.pick(1, 2, 6), dice.pick(1, 3)
+    if mesh["levels"] and dice.coin(0.15):
+        mesh["reflux"] = "plain"
+
+
+def wide_words(scene):
+    dice, case = scene.dice, scene.case
+    if dice.coin(0.2):
+        case.setdefault("scheme", {})["mixture-speed"] = "frozen" if scene.solids else dice.pick("frozen", "wood")
+    if dice.coin(0.15):
+        case.setdefault("scheme", {})["first-step"] = 0.2
+    for pair in case.get("phase-change", ()):
+        words = {"direction": ("evaporation", "condensation"), "nucleus": (1e-4,), "onset": (0.0, 0.5, 0.99),
+                 "condense-from": (0.0, 0.9), "gas-temperature": ("own",), "mixing": ("none",),
+                 "rate": ("equilibrium", {"type": "hertz-knudsen", "area": 10 / scene.length})}
+        for word, values in words.items():
+            if word in ("nucleus", "condense-from") and pair.get("direction") == "evaporation":
+                continue
+            if word in ("onset", "condense-from") and "where" in pair:
+                continue
+            if dice.coin(0.2) and (word not in ("gas-temperature", "mixing") or "gases" in pair):
+                pair[word] = dice.pick(*values)
+
+
+def widen(scene):
+    for more in (wide_matter, wide_walls, wide_forces, wide_mesh, wide_words):
+        more(scene)
+
 def draw(seed):
     """A case, as a map that is JSON and YAML, and the Scene with what is known of it."""
     scene = Scene(seed)
@@ -239,6 +362,8 @@ def draw(seed):
     exchange(scene)
     mesh(scene, initial(scene, materials))
     scheme(scene)
+    if seed >= WIDE:
+        widen(scene)
     columns = {name: {"mass": name} for name in materials}
     columns["E"] = {"total": "energy"}
     scene.case["run"] = {"until": 1.0, "max-steps": 16}

@@ -38,6 +38,10 @@ def drifts(case, scene, folder):
     kept = {name: [name] for name in case["materials"]}
     for liquid, vapour in scene.pairs:
         kept[liquid].append(kept.pop(vapour)[0])
+    for name, material in case["materials"].items():
+        gas = material.get("damage", {}).get("opens")
+        if gas:  # what opens a void takes its gas from the solid
+            kept.setdefault(gas, []).extend(kept.pop(name))
     if not (scene.works or scene.tense):
         kept["E"] = ["E"]
     for name, columns in kept.items() if scene.closed else ():
@@ -45,6 +49,13 @@ def drifts(case, scene, folder):
         drift = max(abs(value / sums[0] - 1) for value in sums) if sums[0] else 0.0
         if not drift <= DRIFT:
             yield f"drift of {name} {drift:.1e}"
+
+
+def notes_agree(said):
+    """Of two checkpoints' notes one after the other: how often closures were iterated depends on where they began."""
+    lines = [line for line in said.splitlines() if line and not line.startswith("counts.closures")]
+    half = (len(lines) - 1) // 2
+    return bool(lines) and lines[-1] == "/notes differs" and lines[:half] == lines[half:-1]
 
 
 def differs(one, other):
@@ -55,7 +66,8 @@ def differs(one, other):
     last = [f"{folder}/out/checkpoints/scene_000016.chk" for folder in (one, other)]
     if all(os.path.exists(path) for path in last):
         look = subprocess.run([f"{BUILD}/tests/test-unit-checkpoint", *last], capture_output=True, text=True, check=False)
-        return f"another checkpoint: {look.stdout.strip()[:60]}" if look.returncode else None
+        if look.returncode and not notes_agree(look.stderr):
+            return f"another checkpoint: {look.stderr.strip()[-60:]}"
     return None
 
 
