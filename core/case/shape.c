@@ -12,6 +12,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+enum { SHAPE_VERTICES = 64 }; /* most of a polygon that is turned as one */
+
 static const double SHAPE_PURE = 1e-10; /* a smaller part is the round-off of cell corners */
 
 static double shape_level_box(const struct shape *shape, const double x[3])
@@ -169,6 +171,7 @@ static double shape_fraction_leaf(const struct shape *shape, const struct shape_
 }
 
 static double shape_fraction_cell(const struct shape *shape, const struct shape_cell *cell, int depth);
+static double shape_fraction_cut(const struct shape *shape, const struct shape_cell *cell, int depth);
 
 /* Sum over the 2^dim halves of a cell. */
 static double shape_fraction_divided(const struct shape *shape, const struct shape_cell *cell, int depth)
@@ -237,6 +240,53 @@ static double shape_fraction_cylinder(const struct shape *shape, const struct sh
     return shape_volume_ball(&across, centre, axes) * shape_volume_box(cell, from, to);
 }
 
+/* Where a turned shape puts a point of what it turns, which may be turned itself. */
+static void shape_turn(const struct shape *shape, const double x[3], double ret[3])
+{
+    double from[3] = {x[0], x[1], x[2]};
+    if (shape->parts[0]->type == SHAPE_TURNED) shape_turn(shape->parts[0], x, from);
+    for (int d = 0; d < 3; d++) {
+        ret[d] = shape->a[d];
+        for (int k = 0; k < 3; k++) ret[d] += shape->turn[d][k] * (from[k] - shape->a[k]);
+    }
+}
+
+/* A turned polygon of n vertices in the plane. */
+static double shape_fraction_turned_polygon(const struct shape *shape, const struct shape_cell *cell, unsigned n,
+                                            const double (*vertex)[2])
+{
+    double turned[SHAPE_VERTICES][2];
+    for (unsigned i = 0; i < n; i++) {
+        double x[3] = {vertex[i][0], vertex[i][1], 0.0}, to[3];
+        shape_turn(shape, x, to);
+        turned[i][0] = to[0];
+        turned[i][1] = to[1];
+    }
+    return shape_volume_polygon(cell, n, (const double(*)[2])turned);
+}
+
+/* What is as simple turned as it was: balls, rings and half-spaces, boxes and polygons in the plane. The rest is
+ * divided. */
+static double shape_fraction_turned(const struct shape *shape, const struct shape_cell *cell, int depth)
+{
+    const struct shape *of = shape->parts[0];
+    while (of->type == SHAPE_TURNED) of = of->parts[0];
+    struct shape turned = *of;
+    const double *a = of->a, *b = of->b, end[3] = {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+    const double corner[4][2] = {{a[0], a[1]}, {b[0], a[1]}, {b[0], b[1]}, {a[0], b[1]}};
+    shape_turn(shape, a, turned.a);
+    if (of->type == SHAPE_SPHERE || of->type == SHAPE_RING) return shape_fraction_cut(&turned, cell, depth);
+    if (of->type == SHAPE_HALF_SPACE) {
+        shape_turn(shape, end, turned.b);
+        for (int d = 0; d < 3; d++) turned.b[d] -= turned.a[d];
+        return shape_fraction_cut(&turned, cell, depth);
+    }
+    if (cell->dim == 2 && of->type == SHAPE_BOX) return shape_fraction_turned_polygon(shape, cell, 4, corner);
+    if (cell->dim == 2 && of->type == SHAPE_POLYGON && of->n <= SHAPE_VERTICES)
+        return shape_fraction_turned_polygon(shape, cell, of->n, (const double(*)[2])of->vertex);
+    return shape_fraction_divided(shape, cell, depth);
+}
+
 /* The exact or divided fraction of a cell that may be cut. */
 static double shape_fraction_cut(const struct shape *shape, const struct shape_cell *cell, int depth)
 {
@@ -252,8 +302,8 @@ static double shape_fraction_cut(const struct shape *shape, const struct shape_c
         if (cell->dim == 1) return shape_fraction_divided(shape, cell, depth);
         return shape_volume_polygon(cell, shape->n, (const double(*)[2])shape->vertex);
     case SHAPE_SURFACE: return surface_fraction(shape->surface, cell);
-    case SHAPE_RASTER:
-    case SHAPE_TURNED: return shape_fraction_divided(shape, cell, depth);
+    case SHAPE_RASTER: return shape_fraction_divided(shape, cell, depth);
+    case SHAPE_TURNED: return shape_fraction_turned(shape, cell, depth);
     case SHAPE_COMPLEMENT: return 1.0 - shape_fraction_cell(shape->parts[0], cell, depth);
     case SHAPE_UNION: return shape_fraction_parts(shape, cell, depth, -1.0);
     case SHAPE_INTERSECTION: return shape_fraction_parts(shape, cell, depth, 1.0);

@@ -174,7 +174,7 @@ static void run_say_what_is_left(const struct run *run, const char *time)
         log_error("%s failed half way through step %ld; the newest checkpoint is %s", what, step + 1,
                   saved ? saved : run->from->path);
     else
-        log_error("%s failed half way through step %ld, and output.checkpoints has asked for no checkpoint", what,
+        log_error("%s failed half way through step %ld; there is no checkpoint, none was asked for until then", what,
                   step + 1);
 }
 

@@ -6,14 +6,20 @@
 #include "scheme/distance.h"
 #include "scheme/heed.h"
 
+/* Heat that a kilogram holds of anything, at least [J/kg/K]: laws that hold less stand where they know nothing, as a
+ * gas does that shares a cell with a solid in tension (solve/guard.h). */
+#define CONDUCTION_PACE_LEAST 1.0
+
 /* The largest diffusivity k_l/c_l of the materials that count. */
 static BULLA_KERNEL void conduction_pace_diffuse(size_t n, const double *restrict k, const double *restrict sets,
-                                                 const double *restrict c, double *restrict most)
+                                                 const double *restrict rho, const double *restrict c,
+                                                 double *restrict most)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double D = k[i] / c[i], old = most[i], larger = D > old ? D : old;
-        most[i] = sets[i] > 0.0 ? larger : old;
+        double room = c[i], D = k[i] / room, old = most[i], larger = D > old ? D : old;
+        double known = room > CONDUCTION_PACE_LEAST * rho[i] ? larger : old;
+        most[i] = sets[i] > 0.0 ? known : old;
     }
 }
 
@@ -39,7 +45,7 @@ static void conduction_pace_swiftest(const struct model *path, size_t n, size_t 
         conduction_law_capacity(&path->eos[l], n, rho, p, T, c);
         conduction_law_ask(path, l, n, T, p, rho, k);
         heed_parts(n, path->n_alpha ? w + (path->i_alpha + l) * stride : one, rho, sum, sets);
-        conduction_pace_diffuse(n, k, sets, c, D);
+        conduction_pace_diffuse(n, k, sets, rho, c, D);
     }
 }
 

@@ -373,6 +373,67 @@ static void reaches(void **state)
     assert_true(shape_reaches(&triangle, lower, upper, 2));
 }
 
+/* One whole turns by 0.3 about (0.1, -0.2), then by 0.4 about the origin. */
+static void turn_twice(const double x[2], double ret[3])
+{
+    double a = x[0] - 0.1, b = x[1] + 0.2, c = 0.1 + cos(0.3) * a - sin(0.3) * b,
+           d = -0.2 + sin(0.3) * a + cos(0.3) * b;
+    ret[0] = cos(0.4) * c - sin(0.4) * d;
+    ret[1] = sin(0.4) * c + cos(0.4) * d;
+    ret[2] = 0.0;
+}
+
+static struct shape turned_by(double angle, double x, double y, struct shape **part)
+{
+    return (struct shape){.type = SHAPE_TURNED,
+                          .a = {x, y},
+                          .n = 1,
+                          .parts = part,
+                          .turn = {{cos(angle), -sin(angle), 0}, {sin(angle), cos(angle), 0}, {0, 0, 1}}};
+}
+
+/* Cells of a shape that turns twice hold what those of the same shape hold that stands there. */
+static void same_as(struct shape *part, const struct shape *there)
+{
+    const struct grid plane = {{-1, -1, 0}, {1, 1, 0}, 17, 2, 0};
+    struct shape once = turned_by(0.3, 0.1, -0.2, &part), *again = &once, twice = turned_by(0.4, 0.0, 0.0, &again);
+    for (int i = 0; i < plane.cells; i++)
+        for (int j = 0; j < plane.cells; j++) {
+            double volume;
+            assert_near(cell_of(&twice, &plane, i, j, 0, &volume), cell_of(there, &plane, i, j, 0, &volume), 1e-12);
+        }
+}
+
+static void turns(void **state)
+{
+    (void)state;
+    struct shape ball = {.type = SHAPE_SPHERE, .a = {0.3, 0.2}, .radius = 0.31}, there = ball;
+    turn_twice(ball.a, there.a);
+    same_as(&ball, &there);
+    struct shape ring = {.type = SHAPE_RING, .a = {0.3, 0.2}, .radius = 0.5, .inner = 0.2};
+    there = ring;
+    turn_twice(ring.a, there.a);
+    same_as(&ring, &there);
+    struct shape half = {.type = SHAPE_HALF_SPACE, .a = {0.3, 0.2}, .b = {0.6, 0.8}};
+    there = half;
+    turn_twice(half.a, there.a);
+    there.b[0] = cos(0.7) * 0.6 - sin(0.7) * 0.8;
+    there.b[1] = sin(0.7) * 0.6 + cos(0.7) * 0.8;
+    same_as(&half, &there);
+    double corners[4][2] = {{-0.3, -0.2}, {0.5, -0.2}, {0.5, 0.1}, {-0.3, 0.1}}, moved[4][2];
+    for (int i = 0; i < 4; i++) {
+        double to[3];
+        turn_twice(corners[i], to);
+        moved[i][0] = to[0];
+        moved[i][1] = to[1];
+    }
+    there = (struct shape){.type = SHAPE_POLYGON, .n = 4, .vertex = moved};
+    struct shape box = {.type = SHAPE_BOX, .a = {-0.3, -0.2}, .b = {0.5, 0.1}};
+    same_as(&box, &there);
+    struct shape polygon = {.type = SHAPE_POLYGON, .n = 4, .vertex = corners};
+    same_as(&polygon, &there);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -381,6 +442,7 @@ int main(void)
         cmocka_unit_test(fills_planes_and_boxes),
         cmocka_unit_test(fills_other_bodies),
         cmocka_unit_test(combines),
+        cmocka_unit_test(turns),
         cmocka_unit_test(agrees_with_points),
         cmocka_unit_test(levels_are_safe),
         cmocka_unit_test(mirrors_to_the_bit),
