@@ -120,9 +120,12 @@ alike() { # FOLDER FOLDER: two runs
         cmp "$1/$alike_part" "$2/$alike_part"
     done
 }
-ranked() { # CASE RANKS...: runs CASE.yaml on each of these numbers of ranks, in CASE-RANKS; all are like the first
+ranked() { # CASE RANKS...: runs CASE.yaml on the first and the last of these numbers of ranks, at night (BULLA_WHOLE) on all of
+    # them, in CASE-RANKS; all are like the first
     ranked_case=$1 ranked_first=$2
     shift
+    for ranked_last; do :; done
+    [ -n "${BULLA_WHOLE:-}" ] || [ $# -lt 3 ] || set -- "$ranked_first" "$ranked_last"
     for ranked_now in "$@"; do
         rm -rf "$ranked_case-$ranked_now"
         ran "$ranked_case-$ranked_now" "$ranked_case" -n "$ranked_now"

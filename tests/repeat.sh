@@ -11,7 +11,8 @@ BULLA_SOURCE=$(cd "$(dirname -- "$0")/.." && pwd)
 BULLA_BUILD=$(cd "$1" && pwd)
 BULLA=$BULLA_BUILD/bin/bulla
 BULLA_MODULE_PATH=$BULLA_BUILD/lib/bulla/modules
-export BULLA_SOURCE BULLA_BUILD BULLA BULLA_MODULE_PATH
+BULLA_WHOLE=1 # with all that the day leaves out
+export BULLA_SOURCE BULLA_BUILD BULLA BULLA_MODULE_PATH BULLA_WHOLE
 count=$2 load=$3
 shift 3
 tonight() {

@@ -95,9 +95,10 @@ poison() { # CASE NUMBER RANKS: like the program on as many ranks, and some tile
 
 for name in plane space tense round; do
     ranked "$name" 1 2
-    poison "$name" nan 1
-    poison "$name" 1e9 2
+    poison "$name" nan 2
+    [ -z "${BULLA_WHOLE:-}" ] || poison "$name" 1e9 1
 done
+poison plane 1e9 1
 ranked plane 1 3
 poison plane nan 3
 BULLA=$poisoned

@@ -32,7 +32,9 @@ sed 's/writers: 3/writers: 2/' three.yaml >two.yaml
 count() { find "$1" -name "$2" | wc -l; } # FOLDER PATTERN
 
 # As many writers as there are ranks, if more are wanted: on one rank there are no parts.
-ranked three 1 2 3
+ranked three 1 3
+ran three-2 three -n 2
+alike three-1 three-2
 ranked two 1 3
 [ "$(count three-1 '*.a*')" = 0 ] || fail "parts of one writer"
 [ "$(count two-3/out/checkpoints 'two_0000??.chk')$(count two-3/out/checkpoints 'two_0000??.chk.a[12]')" = 24 ] ||

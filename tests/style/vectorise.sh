@@ -1,16 +1,17 @@
-# Vectorisation: every loop marked `omp simd` in modules and the layers of the equations becomes a vector loop,
-# with clang (which says so when it fails) and with gcc (which builds the program). What has passed is kept by its
-# preprocessed text and not compiled again. Laws of a family bring the same loops from the family's headers: a file
-# all of whose loops were seen with another file is left to the night (BULLA_VECTORISE=all), as these take longest.
+# Vectorisation: every loop marked `omp simd` in modules and the layers of the equations becomes a vector loop with gcc,
+# which builds the program, and at night (BULLA_WHOLE) with clang, which says so when it fails. What has passed is kept
+# by its preprocessed text and not compiled again. Laws of a family bring the same loops from the family's headers: a
+# file all of whose loops were seen with another file is left to the night, too, as these take longest.
 set -eu
-command -v clang >/dev/null || { echo "skipped: no clang"; exit 77; }
+whole=${BULLA_WHOLE:-}
+[ -z "$whole" ] || command -v clang >/dev/null || { echo "skipped: no clang"; exit 77; }
 flags="-std=c11 -D_GNU_SOURCE -DBULLA_NO_CLONES -O3 -march=x86-64-v3 -fno-math-errno -fno-trapping-math -fopenmp-simd
 -ffp-contract=off -fPIC -I$BULLA_SOURCE/modules/eos -I$BULLA_SOURCE/core/include -I$BULLA_SOURCE/core $(pkg-config --cflags ompi-c)"
 status=0
 passed=$BULLA_BUILD/tests/vectorised
 mkdir -p "$passed"
 : >seen
-compilers=$(gcc --version; clang --version; cat "$0")
+compilers=$(gcc --version; [ -z "$whole" ] || clang --version; cat "$0")
 text() { # FILE: what the compilers are and see, without names of lines and folders
     # shellcheck disable=SC2086
     { echo "$compilers"; gcc $flags -E -P "$1"; } | sha256sum | cut -d ' ' -f 1
@@ -22,13 +23,13 @@ for file in "$BULLA_SOURCE"/modules/*/*.c "$BULLA_SOURCE"/modules/*/*/*.c "$BULL
         xargs grep -l '#pragma omp simd' || true)
     [ -n "$marked" ] || continue
     echo "$file" >>looked
-    if [ "${BULLA_VECTORISE:-new}" = new ] && [ -z "$(echo "$marked" | grep -vxF -f seen)" ]; then continue; fi
+    if [ -z "$whole" ] && [ -z "$(echo "$marked" | grep -vxF -f seen)" ]; then continue; fi
     echo "$marked" >>seen
     name=$(text "$file")
     [ ! -f "$passed/$name" ] || continue
     good=1
     # shellcheck disable=SC2086
-    clang $flags -Wpass-failed -Werror=pass-failed -c "$file" -o clang.o || good=
+    [ -z "$whole" ] || clang $flags -Wpass-failed -Werror=pass-failed -c "$file" -o clang.o || good=
     # shellcheck disable=SC2086
     gcc $flags -c "$file" -o gcc.o -fopt-info-vec-optimized=vectorised
     for source in $marked; do
