@@ -34,13 +34,13 @@ static int hand_rank(const uint32_t *first, int size, uint32_t index)
     return low;
 }
 
-/* Owners of a piece that begins with tile `start` of its level. */
+/* Owners of a piece that begins with tile `start` of its level. first: NULL if the level goes, or on one rank. */
 static void hand_owners(struct hand *hand, int l, uint32_t start, const uint32_t *first)
 {
     unsigned n = hand->made[l].n;
-    int size = comm_size(), rank = size == 1 ? 0 : hand_rank(first, size, start);
+    int size = comm_size(), rank = first ? hand_rank(first, size, start) : 0;
     hand->to[l] = mem_new(n, sizeof *hand->to[l]);
-    for (unsigned i = 0; i < n && size > 1; i++) {
+    for (unsigned i = 0; i < n && first; i++) {
         while (rank + 1 < size && first[rank + 1] <= start + i) rank++;
         hand->to[l][i] = rank;
     }

@@ -1,7 +1,7 @@
 # Levels that move give the same bits on 1, 2, 3, 4 and 7 ranks: histories, probes and snapshots of runs in 2D with three
 # materials, in 3D, axisymmetric with an interface that leaves the levels at an angle (refluxing is spread), with steps that the
-# guard repairs, with cold gas that cannot bear what refluxing asks for (stopped and gone on with, too), and without
-# subcycling.
+# guard repairs, with cold gas that cannot bear what refluxing asks for (stopped and gone on with, too), without
+# subcycling, and with a pulse that leaves, so that all finer levels go and come again.
 set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
 
@@ -96,6 +96,19 @@ run: {until: 1, max-steps: 60}
 $output
   probes: {every: 1 steps, in: {at: [0.6, 0.1], fields: [pressure, velocity]}}
 END2
+
+cat >gone.yaml <<END2
+bulla: 1
+title: A pulse leaves, and its levels with it
+domain: {lower: [0, 0], upper: [1, 1], cells: [32, 32], boundaries: {x-: outflow, x+: outflow, y-: periodic, y+: periodic}}
+mesh: {levels: 2, tile: 8, regrid-every: 2, patience: 1, refine: [{jump: pressure, above: 0.02}]}
+materials: {air: {eos: {type: ideal-gas, gamma: 1.4}}}
+initial:
+  - {everywhere: true, material: air, density: 1, pressure: 1}
+  - {sphere: {center: [0.9, 0.5], radius: 0.06}, material: air, density: 1.1, pressure: 1.2}
+run: {until: 0.6}
+output: {history: {every: 1 steps, columns: {finest: {max: level}, m: {mass: air}}}}
+END2
 sed 's/patience: 1/patience: 1, subcycle: false/; s/max-steps: 24/max-steps: 20/' plane.yaml >whole.yaml
 
 while read -r name all; do
@@ -109,10 +122,13 @@ space 1 3 7
 parting 1 2 4
 cold 1 2 3
 whole 1 3
+gone 1 2 3
 END2
 # what two of them are about has happened
 grep -q '"spread_refluxes": *[1-9]' round-1/refinement
 grep -q '"spread_refluxes": *[1-9]' cold-1/refinement
 resumed cold 40 cold-1
+awk -F, 'NR > 1 && $4 != level { path = path $4; level = $4 } END { if (path !~ /^2.*0.*[12].*0$/) { print path; exit 1 } }' \
+    gone-1/out/history.csv || fail "levels do not go and come again" gone-1/out/history.csv
 grep -q '"relaxed": *[1-9]' parting-1/guard
 grep -q '"fallback": *[1-9]' parting-1/guard
