@@ -393,6 +393,7 @@ struct scene_scheme {
     double cfl, dt_fixed;              /* dt_fixed 0: from cfl */
     double first_step;                 /* part of that step with which a run begins */
     enum scene_traction traction;      /* what the materials of a cell with a solid share */
+    bool free;                         /* surfaces of solids beside fluids bear no shear (scheme/slip.h) */
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;
     enum scene_diffusion diffusion; /* how viscosity and conduction are stepped (solve/rkl.h) */

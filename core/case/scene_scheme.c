@@ -79,6 +79,16 @@ static const struct key scene_scheme_rows[] = {
             "pressure that it needs for that; pressure: one pressure, which heats and shakes the surfaces of stretched "
             "solids. auto: common; pressure beside a phase change, and in the plane and in space for solids that flow "
             "(plastic, or with Maxwell branches)."},
+    {.name = "surface-shear",
+     .type = KEYS_CHOICE,
+     .choices = "auto|free|kept",
+     .fallback = "auto",
+     .doc =
+         "What solids bear of shear on their surface in cells that they share with fluids. free: nothing, as a fluid "
+         "bears none; kept: what the one velocity of such cells shears them by, which drags and shakes what slides "
+         "past a gas. auto: free where an elastic solid whose shear waves are faster than 100 m/s shares traction "
+         "with a fluid whose rho c^2 is below 10 MPa at 1 atm, in the plane, around an axis or in space; else kept, "
+         "as stretched solids rest better with it."},
     {.name = "mixture-speed",
      .type = KEYS_CHOICE,
      .choices = "auto|frozen|wood",
@@ -399,12 +409,20 @@ static bool scene_scheme_wood(struct draft *draft, const struct keys_map *scheme
     return wood;
 }
 
+/* A surface that bears no shear. */
+static bool scene_scheme_free(struct draft *draft, const struct keys_map *scheme)
+{
+    enum { AUTO, FREE } shear = (int)keys_at(scheme, "surface-shear")->integer;
+    return shear == AUTO ? scene_scheme_hard(draft) : shear == FREE;
+}
+
 void scene_scheme(struct draft *draft)
 {
     const struct keys_map *scheme = keys_at(draft->root, "scheme")->map, *run = keys_at(draft->root, "run")->map;
     struct scene *scene = draft->scene;
     scene->scheme.closure = (enum scene_closure)keys_at(scheme, "closure")->integer;
     scene->scheme.traction = (enum scene_traction)keys_at(scheme, "traction")->integer;
+    scene->scheme.free = scene_scheme_free(draft, scheme);
     scene->scheme.exchange = (enum scene_exchange)keys_at(scheme, "exchange")->integer;
     scene->scheme.integrator = (enum scene_integrator)keys_at(scheme, "integrator")->integer;
     scene->scheme.diffusion = (enum scene_diffusion)keys_at(scheme, "diffusion")->integer;

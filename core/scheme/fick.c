@@ -263,6 +263,18 @@ static BULLA_KERNEL void fick_hurry(size_t n, double a, const double *restrict s
     }
 }
 
+/* Are two gases of mixture k in these cells? One alone asks for no steps, whether its tile knows others or not. */
+static bool fick_meet(const struct term_pace *pace, unsigned k)
+{
+    const struct model_fick *fick = &pace->model->ficks[k];
+    unsigned there = 0;
+    for (unsigned g = 0; g < fick->n; g++) {
+        const double *alpha = pace->w + (pace->model->i_alpha + fick->member[g]) * pace->n_cell;
+        there += row_most(pace->n_cell, alpha) > MIX_ABSENT;
+    }
+    return there > 1;
+}
+
 static void fick_pace(const struct term_pace *pace, double *rate)
 {
     const struct model *path = pace->model;
@@ -270,9 +282,10 @@ static void fick_pace(const struct term_pace *pace, double *rate)
     double share[SCENE_MATERIALS * SWELL_BATCH], T[SWELL_BATCH], alpha[SWELL_BATCH], rho[SWELL_BATCH], D[SWELL_BATCH],
         sets[SWELL_BATCH];
     const struct fick_cells of = {alpha, rho, D, sets};
-    for (size_t from = 0; from < pace->n_cell; from += SWELL_BATCH) {
-        size_t n = pace->n_cell - from < SWELL_BATCH ? pace->n_cell - from : SWELL_BATCH;
-        for (unsigned k = 0; k < path->n_fick; k++) {
+    for (unsigned k = 0; k < path->n_fick; k++) {
+        if (!fick_meet(pace, k)) continue;
+        for (size_t from = 0; from < pace->n_cell; from += SWELL_BATCH) {
+            size_t n = pace->n_cell - from < SWELL_BATCH ? pace->n_cell - from : SWELL_BATCH;
             fick_mix(path, k, n, pace->n_cell, pace->w + from, T, share, SWELL_BATCH, &of);
             fick_hurry(n, factor, sets, D, rate + from);
         }

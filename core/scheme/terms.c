@@ -21,6 +21,7 @@
 #include "scheme/normal.h"
 #include "scheme/response.h"
 #include "scheme/settling.h"
+#include "scheme/slip.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
 #include "scheme/tension.h"
@@ -57,6 +58,7 @@ const struct term *const terms_all[] = {
     &strain_term,       /* the stretch of solids */
     &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */
     &weld_term,         /* where they meet solids share their shear traction */
+    &slip_term,         /* beside a fluid they bear none */
     &settling_term,     /* the heat of solids is their own */
     &cut_flux_term,     /* rigid bodies: what they leave of fluxes */
     NULL,
