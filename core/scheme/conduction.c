@@ -18,6 +18,7 @@
 #include "scheme/swell.h"
 #include "scheme/terms.h"
 
+#include <float.h>
 #include <string.h>
 
 /* Rows of a frame: [n_material] of cells or faces with pitch FACE_ROOM. */
@@ -92,14 +93,14 @@ static void conduction_close(void *data)
     mem_free(own);
 }
 
-/* The fraction where it is felt: more than nothing, with a temperature. alpha NULL: the material is alone. */
+/* The fraction where it is felt: more than nothing, with a temperature (volume without mass has none). */
 static BULLA_KERNEL void conduction_feel(size_t n, const double *restrict alpha, const double *restrict T,
                                          double *restrict part)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a = alpha[i], felt = a > MIX_ABSENT ? a : 0.0;
-        part[i] = T[i] > 0.0 ? felt : 0.0;
+        part[i] = ((T[i] > 0.0) & (T[i] <= DBL_MAX)) ? felt : 0.0;
     }
 }
 

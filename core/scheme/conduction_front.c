@@ -8,10 +8,14 @@
 #include "scheme/conduction_channel.h"
 #include "scheme/face.h"
 
+#include <math.h>
 #include <string.h>
 
 /* The least distance to the surface, over that of the centres; what the step allows bounds it before in most scenes. */
 #define CONDUCTION_FRONT_NEAR 0.02
+
+/* Temperatures of liquid and vapour that are one behind a surface differ by less than this part. */
+#define CONDUCTION_FRONT_ALIKE 0.1
 
 /* Rows of one pair: fraction of vapour and gases; above 0 where liquid is at a surface or behind, and as warm as the
  * vapour; what liquid, vapour and gases of a cell hold [J/(m3 K)]; conductivity of faces; 1 at faces through which the
@@ -105,13 +109,18 @@ bool conduction_front_look(struct conduction_front *front, const struct model *p
     return any;
 }
 
-/* tied: in, how much liquid and vapour share one temperature (conduction_channel_wet). */
+/* tied: in, how much liquid and vapour share one temperature (conduction_channel_wet). Behind the surface they need not
+ * quite; but what a hot trace of vapour has above its liquid is not the heat of both. */
 static BULLA_KERNEL void conduction_front_tie(size_t n, double half, double onset, const double *restrict thin,
-                                              const double *restrict liquid, double *restrict tied)
+                                              const struct conduction_channel_side *l,
+                                              const struct conduction_channel_side *v, double *restrict tied)
 {
+    const double *restrict liquid = l->part, *restrict vapour = v->part, *restrict T_l = l->T, *restrict T_v = v->T;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double t = thin[i], one = tied[i], behind = t < onset ? 1.0 : one, there = liquid[i] > 0.0 ? behind : 0.0;
+        double t = thin[i], one = tied[i], T = T_l[i], apart = fabs(T_v[i] - T), steam = vapour[i], water = liquid[i];
+        double near = apart < CONDUCTION_FRONT_ALIKE * T ? 1.0 : one, alike = steam > 0.0 ? near : 1.0;
+        double behind = t < onset ? alike : one, there = water > 0.0 ? behind : 0.0;
         tied[i] = t < half ? 0.0 : there;
     }
 }
@@ -137,7 +146,7 @@ void conduction_front_weigh(struct conduction_front *front, const struct model *
         const struct conduction_channel_side l = {.part = part + liquid, .T = T + liquid},
                                              v = {.part = part + vapour, .T = T + vapour};
         conduction_channel_wet(n, &l, &v, rows->tied);
-        conduction_front_tie(n, phase_pair_front(phase->scene), phase->scene->onset, rows->thin, l.part, rows->tied);
+        conduction_front_tie(n, phase_pair_front(phase->scene), phase->scene->onset, rows->thin, &l, &v, rows->tied);
         memset(rows->heat, 0, n * sizeof *rows->heat);
         for (unsigned j = 0; j < phase->n; j++) {
             size_t row = phase->member[j] * (size_t)FACE_ROOM;

@@ -110,6 +110,7 @@ static void flow_down(struct stage *coarse, struct stage *fine)
     around_finer(work->around, coarse->l, coarse->bound, 0);
     link_down(fine->level->link);
     around_down(work->around, fine->l);
+    census_receive(&fine->census); /* as of now: paths of the finer level hang on it */
 }
 
 static void flow_level(const struct flow *flow, int l, int j)

@@ -119,6 +119,7 @@ static long long sync_add(struct stage *stage, unsigned local, const struct sync
     const struct model *model = stage->model;
     size_t n_cell = stage->mesh->n_cell;
     double *u = stage->level->u_old[local];
+    stage->guard->last = false; /* sync_blame wants the marks, also behind the last attempt of a step */
     guard_clear(stage->guard);
     guard_attempt(stage->guard);
     for (size_t i = 0; i < model->n_field * n_cell; i++) u[i] = work->before[i] + work->delta[i];

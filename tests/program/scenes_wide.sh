@@ -1,12 +1,20 @@
 # More scenes that nobody would write (scenes.sh), each of which has once shown a fault. 508: steps that only the guard's
 # last try bears. 613 to 976: weight behind walls, surfaces of tiles that change hands at the start, and cells that went by what
-# their path knows. From 1000 on: walls to which solids stick, retries, matter that also moves across the plane, and heat from
-# walls. Then a ball that moves where fluids meet.
+# their path knows. From 1000 on: walls to which solids stick, retries, matter that also moves across the plane, heat from walls,
+# and, 1580, super steps beside a finer level. From 2000 on: volume without mass, gases alone in a tile, hot traces of vapour.
+# Then a ball that moves where fluids meet.
 set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
 
 PYTHONDONTWRITEBYTECODE=1 "${python3:-python3}" "$BULLA_SOURCE/tests/scenes/hunt.py" \
-    -s 508 613 615 694 976 1010 1097 1162 1165 1211 1251 || fail "see above"
+    -s 508 613 615 694 976 1010 1097 1162 1165 1211 1251 1580 2044 2105 2139 || fail "see above"
+
+# Refluxing looks for troubled cells where the guard may repair nothing, too.
+PYTHONDONTWRITEBYTECODE=1 "${python3:-python3}" -c 'import json, sys; sys.path.insert(0, sys.argv[1]); import draw
+print(json.dumps(draw.draw(2139)[0]))' "$BULLA_SOURCE/tests/scenes" >strict.yaml
+code=0
+limited "$BULLA" run strict.yaml --set scheme.guard=strict --quiet 2>err || code=$?
+case $code in 0 | 3) ;; *) fail "exit code $code" err ;; esac
 
 # What the wall's cell holds, the cell beside it may not have: -1e-5 kg/m3 of air in the first step.
 cat >ball.yaml <<'END_BALL'
