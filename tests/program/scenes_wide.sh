@@ -7,13 +7,22 @@ set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
 
 PYTHONDONTWRITEBYTECODE=1 "${python3:-python3}" "$BULLA_SOURCE/tests/scenes/hunt.py" \
-    -s 508 613 615 694 976 1010 1097 1162 1165 1211 1251 1580 2044 2105 2139 || fail "see above"
+    -s 508 613 615 694 976 1010 1097 1162 1165 1211 1251 2105 || fail "see above"
 
+# The first steps of larger ones.
+drawn() { # SEED: writes scene-SEED.yaml
+    PYTHONDONTWRITEBYTECODE=1 "${python3:-python3}" -c 'import json, sys; sys.path.insert(0, sys.argv[1]); import draw
+print(json.dumps(draw.draw(int(sys.argv[2]))[0]))' "$BULLA_SOURCE/tests/scenes" "$1" >"scene-$1.yaml"
+}
+for seed in 1580 2044 2139; do drawn $seed; done
+ran one scene-1580 --max-steps 1 --set 'output.history.every=1 steps'
+ran two scene-1580 --max-steps 1 --set 'output.history.every=1 steps' -n 2
+cmp one/out/history.csv two/out/history.csv || fail "1580: another history"
+ran thin scene-2044 --max-steps 4
+ran hot scene-2139 --max-steps 2
 # Refluxing looks for troubled cells where the guard may repair nothing, too.
-PYTHONDONTWRITEBYTECODE=1 "${python3:-python3}" -c 'import json, sys; sys.path.insert(0, sys.argv[1]); import draw
-print(json.dumps(draw.draw(2139)[0]))' "$BULLA_SOURCE/tests/scenes" >strict.yaml
 code=0
-limited "$BULLA" run strict.yaml --set scheme.guard=strict --quiet 2>err || code=$?
+ran strict scene-2139 --set scheme.guard=strict --max-steps 2 2>err || code=$?
 case $code in 0 | 3) ;; *) fail "exit code $code" err ;; esac
 
 # What the wall's cell holds, the cell beside it may not have: -1e-5 kg/m3 of air in the first step.
