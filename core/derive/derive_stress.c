@@ -237,29 +237,34 @@ void derive_stress_strength(const struct derive_view *tile, double *out)
     flow_strength(tile->model, tile->n, tile->n, tile->w, out);
 }
 
-/* Of the memories of the solids with or without a greatest value, the mean by mass of the solids that have one. */
-static void derive_stress_remember(const struct derive_view *tile, bool bounded, double *out)
+/* Less of a cell is a trace of a solid. */
+#define DERIVE_STRESS_TRACE 1e-3
+
+/* Of the memories of the solids with or without a greatest value, the mean by mass of the solids that have one; 0 where
+ * they fill less than `least` of a cell. */
+static void derive_stress_remember(const struct derive_view *tile, bool bounded, double least, double *out)
 {
     const struct model *model = tile->model;
     for (size_t i = 0; i < tile->n; i++) {
-        double mass = 0.0, sum = 0.0;
+        double mass = 0.0, sum = 0.0, filled = 0.0;
         for (unsigned k = 0; k < model->n_memory; k++) {
             unsigned l = model->solids[model->memories[k].solid].material, q = model->memories[k].field;
-            double m = derive_view_alpha(tile, l, i) * derive_view_w(tile, model->i_m + l)[i];
+            double alpha = derive_view_alpha(tile, l, i), m = alpha * derive_view_w(tile, model->i_m + l)[i];
             if ((model->memories[k].most < HUGE_VAL) != bounded) continue;
+            filled += alpha;
             mass += m;
             sum += m * derive_view_w(tile, q)[i];
         }
-        out[i] = mass > ELASTIC_NOTHING ? sum / mass : 0.0;
+        out[i] = mass > ELASTIC_NOTHING && filled >= least ? sum / mass : 0.0;
     }
 }
 
 void derive_stress_plastic(const struct derive_view *tile, double *out)
 {
-    derive_stress_remember(tile, false, out);
+    derive_stress_remember(tile, false, 0.0, out);
 }
 
 void derive_stress_damage(const struct derive_view *tile, double *out)
 {
-    derive_stress_remember(tile, true, out);
+    derive_stress_remember(tile, true, DERIVE_STRESS_TRACE, out);
 }

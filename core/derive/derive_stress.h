@@ -48,7 +48,8 @@ void derive_stress_strength(const struct derive_view *tile, double *out);
 /* Accumulated plastic strain, the mean by mass of the solids that have one [1]. */
 void derive_stress_plastic(const struct derive_view *tile, double *out);
 
-/* Damage from 0 to 1, the mean by mass of the solids that can break. */
+/* Damage from 0 to 1, the mean by mass of the solids that can break; 0 where they fill less than a thousandth of a
+ * cell, as what is torn off a surface says nothing of the solid. */
 void derive_stress_damage(const struct derive_view *tile, double *out);
 
 #endif
