@@ -3,9 +3,11 @@
 
 #include "base/mem.h"
 #include "phys/pick.h"
+#include "phys/row.h"
 #include "scheme/seam.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Less fluid than this lets nothing slide: traces are everywhere. */
 #define SLIP_TRACE 1e-6
@@ -28,23 +30,16 @@ static void *slip_open(const struct term_room *room)
     return mem_new(1, sizeof(struct slip));
 }
 
-/* Sums of n fractions of solids. */
-static BULLA_KERNEL void slip_sum(size_t n, const double *restrict alpha, double *restrict sum)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) sum[i] += alpha[i];
-}
-
 /* Of n cells from cell `from` on those that hold a solid and a fluid; solid[n]: fractions of all solids. */
 static size_t slip_pick(const struct term_tile *tile, const double *u, size_t from, size_t n, double *solid,
                         unsigned *at)
 {
     const struct model *model = tile->model;
     unsigned char there[SEAM_LOOK] = {0};
-    for (size_t i = 0; i < n; i++) solid[i] = 0.0;
+    memset(solid, 0, n * sizeof *solid);
     for (unsigned s = 0; s < model->n_solid; s++) {
         seam_count(tile, s, u, from, n, there);
-        slip_sum(n, u + (model->i_alpha + model->solids[s].material) * tile->n_cell + from, solid);
+        row_add(n, u + (model->i_alpha + model->solids[s].material) * tile->n_cell + from, solid);
     }
     for (size_t i = 0; i < n; i++) there[i] = (unsigned char)((there[i] > 0) & (1.0 - solid[i] > SLIP_TRACE));
     return pick_marked(n, (unsigned)from, there, at);

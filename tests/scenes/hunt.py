@@ -1,9 +1,9 @@
 """hunt.py SEED|FIRST..LAST ... - runs scenes of draw.py and looks for what must never be.
 
 Each scene goes 16 steps, from seed 2000 on 48, on one rank, on three, and on two for half of them and then on one from
-the checkpoint. Histories, probes, snapshots and checkpoints are the same to the bit; in a closed domain masses and energy stay to round-off; no program crashes or
-hangs. A run may end by itself with a message (exit code 3): what is drawn can be too wild. Such seeds are named, and
-`-s` counts them as failures. Prints what failed, and ends with 1.
+the checkpoint. Histories, probes, snapshots and checkpoints are the same to the bit; in a closed domain masses and
+energy stay to round-off; no program crashes or hangs. A run may end by itself with a message (exit code 3): what is
+drawn can be too wild. Such seeds are named, and `-s` counts them as failures. Prints what failed, and ends with 1.
 """
 import csv
 import glob
