@@ -58,3 +58,24 @@ cmp shear-plain/history.csv shear-calm/history.csv
 
 # What it is for: noise that does not grow (80-fold without).
 "$BULLA" run "$BULLA_SOURCE/cases/hard/h7.yaml" --variant quick -o h7 --quiet || fail "noise grows at the front" h7/expect.json
+
+# Solids bear shear themselves: where there is gel in water the faces at a shock are as they were; in water alone they are not.
+cat >gel.yaml <<'END_GEL'
+bulla: 1
+title: A shock in water with gel
+domain: {lower: [0, 0], upper: [1, 1], cells: [48, 24], boundaries: {x-: reflecting, x+: reflecting, y-: periodic, y+: periodic}}
+mesh: {tile: 8}
+materials:
+  water: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}}
+  gel: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa}, constitutive: {type: neo-hookean, shear-modulus: 50 kPa, reference-density: 1000}}
+initial:
+  - {everywhere: true, fractions: {gel: 0.3, water: 0.7}, density: {gel: 1000, water: 1000}, pressure: 1e5, velocity: [-1500, "= 5 * math.sin(40 * y)"]}
+run: {until: 1, max-steps: 40}
+output: {history: {columns: {u: {max: velocity_x}, v: {max: velocity_y}, p: {max: pressure}}}}
+END_GEL
+sed 's/gel: 0.3, water: 0.7/gel: 0, water: 1/' gel.yaml >water.yaml
+for name in gel water; do
+    for fronts in calm plain; do ran $name-$fronts $name --set scheme.shock-fronts=$fronts; done
+done
+cmp gel-calm/out/history.csv gel-plain/out/history.csv || fail "a shock in gel is calmed"
+! cmp -s water-calm/out/history.csv water-plain/out/history.csv || fail "a shock in water is not calmed"
