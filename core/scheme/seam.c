@@ -112,8 +112,9 @@ static BULLA_KERNEL void seam_turn_plane(size_t n, const double *const R[3][3], 
         double a = v_xx[i], b = v_xy[i], d = v_yy[i], z = zz[i];
         double ax = xx[i] * a + xy[i] * b, ay = xx[i] * b + xy[i] * d;
         double bx = yx[i] * a + yy[i] * b, by = yx[i] * b + yy[i] * d;
+        double one = ax * yx[i] + ay * yy[i], other = bx * xx[i] + by * xy[i]; /* x and y exchanged: the same bits */
         v_xx[i] = ax * xx[i] + ay * xy[i];
-        v_xy[i] = ax * yx[i] + ay * yy[i];
+        v_xy[i] = 0.5 * (one + other);
         v_yy[i] = bx * yx[i] + by * yy[i];
         v_zz[i] = z * v_zz[i] * z;
     }

@@ -84,3 +84,20 @@ refused_case "'air' is named already" 's/gases: \[steam, air\]/gases: [air, air]
 refused_case "volume must move with mass" 's/^run:/scheme: {closure: allaire}\nrun:/'
 refused_case "'water' is a liquid" 's/gases: \[steam, air\]/gases: [water, steam]/'
 refused_case "'steam' is a solid" 's/ideal-gas, preset: water-2016}/ideal-gas, preset: water-2016}, constitutive: {type: neo-hookean, shear-modulus: 1 MPa, reference-density: 1}/'
+
+# Little gas in a liquid, however fast it would mingle, asks for no steps either.
+cat >little.yaml <<'END_LITTLE'
+bulla: 1
+title: Traces of two gases in thin water
+domain: {lower: [0], upper: [32 um], cells: [32], boundaries: {x-: reflecting, x+: reflecting}}
+materials:
+  water: {eos: {type: nasg, preset: water-2016}}
+  steam: {eos: {type: ideal-gas, preset: water-2016}}
+  air: {eos: {type: ideal-gas, preset: air}}
+gas-diffusion: [{gases: [steam, air], diffusivity: 2500 mm2/s}]
+initial: [{everywhere: true, fractions: {water: 0.996, steam: 0.002, air: 0.002}, temperature: 300, pressure: 1 kPa}]
+run: {until: 1 s, max-steps: 4}
+output: {history: {columns: {v: {mass: steam}}}}
+END_LITTLE
+"$BULLA" run little.yaml --quiet -o little
+awk -F, 'END { exit !($3 > 1e-10) }' little/history.csv || fail "little gas sets the time step" little/history.csv
