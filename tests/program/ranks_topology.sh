@@ -1,6 +1,7 @@
-# Every rank makes and checks its own piece of the tile sets, and knows nothing but what lies around it: on 1, 2, 3, 4, 7 and
-# 16 ranks the same sets, counts of unwanted tiles and bits, in 2D with three levels that come, move and go, and in 3D; a
-# checkpoint of 16 ranks goes on with 5 and then with 1; a rank that is lost ends the run, and its checkpoint goes on.
+# Every rank makes and checks its own piece of the tile sets, and knows nothing but what lies around it: on 1, 7 and 16 ranks (at
+# night, BULLA_WHOLE, on 2, 3 and 4, too) the same sets, counts of unwanted tiles and bits, in 2D with three levels that come,
+# move and go, and in 3D; a checkpoint of 16 ranks goes on with 5 and then with 1; a rank that is lost ends the run, and its
+# checkpoint goes on.
 # BULLA_RANKS: in place of 16 (32 at night).
 set -eu
 many=${BULLA_RANKS:-16}
@@ -33,9 +34,9 @@ END2
 while read -r name counts; do
     # shellcheck disable=SC2086
     ranked "$name" $counts
-    for ranks in $counts; do
+    for folder in "$name"-*; do # those numbers of ranks that were run
         for file in $name-1/out/checkpoints/*; do
-            "$same" "$file" "$name-$ranks/out/checkpoints/${file##*/}"
+            "$same" "$file" "$folder/out/checkpoints/${file##*/}"
         done
     done
     grep -q '"regrids": *[3-9]' "$name-1/refinement" || grep -q '"regrids": *[1-9][0-9]' "$name-1/refinement" || fail "$name: levels do not move"
