@@ -5,13 +5,12 @@ They are the pages of docs/ as they are, but for their links: what points into t
 text, cases get pages of their own. Beside them a gallery of all cases and the headers of the SDK. Without --pictures the
 gallery shows pictures that are there already.
 """
+import concurrent.futures
 import html
 import os
 import re
 import shutil
 import sys
-
-import yaml
 
 import api
 import pictures
@@ -150,11 +149,12 @@ def gallery(program, folder, store, draw):
     os.makedirs(static, exist_ok=True)
     for file in drawn.values():
         shutil.copy(os.path.join(store, file), static)
-    for name, path in found.items():
-        text = pictures.show(program, path, None)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        texts = pool.map(lambda path: pictures.show(program, path, None), found.values())
+    for (name, path), text in zip(found.items(), texts):
         if text is None:
             continue  # a part of other cases
-        scene = yaml.safe_load(text)
+        scene = pictures.load(text)
         write(folder, f"gallery/{name}.md", case_page(name, scene, read(path), drawn.get(name)))
         cards.setdefault(name.split("/")[0], []).append((name, card(name, scene, drawn.get(name))))
     out = ["# Gallery\n", "All cases of the tree, with the picture of a quick run and the command that makes it.\n"]

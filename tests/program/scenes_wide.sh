@@ -6,8 +6,11 @@
 set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
 
+quick=-q
+[ -z "${BULLA_WHOLE:-}" ] || quick=
+# shellcheck disable=SC2086
 PYTHONDONTWRITEBYTECODE=1 "${python3:-python3}" "$BULLA_SOURCE/tests/scenes/hunt.py" \
-    -s 508 613 615 694 976 1010 1097 1162 1165 1211 1251 2105 || fail "see above"
+    -s $quick 508 613 615 694 976 1010 1097 1162 1165 1211 1251 2105 || fail "see above"
 
 # The first steps of larger ones.
 drawn() { # SEED: writes scene-SEED.yaml

@@ -326,6 +326,8 @@ static herr_t compare(hid_t file, const char *name, const H5O_info_t *info, void
 {
     struct comparison *comparison = context;
     if (info->type != H5O_TYPE_DATASET || !strcmp(name, "bulla/provenance.json")) return 0;
+    /* Views of other sets take half a second to open. */
+    if (strstr(name, "/data:datatype=") && !getenv("BULLA_WHOLE")) return 0;
     hid_t set[2] = {H5Dopen2(file, name, H5P_DEFAULT), H5Dopen2(comparison->other, name, H5P_DEFAULT)};
     comparison->sets++;
     char *bytes[2] = {NULL, NULL};
