@@ -1,6 +1,7 @@
 /* seam.c - see seam.h. */
 #include "scheme/seam.h"
 
+#include "base/mem.h"
 #include "phys/bearing.h"
 #include "phys/elastic.h"
 #include "phys/elastic_tensor.h"
@@ -54,14 +55,25 @@ void seam_gradient(const struct term_tile *tile, size_t cell, const double *weig
             g[d] += weight[s] * slope[((model->n_velocity + s) * dim + d) * tile->n_cell] * tile->level->h[d];
 }
 
-double seam_add(struct seam *seam, unsigned cell, const double g[3])
+/* Area of the surface per volume [1/m]; g is per cell. */
+static double seam_steep(const struct term_tile *tile, const double g[3])
+{
+    double sum = 0.0;
+    for (int d = 0; d < tile->model->dim; d++) sum += g[d] / tile->level->h[d] * (g[d] / tile->level->h[d]);
+    return sqrt(sum);
+}
+
+double seam_add(struct seam *seam, const struct term_tile *tile, unsigned cell, const double g[3])
 {
     double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]), weight = size / SEAM_TRACE;
     if (!(size > 0.0)) return 0.0;
     const double n[3] = {g[0] / size, g[1] / size, g[2] / size};
-    seam_aim(seam, seam->n, n);
-    seam->cell[seam->n++] = cell;
-    return weight < 1.0 ? weight * weight : 1.0;
+    size_t i = seam->n++;
+    seam_aim(seam, i, n);
+    seam->cell[i] = cell;
+    seam->part[i] = weight < 1.0 ? weight * weight : 1.0;
+    seam->steep[i] = seam_steep(tile, g);
+    return seam->part[i];
 }
 
 struct seam_vector {
@@ -182,12 +194,6 @@ static void seam_pull(struct seam *seam)
     }
 }
 
-void seam_gather(struct seam *seam, const struct term_tile *tile, const double *u)
-{
-    seam_take(seam, tile, u);
-    seam_pull(seam);
-}
-
 /* Stretch k of all points sheared by what its solid slides by: (1 + a n^T) in two halves. */
 static void seam_shear(struct seam *seam, unsigned k)
 {
@@ -205,7 +211,8 @@ static void seam_shear(struct seam *seam, unsigned k)
     for (unsigned c = 0; c < model->n_stretch; c++) memcpy(V + c * SEAM_BATCH, out[c], seam->n * sizeof *V);
 }
 
-void seam_scatter(struct seam *seam, const struct term_tile *tile, double *u)
+/* What has slid goes back. */
+static void seam_scatter(struct seam *seam, const struct term_tile *tile, double *u)
 {
     const struct model *model = seam->model;
     for (unsigned k = 0; k < model_stretches(model); k++) {
@@ -219,5 +226,36 @@ void seam_scatter(struct seam *seam, const struct term_tile *tile, double *u)
                 u[(model_stretch(model, k) + c) * tile->n_cell + seam->cell[i]] = V[c * SEAM_BATCH + i];
         }
     }
+}
+
+static void seam_batch(const struct seam_work *work, struct seam *seam, const struct term_tile *tile, double *u)
+{
+    if (!seam->n) return;
+    seam_take(seam, tile, u);
+    seam_pull(seam);
+    work->slide(seam, tile);
+    seam_scatter(seam, tile, u);
     seam->n = 0;
+}
+
+void *seam_open(const struct term_room *room)
+{
+    (void)room;
+    return mem_new(1, sizeof(struct seam));
+}
+
+void seam_apply(const struct seam_work *work, const struct term_tile *tile, double *u)
+{
+    struct seam *seam = tile->own;
+    unsigned at[SEAM_LOOK];
+    seam->model = tile->model;
+    seam->n = 0;
+    for (size_t from = 0; from < tile->n_cell; from += SEAM_LOOK) {
+        size_t left = tile->n_cell - from, n = work->pick(tile, u, from, left < SEAM_LOOK ? left : SEAM_LOOK, at);
+        for (size_t i = 0; i < n; i++) {
+            work->look(seam, tile, u, at[i]);
+            if (seam->n == SEAM_BATCH) seam_batch(work, seam, tile, u);
+        }
+    }
+    seam_batch(work, seam, tile, u);
 }

@@ -19,22 +19,9 @@ struct weld_waves {
     double *impedance, *run, *rush, *least;
 };
 
-/* The cells of a tile in which solids meet. */
-struct weld {
-    struct seam seam;
-    double part[SEAM_BATCH];  /* of the way to one traction */
-    double steep[SEAM_BATCH]; /* |grad| of the fractions [1/m] */
-};
-
 static bool weld_wanted(const struct model *path)
 {
     return path->n_solid > 1 && path->n_velocity > 1 && path->n_alpha > 0;
-}
-
-static void *weld_open(const struct term_room *room)
-{
-    (void)room;
-    return mem_new(1, sizeof(struct weld));
 }
 
 /* Direction in which the number of the solid changes, (sum alpha) sum (s - mean) grad alpha_s, times the spacing; of
@@ -52,14 +39,6 @@ static void weld_colour(const struct term_tile *tile, const double *u, size_t ce
     seam_gradient(tile, cell, weight, g);
 }
 
-/* Area of the interface per volume [1/m]; g is per cell. */
-static double weld_steep(const struct term_tile *tile, const double g[3])
-{
-    double sum = 0.0;
-    for (int d = 0; d < tile->model->dim; d++) sum += g[d] / tile->level->h[d] * (g[d] / tile->level->h[d]);
-    return sqrt(sum);
-}
-
 /* Of n cells from cell `from` on those that hold several solids. Returns how many there are. */
 static size_t weld_pick(const struct term_tile *tile, const double *u, size_t from, size_t n, unsigned *at)
 {
@@ -70,15 +49,11 @@ static size_t weld_pick(const struct term_tile *tile, const double *u, size_t fr
 }
 
 /* Has a cell that holds several solids an interface? Then it comes into the batch. */
-static void weld_look(struct weld *weld, const struct term_tile *tile, const double *u, unsigned cell)
+static void weld_look(struct seam *seam, const struct term_tile *tile, const double *u, unsigned cell)
 {
-    double g[3], steep;
+    double g[3];
     weld_colour(tile, u, cell, g);
-    steep = weld_steep(tile, g);
-    double weight = seam_add(&weld->seam, cell, g);
-    if (!(weight > 0.0)) return;
-    weld->part[weld->seam.n - 1] = weight;
-    weld->steep[weld->seam.n - 1] = steep;
+    seam_add(seam, tile, cell, g);
 }
 
 /* Adds a solid: its impedance rho c, how fast its shear waves run, c^2/alpha, and both times each other; and looks for
@@ -114,15 +89,14 @@ static BULLA_KERNEL void weld_shorten(size_t n, double dt, const double *restric
 }
 
 /* How much of the way to one traction waves can take in dt. */
-static void weld_haste(struct weld *weld, double dt)
+static void weld_haste(struct seam *seam, double dt)
 {
-    const struct seam *seam = &weld->seam;
     double impedance[SEAM_BATCH] = {0}, run[SEAM_BATCH] = {0}, rush[SEAM_BATCH] = {0}, least[SEAM_BATCH];
     const struct weld_waves waves = {impedance, run, rush, least};
     for (size_t i = 0; i < seam->n; i++) least[i] = DBL_MAX;
     for (unsigned s = 0; s < seam->model->n_solid; s++)
         weld_run(seam->n, seam->alpha[s], seam->m[s], seam->k[s], &waves);
-    weld_shorten(seam->n, dt, weld->steep, &waves, weld->part);
+    weld_shorten(seam->n, dt, seam->steep, &waves, seam->part);
 }
 
 /* Adds a solid's share in what gives. One that bears no shear takes no part. */
@@ -151,39 +125,25 @@ static BULLA_KERNEL void weld_way(size_t n, const double *restrict part, const d
 }
 
 /* What the solids slide by along tangent d. */
-static void weld_slide(struct weld *weld, unsigned d)
+static void weld_along(struct seam *seam, unsigned d)
 {
-    struct seam *seam = &weld->seam;
     double sum[SEAM_BATCH] = {0}, give[SEAM_BATCH] = {0};
     unsigned n_solid = seam->model->n_solid;
     for (unsigned s = 0; s < n_solid; s++) weld_share(seam->n, seam->alpha[s], seam->k[s], seam->t[d][s], sum, give);
     for (unsigned s = 0; s < n_solid; s++)
-        weld_way(seam->n, weld->part, sum, give, seam->t[d][s], seam->k[s], seam->a[d][s]);
+        weld_way(seam->n, seam->part, sum, give, seam->t[d][s], seam->k[s], seam->a[d][s]);
 }
 
-static void weld_batch(struct weld *weld, const struct term_tile *tile, double *u)
+static void weld_slide(struct seam *seam, const struct term_tile *tile)
 {
-    if (!weld->seam.n) return;
-    seam_gather(&weld->seam, tile, u);
-    weld_haste(weld, tile->dt);
-    for (unsigned d = 0; d + 1 < tile->model->n_velocity; d++) weld_slide(weld, d);
-    seam_scatter(&weld->seam, tile, u);
+    weld_haste(seam, tile->dt);
+    for (unsigned d = 0; d + 1 < tile->model->n_velocity; d++) weld_along(seam, d);
 }
 
 static size_t weld_apply(const struct term_tile *tile, double *u_new)
 {
-    struct weld *weld = tile->own;
-    unsigned at[SEAM_LOOK];
-    weld->seam.model = tile->model;
-    weld->seam.n = 0;
-    for (size_t from = 0; from < tile->n_cell; from += SEAM_LOOK) {
-        size_t left = tile->n_cell - from, n = weld_pick(tile, u_new, from, left < SEAM_LOOK ? left : SEAM_LOOK, at);
-        for (size_t i = 0; i < n; i++) {
-            weld_look(weld, tile, u_new, at[i]);
-            if (weld->seam.n == SEAM_BATCH) weld_batch(weld, tile, u_new);
-        }
-    }
-    weld_batch(weld, tile, u_new);
+    static const struct seam_work work = {weld_pick, weld_look, weld_slide};
+    seam_apply(&work, tile, u_new);
     return 0;
 }
 
@@ -192,7 +152,7 @@ const struct term weld_term = {
     .owner = "core/scheme/weld.c",
     .equation = "V_l <- (1 + a_l n^T) V_l: where solids meet they share the shear traction",
     .wanted = weld_wanted,
-    .open = weld_open,
+    .open = seam_open,
     .close = mem_free,
     .apply = weld_apply,
 };
