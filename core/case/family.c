@@ -63,25 +63,45 @@ static const struct keys_section *family_of_module(struct forest *forest, const 
     return section;
 }
 
-const struct keys_section *family_find(struct forest *forest, const struct keys_section *section, const char *name)
+static const struct keys_section *family_own(const struct keys_section *section, const char *name)
 {
     for (const struct keys_section *const *at = section->cases; at && *at; at++)
         if (strcmp((*at)->name, name) == 0) return *at;
+    return NULL;
+}
+
+const struct keys_section *family_find(struct forest *forest, const struct keys_section *section, const char *name)
+{
+    const struct keys_section *own = family_own(section, name);
+    if (own) return own;
     const struct registry_entry *entry = section->kind ? registry_find(section->kind, name) : NULL;
     return entry ? family_of_module(forest, entry->module) : NULL;
+}
+
+/* Names of the section's own cases, then these. */
+static const char *const *family_list(struct forest *forest, const struct keys_section *section,
+                                      const char *const *others)
+{
+    unsigned count = 0, own = 0;
+    while (section->cases && section->cases[own]) own++;
+    while (others[count]) count++;
+    const char **names = tree_take(forest, (own + count + 1) * sizeof *names);
+    for (unsigned i = 0; i < own; i++) names[i] = section->cases[i]->name;
+    for (unsigned i = 0; i < count; i++) names[own + i] = tree_print(forest, "%s", others[i]);
+    return names;
 }
 
 const char *const *family_names(struct forest *forest, const struct keys_section *section)
 {
     static const char *const none[] = {NULL};
-    const char *const *modules = section->kind ? registry_names(section->kind) : none;
-    unsigned count = 0, own = 0;
-    while (section->cases && section->cases[own]) own++;
-    while (modules[count]) count++;
-    const char **names = tree_take(forest, (own + count + 1) * sizeof *names);
-    for (unsigned i = 0; i < own; i++) names[i] = section->cases[i]->name;
-    for (unsigned i = 0; i < count; i++) names[own + i] = tree_print(forest, "%s", modules[i]);
-    return names;
+    return family_list(forest, section, section->kind ? registry_names(section->kind) : none);
+}
+
+const char *const *family_names_for(struct forest *forest, const struct keys_section *section, const char *name)
+{
+    const char *const only[] = {family_own(section, name) ? NULL : name, NULL};
+    bool there = !only[0] || (section->kind && registry_find(section->kind, name));
+    return there ? family_list(forest, section, only) : family_names(forest, section);
 }
 
 /* The word with this number in "a|b|c"; NULL: there is none. */

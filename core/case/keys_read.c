@@ -152,7 +152,9 @@ static void keys_read_row(struct keys *keys, struct keys_map *map, const struct 
         return;
     }
     if (at < 0) tree_set(keys->forest, map->node, key->name, value->node);
-    keys_read_value(keys, value, rows->list[i].selects ? family_names(keys->forest, rows->list[i].selects) : NULL);
+    const struct keys_section *selects = rows->list[i].selects;
+    const char *word = value->node->kind == TREE_SCALAR ? value->node->text : "";
+    keys_read_value(keys, value, selects ? family_names_for(keys->forest, selects, word) : NULL);
 }
 
 /* Rows first, in their order; keys that are not known last. */

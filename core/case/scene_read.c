@@ -206,7 +206,7 @@ int scene_read(const char *path, const struct scene_options *options, struct sce
     if (!options) options = &none;
     TRY(scene_read_check_name(path));
     TRY(registry_init());
-    if (registry_count() == 0)
+    if (registry_is_empty())
         return status_fail(STATUS_CASE, "no modules were found: without them there are no equations of state; look at "
                                         "BULLA_MODULE_PATH and the folder lib/bulla/modules of the installation");
     struct diag *diag = diag_new();

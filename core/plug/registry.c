@@ -2,7 +2,10 @@
  *
  * A sorted array of loaded objects. The first file that brings a kind and name keeps it: a later
  * one is refused, naming both, unless it is the same file or has the same bytes (a copy in a
- * second folder of the search path). */
+ * second folder of the search path).
+ *
+ * What is built in is called KIND-NAME.so (BULLA_MODULES) and waits until somebody asks for it: a scene needs some six
+ * of fifty, and to load them all is a third of the time of a start, and on a cluster fifty files for each rank. */
 #include "plug/registry.h"
 
 #include "base/log.h"
@@ -23,6 +26,8 @@ static struct registry_entry *registry_entries; /* the public view, same order *
 static const char **registry_list;              /* last answer of registry_names */
 static size_t registry_size;
 static bool registry_scanned;
+static char **registry_waiting; /* built-in objects that are not loaded yet: paths, by name */
+static size_t registry_n_waiting;
 
 static int registry_compare(const struct bulla_module *a, const char *kind, const char *name)
 {
@@ -66,6 +71,33 @@ static int registry_add(const char *path, bool known)
     return same ? STATUS_OK : STATUS_CASE;
 }
 
+/* Loads the waiting object `at`. One that is refused costs a warning, not the run. */
+static void registry_wake_at(size_t at, bool known)
+{
+    char *path = registry_waiting[at];
+    registry_n_waiting--;
+    memmove(registry_waiting + at, registry_waiting + at + 1, (registry_n_waiting - at) * sizeof *registry_waiting);
+    if (registry_add(path, known)) log_warn("module skipped: %s", status_text());
+    mem_free(path);
+}
+
+/* The one that is called so. */
+static void registry_wake(const char *kind, const char *name)
+{
+    char *file = mem_print("/%s-%s.so", kind, name);
+    for (size_t i = 0; i < registry_n_waiting; i++)
+        if (strcmp(strrchr(registry_waiting[i], '/'), file) == 0) {
+            registry_wake_at(i, true);
+            break;
+        }
+    mem_free(file);
+}
+
+static void registry_wake_all(void)
+{
+    while (registry_n_waiting) registry_wake_at(0, true);
+}
+
 int registry_load(const char *path)
 {
     return registry_add(path, false);
@@ -77,7 +109,16 @@ static int registry_is_object(const struct dirent *entry)
     return length > 3 && strcmp(entry->d_name + length - 3, ".so") == 0;
 }
 
-/* All *.so of a folder, by name. One that is refused costs a warning, not the run. */
+/* Is this one of the files that are built with the program? */
+static bool registry_is_built_in(const char *file)
+{
+    char *name = mem_print("/%s/", file);
+    bool found = strstr(BULLA_MODULES, name);
+    mem_free(name);
+    return found;
+}
+
+/* All *.so of a folder, by name; what is built in waits. */
 static void registry_scan(const char *folder, bool own)
 {
     struct dirent **files;
@@ -87,9 +128,10 @@ static void registry_scan(const char *folder, bool own)
         return;
     }
     for (int i = 0; i < count; i++) {
-        char *path = mem_print("%s/%s", folder, files[i]->d_name);
-        if (registry_add(path, own)) log_warn("module skipped: %s", status_text());
-        mem_free(path);
+        size_t at = registry_n_waiting++;
+        registry_waiting = mem_grow(registry_waiting, at, at + 1, sizeof *registry_waiting);
+        registry_waiting[at] = mem_print("%s/%s", folder, files[i]->d_name);
+        if (!own || !registry_is_built_in(files[i]->d_name)) registry_wake_at(at, own);
         free(files[i]);
     }
     free(files);
@@ -145,6 +187,8 @@ int registry_init(void)
     bool has_own = list && registry_scan_list(list, own);
     if (own && !has_own) registry_scan(own, true);
     free(own);
+    for (size_t i = 0; i < registry_size; i++) /* that another file has one of their names is said at once */
+        registry_wake(registry_entries[i].module->kind, registry_entries[i].module->name);
     return STATUS_OK;
 }
 
@@ -154,6 +198,10 @@ void registry_done(void)
     mem_free(registry_objects);
     mem_free(registry_entries);
     mem_free(registry_list);
+    for (size_t i = 0; i < registry_n_waiting; i++) mem_free(registry_waiting[i]);
+    mem_free(registry_waiting);
+    registry_waiting = NULL;
+    registry_n_waiting = 0;
     registry_objects = NULL;
     registry_entries = NULL;
     registry_list = NULL;
@@ -161,18 +209,26 @@ void registry_done(void)
     registry_scanned = false;
 }
 
+bool registry_is_empty(void)
+{
+    return !registry_size && !registry_n_waiting;
+}
+
 size_t registry_count(void)
 {
+    registry_wake_all();
     return registry_size;
 }
 
 const struct registry_entry *registry_at(size_t index)
 {
+    registry_wake_all();
     return index < registry_size ? &registry_entries[index] : NULL;
 }
 
 const struct registry_entry *registry_find(const char *kind, const char *name)
 {
+    registry_wake(kind, name);
     size_t at = registry_place(kind, name);
     if (at == registry_size || registry_compare(registry_entries[at].module, kind, name) != 0) return NULL;
     return &registry_entries[at];
@@ -180,6 +236,7 @@ const struct registry_entry *registry_find(const char *kind, const char *name)
 
 const char *const *registry_names(const char *kind)
 {
+    registry_wake_all();
     mem_free(registry_list);
     registry_list = mem_new(registry_size + 1, sizeof *registry_list);
     size_t count = 0;

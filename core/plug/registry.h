@@ -11,6 +11,7 @@
 
 #include "bulla/module.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -21,7 +22,8 @@ struct registry_entry {
 };
 
 /* Scans the search path once (later calls return at once). A file that is not a loadable
- * module of this ABI gives a warning in the log and is skipped. Returns 0 or a status. */
+ * module of this ABI gives a warning in the log and is skipped. What is built in, KIND-NAME.so each,
+ * is loaded when one of the functions below asks for it. Returns 0 or a status. */
 int registry_init(void);
 void registry_done(void);
 
@@ -29,8 +31,11 @@ void registry_done(void);
  * name already taken by another file) return STATUS_CASE with a message that says why. */
 int registry_load(const char *path);
 
-/* All entries, sorted by kind, then name. */
-/* Entries move when a module is loaded: keep what they point to, not the entry. */
+/* Is there no module at all? */
+bool registry_is_empty(void);
+
+/* All entries, sorted by kind, then name. Entries move when a module is loaded, which registry_find may do: keep what
+ * they point to, not the entry. */
 size_t registry_count(void);
 const struct registry_entry *registry_at(size_t index);
 

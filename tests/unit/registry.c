@@ -7,6 +7,7 @@
 #include "plug/instance.h"
 #include "plug/vet.h"
 
+#include <dlfcn.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -111,10 +112,41 @@ static void test_builtin(void **state)
         assert_int_equal(entry->path[0], '/');
         assert_true(entry->hash != 0);
         assert_ptr_equal(registry_find(builtin[i][0], builtin[i][1]), entry);
+        char *file = mem_print("/%s-%s.so", builtin[i][0], builtin[i][1]);
+        assert_string_equal(strrchr(entry->path, '/'), file); /* by this it is found before it is loaded */
+        mem_free(file);
     }
     assert_null(registry_at(BUILTIN));
     assert_null(registry_find("eos", "minmod"));
     assert_null(registry_find("limiter", "zzz"));
+}
+
+/* Is this built-in module in the process? */
+static bool is_loaded(const char *name)
+{
+    char *path = builtin_path(name);
+    void *handle = dlopen(path, RTLD_NOW | RTLD_NOLOAD);
+    if (handle) dlclose(handle);
+    mem_free(path);
+    return handle != NULL;
+}
+
+/* What nobody asks for is not loaded; a list of names asks for all. */
+static void test_waits(void **state)
+{
+    (void)state;
+    registry_done();
+    assert_int_equal(registry_init(), 0);
+    assert_false(registry_is_empty());
+    assert_false(is_loaded("eos-jwl"));
+    assert_non_null(registry_find("eos", "ideal-gas"));
+    assert_true(is_loaded("eos-ideal-gas"));
+    assert_false(is_loaded("eos-jwl"));
+    assert_non_null(registry_names("eos")[0]);
+    assert_true(is_loaded("eos-jwl"));
+    registry_done();
+    assert_true(registry_is_empty());
+    assert_int_equal(registry_init(), 0);
 }
 
 static void test_names(void **state)
@@ -368,19 +400,13 @@ static void test_search_order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_builtin),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_params),
-        cmocka_unit_test(test_same_again),
-        cmocka_unit_test(test_hostile),
-        cmocka_unit_test(test_taken),
-        cmocka_unit_test(test_duplicate_names_both),
-        cmocka_unit_test(test_fast_math),
-        cmocka_unit_test(test_truncated),
-        cmocka_unit_test(test_no_file),
-        cmocka_unit_test(test_good),
-        cmocka_unit_test(test_open_fails),
-        cmocka_unit_test(test_search_order),
+        cmocka_unit_test(test_builtin),    cmocka_unit_test(test_waits),
+        cmocka_unit_test(test_names),      cmocka_unit_test(test_params),
+        cmocka_unit_test(test_same_again), cmocka_unit_test(test_hostile),
+        cmocka_unit_test(test_taken),      cmocka_unit_test(test_duplicate_names_both),
+        cmocka_unit_test(test_fast_math),  cmocka_unit_test(test_truncated),
+        cmocka_unit_test(test_no_file),    cmocka_unit_test(test_good),
+        cmocka_unit_test(test_open_fails), cmocka_unit_test(test_search_order),
     };
     return cmocka_run_group_tests(tests, start, stop);
 }
