@@ -25,7 +25,7 @@ mathjax2_config = {"showMathMenu": False, "messageStyle": "none"}
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_copy_source = False
-if os.environ.get("BULLA_SITE_CHECK"):  # for its faults alone: furo lists all pages beside each, three quarters of the time
+if os.environ.get("BULLA_SITE_CHECK"):  # for faults alone: furo lists all pages beside each, most of its time
     html_theme = "basic"
 else:
     html_theme = "furo"
