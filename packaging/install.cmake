@@ -6,6 +6,14 @@ if(NOT "${MPI_C_LIBRARIES};${HDF5_C_LIBRARIES}" MATCHES "^/usr/lib[^;]*(;/usr/li
 endif()
 install(TARGETS ${BULLA_PROGRAMS} RUNTIME DESTINATION bin)
 
+# Programs have HDF5 inside (packaging/libraries.cmake): its licence asks whoever hands them on for its notice.
+set_target_properties(${BULLA_PROGRAMS} PROPERTIES BULLA_HDF5_INSIDE ON)
+file(GLOB notice /usr/share/doc/libhdf5*-dev/copyright)
+if(HDF5_ARCHIVE MATCHES "\\.a;" AND notice)
+  list(GET notice 0 notice)
+  install(FILES ${notice} DESTINATION share/doc/bulla RENAME copyright.hdf5)
+endif()
+
 # The SDK: headers and skeletons, for CMake and for pkg-config.
 install(DIRECTORY core/include/bulla/skeleton DESTINATION include/bulla)
 install(DIRECTORY core/include/bulla DESTINATION include FILES_MATCHING PATTERN "*.h" PATTERN skeleton EXCLUDE)

@@ -14,7 +14,6 @@ add_library(bulla_mpi INTERFACE)
 target_link_libraries(bulla_mpi INTERFACE MPI::MPI_C)
 add_library(bulla_hdf5 INTERFACE)
 target_include_directories(bulla_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
-target_link_libraries(bulla_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
 if(NOT HDF5_FOUND OR HDF5_IS_PARALLEL) # its header has mpi.h
   target_link_libraries(bulla_hdf5 INTERFACE MPI::MPI_C)
 endif()
@@ -42,6 +41,24 @@ foreach(library ${HDF5_C_LIBRARIES}) # two MPIs in one program end in a crash: s
                         "libhdf5-dev), or set HDF5_ROOT to one that fits")
   endif()
 endforeach()
+
+# Programs have HDF5 inside (their property BULLA_HDF5_INSIDE) where its archive lies beside the library and asks for no
+# more than what packs: Debian's library opens 30 others before a program begins, to read files on the web
+# (docs/scaling.md). Modules and tests share the library.
+option(BULLA_HDF5_ARCHIVE "Link the archive of HDF5 into the programs, where there is one" ON)
+list(TRANSFORM HDF5_C_LIBRARIES REPLACE "\\.so$" ".a" OUTPUT_VARIABLE HDF5_ARCHIVE)
+list(APPEND HDF5_ARCHIVE sz z m dl)
+set(CMAKE_REQUIRED_LIBRARIES ${HDF5_ARCHIVE} MPI::MPI_C)
+set(CMAKE_REQUIRED_INCLUDES ${HDF5_C_INCLUDE_DIRS})
+check_c_source_compiles("#include <hdf5.h>
+int main(void) { return H5open(); }" BULLA_HDF5_ARCHIVE_LINKS)
+set(CMAKE_REQUIRED_LIBRARIES)
+set(CMAKE_REQUIRED_INCLUDES)
+if(NOT BULLA_HDF5_ARCHIVE OR NOT BULLA_HDF5_ARCHIVE_LINKS)
+  set(HDF5_ARCHIVE ${HDF5_C_LIBRARIES})
+endif()
+target_link_libraries(bulla_hdf5 INTERFACE
+                      $<IF:$<BOOL:$<TARGET_PROPERTY:BULLA_HDF5_INSIDE>>,${HDF5_ARCHIVE},${HDF5_C_LIBRARIES}>)
 
 # mpicc.mpich belongs to mpirun.mpich, mpicc to mpirun: a name, found where the program runs.
 get_filename_component(mpirun "${MPI_C_COMPILER}" NAME)

@@ -18,6 +18,12 @@ done
 find "$BULLA_BUILD/lib/bulla/modules" -name '*.so' -printf '%f\n' | sort >built
 find "$place/lib/bulla/modules" -name '*.so' -printf '%f\n' | sort >installed
 [ -s built ] && cmp built installed || fail "not all modules are installed"
+if grep -q '^BULLA_HDF5_ARCHIVE:BOOL=ON' "$BULLA_BUILD/CMakeCache.txt" &&
+    grep -q '^BULLA_HDF5_ARCHIVE_LINKS:INTERNAL=1' "$BULLA_BUILD/CMakeCache.txt"; then
+    ! ldd "$place/bin/bulla" | grep hdf5 || fail "a program opens HDF5's library beside the archive in it"
+    ls /usr/share/doc/libhdf5*-dev/copyright >/dev/null 2>&1 && [ ! -f "$place/share/doc/bulla/copyright.hdf5" ] &&
+        fail "HDF5's notice is not installed"
+fi
 ! grep -rlF "$PWD/first" "$place/lib/cmake" "$place/share/pkgconfig" || fail "names the place it was installed in"
 
 bulla schema | cmp - "$place/share/bulla/schemas/case.schema.json" || fail "the schema is another one"
