@@ -60,13 +60,21 @@ bool curvature_is_mixed(size_t n, const double *a, double least)
     return high >= least && low <= 1.0 - least;
 }
 
-static BULLA_KERNEL void curvature_mean_row(size_t n, const struct curvature_around *around, double *restrict ret)
+/* Means of four values each of the rows a and b. */
+static BULLA_KERNEL void curvature_mean_row(size_t n, const double *restrict a, const double *restrict b,
+                                            double *restrict ret)
 {
-    const double *restrict a = around->here, *restrict b = around->y, *restrict c = around->z, *restrict d = around->yz;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) ret[i] = 0.25 * ((a[i] + b[i + 1]) + (a[i + 1] + b[i]));
+}
+
+/* In space: with those of the layer above, whose rows are c and d. */
+static BULLA_KERNEL void curvature_mean_layer(size_t n, const double *restrict c, const double *restrict d,
+                                              double *restrict ret)
+{
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double low = 0.25 * ((a[i] + b[i + 1]) + (a[i + 1] + b[i]));
-        double high = 0.25 * ((c[i] + d[i + 1]) + (c[i + 1] + d[i]));
+        double low = ret[i], high = 0.25 * ((c[i] + d[i + 1]) + (c[i + 1] + d[i]));
         ret[i] = 0.5 * (low + high);
     }
 }
@@ -77,7 +85,9 @@ void curvature_room_between(const struct mesh *mesh, int more, const double *fro
     for (size_t k = 0; k < to.n[2]; k++)
         for (size_t j = 0; j < to.n[1]; j++) {
             const struct curvature_around around = curvature_room_around(&of, from, j, k);
-            curvature_mean_row(to.n[0], &around, ret + j * to.stride[1] + k * to.stride[2]);
+            double *row = ret + j * to.stride[1] + k * to.stride[2];
+            curvature_mean_row(to.n[0], around.here, around.y, row);
+            if (mesh->dim == 3) curvature_mean_layer(to.n[0], around.z, around.yz, row);
         }
 }
 

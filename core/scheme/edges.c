@@ -14,6 +14,7 @@
 #include "phys/row.h"
 #include "plug/vet.h"
 #include "scheme/edges_front.h"
+#include "scheme/edges_slope.h"
 
 #include <string.h>
 
@@ -23,22 +24,14 @@
 /* Part of the least neighbour that an edge of what is positive keeps. */
 #define EDGES_LEAST 0.5
 
-/* The slopes of one limiter, as the scheme may call them. */
-struct edges_limited {
-    struct bulla_limited call; /* the first: a pointer to it is one to the whole */
-    struct model_limiter limiter;
-    double *difference, *slope; /* only for limiters without fused edges */
-};
-
 struct edges {
     size_t pitch;
-    struct edges_limited plain, fraction;
-    bool steep, sided;    /* do fractions, does all else have edges of two sides? */
-    bool leans;           /* do paths of the scene have leans, where another scheme than slopes is asked for? */
-    double *rows;         /* all work space */
-    double *mark, *spare; /* where a row needs limited edges; these */
-    double *sum;          /* of fractions at edges */
-    double *three;        /* three rows of cells, for limiters of two sides */
+    struct edges_slope plain, fraction;
+    bool steep;                    /* do fractions have edges of two sides? */
+    bool drawn;                    /* do paths of the scene draw pressure by itself, and not as the scheme would? */
+    double *rows;                  /* all work space */
+    double *mark, *spare;          /* where a row needs limited edges; these */
+    double *sum;                   /* of fractions at edges */
     const double *w[MODEL_FIELDS]; /* for schemes that take all rows */
     double *lower[MODEL_FIELDS], *upper[MODEL_FIELDS];
     const struct bulla_limited *limited[MODEL_FIELDS];
@@ -54,37 +47,6 @@ struct edges_row {
     double *state;
 };
 
-static BULLA_KERNEL void edges_differ(size_t n, const double *restrict a, const double *restrict b, double *restrict d)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) d[i] = b[i] - a[i];
-}
-
-static BULLA_KERNEL void edges_slope(size_t n, const double *restrict w, const double *restrict slope,
-                                     double *restrict lower, double *restrict upper)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double here = w[i], half = 0.5 * slope[i];
-        lower[i] = here - half;
-        upper[i] = here + half;
-    }
-}
-
-static void edges_limit(const struct bulla_limited *limited, size_t n, size_t step, const double *w,
-                        double *restrict lower, double *restrict upper)
-{
-    const struct edges_limited *own = (const struct edges_limited *)limited;
-    const struct model_limiter *limiter = &own->limiter;
-    if (limiter->law->edges) {
-        limiter->law->edges(limiter->self, n, step, w, lower, upper);
-        return;
-    }
-    edges_differ(n + step, w - step, w, own->difference);
-    limiter->law->slope(limiter->self, n, own->difference, own->difference + step, own->slope);
-    edges_slope(n, w, own->slope, lower, upper);
-}
-
 struct edges *edges_new(const struct model *model, size_t pitch)
 {
     enum { ROWS = 11 };
@@ -94,16 +56,18 @@ struct edges *edges_new(const struct model *model, size_t pitch)
     edges->mark = rows + 2 * pitch;
     edges->spare = rows + 3 * pitch;
     edges->sum = rows + 5 * pitch;
-    edges->three = rows + 8 * pitch;
-    struct edges_limited plain = {.call = {.size = sizeof(struct bulla_limited), .edges = edges_limit},
-                                  .limiter = model->limiter,
-                                  .difference = rows,
-                                  .slope = rows + pitch};
+    struct edges_slope plain = {.call = {.size = sizeof(struct bulla_limited), .edges = edges_slope_limit},
+                                .limiter = model->limiter,
+                                .difference = rows,
+                                .slope = rows + pitch,
+                                .below = edges->spare,
+                                .above = edges->spare + pitch,
+                                .three = rows + 8 * pitch};
     edges->plain = edges->fraction = plain;
     edges->fraction.limiter = model->limiter_alpha;
     edges->steep = vet_two_sided(model->limiter_alpha.law);
-    edges->sided = vet_two_sided(model->limiter.law);
-    edges->leans = model->tilted && !model->reconstruction->bounded;
+    bool alike = model->reconstruction->bounded && !vet_two_sided(model->limiter.law); /* to the bit */
+    edges->drawn = (model->tilted || model->forced) && !alike;
     return edges;
 }
 
@@ -130,10 +94,17 @@ static double *edges_upper(const struct edges *edges, const struct edges_row *ro
     return row->state + 2 * q * edges->pitch;
 }
 
+/* Is this the row of pressure, and drawn by itself afterwards? */
+static bool edges_waits(const struct edges *edges, const struct model *model, const struct edges_row *row, unsigned q)
+{
+    return q == model->i_E && (row->lean[0] || row->rise[0] || edges->drawn);
+}
+
 static void edges_each(const struct edges *edges, const struct model *model, const struct edges_row *row)
 {
     for (unsigned i = 0; i < model_edged(model); i++) {
         unsigned q = model->active[i];
+        if (edges_waits(edges, model, row, q)) continue;
         double *upper = edges_upper(edges, row, q);
         model->reconstruction->edges(model->reconstruction_self, edges_limited(edges, model, q), row->cells, row->step,
                                      edges_inside(edges, row, q), upper + row->cells, upper);
@@ -225,7 +196,7 @@ static void edges_replace(const struct edges *edges, const struct model *model, 
 {
     size_t n = row->cells;
     double *upper = edges_upper(edges, row, q), *spare = edges->spare;
-    edges_limit(edges_limited(edges, model, q), n, row->step, edges_inside(edges, row, q), spare + n, spare);
+    edges_slope_limit(edges_limited(edges, model, q), n, row->step, edges_inside(edges, row, q), spare + n, spare);
     edges_choose(n, edges->mark, spare, upper);
     edges_choose(n, edges->mark, spare + n, upper + n);
 }
@@ -249,6 +220,7 @@ static void edges_bound(const struct edges *edges, const struct model *model, co
     edges_bound_fractions(edges, model, row);
     for (unsigned i = model->n_alpha; i < model_edged(model); i++) {
         unsigned q = model->active[i];
+        if (edges_waits(edges, model, row, q)) continue;
         const double *w = edges_inside(edges, row, q), *upper = edges_upper(edges, row, q);
         bool positive = q < model->i_u || (q == model->i_E && !model->elastic) || model_is_inner(model, q);
         edges_mark_value(n, positive ? EDGES_LEAST : 0.0, w - row->step, w, w + row->step, upper + n, upper,
@@ -270,121 +242,17 @@ static BULLA_KERNEL void edges_temper(size_t n, const double *restrict alpha, do
     }
 }
 
-/* The difference of pressure that is not held by forces: `above` of the cell before, `below` of the one behind. */
-static BULLA_KERNEL void edges_differ_held(size_t n, const double *restrict a, const double *restrict b,
-                                           const double *restrict above, const double *restrict below,
-                                           double *restrict d)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) d[i] = (b[i] - a[i]) - (above[i] + below[i]);
-}
-
-static BULLA_KERNEL void edges_hold(size_t n, const double *restrict w, const double *restrict slope,
-                                    const double *restrict below, const double *restrict above, double *restrict lower,
-                                    double *restrict upper)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double here = w[i], half = 0.5 * slope[i], low = below[i], high = above[i];
-        lower[i] = here - (half + low);
-        upper[i] = here + (half + high);
-    }
-}
-
-/* What a limiter of two sides, which knows cells alone, makes of given differences: edges of cells of value 0 between
- * neighbours that differ by them. */
-static void edges_sides(const struct edges *edges, size_t n, const double *below, const double *above, double *lower,
-                        double *upper)
-{
-    const struct model_limiter *limiter = &edges->plain.limiter;
-    double *before = edges->three, *here = before + n, *behind = here + n;
-    for (size_t i = 0; i < n; i++) before[i] = -below[i];
-    memset(here, 0, n * sizeof *here);
-    memcpy(behind, above, n * sizeof *behind);
-    limiter->law->edges(limiter->self, n, n, here, lower, upper);
-}
-
-static BULLA_KERNEL void edges_lift(size_t n, const double *restrict w, double *restrict lower, double *restrict upper)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double here = w[i];
-        lower[i] = here + lower[i];
-        upper[i] = here + upper[i];
-    }
-}
-
-static BULLA_KERNEL void edges_lift_held(size_t n, const double *restrict w, const double *restrict below,
-                                         const double *restrict above, double *restrict lower, double *restrict upper)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double here = w[i], down = lower[i] - below[i], up = upper[i] + above[i];
-        lower[i] = here + down;
-        upper[i] = here + up;
-    }
-}
-
-/* Edges of pressure from its differences to the cells before and behind, less what forces hold. */
-static void edges_drawn(const struct edges *edges, const struct model *model, const struct edges_row *row,
-                        const double *below, const double *above)
-{
-    const struct edges_limited *own = &edges->plain;
-    const double *p = edges_inside(edges, row, model->i_E), *const *rise = row->rise;
-    double *upper = edges_upper(edges, row, model->i_E), *lower = upper + row->cells;
-    size_t n = row->cells;
-    if (edges->sided) {
-        edges_sides(edges, n, below, above, lower, upper);
-        if (rise[0]) edges_lift_held(n, p, rise[0], rise[1], lower, upper);
-        else edges_lift(n, p, lower, upper);
-        return;
-    }
-    own->limiter.law->slope(own->limiter.self, n, below, above, own->slope);
-    if (rise[0]) edges_hold(n, p, own->slope, rise[0], rise[1], lower, upper);
-    else edges_slope(n, p, own->slope, lower, upper);
-}
-
-/* Edges of pressure where forces act, by any scheme: with limited slopes. */
+/* Pressure where forces act or solids have normals, and beside such tiles, by any scheme: with limited slopes. */
 static void edges_press(const struct edges *edges, const struct model *model, const struct edges_row *row)
 {
-    size_t n = row->cells, step = row->step;
-    const double *p = edges_inside(edges, row, model->i_E);
-    double *difference = edges->plain.difference;
-    edges_differ_held(n + step, p - step, p, row->rise[1] - step, row->rise[0], difference);
-    edges_drawn(edges, model, row, difference, difference + step);
-}
-
-/* Given differences, less what forces hold. */
-static BULLA_KERNEL void edges_less(size_t n, const double *restrict lean, const double *restrict above,
-                                    const double *restrict below, double *restrict d)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) d[i] = lean[i] - (above[i] + below[i]);
-}
-
-/* Edges of pressure where each cell has its own view of the differences to the cells before and behind. */
-static void edges_lean(const struct edges *edges, const struct model *model, const struct edges_row *row)
-{
-    size_t n = row->cells, step = row->step;
-    const double *const *rise = row->rise;
-    double *below = edges->spare, *above = edges->spare + edges->pitch;
-    if (!rise[0]) {
-        edges_drawn(edges, model, row, row->lean[0], row->lean[1]);
-        return;
-    }
-    edges_less(n, row->lean[0], rise[1] - step, rise[0], below);
-    edges_less(n, row->lean[1], rise[1], rise[0] + step, above);
-    edges_drawn(edges, model, row, below, above);
-}
-
-/* The same of a path without leans, as one with them has it: tiles on both sides of a face find the same. */
-static void edges_plain(const struct edges *edges, const struct model *model, const struct edges_row *row)
-{
-    size_t n = row->cells, step = row->step;
-    const double *p = edges_inside(edges, row, model->i_E);
-    double *difference = edges->plain.difference;
-    edges_differ(n + step, p - step, p, difference);
-    edges_drawn(edges, model, row, difference, difference + step);
+    double *upper = edges_upper(edges, row, model->i_E);
+    edges_slope_press(&edges->plain, &(struct edges_pressure){.n = row->cells,
+                                                              .step = row->step,
+                                                              .p = edges_inside(edges, row, model->i_E),
+                                                              .rise = {row->rise[0], row->rise[1]},
+                                                              .lean = {row->lean[0], row->lean[1]},
+                                                              .lower = upper + row->cells,
+                                                              .upper = upper});
 }
 
 /* First-order states at the faces of troubled cells. */
@@ -489,9 +357,7 @@ void edges_fill(struct edges *edges, const struct model *model, const struct fra
     if (model->reconstruction->all) edges_together(edges, model, &row);
     else edges_each(edges, model, &row);
     if (!model->reconstruction->bounded) edges_bound(edges, model, &row);
-    if (row.lean[0]) edges_lean(edges, model, &row);
-    else if (row.rise[0]) edges_press(edges, model, &row);
-    else if (edges->leans) edges_plain(edges, model, &row);
+    if (edges_waits(edges, model, &row, model->i_E)) edges_press(edges, model, &row);
     if (model->fronts && model->conducts) edges_beside(edges, model, &row);
     edges_settle(edges, model, &row);
     edges_normalise(edges, model, &row);

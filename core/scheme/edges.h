@@ -24,10 +24,8 @@ struct edges_cells {
 
 /* Fills the edges of all active components of `model` (that of edges_new, or a narrower path of it) from a frame:
  * component q at state + 2 q pitch. With a mask, faces of marked cells get the values of the cells: first order. With
- * rises b below and a above, pressure has limited slopes of what is left of its differences, less a_i + b_k from cell i
- * to the next, and edges p - (s/2 + b) and p + (s/2 + a): where p differs by what forces hold, edges of neighbours
- * meet. With leans, pressure has limited slopes of these, and so it has in all paths of a scene in which some have
- * leans. */
+ * rises or leans pressure has edges of its own (edges_slope.h), and so it has in all frames of a scene in which some
+ * have them, unless the scheme's are the same to the bit. */
 void edges_fill(struct edges *edges, const struct model *model, const struct frame *frame, const struct edges_cells *in,
                 double *state);
 

@@ -411,11 +411,20 @@ static void face_transport(struct face_work *work, size_t right)
 
 void face_begin(struct face_work *work, const struct frame *frame)
 {
-    for (int side = 0; side < 2; side++)
-        if (work->rise[side]) memset(work->rise[side], 0, frame->count * sizeof(double));
+    work->held = false;
     if (work->flat) memset(work->flat, 0, frame->count * sizeof *work->flat);
     for (unsigned l = 0; work->lag && l < work->model->n_material; l++)
         memset(work->lag + l * FACE_ROOM, 0, frame->count * sizeof *work->lag);
+}
+
+void face_rise(struct face_work *work, const struct frame *frame, const double *below, const double *above)
+{
+    const double *more[2] = {below, above};
+    for (int side = 0; side < 2; side++) {
+        if (work->held) row_add(frame->count, more[side], work->rise[side]);
+        else memcpy(work->rise[side], more[side], frame->count * sizeof(double));
+    }
+    work->held = true;
 }
 
 /* Cells whose faces get first-order states: troubled ones, and those that terms have marked. */
@@ -451,7 +460,8 @@ const double *face_edges(struct face_work *work, const struct frame *frame, bool
 {
     const struct model *model = work->model;
     const struct face_own *own = work->own;
-    struct edges_cells in = {work->frame, face_flat(work, frame, masked), {work->rise[0], work->rise[1]}, {NULL, NULL}};
+    struct edges_cells in = {work->frame, face_flat(work, frame, masked), {NULL, NULL}, {NULL, NULL}};
+    if (work->held) in.rise[0] = work->rise[0], in.rise[1] = work->rise[1];
     if (model->n_normal) in.lean[0] = work->lean[0], in.lean[1] = work->lean[1];
     edges_fill(own->edges, model, frame, &in, own->state);
     return own->state;

@@ -32,6 +32,7 @@ struct face_work {
         *slide_right; /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */
     double *rise[2]; /* of p from the middle of each cell of the frame to its lower and its upper face, with the sign of
                         going up, where it holds the forces [Pa]; NULL where the scene has none (model->forced) */
+    bool held;       /* do cells of the frame hold forces? else `rise` is not filled (face_rise) */
     double *lean[2]; /* of each cell of the frame: what its neighbours' normals make of the differences of the traction
                         to the cells before and behind [Pa]; NULL where normals are axes */
     struct tilt_aimed *aimed; /* the cells that have a normal (tilt.h); NULL where normals are axes */
@@ -54,6 +55,9 @@ static inline double *face_mingled(const struct face_work *work)
 
 /* Before terms look at a gathered frame: no forces yet. */
 void face_begin(struct face_work *work, const struct frame *frame);
+
+/* More that the cells of the frame hold: rises of p [frame.count] to their lower and their upper faces [Pa]. */
+void face_rise(struct face_work *work, const struct frame *frame, const double *below, const double *above);
 
 /* No fluxes of mass, momentum and energy: what terms that diffuse add to is 0. */
 void face_rest(struct face_work *work, const struct frame *frame);

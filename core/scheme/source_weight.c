@@ -101,5 +101,5 @@ void source_weight_frame(struct source_value *values, const struct term_piece *p
     if (!source_weight_any(piece->model->scene, frame->axis)) return;
     source_weight_cells(values, &place, frame, -(int)frame->ghosts, (int)(frame->n + frame->ghosts), FACE_ROOM,
                         faces->frame, half);
-    for (int side = 0; side < 2; side++) row_add(frame->count, half, faces->rise[side]);
+    face_rise(faces, frame, half, half);
 }

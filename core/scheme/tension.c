@@ -86,6 +86,13 @@ static BULLA_KERNEL void tension_face(size_t n, size_t step, double sigma, const
     }
 }
 
+/* Both cells hold half of what acts on the face between them. */
+static BULLA_KERNEL void tension_halve(size_t n, double *restrict force)
+{
+#pragma omp simd
+    for (size_t j = 0; j < n; j++) force[j] *= 0.5;
+}
+
 /* Curvature at the faces above the cells of a frame. */
 static void tension_curve(const struct term_piece *piece, const struct model_pair *pair, double *curve)
 {
@@ -120,9 +127,10 @@ static void tension_frame(const struct term_piece *piece)
     const struct frame *frame = piece->frame;
     struct face_work *faces = piece->faces;
     const double *alpha = faces->frame + path->i_alpha * FACE_ROOM;
-    double curve[FACE_ROOM], force[FACE_ROOM]; /* large: filled as far as they are used */
+    double curve[FACE_ROOM], rise[FACE_ROOM + FRAME_CELLS]; /* large: filled as far as they are used */
+    double *force = rise + frame->inner; /* of the face above each cell; below the first there is none */
     size_t n = frame->count - frame->inner;
-    memset(force, 0, frame->count * sizeof *force);
+    memset(rise, 0, (frame->count + frame->inner) * sizeof *rise);
     for (unsigned k = 0; k < path->n_pair; k++) {
         const struct model_pair *pair = &path->pairs[k];
         tension_curve(piece, pair, curve);
@@ -132,9 +140,8 @@ static void tension_frame(const struct term_piece *piece)
         tension_cell(piece, k);
     }
     memcpy(faces->tension, force + frame_reach(frame), frame_edged(frame) * sizeof *force);
-    for (size_t j = 0; j < n; j++) force[j] *= 0.5;
-    row_add(n, force, faces->rise[1]);
-    row_add(n, force, faces->rise[0] + frame->inner);
+    tension_halve(n, force);
+    face_rise(faces, frame, rise, force);
 }
 
 /* What the surface that came to a cell since u has stored, sigma kappa d alpha, is taken from its energy. */

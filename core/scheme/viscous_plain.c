@@ -32,7 +32,7 @@ struct viscous_plain {
     const double *across[2]; /* the velocities along them */
     size_t aside[2];         /* from a cell to the next in their directions, and 1/(2 h); 0: no such axis */
     double per_2h[2];
-    bool last; /* the normal is the last of three axes: its derivative is added last */
+    enum viscous_plain_sum { VISCOUS_PLAIN_PLANE, VISCOUS_PLAIN_SPACE, VISCOUS_PLAIN_LAST } sum; /* of div u */
 };
 
 /* The mean of the slopes of both cells along a face. */
@@ -41,11 +41,12 @@ static inline double viscous_plain_slope(const double *a, size_t step, size_t t,
     return 0.5 * ((a[t] - *(a - t)) * per + (a[step + t] - *(a + step - t)) * per);
 }
 
-/* A row of faces; which sum div u is comes from outside, so that no loop asks. */
+/* A row of faces; which sum div u is comes from outside, so that no loop asks: of one or two axes, of three, of three
+ * with the normal last, whose derivative is added last. */
 static inline __attribute__((always_inline)) void viscous_plain_row(size_t n, size_t step,
-                                                                    const struct viscous_plain *work, bool last,
-                                                                    size_t from, double *restrict momentum,
-                                                                    double *restrict energy)
+                                                                    const struct viscous_plain *work,
+                                                                    enum viscous_plain_sum sum, size_t from,
+                                                                    double *restrict momentum, double *restrict energy)
 {
     const double *restrict u = work->u + from, *restrict v = work->across[0] + from,
                            *restrict w = work->across[1] + from;
@@ -54,8 +55,9 @@ static inline __attribute__((always_inline)) void viscous_plain_row(size_t n, si
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double a = u[i], b = u[i + step], m = momentum[i], e = energy[i], d = (b - a) * per_h;
-        double dv = viscous_plain_slope(v + i, step, tv, pv), dw = viscous_plain_slope(w + i, step, tw, pw);
-        double div = last ? (dv + dw) + d : (d + dv) + dw, tau = mu2 * d + iso * div;
+        double dv = viscous_plain_slope(v + i, step, tv, pv);
+        double dw = sum == VISCOUS_PLAIN_PLANE ? 0.0 : viscous_plain_slope(w + i, step, tw, pw);
+        double div = sum == VISCOUS_PLAIN_LAST ? (dv + dw) + d : (d + dv) + dw, tau = mu2 * d + iso * div;
         momentum[i] = m - tau;
         energy[i] = e - tau * (0.5 * (a + b));
     }
@@ -64,10 +66,13 @@ static inline __attribute__((always_inline)) void viscous_plain_row(size_t n, si
 static BULLA_KERNEL void viscous_plain_normal(const struct viscous_block *block, const struct viscous_plain *work,
                                               double *restrict momentum, double *restrict energy)
 {
+    const size_t n = block->n, step = block->step;
     for (size_t r = 0; r < block->rows; r++) {
         size_t from = r * block->patch_row, to = r * block->face_row;
-        if (work->last) viscous_plain_row(block->n, block->step, work, true, from, momentum + to, energy + to);
-        else viscous_plain_row(block->n, block->step, work, false, from, momentum + to, energy + to);
+        double *f = momentum + to, *e = energy + to;
+        if (work->sum == VISCOUS_PLAIN_PLANE) viscous_plain_row(n, step, work, VISCOUS_PLAIN_PLANE, from, f, e);
+        else if (work->sum == VISCOUS_PLAIN_LAST) viscous_plain_row(n, step, work, VISCOUS_PLAIN_LAST, from, f, e);
+        else viscous_plain_row(n, step, work, VISCOUS_PLAIN_SPACE, from, f, e);
     }
 }
 
@@ -117,7 +122,9 @@ void viscous_plain_faces(const struct viscous_slopes *slopes, const struct frame
     struct viscous_plain work = {.per_h = 1.0 / h[frame->axis],
                                  .mu2 = 2.0 * law->mu.number,
                                  .iso = law->zeta - 2.0 / 3.0 * law->mu.number,
-                                 .last = frame->axis == 2};
+                                 .sum = path->dim < 3      ? VISCOUS_PLAIN_PLANE
+                                        : frame->axis == 2 ? VISCOUS_PLAIN_LAST
+                                                           : VISCOUS_PLAIN_SPACE};
     for (unsigned k = 0; k < 2; k++) {
         unsigned i = axis_component(frame->axis, k + 1);
         work.aside[k] = i < (unsigned)path->dim ? slopes->stride[i] : 0;
