@@ -17,9 +17,9 @@
 /* Temperatures of liquid and vapour that are one behind a surface differ by less than this part. */
 #define CONDUCTION_FRONT_ALIKE 0.1
 
-/* Rows of one pair: fraction of vapour and gases; above 0 where liquid is at a surface or behind, and as warm as the
- * vapour; what liquid, vapour and gases of a cell hold [J/(m3 K)]; conductivity of faces; 1 at faces through which the
- * surface warms its liquid. */
+/* Rows of one pair: share of vapour and gases in what it fills; above 0 where liquid is at a surface or behind, and as
+ * warm as the vapour; what liquid, vapour and gases of a cell hold [J/(m3 K)]; conductivity of faces; 1 at faces
+ * through which the surface warms its liquid. */
 struct conduction_front_rows {
     double thin[FACE_ROOM], tied[FACE_ROOM], heat[FACE_ROOM], k[FACE_ROOM], warms[FACE_ROOM];
     bool there; /* the piece has vapour or gases of the pair */
@@ -61,12 +61,12 @@ static BULLA_KERNEL double conduction_front_count(size_t n, const double *restri
 }
 
 /* Liquid before the surface has the whole cell; nothing is left of what is in it. */
-static BULLA_KERNEL void conduction_front_fill(size_t n, double half, const double *restrict thin,
+static BULLA_KERNEL void conduction_front_fill(size_t n, double half, const double *thin, const double *volume,
                                                double *restrict liquid)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = liquid[i], t = thin[i], whole = a + t, filled = a > 0.0 ? whole : a;
+        double a = liquid[i], t = thin[i], whole = a + volume[i], filled = a > 0.0 ? whole : a;
         liquid[i] = t < half ? filled : a;
     }
 }
@@ -81,17 +81,31 @@ static BULLA_KERNEL void conduction_front_empty(size_t n, double half, const dou
     }
 }
 
-static bool conduction_front_pair(const struct model_phase *phase, size_t n, double *part, double *own, double *thin)
+/* Beside other materials: of what liquid, vapour and gases fill. A trace of liquid in air and vapour is no liquid. */
+static BULLA_KERNEL void conduction_front_share(size_t n, const double *restrict liquid, const double *restrict volume,
+                                                double *restrict thin)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double t = volume[i], share = t / (t + liquid[i]);
+        thin[i] = t > 0.0 ? share : 0.0;
+    }
+}
+
+static bool conduction_front_pair(const struct model_phase *phase, bool others, size_t n, double *part, double *own,
+                                  struct conduction_front_rows *rows)
 {
     double half = phase_pair_front(phase->scene), *liquid = part + phase->member[0] * (size_t)FACE_ROOM;
-    memset(thin, 0, n * sizeof *thin);
-    for (unsigned j = 1; j < phase->n; j++) row_add(n, part + phase->member[j] * (size_t)FACE_ROOM, thin);
-    if (conduction_front_count(n, thin) == 0.0) return false;
+    double *thin = rows->thin, *volume = others ? rows->heat : thin; /* until heat is weighed */
+    memset(volume, 0, n * sizeof *volume);
+    for (unsigned j = 1; j < phase->n; j++) row_add(n, part + phase->member[j] * (size_t)FACE_ROOM, volume);
+    if (conduction_front_count(n, volume) == 0.0) return false;
+    if (others) conduction_front_share(n, liquid, volume, thin);
     for (unsigned j = 0; j < phase->n; j++) {
         size_t row = phase->member[j] * (size_t)FACE_ROOM;
         memcpy(own + row, part + row, n * sizeof *own);
     }
-    conduction_front_fill(n, half, thin, liquid);
+    conduction_front_fill(n, half, thin, volume, liquid);
     for (unsigned j = 1; j < phase->n; j++)
         conduction_front_empty(n, half, thin, liquid, part + phase->member[j] * (size_t)FACE_ROOM);
     return true;
@@ -102,8 +116,9 @@ bool conduction_front_look(struct conduction_front *front, const struct model *p
     bool any = false;
     for (unsigned k = 0; k < path->n_phase && front; k++) {
         struct conduction_front_rows *rows = &front->pair[k];
-        rows->there = path->phases[k].scene->onset > 0.0 &&
-                      conduction_front_pair(&path->phases[k], n, part, front->own, rows->thin);
+        const struct model_phase *phase = &path->phases[k];
+        bool others = path->scene->n_material > phase->n; /* not of the path: all tiles find the same */
+        rows->there = phase->scene->onset > 0.0 && conduction_front_pair(phase, others, n, part, front->own, rows);
         any = any || rows->there;
     }
     return any;

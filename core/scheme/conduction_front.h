@@ -3,12 +3,12 @@
  * On a mesh the surface is smeared over some cells. Were each of them a surface at saturation, liquid in front of it
  * would boil, and were heat to stop at the first of them, it would evaporate there: the velocity would rise inside the
  * smear and leave a part of the liquid behind in the vapour. So the surface is where vapour and gases, `thin`, fill
- * phase_pair_front of a cell. Before it all is liquid. The last such cell touches the surface at the distance d of its
- * centre, by linear interpolation of thin between it and the next (Gibou et al., J. Comput. Phys. 176 (2002)
- * 205-227, 2.2): q = k_l (T_l - T_next)/d,   d = h (front - thin_l)/(thin_next - thin_l). Behind it, up to cells of
- * `onset`, heat goes on as fast as the step allows: the cells share it by the heat that they hold, those of `onset` and
- * more, and those beside such, evaporate (scheme/shore.h). What a face lets through depends on the cells beside it
- * alone, not on where a tile ends.
+ * phase_pair_front of a cell (beside other materials: of what they and the liquid fill). Before it all is liquid. The
+ * last such cell touches the surface at the distance d of its centre, by linear interpolation of thin between it and
+ * the next (Gibou et al., J. Comput. Phys. 176 (2002) 205-227, 2.2): q = k_l (T_l - T_next)/d,   d = h (front -
+ * thin_l)/(thin_next - thin_l). Behind it, up to cells of `onset`, heat goes on as fast as the step allows: the cells
+ * share it by the heat that they hold, those of `onset` and more, and those beside such, evaporate (scheme/shore.h).
+ * What a face lets through depends on the cells beside it alone, not on where a tile ends.
  *
  * That is a surface that liquid gives heat to. Where of two cells with liquid the wetter one is the colder, vapour
  * condenses in all cells that hold some, and the surface warms its liquid: faces there are those of any mixture

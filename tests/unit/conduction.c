@@ -100,13 +100,14 @@ static double front_side[2][2 * FACE_ROOM]; /* on the left and on the right of t
 static double front_last = 380.0;           /* of the liquid in the cell of 0.2 vapour [K] */
 
 static struct scene_phase front_pair = {.onset = 0.9};
-static struct model front_path;
+static struct scene front_scene;
+static struct model front_path = {.scene = &front_scene};
 
 static void front_row(bool mirrored, double T_v, double most, double *k)
 {
     static const double vapour[FRONT_CELLS] = {0.0, 0.0, 0.2, 0.7, 0.95, 1.0};
     front_path.n_phase = 1;
-    front_path.n_material = 2;
+    front_scene.n_material = front_path.n_material = 2;
     front_path.phases[0] = (struct model_phase){.n = 2, .member = {0, 1}, .scene = &front_pair};
     for (int j = 0; j < FRONT_CELLS; j++) {
         int i = mirrored ? FRONT_CELLS - 1 - j : j, v = FACE_ROOM + i;
@@ -126,6 +127,28 @@ static void front_row(bool mirrored, double T_v, double most, double *k)
             memcpy(front_side[side] + l * FACE_ROOM, beside[side] + l * FACE_ROOM, (FRONT_CELLS - 1) * sizeof **beside);
     for (int i = 0; i < FRONT_CELLS - 1; i++) k[i] = -1.0;
     conduction_front_take(front, &front_path, 0, 1, FRONT_CELLS - 1, k);
+    conduction_front_free(front);
+}
+
+/* Beside a third material a trace of liquid is no liquid, however little vapour there is; what has more liquid than
+ * vapour is. Fractions of liquid and vapour in three cells, the rest is neither. */
+static void test_front_trace(void **state)
+{
+    (void)state;
+    static const double liquid[3] = {1e-7, 0.3, 0.1}, vapour[3] = {0.4, 0.2, 0.2};
+    static double part[3 * FACE_ROOM];
+    front_scene.n_material = front_path.n_material = 3;
+    front_path.n_phase = 1;
+    front_path.phases[0] = (struct model_phase){.n = 2, .member = {0, 1}, .scene = &front_pair};
+    for (int i = 0; i < 3; i++) {
+        part[i] = liquid[i], part[FACE_ROOM + i] = vapour[i];
+        part[2 * FACE_ROOM + i] = 1.0 - liquid[i] - vapour[i];
+    }
+    struct conduction_front *front = conduction_front_new(&front_path);
+    assert_true(conduction_front_look(front, &front_path, 3, part));
+    assert_true(part[0] == liquid[0] && part[FACE_ROOM] == vapour[0]);
+    assert_true(part[1] == liquid[1] + vapour[1] && part[FACE_ROOM + 1] == 0.0);
+    assert_true(part[2] == liquid[2] && part[FACE_ROOM + 2] == vapour[2]);
     conduction_front_free(front);
 }
 
@@ -403,6 +426,7 @@ int main(void)
         cmocka_unit_test(test_surface),
         cmocka_unit_test(test_resistance),
         cmocka_unit_test(test_front),
+        cmocka_unit_test(test_front_trace),
         cmocka_unit_test(test_front_cold),
         cmocka_unit_test(test_front_tiles),
         cmocka_unit_test(test_series),
