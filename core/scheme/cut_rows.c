@@ -16,6 +16,8 @@ struct cut_rows *cut_rows_new(const struct term_room *room)
     rows->u = rows->w + model->n_field * n;
     rows->p = mem_new((model->n_material + 4) * n, sizeof *rows->p);
     rows->scratch = rows->p + n;
+    rows->rho = rows->scratch; /* as cut_wall_pressure leaves them */
+    rows->c2 = rows->rho + n;
     return rows;
 }
 

@@ -12,10 +12,12 @@
 struct cut_rows {
     size_t stride; /* room */
     size_t n;
-    size_t *at;          /* in the block of struct rigid_cells */
-    size_t *from;        /* where they were gathered */
-    double *w, *u;       /* [n_field] rows each */
-    double *p, *scratch; /* wall pressure */
+    size_t *at;       /* in the block of struct rigid_cells */
+    size_t *from;     /* where they were gathered */
+    double *w, *u;    /* [n_field] rows each */
+    double *p;        /* wall pressure */
+    double *rho, *c2; /* density, and squared speed of sound */
+    double *scratch;
 };
 
 struct cut_rows *cut_rows_new(const struct term_room *room);
@@ -28,8 +30,8 @@ const struct rigid_cells *cut_rows_cells(const struct term_tile *tile);
 size_t cut_rows_add(struct cut_rows *rows, const struct model *model, size_t at, size_t from, const double *w,
                     size_t pitch);
 
-/* Fills p with the pressure on the walls, then w and u with what slides along them (`stop`: with what their walls carry
- * along). */
+/* Fills p with the pressure on the walls, rho and c2, then w and u with what slides along them (`stop`: with what their
+ * walls carry along). */
 void cut_rows_press(struct cut_rows *rows, const struct model *model, const struct rigid_cells *cells, bool stop);
 
 /* A line of a piece along its axis: where its cell 0 lies in the frame and in the block of parts, and steps along

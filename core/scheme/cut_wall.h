@@ -20,7 +20,7 @@ struct cut_wall {
  * = 1.4: towards the wall  p + rho u (s u + sqrt(s^2 u^2 + c^2)), s = (gamma + 1)/4: a shock; away from it      p -
  * (rho c^2/gamma) (1 - (1 + (gamma - 1)/2 u/c)^7): a rarefaction, u the velocity towards the wall, relative to it (Toro
  * 2009, 4.3 and 6.3.3). Sound, p + rho c u, is right for all laws, and for liquids u is small against c. p where there
- * is no wall. */
+ * is no wall. Leaves densities and squares of the speed of sound in the first two rows of `scratch`. */
 void cut_wall_pressure(const struct cut_wall *wall, double *ret_p);
 
 /* Takes the velocity towards the wall out of the primitives w: what is left goes along it, or with it. `stop`: what
