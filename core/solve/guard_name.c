@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "phys/elastic.h"
+#include "phys/traction.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -162,14 +163,25 @@ static bool guard_name_void(const struct guard_cell *cell, unsigned l, double m,
     return true;
 }
 
+/* The pressure of a material of its own (phys/traction.h): beside elastic solids and in curved surfaces that of the
+ * cell says little of it. */
+static double guard_name_pressure(const struct guard_cell *cell, unsigned l)
+{
+    const struct model *model = cell->model;
+    const double *w = cell->tile->w + cell->at, *p = w + model->i_E * cell->n_cell;
+    struct traction_pressures parts;
+    traction_part(model, 1, cell->n_cell, w, &parts);
+    return *traction_pressure(model, 1, l, p, &parts);
+}
+
 /* One material: its mass, its stiffness. */
 static bool guard_name_material(const struct guard_cell *cell, unsigned l, struct guard_name *name)
 {
     const struct model *model = cell->model;
     const char *own = model->scene->material[model->first + l].name;
     double m = cell->tile->u[(model->i_m + l) * cell->n_cell + cell->at], alpha = guard_name_alpha(cell, l);
-    double p = cell->tile->w[model->i_E * cell->n_cell + cell->at],
-           rho_c2 = cell->tile->rho_c2[l * cell->n_cell + cell->at];
+    double p = guard_name_pressure(cell, l), mean = cell->tile->w[model->i_E * cell->n_cell + cell->at];
+    double rho_c2 = cell->tile->rho_c2[l * cell->n_cell + cell->at];
     struct text text = {0};
     if (guard_name_void(cell, l, m, name)) return true;
     if (!(m >= 0.0) || (!model->n_alpha && !(m > 0.0))) {
@@ -180,6 +192,7 @@ static bool guard_name_material(const struct guard_cell *cell, unsigned l, struc
     if (isnan(rho_c2))
         text_add(&text, " Pa of material '%s' (density times sound speed squared), from a pressure of %.6g Pa", own, p);
     else text_add(&text, " Pa, below what material '%s' (volume fraction %.3g) can bear", own, alpha);
+    if (p != mean) text_add(&text, "; the mean of the cell is %.6g Pa", mean);
     guard_name_suspect(cell, p, &text);
     guard_name_say(name, isnan(rho_c2) ? "rho_c2" : "pressure", isnan(rho_c2) ? rho_c2 : p, text.at);
     text_done(&text);

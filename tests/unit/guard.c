@@ -230,6 +230,12 @@ static void test_tension(void **state)
     assert_non_null(strstr(cause, "below what material 'gel' (volume fraction 0.7) can bear"));
     gel_cell(model, 0.3, 1e5, w);
     assert_true(accepts(&flow, w));
+    gel_cell(model, 0.3, 10.0, w);
+    w[model->i_V] = 1.2; /* pulled: the air has less than the mean */
+    w[model->i_V + 1] = w[model->i_V + 2] = 1.0 / sqrt(1.2);
+    assert_false(accepts(&flow, w));
+    assert_non_null(
+        strstr(cause, "below what material 'air' (volume fraction 0.7) can bear; the mean of the cell is 10 Pa"));
     flow_stop(&flow);
     flow_start(&flow, above_gel(2));
     model = flow.state->model;
