@@ -416,6 +416,19 @@ static bool scene_scheme_free(struct draft *draft, const struct keys_map *scheme
     return shear == AUTO ? scene_scheme_hard(draft) : shear == FREE;
 }
 
+/* Keys that say how solids meet fluids, in a scene that has no solid. */
+static void scene_scheme_idle(struct draft *draft, const struct keys_map *scheme)
+{
+    static const char *const keys[] = {"traction", "surface-shear"};
+    for (size_t k = 0; k < sizeof keys / sizeof *keys && !scene_matter_solid(draft); k++) {
+        const struct keys_value *value = keys_at(scheme, keys[k]);
+        if (!value->given || value->integer == 0) continue;
+        diag_warn(draft->keys.diag, &value->node->mark,
+                  "'%s' says how elastic solids meet fluids, and has no effect here", keys[k]);
+        diag_help(draft->keys.diag, "a material with 'constitutive:' is a solid");
+    }
+}
+
 void scene_scheme(struct draft *draft)
 {
     const struct keys_map *scheme = keys_at(draft->root, "scheme")->map, *run = keys_at(draft->root, "run")->map;
@@ -436,6 +449,7 @@ void scene_scheme(struct draft *draft)
     scene_scheme_riemann_open(draft, scheme);
     scene_scheme_reconstruct(draft, scheme);
     scene_scheme_limit(draft, scheme);
+    scene_scheme_idle(draft, scheme);
     scene->run.until = keys_at(run, "until")->number;
     scene->run.max_steps = keys_at(run, "max-steps")->integer;
     scene->run.dt_least = keys_at(run, "smallest-step")->given ? keys_at(run, "smallest-step")->number : -1.0;

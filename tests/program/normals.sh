@@ -157,3 +157,11 @@ plane=$(slide plane 's/\[-0.5\]/[-0.5, 0]/; s/\[0.5\]/[0.5, 0.04]/; s/\[100\]/[1
     s/x+: outflow/&, y-: periodic, y+: periodic/; s/normal: \[-1\], point: \[0\]/normal: [-1, 0], point: [0, 0]/
     s/\[0.02\]/[0.02, 0.01]/')
 awk -v a="$line" -v b="$plane" 'BEGIN { exit !(a > 1 && b/a > 0.995 && b/a < 1.005) }' || fail "u of the water: $line, $plane"
+
+# What has no effect is said before the run.
+for key in traction=pressure surface-shear=free; do
+    "$BULLA" check "$BULLA_SOURCE/cases/tour/tube.yaml" --set scheme.$key >said 2>&1 || fail "check with $key" said
+    grep -q "warning: '${key%=*}' says how elastic solids meet fluids, and has no effect here" said || fail "$key is idle" said
+    "$BULLA" check "$BULLA_SOURCE/cases/tour/stone.yaml" --set scheme.$key >said 2>&1 || fail "check of stone with $key" said
+    ! grep -q 'has no effect here' said || fail "$key has an effect" said
+done
