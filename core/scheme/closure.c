@@ -45,6 +45,16 @@ static BULLA_KERNEL void closure_bound(size_t n, double dt, const double *restri
     }
 }
 
+/* A fraction holds its mass at no more than the density `per` is the reciprocal of. */
+static BULLA_KERNEL void closure_hold(size_t n, double per, const double *restrict m, double *restrict alpha)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = alpha[i], least = m[i] * per, more = least > a ? least : a;
+        alpha[i] = more < 1.0 ? more : a;
+    }
+}
+
 static size_t closure_apply(const struct term_tile *tile, double *u_new)
 {
     const struct model *model = tile->model;
@@ -58,6 +68,9 @@ static size_t closure_apply(const struct term_tile *tile, double *u_new)
         for (unsigned l = 0; l < model->n_alpha; l++) {
             size_t row = l * tile->n_cell + from;
             closure_bound(n, tile->dt, tile->K + row, div + from, exchange + row, alpha + l * tile->n_cell, cut);
+            if (model->eos[l].law->linear) continue;
+            closure_hold(n, 1.0 / (CLOSURE_DENSE * model->eos[l].rho_most),
+                         u_new + (model->i_m + l) * tile->n_cell + from, alpha + l * tile->n_cell);
         }
         for (size_t i = 0; i < n; i++) clipped += cut[i] > 0.0;
     }
