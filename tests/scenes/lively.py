@@ -5,11 +5,12 @@ every kind, and all kinds of output. What they show is the same on any ranks and
 
 def lively_mesh(scene):
     dice, mesh = scene.dice, scene.case["mesh"]
+    before = mesh["tile"]
     mesh["tile"] = dice.pick(6, 8) if "reconstruction" in scene.case.get("scheme", {}) else dice.pick(4, 4, 8)
     most = {1: 32, 2: 24, 3: 12}[scene.dim]
     domain = scene.case["domain"]
     if "bodies" in scene.case:  # which have their places
-        mesh["tile"] = 8
+        mesh["tile"] = before if any(n % 8 for n in domain["cells"]) else 8
     for d in range(scene.dim if "bodies" not in scene.case else 0):
         n = domain["cells"][d]
         domain["cells"][d] = max(1, min(most, n) // mesh["tile"]) * mesh["tile"]
