@@ -10,6 +10,7 @@
  * pressure: sum_d W_d G_d is what the wall gives, so that a uniform flow along a wall stays one, which fluxes of the
  * wall alone would not let. It is one flux for both sides: mass and energy beside bodies at rest are conserved to
  * round-off. Beside bodies that move they are to second order in the time step.
+ * Scenes of several materials: see cut_flux_pressure and cut_flux_misses (docs/decisions/bodies.md).
  *
  * cut_term fills what is covered before faces are made, and makes rates of the cells' parts from rates of whole ones;
  * cut_flux_term changes the fluxes once all other terms have added to them (cut_flux.c). */

@@ -192,7 +192,7 @@ static void cut_flux_return(const struct term_piece *piece)
     const struct cut_flux *cut = piece->own;
     const struct term_tile *tile = piece->tile;
     int axis = piece->frame->axis;
-    const double *area = axis == 0 && tile->mesh->beta ? tile->metric->area : NULL, *volume = tile->metric->volume;
+    const struct metric *metric = axis == 0 && tile->mesh->beta ? tile->metric : NULL;
     double per = 1.0 / tile->level->h[axis];
     size_t stride = 1;
     for (int d = 0; d < axis; d++) stride *= (size_t)tile->mesh->n[d];
@@ -201,10 +201,11 @@ static void cut_flux_return(const struct term_piece *piece)
         size_t i = face->at, cell = face->line + i * stride;
         double lower = face->open * face->lower, upper = face->open * face->upper;
         if (upper > 0.0 && i < piece->frame->n)
-            cut_flux_give(piece, cell, face->above, face->p_upper, upper * (area ? area[i] / volume[i] : per));
+            cut_flux_give(piece, cell, face->above, face->p_upper,
+                          upper * (metric ? metric->area[i] / metric->volume[i] : per));
         if (lower > 0.0 && i > 0)
             cut_flux_give(piece, cell - stride, face->below, face->p_lower,
-                          -lower * (area ? area[i] / volume[i - 1] : per));
+                          -lower * (metric ? metric->area[i] / metric->volume[i - 1] : per));
     }
 }
 
