@@ -137,6 +137,7 @@ struct scene_phase {
     double tension, superheat;   /* what liquid without vapour bears [Pa, K] */
     double onset;   /* liquid evaporates where vapour and gases fill this share of the cell, or beside such */
     double wet;     /* vapour condenses where the liquid fills this share of the cell */
+    double over;    /* cells that sound of the mixture crosses while vapour condenses; 0: at once */
     double nucleus; /* vapour that fills no more of a cell than this does not condense */
     bool apart;     /* gases keep the heat they have: they share pressure and moles alone */
     struct saturation_range curve; /* of liquid and vapour */

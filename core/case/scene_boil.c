@@ -11,7 +11,6 @@
 
 static const double scene_boil_cells = 4.0;  /* per layer of heat at the end of the run */
 static const double scene_boil_super = 0.05; /* [K] of superheat that are none */
-static const double scene_boil_trace = 1e-3; /* of a cell: less is no mixture */
 
 /* Least side of the finest cells. */
 static double scene_boil_cell(const struct scene *scene)
@@ -95,9 +94,7 @@ static void scene_boil_mixed(struct draft *draft, const struct keys_value *value
     const struct scene_layer *layer = &scene->layers[index];
     bool onset = pair->onset > 0.0 && !keys_at(value->map, "onset")->given;
     bool wet = pair->wet > 0.0 && !keys_at(value->map, "condense-from")->given;
-    if (!(onset || wet) || !layer->has_material || !layer->fractions) return;
-    double liquid = layer->fractions[pair->liquid], vapour = layer->fractions[pair->vapour];
-    if (!(liquid > scene_boil_trace && vapour > scene_boil_trace)) return;
+    if (!(onset || wet) || !scene_phase_surface_mixed(pair, layer)) return;
     diag_warn(draft->keys.diag, &value->node->mark,
               "%s: '%s' and '%s' of initial[%u] are mixed, and %s only at surfaces, where %s fills %.2g of a cell",
               value->path, scene->material[pair->liquid].name, scene->material[pair->vapour].name, index,

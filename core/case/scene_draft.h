@@ -46,6 +46,16 @@ void scene_phase_surface(struct draft *draft, const struct keys_map *map, struct
 /* Does heat that the liquid conducts decide what evaporates and condenses at the surface of a pair? */
 bool scene_phase_surface_fed(const struct scene *scene, const struct scene_phase *pair);
 
+/* Is the scene one of boiling mixtures: nothing but liquids and their vapours, whose surfaces are not resolved? */
+bool scene_phase_surface_boils(const struct scene *scene);
+
+/* Does a layer of the initial state hold more than a trace of both, as bubbly mixtures do? */
+bool scene_phase_surface_mixed(const struct scene_phase *pair, const struct scene_layer *layer);
+
+/* What `condense-over` is where it is not given, for which the initial state has to be known: 8 where heat does not
+ * feed the surface and mixtures are painted. */
+void scene_phase_surface_late(struct draft *draft);
+
 /* Gas constant of the law of a material [J/(kg K)]; 0: it becomes no ideal gas, or does not say. */
 double scene_phase_gas(const struct scene *scene, unsigned material);
 

@@ -181,6 +181,16 @@ static const struct key scene_phase_rows[] = {
             "0.9 for pairs with gases whose liquid conducts, with `rate: equilibrium` at interfaces and no `onset`, so "
             "that vapour does not condense, and gases do not cool, in all cells that the surface is smeared over; "
             "else 0."},
+    {.name = "condense-over",
+     .type = KEYS_NUMBER,
+     .unit = "1",
+     .min = 0.0,
+     .max = 100.0,
+     .doc =
+         "With `rate: equilibrium` vapour condenses while sound of the mixture (Wood's speed) crosses this many cells; "
+         "at once, if 0. Not given: 8 where `initial` mixes the liquid with its vapour (and the liquid does not "
+         "conduct, or the pair acts everywhere), so that shocks in which vapour condenses squeeze it first, and the "
+         "pressure behind does not swing; else 0. Evaporation takes no time."},
     {.name = "nucleus",
      .type = KEYS_NUMBER,
      .unit = "1",
@@ -469,15 +479,6 @@ static void scene_phase_warn(struct draft *draft, const struct keys_value *secti
               "give the materials a 'conductivity', or a finite rate; for bubbly mixtures it is right");
 }
 
-/* Is the scene one of boiling mixtures: nothing but liquids and their vapours, whose surfaces are not resolved? */
-static bool scene_phase_bubbly(const struct scene *scene)
-{
-    for (unsigned k = 0; k < scene->n_phase; k++)
-        if (scene_phase_surface_fed(scene, &scene->phases[k]) || scene->phases[k].rate == SCENE_PHASE_NONE)
-            return false;
-    return scene->n_phase > 0 && scene->n_material == 2 * scene->n_phase;
-}
-
 void scene_phase(struct draft *draft)
 {
     const struct keys_value *section = keys_at(draft->root, "phase-change");
@@ -487,7 +488,7 @@ void scene_phase(struct draft *draft)
     for (unsigned i = 0; i < section->count && i < SCENE_PHASES; i++) scene_phase_pair(draft, &section->list[i]);
     scene_phase_company(draft, section);
     if (keys_at(keys_at(draft->root, "scheme")->map, "mixture-speed")->integer == 0)
-        draft->scene->scheme.wood = scene_phase_bubbly(draft->scene);
+        draft->scene->scheme.wood = scene_phase_surface_boils(draft->scene);
     if (!diag_errors(draft->keys.diag)) scene_phase_warn(draft, section);
 }
 

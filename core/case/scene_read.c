@@ -131,6 +131,7 @@ static void scene_read_tree(struct draft *draft, struct node *root)
     if (diag_errors(draft->keys.diag)) return;
     scene_idle(draft, root);
     scene_coarse(draft);
+    scene_phase_surface_late(draft);
     scene_boil(draft);
     scene_condense(draft);
     scene_branch_times(draft);

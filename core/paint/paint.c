@@ -17,7 +17,6 @@
 #include "paint/paint_stretch.h"
 #include "paint/paint_values.h"
 #include "phys/mix.h"
-#include "phys/phase.h"
 #include "phys/phase_pair.h"
 
 #include <math.h>
@@ -27,7 +26,7 @@
 enum { PAINT_GAUSS = 4, PAINT_POINTS = PAINT_GAUSS * PAINT_GAUSS * PAINT_GAUSS };
 
 /* How far a cell looks beyond its faces for surfaces that lie on them, over its size. What is seen has to be felt
- * (PHASE_FELT) around an axis and a point, too. */
+ * (PHASE_PAIR_FELT) around an axis and a point, too. */
 #define PAINT_REACH 4e-6
 
 struct paint_block {
@@ -319,7 +318,7 @@ static double paint_cover(const struct paint *paint, const struct paint_cell *ce
         wide.upper[d] = cell->upper[d] + reach < mesh->upper[d] ? cell->upper[d] + reach : mesh->upper[d];
     }
     double seen = shape_fraction(shape, wide.lower, wide.upper, mesh->dim, mesh->beta);
-    return fabs(seen - fraction) > PHASE_FELT ? seen : fraction;
+    return fabs(seen - fraction) > PHASE_PAIR_FELT ? seen : fraction;
 }
 
 static int paint_layer(struct paint *paint)

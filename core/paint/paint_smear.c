@@ -2,7 +2,7 @@
 #include "paint/paint_smear.h"
 
 #include "base/mem.h"
-#include "phys/phase.h"
+#include "phys/phase_pair.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,7 +26,7 @@ static double paint_smear_thin(const struct paint_smear *box, unsigned k, size_t
     const double *alpha = box->u + box->model->i_alpha * box->n_cell + cell;
     double thin = 0.0, liquid = alpha[phase->member[0] * box->n_cell];
     for (unsigned j = 1; j < phase->n; j++) thin += alpha[phase->member[j] * box->n_cell];
-    return liquid + thin > 1.0 - PHASE_FELT ? thin : -1.0;
+    return liquid + thin > 1.0 - PHASE_PAIR_FELT ? thin : -1.0;
 }
 
 /* Do two cells change contents? */
@@ -35,7 +35,7 @@ static bool paint_smear_meets(const struct paint_smear *box, size_t a, size_t b)
     bool meets = false;
     for (unsigned k = 0; k < box->model->n_phase; k++) {
         double one = paint_smear_thin(box, k, a), other = paint_smear_thin(box, k, b);
-        bool both = one >= 0.0 && other >= 0.0 && fabs(one - other) > PHASE_FELT;
+        bool both = one >= 0.0 && other >= 0.0 && fabs(one - other) > PHASE_PAIR_FELT;
         meets = meets || (both && box->model->phases[k].scene->onset > 0.0);
     }
     return meets;

@@ -141,8 +141,9 @@ struct model {
     struct model_pair pairs[SCENE_PAIRS];
     unsigned n_phase;
     struct model_phase phases[SCENE_PHASES];
-    bool fronts;  /* some of them evaporate at the end of their surface alone (scheme/shore.h) */
-    bool reaches; /* painted surfaces of pairs reach a trace beyond faces that they lie on (paint/paint.h) */
+    bool squeezed; /* some of them condense over cells (scheme/edges_squeeze.h) */
+    bool fronts;   /* some of them evaporate at the end of their surface alone (scheme/shore.h) */
+    bool reaches;  /* painted surfaces of pairs reach a trace beyond faces that they lie on (paint/paint.h) */
     unsigned n_fick;
     struct model_fick ficks[SCENE_PHASES];
     unsigned n_normal, i_normal; /* normals of the surfaces of solids (scheme/normal.h): dim, or 0 */

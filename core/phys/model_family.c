@@ -9,6 +9,7 @@ static void model_family_phases(struct model *model)
         const struct scene_phase *scene = &model->scene->phases[k];
         struct model_phase *phase = &model->phases[k];
         model->fronts = model->fronts || scene->onset > 0.0;
+        model->squeezed = model->squeezed || scene->over > 0.0;
         *phase = (struct model_phase){.n = 2, .member = {scene->liquid, scene->vapour}, .scene = scene};
         for (unsigned g = 0; g < scene->n_gas; g++) phase->member[phase->n++] = scene->gas[g];
     }
@@ -18,7 +19,7 @@ static void model_family_phases(struct model *model)
 static void model_family_phase_narrow(const struct model *model, struct model *narrow)
 {
     narrow->n_phase = 0;
-    narrow->fronts = false;
+    narrow->fronts = narrow->squeezed = false;
     for (unsigned k = 0; k < model->n_phase; k++) {
         struct model_phase phase = model->phases[k];
         bool all = true;
@@ -29,6 +30,7 @@ static void model_family_phase_narrow(const struct model *model, struct model *n
         if (!all) continue;
         narrow->phases[narrow->n_phase++] = phase;
         narrow->fronts = narrow->fronts || phase.scene->onset > 0.0;
+        narrow->squeezed = narrow->squeezed || phase.scene->over > 0.0;
     }
 }
 

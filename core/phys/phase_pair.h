@@ -5,6 +5,9 @@
 
 #include "phys/model.h"
 
+/* A phase below this volume fraction is a trace, from which nothing grows. */
+#define PHASE_PAIR_FELT 1e-6
+
 /* Are materials l and m the liquid of a pair and its vapour, or a gas beside that? */
 bool phase_pair_joins(const struct model *model, unsigned l, unsigned m);
 

@@ -14,6 +14,7 @@
 #include "phys/row.h"
 #include "plug/vet.h"
 #include "scheme/edges_front.h"
+#include "scheme/edges_squeeze.h"
 #include "scheme/edges_slope.h"
 
 #include <string.h>
@@ -340,6 +341,37 @@ static void edges_beside(struct edges *edges, const struct model *model, const s
                                       .thin = edges->spare});
 }
 
+/* Vapour that is squeezed: what is left of slopes. */
+static void edges_between(struct edges *edges, const struct model *model, const struct edges_row *row)
+{
+    edges_squeeze(&(struct edges_squeeze){.model = model,
+                                          .n = row->cells,
+                                          .step = row->step,
+                                          .pitch = edges->pitch,
+                                          .w = row->w,
+                                          .state = row->state,
+                                          .axis = row->frame->axis,
+                                          .pressure = !edges_waits(edges, model, row, model->i_E),
+                                          .thin = edges->spare});
+}
+
+const double *edges_squeezed(const struct edges *edges, const struct model *model, const struct frame *frame,
+                             const double *w, const double *mask, double *room)
+{
+    size_t reach = frame_reach(frame);
+    if (mask) memcpy(room, mask, frame->count * sizeof *room);
+    else memset(room, 0, frame->count * sizeof *room);
+    edges_squeeze_mark(&(struct edges_squeeze){.model = model,
+                                               .n = frame_edged(frame),
+                                               .step = frame->inner,
+                                               .pitch = edges->pitch,
+                                               .w = w + reach,
+                                               .axis = frame->axis,
+                                               .thin = edges->spare},
+                       room + reach);
+    return room;
+}
+
 void edges_fill(struct edges *edges, const struct model *model, const struct frame *frame, const struct edges_cells *in,
                 double *state)
 {
@@ -357,6 +389,7 @@ void edges_fill(struct edges *edges, const struct model *model, const struct fra
     if (model->reconstruction->all) edges_together(edges, model, &row);
     else edges_each(edges, model, &row);
     if (!model->reconstruction->bounded) edges_bound(edges, model, &row);
+    if (model->squeezed) edges_between(edges, model, &row);
     if (edges_waits(edges, model, &row, model->i_E)) edges_press(edges, model, &row);
     if (model->fronts && model->conducts) edges_beside(edges, model, &row);
     edges_settle(edges, model, &row);

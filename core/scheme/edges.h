@@ -29,4 +29,9 @@ struct edges_cells {
 void edges_fill(struct edges *edges, const struct model *model, const struct frame *frame, const struct edges_cells *in,
                 double *state);
 
+/* The mask of a frame (NULL: none marked) with, for pairs that condense over cells, those in which vapour is squeezed
+ * along its axis (edges_squeeze.h): above 0. In room, frame->count numbers, which are overwritten. */
+const double *edges_squeezed(const struct edges *edges, const struct model *model, const struct frame *frame,
+                             const double *w, const double *mask, double *room);
+
 #endif

@@ -225,6 +225,16 @@ static const double *face_fronts(struct face_work *work, const struct frame *fra
     return front + frame_reach(frame);
 }
 
+/* Cells whose faces keep their jumps: troubled ones, beside open sides, and where vapour is squeezed. */
+static const double *face_kept(const struct face_work *work, const struct frame *frame, bool masked)
+{
+    const struct face_own *own = work->own;
+    const double *mask = masked ? work->mask : NULL;
+    if (work->model->squeezed)
+        mask = edges_squeezed(own->edges, work->model, frame, work->frame, mask, own->stiffness + FACE_ROOM);
+    return low_mach_kept(frame, work->open[frame->axis], mask, own->stiffness);
+}
+
 /* Velocities at the faces of a row of cells, before they have an energy; rho c^2 is still that in own->c. */
 static void face_calm(struct face_work *work, const struct frame *frame, const double *rho, bool masked)
 {
@@ -240,8 +250,7 @@ static void face_calm(struct face_work *work, const struct frame *frame, const d
                                    .reach = frame_reach(frame),
                                    .p = work->frame + model->i_E * FACE_ROOM,
                                    .lean = {model->n_normal ? work->lean[0] : NULL, work->lean[1]},
-                                   .mask = low_mach_kept(frame, work->open[frame->axis], masked ? work->mask : NULL,
-                                                         own->stiffness),
+                                   .mask = face_kept(work, frame, masked),
                                    .step = frame->inner,
                                    .front = face_fronts(work, frame),
                                    .part = own->term};

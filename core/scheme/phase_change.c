@@ -19,12 +19,22 @@ static bool phase_change_spreads(const struct scene *scene)
     return spreads;
 }
 
+/* The largest side of the cells of a level. */
+static double phase_change_size(const struct operator_tile *tile)
+{
+    double h = 0.0;
+    for (int d = 0; d < tile->mesh->dim; d++) h = h > tile->level->h[d] ? h : tile->level->h[d];
+    return h;
+}
+
 static void phase_change_acts(const struct operator_tile *tile)
 {
     struct equilibrium_effort effort = {0};
+    double h = phase_change_size(tile);
     for (unsigned k = 0; k < tile->model->n_phase; k++) {
         const unsigned char *shore = tile->shore ? tile->shore + k * tile->n_cell : NULL;
-        int status = phase_act(tile->model, k, tile->n_cell, tile->n_cell, tile->dt, shore, tile->w, tile->u, &effort);
+        int status =
+            phase_act(tile->model, k, tile->n_cell, tile->n_cell, tile->dt, h, shore, tile->w, tile->u, &effort);
         if (!status || !tile->fault || tile->fault->status) continue;
         tile->fault->status = status;
         snprintf(tile->fault->message, sizeof tile->fault->message, "%s", status_text());
@@ -41,6 +51,7 @@ static void phase_change_say(const struct scene *scene, struct text *text)
                  pair->everywhere ? "everywhere" : "at interfaces");
         if (pair->onset > 0.0) text_add(text, " from %g of vapour on", pair->onset);
         if (pair->wet > 0.0) text_add(text, ", condensing from %g of liquid on", pair->wet);
+        if (pair->over > 0.0) text_add(text, ", condensing while sound crosses %g cells", pair->over);
     }
     if (scene->scheme.wood) text_add(text, "; expanding mixtures have Wood's speed of sound (core/scheme/wood.c)");
 }

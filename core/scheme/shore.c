@@ -2,7 +2,6 @@
 #include "scheme/shore.h"
 
 #include "bulla/module.h"
-#include "phys/phase.h"
 #include "phys/phase_pair.h"
 #include "phys/row.h"
 #include "scheme/patch.h"
@@ -55,7 +54,7 @@ static BULLA_KERNEL void shore_mark(size_t n, double front, double onset, const 
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double own = thin[i], most = high[i];
-        ret_shore[i] = (most >= onset) | ((own >= front) & !(most > own + PHASE_FELT));
+        ret_shore[i] = (most >= onset) | ((own >= front) & !(most > own + PHASE_PAIR_FELT));
     }
 }
 

@@ -2,7 +2,7 @@
 #include "solve/unmixed.h"
 
 #include "base/comm.h"
-#include "phys/phase.h"
+#include "phys/phase_pair.h"
 #include "solve/wake.h"
 
 /* Cells, leaves and those below them alike, that hold liquid, what it evaporates into, and both. */
@@ -16,7 +16,7 @@ static void unmixed_count_tile(const struct state *state, const struct scene_pha
     for (size_t c = 0; c < n; c++) {
         double thin = alpha[pair->vapour * n + c];
         for (unsigned g = 0; g < pair->n_gas; g++) thin += alpha[pair->gas[g] * n + c];
-        bool wet = alpha[pair->liquid * n + c] > PHASE_FELT, dry = thin > PHASE_FELT;
+        bool wet = alpha[pair->liquid * n + c] > PHASE_PAIR_FELT, dry = thin > PHASE_PAIR_FELT;
         count[UNMIXED_LIQUID] += wet;
         count[UNMIXED_THIN] += dry;
         count[UNMIXED_BOTH] += wet && dry;

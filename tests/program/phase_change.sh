@@ -132,6 +132,8 @@ refused "vapour of no pair" 's/evaporated: steam/evaporated: air/'
 refused "known of the whole domain" 's/evaporated: steam/evaporated: steam, in: air/'
 refused "nothing condenses" 's/gases: \[air\]/direction: evaporation, condense-from: 0.9/'
 refused "nothing condenses" 's/gases: \[air\]/direction: evaporation, nucleus: 1e-5/'
+refused "nothing condenses" 's/gases: \[air\]/direction: evaporation, condense-over: 8/'
+refused "condensation has a rate already" 's/gases: \[air\]/condense-over: 8, rate: {type: relaxation, time: 1 us}/'
 refused "the pair has no gases" 's/gases: \[air\]/gas-temperature: own/'
 refused "'rate: lua' needs 'shared'" 's/gases: \[air\]/&, gas-temperature: own, rate: {type: lua, lua: "function() return 0 end"}/'
 

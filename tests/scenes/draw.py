@@ -339,11 +339,14 @@ def wide_words(scene):
     for pair in case.get("phase-change", ()):
         words = {"direction": ("evaporation", "condensation"), "nucleus": (1e-4,), "onset": (0.0, 0.5, 0.99),
                  "condense-from": (0.0, 0.9), "gas-temperature": ("own",), "mixing": ("none",),
-                 "rate": ("equilibrium", {"type": "hertz-knudsen", "area": 10 / scene.length})}
+                 "rate": ("equilibrium", {"type": "hertz-knudsen", "area": 10 / scene.length}),
+                 "condense-over": (3.0, 20.0)}
         for word, values in words.items():
-            if word in ("nucleus", "condense-from") and pair.get("direction") == "evaporation":
+            if word in ("nucleus", "condense-from", "condense-over") and pair.get("direction") == "evaporation":
                 continue
             if word in ("onset", "condense-from") and "where" in pair:
+                continue
+            if word == "condense-over" and pair.get("rate", "equilibrium") != "equilibrium":
                 continue
             if dice.coin(0.2) and (word not in ("gas-temperature", "mixing") or "gases" in pair):
                 pair[word] = dice.pick(*values)

@@ -2,7 +2,7 @@
  * with a trace of the other, whichever tiles they are in; no other surface does, and none where a cell is cut. */
 #include "flow.h"
 
-#include "phys/phase.h"
+#include "phys/phase_pair.h"
 #include "solve/unmixed.h"
 
 static struct flow flow;
@@ -42,7 +42,7 @@ static void expect(int steam, int stone)
 {
     double least, sum;
     assert_int_equal(mixed(1, &least, &sum), steam);
-    if (steam) assert_true(least > PHASE_FELT);
+    if (steam) assert_true(least > PHASE_PAIR_FELT);
     assert_int_equal(mixed(2, &least, &sum), stone);
     assert_true(unmixed_is(flow.state, 0) == (steam == 0));
     flow_stop(&flow);

@@ -32,7 +32,7 @@ static void check_call(struct flow *flow, struct checked *checked)
     struct equilibrium_effort effort = {0};
     memcpy(before, u, size);
     memcpy(w_before, w, size);
-    phase_act(model, 0, CELLS, CELLS, 1e-6, NULL, w, u, &effort);
+    phase_act(model, 0, CELLS, CELLS, 1e-6, 0.0, NULL, w, u, &effort);
     double *p = mem_new(CELLS, sizeof *p);
     memcpy(p, w + model->i_E * CELLS, CELLS * sizeof *p);
     mix_primitives(model, CELLS, CELLS, u, w);
@@ -48,7 +48,7 @@ static void check_call(struct flow *flow, struct checked *checked)
         assert_true(gain >= -1e-12 * fabs(phase_box_entropy(model, CELLS, u + i, w + i)));
     }
     memcpy(after, u, size);
-    phase_act(model, 0, CELLS, CELLS, 1e-6, NULL, w, u, &effort);
+    phase_act(model, 0, CELLS, CELLS, 1e-6, 0.0, NULL, w, u, &effort);
     for (size_t i = 0; i < CELLS; i++)
         for (unsigned q = 0; q < model->n_field; q++)
             if (after[q * CELLS + i] != u[q * CELLS + i])
@@ -105,7 +105,7 @@ static void test_direction(void **state)
         const struct model *model = flow.state->model;
         double *u = flow_level(&flow)->u_old[0], before[CELLS];
         memcpy(before, u + (model->i_m + 1) * CELLS, sizeof before);
-        phase_act(model, 0, CELLS, CELLS, 1e-6, NULL, flow_level(&flow)->w[0], u, &(struct equilibrium_effort){0});
+        phase_act(model, 0, CELLS, CELLS, 1e-6, 0.0, NULL, flow_level(&flow)->w[0], u, &(struct equilibrium_effort){0});
         for (size_t i = 0; i < CELLS; i++) {
             double change = u[(model->i_m + 1) * CELLS + i] - before[i];
             assert_true(way ? change <= 0.0 : change >= 0.0);
@@ -169,7 +169,7 @@ static double relax(const struct series *series, double t, int n)
     }
     u[model->i_E] = series->energy;
     w[model->i_E] = cells.p[0];
-    for (int i = 0; i < n; i++) phase_act(model, 0, 1, 1, t / n, NULL, w, u, &(struct equilibrium_effort){0});
+    for (int i = 0; i < n; i++) phase_act(model, 0, 1, 1, t / n, 0.0, NULL, w, u, &(struct equilibrium_effort){0});
     double vapour = u[model->i_m + 1];
     flow_stop(&flow);
     return vapour;
@@ -201,8 +201,8 @@ static void test_rate(void **state)
     }
 }
 
-/* Mass of vapour that one call makes of a cell, at the shore or not. */
-static double vapour_made(const char *phase, double T, double p, double alpha, const unsigned char *shore)
+/* Mass of vapour that one call makes of a cell of size h, at the shore or not. */
+static double vapour_in(const char *phase, double T, double p, double alpha, const unsigned char *shore, double h)
 {
     struct flow flow;
     phase_box_open(&flow, PHASE_BOX_NASG, phase, 8, "");
@@ -216,10 +216,15 @@ static double vapour_made(const char *phase, double T, double p, double alpha, c
     w[model->i_E] = p;
     mix_conserved(model, 1, 1, w, u);
     double before = u[model->i_m + 1];
-    phase_act(model, 0, 1, 1, 1e-6, shore, w, u, &(struct equilibrium_effort){0});
+    phase_act(model, 0, 1, 1, 1e-6, h, shore, w, u, &(struct equilibrium_effort){0});
     double after = u[model->i_m + 1];
     flow_stop(&flow);
     return after - before;
+}
+
+static double vapour_made(const char *phase, double T, double p, double alpha, const unsigned char *shore)
+{
+    return vapour_in(phase, T, p, alpha, shore, 0.0);
 }
 
 static double vapour_after(const char *phase, double T, double p, double alpha)
@@ -264,7 +269,7 @@ static void test_onset_heat(void **state)
         w[model->i_E] = p;
         mix_conserved(model, 1, 1, w, u);
         double vapour = u[model->i_m + 1];
-        phase_act(model, 0, 1, 1, 1e-6, NULL, w, u, &(struct equilibrium_effort){0});
+        phase_act(model, 0, 1, 1, 1e-6, 0.0, NULL, w, u, &(struct equilibrium_effort){0});
         mix_primitives(model, 1, 1, u, w);
         for (unsigned l = 0; l < 2; l++)
             model->eos[l].law->temperature(model->eos[l].self, 1, &w[model->i_m + l], &w[model->i_E], &now[l]);
@@ -272,6 +277,37 @@ static void test_onset_heat(void **state)
         assert_true(fabs(now[1] - now[0]) < 1e-6);
         flow_stop(&flow);
     }
+}
+
+/* Wood's speed in water with bubbles of its vapour. */
+static double wood(double T, double p, double alpha)
+{
+    struct flow flow;
+    phase_box_open(&flow, PHASE_BOX_NASG, "{liquid: water, vapour: steam}", 8, "");
+    double rho_all = 0.0, give = 0.0;
+    for (unsigned l = 0; l < 2; l++) {
+        const struct model_eos *eos = &flow.state->model->eos[l];
+        double part = l ? alpha : 1.0 - alpha, rho, rho_e, rho_c2;
+        eos->law->density(eos->self, 1, &p, &T, &rho);
+        eos->law->state(eos->self, 1, &rho, &p, &rho_e, &rho_c2);
+        rho_all += part * rho;
+        give += part / rho_c2;
+    }
+    flow_stop(&flow);
+    return 1.0 / sqrt(rho_all * give);
+}
+
+/* Vapour over water of 360 K condenses while sound crosses 10 cells of 1 mm; evaporation takes no time. */
+static void test_over(void **state)
+{
+    (void)state;
+    static const char at_once[] = "{liquid: water, vapour: steam}",
+                      over[] = "{liquid: water, vapour: steam, condense-over: 10}";
+    double h = 1e-3, alpha = 0.2, part = -expm1(-1e-6 * wood(360.0, 1e5, alpha) / (10.0 * h));
+    double all = vapour_in(at_once, 360.0, 1e5, alpha, NULL, h), some = vapour_in(over, 360.0, 1e5, alpha, NULL, h);
+    print_message("of what condenses %.10g, by the speed of sound %.10g\n", some / all, part);
+    assert_true(all < 0.0 && fabs(some / all / part - 1.0) < 1e-9);
+    assert_true(vapour_in(over, 400.0, 1e5, alpha, NULL, h) == vapour_in(at_once, 400.0, 1e5, alpha, NULL, h));
 }
 
 /* What is missing falls to 1/e in the given time; `none` shares temperatures alone; liquid bears its tension and no
@@ -319,7 +355,7 @@ static void mixed(const char *phase, double T_air, double *ret_T, double *ret_sh
     }
     w[model->i_E] = p;
     mix_conserved(model, 1, 1, w, u);
-    phase_act(model, 0, 1, 1, 1e-6, NULL, w, u, &(struct equilibrium_effort){0});
+    phase_act(model, 0, 1, 1, 1e-6, 0.0, NULL, w, u, &(struct equilibrium_effort){0});
     mix_primitives(model, 1, 1, u, w);
     double moles[3] = {0};
     for (unsigned l = 0; l < 3; l++) {
@@ -366,7 +402,7 @@ static void test_owed(void **state)
         mix_conserved(model, 1, 1, w, u);
         u[model->i_m + owes] *= -1e-3;
         double all = u[model->i_m] + u[model->i_m + 1];
-        phase_act(model, 0, 1, 1, 1e-6, NULL, w, u, &(struct equilibrium_effort){0});
+        phase_act(model, 0, 1, 1, 1e-6, 0.0, NULL, w, u, &(struct equilibrium_effort){0});
         assert_true(u[model->i_m] >= 0.0 && u[model->i_m + 1] >= 0.0);
         assert_true(fabs((u[model->i_m] + u[model->i_m + 1]) / all - 1.0) < 1e-15);
     }
@@ -391,7 +427,7 @@ static void test_left(void **state)
     u[model->i_alpha + 1] = 1e-4;
     u[model->i_m + 1] = -1e-9;
     mix_primitives(model, 1, 1, u, w);
-    phase_act(model, 0, 1, 1, 1e-6, NULL, w, u, &(struct equilibrium_effort){0});
+    phase_act(model, 0, 1, 1, 1e-6, 0.0, NULL, w, u, &(struct equilibrium_effort){0});
     assert_true(u[model->i_alpha + 1] == 0.0 && fabs(u[model->i_alpha] - 1.0) < 1e-15);
     assert_true(u[model->i_m + 1] == 0.0 && fabs(u[model->i_m] - (mass - 1e-9)) < 1e-12);
     assert_true(fabs(w[model->i_E] / p - 1.0) < 1e-3);
@@ -438,7 +474,7 @@ int main(void)
         cmocka_unit_test(test_call),  cmocka_unit_test(test_direction), cmocka_unit_test(test_rate),
         cmocka_unit_test(test_kinds), cmocka_unit_test(test_onset),     cmocka_unit_test(test_onset_heat),
         cmocka_unit_test(test_apart), cmocka_unit_test(test_owed),      cmocka_unit_test(test_left),
-        cmocka_unit_test(test_box),
+        cmocka_unit_test(test_over),  cmocka_unit_test(test_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

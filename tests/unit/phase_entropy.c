@@ -28,7 +28,7 @@ static void call(struct flow *flow, double dt, struct tally *tally)
     struct equilibrium_effort effort = {0};
     flow_set(flow, phase_box_scatter);
     for (size_t i = 0; i < CELLS; i++) before[i] = phase_box_entropy(model, CELLS, u + i, w + i);
-    assert_int_equal(phase_act(model, 0, CELLS, CELLS, dt, NULL, w, u, &effort), STATUS_OK);
+    assert_int_equal(phase_act(model, 0, CELLS, CELLS, dt, 0.0, NULL, w, u, &effort), STATUS_OK);
     mix_primitives(model, CELLS, CELLS, u, w);
     for (size_t i = 0; i < CELLS; i++) {
         double after = phase_box_entropy(model, CELLS, u + i, w + i);

@@ -27,9 +27,10 @@ static double gained(const struct model *model, unsigned k, const double *before
 }
 
 /* Water in cells 0 and 1, dodecane in 2 and 3, both above saturation; `shore`: one row of marks per pair. */
-static void acts(const struct model *model, const unsigned char *shore, double ret_gained[CELLS])
+static void acts(struct flow *flow, const unsigned char *shore, double ret_gained[CELLS])
 {
     static const double T[PAIRS] = {376.0, 510.0};
+    const struct model *model = flow->state->model;
     double w[FLOW_FIELDS * CELLS] = {0}, u[FLOW_FIELDS * CELLS] = {0}, before[FLOW_FIELDS * CELLS];
     for (size_t i = 0; i < CELLS; i++) {
         for (unsigned l = 0; l < model->n_material; l++) w[(model->i_m + l) * CELLS + i] = 1.0;
@@ -37,8 +38,14 @@ static void acts(const struct model *model, const unsigned char *shore, double r
     }
     mix_conserved(model, CELLS, CELLS, w, u);
     memcpy(before, u, sizeof u);
-    phase_change_operator.acts(
-        &(struct operator_tile){.model = model, .n_cell = CELLS, .dt = 1e-6, .u = u, .w = w, .shore = shore});
+    phase_change_operator.acts(&(struct operator_tile){.model = model,
+                                                       .mesh = flow->state->mesh,
+                                                       .level = flow_level(flow),
+                                                       .n_cell = CELLS,
+                                                       .dt = 1e-6,
+                                                       .u = u,
+                                                       .w = w,
+                                                       .shore = shore});
     for (size_t i = 0; i < CELLS; i++) {
         ret_gained[i] = gained(model, i < 2 ? 0 : 1, before, u, i);
         assert_true(gained(model, i < 2 ? 1 : 0, before, u, i) == 0.0);
@@ -60,7 +67,7 @@ static void test_marks(void **state)
                    "{liquid: water, vapour: steam, onset: 0.5}\n  - {liquid: oil, vapour: fume, onset: 0.9}", 8, "");
     for (size_t n = 0; n < sizeof shores / sizeof *shores; n++) {
         double made[CELLS];
-        acts(flow.state->model, shores[n], made);
+        acts(&flow, shores[n], made);
         for (size_t i = 0; i < CELLS; i++) assert_true(expected[n][i] == '1' ? made[i] > 0.0 : made[i] == 0.0);
     }
     flow_stop(&flow);

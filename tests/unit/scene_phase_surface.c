@@ -44,6 +44,41 @@ static void test_defaults(void **state)
     }
 }
 
+/* Cells over which the pair condenses in a scene whose last layer is this. */
+static double over(const char *materials, const char *phase, const char *layer)
+{
+    struct flow flow;
+    flow_start(&flow, mem_print("bulla: 1\ndomain: {lower: [0], upper: [1], cells: [8], boundaries: {x-: periodic, x+: "
+                                "periodic}}\nmaterials:\n%sphase-change:\n  - %s\ninitial:\n"
+                                "  - {everywhere: true, material: water, temperature: 300, pressure: 1 bar}\n"
+                                "  - {half-space: {point: [0.5], normal: [1]}, %s, temperature: 300, pressure: 1 bar}\n"
+                                "run: {until: 1}\n",
+                                materials, phase, layer));
+    double cells = flow.state->model->phases[0].scene->over;
+    flow_stop(&flow);
+    return cells;
+}
+
+/* Painted mixtures condense over cells, surfaces and what heat feeds at once. */
+static void test_over(void **state)
+{
+    (void)state;
+    static const char foam[] = "fractions: {water: 0.9, steam: 0.1}",
+                      traces[] = "fractions: {water: 0.9995, steam: 5e-4}",
+                      damp[] = "fractions: {air: 0.9, steam: 0.1}", bubble[] = "material: steam";
+    assert_true(over(COLD_WATER STEAM, PAIR "}", foam) == 8.0);
+    assert_true(over(COLD_WATER STEAM PHASE_BOX_AIR, PAIR ", gases: [air]}", foam) == 8.0);
+    assert_true(over(WATER STEAM, PAIR ", where: everywhere}", foam) == 8.0);
+    assert_true(over(WATER STEAM, PAIR "}", foam) == 0.0);
+    assert_true(over(COLD_WATER STEAM, PAIR "}", traces) == 0.0);
+    assert_true(over(COLD_WATER STEAM, PAIR "}", bubble) == 0.0);
+    assert_true(over(COLD_WATER STEAM PHASE_BOX_AIR, PAIR ", gases: [air]}", damp) == 0.0);
+    assert_true(over(COLD_WATER STEAM, PAIR ", condense-over: 0}", foam) == 0.0);
+    assert_true(over(COLD_WATER STEAM, PAIR ", condense-over: 3}", bubble) == 3.0);
+    assert_true(over(COLD_WATER STEAM, PAIR ", direction: evaporation}", foam) == 0.0);
+    assert_true(over(COLD_WATER STEAM, PAIR ", rate: {type: relaxation, time: 1 us}}", foam) == 0.0);
+}
+
 static bool wood(const char *materials, const char *phase, const char *scheme)
 {
     struct flow flow;
@@ -69,6 +104,7 @@ static void test_wood(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_defaults), cmocka_unit_test(test_wood)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_defaults), cmocka_unit_test(test_over),
+                                       cmocka_unit_test(test_wood)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
