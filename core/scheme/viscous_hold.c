@@ -47,6 +47,7 @@ void viscous_hold_fraction(const struct viscous_slopes *slopes, size_t n, const 
         pick_take(n, at, slopes->data + k * slopes->pitch + around, other);
         row_take(n, other, alpha);
     }
+    for (size_t i = 0; i < n; i++) alpha[i] = alpha[i] > 0.0 ? alpha[i] : 0.0;
 }
 
 void viscous_hold_make(const struct viscous_slopes *slopes, size_t n, const unsigned *at, size_t around,

@@ -21,7 +21,8 @@ static inline unsigned viscous_hold_low(unsigned p, int axis)
     return (p & ((1u << axis) - 1u)) | (p >> axis << (axis + 1));
 }
 
-/* The fraction of material l of the scene in the cells `around` behind the cells `at` of the patch. */
+/* The fraction of material l of the scene in the cells `around` behind the cells `at` of the patch: not below 0, also
+ * where those of three that a coarser level gives sum to more than 1. */
 void viscous_hold_fraction(const struct viscous_slopes *slopes, size_t n, const unsigned *at, size_t around, unsigned l,
                            double *alpha);
 

@@ -301,10 +301,31 @@ static void test_runs(void **state)
     flow_stop(&flow);
 }
 
+/* Fractions of three materials that a coarser level gives need not sum to 1: of the first there is none then, and not
+ * less. */
+static void test_fractions(void **state)
+{
+    (void)state;
+    static const double rows[2][4] = {{0.25, 0.393583, 0.0, 1.0}, {0.25, 0.636107, 1.0, 0.0}};
+    static const unsigned at[] = {0, 1, 2};
+    struct model model = {.n_around_alpha = 2};
+    const struct term_tile tile = {.model = &model};
+    const struct viscous_slopes slopes = {.tile = &tile, .data = rows[0], .pitch = 4};
+    double first[3], second[3];
+    for (size_t around = 0; around < 2; around++) {
+        static const double expected[4] = {0.5, 0.0, 0.0, 0.0};
+        viscous_hold_fraction(&slopes, 3, at, around, 0, first);
+        viscous_hold_fraction(&slopes, 3, at, around, 1, second);
+        for (size_t i = 0; i < 3; i++)
+            assert_true(first[i] == expected[around + i] && second[i] == rows[0][around + i]);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bears), cmocka_unit_test(test_sheet),
-                                       cmocka_unit_test(test_laws),  cmocka_unit_test(test_next),
-                                       cmocka_unit_test(test_ball),  cmocka_unit_test(test_runs)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fractions), cmocka_unit_test(test_bears),
+                                       cmocka_unit_test(test_sheet),     cmocka_unit_test(test_laws),
+                                       cmocka_unit_test(test_next),      cmocka_unit_test(test_ball),
+                                       cmocka_unit_test(test_runs)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
