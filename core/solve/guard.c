@@ -228,6 +228,23 @@ static bool guard_again(struct guard *guard, const struct guard_tile *tile, size
     return guard_judge(guard, tile, cell, 1, &bad) == 0.0;
 }
 
+/* Is nothing wrong with a cell but masses below zero that were so low before the step? What was round-off of the cell
+ * that left them is more than that once the cell weighs less; fluxes cannot take it away (the material counts as
+ * absent), and no smaller step would help. */
+static bool guard_owes(const struct guard *guard, const struct guard_tile *tile, size_t cell)
+{
+    const struct model *model = tile->model;
+    double kept[SCENE_MATERIALS], bad;
+    for (unsigned l = 0; l < model->n_alpha; l++) {
+        size_t at = (model->i_m + l) * guard->mesh->n_cell + cell;
+        kept[l] = tile->u[at];
+        if (tile->u[at] < 0.0 && tile->u[at] >= tile->u_old[at]) tile->u[at] = 0.0;
+    }
+    bool owes = guard_judge(guard, tile, cell, 1, &bad) == 0.0;
+    for (unsigned l = 0; l < model->n_alpha; l++) tile->u[(model->i_m + l) * guard->mesh->n_cell + cell] = kept[l];
+    return owes;
+}
+
 /* Relaxation of one cell; true if it is admissible afterwards. */
 static bool guard_repair(struct guard *guard, const struct guard_tile *tile, size_t cell)
 {
@@ -316,7 +333,8 @@ void guard_check(struct guard *guard, const struct guard_tile *tile)
         if (!kept) guard_keep(guard, tile);
         kept = true;
         for (size_t i = 0; i < n; i++) {
-            if (bad[i] == 0.0 || guard_repair(guard, tile, from + i) || guard_put_back(guard, tile, from + i)) continue;
+            if (bad[i] == 0.0 || guard_owes(guard, tile, from + i)) continue;
+            if (guard_repair(guard, tile, from + i) || guard_put_back(guard, tile, from + i)) continue;
             guard_note(guard, tile, from + i);
         }
     }

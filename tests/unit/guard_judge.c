@@ -87,6 +87,12 @@ static void test_values(void **state)
     judged.u[judged.n + 5] = judged.w[judged.n + 5] = 1e-7;
     assert_int_equal(bad_with(&judged, m + judged.n, -1e-9), 0); /* round-off of 600 kg/m3 */
     assert_int_equal(bad_with(&judged, m + judged.n, -1e-2), 1);
+    double *owed = flow_level(&judged.flow)->u_old[0] + (model->i_m + 1) * judged.n + 5;
+    *owed = -1e-2;
+    assert_int_equal(bad_with(&judged, m + judged.n, -1e-2), 0); /* not less than before the step */
+    assert_int_equal(bad_with(&judged, m + judged.n, -1.0001e-2), 1);
+    judged.u[judged.n + 5] = judged.w[judged.n + 5] = 1e-2;
+    assert_int_equal(bad_with(&judged, m + judged.n, -1e-2), 1); /* a fraction and nothing in it */
     stop(&judged);
 }
 
