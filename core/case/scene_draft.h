@@ -52,8 +52,8 @@ bool scene_phase_surface_boils(const struct scene *scene);
 /* Does a layer of the initial state hold more than a trace of both, as bubbly mixtures do? */
 bool scene_phase_surface_mixed(const struct scene_phase *pair, const struct scene_layer *layer);
 
-/* What `condense-over` is where it is not given, for which the initial state has to be known: 8 where heat does not
- * feed the surface and mixtures are painted. */
+/* What `condense-over` is where it is not given, for which the initial state has to be known: 8 where mixtures are
+ * painted and no surfaces are meant (neither `onset` nor `condense-from`). */
 void scene_phase_surface_late(struct draft *draft);
 
 /* Gas constant of the law of a material [J/(kg K)]; 0: it becomes no ideal gas, or does not say. */

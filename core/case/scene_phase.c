@@ -188,9 +188,9 @@ static const struct key scene_phase_rows[] = {
      .max = 100.0,
      .doc =
          "With `rate: equilibrium` vapour condenses while sound of the mixture (Wood's speed) crosses this many cells; "
-         "at once, if 0. Not given: 8 where `initial` mixes the liquid with its vapour (and the liquid does not "
-         "conduct, or the pair acts everywhere), so that shocks in which vapour condenses squeeze it first, and the "
-         "pressure behind does not swing; else 0. Evaporation takes no time."},
+         "at once, if 0. Not given: 8 where `initial` mixes the liquid with its vapour and the pair has neither "
+         "`onset` "
+         "nor `condense-from`, so that the pressure behind condensing shocks does not swing; else 0."},
     {.name = "nucleus",
      .type = KEYS_NUMBER,
      .unit = "1",

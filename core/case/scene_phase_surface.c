@@ -69,7 +69,7 @@ void scene_phase_surface_late(struct draft *draft)
         struct scene_phase *pair = &scene->phases[k];
         bool condenses = pair->direction != SCENE_PHASE_EVAPORATION && pair->rate == SCENE_PHASE_EQUILIBRIUM;
         if (!condenses || keys_at(section->list[k].map, "condense-over")->given) continue;
-        if (scene_phase_surface_fed(scene, pair)) continue;
+        if (pair->onset > 0.0 || pair->wet > 0.0) continue;
         for (unsigned i = 0; i < scene->n_layer; i++)
             if (scene_phase_surface_mixed(pair, &scene->layers[i])) pair->over = scene_phase_surface_cells;
     }

@@ -70,6 +70,8 @@ static void test_over(void **state)
     assert_true(over(COLD_WATER STEAM PHASE_BOX_AIR, PAIR ", gases: [air]}", foam) == 8.0);
     assert_true(over(WATER STEAM, PAIR ", where: everywhere}", foam) == 8.0);
     assert_true(over(WATER STEAM, PAIR "}", foam) == 0.0);
+    assert_true(over(WATER STEAM, PAIR ", onset: 0}", foam) == 8.0);
+    assert_true(over(WATER STEAM PHASE_BOX_AIR, PAIR ", gases: [air]}", foam) == 0.0);
     assert_true(over(COLD_WATER STEAM, PAIR "}", traces) == 0.0);
     assert_true(over(COLD_WATER STEAM, PAIR "}", bubble) == 0.0);
     assert_true(over(COLD_WATER STEAM PHASE_BOX_AIR, PAIR ", gases: [air]}", damp) == 0.0);
