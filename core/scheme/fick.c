@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "phys/mix.h"
 #include "phys/row.h"
+#include "phys/traction.h"
 #include "scheme/distance.h"
 #include "scheme/heed.h"
 #include "scheme/swell.h"
@@ -121,27 +122,30 @@ static BULLA_KERNEL void fick_steady(size_t n, double D0, const double *restrict
     }
 }
 
-/* Shares, density and D of mixture k in n cells of the primitives w; share: a row for each material, pitch `room`; T: a
- * row of work space. */
-static void fick_mix(const struct model *path, unsigned k, size_t n, size_t stride, const double *w, double *T,
-                     double *share, size_t room, const struct fick_cells *of)
+/* Shares, density and D of mixture k in n cells of the primitives w, each gas at its own pressure; share: a row for
+ * each material, pitch `room`; T: a row of work space. */
+static void fick_mix(const struct model *path, unsigned k, size_t n, size_t stride, const double *w,
+                     struct traction_pressures *parts, double *T, double *share, size_t room,
+                     const struct fick_cells *of)
 {
     const struct model_fick *fick = &path->ficks[k];
     const struct scene_fick *scene = fick->scene;
-    const double *p = w + path->i_E * stride;
+    const double *mean = w + path->i_E * stride;
     memset(of->alpha, 0, n * sizeof *of->alpha);
     memset(of->rho, 0, n * sizeof *of->rho);
     memset(of->D, 0, n * sizeof *of->D);
     memset(T, 0, n * sizeof *T);
     for (unsigned g = 0; g < fick->n; g++) {
         unsigned l = fick->member[g];
-        const double *rho = w + (path->i_m + l) * stride;
+        const double *rho = w + (path->i_m + l) * stride, *p = traction_pressure(path, n, l, mean, parts);
         if (!scene->constant) path->eos[l].law->temperature(path->eos[l].self, n, rho, p, T);
         fick_gather(n, w + (path->i_alpha + l) * stride, rho, T, share + l * room, of->alpha, of->rho, of->D);
     }
     for (unsigned g = 0; g < fick->n; g++) fick_shares(n, of->rho, share + fick->member[g] * room);
     if (scene->constant) fick_steady(n, scene->D, of->alpha, of->rho, of->D);
-    else fick_quicken(n, scene->D, scene->T, scene->p, p, of->alpha, of->rho, of->D);
+    else
+        fick_quicken(n, scene->D, scene->T, scene->p, traction_pressure(path, n, fick->member[0], mean, parts),
+                     of->alpha, of->rho, of->D);
     heed_parts(n, of->alpha, of->rho, heed_density(path, n, stride, w, T), of->sets);
 }
 
@@ -157,21 +161,31 @@ static BULLA_KERNEL void fick_content(size_t n, const double *restrict rho_e, co
     }
 }
 
-static void fick_frame(const struct term_piece *piece)
+/* Cells of a frame from `at` on, n <= TRACTION_BATCH. */
+static void fick_look(const struct model *path, struct fick *own, size_t at, size_t n, const double *w)
 {
-    const struct model *path = piece->model;
-    struct fick *own = piece->own;
-    size_t n = frame_edged(piece->frame);
-    const double *w = piece->faces->frame + frame_reach(piece->frame), *p = w + path->i_E * FACE_ROOM;
+    const double *mean = w + path->i_E * FACE_ROOM;
+    struct traction_pressures parts; /* large: filled as far as it is used */
+    traction_part(path, n, FACE_ROOM, w, &parts);
     for (unsigned k = 0; k < path->n_fick; k++) {
-        fick_mix(path, k, n, FACE_ROOM, w, own->T, own->share, FACE_ROOM, &own->of[k]);
+        const struct fick_cells *all = &own->of[k];
+        const struct fick_cells of = {all->alpha + at, all->rho + at, all->D + at, all->sets + at};
+        fick_mix(path, k, n, FACE_ROOM, w, &parts, own->T, own->share + at, FACE_ROOM, &of);
         for (unsigned g = 0; g < path->ficks[k].n; g++) {
             unsigned l = path->ficks[k].member[g];
-            const double *rho = w + (path->i_m + l) * FACE_ROOM;
+            const double *rho = w + (path->i_m + l) * FACE_ROOM, *p = traction_pressure(path, n, l, mean, &parts);
             path->eos[l].law->state(path->eos[l].self, n, rho, p, own->e, own->c2);
-            fick_content(n, own->e, p, rho, own->h + l * FACE_ROOM, own->v + l * FACE_ROOM);
+            fick_content(n, own->e, p, rho, own->h + l * FACE_ROOM + at, own->v + l * FACE_ROOM + at);
         }
     }
+}
+
+static void fick_frame(const struct term_piece *piece)
+{
+    size_t n = frame_edged(piece->frame);
+    const double *w = piece->faces->frame + frame_reach(piece->frame);
+    for (size_t at = 0; at < n; at += TRACTION_BATCH)
+        fick_look(piece->model, piece->own, at, n - at < TRACTION_BATCH ? n - at : TRACTION_BATCH, w + at);
 }
 
 /* min(alpha) rho D/d of the faces: rho D by the harmonic mean, D at most `most` where there is next to no gas. */
@@ -282,11 +296,13 @@ static void fick_pace(const struct term_pace *pace, double *rate)
     double share[SCENE_MATERIALS * SWELL_BATCH], T[SWELL_BATCH], alpha[SWELL_BATCH], rho[SWELL_BATCH], D[SWELL_BATCH],
         sets[SWELL_BATCH];
     const struct fick_cells of = {alpha, rho, D, sets};
+    struct traction_pressures parts; /* large: filled as far as it is used */
     for (unsigned k = 0; k < path->n_fick; k++) {
         if (!fick_meet(pace, k)) continue;
         for (size_t from = 0; from < pace->n_cell; from += SWELL_BATCH) {
             size_t n = pace->n_cell - from < SWELL_BATCH ? pace->n_cell - from : SWELL_BATCH;
-            fick_mix(path, k, n, pace->n_cell, pace->w + from, T, share, SWELL_BATCH, &of);
+            traction_part(path, n, pace->n_cell, pace->w + from, &parts);
+            fick_mix(path, k, n, pace->n_cell, pace->w + from, &parts, T, share, SWELL_BATCH, &of);
             fick_hurry(n, factor, sets, D, rate + from);
         }
     }

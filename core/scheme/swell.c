@@ -3,6 +3,7 @@
 
 #include "phys/mix.h"
 #include "phys/row.h"
+#include "phys/traction.h"
 #include "scheme/exchange.h"
 #include "scheme/terms.h"
 
@@ -76,9 +77,11 @@ static BULLA_KERNEL void swell_move(size_t n, const double *restrict own, const 
 void swell_share(const struct swell *swell, const struct term_tile *tile, size_t from)
 {
     const struct model *path = swell->path;
-    const double *p = tile->w + path->i_E * tile->n_cell + from;
-    double *rates = tile->rates + from;
+    const double *w = tile->w + from;
+    double *rates = tile->rates + from, p[SWELL_BATCH], mean[SWELL_BATCH];
     unsigned carried = terms_first(tile->terms, &exchange_term);
+    memcpy(p, w + path->i_E * tile->n_cell, swell->n * sizeof *p);
+    if (path->split) traction_mean(path, swell->n, tile->n_cell, w, mean), row_take(swell->n, mean, p);
     for (unsigned l = 0; l < path->n_alpha; l++)
         swell_move(swell->n, swell->own[l], swell->compliance[l], swell->sum, swell->all, p,
                    rates + (path->i_alpha + l) * tile->n_cell, rates + (carried + l) * tile->n_cell);

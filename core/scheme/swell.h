@@ -38,8 +38,8 @@ void swell_material(struct swell *swell, unsigned l, const double *alpha, const 
 /* Volume that material l brought along by itself [1/s], after swell_material of it: also where it was not before. */
 void swell_volume(struct swell *swell, unsigned l, const double *volume);
 
-/* Adds to the rates of the tile, from cell `from` on: d alpha_l/dt, and p times it to what volume carries (exchange.h),
- * which stays as it is. For paths with Kapila's closure. */
+/* Adds to the rates of the tile, from cell `from` on: d alpha_l/dt, and p (the common traction, in models that are
+ * split) times it to what volume carries (exchange.h), which stays as it is. For paths with Kapila's closure. */
 void swell_share(const struct swell *swell, const struct term_tile *tile, size_t from);
 
 #endif
