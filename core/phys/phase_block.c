@@ -151,13 +151,14 @@ void phase_block_fill(struct phase_block *block)
         const double *alpha = block->w[model->i_alpha + l], *rho = block->w[model->i_m + l];
         const double *p = traction_pressure(model, n, l, block->w[model->i_E], &parts);
         unsigned k = phase_block_place(block, l), o = cells->n_other;
-        phase_block_row rho_e, rho_c2;
+        phase_block_row rho_e, rho_c2, least;
         eos->law->state(eos->self, n, rho, p, rho_e, rho_c2);
         phase_block_give(block, l, rho_c2);
         if (k < block->family.n) eos->law->temperature(eos->self, n, rho, p, block->T[k]);
-        else cells->other[cells->n_other++] = *eos;
+        else eos->law->p_min(eos->self, n, rho, least), cells->other[cells->n_other++] = *eos;
         for (size_t i = 0; i < n; i++) {
-            double there = alpha[i] > 0.0 ? 1.0 : 0.0, m = there * block->u[model->i_m + l][i];
+            double there = alpha[i] > 0.0 && (k < block->family.n || p[i] > least[i]) ? 1.0 : 0.0;
+            double m = there * block->u[model->i_m + l][i];
             cells->energy[i] += there > 0.0 ? alpha[i] * rho_e[i] : 0.0;
             if (there > 0.0 && rho_c2[i] > block->blur[i]) block->blur[i] = rho_c2[i];
             if (k < 2) cells->m[k][i] = block->u[model->i_m + l][i];
