@@ -105,3 +105,12 @@ bool saturation_ends(const struct saturation *pair, struct saturation_range *ret
     }
     return ret_range->T_max > ret_range->T_min && ret_range->p_max > SATURATION_REAL;
 }
+
+bool saturation_is_water(const struct saturation *pair)
+{
+    double T = saturation_temperature(pair, 101325.0);
+    if (!(T > 300.0 && T < 450.0)) return false;
+    struct saturation_state at = saturation_at(pair, 101325.0, T);
+    double latent = at.h[1] - at.h[0];
+    return latent > 1.9e6 && latent < 2.6e6;
+}

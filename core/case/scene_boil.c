@@ -110,12 +110,15 @@ static void scene_boil_range(struct draft *draft, const struct keys_value *value
     double p, T;
     for (int k = 0; k < 2; k++) {
         if (!scene_boil_state(scene, &scene->layers[index], both[k], &p, &T)) continue;
-        if (p <= pair->curve.p_max && T <= pair->curve.T_max) continue;
-        diag_warn(
-            draft->keys.diag, &value->node->mark,
-            "%s: '%s' of initial[%u], at %.4g K and %.4g Pa, is beyond the end of the curve at %.4g K and %.4g Pa",
-            value->path, scene->material[both[k]].name, index, T, p, pair->curve.T_max, pair->curve.p_max);
-        diag_help(draft->keys.diag, "above that pressure only temperatures are shared, no mass is exchanged");
+        bool cold = T<pair->curve.T_min, past = p> pair->curve.p_max;
+        if (!cold && !past && T <= pair->curve.T_max) continue;
+        diag_warn(draft->keys.diag, &value->node->mark,
+                  "%s: '%s' of initial[%u], at %.4g K and %.4g Pa, is beyond the %s of the curve at %.4g K and %.4g Pa",
+                  value->path, scene->material[both[k]].name, index, T, p, cold ? "beginning" : "end",
+                  cold ? pair->curve.T_min : pair->curve.T_max, cold ? pair->curve.p_min : pair->curve.p_max);
+        diag_help(draft->keys.diag, cold   ? "below it the laws have no saturation: what they exchange there is a guess"
+                                    : past ? "above that pressure only temperatures are shared, no mass is exchanged"
+                                           : "so hot its liquid boils at any pressure up to that of the end");
     }
 }
 

@@ -86,11 +86,11 @@ static void scene_condense_traces(struct draft *draft, const struct keys_value *
 }
 
 static void scene_condense_water(struct draft *draft, const struct keys_value *value,
-                                 const struct scene_condense *start)
+                                 const struct scene_condense *start, const struct saturation *both)
 {
     double off = start->psat / saturation_water(start->T) - 1.0;
-    if (strcmp(start->scene->material[start->pair->liquid].name, "water") != 0 || !(fabs(off) > scene_condense_off))
-        return;
+    bool water = strcmp(start->scene->material[start->pair->liquid].name, "water") == 0 || saturation_is_water(both);
+    if (!water || !(fabs(off) > scene_condense_off)) return;
     diag_warn(draft->keys.diag, &value->node->mark,
               "%s: at %.5g K (initial[%u]) the saturation pressure of '%s' is %.4g Pa, %+.0f %% off that of water",
               value->path, start->T, start->index, start->scene->material[start->pair->liquid].name, start->psat,
@@ -113,7 +113,7 @@ static void scene_condense_layer(struct draft *draft, const struct keys_value *v
     if (isnan(start->psat)) return;
     if (scene_condense_part(start, pair->vapour) > scene_condense_trace) scene_condense_vapour(draft, value, start);
     if (scene_condense_part(start, pair->liquid) > scene_condense_trace) scene_condense_liquid(draft, value, start);
-    scene_condense_water(draft, value, start);
+    scene_condense_water(draft, value, start, &both);
 }
 
 void scene_condense(struct draft *draft)
