@@ -177,10 +177,10 @@ static const struct key scene_phase_rows[] = {
      .unit = "1",
      .min = 0.0,
      .max = 0.99,
-     .doc = "Vapour condenses only where the liquid fills this share of a cell; wherever it is felt, if 0. Not given: "
-            "0.9 for pairs with gases whose liquid conducts, with `rate: equilibrium` at interfaces and no `onset`, so "
-            "that vapour does not condense, and gases do not cool, in all cells that the surface is smeared over; "
-            "else 0."},
+     .doc =
+         "Vapour condenses only where the liquid fills this share of a cell; wherever it is felt, if 0, in all cells "
+         "that the surface is smeared over. Not given: 0.9 for pairs with gases whose liquid conducts, at interfaces "
+         "with the rates equilibrium and hertz-knudsen and no `onset`; else 0."},
     {.name = "condense-over",
      .type = KEYS_NUMBER,
      .unit = "1",

@@ -8,10 +8,15 @@ static const double scene_phase_surface_dry = 0.99, scene_phase_surface_wet = 0.
 /* Cells that sound crosses while vapour condenses where mixtures are painted: of both more than a trace. */
 static const double scene_phase_surface_cells = 8.0, scene_phase_surface_trace = 1e-3;
 
+/* Does the liquid conduct, and the pair act at surfaces? */
+static bool scene_phase_surface_conducts(const struct scene *scene, const struct scene_phase *pair)
+{
+    return !pair->everywhere && scene->material[pair->liquid].conductivity.module;
+}
+
 bool scene_phase_surface_fed(const struct scene *scene, const struct scene_phase *pair)
 {
-    return pair->rate == SCENE_PHASE_EQUILIBRIUM && !pair->everywhere &&
-           scene->material[pair->liquid].conductivity.module;
+    return pair->rate == SCENE_PHASE_EQUILIBRIUM && scene_phase_surface_conducts(scene, pair);
 }
 
 static double scene_phase_surface_onset(const struct scene *scene, const struct scene_phase *pair)
@@ -24,7 +29,8 @@ static double scene_phase_surface_condense(const struct scene *scene, const stru
 {
     bool condenses = pair->direction != SCENE_PHASE_EVAPORATION;
     bool among = pair->n_gas && pair->mixing && !(pair->onset > 0.0);
-    return condenses && among && scene_phase_surface_fed(scene, pair) ? scene_phase_surface_wet : 0.0;
+    bool kinetic = pair->rate == SCENE_PHASE_HERTZ_KNUDSEN && scene_phase_surface_conducts(scene, pair);
+    return condenses && among && (kinetic || scene_phase_surface_fed(scene, pair)) ? scene_phase_surface_wet : 0.0;
 }
 
 void scene_phase_surface(struct draft *draft, const struct keys_map *map, struct scene_phase *pair)
