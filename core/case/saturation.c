@@ -4,6 +4,7 @@
 #include "bulla/eos.h"
 
 #include <math.h>
+#include <string.h>
 #include <stddef.h>
 
 enum { SATURATION_ROUNDS = 100 };
@@ -106,8 +107,9 @@ bool saturation_ends(const struct saturation *pair, struct saturation_range *ret
     return ret_range->T_max > ret_range->T_min && ret_range->p_max > SATURATION_REAL;
 }
 
-bool saturation_is_water(const struct saturation *pair)
+bool saturation_is_water(const struct saturation *pair, const char *name)
 {
+    if (strcmp(name, "water") == 0) return true;
     double T = saturation_temperature(pair, 101325.0);
     if (!(T > 300.0 && T < 450.0)) return false;
     struct saturation_state at = saturation_at(pair, 101325.0, T);

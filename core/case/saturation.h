@@ -45,8 +45,8 @@ double saturation_water(double T);
 /* The part of the curve between 200 and 2000 K. False: there is none, or none that reaches 10 kPa. */
 bool saturation_ends(const struct saturation *pair, struct saturation_range *ret_range);
 
-/* Is it water, by what it takes to boil at 1 atm: 1.9 to 2.6 MJ/kg (2.26) at 300 to 450 K? No other liquid in use does.
- */
-bool saturation_is_water(const struct saturation *pair);
+/* Is it water, by the name of the liquid, or by what it takes to boil at 1 atm: 1.9 to 2.6 MJ/kg (2.26) at 300 to 450
+ * K? No other liquid in use does. */
+bool saturation_is_water(const struct saturation *pair, const char *name);
 
 #endif

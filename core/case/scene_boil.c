@@ -110,7 +110,8 @@ static void scene_boil_range(struct draft *draft, const struct keys_value *value
     double p, T;
     for (int k = 0; k < 2; k++) {
         if (!scene_boil_state(scene, &scene->layers[index], both[k], &p, &T)) continue;
-        bool cold = T<pair->curve.T_min, past = p> pair->curve.p_max;
+        bool cold = T < pair->curve.T_min;
+        bool past = p > pair->curve.p_max;
         if (!cold && !past && T <= pair->curve.T_max) continue;
         diag_warn(draft->keys.diag, &value->node->mark,
                   "%s: '%s' of initial[%u], at %.4g K and %.4g Pa, is beyond the %s of the curve at %.4g K and %.4g Pa",

@@ -4,7 +4,6 @@
 #include "case/scene_draft.h"
 
 #include <math.h>
-#include <string.h>
 
 static const double scene_condense_near = 0.02;  /* pressures over saturation that are none */
 static const double scene_condense_off = 0.1;    /* saturation pressures off those of water that are told */
@@ -89,12 +88,11 @@ static void scene_condense_water(struct draft *draft, const struct keys_value *v
                                  const struct scene_condense *start, const struct saturation *both)
 {
     double off = start->psat / saturation_water(start->T) - 1.0;
-    bool water = strcmp(start->scene->material[start->pair->liquid].name, "water") == 0 || saturation_is_water(both);
-    if (!water || !(fabs(off) > scene_condense_off)) return;
+    const char *name = start->scene->material[start->pair->liquid].name;
+    if (!saturation_is_water(both, name) || !(fabs(off) > scene_condense_off)) return;
     diag_warn(draft->keys.diag, &value->node->mark,
               "%s: at %.5g K (initial[%u]) the saturation pressure of '%s' is %.4g Pa, %+.0f %% off that of water",
-              value->path, start->T, start->index, start->scene->material[start->pair->liquid].name, start->psat,
-              100.0 * off);
+              value->path, start->T, start->index, name, start->psat, 100.0 * off);
     diag_help(draft->keys.diag, "'calibrate' sets it at one temperature, iapws95 with iapws95-vapour at all");
 }
 

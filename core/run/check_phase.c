@@ -45,7 +45,7 @@ static void check_phase_layer(const struct scene *scene, const struct scene_phas
     double psat = saturation_pressure(both, T);
     if (isnan(psat)) return;
     printf("  %-12s initial[%u]: %.6g K, saturation pressure %s", "", index, T, human_si(psat, "Pa", text));
-    if (saturation_is_water(both) && T > 273.0 && T < 647.0)
+    if (saturation_is_water(both, scene->material[pair->liquid].name) && T > 273.0 && T < 647.0)
         printf(" (%+.2g %% of IAPWS-95)", 100.0 * (psat / saturation_water(T) - 1.0));
     double p = vapour ? check_phase_partial(scene, pair, layer) : layer->pressure.number;
     if (vapour && p > 1.001 * psat) printf("; its vapour at %s condenses at once", human_si(p, "Pa", own));
@@ -55,8 +55,7 @@ static void check_phase_layer(const struct scene *scene, const struct scene_phas
 }
 
 /* Above the pressure where the vapour would be as dense as the liquid g_v - g_l falls again with p: where it is 0 once
- * more. NaN: not below 1 TPa; past its spinodal a real
- * vapour has no state, and that is no root. */
+ * more. NaN: not below 1 TPa; past its spinodal a real vapour has no state, and that is no root. */
 static double check_phase_second(const struct saturation *both, double T)
 {
     double low = 1e3, high = CHECK_PHASE_MOST;
