@@ -11,7 +11,7 @@ enum { SATURATION_ROUNDS = 100 };
 
 #define SATURATION_COLD 200.0
 #define SATURATION_HOT 2000.0
-#define SATURATION_STEP 4.0
+#define SATURATION_STEP 4.0   /* SATURATION_POINTS of them from cold to hot */
 #define SATURATION_LEAST 1e-6 /* [Pa] */
 #define SATURATION_MOST 1e10
 #define SATURATION_REAL 1e4 /* a curve that ends below this [Pa] is that of energies without a common zero */
@@ -96,15 +96,21 @@ double saturation_water(double T)
 bool saturation_ends(const struct saturation *pair, struct saturation_range *ret_range)
 {
     *ret_range = (struct saturation_range){.T_min = NAN};
-    for (double T = SATURATION_COLD; T <= SATURATION_HOT; T += SATURATION_STEP) {
-        double p = saturation_pressure(pair, T);
+    for (unsigned i = 0; i < SATURATION_POINTS; i++) {
+        double T = SATURATION_COLD + i * SATURATION_STEP, p = saturation_pressure(pair, T);
         if (isnan(p) && !isnan(ret_range->T_min)) break;
         if (isnan(p)) continue;
         if (isnan(ret_range->T_min)) ret_range->T_min = T, ret_range->p_min = p;
         ret_range->T_max = T;
-        ret_range->p_max = p;
+        ret_range->p_max = ret_range->p[ret_range->n++] = p;
     }
     return ret_range->T_max > ret_range->T_min && ret_range->p_max > SATURATION_REAL;
+}
+
+double saturation_ceiling(const struct saturation_range *range, double T)
+{
+    if (!(T >= range->T_min && T < range->T_max)) return HUGE_VAL;
+    return range->p[(unsigned)((T - range->T_min) / SATURATION_STEP) + 1];
 }
 
 bool saturation_is_water(const struct saturation *pair, const char *name)

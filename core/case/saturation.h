@@ -24,8 +24,12 @@ struct saturation_state {
     double drive;            /* D [J/kg]: below 0 liquid evaporates */
 };
 
+enum { SATURATION_POINTS = 451 };
+
 struct saturation_range {
     double T_min, T_max, p_min, p_max; /* ends of the curve [K, Pa] */
+    unsigned n;
+    double p[SATURATION_POINTS]; /* psat [Pa] every SATURATION_STEP from T_min to T_max */
 };
 
 /* False: a law has no `thermal`. */
@@ -44,6 +48,10 @@ double saturation_water(double T);
 
 /* The part of the curve between 200 and 2000 K. False: there is none, or none that reaches 10 kPa. */
 bool saturation_ends(const struct saturation *pair, struct saturation_range *ret_range);
+
+/* A pressure [Pa] that psat(T) is surely below, some percent above it: the next point of the curve. Infinite outside.
+ */
+double saturation_ceiling(const struct saturation_range *range, double T);
 
 /* Is it water, by the name of the liquid, or by what it takes to boil at 1 atm: 1.9 to 2.6 MJ/kg (2.26) at 300 to 450
  * K? No other liquid in use does. */

@@ -1,6 +1,7 @@
 /* phase.c - see phase.h. Acting cells are gathered into blocks; all else is untouched. */
 #include "phys/phase.h"
 
+#include "phys/phase_bear.h"
 #include "phys/phase_block.h"
 #include "phys/phase_pair.h"
 #include "phys/phase_rate.h"
@@ -36,19 +37,30 @@ static bool phase_meets(const struct model *model, const struct model_phase *pha
     return thin > PHASE_PAIR_FELT || phase->scene->everywhere;
 }
 
-/* D/(R T) of cell i at its pressure and liquid temperature, for an own vapour alone, shifted by what the liquid
- * bears. */
-static double phase_drive_alone(const struct phase_block *block, size_t i, double tension, double superheat)
+/* Liquid and vapour of cell i. */
+static struct saturation phase_both(const struct phase_block *block, size_t i)
 {
     const struct equilibrium_family *family = &block->family;
     const double v_l = block->cells.v[0][i], v_v = block->cells.v[1][i];
-    const struct saturation pair = {{family->eos[0].law, family->eos[1].law},
-                                    {family->eos[0].self, family->eos[1].self},
-                                    {v_l > 0.0 ? 1.0 / v_l : 0.0, v_v > 0.0 ? 1.0 / v_v : 0.0},
-                                    block->cells.jumps ? block->cells.jump[i] : 0.0};
-    double p = block->cells.p[i] + tension, T = block->cells.T[i] - superheat;
-    if (!(p > 0.0)) return -HUGE_VAL;
-    return saturation_at(&pair, p, T).drive / (family->R[EQUILIBRIUM_VAPOUR] * T);
+    return (struct saturation){{family->eos[0].law, family->eos[1].law},
+                               {family->eos[0].self, family->eos[1].self},
+                               {v_l > 0.0 ? 1.0 / v_l : 0.0, v_v > 0.0 ? 1.0 / v_v : 0.0},
+                               block->cells.jumps ? block->cells.jump[i] : 0.0};
+}
+
+/* D/(R T) of cell i at its pressure and liquid temperature, for an own vapour alone. */
+static double phase_drive_alone(const struct phase_block *block, size_t i)
+{
+    const struct saturation both = phase_both(block, i);
+    return phase_bear_drive(&both, block->family.R[EQUILIBRIUM_VAPOUR], block->cells.p[i], block->cells.T[i]);
+}
+
+/* Does the liquid of cell i, which is alone, stay what it is? */
+static bool phase_stays(const struct phase_block *block, size_t i)
+{
+    const struct saturation both = phase_both(block, i);
+    return phase_bear_stays(block->phase->scene, &both, block->family.R[EQUILIBRIUM_VAPOUR], block->cells.p[i],
+                            block->cells.T[i]);
 }
 
 /* What the vapour that is there has of the moles of the gases. */
@@ -73,7 +85,7 @@ static const struct phase_drive *phase_drive(const struct phase_block *block, si
 {
     if (drive->asked) return drive;
     double share = phase_share(block, i);
-    drive->alone = phase_drive_alone(block, i, 0.0, 0.0);
+    drive->alone = phase_drive_alone(block, i);
     drive->all = share > 0.0 ? drive->alone + log(share) : -HUGE_VAL;
     drive->asked = true;
     return drive;
@@ -129,10 +141,9 @@ static bool phase_fits(struct phase_block *block, size_t i)
     double p = block->cells.p[i], near = PHASE_NEAR + 4.0 * DBL_EPSILON * block->blur[i] / fabs(p);
     double all = block->cells.m[EQUILIBRIUM_LIQUID][i] + block->cells.m[EQUILIBRIUM_VAPOUR][i];
     if (!isfinite(p) || !(block->cells.T[i] > 0.0) || !(all > 0.0)) return true; /* guard's */
-    block->thermal[i] = scene->rate == SCENE_PHASE_NONE || p > scene->curve.p_max;
+    block->thermal[i] = phase_bear_ends(scene, p);
     block->alone[i] = !(phase_thin(block, i) > PHASE_PAIR_FELT);
-    if (block->alone[i])
-        return block->thermal[i] || !(phase_drive_alone(block, i, scene->tension, scene->superheat) < 0.0);
+    if (block->alone[i]) return phase_stays(block, i);
     block->thermal[i] = block->thermal[i] || phase_held(block, i, &asked);
     if (phase_wet(block, i) < scene->wet && phase_drive(block, i, &asked)->all > 0.0) return true;
     if (phase_steam(block, i) <= scene->nucleus && phase_drive(block, i, &asked)->all > 0.0) return true;

@@ -53,10 +53,17 @@ struct operator
     const char *equation; /* one line for people */
     enum operator_when when;
 
-    bool (*wanted)(const struct model *path);   /* has a path of a scene this operator? NULL: every path */
-    bool moves;                                 /* may it change what is uniform and at rest? Then no tile is skipped */
-    bool (*spreads)(const struct scene *scene); /* may it bring a material to tiles without it? NULL: no */
-    bool (*reads)(const struct model *path);    /* does it read w there? NULL: no */
+    bool (*wanted)(const struct model *path); /* has a path of a scene this operator? NULL: every path */
+    bool moves; /* may it change what is uniform and at rest? Then no tile of a path that has it is skipped */
+
+    /* What may bring a material to tiles of a path without it: `spreads`, then no tile is narrowed to that path; or
+     * `waits`, then `wakes` is asked whether it would change one of n cells with primitives w at q * stride, in which
+     * case the scene's model takes the path's place. NULL: no. */
+    bool (*spreads)(const struct model *path);
+    bool (*waits)(const struct model *path);
+    bool (*wakes)(const struct model *path, size_t n, size_t stride, const double *w);
+
+    bool (*reads)(const struct model *path); /* does it read w there? NULL: no */
 
     void (*acts)(const struct operator_tile *tile);
     void (*say)(const struct scene *scene, struct text *text); /* what the scene asks of it, for the plan; or NULL */

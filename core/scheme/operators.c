@@ -27,20 +27,29 @@ void operators_of(const struct model *path, struct operators *ret_operators)
     *ret_operators = (struct operators){0};
     for (unsigned i = 0; operators_all[i]; i++) {
         const struct operator* operator= operators_all[i];
-        if (!operators_has(operator, path)) continue;
         assert(i < OPERATORS_MOST);
+        if (operator->waits && operator->waits(path)) ret_operators->waiting[ret_operators->n_waiting++] = operator;
+        if (!operators_has(operator, path)) continue;
         ret_operators->at[operator->when][ret_operators->n[operator->when]++] = operator;
         ret_operators->moves = ret_operators->moves || operator->moves;
         ret_operators->reads = ret_operators->reads || (operator->reads && operator->reads(path));
     }
 }
 
-bool operators_spread(const struct scene *scene)
+bool operators_spread(const struct model *path)
 {
     bool spread = false;
     for (unsigned i = 0; operators_all[i]; i++)
-        spread = spread || (operators_all[i]->spreads && operators_all[i]->spreads(scene));
+        spread = spread || (operators_all[i]->spreads && operators_all[i]->spreads(path));
     return spread;
+}
+
+bool operators_wake(const struct operators *operators, const struct model *path, size_t n, size_t stride,
+                    const double *w)
+{
+    bool wake = false;
+    for (unsigned i = 0; i < operators->n_waiting; i++) wake = wake || operators->waiting[i]->wakes(path, n, stride, w);
+    return wake;
 }
 
 static struct mix_effort operators_act_when(const struct operators *operators, enum operator_when when,

@@ -16,6 +16,8 @@ struct operators {
     const struct operator* at[OPERATOR_TIMES][OPERATORS_MOST];
     bool moves; /* some operator may change what rests */
     bool reads; /* some operator reads primitives */
+    unsigned n_waiting;
+    const struct operator* waiting[OPERATORS_MOST]; /* not on this path until they wake */
 };
 
 /* Every operator there is, in the order in which they act; ends with NULL. There is room for OPERATORS_MOST, to which
@@ -24,8 +26,12 @@ extern const struct operator* operators_all[OPERATORS_MOST + 1];
 
 void operators_of(const struct model *path, struct operators *ret_operators);
 
-/* Does some operator bring a material to tiles without it? Then none is narrowed (census.h). */
-bool operators_spread(const struct scene *scene);
+/* Does some operator bring a material to tiles of this path, which lacks it? Then none has it (census.h). */
+bool operators_spread(const struct model *path);
+
+/* Does an operator that waits wake in one of n cells with primitives w at q * stride of `path`? */
+bool operators_wake(const struct operators *operators, const struct model *path, size_t n, size_t stride,
+                    const double *w);
 
 /* The state of a tile after a stage; `last`: of the step. Primitives are made where an operator asks for them; w
  * then has the pressures `before` again: those from which a closure is iterated decide its last digits, which must not

@@ -3,6 +3,7 @@
 
 #include "base/status.h"
 #include "phys/phase.h"
+#include "phys/phase_bear.h"
 
 #include <stdio.h>
 
@@ -11,12 +12,28 @@ static bool phase_change_wanted(const struct model *path)
     return path->n_phase > 0;
 }
 
-/* Vapour may come to be in tiles of liquid alone. */
-static bool phase_change_spreads(const struct scene *scene)
+/* Vapour may come to be in tiles of this liquid alone. */
+static bool phase_change_cavitates(const struct model *path, const struct scene_phase *pair)
 {
-    bool spreads = false;
-    for (unsigned k = 0; k < scene->n_phase; k++) spreads = spreads || scene->phases[k].everywhere;
-    return spreads;
+    return pair->everywhere && pair->liquid == path->first;
+}
+
+static bool phase_change_waits(const struct model *path)
+{
+    const struct scene *scene = path->scene;
+    bool waits = false;
+    for (unsigned k = 0; k < scene->n_phase; k++) waits = waits || phase_change_cavitates(path, &scene->phases[k]);
+    return waits && path->n_alpha == 0;
+}
+
+static bool phase_change_wakes(const struct model *path, size_t n, size_t stride, const double *w)
+{
+    const struct scene *scene = path->scene;
+    bool stays = true;
+    for (unsigned k = 0; k < scene->n_phase; k++)
+        if (phase_change_cavitates(path, &scene->phases[k]))
+            stays = stays && phase_bear_cells(path, &scene->phases[k], n, stride, w);
+    return !stays;
 }
 
 /* The largest side of the cells of a level. */
@@ -62,7 +79,8 @@ const struct operator phase_change_operator = {
     .equation = "mu_v = g_l at one p and T of liquid, vapour and gases; mass, momentum, energy stay",
     .when = OPERATOR_STAGE,
     .wanted = phase_change_wanted,
-    .spreads = phase_change_spreads,
+    .waits = phase_change_waits,
+    .wakes = phase_change_wakes,
     .acts = phase_change_acts,
     .say = phase_change_say,
 };

@@ -9,11 +9,13 @@ static bool rupture_wanted(const struct model *path)
     return path->damaged;
 }
 
-static bool rupture_spreads(const struct scene *scene)
+/* Does a path hold a solid that opens, and not what fills the void? */
+static bool rupture_spreads(const struct model *path)
 {
     bool opens = false;
-    for (unsigned l = 0; l < scene->n_material; l++) opens = opens || scene->material[l].damage.opens;
-    return opens;
+    for (unsigned s = 0; s < path->n_solid; s++)
+        opens = opens || path->scene->material[path->first + path->solids[s].material].damage.opens;
+    return opens && path->n_material < path->scene->n_material;
 }
 
 static void rupture_acts(const struct operator_tile *tile)

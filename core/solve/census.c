@@ -50,7 +50,7 @@ static bool census_within(const struct census *census, unsigned local, int face,
 static bool census_fits(const struct census *census, unsigned local, const struct model *path)
 {
     unsigned materials = ((1u << path->n_material) - 1u) << path->first;
-    if (census->tiles[local].present & ~materials) return false;
+    if (census->tiles[local].present & ~materials || operators_spread(path)) return false;
     for (int face = 0; face < 2 * path->dim; face++)
         if (!census_within(census, local, face, materials)) return false;
     return true;
@@ -60,7 +60,7 @@ const struct model *census_choose(const struct census *census, unsigned local)
 {
     const struct model *model = census->model;
     unsigned present = census->tiles[local].present, l = 0;
-    if (!model->mixed || !present || terms_spread(model->scene) || operators_spread(model->scene)) return model;
+    if (!model->mixed || !present || terms_spread(model->scene)) return model;
     while (!(present >> l & 1)) l++;
     if (present >> l == 1 && census_fits(census, local, model->pure[l])) return model->pure[l];
     return model->fluids && census_fits(census, local, model->fluids) ? model->fluids : model;

@@ -13,11 +13,17 @@ static bool keep_rests_around(const struct stage *stage, unsigned local)
     return n >= 0;
 }
 
+/* May something move it on its path? */
+static bool keep_moves(const struct stage *stage, unsigned local)
+{
+    const struct model *path = stage->census.tiles[local].path;
+    return work_terms(stage->work, path)->moves || work_operators(stage->work, path)->moves;
+}
+
 static bool keep_rests(const struct stage *stage, unsigned local)
 {
     const struct census_tile *tile = &stage->census.tiles[local];
-    const struct work *work = stage->work;
-    if (work->terms[0]->moves || work->operators[0].moves || !tile->still || stage->guard->masked) return false;
+    if (!tile->still || keep_moves(stage, local) || stage->guard->masked) return false;
     if (stage->tableau->stage[stage->turn].previous && !tile->skipped) return false;
     if (!keep_rests_around(stage, local)) return false;
     return !reflux_concerns(stage->reflux, local) && census_rests(&stage->census, local);

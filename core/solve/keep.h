@@ -8,7 +8,7 @@
 #include "solve/stage.h"
 
 /* Is tile `local` skipped in the stage under way, hidden or at rest with all around it? Noted in its census. Repeated
- * steps, tiles whose fluxes another level asks for and scenes with terms or operators that move what rests are not
+ * steps, tiles whose fluxes another level asks for and paths with terms or operators that move what rests are not
  * skipped; nor is a tile that has already moved, where stages build on each other. */
 bool keep_skips(struct stage *stage, unsigned local);
 

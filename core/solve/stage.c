@@ -147,6 +147,14 @@ void stage_rates(struct stage *stage, unsigned local, enum term_part part, doubl
     if (sweep.concerned) reflux_keep(stage->reflux, path, local, ret->tile.w, path->kapila ? ret->tile.K : NULL);
 }
 
+/* The path of a tile in the stage under way. One that is recorded has no operators that wait: a replay asks none. */
+static const struct model *stage_path(const struct stage *stage, unsigned local)
+{
+    const struct model *path = census_choose(&stage->census, local);
+    bool waits = work_operators(stage->work, path)->n_waiting > 0;
+    return waits && blame_concerns(stage->blame, local) ? stage->model : path;
+}
+
 /* u = the state of this stage of one tile; of a narrowed path the active components only. */
 static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
 {
@@ -154,7 +162,7 @@ static void stage_advance_tile(struct stage *stage, unsigned local, double *u)
     const double *u_old = stage->level->u_old[local];
     struct work *work = stage->work;
     struct stage_tile_work own;
-    stage->census.tiles[local].path = census_choose(&stage->census, local);
+    stage->census.tiles[local].path = stage_path(stage, local);
     foresee_block(stage, local, u_old);
     if (u != work->u_star) foresee_block(stage, local, u);
     stage_rates(stage, local, work->part, row->step * stage->dt, row->weight > 0.0, &own);
