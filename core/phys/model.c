@@ -4,27 +4,13 @@
 #include "base/mem.h"
 #include "phys/elastic_tensor.h"
 #include "phys/model_family.h"
+#include "phys/model_law.h"
 #include "plug/registry.h"
 
 #include <math.h>
 #include <stddef.h>
 
 const char *const model_tensor[] = {"xx", "yy", "zz", "xy", "xz", "yz"};
-
-/* A density for points where the material is absent: any well-posed value serves, because its
- * weight is zero there; the first density the case gives keeps tables and Newton at home. */
-static double model_fill_density(const struct scene *scene, unsigned l, const struct model_eos *eos)
-{
-    for (unsigned i = 0; i < scene->n_layer; i++) {
-        const struct scene_layer *layer = &scene->layers[i];
-        if (!layer->has_material || !layer->fractions || !layer->density) continue;
-        const struct scene_value *density = &layer->density[l];
-        if (layer->fractions[l] > 0 && density->given && !density->script) return density->number;
-    }
-    double p = 101325.0, T = 300.0, rho = 0.0;
-    eos->law->density(eos->self, 1, &p, &T, &rho);
-    return rho > 0 && isfinite(rho) ? rho : 1.0;
-}
 
 /* Of a component of stretch k: with the name of its solid where there are several; the branches of one count from 1. */
 static char *model_stretch_name(const struct model *model, unsigned k, unsigned c)
@@ -449,15 +435,8 @@ struct model *model_new(const struct scene *scene)
     model->forced = model_is_forced(scene) || model_jumps(model);
     model->linear = true;
     for (unsigned l = 0; l < model->n_material; l++) {
-        const struct instance *instance = &scene->material[l].eos;
-        struct model_eos *eos = &model->eos[l];
-        eos->law = instance->module->table;
-        eos->self = instance->self;
-        eos->rho_fill = model_fill_density(scene, l, eos);
-        struct bulla_eos_range range;
-        eos->law->range(eos->self, &range);
-        eos->rho_most = range.rho_max > eos->rho_fill ? range.rho_max : eos->rho_fill;
-        if (!eos->law->linear) model->linear = false;
+        model_law_open(model, l);
+        if (!model->eos[l].law->linear) model->linear = false;
     }
     model_transport(model);
     model_conduct(model);

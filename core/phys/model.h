@@ -32,6 +32,7 @@ struct model_eos {
     const void *self;
     double rho_fill; /* density that stands in where the material is absent */
     double rho_most; /* the greatest density that the law states, at least rho_fill */
+    bool stiffens;   /* far beyond it the law bears no state: pressures grow without bound, or nothing is stated */
 };
 
 /* The elastic law of one solid. */

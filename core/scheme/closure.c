@@ -68,7 +68,7 @@ static size_t closure_apply(const struct term_tile *tile, double *u_new)
         for (unsigned l = 0; l < model->n_alpha; l++) {
             size_t row = l * tile->n_cell + from;
             closure_bound(n, tile->dt, tile->K + row, div + from, exchange + row, alpha + l * tile->n_cell, cut);
-            if (model->eos[l].law->linear) continue;
+            if (!model->eos[l].stiffens) continue;
             closure_hold(n, 1.0 / (CLOSURE_DENSE * model->eos[l].rho_most),
                          u_new + (model->i_m + l) * tile->n_cell + from, alpha + l * tile->n_cell);
         }

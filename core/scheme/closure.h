@@ -2,7 +2,7 @@
  *
  * d alpha_l/dt += K_l div u, K_l = alpha_l (rho c_w^2/(rho_l c_l^2) - 1) (model.md 2), explicit, and the volume that
  * exchange.h asks for. Neither may push a fraction below CLOSURE_LEAST or CLOSURE_SHRINK of what transport left, nor
- * a material whose law is not linear in p above CLOSURE_DENSE times the greatest density that the law states. */
+ * a material whose law stiffens (phys/model.h) above CLOSURE_DENSE times the greatest density that the law states. */
 #ifndef CLOSURE_H
 #define CLOSURE_H
 
