@@ -37,7 +37,7 @@ PATCH_INLINE void helmholtz_block_rows(const struct helmholtz *self, const struc
 #pragma omp simd
         for (size_t k = 0; k < PATCH_BLOCK; k++) {
             block->rho[k] = helmholtz_held(&ends, rho[k]);
-            block->p[k] = helmholtz_dense_p(&ends, rho[k], p[k]);
+            block->p[k] = helmholtz_asked_p(&ends, rho[k], p[k]);
         }
     }
     const double *BULLA_RESTRICT asked = block->asked[0];

@@ -2,13 +2,16 @@
  * or formulas are asked, what holds beyond the densities of the domain, what rows are asked for.
  *
  * The including module first defines HELMHOLTZ_GAS: 1 keeps R T ln rho out of the table, so that densities may go to
- * zero; and HELMHOLTZ_SKEW of helmholtz_band.h, if its rows are to be equally spaced in a logarithm. */
+ * zero: below ends.thin it is an ideal gas, in which all depends on p/rho, asked at ends.thin; and HELMHOLTZ_SKEW of
+ * helmholtz_band.h, if its rows are to be equally spaced in a logarithm. */
 #ifndef HELMHOLTZ_POINT_H
 #define HELMHOLTZ_POINT_H
 
 #include "bulla/eos.h"
 #include "helmholtz_direct.h"
 #include "helmholtz_find.h"
+
+#define HELMHOLTZ_NOTHING 1e-100 /* [kg/m3]: less is as much */
 
 /* Between nodes: the potential, or e, c^2 and T themselves. */
 enum helmholtz_way { HELMHOLTZ_BIQUINTIC, HELMHOLTZ_BICUBIC, HELMHOLTZ_BILINEAR };
@@ -29,6 +32,19 @@ PATCH_INLINE double helmholtz_held(const struct helmholtz_ends *ends, double rho
     return held < ends->dense ? held : ends->dense;
 }
 
+/* How much thinner than ends.thin a gas is, down to nothing. */
+PATCH_INLINE double helmholtz_rare(const struct helmholtz_ends *ends, double rho)
+{
+    double least = rho > HELMHOLTZ_NOTHING ? rho : HELMHOLTZ_NOTHING;
+    return HELMHOLTZ_GAS && least < ends->thin ? ends->thin / least : 1.0;
+}
+
+/* ... and the pressure. */
+PATCH_INLINE double helmholtz_asked_p(const struct helmholtz_ends *ends, double rho, double p)
+{
+    return helmholtz_dense_p(ends, rho, p) * helmholtz_rare(ends, rho);
+}
+
 /* One point: the density and pressure at which the potential is asked, and what it says. */
 struct helmholtz_point {
     double rho, p;
@@ -41,7 +57,7 @@ static inline struct helmholtz_point helmholtz_table_point(const struct helmholt
 {
     const struct helmholtz_grid *grid = &self->grid;
     struct helmholtz_point point = {.rho = helmholtz_held(&self->ends, rho),
-                                    .p = helmholtz_dense_p(&self->ends, rho, p)};
+                                    .p = helmholtz_asked_p(&self->ends, rho, p)};
     struct helmholtz_row row = helmholtz_band_row(&grid->band, point.rho);
     struct helmholtz_level level = helmholtz_band_level(&grid->band, row, point.rho, point.p);
     struct helmholtz_rung rung = helmholtz_rung(&grid->steps, level.y);
@@ -94,7 +110,8 @@ static inline double helmholtz_s(const struct helmholtz *self, struct helmholtz_
 {
     double start = point.spot.T, T = helmholtz_T(self, point.spot, point.answer), g = self->ends.gamma;
     double s = (point.answer.cv * log(T / start) - point.spot.a_l) / start;
-    if (HELMHOLTZ_GAS) return s - self->grid.R * log(point.rho / self->law->fluid->rho_c);
+    double held = point.rho / helmholtz_rare(&self->ends, rho);
+    if (HELMHOLTZ_GAS) return s - self->grid.R * log(held / self->law->fluid->rho_c);
     double more = rho < self->ends.thin ? 1.0 / rho - 1.0 / self->ends.thin : 0.0;
     return s + more * g / (g - 1.0) * (p + self->ends.pull) / T;
 }
@@ -104,7 +121,10 @@ PATCH_INLINE struct helmholtz_answer helmholtz_beyond(const struct helmholtz *se
                                                       struct helmholtz_answer answer, double rho, double p)
 {
     if (inside) return answer;
+    double rare = helmholtz_rare(&self->ends, rho);
     answer = helmholtz_dense(&self->ends, answer, rho, p);
+    answer.e_p *= rare;
+    answer.e_r *= rare;
     return HELMHOLTZ_GAS ? answer : helmholtz_thin(&self->ends, answer, rho, p);
 }
 
