@@ -108,8 +108,10 @@ static void flow_down(struct stage *coarse, struct stage *fine)
     struct work *work = coarse->work;
     prolong_strips(work->prolong, coarse->mesh, coarse->l, coarse->bound, 0);
     around_finer(work->around, coarse->l, coarse->bound, 0);
+    curve_finer(work->curve, coarse->l, 0);
     link_down(fine->level->link);
     around_down(work->around, fine->l);
+    curve_down(work->curve, fine->l);
     census_receive(&fine->census); /* as of now: paths of the finer level hang on it */
 }
 

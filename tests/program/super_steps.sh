@@ -112,6 +112,31 @@ expect:
 END
 ranked spot 1 2 3
 resumed spot 3 spot-1
+
+# A bubble and a drop in thick liquid, a part of them in finer cells: curvatures there look at coarser ones as they are now.
+cat >bubble.yaml <<'END'
+bulla: 1
+title: A bubble and a drop in thick liquid
+domain: {lower: [0, 0], upper: [24 um, 24 um], cells: [24, 24], boundaries: {x-: symmetry, x+: reflecting, y-: periodic, y+: periodic}}
+mesh: {tile: 4, levels: 1, refine: [{region: {box: {lower: [0, 0], upper: [10 um, 24 um]}}}]}
+materials:
+  gel: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 600 MPa, cv: 590}, viscosity: 1 Pa s}
+  air: {eos: {type: ideal-gas, gamma: 1.4, cv: 717.5}, viscosity: 18.5 uPa s}
+  oil: {eos: {type: stiffened-gas, gamma: 3, p-inf: 500 MPa, cv: 800}}
+surface-tension: {gel+air: 72 mN/m}
+initial:
+  - {everywhere: true, material: gel, density: 1000, pressure: 0.4 bar}
+  - {box: {lower: [1 um, 12 um], upper: [22 um, 20 um]}, material: air, density: 5, pressure: 4 bar}
+  - {sphere: {center: [8 um, 10 um], radius: 6 um}, material: oil, density: 900, pressure: 0.4 bar}
+scheme: {diffusion: rkl2}
+run: {until: 1, max-steps: 12}
+output:
+  directory: out
+  checkpoints: {every: 5 steps}
+  history: {every: 1 step, columns: {M: {mass: air}, p: {integral: pressure}, u: {max: velocity_x}}}
+END
+ranked bubble 1 2 3
+resumed bubble 5 bubble-1
 for geometry in cartesian axisymmetric; do
     for how in rkl2 explicit; do
         "$BULLA" run spot.yaml -o "spot-$how-$geometry" --set run.until='0.3 ns' --set scheme.diffusion=$how \
