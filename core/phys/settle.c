@@ -22,6 +22,9 @@ enum { SETTLE_BATCH = 32, SETTLE_ROUNDS = 12 };
 /* Where surfaces lie as they like less solid than that in a cell takes no heat: dust in gas would boil. */
 #define SETTLE_LEAST 1e-3
 
+/* Volumes of a cell that are off by more together have gone astray. */
+#define SETTLE_OFF 1e-3
+
 /* No material loses more of its volume at once. */
 #define SETTLE_MOST 0.5
 
@@ -43,6 +46,7 @@ struct settle {
     double held[SETTLE_BATCH];                   /* what the cell holds, beside motion */
     double grown[SCENE_MATERIALS][SETTLE_BATCH]; /* of plastic strains */
     bool done[SETTLE_BATCH];                     /* has arrived, and stays, whoever else is in the batch */
+    bool exact[SETTLE_BATCH];                    /* its volumes together stay what they are */
 };
 
 bool settle_wanted(const struct model *path)
@@ -148,19 +152,27 @@ static double settle_push(const struct settle *settle, unsigned l, size_t i)
     return model_is_solid(settle->model, l) ? own + settle->heat[i] / settle->per_p[l][i] : own;
 }
 
+/* The weight of a strain, which is one of the trial's volume. With the volumes of now their sum is kept to first order
+ * only, which is kind to shells (docs/decisions/shells.md), and lets a film of gas go astray. */
+static double settle_share(const struct settle *settle, unsigned l, size_t i)
+{
+    double alpha = settle_part(settle, l, i);
+    return alpha > 0.0 && settle->exact[i] ? settle->trial[settle->model->i_alpha + l][i] : alpha;
+}
+
 /* One cell towards one traction, unless it has arrived there: the volumes would hardly change. */
 static void settle_cell(struct settle *settle, size_t i)
 {
     const struct model *model = settle->model;
     double give = 0.0, sum = 0.0, step[SCENE_MATERIALS], scale = 1.0, most = 0.0;
     for (unsigned l = 0; l < model->n_alpha; l++) {
-        double alpha = settle_part(settle, l, i), K = settle->stiff[l][i];
+        double alpha = settle_share(settle, l, i), K = settle->stiff[l][i];
         if (!(alpha > 0.0 && K > 0.0)) continue;
         give += alpha / K;
         sum += alpha / K * settle_push(settle, l, i);
     }
     for (unsigned l = 0; l < model->n_alpha; l++) {
-        double alpha = settle_part(settle, l, i), K = settle->stiff[l][i];
+        double alpha = settle_share(settle, l, i), K = settle->stiff[l][i];
         step[l] = alpha > 0.0 && K > 0.0 ? (settle_push(settle, l, i) - sum / give) / K : 0.0;
         double room = SETTLE_MOST + settle->x[l][i], part = room / -step[l];
         scale = step[l] < 0.0 && part < scale ? part : scale;
@@ -198,13 +210,9 @@ static void settle_hold(struct settle *settle)
     }
 }
 
-/* From the trial, of which p, stiff and rho_c2 are known, to u. */
-static void settle_search(struct settle *settle)
+static void settle_rounds(struct settle *settle)
 {
     size_t left = settle->n;
-    memset(settle->x, 0, sizeof settle->x);
-    memset(settle->done, 0, sizeof settle->done);
-    settle_hold(settle);
     for (int round = 0; round < SETTLE_ROUNDS && left > 0; round++) {
         settle_strain(settle);
         settle_pull(settle);
@@ -215,6 +223,35 @@ static void settle_search(struct settle *settle)
             left += !settle->done[i];
         }
     }
+}
+
+/* Have the volumes of a cell not stayed what they were, together? Then it begins again. */
+static bool settle_astray(struct settle *settle, size_t i)
+{
+    double off = 0.0;
+    for (unsigned l = 0; l < settle->model->n_alpha; l++)
+        off += settle->u[settle->model->i_alpha + l][i] - settle->trial[settle->model->i_alpha + l][i];
+    if (fabs(off) <= SETTLE_OFF) return false;
+    for (unsigned l = 0; l < settle->model->n_alpha; l++) settle->x[l][i] = 0.0;
+    settle->exact[i] = true;
+    settle->done[i] = false;
+    return true;
+}
+
+/* From the trial, of which p, stiff and rho_c2 are known, to u. */
+static void settle_search(struct settle *settle)
+{
+    bool again = false;
+    memset(settle->x, 0, sizeof settle->x);
+    memset(settle->done, 0, sizeof settle->done);
+    memset(settle->exact, 0, sizeof settle->exact);
+    settle_hold(settle);
+    settle_rounds(settle);
+    for (size_t i = 0; i < settle->n; i++) {
+        settle->done[i] = true;
+        again = settle_astray(settle, i) || again;
+    }
+    if (again) settle_rounds(settle);
 }
 
 static void settle_gather(struct settle *settle, size_t stride, const double *from, double (*to)[SETTLE_BATCH])
