@@ -15,7 +15,7 @@ forbid() { # PATTERN INSTEAD FILES...
 }
 # shellcheck disable=SC2086
 forbid '/dev/u?random|[$][{]?(RANDOM|SRANDOM)|\bshuf\b|srand\(\)' "draw from the seed of the test: draw, noise" $scripts
-nightly='tests/(repeat|mutants/run)\.sh' # the day says which share a night takes; BULLA_NIGHT repeats it
+nightly='tests/(repeat|whole|mutants/run)\.sh' # the day says which share a night takes; BULLA_NIGHT repeats it
 # shellcheck disable=SC2046
 forbid '\bdate [+-]|\b(EPOCH)?SECONDS\b|EPOCHREALTIME|systime\(|/proc/uptime' "judge no time on the clock" $(echo "$scripts" | grep -vxE "$nightly")
 # shellcheck disable=SC2086
