@@ -38,7 +38,7 @@ void derive_curvature_exchange(const struct model *model, const struct mesh *mes
 /* kappa where psi is that of a surface; else 0. psi has one layer around the tile. */
 static void derive_curvature_cells(const struct derive_view *tile, const double *psi, const double *kappa, double *out)
 {
-    const struct box_block cells = patch_block(tile->mesh, CURVATURE_LAYERS - 1, NULL);
+    const struct box_block cells = rim_block(tile->mesh, CURVATURE_LAYERS - 1, NULL);
     double low = curvature_psi_of(CURVATURE_LEAST), high = curvature_psi_of(1.0 - CURVATURE_LEAST);
     size_t n0 = (size_t)tile->mesh->n[0], n1 = (size_t)tile->mesh->n[1];
     for (size_t c = 0; c < tile->n; c++) {
@@ -52,7 +52,7 @@ void derive_curvature(const struct derive_view *tile, double *out)
     memset(out, 0, tile->n * sizeof *out);
     if (!tile->model->n_alpha) return;
     const struct patch_source source = derive_curvature_source(tile->model, tile->mesh, tile->level);
-    size_t cells = patch_block(tile->mesh, CURVATURE_LAYERS, NULL).pitch, all = tile->model->n_alpha * cells;
+    size_t cells = rim_block(tile->mesh, CURVATURE_LAYERS, NULL).pitch, all = tile->model->n_alpha * cells;
     double *alpha = mem_new(all + cells, sizeof *alpha), *rest = alpha + all;
     const double *a = alpha + (size_t)tile->field->index * cells;
     patch_gather(&source, tile->local, alpha);

@@ -48,7 +48,7 @@ static void derive_viscous_copy(const struct derive_view *view, const struct box
 static double *derive_viscous_around(const struct derive_view *view)
 {
     const struct model *model = view->model;
-    const struct box_block patch = patch_block(view->mesh, 1, NULL);
+    const struct box_block patch = rim_block(view->mesh, 1, NULL);
     double *w = mem_new(model->n_around * patch.pitch, sizeof *w);
     struct face_work *faces = face_new(model);
     for (int axis = 0; axis < view->mesh->dim; axis++)

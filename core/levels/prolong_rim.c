@@ -83,7 +83,7 @@ static void prolong_rim_settle(const struct model *model, size_t n, double *data
 void prolong_rim(const struct patch_source *coarse, struct rim *fine, int slot, const struct model *model)
 {
     const struct mesh *mesh = coarse->mesh;
-    struct box_block patch = patch_block(mesh, coarse->rim->form.g, NULL);
+    struct box_block patch = rim_block(mesh, coarse->rim->form.g, NULL);
     patch.data = mem_new(fine->form.n_field * patch.pitch, sizeof *patch.data);
     for (unsigned t = 0; t < coarse->level->n_local; t++) {
         unsigned from = fine->source_from[t], to = fine->source_from[t + 1];

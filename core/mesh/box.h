@@ -34,6 +34,22 @@ static inline size_t box_at(const struct box_block *block, int i, int j, int k)
            (size_t)(i - block->from[0]);
 }
 
+/* What copying a box between blocks of these shapes comes to, for who copies it often: rows and layers of cells, where
+ * the first one lies in a component of both blocks, and how far rows and layers lie apart. */
+struct box_move {
+    size_t length, rows, layers;
+    struct box_end {
+        size_t first, row, layer;
+    } from, to;
+};
+
+struct box_move box_move(const struct box *box, const struct box_block *from, const int shift[3],
+                         const struct box_block *to);
+
+/* Components q (or fields[q], if given) of `from` to components q of `to`, which lie from_pitch and to_pitch apart. */
+void box_move_all(unsigned n, const struct box_move *move, const double *from, size_t from_pitch,
+                  const unsigned char *fields, double *to, size_t to_pitch);
+
 /* Copies the cells of a box (coordinates of `to`) of n fields; cell c comes from c + shift of `from`. `to` has all. */
 void box_copy(unsigned n, const struct box *box, const struct box_block *from, const int shift[3],
               const struct box_block *to);

@@ -69,6 +69,16 @@ struct box rim_box(const struct mesh *mesh, int g, int way)
     return box;
 }
 
+struct box_block rim_block(const struct mesh *mesh, int g, double *data)
+{
+    struct box box = {.to = {1, 1, 1}};
+    for (int d = 0; d < mesh->dim; d++) {
+        box.from[d] = -g;
+        box.to[d] = mesh->n[d] + g;
+    }
+    return box_pack(&box, data);
+}
+
 struct box_block rim_tile(const struct rim *rim, double *array)
 {
     struct box_block block = {.data = array, .pitch = rim->mesh->n_cell, .fields = rim->form.fields};
@@ -353,10 +363,24 @@ static void rim_share(struct rim *rim)
     }
 }
 
+static void rim_plan(struct rim *rim)
+{
+    const struct box_block tile = rim_tile(rim, NULL), block = rim_block(rim->mesh, rim->form.g, NULL);
+    for (int way = 0; way < RIM_WAYS; way++) {
+        const signed char step[3] = {(signed char)rim_step(way, 0), (signed char)rim_step(way, 1),
+                                     (signed char)rim_step(way, 2)};
+        const struct box box = rim_box(rim->mesh, rim->form.g, way);
+        int shift[3];
+        rim_shift(rim->mesh, step, shift);
+        if (way == RIM_HERE || rim_is_used(rim->mesh, way)) rim->moves[way] = box_move(&box, &tile, shift, &block);
+    }
+}
+
 static struct rim *rim_new(const struct mesh *mesh, int l, const struct rim_form *form)
 {
     struct rim *rim = mem_new(1, sizeof *rim);
     *rim = (struct rim){.mesh = mesh, .l = l, .form = *form};
+    rim_plan(rim);
     rim_list(rim);
     rim_list_sources(rim);
     rim_connect_same(rim);

@@ -63,8 +63,9 @@ struct rim {
     struct rim_send *sends;
     struct post *same, *down;
     size_t n_shared;
-    double *shared;   /* [n_shared]: outer layers, data of pieces with both tiles here */
-    struct rim *next; /* of the same level, with another form */
+    double *shared;                  /* [n_shared]: outer layers, data of pieces with both tiles here */
+    struct box_move moves[RIM_WAYS]; /* from the tile that lies that way into a block with all layers (rim_block) */
+    struct rim *next;                /* of the same level, with another form */
 };
 
 /* Step of a way along an axis. */
@@ -89,6 +90,10 @@ void rim_shelf_free(struct rim **shelf);
 
 /* The cells of a piece, in the coordinates of the tile it surrounds. */
 struct box rim_box(const struct mesh *mesh, int g, int way);
+
+/* A tile's cells with g layers around them along the axes that are used; data may be NULL. The pitch is the number of
+ * cells. */
+struct box_block rim_block(const struct mesh *mesh, int g, double *data);
 
 /* A tile's own cells as a block. */
 struct box_block rim_tile(const struct rim *rim, double *array);

@@ -28,7 +28,7 @@ static void *calm_open(const struct term_room *room)
 {
     struct calm *calm = mem_new(1, sizeof *calm);
     size_t stride = 1;
-    calm->block = patch_block(room->mesh, 1, NULL);
+    calm->block = rim_block(room->mesh, 1, NULL);
     calm->share = mem_new(FACE_ROOM, sizeof *calm->share);
     for (int d = 0; d < room->mesh->dim; d++) {
         calm->difference[d] = mem_new(calm->block.pitch, sizeof(double));

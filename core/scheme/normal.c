@@ -116,7 +116,7 @@ static const unsigned *normal_row(const struct mesh *mesh, const struct normal_b
 void normal_make(const struct model *model, const struct mesh *mesh, const double *h, const double *around,
                  double *ret_normal)
 {
-    struct normal_block block = {.box = patch_block(mesh, 1, NULL)};
+    struct normal_block block = {.box = rim_block(mesh, 1, NULL)};
     size_t cells = block.box.pitch;
     double *colour = mem_new(1, cells * (sizeof *colour + sizeof(unsigned) + 1) + sizeof(unsigned));
     unsigned *some = (unsigned *)(colour + cells);

@@ -12,16 +12,6 @@ unsigned char patch_given(const enum patch_rule rules[MESH_FACES])
     return given;
 }
 
-struct box_block patch_block(const struct mesh *mesh, int g, double *data)
-{
-    struct box box = {.to = {1, 1, 1}};
-    for (int d = 0; d < mesh->dim; d++) {
-        box.from[d] = -g;
-        box.to[d] = mesh->n[d] + g;
-    }
-    return box_pack(&box, data);
-}
-
 void patch_start(const struct patch_source *source)
 {
     const struct level *level = source->level;
@@ -151,10 +141,22 @@ static void patch_behind(const struct patch_source *source, const struct patch_e
     patch_corner(source, exits, &box, patch);
 }
 
+/* From a local tile itself: most pieces, of most tiles. */
+static void patch_take(const struct patch_source *source, unsigned from, int way, const struct box_block *patch)
+{
+    const struct rim *rim = source->rim;
+    box_move_all(rim->form.n_field, &rim->moves[way], source->arrays[from], source->mesh->n_cell, rim->form.fields,
+                 patch->data, patch->pitch);
+}
+
 static void patch_piece(const struct patch_source *source, unsigned local, int way, const struct box_block *patch)
 {
     struct rim *rim = source->rim;
     const struct rim_piece *piece = &rim->pieces[local][way];
+    if (piece->kind == RIM_LOCAL && piece->outer < 0) {
+        patch_take(source, piece->index, way, patch);
+        return;
+    }
     const struct box box = rim_box(source->mesh, rim->form.g, way);
     if (piece->kind == RIM_COARSE) {
         patch_coarse(source, &rim->coarse[piece->index], &box, patch);
@@ -167,14 +169,11 @@ static void patch_piece(const struct patch_source *source, unsigned local, int w
 
 void patch_gather(const struct patch_source *source, unsigned local, double *w)
 {
-    static const int still[3];
     const struct mesh *mesh = source->mesh;
-    const struct box_block patch = patch_block(mesh, source->rim->form.g, w);
-    const struct box_block own = rim_tile(source->rim, source->arrays[local]);
-    const struct box all = rim_box(mesh, source->rim->form.g, RIM_HERE);
+    const struct box_block patch = rim_block(mesh, source->rim->form.g, w);
     const struct rim_piece *pieces = source->rim->pieces[local];
     int most = 0;
-    box_copy(source->rim->form.n_field, &all, &own, still, &patch);
+    patch_take(source, local, RIM_HERE, &patch);
     for (int way = 0; way < RIM_WAYS; way++) {
         if (pieces[way].kind == RIM_BEHIND) most = mesh->dim;
         else if (pieces[way].kind != RIM_UNUSED) patch_piece(source, local, way, &patch);

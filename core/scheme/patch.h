@@ -46,15 +46,12 @@ struct patch_source {
 /* Bits of the faces with PATCH_GIVEN, for rim_form. */
 unsigned char patch_given(const enum patch_rule rules[MESH_FACES]);
 
-/* The block that a patch is; data may be NULL. Its pitch is the number of its cells. */
-struct box_block patch_block(const struct mesh *mesh, int g, double *data);
-
 /* Sends what other ranks need, after asking `given`; patch_finish waits. Only then may patches be gathered, and on
  * levels above 0 only after the rim's pieces on the coarser level came down (levels/prolong_rim.h). Collective. */
 void patch_start(const struct patch_source *source);
 void patch_finish(const struct patch_source *source);
 
-/* Gathers a local tile and all around it into w (patch_block). */
+/* Gathers a local tile and all around it into w (rim_block). */
 void patch_gather(const struct patch_source *source, unsigned local, double *w);
 
 #endif

@@ -89,13 +89,13 @@ static void shore_pair(const struct shore *shore, unsigned char *ret_shore)
 
 size_t shore_room(const struct model *model, const struct mesh *mesh)
 {
-    return model->fronts ? 2 * patch_block(mesh, 1, NULL).pitch : 0;
+    return model->fronts ? 2 * rim_block(mesh, 1, NULL).pitch : 0;
 }
 
 void shore_look(const struct model *path, const struct mesh *mesh, const double *around, double *room,
                 unsigned char *ret_shore)
 {
-    struct shore shore = {.mesh = mesh, .block = patch_block(mesh, 1, NULL), .thin = room};
+    struct shore shore = {.mesh = mesh, .block = rim_block(mesh, 1, NULL), .thin = room};
     shore.high = room + shore.block.pitch;
     for (unsigned k = 0; k < path->n_phase; k++) {
         const struct model_phase *phase = &path->phases[k];

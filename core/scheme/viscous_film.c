@@ -43,7 +43,7 @@ static void viscous_film_number(const struct mesh *mesh, const size_t stride[3],
 
 void viscous_film_open(const struct mesh *mesh, const struct model *model, struct viscous_film *ret)
 {
-    const struct box_block block = patch_block(mesh, 1, NULL);
+    const struct box_block block = rim_block(mesh, 1, NULL);
     const size_t stride[3] = {1, block.size[0], block.size[0] * block.size[1]};
     unsigned corners = 1u << mesh->dim, pairs = corners / 2;
     size_t rows = STRAIN_TENSOR + (size_t)mesh->dim * pairs + (mesh->beta ? corners : 0);

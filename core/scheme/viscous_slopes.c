@@ -9,7 +9,7 @@
 
 void viscous_slopes_open(const struct mesh *mesh, struct viscous_slopes *ret)
 {
-    const struct box_block block = patch_block(mesh, 1, NULL);
+    const struct box_block block = rim_block(mesh, 1, NULL);
     size_t stride = 1;
     *ret = (struct viscous_slopes){.mixed = mem_new(block.pitch, sizeof *ret->mixed),
                                    .pitch = block.pitch,

@@ -54,7 +54,7 @@ struct around *around_new(const struct model *model, const struct mesh *mesh)
         unsigned d = model->around[k] - model->i_u; /* wraps below i_u */
         around->parity[k] = (unsigned char)(d < model->n_velocity ? 1u << d | PATCH_VELOCITY : 0u);
     }
-    around->patch = mem_new(model->n_around * patch_block(mesh, 1, NULL).pitch, sizeof *around->patch);
+    around->patch = mem_new(model->n_around * rim_block(mesh, 1, NULL).pitch, sizeof *around->patch);
     around->layer = mem_new(model->n_field * around_face_cells(mesh), sizeof *around->layer);
     return around;
 }

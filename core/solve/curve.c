@@ -30,7 +30,7 @@ struct curve *curve_new(const struct model *model, const struct mesh *mesh)
     curve->model = model;
     curve->mesh = mesh;
     curve->room = curvature_new(mesh, CURVE_LAYERS);
-    curve->pitch = patch_block(mesh, CURVE_LAYERS, NULL).pitch;
+    curve->pitch = rim_block(mesh, CURVE_LAYERS, NULL).pitch;
     curve->patch = mem_new((model->n_alpha + (model->n_alpha > 2 ? 1 : 0)) * curve->pitch, sizeof *curve->patch);
     return curve;
 }

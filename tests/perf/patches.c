@@ -62,7 +62,7 @@ static void bench(int dim, int tiles, int n, unsigned n_field)
 {
     struct mesh *mesh = domain(dim, tiles, n, n_field);
     const struct level *level = &mesh->levels[0];
-    size_t cells = patch_block(mesh, RIM_LAYERS, NULL).pitch;
+    size_t cells = rim_block(mesh, RIM_LAYERS, NULL).pitch;
     double *w = mem_new(n_field * (cells > FRAME_CELLS ? cells : FRAME_CELLS), sizeof *w), frames = 1e9;
     double scale = 1e9 / ((double)level->n_local * (double)mesh->n_cell);
     const struct frame_source source = {
@@ -91,7 +91,7 @@ static void bench(int dim, int tiles, int n, unsigned n_field)
             best = least(best, seconds() - start);
         }
         struct rim_bytes bytes = rim_size(patches.rim);
-        double gathered = (double)patch_block(mesh, g, NULL).pitch / (double)mesh->n_cell;
+        double gathered = (double)rim_block(mesh, g, NULL).pitch / (double)mesh->n_cell;
         if (comm_rank() == 0)
             printf(
                 "  patches, g = %d: %.1f ns per cell, %.2f per cell gathered; exchange %.1f; rim made in %.0f ns per "

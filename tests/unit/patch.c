@@ -200,7 +200,7 @@ typedef void patch_check(int l, const struct tile *tile, const struct box_block 
 static void each_patch(int g, patch_check *check)
 {
     const struct mesh *mesh = world.levels->mesh;
-    struct box_block patch = patch_block(mesh, g, NULL);
+    struct box_block patch = rim_block(mesh, g, NULL);
     exchange(g);
     patch.data = mem_new(LEVELS_FIELDS * patch.pitch, sizeof *patch.data);
     for (int l = 0; l < mesh->n_level; l++) {

@@ -107,7 +107,7 @@ static size_t compare_frames(const struct twolevel *two, int l, struct bound *bo
                                         .fields = two->model->active,
                                         .boundary = bound_fill,
                                         .data = bound};
-    struct box_block patch = patch_block(mesh, g, NULL);
+    struct box_block patch = rim_block(mesh, g, NULL);
     double *w = mem_new(two->model->n_field * (size_t)FRAME_CELLS, sizeof *w);
     size_t compared = 0;
     patch.data = mem_new(two->model->n_field * patch.pitch, sizeof *patch.data);
@@ -174,7 +174,7 @@ static double *whole(const struct flow *flow, int g, bool *ret_same)
     struct patch_state keep;
     struct bound *bound = flow->state->stages[0]->bound;
     const struct patch_source source = patch_state_source(model, mesh, 0, g, 1, bound, &keep);
-    struct box_block patch = patch_block(mesh, g, NULL), all = patch;
+    struct box_block patch = rim_block(mesh, g, NULL), all = patch;
     all.pitch = 1;
     for (int d = 0; d < 3; d++) {
         all.size[d] = patch.size[d] + (size_t)(mesh->n[d] * (level->extent[d] - 1));

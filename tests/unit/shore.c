@@ -30,7 +30,7 @@ static void marks(int dim, double (*thin)(int i, int j, int k), unsigned char *r
     static double around[PATCH];
     struct mesh mesh = {.dim = dim, .n = {SIDE, dim > 1 ? SIDE : 1, dim > 2 ? SIDE : 1}};
     mesh.n_cell = (size_t)(mesh.n[0] * mesh.n[1] * mesh.n[2]);
-    const struct box_block block = patch_block(&mesh, 1, around);
+    const struct box_block block = rim_block(&mesh, 1, around);
     const struct model path = family(2, 0, 1, 9);
     for (int k = dim > 2 ? -1 : 0; k < mesh.n[2] + (dim > 2); k++)
         for (int j = dim > 1 ? -1 : 0; j < mesh.n[1] + (dim > 1); j++)

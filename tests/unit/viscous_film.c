@@ -38,7 +38,7 @@ static void scene_with(struct scene_of *ret, int dim, const char *water, const c
     const struct model *model = ret->flow.state->model;
     const struct mesh *mesh = ret->flow.state->mesh;
     const struct level *level = flow_level(&ret->flow);
-    ret->cells = patch_block(mesh, 1, NULL).pitch;
+    ret->cells = rim_block(mesh, 1, NULL).pitch;
     ret->around = mem_new(model->n_around * ret->cells, sizeof *ret->around);
     ret->tile = (struct term_tile){.model = model,
                                    .mesh = mesh,
@@ -83,7 +83,7 @@ static double random_of(uint32_t *seed)
 static void scene_stir(struct scene_of *of, uint32_t *seed)
 {
     const struct mesh *mesh = of->tile.mesh;
-    const struct box_block block = patch_block(mesh, 1, NULL);
+    const struct box_block block = rim_block(mesh, 1, NULL);
     memset(of->around, 0, of->tile.model->n_around * of->cells * sizeof *of->around);
     for (int k = 0; k < mesh->n[2]; k++)
         for (int j = 0; j < mesh->n[1]; j++)
@@ -129,7 +129,7 @@ static void test_bears(void **state)
             scene_stir(&of, &seed);
             scene_make(&of);
             double *force = mem_new((size_t)dim * of.cells, sizeof *force), power = 0.0;
-            const struct box_block block = patch_block(of.tile.mesh, 1, NULL);
+            const struct box_block block = rim_block(of.tile.mesh, 1, NULL);
             for (int k = 0; k < (dim > 2 ? 8 : 1); k++)
                 for (int j = 0; j < 8; j++)
                     for (int i = 0; i < 8; i++)
@@ -158,7 +158,7 @@ static void test_bears(void **state)
 /* A front of some cells across y, from row `first` on, in a liquid that is stretched along x. */
 static void scene_stretch(struct scene_of *of, double a, int first)
 {
-    const struct box_block block = patch_block(of->tile.mesh, 1, NULL);
+    const struct box_block block = rim_block(of->tile.mesh, 1, NULL);
     for (int j = -1; j <= 8; j++)
         for (int i = -1; i <= 8; i++) {
             size_t c = box_at(&block, i, j, 0);
@@ -176,7 +176,7 @@ static void test_sheet(void **state)
     const double a = 0.3;
     double along = 0.0, whole = 0.0;
     scene_begin(&of, 2);
-    const struct box_block block = patch_block(of.tile.mesh, 1, NULL);
+    const struct box_block block = rim_block(of.tile.mesh, 1, NULL);
     scene_stretch(&of, a, 2);
     scene_make(&of);
     for (int j = 0; j < 8; j++) {
@@ -203,7 +203,7 @@ static void test_laws(void **state)
     scene_with(&of, 2, "{type: power, consistency: 10, index: 0.5, mu-max: 1e6}",
                "{type: sutherland, mu: 2, constant: 110.4}");
     const struct model *model = of.tile.model;
-    const struct box_block block = patch_block(of.tile.mesh, 1, NULL);
+    const struct box_block block = rim_block(of.tile.mesh, 1, NULL);
     scene_stretch(&of, a, 2);
     assert_int_equal(model->n_around, 6);
     for (size_t c = 0; c < of.cells; c++) {
@@ -238,7 +238,7 @@ static void test_next(void **state)
     scene_stretch(&fresh, 0.3, 3);
     scene_make(&used);
     scene_make(&fresh);
-    const struct box_block block = patch_block(used.tile.mesh, 1, NULL);
+    const struct box_block block = rim_block(used.tile.mesh, 1, NULL);
     for (int j = 0; j < 8; j++)
         for (int i = 0; i < 8; i++) {
             size_t c = box_at(&block, i, j, 0);
