@@ -23,6 +23,7 @@ static void squeeze(const struct model *model, unsigned q, const double own[ROW]
     static double room[PITCH];
     double *upper = w_state + 2 * q * PITCH, *lower = upper + CELLS;
     for (size_t i = 0; i < ROW; i++) w_own[(model->i_alpha + 1) * PITCH + (back ? ROW - 1 - i : i)] = thin[i];
+    for (size_t i = 0; i < ROW; i++) w_own[model->i_alpha * PITCH + (back ? ROW - 1 - i : i)] = 1.0 - thin[i];
     for (size_t i = 0; i < ROW; i++) w_own[q * PITCH + (back ? ROW - 1 - i : i)] = own[i];
     for (size_t i = 0; i < CELLS; i++) {
         double here = w_own[q * PITCH + i + 1];
@@ -67,11 +68,11 @@ static void test_velocity(void **state)
     flow_stop(&flow);
 }
 
-/* What moves apart, has no vapour beside it, or leans against its differences. */
+/* What moves apart, has no vapour or no liquid beside it, or leans against its differences. */
 static void test_others(void **state)
 {
     (void)state;
-    static const double drop[ROW] = {0.0, 0.0, 0.0, 5e-5, 2e-4};
+    static const double drop[ROW] = {0.0, 0.0, 0.0, 5e-5, 2e-4}, dry[ROW] = {1.0, 1.0, 1.0, 1.0 - 5e-5, 1.0 - 2e-4};
     struct flow flow;
     flow_start(&flow, mem_print("%s", BEGIN));
     const struct model *model = flow.state->model;
@@ -79,10 +80,12 @@ static void test_others(void **state)
     for (size_t i = 0; i < ROW; i++) rise[i] = -fall[i];
     squeeze(model, model->i_u, rise, foam, 1.5, true, false, at);
     for (size_t i = 0; i < CELLS; i++) assert_true(at[i][0] == rise[i + 1] - 1.5 && at[i][1] == rise[i + 1] + 1.5);
-    squeeze(model, model->i_u, fall, drop, -1.5, true, false, at);
-    for (size_t i = 0; i < CELLS; i++) {
-        double near = i < 2 ? -1.5 : half[i];
-        assert_true(at[i][0] == fall[i + 1] - near && at[i][1] == fall[i + 1] + near);
+    for (int k = 0; k < 2; k++) {
+        squeeze(model, model->i_u, fall, k ? dry : drop, -1.5, true, false, at);
+        for (size_t i = 0; i < CELLS; i++) {
+            double near = i < 2 ? -1.5 : half[i];
+            assert_true(at[i][0] == fall[i + 1] - near && at[i][1] == fall[i + 1] + near);
+        }
     }
     squeeze(model, model->i_u, fall, foam, 1.5, true, false, at);
     for (size_t i = 0; i < CELLS; i++) assert_true(at[i][0] == fall[i + 1] && at[i][1] == fall[i + 1]);

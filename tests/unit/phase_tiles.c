@@ -34,6 +34,18 @@ static void stretched(const struct model *model, const double x[3], double *w)
     w[model->i_E] = p;
 }
 
+/* Vapour that is squeezed, then a mixture. */
+static void squeezed(const struct model *model, const double x[3], double *w)
+{
+    double p = 1e5, T = 380.0, water = x[0] > 0.7 ? 0.8 : 0.0;
+    w[model->i_alpha] = water;
+    w[model->i_alpha + 1] = 1.0 - water;
+    for (unsigned l = 0; l < model->n_material; l++)
+        model->eos[l].law->density(model->eos[l].self, 1, &p, &T, &w[model->i_m + l]);
+    w[model->i_u] = 20.0 * cos(6.283185307179586 * x[0]);
+    w[model->i_E] = p;
+}
+
 static void run(struct flow *flow, flow_setter *set, const char *domain, int tile, const char *pair, const char *scheme)
 {
     flow_start(flow,
@@ -108,9 +120,18 @@ static void test_stretched(void **state)
     check(stretched, PLANE, 64, ", nucleation: {tension: 0.5 MPa}", "{integrator: ssprk3}");
 }
 
+/* Where mixtures are squeezed edges are others: not in vapour alone, in which one tile is narrowed and the next is not.
+ */
+static void test_squeezed(void **state)
+{
+    (void)state;
+    check(squeezed, LINE, 128, ", condense-over: 8", "{}");
+    check(squeezed, PLANE, 64, ", condense-over: 8", "{low-mach: 0.1}");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_torn), cmocka_unit_test(test_laws),
-                                       cmocka_unit_test(test_stretched)};
+                                       cmocka_unit_test(test_stretched), cmocka_unit_test(test_squeezed)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
