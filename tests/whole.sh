@@ -21,7 +21,7 @@ tonight() { # FILE lines, an eighth of them
     fi
 }
 chosen() {
-    if [ $# -gt 0 ]; then for name; do ls "$source"/cases/*/"$name.yaml"; done
+    if [ $# -gt 0 ]; then for name; do ls "$source"/cases/*/"$name.yaml" || return 2; done
     else grep -lE '^(domain|extends):' "$source"/cases/verify/*.yaml "$source"/cases/tour/*.yaml | LC_ALL=C sort | tonight
     fi
 }
@@ -31,7 +31,8 @@ variants() { # FILE: its variants, by name; the empty one first
 }
 
 failed=0
-for file in $(chosen "$@"); do
+chosen "$@" >"$place/cases"
+while read -r file; do
     variants "$file" >"$place/variants"
     while read -r variant; do
         name=$(basename "$file" .yaml)${variant:+-$variant} code=0
@@ -43,5 +44,5 @@ for file in $(chosen "$@"); do
         echo "$word $name"
         [ "$word" != FAILS ] || tail -n 3 "$place/$name.txt"
     done <"$place/variants"
-done
+done <"$place/cases"
 exit $failed

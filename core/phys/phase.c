@@ -52,15 +52,15 @@ static struct saturation phase_both(const struct phase_block *block, size_t i)
 static double phase_drive_alone(const struct phase_block *block, size_t i)
 {
     const struct saturation both = phase_both(block, i);
-    return phase_bear_drive(&both, block->family.R[EQUILIBRIUM_VAPOUR], block->cells.p[i], block->cells.T[i]);
+    double T = block->cells.T[i];
+    return phase_bear_drive(&both, block->cells.p[i], T) / (block->family.R[EQUILIBRIUM_VAPOUR] * T);
 }
 
 /* Does the liquid of cell i, which is alone, stay what it is? */
 static bool phase_stays(const struct phase_block *block, size_t i)
 {
     const struct saturation both = phase_both(block, i);
-    return phase_bear_stays(block->phase->scene, &both, block->family.R[EQUILIBRIUM_VAPOUR], block->cells.p[i],
-                            block->cells.T[i]);
+    return phase_bear_stays(block->phase->scene, &both, block->cells.p[i], block->cells.T[i]);
 }
 
 /* What the vapour that is there has of the moles of the gases. */

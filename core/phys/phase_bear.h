@@ -9,15 +9,15 @@
 #include "case/saturation.h"
 #include "phys/model.h"
 
-/* D/(R T), which is below 0 where liquid evaporates into a vapour of its own, R [J/(kg K)] that of the vapour. p: of
- * the vapour, T: of both. Torn apart (p <= 0): -HUGE_VAL. */
-double phase_bear_drive(const struct saturation *pair, double R, double p, double T);
+/* D [J/kg], which is below 0 where liquid evaporates into a vapour of its own. p: of the vapour, T: of both. Torn apart
+ * (p <= 0): -HUGE_VAL. */
+double phase_bear_drive(const struct saturation *pair, double p, double T);
 
 /* Is a pressure past the end of the curve, or has the pair no exchange? Then nothing evaporates. */
 bool phase_bear_ends(const struct scene_phase *scene, double p);
 
 /* Does liquid without vapour stay what it is? */
-bool phase_bear_stays(const struct scene_phase *scene, const struct saturation *pair, double R, double p, double T);
+bool phase_bear_stays(const struct scene_phase *scene, const struct saturation *pair, double p, double T);
 
 /* Does all liquid of n cells stay, `path` being that of liquid alone, w its primitives at q * stride? What is no state
  * stays, for the guard. */

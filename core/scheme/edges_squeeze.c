@@ -29,8 +29,7 @@ static inline int edges_squeeze_here(double fall, int thin, int wet)
     return (fall > 0.0) & thin & wet;
 }
 
-/* thin, wet: the first number is that of the
- * cell before the first. */
+/* thin, wet: the first number is that of the cell before the first. */
 static BULLA_KERNEL void edges_squeeze_count(size_t n, size_t step, const double *restrict u,
                                              const double *restrict thin, const double *restrict wet,
                                              double *restrict mask)
