@@ -98,15 +98,17 @@ void conduction_channel_surface(size_t n, const struct conduction_channel_side *
     conduction_channel_half(n, left->k, right->k, wet_left, wet_right, k);
 }
 
-static BULLA_KERNEL void conduction_channel_limit(size_t n, double most, const double *restrict left,
-                                                  const double *restrict right, const double *restrict left_c,
-                                                  const double *restrict right_c, double *restrict k)
+static BULLA_KERNEL void conduction_channel_limit(size_t n, double most, const struct conduction_channel_side *left,
+                                                  const struct conduction_channel_side *right, double *restrict k)
 {
+    const double *restrict sets_left = left->sets, *restrict sets_right = right->sets, *restrict c_left = left->c,
+                           *restrict c_right = right->c, *restrict T_left = left->T, *restrict T_right = right->T;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = left[i], b = right[i], cl = left_c[i], cr = right_c[i], wanted = k[i];
-        double limit = most * (cl * cr / (cl + cr)), least = a < b ? a : b;
-        double kept = limit < wanted ? limit : wanted;
+        double a = sets_left[i], b = sets_right[i], cl = c_left[i], cr = c_right[i], Tl = T_left[i], Tr = T_right[i];
+        double wanted = k[i], least = a < b ? a : b, cold = Tl < Tr ? Tl : Tr, apart = Tl < Tr ? Tr - Tl : Tl - Tr;
+        double share = cold / apart, part = share < 1.0 ? share : 1.0, bound = most * (cl * cr / (cl + cr)) * part;
+        double limit = cold > 0.0 ? bound : 0.0, kept = limit < wanted ? limit : wanted;
         k[i] = least > 0.0 ? wanted : kept;
     }
 }
@@ -114,7 +116,7 @@ static BULLA_KERNEL void conduction_channel_limit(size_t n, double most, const d
 void conduction_channel_bound(size_t n, double most, const struct conduction_channel_side *left,
                               const struct conduction_channel_side *right, double *k)
 {
-    conduction_channel_limit(n, most, left->sets, right->sets, left->c, right->c, k);
+    conduction_channel_limit(n, most, left, right, k);
 }
 
 static BULLA_KERNEL void conduction_channel_pass(size_t n, const double *restrict width, const double *restrict k,

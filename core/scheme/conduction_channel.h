@@ -48,8 +48,9 @@ void conduction_channel_surface(size_t n, const struct conduction_channel_side *
                                 const struct conduction_channel_side *right, const double *wet_left,
                                 const double *wet_right, double *k);
 
-/* k_lm where a side does not set the time step: at most `most` c_l c_m/(c_l + c_m), most in m2/s. Values at the face
- * alone decide. */
+/* k_lm where a side does not set the time step: at most `most` c_l c_m/(c_l + c_m), most in m2/s, so that both come no
+ * further than to their mean. Where T differs by more than the colder one, less by that: no trace is warmed to many
+ * times its temperature in one step, and swells as often. Values at the face alone decide. */
 void conduction_channel_bound(size_t n, double most, const struct conduction_channel_side *left,
                               const struct conduction_channel_side *right, double *k);
 

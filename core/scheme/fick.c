@@ -73,7 +73,7 @@ static void fick_close(void *data)
     mem_free(own);
 }
 
-/* One gas of a mixture: its mass, and what it adds to the sums of fractions, of masses and of alpha T. */
+/* One gas of a mixture: its mass, and what it adds to the sums of fractions, of masses and of m T. */
 static BULLA_KERNEL void fick_gather(size_t n, const double *restrict alpha, const double *restrict rho,
                                      const double *restrict T, double *restrict mass, double *restrict all,
                                      double *restrict sum, double *restrict warm)
@@ -85,7 +85,7 @@ static BULLA_KERNEL void fick_gather(size_t n, const double *restrict alpha, con
         mass[i] = m;
         all[i] = part + felt;
         sum[i] = old + m;
-        warm[i] = w + felt * T[i];
+        warm[i] = w + m * T[i];
     }
 }
 
@@ -98,16 +98,16 @@ static BULLA_KERNEL void fick_shares(size_t n, const double *restrict sum, doubl
     }
 }
 
-/* The density of the gases, and D: T comes as the sum of alpha T. x^1.75 = x^2/x^(1/4). */
+/* The density of the gases, and D: T comes as the sum of m T. x^1.75 = x^2/x^(1/4). */
 static BULLA_KERNEL void fick_quicken(size_t n, double D0, double T0, double p0, const double *restrict p,
                                       const double *restrict alpha, double *restrict rho, double *restrict D)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double a = alpha[i], m = rho[i], x = D[i] / (a * T0), own = D0 * (p0 / p[i]) * (x * x / sqrt(sqrt(x)));
+        double a = alpha[i], m = rho[i], x = D[i] / (m * T0), own = D0 * (p0 / p[i]) * (x * x / sqrt(sqrt(x)));
         double density = m / a;
         rho[i] = a > 0.0 ? density : 0.0;
-        D[i] = ((a > 0.0) & (x > 0.0) & (p[i] > 0.0)) ? own : 0.0;
+        D[i] = ((m > 0.0) & (x > 0.0) & (p[i] > 0.0)) ? own : 0.0;
     }
 }
 

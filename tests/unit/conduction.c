@@ -66,6 +66,25 @@ static void test_surface(void **state)
     for (int i = 0; i < 4; i++) assert_true(fabs(k[i] - answers[i]) < 1e-15 && k[i] == back[i]);
 }
 
+/* A trace is warmed to no more than its mean with a neighbour, and by no more than its own temperature at once; what
+ * sets the time step, and what wants less, is left as it is. */
+static void test_bound(void **state)
+{
+    (void)state;
+    double none[5] = {0.0, 0.0, 0.0, 1.0, 0.0}, some[5] = {1.0, 1.0, 1.0, 1.0, 1.0}, c[5] = {3.0, 3.0, 3.0, 3.0, 3.0},
+           thin[5] = {1.0, 1.0, 1.0, 1.0, 1.0}, T_l[5] = {400.0, 600.0, 3e5, 3e5, 300.0},
+           T_r[5] = {300.0, 300.0, 300.0, 300.0, -2.0}, k[5] = {1e3, 1e3, 1e3, 1e3, 1e3}, low[5], back[5];
+    struct conduction_channel_side left = {.sets = none, .c = thin, .T = T_l}, right = {.sets = some, .c = c, .T = T_r};
+    memcpy(back, k, sizeof k);
+    for (int i = 0; i < 5; i++) low[i] = 1e-3;
+    conduction_channel_bound(5, 0.1, &left, &right, k);
+    conduction_channel_bound(5, 0.1, &right, &left, back);
+    conduction_channel_bound(4, 0.1, &left, &right, low);
+    const double answers[] = {0.075, 0.075, 0.075 / 999.0, 1e3, 0.0};
+    for (int i = 0; i < 5; i++) assert_true(fabs(k[i] - answers[i]) < 1e-15 && k[i] == back[i]);
+    assert_true(low[0] == 1e-3 && low[2] < 1e-3);
+}
+
 /* Water on the left, gas on the right, a linear fall of temperature in each: the resistance over a smear of any width
  * is that of one sharp interface. */
 static void test_resistance(void **state)
@@ -224,11 +243,12 @@ static void test_light(void **state)
 {
     (void)state;
     const double part[] = {0.5, 0.005, 0.03, 1.0, 0.0}, rho_l[] = {1.2, 1.2, 1e-3, 1e-3, 1.2},
-                 rho[] = {500.0, 1000.0, 970.0, 1e-3, 1000.0}, c[] = {1.0, 1.0, 1.0, 1.0, 1.0};
+                 rho[] = {500.0, 1000.0, 970.0, 1e-3, 1000.0}, c[] = {1.0, 1.0, 1.0, 1.0, 1.0},
+                 T[] = {300.0, 300.0, 300.0, 300.0, 300.0};
     double sets[5], k[] = {9.0, 9.0, 9.0, 9.0, 9.0};
     heed_parts(5, part, rho_l, rho, sets);
     assert_true(sets[0] == 0.5 && sets[1] == 0.0 && sets[2] == 0.0 && sets[3] == 1.0 && sets[4] == 0.0);
-    const struct conduction_channel_side side = {.part = part, .sets = sets, .c = c};
+    const struct conduction_channel_side side = {.part = part, .sets = sets, .T = T, .c = c};
     conduction_channel_bound(5, 2.0, &side, &side, k);
     assert_true(k[0] == 9.0 && k[1] == 1.0 && k[2] == 1.0 && k[3] == 9.0);
 }
@@ -424,6 +444,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_channels_fill_the_face),
         cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_bound),
         cmocka_unit_test(test_resistance),
         cmocka_unit_test(test_front),
         cmocka_unit_test(test_front_trace),
