@@ -153,6 +153,17 @@ void verdict_reset(struct stage *stage)
     }
 }
 
+/* No stage is behind the first cause of all. */
+static int verdict_refuse(const struct stage *stage)
+{
+    const char *cause = stage->guard->cause, *end = strstr(cause, ", after stage");
+    return status_fail(STATUS_CASE, "the initial state is not admissible: %.*s%s",
+                       end ? (int)(end - cause) : (int)strlen(cause), cause,
+                       stage->model->n_pair ? " ('balance: tension' of a layer adds to its pressure what its curvature "
+                                              "and surface tension ask for)"
+                                            : "");
+}
+
 int verdict_start(struct stage *stage, long long *relaxed)
 {
     const struct level *level = stage->level;
@@ -173,7 +184,7 @@ int verdict_start(struct stage *stage, long long *relaxed)
     stage->guard->repair = repair;
     guard_clear(stage->guard);
     if (!relaxed || !stage->guard->cause[0]) return STATUS_OK;
-    return status_fail(STATUS_CASE, "the initial state is not admissible: %s", stage->guard->cause);
+    return verdict_refuse(stage);
 }
 
 void verdict_welcome(struct stage *stage, unsigned local)

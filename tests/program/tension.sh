@@ -36,6 +36,12 @@ grep -q 'asks for 36.4 kPa more in the sphere of initial\[1\], which begins with
 "$BULLA" run bubble.yaml -o none --set surface-tension=null --max-steps 1 >said 2>&1 || fail "without" said
 if "$BULLA" plan bubble.yaml --set surface-tension=null | grep -q tension; then fail "the plan speaks of what is not there"; fi
 
+# A mist in a gas, with less than surface tension takes off the pressure of the gas in it.
+code=0
+"$BULLA" run bubble.yaml -o low --set 'initial=[{everywhere: true, material: air, density: 1.2, pressure: 1 bar}, {sphere: {center: [0], radius: 4 um}, fractions: {water: 0.9, air: 0.1}, density: {water: 998.2, air: 1.2}, pressure: 1 kPa}]' >said 2>&1 || code=$?
+[ $code = 2 ] || fail "exit code $code" said
+grep -q "initial state is not admissible: pressure = -.* 'air' .*, off which surface tension takes .* ('balance: tension' of a layer" said || fail "the mist" said
+
 # In the plane the curvature is made before each stage, and travels with the layers of the frames: an oval on a finer
 # level, between all kinds of boundaries.
 cat >plane.yaml <<'END'

@@ -307,6 +307,8 @@ def wide_forces(scene):
     if dice.coin(0.1):
         case.setdefault("sources", {})["heating"] = dice.power(8, 11)
         scene.works = True
+        if case.get("scheme", {}).get("integrator") == "hancock":
+            case["scheme"]["integrator"] = "ssprk3"
     if scene.conducts and not scene.pairs:
         for layer in case["initial"]:
             layer["temperature"] = dice.number(280, 400)
