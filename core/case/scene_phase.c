@@ -242,11 +242,11 @@ static int scene_phase_member(struct draft *draft, const struct keys_value *valu
     const struct scene_material *material = &draft->scene->material[index];
     const struct bulla_eos *law = material->eos.module ? material->eos.module->table : NULL;
     if (scene_matter_is_solid(draft, (unsigned)index)) {
-        keys_error(&draft->keys, value, "'%s' is a solid: it can neither boil nor condense", material->name);
+        keys_error(&draft->keys, value, "'%s' is a solid: name a fluid, which boils or condenses", material->name);
         return -1;
     }
     if (scene_phase_taken(draft->scene, (unsigned)index)) {
-        keys_error(&draft->keys, value, "'%s' is in another pair already", material->name);
+        keys_error(&draft->keys, value, "'%s' is in another pair: add a material with the same law", material->name);
         return -1;
     }
     if (!law) return -1;
