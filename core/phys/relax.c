@@ -37,6 +37,10 @@ struct relax {
 /* Least distance of p* from the floor, relative to the largest rho_l c_l^2: what the closure can resolve. */
 #define RELAX_RESOLVED 1e-11
 
+/* Volumes that jump by more than this share of the cell at p* do so in a law that has two at one p and energy, as cold
+ * dense gases beyond their end; those above p* are of the branch that the cell came on. */
+#define RELAX_LEAP 1e-6
+
 /* What the materials have in common: the traction, or the pressure. */
 static double relax_common(const struct model *model, const double *w)
 {
@@ -177,11 +181,14 @@ static double relax_pressure(struct relax *relax)
         if (crossed) break;
         if (i == RELAX_ROUNDS - 1) return NAN;
     }
+    double excess = 0.0;
     for (int i = 0; i < RELAX_ROUNDS && high > low * (1.0 + 1e-13); i++) {
         double middle = sqrt(low * high);
-        if (relax_excess(relax, floor + middle) > 0.0) low = middle;
+        excess = relax_excess(relax, floor + middle);
+        if (excess > 0.0) low = middle;
         else high = middle;
     }
+    if (excess > RELAX_LEAP) relax_excess(relax, floor + high);
     return floor + high;
 }
 
