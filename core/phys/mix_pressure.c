@@ -248,8 +248,7 @@ static void mix_pressure_move(struct mix_pressure_points *points, size_t k, size
     }
 }
 
-/* Below the least pressure, so that the law of the material that sets it says so. */
-static double mix_pressure_below(double floor)
+double mix_pressure_none(double floor)
 {
     return isfinite(floor) ? floor - (1.0 + 1e-3 * fabs(floor)) : -DBL_MAX;
 }
@@ -267,7 +266,7 @@ static void mix_pressure_round(struct mix_pressure_points *points, double *p, st
             continue;
         }
         effort->failed += end == MIX_PRESSURE_LOST;
-        p[points->at[k]] = end == MIX_PRESSURE_DONE ? points->p.value[k] : mix_pressure_below(points->floor.value[k]);
+        p[points->at[k]] = end == MIX_PRESSURE_DONE ? points->p.value[k] : mix_pressure_none(points->floor.value[k]);
     }
     points->n = left;
     effort->steps += (long long)left;
@@ -280,7 +279,7 @@ static struct mix_effort mix_pressure_iterate(struct mix_pressure_points *points
     for (int round = 0; round <= MIX_PRESSURE_ROUNDS && points->n > 0; round++) mix_pressure_round(points, p, &effort);
     for (size_t k = 0; k < points->n; k++) {
         bool lost = mix_pressure_end(points, k) == MIX_PRESSURE_LOST;
-        p[points->at[k]] = lost ? mix_pressure_below(points->floor.value[k]) : points->p.value[k];
+        p[points->at[k]] = lost ? mix_pressure_none(points->floor.value[k]) : points->p.value[k];
         effort.failed += lost;
     }
     return effort;

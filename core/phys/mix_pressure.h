@@ -32,4 +32,8 @@ void mix_pressure_sum(struct mix_effort *sum, struct mix_effort more);
 struct mix_effort mix_pressure_close(const struct model *model, size_t n, size_t stride, const double *rho_e,
                                      double *w);
 
+/* What stands in: below the least pressure that the materials of a point bear, so that the law of the one that sets it
+ * says so [Pa]. */
+double mix_pressure_none(double floor);
+
 #endif

@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "phys/elastic.h"
+#include "phys/mix_pressure.h"
 #include "phys/traction.h"
 
 #include <math.h>
@@ -174,6 +175,15 @@ static double guard_name_pressure(const struct guard_cell *cell, unsigned l)
     return *traction_pressure(model, 1, l, p, &parts);
 }
 
+/* Does p stand where the closure found none (phys/mix_pressure.h): just below the least that material l bears? */
+static bool guard_name_lost_pressure(const struct guard_cell *cell, unsigned l, double p)
+{
+    const struct model_eos *eos = &cell->model->eos[l];
+    double least, rho = cell->tile->w[(cell->model->i_m + l) * cell->n_cell + cell->at];
+    eos->law->p_min(eos->self, 1, &rho, &least);
+    return !cell->model->linear && fabs(p - mix_pressure_none(least)) <= 1e-9 * fabs(p);
+}
+
 /* One material: its mass, its stiffness. */
 static bool guard_name_material(const struct guard_cell *cell, unsigned l, struct guard_name *name)
 {
@@ -192,6 +202,9 @@ static bool guard_name_material(const struct guard_cell *cell, unsigned l, struc
     if (isnan(rho_c2))
         text_add(&text, " Pa of material '%s' (density times sound speed squared), from a pressure of %.6g Pa", own, p);
     else text_add(&text, " Pa, below what material '%s' (volume fraction %.3g) can bear", own, alpha);
+    if (guard_name_lost_pressure(cell, l, p))
+        text_add(&text,
+                 "; it stands for none: the materials hold the energy of the cell at no pressure that they bear");
     if (p != mean) text_add(&text, "; the mean of the cell is %.6g Pa", mean);
     if (p < mean && model->n_pair && !model->n_solid)
         text_add(&text, ", off which surface tension takes %.4g Pa", mean - p);

@@ -197,6 +197,27 @@ static bool accepts(struct flow *flow, const double *w)
     return stage->guard->bad[1] == 0;
 }
 
+/* A cell of real water and real air with less energy than they hold at any pressure that both bear: said so. */
+static void test_no_pressure(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow, mem_print("bulla: 1\ntitle: none\ndomain: {lower: [0], upper: [1], cells: [32], boundaries: {x-: "
+                                "outflow, x+: outflow}}\nmesh: {tile: 16}\nmaterials:\n"
+                                "  water: {eos: {type: mnasg, preset: water}}\n  air: {eos: {type: rkpr}}\ninitial:\n"
+                                "  - {everywhere: true, fractions: {water: 0.5, air: 0.5}, temperature: 300, pressure: "
+                                "1 bar}\nrun: {until: 1}\n"));
+    struct stage *stage = flow.state->stages[0];
+    stage->level->u_old[1][stage->model->i_E * flow.state->mesh->n_cell + 3] -= 1e8;
+    stage->guard->repair = false;
+    guard_attempt(stage->guard);
+    verdict_touch(stage, 1);
+    print_message("%s\n", stage->guard->cause);
+    assert_true(stage->guard->bad[stage->guard->n_stage - 1] == 1);
+    assert_non_null(strstr(stage->guard->cause, "it stands for none: the materials hold the energy of the cell at no"));
+    flow_stop(&flow);
+}
+
 /* Primitives of a cell of gel and air at rest. */
 static void gel_cell(const struct model *model, double solid, double p, double *w)
 {
@@ -370,10 +391,10 @@ static void test_empty(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_initial),  cmocka_unit_test(test_strict),  cmocka_unit_test(test_impossible),
-        cmocka_unit_test(test_repairs),  cmocka_unit_test(test_idle),    cmocka_unit_test(test_relax_cell),
-        cmocka_unit_test(test_creeping), cmocka_unit_test(test_tension), cmocka_unit_test(test_elastic),
-        cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_initial),  cmocka_unit_test(test_strict),      cmocka_unit_test(test_impossible),
+        cmocka_unit_test(test_repairs),  cmocka_unit_test(test_idle),        cmocka_unit_test(test_relax_cell),
+        cmocka_unit_test(test_creeping), cmocka_unit_test(test_tension),     cmocka_unit_test(test_elastic),
+        cmocka_unit_test(test_empty),    cmocka_unit_test(test_no_pressure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
