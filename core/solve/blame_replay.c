@@ -177,6 +177,7 @@ static void blame_replay_judge(struct replay *replay, struct blame_outcome *outc
                           .n_local = 1,
                           .n_stage = replay->tableau->n,
                           .repair = facts->repair,
+                          .debt = GUARD_ROUND_OFF,
                           .last = true};
     struct guard_tile tile = {.model = replay->used,
                               .stage = blame_moves(facts) ? facts->stage : replay->tableau->n - 1,

@@ -15,10 +15,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A partial density this far below zero, relative to rho or to the material's own density, is what two stages leave
- * behind a front of traces (the midpoint rule keeps no sign); the material counts as absent there. */
-#define GUARD_ROUND_OFF 1e-8
-
 enum { GUARD_BATCH = SOFTEN_BATCH };
 
 /* A mark of stage s is 1 + s until it is known whether earlier ones were clean everywhere. */
@@ -28,8 +24,13 @@ struct guard *guard_new(const struct model *model, const struct mesh *mesh, int 
 {
     struct guard *guard = mem_new(1, sizeof *guard);
     const struct level *level = &mesh->levels[l];
-    *guard = (struct guard){
-        .model = model, .mesh = mesh, .level = level, .l = l, .n_local = level->n_local, .n_stage = n_stage};
+    *guard = (struct guard){.model = model,
+                            .mesh = mesh,
+                            .level = level,
+                            .l = l,
+                            .n_local = level->n_local,
+                            .n_stage = n_stage,
+                            .debt = GUARD_ROUND_OFF};
     guard->repair = model->n_alpha > 1 && model->scene->scheme.guard != SCENE_GUARD_STRICT;
     guard->mask = mem_new(level->n_local, sizeof *guard->mask);
     guard->halo = halo_new(mesh, level, 1);
@@ -86,13 +87,13 @@ static BULLA_KERNEL void guard_mixture(size_t n, const double *restrict energy, 
 
 static BULLA_KERNEL void guard_material(size_t n, const double *restrict m, const double *restrict alpha,
                                         const double *restrict rho_c2, const double *restrict rho, double fill,
-                                        double *restrict bad)
+                                        double debt, double *restrict bad)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double mass = m[i], a = alpha[i], s = rho_c2[i], r = rho[i], b = bad[i];
         r = r > fill ? r : fill;
-        double good = mass >= -GUARD_ROUND_OFF * r ? 1.0 : 0.0;
+        double good = mass >= -debt * r ? 1.0 : 0.0;
         double stiff = s > 0.0 ? 1.0 : 0.0;
         stiff = a > GUARD_PRESENT ? stiff : 1.0;
         bad[i] = b + (1.0 - good * stiff);
@@ -212,7 +213,7 @@ static double guard_judge(const struct guard *guard, const struct guard_tile *ti
         const double *alpha = tile->w + (model->i_alpha + l) * n_cell + from;
         if (model->split) alpha = guard_borne(model, n, n_cell, tile->w + from, l, borne);
         guard_material(n, tile->u + (model->i_m + l) * n_cell + from, alpha, tile->rho_c2 + l * n_cell + from, rho,
-                       model->eos[l].rho_fill, bad);
+                       model->eos[l].rho_fill, guard->debt, bad);
         guard_void(n, tile->u + (model->i_m + l) * n_cell + from, tile->u + (model->i_alpha + l) * n_cell + from, bad);
     }
     return guard_count(n, bad);

@@ -20,6 +20,10 @@
 
 enum { GUARD_ROUNDS = 3, GUARD_RETRIES = 6, GUARD_WORDS = 1024 };
 
+/* A partial density this far below zero, relative to rho or to the material's own density, is what two stages leave
+ * behind a front of traces (the midpoint rule keeps no sign); the material counts as absent there. */
+#define GUARD_ROUND_OFF 1e-8
+
 /* Present enough that its state matters: below it a material rides along. */
 #define GUARD_PRESENT 1e-6
 
@@ -51,6 +55,7 @@ struct guard {
     char cause[GUARD_WORDS];       /* the first of them, in words (rank-local) */
     struct guard_place found;      /* and in numbers; only valid after something was found */
     bool last; /* no attempt follows that would use marks: none are made, so that this one can be repeated as it was */
+    double debt;  /* so far below zero a partial density may be: GUARD_ROUND_OFF, or more in sync.c */
     double *kept; /* [2][n_field][n_cell]: u and w of the tile of `found` as they came to be judged */
 };
 

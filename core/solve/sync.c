@@ -20,6 +20,10 @@ enum { SYNC_ATTEMPTS = 5 };
 /* A fraction this far out of its range is round-off. */
 #define SYNC_TRACE 1e-15
 
+/* What neither a coarse tile nor the finer cells beside it hold of a material they owe, up to this share of their
+ * density: it counts as absent there until more of it comes, or its other phase pays (phys/phase.c). */
+#define SYNC_DEBT 1e-5
+
 void sync_down(struct stage *coarse, struct stage *fine)
 {
     struct around *around = coarse->work->around;
@@ -127,6 +131,15 @@ static long long sync_add(struct stage *stage, unsigned local, const struct sync
     sync_touch(stage, local);
     if (guard_bad(stage->guard) == 0) stage->clipped += clipped;
     return guard_bad(stage->guard);
+}
+
+/* The same with masses that may be owed. */
+static bool sync_owe(struct stage *stage, unsigned local, const struct sync_work *work)
+{
+    stage->guard->debt = SYNC_DEBT;
+    bool bears = sync_add(stage, local, work) == 0;
+    stage->guard->debt = GUARD_ROUND_OFF;
+    return bears;
 }
 
 /* Fractions that refluxing would make negative have no place for it: what is clipped is missing in the pressure. */
@@ -284,7 +297,7 @@ static int sync_take_tile(struct stage *fine, unsigned local, const struct sync_
         for (size_t i = 0; i < fine->level->link->face_cells; i++)
             any = sync_take_cell(fine, &spread, &fine->level->link->faces[neighbour->index], i, work->delta) || any;
     }
-    if (!any || sync_add(fine, local, work) == 0) return STATUS_OK;
+    if (!any || sync_add(fine, local, work) == 0 || sync_owe(fine, local, work)) return STATUS_OK;
     return status_fail(STATUS_RUN, "at t = %.9g s the fluxes of the finer level cannot be given back: %s",
                        fine->t + fine->dt, fine->guard->cause);
 }
