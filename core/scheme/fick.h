@@ -9,8 +9,8 @@
  * q,   d alpha_k/dt = -div(j_k/rho_k) + what keeps one pressure (swell.h). Thus p and T that are uniform stay so while
  * gases of unlike molar masses mix (Bird, Stewart & Lightfoot, Transport Phenomena, 2nd ed., 17.1, 19.3; without
  * diffusion by gradients of T and p). D is a constant, or D0 (p0/p) (T/T0)^1.75 (Fuller, Schettler & Giddings, Ind.
- * Eng. Chem. 58 (1966) 18), T the gases' mean by mass, since
- * what little there is of a gas can be hotter than all else; more than two gases share one D.
+ * Eng. Chem. 58 (1966) 18), T the gases' mean by mass, since what little there is of a gas can be hotter than all else;
+ * more than two gases share one D.
  *
  * Time step: 1/dt = signal/CFL + DISTANCE_PACE D sum 1/h^2 where the gases are enough of a cell (heed.h); where they
  * are less, D is bounded by what keeps it stable. */

@@ -206,8 +206,7 @@ static bool guard_name_material(const struct guard_cell *cell, unsigned l, struc
         text_add(&text,
                  "; it stands for none: the materials hold the energy of the cell at no pressure that they bear");
     if (p != mean) text_add(&text, "; the mean of the cell is %.6g Pa", mean);
-    if (p < mean && model->n_pair && !model->n_solid)
-        text_add(&text, ", off which surface tension takes %.4g Pa", mean - p);
+    if (p < mean && model->n_pair && !model->n_solid) text_add(&text, GUARD_NAME_TENSION " %.4g Pa", mean - p);
     guard_name_suspect(cell, p, &text);
     guard_name_say(name, isnan(rho_c2) ? "rho_c2" : "pressure", isnan(rho_c2) ? rho_c2 : p, text.at);
     text_done(&text);

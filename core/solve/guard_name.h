@@ -5,10 +5,13 @@
 
 #include "solve/guard.h"
 
+/* What the words say where surface tension is behind a pressure. */
+#define GUARD_NAME_TENSION ", off which surface tension takes"
+
 struct guard_name {
     char field[SCENE_NAME + 32]; /* as in snapshots; of a law that gives no number, what it was asked for */
     double value;
-    char words[400]; /* unit, and what else there is to say */
+    char words[600]; /* unit, and what else there is to say */
 };
 
 /* Of one of the n_cell cells of a tile that was judged. The first that applies: an evolved field that is no number; an

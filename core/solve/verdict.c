@@ -5,6 +5,7 @@
 #include "phys/mix.h"
 #include "phys/row.h"
 #include "scheme/bound_ahead.h"
+#include "solve/guard_name.h"
 #include "solve/rkl.h"
 #include "solve/soften.h"
 
@@ -159,9 +160,10 @@ static int verdict_refuse(const struct stage *stage)
     const char *cause = stage->guard->cause, *end = strstr(cause, ", after stage");
     return status_fail(STATUS_CASE, "the initial state is not admissible: %.*s%s",
                        end ? (int)(end - cause) : (int)strlen(cause), cause,
-                       stage->model->n_pair ? " ('balance: tension' of a layer adds to its pressure what its curvature "
-                                              "and surface tension ask for)"
-                                            : "");
+                       strstr(cause, GUARD_NAME_TENSION)
+                           ? " ('balance: tension' of a layer adds to its pressure what its curvature "
+                             "and surface tension ask for)"
+                           : "");
 }
 
 int verdict_start(struct stage *stage, long long *relaxed)
