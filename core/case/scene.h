@@ -394,6 +394,7 @@ struct scene_scheme {
     double cfl, dt_fixed;              /* dt_fixed 0: from cfl */
     double first_step;                 /* part of that step with which a run begins */
     enum scene_traction traction;      /* what the materials of a cell with a solid share */
+    bool sheltered;                    /* solids are strained by what comes to the faces (scheme/shelter.h) */
     bool free;                         /* surfaces of solids beside fluids bear no shear (scheme/slip.h) */
     enum scene_exchange exchange;      /* of volume between the materials of a cell */
     enum scene_integrator integrator;

@@ -89,6 +89,17 @@ static const struct key scene_scheme_rows[] = {
          "past a gas. auto: free where an elastic solid whose shear waves are faster than 100 m/s shares traction "
          "with a fluid whose rho c^2 is below 10 MPa at 1 atm, in the plane, around an axis or in space; else kept, "
          "as stretched solids rest better with it."},
+    {.name = "surface-strain",
+     .type = KEYS_CHOICE,
+     .choices = "auto|share|face",
+     .fallback = "auto",
+     .doc =
+         "What strains solids in cells that they share with fluids. share: the velocity of a face as far as the solids "
+         "of the cell come there, else that of the cell, so that a gas that lies at the face does not strain them; "
+         "face: that of the face, whatever lies there, by which stiff solids shake in a gas, the more the sharper "
+         "their surface is. auto: share where a solid whose shear waves are faster than 100 m/s meets a fluid whose "
+         "rho c^2 is below 10 MPa at 1 atm, in the plane, around an axis or in space; else face, by which a solid that "
+         "slides along a liquid pushes it less."},
     {.name = "mixture-speed",
      .type = KEYS_CHOICE,
      .choices = "auto|frozen|wood",
@@ -245,14 +256,16 @@ static void scene_scheme_slopes(struct draft *draft, const struct keys_map *sche
 #define SCENE_SCHEME_STIFF 100.0
 #define SCENE_SCHEME_SOFT 1e7
 
-/* c_s^2 = mu/rho0 = 2 (e_1 + e_2) without strain. */
+/* c_s^2 = mu/rho0 = 2 (e_1 + e_2) without strain, and what the springs of branches add. */
 static bool scene_scheme_is_stiff(const struct scene_material *material)
 {
-    double I = 3.0, e, e_1, e_2;
+    double I = 3.0, e, e_1, e_2, springs = 0.0;
     if (!material->constitutive.module) return false;
     const struct bulla_constitutive *law = material->constitutive.module->table;
     law->energy(material->constitutive.self, 1, &I, &I, &e, &e_1, &e_2);
-    return 2.0 * (e_1 + e_2) > SCENE_SCHEME_STIFF * SCENE_SCHEME_STIFF;
+    for (unsigned b = 0; b < material->n_branch; b++)
+        springs += material->branch[b].modulus / material->branch[b].density;
+    return 2.0 * (e_1 + e_2) + springs > SCENE_SCHEME_STIFF * SCENE_SCHEME_STIFF;
 }
 
 static bool scene_scheme_is_gas(const struct scene_material *material)
@@ -265,18 +278,25 @@ static bool scene_scheme_is_gas(const struct scene_material *material)
     return rho_c2 < SCENE_SCHEME_SOFT;
 }
 
-/* Does a stiff elastic solid share traction with a gas, on a surface that lies as it likes? */
-static bool scene_scheme_hard(struct draft *draft)
+/* Does a stiff solid meet a gas, on a surface that lies as it likes? */
+static bool scene_scheme_stiff(struct draft *draft)
 {
     const struct scene *scene = draft->scene;
     bool stiff = false, gas = false;
-    if (scene->domain.dim < 2 || scene->scheme.traction == SCENE_TRACTION_PRESSURE) return false;
-    if (scene_matter_strength(draft) || scene_matter_branched(draft)) return false;
+    if (scene->domain.dim < 2) return false;
     for (unsigned l = 0; l < scene->n_material; l++) {
         stiff = stiff || scene_scheme_is_stiff(&scene->material[l]);
         gas = gas || scene_scheme_is_gas(&scene->material[l]);
     }
     return stiff && gas;
+}
+
+/* The same of an elastic one that shares its traction. */
+static bool scene_scheme_hard(struct draft *draft)
+{
+    if (draft->scene->scheme.traction == SCENE_TRACTION_PRESSURE) return false;
+    if (scene_matter_strength(draft) || scene_matter_branched(draft)) return false;
+    return scene_scheme_stiff(draft);
 }
 
 /* With tension, surfaces of columns whose fractions have slopes grow teeth (docs/decisions/tension.md); stiff solids in
@@ -416,10 +436,17 @@ static bool scene_scheme_free(struct draft *draft, const struct keys_map *scheme
     return shear == AUTO ? scene_scheme_hard(draft) : shear == FREE;
 }
 
+/* Solids that are strained by what of them comes to the faces. */
+static bool scene_scheme_sheltered(struct draft *draft, const struct keys_map *scheme)
+{
+    enum { AUTO, SHARE } strain = (int)keys_at(scheme, "surface-strain")->integer;
+    return strain == AUTO ? scene_scheme_stiff(draft) : strain == SHARE;
+}
+
 /* Keys that say how solids meet fluids, in a scene that has no solid. */
 static void scene_scheme_idle(struct draft *draft, const struct keys_map *scheme)
 {
-    static const char *const keys[] = {"traction", "surface-shear"};
+    static const char *const keys[] = {"traction", "surface-shear", "surface-strain"};
     for (size_t k = 0; k < sizeof keys / sizeof *keys && !scene_matter_solid(draft); k++) {
         const struct keys_value *value = keys_at(scheme, keys[k]);
         if (!value->given || value->integer == 0) continue;
@@ -436,6 +463,7 @@ void scene_scheme(struct draft *draft)
     scene->scheme.closure = (enum scene_closure)keys_at(scheme, "closure")->integer;
     scene->scheme.traction = (enum scene_traction)keys_at(scheme, "traction")->integer;
     scene->scheme.free = scene_scheme_free(draft, scheme);
+    scene->scheme.sheltered = scene_scheme_sheltered(draft, scheme);
     scene->scheme.exchange = (enum scene_exchange)keys_at(scheme, "exchange")->integer;
     scene->scheme.integrator = (enum scene_integrator)keys_at(scheme, "integrator")->integer;
     scene->scheme.diffusion = (enum scene_diffusion)keys_at(scheme, "diffusion")->integer;

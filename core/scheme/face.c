@@ -13,6 +13,7 @@
 #include "scheme/face_stress.h"
 #include "scheme/face_sum.h"
 #include "scheme/low_mach.h"
+#include "scheme/shelter.h"
 #include "scheme/tilt.h"
 #include "scheme/viscous_face.h"
 #include "scheme/wood.h"
@@ -106,6 +107,8 @@ struct face_work *face_new(const struct model *model)
     work->stretch = model->n_stretch ? face_row(model->n_stretched) : NULL;
     work->strains = model->n_inner ? face_row(model->n_inner) : NULL;
     work->solid = model->n_stretch && model->n_alpha ? face_row(model->n_solid) : NULL;
+    work->seen_left = shelter_wanted(model) ? face_row(2 * model->n_velocity) : NULL;
+    work->seen_right = work->seen_left ? work->seen_left + model->n_velocity * FACE_ROOM : NULL;
     work->heat_below = model->conducts && model->n_alpha ? face_row(2 * model->n_alpha) : NULL;
     work->heat_above = work->heat_below ? work->heat_below + model->n_alpha * FACE_ROOM : NULL;
     work->carried = face_row((model->n_fick ? 3 : 2) * model->n_alpha); /* face_mingled */
@@ -153,6 +156,7 @@ void face_free(struct face_work *work)
                       work->stretch,
                       work->strains,
                       work->solid,
+                      work->seen_left,
                       work->lag,
                       own->lagged,
                       work->lean[0],

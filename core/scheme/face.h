@@ -29,7 +29,9 @@ struct face_work {
                                         give it (conduction.h); NULL unless the scene conducts */
     double *solid;                   /* [n_solid] fractions of the solids, means of the sides (mixtures with a solid) */
     double *slide_left,
-        *slide_right; /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */
+        *slide_right;               /* [n_velocity - 1] u*_t as the cells left and right of the face see it (solids) */
+    double *seen_left, *seen_right; /* [n_velocity] the same with u*, normal first, of the solids in the cells left and
+                                       right of the face (shelter.h); NULL: all of them come there */
     double *rise[2]; /* of p from the middle of each cell of the frame to its lower and its upper face, with the sign of
                         going up, where it holds the forces [Pa]; NULL where the scene has none (model->forced) */
     bool held;       /* do cells of the frame hold forces? else `rise` is not filled (face_rise) */

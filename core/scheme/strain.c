@@ -6,6 +6,7 @@
 #include "scheme/convection.h"
 #include "scheme/exchange.h"
 #include "scheme/response.h"
+#include "scheme/shelter.h"
 #include "scheme/terms.h"
 
 enum { STRAIN_BATCH = 512 };
@@ -85,6 +86,31 @@ static BULLA_KERNEL void strain_moved(size_t n, double per_dt, const double *res
     }
 }
 
+static BULLA_KERNEL void strain_missed(size_t n, const double *restrict missing, const double *restrict alpha,
+                                       const double *restrict whole, double *restrict squeeze, double *restrict div)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double m = missing[i], s = squeeze[i];
+        squeeze[i] = s + (alpha[i] > 0.0 ? m : 0.0);
+        div[i] = whole[i] - m;
+    }
+}
+
+/* Solids that do not come to the faces of their cells: what does not strain them there does so across the interface.
+ * The hoop is that of the faces. */
+static void strain_shelter(const struct term_tile *tile, size_t from, size_t n, const double *solid,
+                           struct elastic_rates *rates, double *squeeze, double *div)
+{
+    const double *seen = shelter_gradient(tile);
+    double missing[STRAIN_BATCH];
+    if (!seen) return;
+    shelter_missing(tile, n, rates->gradient, seen + from, missing);
+    strain_missed(n, missing, solid, rates->div, squeeze, div);
+    rates->gradient = seen + from;
+    rates->div = div;
+}
+
 /* Stretch k in n cells from `from`. */
 static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, size_t n, double relaxes,
                          const double *V_old, double *u_new)
@@ -94,7 +120,7 @@ static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, 
     size_t fraction = model->i_alpha * n_cell + from, mass = model->i_m * n_cell + from;
     const double *div = tile->rates + terms_first(tile->terms, &convection_term) * n_cell + from;
     const double *gradient = tile->rates + terms_first(tile->terms, &strain_term) * n_cell + from;
-    double room[STRAIN_BATCH], squeeze[STRAIN_BATCH], before[STRAIN_BATCH], after[STRAIN_BATCH];
+    double room[STRAIN_BATCH], squeeze[STRAIN_BATCH], beyond[STRAIN_BATCH], before[STRAIN_BATCH], after[STRAIN_BATCH];
     double *V = u_new + first;
     struct elastic_rates rates = {.carried = tile->rates + first,
                                   .m_old = elastic_carrier(model, k, n, n_cell, tile->u + mass, before),
@@ -108,6 +134,7 @@ static void strain_batch(const struct term_tile *tile, unsigned k, size_t from, 
         if (response_own(tile))
             strain_moved(n, 1.0 / tile->dt, elastic_carrier(model, k, n, n_cell, exchange_volume(tile) + from, room),
                          solid, squeeze);
+        strain_shelter(tile, from, n, solid, &rates, squeeze, beyond);
         rates.squeeze = squeeze;
         rates.slope = gradient + (model->n_velocity + model_bearer(model, k)) * (unsigned)model->dim * n_cell;
     }

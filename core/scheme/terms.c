@@ -21,6 +21,7 @@
 #include "scheme/normal.h"
 #include "scheme/response.h"
 #include "scheme/settling.h"
+#include "scheme/shelter.h"
 #include "scheme/slip.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
@@ -55,6 +56,7 @@ const struct term *const terms_all[] = {
     &lag_term,          /* pressures that materials have in an interface travel with them */
     &tension_term,      /* surface tension: its force, and what a surface that moves has stored */
     &normal_term,       /* how the surfaces of solids lie */
+    &shelter_term,      /* how far solids come to the faces of their cells */
     &strain_term,       /* the stretch of solids */
     &viscoelastic_term, /* the stretches of their Maxwell branches, which relax */
     &weld_term,         /* where they meet solids share their shear traction */
