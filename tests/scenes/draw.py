@@ -233,6 +233,7 @@ def scheme(scene):
 # that move, meshes of odd sizes, and words of a phase change. After all else, so that lower seeds give what they always gave.
 WIDE = 1000
 LIVELY = 2000  # from here on: lively.py
+SURFACES = 3300  # from here on: solids that meet fluids in all ways that the scheme knows
 OTHER_LIQUIDS = [{"type": "tait", "preset": "water"}, {"type": "modified-tait", "preset": "refit"},
                  {"type": "iapws95", "preset": "water", "table-size": 64}, {"type": "stiffened-gas", "preset": "glycerol"}]
 OTHER_GASES = [{"type": "helmholtz-air", "preset": "air", "table-size": 64}, {"type": "rkpr", "preset": "air"},
@@ -358,6 +359,13 @@ def widen(scene):
     for more in (wide_matter, wide_walls, wide_forces, wide_mesh, wide_words):
         more(scene)
 
+def surfaces(scene):
+    dice = scene.dice
+    for word, values in (("surface-strain", ("share", "face")), ("surface-shear", ("free", "kept"))):
+        if scene.solids and scene.fluids and dice.coin(0.4):
+            scene.case.setdefault("scheme", {})[word] = dice.pick(*values)
+
+
 def draw(seed):
     """A case, as a map that is JSON and YAML, and the Scene with what is known of it."""
     scene = Scene(seed)
@@ -379,4 +387,6 @@ def draw(seed):
                             "checkpoints": {"every": "8 steps", "keep": 3}}
     if seed >= LIVELY:
         liven(scene)
+    if seed >= SURFACES:
+        surfaces(scene)
     return scene.case, scene
