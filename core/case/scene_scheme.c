@@ -98,8 +98,8 @@ static const struct key scene_scheme_rows[] = {
          "of the cell come there, else that of the cell, so that a gas that lies at the face does not strain them; "
          "face: that of the face, whatever lies there, by which stiff solids shake in a gas, the more the sharper "
          "their surface is. auto: share where a solid whose shear waves are faster than 100 m/s meets a fluid whose "
-         "rho c^2 is below 10 MPa at 1 atm, in the plane, around an axis or in space; else face, by which a solid that "
-         "slides along a liquid pushes it less."},
+         "rho c^2 is below 10 MPa at 1 atm, in the plane, around an axis or in space; else, and with allaire, face, by "
+         "which a solid that slides along a liquid pushes it less."},
     {.name = "mixture-speed",
      .type = KEYS_CHOICE,
      .choices = "auto|frozen|wood",
@@ -440,7 +440,11 @@ static bool scene_scheme_free(struct draft *draft, const struct keys_map *scheme
 static bool scene_scheme_sheltered(struct draft *draft, const struct keys_map *scheme)
 {
     enum { AUTO, SHARE } strain = (int)keys_at(scheme, "surface-strain")->integer;
-    return strain == AUTO ? scene_scheme_stiff(draft) : strain == SHARE;
+    bool kapila = draft->scene->scheme.closure == SCENE_KAPILA;
+    if (strain == SHARE && !kapila)
+        diag_warn(draft->keys.diag, &keys_at(scheme, "surface-strain")->node->mark,
+                  "'surface-strain: share' goes with 'closure: kapila', and has no effect here");
+    return kapila && (strain == AUTO ? scene_scheme_stiff(draft) : strain == SHARE);
 }
 
 /* Keys that say how solids meet fluids, in a scene that has no solid. */

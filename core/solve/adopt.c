@@ -62,5 +62,6 @@ void adopt_level(struct stage *stage, const int *from, const bool *born)
     stage->reflux = reflux_new(stage->model, stage->mesh, stage->l);
     mem_free(stage->census.behind);
     stage->census.behind = mem_new(level->link ? level->link->n_face : 0, sizeof *stage->census.behind);
-    verdict_survey(stage); /* tiles that slept count again */
+    if (level->link) census_receive(&stage->census); /* the strips of a level that stays hold for its next steps */
+    verdict_survey(stage);                           /* tiles that slept count again */
 }

@@ -130,6 +130,9 @@ grep -q '^  shelter .*core/scheme/shelter.c' plan || fail 'the plan has no shelt
 "$BULLA" plan stone.yaml --set 'materials.stone.constitutive.shear-modulus=1 MPa' \
     --set 'materials.stone.viscoelastic=[{shear-modulus: 5 GPa, relaxation-time: 1 s}]' >plan
 grep -q shelter.c plan || fail 'no shelter of a stiff branch' plan
+"$BULLA" plan stone.yaml --set scheme.closure=allaire --set scheme.surface-strain=share >plan 2>said
+! grep -q shelter.c plan || fail 'shelter with allaire' plan
+grep -q "warning: 'surface-strain: share' goes with 'closure: kapila', and has no effect here" said || fail 'with allaire' said
 sed -e 's/upper: \[1, 1\]/upper: [1, 1, 1]/; s/\[0, 0\]/[0, 0, 0]/; s/\[32, 32\]/[16, 16, 16]/; s/y+: periodic}/y+: periodic, z-: periodic, z+: periodic}/' \
     -e 's/\[0.5, 0.5\], radius: 0.12/[0.5, 0.5, 0.5], radius: 0.22/; s/\[60, 0\]/[60, 0, 0]/; s/at-most: 80/at-most: 120/' flight.yaml >space.yaml # 98.7
 "$BULLA" run space.yaml --quiet
