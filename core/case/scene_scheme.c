@@ -319,8 +319,8 @@ static void scene_scheme_surfaces(struct draft *draft, const struct keys_value *
     bool rests = !module || !strcmp(module->name, "van-albada") || !strcmp(module->name, "minmod");
     if (!rests && scene_scheme_hard(draft))
         diag_warn(draft->keys.diag, &value.node->mark,
-                  "with interface-limiter '%s' a stiff solid in a gas can shake itself to pieces; van-albada is the "
-                  "default there",
+                  "with interface-limiter '%s' a stiff solid that moves through a gas can shake itself to pieces; "
+                  "van-albada is the default there",
                   module->name);
 }
 
