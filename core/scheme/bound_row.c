@@ -20,7 +20,8 @@ void bound_row_sound(const struct model *model, const struct bound_row *row, dou
     }
 }
 
-/* rho_l moved along its isentrope by dp: midpoint rule on d rho / dp = 1/c^2. */
+/* rho_l moved along its isentrope by dp: midpoint rule on d rho / dp = 1/c^2. Where the law has no sound on the way, or
+ * linear waves leave nothing of it (a trace of gas in a solid under tension), rho_l stays what it is inside. */
 static void bound_row_isentrope(const struct model_eos *eos, size_t n, const double *p, const double *p_new,
                                 double *rho, double *scratch)
 {
@@ -29,9 +30,13 @@ static void bound_row_isentrope(const struct model_eos *eos, size_t n, const dou
     for (size_t i = 0; i < n; i++) {
         half_p[i] = 0.5 * (p[i] + p_new[i]);
         half_rho[i] = rho[i] + 0.5 * (p_new[i] - p[i]) * rho[i] / rho_c2[i];
+        if (!(rho_c2[i] > 0.0 && half_rho[i] > 0.0)) half_p[i] = p[i], half_rho[i] = rho[i];
     }
     eos->law->state(eos->self, n, half_rho, half_p, e, rho_c2);
-    for (size_t i = 0; i < n; i++) rho[i] += (p_new[i] - p[i]) * half_rho[i] / rho_c2[i];
+    for (size_t i = 0; i < n; i++) {
+        double moved = rho[i] + (p_new[i] - p[i]) * half_rho[i] / rho_c2[i];
+        rho[i] = rho_c2[i] > 0.0 && moved > 0.0 ? moved : rho[i];
+    }
 }
 
 /* Puts the point c back to what lies inside. */

@@ -140,9 +140,31 @@ static void test_borne(void **state)
     flow_stop(&flow);
 }
 
+/* Water under tension bears what a trace of gas in it does not: the gas keeps its density, the water follows. */
+static void test_trace(void **state)
+{
+    (void)state;
+    struct flow flow;
+    flow_start(&flow,
+               mem_print("bulla: 1\ntitle: trace\ndomain: {lower: [0], upper: [1], cells: [8], boundaries: {x-: "
+                         "outflow, x+: {type: non-reflecting, pressure: -200 MPa}}}\nmaterials:\n" FLOW_WATER FLOW_AIR
+                         "initial:\n  - {everywhere: true, fractions: {water: 0.999, air: 0.001}, "
+                         "density: {water: 1000, air: 1.2}, pressure: 1e5}\nrun: {until: 1}\n"));
+    const struct model *model = flow.state->model;
+    size_t inside, behind;
+    double *w = gathered(&flow, &inside, &behind);
+    const double *rho = w + model->i_m * FRAME_CELLS, *p = w + model->i_E * FRAME_CELLS;
+    assert_true(p[behind] < -9e7);
+    assert_true(rho[behind] < 0.99 * rho[inside]);
+    assert_true(rho[FRAME_CELLS + behind] == rho[FRAME_CELLS + inside]);
+    mem_free(w);
+    flow_stop(&flow);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_order), cmocka_unit_test(test_stream),
-                                       cmocka_unit_test(test_stretch), cmocka_unit_test(test_borne)};
+                                       cmocka_unit_test(test_stretch), cmocka_unit_test(test_borne),
+                                       cmocka_unit_test(test_trace)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
