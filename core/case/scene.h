@@ -390,6 +390,7 @@ struct scene_scheme {
     enum scene_closure closure;
     struct instance riemann, reconstruction, limiter;
     struct instance interface_limiter; /* of the volume fractions */
+    bool slanted;                      /* which goes by how surfaces lie to the axes (scheme/slant.h) */
     int ghosts;                        /* layers of neighbours that the reconstruction needs on each side of a tile */
     double cfl, dt_fixed;              /* dt_fixed 0: from cfl */
     double first_step;                 /* part of that step with which a run begins */

@@ -38,6 +38,18 @@ void scene_tension(struct draft *draft);
 void scene_contact(struct draft *draft);
 void scene_phase(struct draft *draft);
 
+/* Does a stiff elastic solid that shares its traction meet a gas, on a surface that lies as it likes? */
+bool scene_meet_hard(struct draft *draft);
+/* Have fluids, and there is no solid, surface tension on surfaces that lie as they like? */
+bool scene_meet_drawn(struct draft *draft);
+/* What `surface-shear`, `surface-strain` and `interface-along` say: see the fields of
+ * struct scene_scheme. */
+bool scene_meet_free(struct draft *draft, const struct keys_map *scheme);
+bool scene_meet_sheltered(struct draft *draft, const struct keys_map *scheme);
+bool scene_meet_slanted(struct draft *draft, const struct keys_map *scheme);
+/* Warns of keys that say how solids meet fluids, in a scene that has no solid. */
+void scene_meet_idle(struct draft *draft, const struct keys_map *scheme);
+
 /* scene_phase_surface.c: keys of a pair that say in which cells of a surface it changes phase, read from its map when
  * its rate, places and gases are known. Not given: 0.99 as onset, 0.9 as condense-from where scene_phase_surface_fed.
  */

@@ -60,6 +60,14 @@ static const struct key scene_scheme_rows[] = {
          "shear waves are faster than 100 m/s meets a gas there, because steeper slopes let it shake; else superbee, "
          "which keeps material interfaces within two or three cells. Give the same as `limiter` for one limiter "
          "throughout."},
+    {.name = "interface-along",
+     .type = KEYS_CHOICE,
+     .choices = "auto|normal|axes",
+     .fallback = "auto",
+     .doc = "Along what the interface limiter acts in two and three dimensions. normal: along each axis the part n_d^2 "
+            "of it, n the normal of the surface, and `limiter` for the rest, so that surfaces that lie along an axis "
+            "and move along it get no teeth; axes: all of it along every axis. auto: normal where "
+            "fluids have surface tension, whose curvature sees them, else axes, which is cheaper."},
     {.name = "exchange",
      .type = KEYS_CHOICE,
      .choices = "auto|fast|full",
@@ -252,60 +260,12 @@ static void scene_scheme_slopes(struct draft *draft, const struct keys_map *sche
                       wrong[i]);
 }
 
-/* A solid whose shear waves are faster than this is stiff [m/s], and a gas at 1 atm softer than that [Pa]. */
-#define SCENE_SCHEME_STIFF 100.0
-#define SCENE_SCHEME_SOFT 1e7
-
-/* c_s^2 = mu/rho0 = 2 (e_1 + e_2) without strain, and what the springs of branches add. */
-static bool scene_scheme_is_stiff(const struct scene_material *material)
-{
-    double I = 3.0, e, e_1, e_2, springs = 0.0;
-    if (!material->constitutive.module) return false;
-    const struct bulla_constitutive *law = material->constitutive.module->table;
-    law->energy(material->constitutive.self, 1, &I, &I, &e, &e_1, &e_2);
-    for (unsigned b = 0; b < material->n_branch; b++)
-        springs += material->branch[b].modulus / material->branch[b].density;
-    return 2.0 * (e_1 + e_2) + springs > SCENE_SCHEME_STIFF * SCENE_SCHEME_STIFF;
-}
-
-static bool scene_scheme_is_gas(const struct scene_material *material)
-{
-    double p = 101325.0, T = 298.15, rho, e, rho_c2;
-    if (material->constitutive.module || !material->eos.module) return false;
-    const struct bulla_eos *law = material->eos.module->table;
-    law->density(material->eos.self, 1, &p, &T, &rho);
-    law->state(material->eos.self, 1, &rho, &p, &e, &rho_c2);
-    return rho_c2 < SCENE_SCHEME_SOFT;
-}
-
-/* Does a stiff solid meet a gas, on a surface that lies as it likes? */
-static bool scene_scheme_stiff(struct draft *draft)
-{
-    const struct scene *scene = draft->scene;
-    bool stiff = false, gas = false;
-    if (scene->domain.dim < 2) return false;
-    for (unsigned l = 0; l < scene->n_material; l++) {
-        stiff = stiff || scene_scheme_is_stiff(&scene->material[l]);
-        gas = gas || scene_scheme_is_gas(&scene->material[l]);
-    }
-    return stiff && gas;
-}
-
-/* The same of an elastic one that shares its traction. */
-static bool scene_scheme_hard(struct draft *draft)
-{
-    if (draft->scene->scheme.traction == SCENE_TRACTION_PRESSURE) return false;
-    if (scene_matter_strength(draft) || scene_matter_branched(draft)) return false;
-    return scene_scheme_stiff(draft);
-}
-
 /* With tension, surfaces of columns whose fractions have slopes grow teeth (docs/decisions/tension.md); stiff solids in
  * a gas shake where steep slopes make their surfaces sharp (docs/decisions/oblique-surfaces.md). */
 static const char *scene_scheme_edge(struct draft *draft)
 {
-    bool drawn = keys_at(draft->root, "surface-tension")->count > 0 && draft->scene->domain.dim > 1;
-    if (drawn && !scene_matter_solid(draft)) return "thinc";
-    return scene_scheme_hard(draft) ? "van-albada" : "superbee";
+    if (scene_meet_drawn(draft)) return "thinc";
+    return scene_meet_hard(draft) ? "van-albada" : "superbee";
 }
 
 static void scene_scheme_surfaces(struct draft *draft, const struct keys_value *surface)
@@ -317,7 +277,7 @@ static void scene_scheme_surfaces(struct draft *draft, const struct keys_value *
     scene_matter_open(draft, &value, &scene->scheme.interface_limiter);
     const struct bulla_module *module = scene->scheme.interface_limiter.module;
     bool rests = !module || !strcmp(module->name, "van-albada") || !strcmp(module->name, "minmod");
-    if (!rests && scene_scheme_hard(draft))
+    if (!rests && scene_meet_hard(draft))
         diag_warn(draft->keys.diag, &value.node->mark,
                   "with interface-limiter '%s' a stiff solid that moves through a gas can shake itself to pieces; "
                   "van-albada is the default there",
@@ -429,45 +389,14 @@ static bool scene_scheme_wood(struct draft *draft, const struct keys_map *scheme
     return wood;
 }
 
-/* A surface that bears no shear. */
-static bool scene_scheme_free(struct draft *draft, const struct keys_map *scheme)
-{
-    enum { AUTO, FREE } shear = (int)keys_at(scheme, "surface-shear")->integer;
-    return shear == AUTO ? scene_scheme_hard(draft) : shear == FREE;
-}
-
-/* Solids that are strained by what of them comes to the faces. */
-static bool scene_scheme_sheltered(struct draft *draft, const struct keys_map *scheme)
-{
-    enum { AUTO, SHARE } strain = (int)keys_at(scheme, "surface-strain")->integer;
-    bool kapila = draft->scene->scheme.closure == SCENE_KAPILA;
-    if (strain == SHARE && !kapila)
-        diag_warn(draft->keys.diag, &keys_at(scheme, "surface-strain")->node->mark,
-                  "'surface-strain: share' goes with 'closure: kapila', and has no effect here");
-    return kapila && (strain == AUTO ? scene_scheme_stiff(draft) : strain == SHARE);
-}
-
-/* Keys that say how solids meet fluids, in a scene that has no solid. */
-static void scene_scheme_idle(struct draft *draft, const struct keys_map *scheme)
-{
-    static const char *const keys[] = {"traction", "surface-shear", "surface-strain"};
-    for (size_t k = 0; k < sizeof keys / sizeof *keys && !scene_matter_solid(draft); k++) {
-        const struct keys_value *value = keys_at(scheme, keys[k]);
-        if (!value->given || value->integer == 0) continue;
-        diag_warn(draft->keys.diag, &value->node->mark,
-                  "'%s' says how elastic solids meet fluids, and has no effect here", keys[k]);
-        diag_help(draft->keys.diag, "a material with 'constitutive:' is a solid");
-    }
-}
-
 void scene_scheme(struct draft *draft)
 {
     const struct keys_map *scheme = keys_at(draft->root, "scheme")->map, *run = keys_at(draft->root, "run")->map;
     struct scene *scene = draft->scene;
     scene->scheme.closure = (enum scene_closure)keys_at(scheme, "closure")->integer;
     scene->scheme.traction = (enum scene_traction)keys_at(scheme, "traction")->integer;
-    scene->scheme.free = scene_scheme_free(draft, scheme);
-    scene->scheme.sheltered = scene_scheme_sheltered(draft, scheme);
+    scene->scheme.free = scene_meet_free(draft, scheme);
+    scene->scheme.sheltered = scene_meet_sheltered(draft, scheme);
     scene->scheme.exchange = (enum scene_exchange)keys_at(scheme, "exchange")->integer;
     scene->scheme.integrator = (enum scene_integrator)keys_at(scheme, "integrator")->integer;
     scene->scheme.diffusion = (enum scene_diffusion)keys_at(scheme, "diffusion")->integer;
@@ -481,7 +410,8 @@ void scene_scheme(struct draft *draft)
     scene_scheme_riemann_open(draft, scheme);
     scene_scheme_reconstruct(draft, scheme);
     scene_scheme_limit(draft, scheme);
-    scene_scheme_idle(draft, scheme);
+    scene->scheme.slanted = scene_meet_slanted(draft, scheme);
+    scene_meet_idle(draft, scheme);
     scene->run.until = keys_at(run, "until")->number;
     scene->run.max_steps = keys_at(run, "max-steps")->integer;
     scene->run.dt_least = keys_at(run, "smallest-step")->given ? keys_at(run, "smallest-step")->number : -1.0;

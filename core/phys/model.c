@@ -27,6 +27,7 @@ static void model_name_fields(struct model *model)
 {
     static const char *const momentum[] = {"momentum_x", "momentum_y", "momentum_z"};
     static const char *const normal[] = {"normal_x", "normal_y", "normal_z"};
+    static const char *const slant[] = {"slant_x", "slant_y", "slant_z"};
     unsigned at = 0;
     model->field_names = mem_new(model->n_field + 1, sizeof *model->field_names);
     for (unsigned l = 0; l < model->n_alpha; l++)
@@ -46,6 +47,7 @@ static void model_name_fields(struct model *model)
     for (unsigned k = 0; k < model->n_pair; k++)
         model->field_names[at++] = mem_print("curvature_%s_%s", model->scene->material[model->pairs[k].inside].name,
                                              model->scene->material[model->pairs[k].outside].name);
+    for (unsigned d = 0; d < model->n_slant; d++) model->field_names[at++] = mem_text(slant[d]);
 }
 
 /* Names that derive.c understands for this scene. */
@@ -249,6 +251,8 @@ static struct model *model_narrow(const struct model *model, unsigned first, uns
         for (unsigned c = 0; c < narrow->n_stretch; c++)
             narrow->active[narrow->n_active++] = model_stretch(narrow, k) + c;
     for (unsigned k = 0; k < narrow->n_pair; k++) narrow->active[narrow->n_active++] = narrow->pairs[k].i_kappa;
+    narrow->n_slant = narrow->n_alpha ? model->n_slant : 0;
+    for (unsigned d = 0; d < narrow->n_slant; d++) narrow->active[narrow->n_active++] = narrow->i_slant + d;
     return narrow;
 }
 
@@ -429,6 +433,9 @@ struct model *model_new(const struct scene *scene)
     if (model->tilted) model->n_normal = (unsigned)model->dim;
     model->n_field += model->n_normal;
     model_pair_up(model);
+    model->i_slant = model->n_field;
+    model->n_slant = scene->scheme.slanted ? (unsigned)model->dim : 0;
+    model->n_field += model->n_slant;
     model_family_all(model);
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
     model->lagged = model->split || model_jumps(model);

@@ -122,8 +122,8 @@ struct model_fick {
 enum { MODEL_STRETCHES = SCENE_MATERIALS + SCENE_BRANCHES };
 
 /* Most evolved fields a scene can have: fractions, densities, velocities, energy, memories of solids, stretches,
- * normals, curvatures. */
-enum { MODEL_FIELDS = 4 * SCENE_MATERIALS + 3 + 1 + 6 * MODEL_STRETCHES + 3 + SCENE_PAIRS };
+ * normals, curvatures, slants. */
+enum { MODEL_FIELDS = 4 * SCENE_MATERIALS + 3 + 1 + 6 * MODEL_STRETCHES + 3 + SCENE_PAIRS + 3 };
 
 struct model {
     const struct scene *scene;
@@ -148,6 +148,7 @@ struct model {
     unsigned n_fick;
     struct model_fick ficks[SCENE_PHASES];
     unsigned n_normal, i_normal; /* normals of the surfaces of solids (scheme/normal.h): dim, or 0 */
+    unsigned n_slant, i_slant;   /* how surfaces lie to the axes (scheme/slant.h): dim, or 0 */
     unsigned n_material, n_alpha, n_field;
     unsigned i_alpha, i_m, i_u, i_E;         /* first index of each group; primitives: i_m holds rho_l, i_E holds p */
     unsigned n_active, active[MODEL_FIELDS]; /* components that evolve; all, but in a pure model */
@@ -208,10 +209,10 @@ static inline bool model_is_solid(const struct model *model, unsigned l)
     return false;
 }
 
-/* Number of fields that are made anew in every stage, the last ones: normals and curvatures. */
+/* Number of fields that are made anew in every stage, the last ones: normals, curvatures and slants. */
 static inline unsigned model_renewed(const struct model *model)
 {
-    return model->n_normal + model->n_pair;
+    return model->n_normal + model->n_pair + model->n_slant;
 }
 
 /* Number of active fields that faces see: all others. */

@@ -357,6 +357,7 @@ static void bound_fill_fresh(const struct model *model, double *at, size_t strid
     for (unsigned k = 0; k < model_stretches(model); k++)
         elastic_identity(model, 1, stride, at + model_stretch(model, k) * stride);
     for (unsigned d = 0; d < model->n_normal; d++) at[(model->i_normal + d) * stride] = 0.0;
+    for (unsigned d = 0; d < model->n_slant; d++) at[(model->i_slant + d) * stride] = 0.0;
     for (unsigned k = 0; k < model->n_pair; k++) at[model->pairs[k].i_kappa * stride] = 0.0;
 }
 

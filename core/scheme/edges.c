@@ -16,6 +16,7 @@
 #include "scheme/edges_front.h"
 #include "scheme/edges_squeeze.h"
 #include "scheme/edges_slope.h"
+#include "scheme/slant.h"
 
 #include <string.h>
 
@@ -50,9 +51,10 @@ struct edges_row {
 
 struct edges *edges_new(const struct model *model, size_t pitch)
 {
-    enum { ROWS = 11 };
+    enum { ROWS = 11, SLANT_ROWS = 2 };
     struct edges *edges = mem_new(1, sizeof *edges);
-    double *rows = edges->rows = mem_new(ROWS * pitch, sizeof *rows);
+    size_t n = slant_acts(model) ? ROWS + SLANT_ROWS : ROWS;
+    double *rows = edges->rows = mem_new(n * pitch, sizeof *rows);
     edges->pitch = pitch;
     edges->mark = rows + 2 * pitch;
     edges->spare = rows + 3 * pitch;
@@ -66,6 +68,9 @@ struct edges *edges_new(const struct model *model, size_t pitch)
                                 .three = rows + 8 * pitch};
     edges->plain = edges->fraction = plain;
     edges->fraction.limiter = model->limiter_alpha;
+    edges->fraction.room = rows + ROWS * pitch;
+    edges->fraction.rows = model->n_field;
+    edges->fraction.pitch = pitch;
     edges->steep = vet_two_sided(model->limiter_alpha.law);
     bool alike = model->reconstruction->bounded && !vet_two_sided(model->limiter.law); /* to the bit */
     edges->drawn = (model->tilted || model->forced) && !alike;
@@ -372,6 +377,14 @@ const double *edges_squeezed(const struct edges *edges, const struct model *mode
     return room;
 }
 
+/* Fractions whose limiter goes by the slant of their surface. */
+static void edges_slant(struct edges *edges, const struct model *model, const struct edges_row *row)
+{
+    edges->fraction.soft = slant_acts(model) ? &edges->plain : NULL;
+    edges->fraction.cells = row->w;
+    edges->fraction.slant = row->w + (model->i_slant + (unsigned)row->frame->axis) * edges->pitch;
+}
+
 void edges_fill(struct edges *edges, const struct model *model, const struct frame *frame, const struct edges_cells *in,
                 double *state)
 {
@@ -386,6 +399,7 @@ void edges_fill(struct edges *edges, const struct model *model, const struct fra
                                   .lean = {in->lean[0] ? in->lean[0] + reach : NULL,
                                            in->lean[1] ? in->lean[1] + reach : NULL},
                                   .state = state};
+    edges_slant(edges, model, &row);
     if (model->reconstruction->all) edges_together(edges, model, &row);
     else edges_each(edges, model, &row);
     if (!model->reconstruction->bounded) edges_bound(edges, model, &row);

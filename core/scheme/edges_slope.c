@@ -23,10 +23,9 @@ static BULLA_KERNEL void edges_slope_draw(size_t n, const double *restrict w, co
     }
 }
 
-void edges_slope_limit(const struct bulla_limited *limited, size_t n, size_t step, const double *w,
-                       double *restrict lower, double *restrict upper)
+static void edges_slope_plain(const struct edges_slope *own, size_t n, size_t step, const double *w,
+                              double *restrict lower, double *restrict upper)
 {
-    const struct edges_slope *own = (const struct edges_slope *)limited;
     const struct model_limiter *limiter = &own->limiter;
     if (limiter->law->edges) {
         limiter->law->edges(limiter->self, n, step, w, lower, upper);
@@ -35,6 +34,35 @@ void edges_slope_limit(const struct bulla_limited *limited, size_t n, size_t ste
     edges_slope_differ(n + step, w - step, w, own->difference);
     limiter->law->slope(limiter->self, n, own->difference, own->difference + step, own->slope);
     edges_slope_draw(n, w, own->slope, lower, upper);
+}
+
+static BULLA_KERNEL void edges_slope_mix(size_t n, const double *restrict slant, const double *restrict soft,
+                                         double *restrict edge)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double s = slant[i], a = soft[i], b = edge[i];
+        edge[i] = a + s * (b - a);
+    }
+}
+
+/* The slants of the cells of a row that begins at w; NULL: it is none of those of the frame. */
+static const double *edges_slope_slant(const struct edges_slope *own, const double *w)
+{
+    bool inside = own->soft && w >= own->cells && w < own->cells + own->rows * own->pitch;
+    return inside ? own->slant + (size_t)(w - own->cells) % own->pitch : NULL;
+}
+
+void edges_slope_limit(const struct bulla_limited *limited, size_t n, size_t step, const double *w,
+                       double *restrict lower, double *restrict upper)
+{
+    const struct edges_slope *own = (const struct edges_slope *)limited;
+    const double *slant = edges_slope_slant(own, w);
+    edges_slope_plain(own, n, step, w, lower, upper);
+    if (!slant) return;
+    edges_slope_plain(own->soft, n, step, w, own->room, own->room + n);
+    edges_slope_mix(n, slant, own->room, lower);
+    edges_slope_mix(n, slant, own->room + n, upper);
 }
 
 /* The difference of pressure that is not held by forces: `above` of the cell before, `below` of the one behind. */

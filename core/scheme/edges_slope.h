@@ -17,6 +17,13 @@ struct edges_slope {
     struct model_limiter limiter;
     double *difference, *slope, *below, *above;
     double *three; /* three rows of cells, for limiters of two sides */
+    /* Of fractions whose limiter goes by the slant of their surface (slant.h): the slopes of all else, the slants along
+     * the axis of the row, as far behind `cells` as the first of them, rows of `pitch` cells, and room for two rows of
+     * edges. soft: NULL if the limiter acts as it is. */
+    const struct edges_slope *soft;
+    const double *cells, *slant;
+    size_t pitch, rows;
+    double *room;
 };
 
 /* Pressure of n cells that have edges, `step` apart along the axis, and what lies in them (edges.h); one more cell
@@ -27,7 +34,8 @@ struct edges_pressure {
     double *lower, *upper; /* the edges, to be filled */
 };
 
-/* bulla_limited.edges: edges of n cells by a limiter of one or two sides. */
+/* bulla_limited.edges: edges of n cells by a limiter of one or two sides. Cells that lie elsewhere than in the rows of
+ * `cells` have no slant: there the limiter acts as it is. */
 void edges_slope_limit(const struct bulla_limited *limited, size_t n, size_t step, const double *w,
                        double *restrict lower, double *restrict upper);
 

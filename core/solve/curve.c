@@ -6,11 +6,9 @@
 #include "scheme/curvature.h"
 #include "scheme/heights.h"
 #include "scheme/patch_state.h"
+#include "scheme/slant.h"
 
 #include <string.h>
-
-/* Three for columns through a cell, one for the mean with its neighbours. */
-enum { CURVE_LAYERS = HEIGHTS_LAYERS };
 
 /* Least product of the fractions of a pair that makes a surface: below it its force is some 1e-6 of the whole one. */
 #define CURVE_LEAST 1e-6
@@ -18,20 +16,27 @@ enum { CURVE_LAYERS = HEIGHTS_LAYERS };
 struct curve {
     const struct model *model;
     const struct mesh *mesh;
+    int g; /* layers around a tile */
     struct curvature *room;
     double *patch; /* fractions around a tile; if there are three, then room for what is not one of them */
+    double *slant; /* room for slants */
+    struct box_block block;
     size_t pitch;
 };
 
 struct curve *curve_new(const struct model *model, const struct mesh *mesh)
 {
-    if (!model->n_pair || mesh->dim == 1) return NULL;
+    bool curved = model->n_pair > 0 && mesh->dim > 1, slanted = slant_acts(model);
+    if (!curved && !slanted) return NULL;
     struct curve *curve = mem_new(1, sizeof *curve);
     curve->model = model;
     curve->mesh = mesh;
-    curve->room = curvature_new(mesh, CURVE_LAYERS);
-    curve->pitch = rim_block(mesh, CURVE_LAYERS, NULL).pitch;
+    curve->g = curved ? HEIGHTS_LAYERS : 1; /* three for columns through a cell, one for the mean with its neighbours */
+    curve->block = rim_block(mesh, curve->g, NULL);
+    curve->pitch = curve->block.pitch;
     curve->patch = mem_new((model->n_alpha + (model->n_alpha > 2 ? 1 : 0)) * curve->pitch, sizeof *curve->patch);
+    if (curved) curve->room = curvature_new(mesh, curve->g);
+    if (slanted) curve->slant = mem_new(((size_t)mesh->dim + 1) * curve->pitch, sizeof *curve->slant);
     return curve;
 }
 
@@ -40,12 +45,13 @@ void curve_free(struct curve *curve)
     if (!curve) return;
     curvature_free(curve->room);
     mem_free(curve->patch);
+    mem_free(curve->slant);
     mem_free(curve);
 }
 
 static struct patch_source curve_source(const struct curve *curve, int l)
 {
-    return patch_state_fractions(curve->model, curve->mesh, l, CURVE_LAYERS, 2);
+    return patch_state_fractions(curve->model, curve->mesh, l, curve->g, 2);
 }
 
 /* Cells of a tile that hold a surface of the pair. */
@@ -138,13 +144,13 @@ static void curve_pair(const struct curve *curve, const struct level *level, uns
     curvature_oppose(curve->room, curve_part(curve->model, pair));
 }
 
-static void curve_tile(struct curve *curve, const struct patch_source *source, unsigned local)
+/* Curvatures; the patch may be gathered already. */
+static void curve_bend(struct curve *curve, const struct patch_source *source, unsigned local, bool gathered)
 {
     const struct model *model = curve->model;
     const struct level *level = source->level;
     double *block = source->arrays[local];
     size_t n = curve->mesh->n_cell;
-    bool gathered = false;
     for (unsigned k = 0; k < model->n_pair; k++) {
         const struct model_pair *pair = &model->pairs[k];
         const double *a = curve->patch + pair->inside * curve->pitch, *b = curve->patch + pair->outside * curve->pitch;
@@ -162,6 +168,22 @@ static void curve_tile(struct curve *curve, const struct patch_source *source, u
     }
 }
 
+/* Slants. Returns whether there are any, and with them the patch. */
+static bool curve_lie(const struct curve *curve, const struct patch_source *source, unsigned local)
+{
+    const struct model *model = curve->model;
+    size_t n = curve->mesh->n_cell;
+    double *block = source->arrays[local], *slant = block + model->i_slant * n;
+    if (!slant_acts(model)) return false;
+    if (!slant_varies(model, n, block + model->i_alpha * n)) {
+        memset(slant, 0, model->n_slant * n * sizeof *slant);
+        return false;
+    }
+    patch_gather(source, local, curve->patch);
+    slant_make(model, curve->mesh, &curve->block, source->level->h, curve->patch, curve->slant, slant);
+    return true;
+}
+
 void curve_take(struct curve *curve, int l, double *const *arrays)
 {
     if (!curve) return;
@@ -169,7 +191,7 @@ void curve_take(struct curve *curve, int l, double *const *arrays)
     source.arrays = arrays;
     patch_start(&source);
     patch_finish(&source);
-    for (unsigned t = 0; t < source.level->n_local; t++) curve_tile(curve, &source, t);
+    for (unsigned t = 0; t < source.level->n_local; t++) curve_bend(curve, &source, t, curve_lie(curve, &source, t));
 }
 
 void curve_finer(struct curve *curve, int l, int slot)

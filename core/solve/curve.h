@@ -1,9 +1,10 @@
-/* curve.h - curvatures of interfaces with surface tension, in two and three dimensions: a pass over a level before each
- * stage.
+/* curve.h - how interfaces lie in two and three dimensions, their curvatures (of pairs with surface tension) and their
+ * slants (scheme/slant.h): a pass over a level before each stage.
  *
- * kappa of a cell looks at three layers of cells around it, and faces want it of the neighbours, too: so it is made of
- * the fractions before the layers of the frames are sent, and travels with them as a field of the primitives (model.h,
- * pairs). In one dimension it is known without neighbours (scheme/tension.h), and all this does nothing. */
+ * kappa of a cell looks at three layers of cells around it, s at one, and faces want both of the neighbours, too: so
+ * they are made of the fractions before the layers of the frames are sent, and travel with them as fields of the
+ * primitives (model.h). In one dimension kappa is known without neighbours (scheme/tension.h), s is 1, and all this
+ * does nothing. */
 #ifndef CURVE_H
 #define CURVE_H
 
@@ -16,8 +17,8 @@ struct curve;
 struct curve *curve_new(const struct model *model, const struct mesh *mesh);
 void curve_free(struct curve *curve);
 
-/* Curvatures of all local tiles of a level into `arrays` ([n_local] blocks of primitives or conserved fields), from the
- * fractions there. Collective. */
+/* Curvatures and slants of all local tiles of a level into `arrays` ([n_local] blocks of primitives or conserved
+ * fields), from the fractions there. Collective. */
 void curve_take(struct curve *curve, int l, double *const *arrays);
 
 /* What the next finer level sees of the fractions of this one, after curve_take of its w: slot 0 at the beginning of

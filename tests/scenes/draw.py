@@ -234,6 +234,7 @@ def scheme(scene):
 WIDE = 1000
 LIVELY = 2000  # from here on: lively.py
 SURFACES = 3300  # from here on: solids that meet fluids in all ways that the scheme knows
+SLANTS = 3600  # from here on: interface limiters along normals and along axes
 OTHER_LIQUIDS = [{"type": "tait", "preset": "water"}, {"type": "modified-tait", "preset": "refit"},
                  {"type": "iapws95", "preset": "water", "table-size": 64}, {"type": "stiffened-gas", "preset": "glycerol"}]
 OTHER_GASES = [{"type": "helmholtz-air", "preset": "air", "table-size": 64}, {"type": "rkpr", "preset": "air"},
@@ -366,6 +367,11 @@ def surfaces(scene):
             scene.case.setdefault("scheme", {})[word] = dice.pick(*values)
 
 
+def slants(scene):
+    if scene.dim > 1 and scene.dice.coin(0.4):
+        scene.case.setdefault("scheme", {})["interface-along"] = scene.dice.pick("normal", "normal", "axes")
+
+
 def draw(seed):
     """A case, as a map that is JSON and YAML, and the Scene with what is known of it."""
     scene = Scene(seed)
@@ -389,4 +395,6 @@ def draw(seed):
         liven(scene)
     if seed >= SURFACES:
         surfaces(scene)
+    if seed >= SLANTS:
+        slants(scene)
     return scene.case, scene
