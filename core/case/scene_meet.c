@@ -89,6 +89,16 @@ bool scene_meet_drawn(struct draft *draft)
     return drawn && !scene_matter_solid(draft);
 }
 
+/* Surfaces that move along themselves must not get teeth; but where nothing is viscous, soft edges along them let waves
+ * of the surface grow (docs/decisions/edges.md). */
+static bool scene_meet_aligned(struct draft *draft)
+{
+    bool viscous = false;
+    for (unsigned l = 0; l < draft->scene->n_material; l++)
+        viscous = viscous || draft->scene->material[l].viscosity.module;
+    return viscous && scene_meet_drawn(draft);
+}
+
 bool scene_meet_slanted(struct draft *draft, const struct keys_map *scheme)
 {
     enum { AUTO, NORMAL } along = (int)keys_at(scheme, "interface-along")->integer;
@@ -100,5 +110,5 @@ bool scene_meet_slanted(struct draft *draft, const struct keys_map *scheme)
         diag_help(draft->keys.diag, "on a line and around a centre the axis is the normal");
         return false;
     }
-    return along == AUTO ? scene_meet_drawn(draft) : along == NORMAL;
+    return along == AUTO ? scene_meet_aligned(draft) : along == NORMAL;
 }

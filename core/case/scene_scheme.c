@@ -64,10 +64,12 @@ static const struct key scene_scheme_rows[] = {
      .type = KEYS_CHOICE,
      .choices = "auto|normal|axes",
      .fallback = "auto",
-     .doc = "Along what the interface limiter acts in two and three dimensions. normal: along each axis the part n_d^2 "
-            "of it, n the normal of the surface, and `limiter` for the rest, so that surfaces that lie along an axis "
-            "and move along it get no teeth; axes: all of it along every axis. auto: normal where "
-            "fluids have surface tension, whose curvature sees them, else axes, which is cheaper."},
+     .doc =
+         "Along what the interface limiter acts in two and three dimensions. normal: along each axis the part n_d^2 "
+         "of it, n the normal of the surface, and `limiter` for the rest, so that surfaces that move along themselves "
+         "get no teeth, which their curvature would see; axes: all of it along every axis, which is cheaper, and "
+         "steady where nothing is viscous. auto: normal where fluids, some of them viscous, have surface tension; "
+         "else axes."},
     {.name = "exchange",
      .type = KEYS_CHOICE,
      .choices = "auto|fast|full",

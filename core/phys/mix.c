@@ -126,13 +126,15 @@ static BULLA_KERNEL void mix_subtract(size_t n, const double *restrict a, const 
     for (size_t i = 0; i < n; i++) rest[i] = a[i] - b[i];
 }
 
-/* Normals, curvatures and slants are what they are in both. */
+/* Normals and curvatures are what they are in both. Slants are made in the primitives alone, afterwards
+ * (scheme/slant.h): conserved fields carry none from stage to stage, so that averages, births and checkpoints do not
+ * see them. */
 static void mix_renewed(const struct model *model, size_t n, size_t stride, const double *from, double *to)
 {
     for (unsigned d = model->i_normal; d < model->i_normal + model->n_normal; d++)
         memcpy(to + d * stride, from + d * stride, n * sizeof *to);
     for (unsigned d = model->i_slant; d < model->i_slant + model->n_slant; d++)
-        memcpy(to + d * stride, from + d * stride, n * sizeof *to);
+        memset(to + d * stride, 0, n * sizeof *to);
     for (unsigned k = 0; k < model->n_pair; k++)
         memcpy(to + model->pairs[k].i_kappa * stride, from + model->pairs[k].i_kappa * stride, n * sizeof *to);
 }

@@ -9,11 +9,25 @@
 /* Added to sums of squares that may be 0. */
 #define SLANT_NONE 1e-300
 
+/* Fractions that say how surfaces lie: of two the first, whose differences are those of the other. */
+static unsigned slant_fractions(const struct model *model)
+{
+    return model->n_alpha > 2 ? model->n_alpha : 1;
+}
+
+static BULLA_KERNEL int slant_differ(size_t n, const double *restrict a)
+{
+    const double first = a[0];
+    int count = 0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++) count += a[i] != first;
+    return count;
+}
+
 bool slant_varies(const struct model *model, size_t n, const double *alpha)
 {
     bool varies = false;
-    for (unsigned l = 0; l < model->n_alpha && !varies; l++, alpha += n)
-        for (size_t i = 1; i < n && !varies; i++) varies = alpha[i] != alpha[0];
+    for (unsigned l = 0; l < slant_fractions(model) && !varies; l++) varies = slant_differ(n, alpha + l * n) > 0;
     return varies;
 }
 
@@ -63,9 +77,8 @@ static void slant_along(const struct model *model, const struct mesh *mesh, cons
 {
     const ptrdiff_t row = (ptrdiff_t)block->size[0], steps[3] = {1, row, row * (ptrdiff_t)block->size[1]};
     const ptrdiff_t stride[3] = {steps[a], steps[(a + 1) % mesh->dim], steps[(a + 2) % mesh->dim]};
-    unsigned all = model->n_alpha > 2 ? model->n_alpha : 1;
     memset(sum, 0, n * sizeof *sum);
-    for (unsigned l = 0; l < all; l++, first += block->pitch)
+    for (unsigned l = 0; l < slant_fractions(model); l++, first += block->pitch)
         if (mesh->dim == 2) slant_plane(n, scale, stride[0], stride[1], first, sum);
         else slant_space(n, scale, stride, first, sum);
 }
@@ -89,3 +102,24 @@ void slant_make(const struct model *model, const struct mesh *mesh, const struct
                 memcpy(ret_slant, share + (box_at(block, 0, j, k) - first), (size_t)mesh->n[0] * sizeof *ret_slant);
     }
 }
+
+static bool slant_wanted(const struct model *path)
+{
+    return path->n_slant > 0;
+}
+
+/* The array of a stage's result has had other fields in it. */
+static size_t slant_apply(const struct term_tile *tile, double *u_new)
+{
+    const struct model *path = tile->model;
+    memset(u_new + path->i_slant * tile->n_cell, 0, path->n_slant * tile->n_cell * sizeof *u_new);
+    return 0;
+}
+
+const struct term slant_term = {
+    .name = "slant",
+    .owner = "core/scheme/slant.c",
+    .equation = "edges of alpha: those of limiter + n_d^2 (those of interface-limiter - those), n the normal",
+    .wanted = slant_wanted,
+    .apply = slant_apply,
+};

@@ -4,20 +4,23 @@
  * along x, its fractions change slowly from cell to cell of a row, and steepened they become teeth, which curvatures
  * see (docs/decisions/edges.md). So edges take as much of the interface limiter as the surface lies across the axis:
  *
- *     s_d = n_d^2 = sum_l (d_d alpha_l)^2/sum_l |grad alpha_l|^2,    edges = those of `limiter` + s_d (steep ones -
- * those)
+ *     s_d = n_d^2 = sum_l (d_d alpha_l)^2/sum_l |grad alpha_l|^2,    edges: limiter + s_d (interface-limiter - limiter)
  *
- * with differences over the 3^dim cells around, weights 1 2 1 across; 0 where all of these are alike. s_d are fields of
- * the state without fluxes, the last ones: each stage makes them from the fractions that it starts from
- * (solve/curve.h). Sums are paired so that mirrors, and in the plane the exchange of x and y, keep all bits. */
+ * with differences over the 3^dim cells around, weights 1 2 1 across; 0 where all of these are alike. s_d are the last
+ * fields of the state, without fluxes, and of its primitives alone: each stage makes them from the fractions that it
+ * starts from (solve/curve.h); conserved fields have 0 there. Sums are paired so that mirrors, and in the plane the
+ * exchange of x and y, keep all bits. */
 #ifndef SLANT_H
 #define SLANT_H
 
 #include "mesh/box.h"
 #include "mesh/mesh.h"
 #include "phys/model.h"
+#include "scheme/term.h"
 
 #include <stdbool.h>
+
+extern const struct term slant_term;
 
 /* Do surfaces of a scene go by their slant? */
 static inline bool slant_acts(const struct model *model)
@@ -25,8 +28,8 @@ static inline bool slant_acts(const struct model *model)
     return model->n_slant > 0;
 }
 
-/* Does a fraction vary over the n cells of a tile? [n_alpha][n]. Elsewhere no edge leaves the value of its cell, and s
- * may be anything. */
+/* Does a fraction that says how surfaces lie vary over the n cells of a tile? [n_alpha][n]. Elsewhere no edge leaves
+ * the value of its cell by more than round-off, and s may be anything. */
 bool slant_varies(const struct model *model, size_t n, const double *alpha);
 
 /* s of the cells of a tile, dim rows of n_cell. patch: its fractions with at least one layer around, as `block` lies,

@@ -22,6 +22,7 @@
 #include "scheme/response.h"
 #include "scheme/settling.h"
 #include "scheme/shelter.h"
+#include "scheme/slant.h"
 #include "scheme/slip.h"
 #include "scheme/source.h"
 #include "scheme/strain.h"
@@ -55,6 +56,7 @@ const struct term *const terms_all[] = {
     &fraction_sum,      /* fractions sum to 1 */
     &lag_term,          /* pressures that materials have in an interface travel with them */
     &tension_term,      /* surface tension: its force, and what a surface that moves has stored */
+    &slant_term,        /* how steep the edges of fractions are along an axis */
     &normal_term,       /* how the surfaces of solids lie */
     &shelter_term,      /* how far solids come to the faces of their cells */
     &strain_term,       /* the stretch of solids */

@@ -10,7 +10,7 @@
 
 #include "scheme/term.h"
 
-enum { TERMS_MOST = 28, TERMS_FLUXES = 5 * SCENE_MATERIALS + 6 * MODEL_STRETCHES + 32 };
+enum { TERMS_MOST = 29, TERMS_FLUXES = 5 * SCENE_MATERIALS + 6 * MODEL_STRETCHES + 32 };
 
 /* The list of one path. */
 struct terms {

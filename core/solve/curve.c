@@ -168,13 +168,13 @@ static void curve_bend(struct curve *curve, const struct patch_source *source, u
     }
 }
 
-/* Slants. Returns whether there are any, and with them the patch. */
+/* Slants, of primitives alone. Returns whether there are any, and with them the patch. */
 static bool curve_lie(const struct curve *curve, const struct patch_source *source, unsigned local)
 {
     const struct model *model = curve->model;
     size_t n = curve->mesh->n_cell;
     double *block = source->arrays[local], *slant = block + model->i_slant * n;
-    if (!slant_acts(model)) return false;
+    if (!slant_acts(model) || source->arrays != source->level->w) return false;
     if (!slant_varies(model, n, block + model->i_alpha * n)) {
         memset(slant, 0, model->n_slant * n * sizeof *slant);
         return false;

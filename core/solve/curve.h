@@ -17,8 +17,8 @@ struct curve;
 struct curve *curve_new(const struct model *model, const struct mesh *mesh);
 void curve_free(struct curve *curve);
 
-/* Curvatures and slants of all local tiles of a level into `arrays` ([n_local] blocks of primitives or conserved
- * fields), from the fractions there. Collective. */
+/* Curvatures and, into its primitives alone, slants of all local tiles of a level into `arrays` ([n_local] blocks of
+ * primitives or conserved fields), from the fractions there. Collective. */
 void curve_take(struct curve *curve, int l, double *const *arrays);
 
 /* What the next finer level sees of the fractions of this one, after curve_take of its w: slot 0 at the beginning of

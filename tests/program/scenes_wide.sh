@@ -3,7 +3,7 @@
 # their path knows. From 1000 on: walls to which solids stick, retries, matter that also moves across the plane, heat from walls,
 # and, 1580, super steps beside a finer level. From 2000 on: volume without mass, gases alone in a tile, hot traces of vapour,
 # masses that no cell holds, and, 3324, what lies behind coarser faces, forgotten when finer levels change.
-# Then a ball that moves where fluids meet.
+# 3612: what an array held before, in fields that carry nothing. Then a ball that moves where fluids meet.
 set -eu
 . "$BULLA_SOURCE/tests/lib.sh"
 
@@ -18,12 +18,14 @@ drawn() { # SEED: writes scene-SEED.yaml
     PYTHONDONTWRITEBYTECODE=1 "${python3:-python3}" -c 'import json, sys; sys.path.insert(0, sys.argv[1]); import draw
 print(json.dumps(draw.draw(int(sys.argv[2]))[0]))' "$BULLA_SOURCE/tests/scenes" "$1" >"scene-$1.yaml"
 }
-for seed in 1580 2044 2139 2632 3324; do drawn $seed; done
+for seed in 1580 2044 2139 2632 3324 3612; do drawn $seed; done
 snapshots='output.snapshots={every: 1 steps, fields: [pressure, velocity], precision: double}'
 for ranks in 1 2; do ran "edge-$ranks" scene-1580 --max-steps 1 --set "$snapshots" -n $ranks; done
 alike edge-1 edge-2
 for ranks in 1 2; do ran "behind-$ranks" scene-3324 --max-steps 4 --set "$snapshots" -n $ranks; done
 alike behind-1 behind-2
+for ranks in 1 3; do ran "lies-$ranks" scene-3612 --set scheme.interface-along=normal -n $ranks; done
+alike lies-1 lies-3
 ran thin scene-2044 --max-steps 4
 ran hot scene-2139 --max-steps 2
 ran debt scene-2632 --max-steps 5

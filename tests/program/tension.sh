@@ -63,8 +63,10 @@ expect: [{value: "max(abs(m/first(m) - 1))", at-most: 1e-13}, {value: max(u), at
 END
 ranked plane 1 3
 resumed plane 30 plane-1
-"$BULLA" plan plane.yaml | grep -q 'alpha: thinc across surfaces' || fail "the plan says nothing of how surfaces lie"
-if "$BULLA" plan plane.yaml --set scheme.interface-along=axes | grep -q 'across surfaces'; then fail "it says too much"; fi
+"$BULLA" plan plane.yaml --set 'materials.air.viscosity=18 uPa s' >said || fail "plan"
+grep -q 'alpha: thinc across surfaces' said || fail "the plan says nothing of how surfaces lie" said
+"$BULLA" plan plane.yaml >said || fail "plan"
+grep -q 'alpha: thinc)' said || fail "without viscosity" said
 "$BULLA" check bubble.yaml --set scheme.interface-along=normal >said 2>&1 || fail "check" said
 grep -q "'interface-along: normal' is about surfaces .* has no effect here" said || fail "no word about a line" said
 
@@ -73,6 +75,9 @@ sed -e 's/^surface-tension: .*/scheme: {interface-limiter: thinc, interface-alon
     -e 's/ u: {max/ v: {max: alpha_air}, u: {max/' plane.yaml >slid.yaml
 ranked slid 1 3
 resumed slid 30 slid-1
+sed 's/^run:/scheme: {interface-along: normal}\nrun:/' plane.yaml >along.yaml
+ranked along 1 3
+resumed along 30 along-1
 
 # Three materials that meet in lines, two of them on a wall with angles: surfaces of each against all others.
 cat >lens.yaml <<'END'
