@@ -26,6 +26,8 @@ for ranks in 1 2; do ran "behind-$ranks" scene-3324 --max-steps 4 --set "$snapsh
 alike behind-1 behind-2
 for ranks in 1 3; do ran "lies-$ranks" scene-3612 --set scheme.interface-along=normal -n $ranks; done
 alike lies-1 lies-3
+last=out/checkpoints/scene-3612_000048.chk
+"$BULLA_BUILD/tests/test-unit-checkpoint" "lies-1/$last" "lies-3/$last" >said 2>&1 || fail "fields that carry nothing" said
 ran thin scene-2044 --max-steps 4
 ran hot scene-2139 --max-steps 2
 ran debt scene-2632 --max-steps 5
