@@ -42,8 +42,7 @@ void scene_phase(struct draft *draft);
 bool scene_meet_hard(struct draft *draft);
 /* Have fluids, and there is no solid, surface tension on surfaces that lie as they like? */
 bool scene_meet_drawn(struct draft *draft);
-/* What `surface-shear`, `surface-strain` and `interface-along` say: see the fields of
- * struct scene_scheme. */
+/* What `surface-shear`, `surface-strain` and `interface-along` say: see the fields of struct scene_scheme. */
 bool scene_meet_free(struct draft *draft, const struct keys_map *scheme);
 bool scene_meet_sheltered(struct draft *draft, const struct keys_map *scheme);
 bool scene_meet_slanted(struct draft *draft, const struct keys_map *scheme);

@@ -103,11 +103,6 @@ void slant_make(const struct model *model, const struct mesh *mesh, const struct
     }
 }
 
-static bool slant_wanted(const struct model *path)
-{
-    return path->n_slant > 0;
-}
-
 /* The array of a stage's result has had other fields in it. */
 static size_t slant_apply(const struct term_tile *tile, double *u_new)
 {
@@ -120,6 +115,6 @@ const struct term slant_term = {
     .name = "slant",
     .owner = "core/scheme/slant.c",
     .equation = "edges of alpha: those of limiter + n_d^2 (those of interface-limiter - those), n the normal",
-    .wanted = slant_wanted,
+    .wanted = slant_acts,
     .apply = slant_apply,
 };

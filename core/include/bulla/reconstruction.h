@@ -20,7 +20,9 @@ extern "C" {
 #endif
 
 /* The limited slopes that the case chose for a component (`limiter`; of volume fractions `interface-limiter`): the
- * edges w -+ s/2 of n cells. They look at one cell on each side and keep the bounds above. */
+ * edges w -+ s/2 of n cells. They look at one cell on each side and keep the bounds above. w: the
+ * row that the scheme was given, or a piece of it (`interface-along: normal` knows by that how surfaces lie in its
+ * cells; of cells from elsewhere it does not, and all of the limiter acts). */
 struct bulla_limited {
     uint32_t size; /* sizeof(struct bulla_limited) */
     void (*edges)(const struct bulla_limited *limited, size_t n, size_t step, const double *w,
