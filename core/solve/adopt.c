@@ -40,10 +40,10 @@ static void adopt_tiles(struct stage *stage, const int *from, const bool *born)
     mem_free(before);
     stage->bound = bound_paint(stage->model, stage->mesh, level, stage->bound, from);
     guard_free(stage->guard);
-    stage->guard = guard_new(stage->model, stage->mesh, stage->l, stage->tableau->n);
+    stage->guard = guard_new(stage->model, stage->mesh, stage->l);
     mem_free(stage->previous);
     stage->previous = NULL;
-    if (tableau_keeps(stage->tableau))
+    if (tableau_keeps(tableau_of(stage->model->scene))) /* the step before may have been a last try's single one */
         stage->previous =
             mem_new(level->n_local * stage->model->n_field * stage->mesh->n_cell, sizeof *stage->previous);
     mem_free(stage->shore);

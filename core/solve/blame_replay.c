@@ -175,7 +175,6 @@ static void blame_replay_judge(struct replay *replay, struct blame_outcome *outc
                           .level = replay->level,
                           .l = facts->level,
                           .n_local = 1,
-                          .n_stage = replay->tableau->n,
                           .repair = facts->repair,
                           .debt = GUARD_ROUND_OFF,
                           .last = true};

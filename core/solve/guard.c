@@ -20,17 +20,12 @@ enum { GUARD_BATCH = SOFTEN_BATCH };
 /* A mark of stage s is 1 + s until it is known whether earlier ones were clean everywhere. */
 static const double GUARD_MARK = 1.0;
 
-struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l, int n_stage)
+struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l)
 {
     struct guard *guard = mem_new(1, sizeof *guard);
     const struct level *level = &mesh->levels[l];
-    *guard = (struct guard){.model = model,
-                            .mesh = mesh,
-                            .level = level,
-                            .l = l,
-                            .n_local = level->n_local,
-                            .n_stage = n_stage,
-                            .debt = GUARD_ROUND_OFF};
+    *guard = (struct guard){
+        .model = model, .mesh = mesh, .level = level, .l = l, .n_local = level->n_local, .debt = GUARD_ROUND_OFF};
     guard->repair = model->n_alpha > 1 && model->scene->scheme.guard != SCENE_GUARD_STRICT;
     guard->mask = mem_new(level->n_local, sizeof *guard->mask);
     guard->halo = halo_new(mesh, level, 1);
@@ -280,14 +275,14 @@ void guard_settle(struct guard *guard, int first)
             double *mark = &guard->mask[t][c];
             if (*mark > GUARD_MARK) *mark = *mark > GUARD_MARK + first ? 0.0 : GUARD_MARK;
         }
-    for (int s = first + 1; s < guard->n_stage; s++) guard->bad[s] = 0;
+    for (int s = first + 1; s < TABLEAU_STAGES; s++) guard->bad[s] = 0;
     if (!guard->bad[first]) guard->cause[0] = '\0';
 }
 
 long long guard_bad(const struct guard *guard)
 {
     long long bad = 0;
-    for (int s = 0; s < guard->n_stage; s++) bad += guard->bad[s];
+    for (int s = 0; s < TABLEAU_STAGES; s++) bad += guard->bad[s];
     return bad;
 }
 

@@ -50,7 +50,6 @@ struct guard {
     bool masked;       /* some cell of some rank is marked */
     bool repair;       /* relaxation is allowed (several materials, guard not strict) */
     long long relaxed; /* cells repaired in the present attempt */
-    int n_stage;       /* stages of a step */
     long long bad[TABLEAU_STAGES]; /* inadmissible cells found after each stage of the present attempt */
     char cause[GUARD_WORDS];       /* the first of them, in words (rank-local) */
     struct guard_place found;      /* and in numbers; only valid after something was found */
@@ -59,8 +58,8 @@ struct guard {
     double *kept; /* [2][n_field][n_cell]: u and w of the tile of `found` as they came to be judged */
 };
 
-/* Of level l, for steps of n_stage stages. */
-struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l, int n_stage);
+/* Of level l, for steps of any integrator: the last try of a step has one of its own (advance.c). */
+struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l);
 void guard_free(struct guard *guard);
 
 enum { GUARD_WHERE = 256 };
@@ -78,7 +77,7 @@ void guard_attempt(struct guard *guard);
 struct guard_tile {
     const struct model *model; /* the guard's, or the pure model the tile was advanced with */
     unsigned local;
-    int stage; /* 0 to n_stage - 1 */
+    int stage; /* of the integrator, from 0 */
     const double *u_old;
     const double *p_before; /* pressures before the stage, of cells that may be softened (phys/soft.h); or NULL */
     double *u, *w;          /* conserved and primitives now; the fractions of repaired cells change */
