@@ -33,10 +33,10 @@ struct settle {
     bool flows;
     double dt;
     size_t n, cell[SETTLE_BATCH];
-    double trial[MODEL_FIELDS][SETTLE_BATCH]; /* conserved fields that the cells came with */
-    double u[MODEL_FIELDS][SETTLE_BATCH];     /* the same, strained */
-    double w[MODEL_FIELDS][SETTLE_BATCH];     /* primitives: those of the trial, with densities and stretches of u */
-    double p[SCENE_MATERIALS][SETTLE_BATCH];  /* pressures without strain and heat */
+    double (*trial)[SETTLE_BATCH];           /* [n_field]: conserved fields that the cells came with */
+    double (*u)[SETTLE_BATCH];               /* the same, strained */
+    double (*w)[SETTLE_BATCH];               /* primitives: those of the trial, with densities and stretches of u */
+    double p[SCENE_MATERIALS][SETTLE_BATCH]; /* pressures without strain and heat */
     double stiff[SCENE_MATERIALS][SETTLE_BATCH];
     double rho_c2[SCENE_MATERIALS][SETTLE_BATCH];
     double per_p[SCENE_MATERIALS][SETTLE_BATCH]; /* d(rho e)/dp */
@@ -289,10 +289,19 @@ static struct settle *settle_new(const struct model *model, bool flows, double d
     for (size_t i = 0; i < n && !any; i++) any = settle_is(model, stride, u + i);
     if (!any) return NULL;
     struct settle *settle = mem_new(1, sizeof *settle);
+    settle->trial = mem_new(3 * (size_t)model->n_field, sizeof *settle->trial);
+    settle->u = settle->trial + model->n_field;
+    settle->w = settle->u + model->n_field;
     settle->model = model;
     settle->flows = flows;
     settle->dt = dt;
     return settle;
+}
+
+static void settle_free(struct settle *settle)
+{
+    mem_free(settle->trial);
+    mem_free(settle);
 }
 
 /* Pressures of solids that have the traction of the fluids. */
@@ -320,8 +329,8 @@ void settle_fluids(const struct model *model, size_t n, size_t stride, const dou
     for (size_t from = settle_find(settle, 0, n, stride, u); settle->n;
          from = settle_find(settle, from, n, stride, u)) {
         settle_gather(settle, stride, u, settle->trial);
-        memcpy(settle->u, settle->trial, sizeof settle->u);
-        memcpy(settle->w, settle->trial, sizeof settle->w);
+        memcpy(settle->u, settle->trial, model->n_field * sizeof *settle->u);
+        memcpy(settle->w, settle->trial, model->n_field * sizeof *settle->w);
         for (unsigned l = 0; l < model->n_alpha; l++)
             for (size_t i = 0; i < settle->n; i++) {
                 settle->p[l][i] = p[l * stride + settle->cell[i]];
@@ -333,7 +342,7 @@ void settle_fluids(const struct model *model, size_t n, size_t stride, const dou
         settle_search(settle);
         settle_scatter(settle, stride, u);
     }
-    mem_free(settle);
+    settle_free(settle);
 }
 
 void settle_flow(const struct model *model, size_t n, size_t stride, double dt, const double *w, double *u,
@@ -350,7 +359,7 @@ void settle_flow(const struct model *model, size_t n, size_t stride, double dt, 
         for (unsigned l = 0; l < model->n_alpha; l++)
             memcpy(settle->p[l], traction_pressure(model, settle->n, l, settle->w[model->i_E], &parts),
                    settle->n * sizeof **settle->p);
-        memcpy(settle->u, settle->trial, sizeof settle->u);
+        memcpy(settle->u, settle->trial, model->n_field * sizeof *settle->u);
         settle_pull(settle);
         settle_ask(settle);
         memcpy(settle->stiff, settle->rho_c2, sizeof settle->stiff);
@@ -359,5 +368,5 @@ void settle_flow(const struct model *model, size_t n, size_t stride, double dt, 
         for (unsigned s = 0; grown && s < model->n_solid; s++)
             for (size_t i = 0; i < settle->n; i++) grown[s * stride + settle->cell[i]] = settle->grown[s][i];
     }
-    mem_free(settle);
+    settle_free(settle);
 }

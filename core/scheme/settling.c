@@ -73,7 +73,7 @@ static void settling_own(const struct term_tile *tile, size_t n, const size_t *c
     const struct model *model = tile->model;
     double u[MODEL_FIELDS][SETTLING_BATCH], w[MODEL_FIELDS][SETTLING_BATCH];
     struct traction_pressures parts;
-    memset(w, 0, sizeof w);
+    memset(w, 0, model->n_field * sizeof *w);
     for (unsigned a = 0; a < model->n_active; a++) {
         unsigned q = model->active[a];
         for (size_t i = 0; i < n; i++) u[q][i] = w[q][i] = fields[q * tile->n_cell + cell[i]];
