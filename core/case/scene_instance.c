@@ -3,7 +3,7 @@
 
 struct instance *scene_instance(struct scene *scene, unsigned index)
 {
-    enum { LAWS = 6, SCHEMES = 4, FACES = 2 * SCENE_AXES };
+    enum { LAWS = 6, SCHEMES = 5, FACES = 2 * SCENE_AXES };
     if (index < LAWS * scene->n_material) {
         struct scene_material *material = &scene->material[index / LAWS];
         struct instance *const laws[LAWS] = {&material->eos,       &material->constitutive, &material->plastic,
@@ -13,7 +13,7 @@ struct instance *scene_instance(struct scene *scene, unsigned index)
     index -= LAWS * scene->n_material;
     struct scene_scheme *scheme = &scene->scheme;
     struct instance *const schemes[SCHEMES] = {&scheme->reconstruction, &scheme->limiter, &scheme->interface_limiter,
-                                               &scheme->riemann};
+                                               &scheme->along_limiter, &scheme->riemann};
     if (index < SCHEMES) return schemes[index];
     index -= SCHEMES;
     if (index < FACES) return &scene->domain.boundary[index / 2][index % 2].law;

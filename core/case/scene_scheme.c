@@ -62,14 +62,20 @@ static const struct key scene_scheme_rows[] = {
          "throughout."},
     {.name = "interface-along",
      .type = KEYS_CHOICE,
-     .choices = "auto|normal|axes",
+     .choices = "auto|normal|diagonal|axes",
      .fallback = "auto",
      .doc =
          "Along what the interface limiter acts in two and three dimensions. normal: along each axis the part n_d^2 "
-         "of it, n the normal of the surface, and `limiter` for the rest, so that surfaces that move along themselves "
-         "get no teeth, which their curvature would see; axes: all of it along every axis, which is cheaper, and "
-         "steady where nothing is viscous. auto: normal where fluids, some of them viscous, have surface tension; "
-         "else axes."},
+         "of it, n the normal of the surface, and `along-limiter` for the rest, so that surfaces that move along "
+         "themselves get no teeth, which their curvature would see; diagonal: 2 n_d^2, and all of it from 45 degrees "
+         "on; axes: all of it along every axis, which is cheaper. auto: where fluids have surface tension normal if "
+         "some are viscous, else diagonal if `interface-limiter` is for surfaces (thinc); else axes."},
+    {.name = "along-limiter",
+     .type = KEYS_SECTION,
+     .section = &scene_scheme_limiter,
+     .doc = "The limiter of the volume fractions along their surface, with `interface-along: normal` or `diagonal`. "
+            "Default: thinc with a beta of 1.15 with `diagonal`, else that of `limiter`, whose slopes are best for "
+            "drops that move but let waves of their surface grow where little is viscous."},
     {.name = "exchange",
      .type = KEYS_CHOICE,
      .choices = "auto|fast|full",
@@ -201,17 +207,23 @@ static void scene_scheme_order(struct node *scheme)
 }
 
 /* What a case without a word about it gets; it stands in the resolved case, in the order of the table. */
+static struct keys_value scene_scheme_meant(struct draft *draft, const struct keys_value *absent,
+                                            const struct keys_section *section, struct node *node)
+{
+    struct keys_value value = *absent;
+    struct node *scheme = keys_at(draft->root, "scheme")->map->node;
+    value.node = node;
+    value.map = keys_read(&draft->keys, value.node, section, value.path);
+    tree_set(draft->keys.forest, scheme, absent->key->name, value.node);
+    scene_scheme_order(scheme);
+    return value;
+}
+
 static struct keys_value scene_scheme_default(struct draft *draft, const struct keys_value *absent,
                                               const struct keys_section *section, const char *name)
 {
-    struct keys_value value = *absent;
-    struct forest *forest = draft->keys.forest;
-    struct node *scheme = keys_at(draft->root, "scheme")->map->node;
-    value.node = tree_scalar(forest, &scheme->mark, TREE_PLAIN, name);
-    value.map = keys_read(&draft->keys, value.node, section, value.path);
-    tree_set(forest, scheme, absent->key->name, value.node);
-    scene_scheme_order(scheme);
-    return value;
+    const struct mark *mark = &keys_at(draft->root, "scheme")->map->node->mark;
+    return scene_scheme_meant(draft, absent, section, tree_scalar(draft->keys.forest, mark, TREE_PLAIN, name));
 }
 
 /* A scene with a solid needs a solver that knows of stress. Tables of older modules end before they say so. */
@@ -288,6 +300,48 @@ static void scene_scheme_surfaces(struct draft *draft, const struct keys_value *
 
 /* Some limiters are for the surfaces of fluids: elsewhere they make steps of waves, and slip and traction at the
  * surface of a solid come out wrong. */
+static void scene_scheme_liquid(struct draft *draft, const struct keys_value *key, const struct bulla_module *module)
+{
+    const struct scene *scene = draft->scene;
+    for (unsigned l = 0; module && vet_surfaces(module->table) && l < scene->n_material; l++) {
+        if (!scene->material[l].constitutive.module) continue;
+        keys_error(&draft->keys, key, "'%s' is for the surfaces of fluids, but '%s' is a solid", module->name,
+                   scene->material[l].name);
+        diag_help(draft->keys.diag, "'interface-limiter: superbee' keeps its slip and traction right");
+        return;
+    }
+}
+
+/* A tangent that is steep enough for waves of a surface not to grow and mild enough for teeth not to. */
+static struct node *scene_scheme_mild(struct draft *draft)
+{
+    struct forest *forest = draft->keys.forest;
+    const struct mark *mark = &keys_at(draft->root, "scheme")->map->node->mark;
+    struct node *mild = tree_map(forest, mark);
+    tree_set(forest, mild, "type", tree_scalar(forest, mark, TREE_PLAIN, "thinc"));
+    tree_set(forest, mild, "beta", tree_scalar(forest, mark, TREE_PLAIN, "1.15"));
+    return mild;
+}
+
+/* Of fractions along their surface. */
+static void scene_scheme_along(struct draft *draft, const struct keys_map *scheme)
+{
+    const struct keys_value *along = keys_at(scheme, "along-limiter");
+    struct scene *scene = draft->scene;
+    bool given = along->node || along->meant;
+    double slant = scene->scheme.slant = scene_meet_slant(draft, scheme);
+    bool mild = slant > 1.0 && !scene_matter_solid(draft);
+    if (!scheme || !(given || mild)) return;
+    struct keys_value value = *along;
+    if (!given) value = scene_scheme_meant(draft, along, &scene_scheme_limiter, scene_scheme_mild(draft));
+    scene_matter_open(draft, &value, &scene->scheme.along_limiter);
+    scene_scheme_liquid(draft, along, scene->scheme.along_limiter.module);
+    if (slant == 0.0)
+        diag_warn(draft->keys.diag, &value.node->mark,
+                  "'along-limiter' is for surfaces that lie as they like, and has no effect with all of "
+                  "'interface-limiter' along every axis");
+}
+
 static void scene_scheme_limit(struct draft *draft, const struct keys_map *scheme)
 {
     const struct keys_value *limiter = keys_at(scheme, "limiter"), *surface = keys_at(scheme, "interface-limiter");
@@ -295,19 +349,13 @@ static void scene_scheme_limit(struct draft *draft, const struct keys_map *schem
     scene_scheme_slopes(draft, scheme);
     if (!scheme) return;
     scene_scheme_surfaces(draft, surface);
-    const struct bulla_module *plain = scene->scheme.limiter.module, *sharp = scene->scheme.interface_limiter.module;
+    const struct bulla_module *plain = scene->scheme.limiter.module;
     if (plain && vet_surfaces(plain->table)) {
         keys_error(&draft->keys, limiter, "'%s' is for volume fractions", plain->name);
         diag_help(draft->keys.diag, "'interface-limiter: %s' is where it belongs; 'limiter: koren' for all else",
                   plain->name);
     }
-    for (unsigned l = 0; sharp && vet_surfaces(sharp->table) && l < scene->n_material; l++) {
-        if (!scene->material[l].constitutive.module) continue;
-        keys_error(&draft->keys, surface, "'%s' is for the surfaces of fluids, but '%s' is a solid", sharp->name,
-                   scene->material[l].name);
-        diag_help(draft->keys.diag, "'interface-limiter: superbee' keeps its slip and traction right");
-        return;
-    }
+    scene_scheme_liquid(draft, surface, scene->scheme.interface_limiter.module);
 }
 
 /* The scheme says how many layers of neighbours tiles need. */
@@ -412,7 +460,7 @@ void scene_scheme(struct draft *draft)
     scene_scheme_riemann_open(draft, scheme);
     scene_scheme_reconstruct(draft, scheme);
     scene_scheme_limit(draft, scheme);
-    scene->scheme.slanted = scene_meet_slanted(draft, scheme);
+    scene_scheme_along(draft, scheme);
     scene_meet_idle(draft, scheme);
     scene->run.until = keys_at(run, "until")->number;
     scene->run.max_steps = keys_at(run, "max-steps")->integer;

@@ -410,6 +410,11 @@ static bool model_resists(const struct bulla_riemann *riemann)
     return told && riemann->resists;
 }
 
+static struct model_limiter model_limit(const struct instance *instance)
+{
+    return (struct model_limiter){instance->module->table, instance->self};
+}
+
 struct model *model_new(const struct scene *scene)
 {
     struct model *model = mem_new(1, sizeof *model);
@@ -434,7 +439,7 @@ struct model *model_new(const struct scene *scene)
     model->n_field += model->n_normal;
     model_pair_up(model);
     model->i_slant = model->n_field;
-    model->n_slant = scene->scheme.slanted ? (unsigned)model->dim : 0;
+    model->n_slant = scene->scheme.slant > 0.0 ? (unsigned)model->dim : 0;
     model->n_field += model->n_slant;
     model_family_all(model);
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
@@ -450,9 +455,10 @@ struct model *model_new(const struct scene *scene)
     model->thermal = scene->scheme.exchange == SCENE_EXCHANGE_AUTO
                          ? !model->linear || model->conducts || model->n_phase || model->n_fick
                          : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
-    model->limiter = (struct model_limiter){scene->scheme.limiter.module->table, scene->scheme.limiter.self};
-    model->limiter_alpha =
-        (struct model_limiter){scene->scheme.interface_limiter.module->table, scene->scheme.interface_limiter.self};
+    model->limiter = model_limit(&scene->scheme.limiter);
+    model->limiter_alpha = model_limit(&scene->scheme.interface_limiter);
+    model->limiter_along =
+        scene->scheme.along_limiter.module ? model_limit(&scene->scheme.along_limiter) : model->limiter;
     model->reconstruction = scene->scheme.reconstruction.module->table;
     model->reconstruction_self = scene->scheme.reconstruction.self;
     model->riemann = scene->scheme.riemann.module->table;

@@ -184,7 +184,8 @@ struct model {
     struct model_limiter {
         const struct bulla_limiter *law;
         const void *self;
-    } limiter, limiter_alpha; /* of the primitives, and of the volume fractions */
+    } limiter, limiter_alpha, limiter_along; /* of the primitives; of the volume fractions, across and along surfaces
+                                                (scheme/slant.h) */
     const struct bulla_reconstruction *reconstruction;
     const void *reconstruction_self;
     const struct bulla_riemann *riemann;

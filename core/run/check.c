@@ -366,6 +366,7 @@ static void check_print(const struct scene *scene, const struct model *model, co
     check_phase_print(scene);
     transport_print_gases(scene, model);
     if (scene->n_material > 1) check_print_module("interface", &scene->scheme.interface_limiter);
+    if (scene->scheme.along_limiter.module) check_print_module("along it", &scene->scheme.along_limiter);
     double bytes = SCENES_BESIDE * scenes_bytes(scene, mesh->all);
     printf("  %-12s about %s", "memory", human_bytes(bytes, text));
     if (bytes > mem_machine()) printf(": more than this machine has, %s", human_bytes(mem_machine(), text));

@@ -28,7 +28,7 @@
 
 struct edges {
     size_t pitch;
-    struct edges_slope plain, fraction;
+    struct edges_slope plain, fraction, along;
     bool steep;                    /* do fractions have edges of two sides? */
     bool drawn;                    /* do paths of the scene draw pressure by itself, and not as the scheme would? */
     double *rows;                  /* all work space */
@@ -66,8 +66,9 @@ struct edges *edges_new(const struct model *model, size_t pitch)
                                 .below = edges->spare,
                                 .above = edges->spare + pitch,
                                 .three = rows + 8 * pitch};
-    edges->plain = edges->fraction = plain;
+    edges->plain = edges->fraction = edges->along = plain;
     edges->fraction.limiter = model->limiter_alpha;
+    edges->along.limiter = model->limiter_along;
     edges->fraction.room = rows + ROWS * pitch;
     edges->fraction.rows = model->n_field;
     edges->fraction.pitch = pitch;
@@ -380,7 +381,7 @@ const double *edges_squeezed(const struct edges *edges, const struct model *mode
 /* Fractions whose limiter goes by the slant of their surface. */
 static void edges_slant(struct edges *edges, const struct model *model, const struct edges_row *row)
 {
-    edges->fraction.soft = slant_acts(model) ? &edges->plain : NULL;
+    edges->fraction.soft = slant_acts(model) ? &edges->along : NULL;
     edges->fraction.cells = row->w;
     edges->fraction.slant = row->w + (model->i_slant + (unsigned)row->frame->axis) * edges->pitch;
 }

@@ -17,7 +17,7 @@ struct edges_slope {
     struct model_limiter limiter;
     double *difference, *slope, *below, *above;
     double *three; /* three rows of cells, for limiters of two sides */
-    /* Of fractions whose limiter goes by the slant of their surface (slant.h): the slopes of all else, the slants along
+    /* Of fractions whose limiter goes by the slant of their surface (slant.h): the limiter along it, the slants along
      * the axis of the row, as far behind `cells` as the first of them, rows of `pitch` cells, and room for two rows of
      * edges. soft: NULL if the limiter acts as it is. */
     const struct edges_slope *soft;

@@ -235,6 +235,7 @@ WIDE = 1000
 LIVELY = 2000  # from here on: lively.py
 SURFACES = 3300  # from here on: solids that meet fluids in all ways that the scheme knows
 SLANTS = 3600  # from here on: interface limiters along normals and along axes
+DIAGONALS = 3761  # those of one kind more, and limiters of their own along surfaces
 OTHER_LIQUIDS = [{"type": "tait", "preset": "water"}, {"type": "modified-tait", "preset": "refit"},
                  {"type": "iapws95", "preset": "water", "table-size": 64}, {"type": "stiffened-gas", "preset": "glycerol"}]
 OTHER_GASES = [{"type": "helmholtz-air", "preset": "air", "table-size": 64}, {"type": "rkpr", "preset": "air"},
@@ -367,9 +368,13 @@ def surfaces(scene):
             scene.case.setdefault("scheme", {})[word] = dice.pick(*values)
 
 
-def slants(scene):
+def slants(scene, seed):
+    ways = ("normal", "normal", "axes") if seed < DIAGONALS else ("normal", "diagonal", "diagonal", "axes")
     if scene.dim > 1 and scene.dice.coin(0.4):
-        scene.case.setdefault("scheme", {})["interface-along"] = scene.dice.pick("normal", "normal", "axes")
+        scheme = scene.case.setdefault("scheme", {})
+        scheme["interface-along"] = scene.dice.pick(*ways)
+        if seed >= DIAGONALS and scheme["interface-along"] != "axes" and scene.dice.coin(0.3):
+            scheme["along-limiter"] = scene.dice.pick("minmod", "koren", "van-leer")
 
 
 def draw(seed):
@@ -396,5 +401,5 @@ def draw(seed):
     if seed >= SURFACES:
         surfaces(scene)
     if seed >= SLANTS:
-        slants(scene)
+        slants(scene, seed)
     return scene.case, scene
