@@ -248,14 +248,23 @@ static bool transport_inviscid(const struct scene *scene, const struct model *mo
     return !solid && !model->viscous;
 }
 
+/* The limiter by which surfaces have slopes, across or along themselves; NULL: none. */
+static const struct bulla_module *transport_slopes(const struct scene_scheme *scheme)
+{
+    const struct instance *along = scheme->along_limiter.module ? &scheme->along_limiter : &scheme->limiter;
+    const struct bulla_module *across = scheme->interface_limiter.module;
+    if (!across || !vet_surfaces(across->table)) return across;
+    return scheme->slant > 0.0 && !vet_surfaces(along->module->table) ? along->module : NULL;
+}
+
 void transport_print_teeth(const struct scene *scene, const struct model *model)
 {
-    const struct bulla_module *limiter = scene->scheme.interface_limiter.module;
-    if (!scene->n_tension || scene->domain.dim < 2 || !limiter || vet_surfaces(limiter->table)) return;
-    if (!transport_inviscid(scene, model)) return;
+    const struct bulla_module *limiter = transport_slopes(&scene->scheme);
+    if (!scene->n_tension || scene->domain.dim < 2 || !limiter || !transport_inviscid(scene, model)) return;
     printf(
         "  %-12s without viscosity nothing damps those that slopes (%s) give a surface: with 24 cells per radius and "
-        "more they grow; with 'interface-limiter: thinc', the default, none with up to 32\n",
+        "more they grow; with 'interface-limiter: thinc' and 'interface-along: diagonal', the defaults, none with up "
+        "to 32\n",
         "teeth", limiter->name);
 }
 
