@@ -484,6 +484,9 @@ void scene_free(struct scene *scene);
  * NULL after the last. */
 struct instance *scene_instance(struct scene *scene, unsigned index);
 
+/* The limiter that fractions have along their surface where `slant` is not 0. */
+const struct instance *scene_along(const struct scene_scheme *scheme);
+
 /* The pair whose vapour a material is, or NULL. */
 const struct scene_phase *scene_phase_of(const struct scene *scene, unsigned material);
 

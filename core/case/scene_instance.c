@@ -1,4 +1,4 @@
-/* scene_instance.c - every module that a scene has opened, one after the other. */
+/* scene_instance.c - every module that a scene has opened, one after the other; and which of two stands for another. */
 #include "case/scene.h"
 
 struct instance *scene_instance(struct scene *scene, unsigned index)
@@ -19,4 +19,9 @@ struct instance *scene_instance(struct scene *scene, unsigned index)
     if (index < FACES) return &scene->domain.boundary[index / 2][index % 2].law;
     index -= FACES;
     return index < scene->n_derived ? &scene->derived[index].law : NULL;
+}
+
+const struct instance *scene_along(const struct scene_scheme *scheme)
+{
+    return scheme->along_limiter.module ? &scheme->along_limiter : &scheme->limiter;
 }

@@ -251,10 +251,9 @@ static bool transport_inviscid(const struct scene *scene, const struct model *mo
 /* The limiter by which surfaces have slopes, across or along themselves; NULL: none. */
 static const struct bulla_module *transport_slopes(const struct scene_scheme *scheme)
 {
-    const struct instance *along = scheme->along_limiter.module ? &scheme->along_limiter : &scheme->limiter;
-    const struct bulla_module *across = scheme->interface_limiter.module;
+    const struct bulla_module *across = scheme->interface_limiter.module, *along = scene_along(scheme)->module;
     if (!across || !vet_surfaces(across->table)) return across;
-    return scheme->slant > 0.0 && !vet_surfaces(along->module->table) ? along->module : NULL;
+    return scheme->slant > 0.0 && !vet_surfaces(along->table) ? along : NULL;
 }
 
 void transport_print_teeth(const struct scene *scene, const struct model *model)
