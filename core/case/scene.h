@@ -485,7 +485,7 @@ void scene_free(struct scene *scene);
 struct instance *scene_instance(struct scene *scene, unsigned index);
 
 /* The limiter that fractions have along their surface where `slant` is not 0. */
-const struct instance *scene_along(const struct scene_scheme *scheme);
+const struct instance *scene_instance_along(const struct scene_scheme *scheme);
 
 /* The pair whose vapour a material is, or NULL. */
 const struct scene_phase *scene_phase_of(const struct scene *scene, unsigned material);

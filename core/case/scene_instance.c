@@ -21,7 +21,7 @@ struct instance *scene_instance(struct scene *scene, unsigned index)
     return index < scene->n_derived ? &scene->derived[index].law : NULL;
 }
 
-const struct instance *scene_along(const struct scene_scheme *scheme)
+const struct instance *scene_instance_along(const struct scene_scheme *scheme)
 {
     return scheme->along_limiter.module ? &scheme->along_limiter : &scheme->limiter;
 }

@@ -457,7 +457,7 @@ struct model *model_new(const struct scene *scene)
                          : scene->scheme.exchange == SCENE_EXCHANGE_FULL;
     model->limiter = model_limit(&scene->scheme.limiter);
     model->limiter_alpha = model_limit(&scene->scheme.interface_limiter);
-    model->limiter_along = model_limit(scene_along(&scene->scheme));
+    model->limiter_along = model_limit(scene_instance_along(&scene->scheme));
     model->reconstruction = scene->scheme.reconstruction.module->table;
     model->reconstruction_self = scene->scheme.reconstruction.self;
     model->riemann = scene->scheme.riemann.module->table;

@@ -251,7 +251,7 @@ static bool transport_inviscid(const struct scene *scene, const struct model *mo
 /* The limiter by which surfaces have slopes, across or along themselves; NULL: none. */
 static const struct bulla_module *transport_slopes(const struct scene_scheme *scheme)
 {
-    const struct bulla_module *across = scheme->interface_limiter.module, *along = scene_along(scheme)->module;
+    const struct bulla_module *across = scheme->interface_limiter.module, *along = scene_instance_along(scheme)->module;
     if (!across || !vet_surfaces(across->table)) return across;
     return scheme->slant > 0.0 && !vet_surfaces(along->table) ? along : NULL;
 }

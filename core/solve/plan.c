@@ -56,7 +56,7 @@ static void plan_faces(const struct scene *scene, struct text *text)
              scene->scheme.ghosts, scene->scheme.reconstruction.module->name, scene->scheme.limiter.module->name);
     if (scene->n_material > 1) text_add(text, "; alpha: %s", scene->scheme.interface_limiter.module->name);
     if (scene->scheme.slant > 0.0)
-        text_add(text, " across surfaces, %s along", scene_along(&scene->scheme)->module->name);
+        text_add(text, " across surfaces, %s along", scene_instance_along(&scene->scheme)->module->name);
     text_add(text, "), states (");
     plan_laws(scene, text);
     text_add(text, "), fluxes (%s); then\n", scene->scheme.riemann.module->name);
