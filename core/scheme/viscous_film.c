@@ -344,13 +344,16 @@ static void viscous_film_look(struct viscous_film *film, const struct viscous_sl
     for (size_t i = 0; i < film->count; i++) film->held[film->at[i] / film->line] = true;
 }
 
-/* Takes off what the last tile had. */
+/* Takes off what the last tile had. Weights, too: what they weigh is 0 here, but a step that failed leaves NANs. */
 static void viscous_film_clear(struct viscous_film *film)
 {
     for (unsigned c = 0; c < STRAIN_TENSOR; c++)
         for (size_t i = 0; i < film->count; i++) film->stress[c][film->at[i]] = 0.0;
     for (unsigned c = 0; c < HOLD_CORNERS && film->hoop[c]; c++)
         for (size_t i = 0; i < film->count; i++) film->hoop[c][film->at[i]] = 0.0;
+    for (unsigned a = 0; a < 3 && film->weight[a][0]; a++)
+        for (unsigned p = 0; p < film->pairs; p++)
+            for (size_t i = 0; i < film->count; i++) film->weight[a][p][film->at[i]] = 0.0;
     film->count = 0;
 }
 

@@ -17,9 +17,6 @@
 
 enum { GUARD_BATCH = SOFTEN_BATCH };
 
-/* A mark of stage s is 1 + s until it is known whether earlier ones were clean everywhere. */
-static const double GUARD_MARK = 1.0;
-
 struct guard *guard_new(const struct model *model, const struct mesh *mesh, int l)
 {
     struct guard *guard = mem_new(1, sizeof *guard);
@@ -28,6 +25,7 @@ struct guard *guard_new(const struct model *model, const struct mesh *mesh, int 
         .model = model, .mesh = mesh, .level = level, .l = l, .n_local = level->n_local, .debt = GUARD_ROUND_OFF};
     guard->repair = model->n_alpha > 1 && model->scene->scheme.guard != SCENE_GUARD_STRICT;
     guard->mask = mem_new(level->n_local, sizeof *guard->mask);
+    guard->fresh = mem_new(level->n_local, sizeof *guard->fresh);
     guard->halo = halo_new(mesh, level, 1);
     return guard;
 }
@@ -36,7 +34,9 @@ void guard_free(struct guard *guard)
 {
     if (!guard) return;
     for (unsigned t = 0; t < guard->n_local; t++) mem_free(guard->mask[t]);
+    for (unsigned t = 0; t < guard->n_local; t++) mem_free(guard->fresh[t]);
     mem_free(guard->mask);
+    mem_free(guard->fresh);
     halo_free(guard->halo);
     mem_free(guard->kept);
     mem_free(guard);
@@ -46,15 +46,19 @@ void guard_free(struct guard *guard)
 static void guard_allow_marks(struct guard *guard)
 {
     if (guard->marked) return;
-    for (unsigned t = 0; t < guard->n_local; t++)
-        if (!guard->mask[t]) guard->mask[t] = mem_new(guard->mesh->n_cell, sizeof **guard->mask);
+    for (unsigned t = 0; t < guard->n_local && !guard->mask[t]; t++) {
+        guard->mask[t] = mem_new(guard->mesh->n_cell, sizeof **guard->mask);
+        guard->fresh[t] = mem_new(guard->mesh->n_cell, sizeof **guard->fresh);
+    }
     guard->marked = true;
 }
 
 void guard_clear(struct guard *guard)
 {
-    for (unsigned t = 0; guard->marked && t < guard->n_local; t++)
+    for (unsigned t = 0; guard->marked && t < guard->n_local; t++) {
         memset(guard->mask[t], 0, guard->mesh->n_cell * sizeof **guard->mask);
+        memset(guard->fresh[t], 0, guard->mesh->n_cell * sizeof **guard->fresh);
+    }
     guard->marked = guard->masked = false;
 }
 
@@ -272,8 +276,9 @@ void guard_settle(struct guard *guard, int first)
     if (!guard->last) guard_allow_marks(guard);
     for (unsigned t = 0; guard->marked && t < guard->n_local; t++)
         for (size_t c = 0; c < guard->mesh->n_cell; c++) {
-            double *mark = &guard->mask[t][c];
-            if (*mark > GUARD_MARK) *mark = *mark > GUARD_MARK + first ? 0.0 : GUARD_MARK;
+            unsigned char *fresh = &guard->fresh[t][c];
+            if (*fresh && *fresh <= 1 + first) guard->mask[t][c] = 1.0;
+            *fresh = 0;
         }
     for (int s = first + 1; s < TABLEAU_STAGES; s++) guard->bad[s] = 0;
     if (!guard->bad[first]) guard->cause[0] = '\0';
@@ -293,8 +298,8 @@ static void guard_note(struct guard *guard, const struct guard_tile *tile, size_
     guard->bad[tile->stage]++;
     if (guard->last) return;
     guard_allow_marks(guard);
-    double *mark = &guard->mask[tile->local][cell];
-    if (*mark == 0.0) *mark = GUARD_MARK + tile->stage;
+    unsigned char *fresh = &guard->fresh[tile->local][cell];
+    if (!*fresh) *fresh = (unsigned char)(1 + tile->stage);
 }
 
 /* Cells of a batch, n from `from`, in which pressure and fractions contradict each other. */

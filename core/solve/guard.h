@@ -44,12 +44,14 @@ struct guard {
     const struct level *level;
     int l; /* its number, for messages */
     unsigned n_local;
-    double **mask;     /* [n_local][n_cell]: 1 in troubled cells of this step; NULL until a run has had one */
-    bool marked;       /* masks are there and may hold marks */
-    struct halo *halo; /* exchange of the masks */
-    bool masked;       /* some cell of some rank is marked */
-    bool repair;       /* relaxation is allowed (several materials, guard not strict) */
-    long long relaxed; /* cells repaired in the present attempt */
+    double **mask;         /* [n_local][n_cell]: 1 in troubled cells of this step; NULL until a run has had one */
+    unsigned char **fresh; /* likewise: 1 + the stage that found it bad in this attempt. No mask until the attempt is
+                              over: which tiles come before it in a stage must not matter */
+    bool marked;           /* masks are there and may hold marks */
+    struct halo *halo;     /* exchange of the masks */
+    bool masked;           /* some cell of some rank is marked */
+    bool repair;           /* relaxation is allowed (several materials, guard not strict) */
+    long long relaxed;     /* cells repaired in the present attempt */
     long long bad[TABLEAU_STAGES]; /* inadmissible cells found after each stage of the present attempt */
     char cause[GUARD_WORDS];       /* the first of them, in words (rank-local) */
     struct guard_place found;      /* and in numbers; only valid after something was found */

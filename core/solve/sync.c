@@ -22,7 +22,7 @@ enum { SYNC_ATTEMPTS = 5 };
 
 /* What neither a coarse tile nor the finer cells beside it hold of a material they owe, up to this share of their
  * density: it counts as absent there until more of it comes, or its other phase pays (phys/phase.c). */
-#define SYNC_DEBT 1e-5
+#define SYNC_DEBT 1e-4
 
 void sync_down(struct stage *coarse, struct stage *fine)
 {
@@ -161,9 +161,9 @@ static bool sync_expect_trouble(const struct stage *stage, const struct sync_wor
 /* Troubled cells keep half of what they can bear, those that are in trouble even so keep nothing. */
 static void sync_blame(const struct stage *stage, unsigned local, unsigned char *trouble)
 {
-    const double *mask = stage->guard->mask[local];
+    const unsigned char *fresh = stage->guard->fresh[local];
     for (size_t i = 0; i < stage->mesh->n_cell; i++)
-        if (mask[i] != 0.0 && trouble[i] != SPREAD_ALL) trouble[i]++;
+        if (fresh[i] && trouble[i] != SPREAD_ALL) trouble[i]++;
 }
 
 /* How much a face has to do with the rest of a cell beside it: the masses that it took and that are wanting; if none

@@ -18,7 +18,7 @@ drawn() { # SEED: writes scene-SEED.yaml
     PYTHONDONTWRITEBYTECODE=1 "${python3:-python3}" -c 'import json, sys; sys.path.insert(0, sys.argv[1]); import draw
 print(json.dumps(draw.draw(int(sys.argv[2]))[0]))' "$BULLA_SOURCE/tests/scenes" "$1" >"scene-$1.yaml"
 }
-for seed in 1580 2044 2139 2632 3324 3612; do drawn $seed; done
+for seed in 1580 2044 2139 2632 3324 3612 4110; do drawn $seed; done
 snapshots='output.snapshots={every: 1 steps, fields: [pressure, velocity], precision: double}'
 for ranks in 1 2; do ran "edge-$ranks" scene-1580 --max-steps 1 --set "$snapshots" -n $ranks; done
 alike edge-1 edge-2
@@ -31,6 +31,7 @@ last=out/checkpoints/scene-3612_000048.chk
 ran thin scene-2044 --max-steps 4
 ran hot scene-2139 --max-steps 2
 ran debt scene-2632 --max-steps 5
+ran owes scene-4110 --max-steps 20
 # Refluxing looks for troubled cells where the guard may repair nothing, too.
 code=0
 ran strict scene-2139 --set scheme.guard=strict --max-steps 2 2>err || code=$?

@@ -321,11 +321,34 @@ static void test_fractions(void **state)
     }
 }
 
+/* A step that failed leaves NANs behind; the next tile has nothing of them. */
+static void test_failed(void **state)
+{
+    (void)state;
+    struct scene_of of;
+    scene_begin(&of, 2);
+    const struct box_block block = rim_block(of.tile.mesh, 1, NULL);
+    uint32_t seed = 1;
+    scene_stir(&of, &seed);
+    scene_make(&of);
+    for (size_t i = 0; i < of.film.count; i++)
+        for (int axis = 0; axis < 2; axis++)
+            for (unsigned p = 0; p < of.film.pairs; p++) of.film.weight[axis][p][of.film.at[i]] = (double)NAN;
+    scene_stretch(&of, 0.3, 2);
+    scene_make(&of);
+    for (int j = 0; j < 8; j++)
+        for (int i = 0; i < 8; i++)
+            for (int a = 0; a < 2; a++)
+                assert_true(isfinite(stress(&of, box_at(&block, i, j, 0), a, 0)) &&
+                            isfinite(stress(&of, box_at(&block, i, j, 0), a, 1)));
+    scene_end(&of);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_fractions), cmocka_unit_test(test_bears),
                                        cmocka_unit_test(test_sheet),     cmocka_unit_test(test_laws),
                                        cmocka_unit_test(test_next),      cmocka_unit_test(test_ball),
-                                       cmocka_unit_test(test_runs)};
+                                       cmocka_unit_test(test_runs),      cmocka_unit_test(test_failed)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
