@@ -1,13 +1,11 @@
 /* bound_fill.c - see bound.h: the layers behind a boundary, one function for each way to fill them. Which type is
  * filled in which way stands in case/scene_boundary.h.
  *
- * Mirrors and copies act on layers. Characteristic boundaries (non-reflecting, incoming wave)
- * compose the state behind the face from the outgoing Riemann invariant of the cell inside and
- * the incoming one of the far field plus the wave,
- *     p + Z u = p_i + Z u_i,      p - Z u = (p_0 + p') - Z (u_0 - p'/Z),      Z = rho c,
- * u along the outward normal, so that a wave at normal incidence enters or leaves without a
- * reflection to first order. Densities follow each material's isentrope from inside. What leaves from a point:
- * bound_ray.h. */
+ * Mirrors and copies act on layers. Characteristic boundaries (non-reflecting, incoming wave) compose the state behind
+ * the face from the outgoing Riemann invariant of the cell inside and the incoming one of the far field plus the wave,
+ *     u + U(p) = u_i + U(p_i),      u - U(p) = u_0 + U(p_0) - 2 U(p_0 + p'),      U = int dp/(rho c),
+ * u along the outward normal, on each material's isentrope from inside, so that a wave at normal incidence enters or
+ * leaves without a reflection, be it weak or strong. What leaves from a point: bound_ray.h. */
 #include "scheme/bound.h"
 
 #include "base/mem.h"
@@ -199,21 +197,19 @@ static void bound_fill_no_slip(const struct bound_fill *fill)
     bound_fill_wall(fill, true);
 }
 
-/* What comes from outside at the points of a row: the far-field pressure, where the case gives one, and what enters
- * of the gauge pressure of the wave, if there is one (case/pulse.h). */
-static void bound_fill_outside(const struct bound_fill *fill, size_t n, bool wave, double *far, double *gauge)
+/* What is outside at the points of a row: the far-field pressure, where the case gives one, and the same with what
+ * enters of the gauge pressure of the wave, if there is one (case/pulse.h). */
+static void bound_fill_outside(const struct bound_fill *fill, size_t n, bool wave, double *far, double *top)
 {
     const struct scene_boundary *boundary = bound_fill_boundary(fill);
     for (size_t c = 0; c < n; c++) {
-        double x[3];
+        double x[3], gauge = 0.0;
         bound_fill_position(fill, c, x);
         if (boundary->pressure.given) bound_fill_ask(fill, &boundary->pressure, "far-field pressure", x, &far[c]);
-        gauge[c] = 0.0;
         int status =
-            !wave ? STATUS_OK : pulse_entering(boundary, fill->bound->t, x, fill->frame->axis, fill->side, &gauge[c]);
-        if (!status) continue;
-        bound_fill_fail(fill, status, "pressure of the wave", x);
-        gauge[c] = (double)NAN;
+            !wave ? STATUS_OK : pulse_entering(boundary, fill->bound->t, x, fill->frame->axis, fill->side, &gauge);
+        if (status) bound_fill_fail(fill, status, "pressure of the wave", x);
+        top[c] = status ? (double)NAN : far[c] + gauge;
     }
 }
 
@@ -224,28 +220,47 @@ static const double *bound_fill_start(const struct bound_fill *fill)
     return fill->bound->reference[fill->local * MESH_FACES + face];
 }
 
+/* What comes from outside at a point: p_0 and u_0, p_0 + p', and the simple waves from inside to both pressures. */
+struct bound_fill_outer {
+    double far, u, top;
+    const struct bound_wave *to_far, *to_top;
+};
+
+/* Both invariants: p and u behind the face from those inside, U counted from the pressure there; NAN where that is not
+ * borne. */
+static void bound_fill_meet(const struct bound_fill_outer *outer, double outward, double *p, double *u)
+{
+    double leaving = outward * *u;
+    double entering = outer->u + bound_wave_reach(outer->to_far, outer->far - *p) -
+                      2.0 * bound_wave_reach(outer->to_top, outer->top - *p);
+    double du = 0.5 * (leaving - entering);
+    bool up = (du > 0.0) == (outer->top > outer->far);
+    *p += bound_wave_push(up ? outer->to_top : outer->to_far, du);
+    *u = outward * (0.5 * (leaving + entering));
+}
+
 static void bound_fill_characteristic(const struct bound_fill *fill, struct bound_row *row, bool wave)
 {
     const struct model *model = fill->bound->model;
     const struct frame *frame = fill->frame;
     size_t n = row->n, cells = frame->tile_outer * frame->tile_inner;
-    double far[BOUND_ROW], gauge[BOUND_ROW], old[BOUND_ROW], old_u[BOUND_ROW], rho[BOUND_ROW], c_s[BOUND_ROW];
+    double far[BOUND_ROW], top[BOUND_ROW], old[BOUND_ROW], old_u[BOUND_ROW], rho[BOUND_ROW], c_s[BOUND_ROW];
+    struct bound_wave to_far[BOUND_ROW], to_top[BOUND_ROW];
     const double *reference = bound_fill_start(fill);
     double *p = row->w + model->i_E * row->stride, *u = row->w + (model->i_u + (unsigned)frame->axis) * row->stride;
     double outward = fill->side ? 1.0 : -1.0;
     for (size_t c = 0; c < n; c++) far[c] = reference[bound_fill_face_cell(frame, c)];
-    bound_fill_outside(fill, n, wave, far, gauge);
+    bound_fill_outside(fill, n, wave, far, top);
     bound_row_sound(model, row, rho, c_s);
+    bound_row_waves(model, row, rho, c_s, far, to_far);
+    if (wave) bound_row_waves(model, row, rho, c_s, top, to_top);
     memcpy(old, p, n * sizeof *p);
     memcpy(old_u, u, n * sizeof *u);
     for (size_t c = 0; c < n; c++) {
-        double inside = outward * u[c];
-        if (inside >= c_s[c]) continue; /* supersonic outflow: nothing comes back */
-        double Z = rho[c] * c_s[c], leaving = old[c] + Z * inside;
-        double u_far = reference[cells + bound_fill_face_cell(frame, c)];
-        double entering = far[c] + 2.0 * gauge[c] - Z * u_far;
-        p[c] = 0.5 * (leaving + entering);
-        u[c] = outward * (0.5 * (leaving - entering) / Z);
+        if (outward * u[c] >= c_s[c]) continue; /* supersonic outflow: nothing comes back */
+        const struct bound_fill_outer outer = {far[c], reference[cells + bound_fill_face_cell(frame, c)], top[c],
+                                               &to_far[c], wave ? &to_top[c] : &to_far[c]};
+        bound_fill_meet(&outer, outward, &p[c], &u[c]);
     }
     const double *inside[SCENE_AXES] = {NULL};
     inside[frame->axis] = old_u;

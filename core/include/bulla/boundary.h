@@ -39,7 +39,7 @@ enum bulla_behind_trait {
     /* Fluid goes through. */
     BULLA_BEHIND_OPEN = 32,
     /* Leaves rho alone: core takes the densities along each material's isentrope from the pressure inside to the one
-     * that was written. */
+     * that was written, and fractions with them, so that mass fractions stay. */
     BULLA_BEHIND_ISENTROPIC = 64,
 };
 
@@ -56,7 +56,7 @@ struct bulla_behind {
 
     /* Inside. u[0] is along the outward normal, the others along the other axes in their order. */
     const double *const *alpha, *const *rho, *const *u, *p; /* [n_material], [n_material], [n_velocity] rows */
-    const double *Z;                                        /* rho c of the mixture [Pa s/m] */
+    const double *Z;                                        /* rho c of the mixture, c that of its waves [Pa s/m] */
     const double *p_start, *u_start; /* p and u[0] next to the face at the start of the run; NULL without REFERS */
 
     /* Behind: to be written, and holding what is inside. */
