@@ -236,6 +236,7 @@ LIVELY = 2000  # from here on: lively.py
 SURFACES = 3300  # from here on: solids that meet fluids in all ways that the scheme knows
 SLANTS = 3600  # from here on: interface limiters along normals and along axes
 DIAGONALS = 3761  # those of one kind more, and limiters of their own along surfaces
+WAVES = 4201  # from here on: waves come in through open faces
 OTHER_LIQUIDS = [{"type": "tait", "preset": "water"}, {"type": "modified-tait", "preset": "refit"},
                  {"type": "iapws95", "preset": "water", "table-size": 64}, {"type": "stiffened-gas", "preset": "glycerol"}]
 OTHER_GASES = [{"type": "helmholtz-air", "preset": "air", "table-size": 64}, {"type": "rkpr", "preset": "air"},
@@ -377,6 +378,20 @@ def slants(scene, seed):
             scheme["along-limiter"] = scene.dice.pick("minmod", "koren", "van-leer")
 
 
+def waves(scene):
+    """Waves of 0.01 to 100 MPa, some periods or less in the time of a run."""
+    dice, ends = scene.dice, scene.case["domain"]["boundaries"]
+    for face, end in ends.items():
+        if end not in ("outflow", "non-reflecting") or not dice.coin(0.5):
+            continue
+        wave = {"type": "incoming-wave", "amplitude": 10.0 ** dice.number(4, 8)}
+        beats = 1500 / scene.length * dice.power(-1, 1)
+        wave.update(dice.pick({"pulse": "sine", "frequency": beats}, {"pulse": "lithotripter"},
+                              {"pulse": "gaussian", "center": 1 / beats, "width": 0.5 / beats}))
+        ends[face] = wave
+        scene.works = True
+
+
 def draw(seed):
     """A case, as a map that is JSON and YAML, and the Scene with what is known of it."""
     scene = Scene(seed)
@@ -402,4 +417,6 @@ def draw(seed):
         surfaces(scene)
     if seed >= SLANTS:
         slants(scene, seed)
+    if seed >= WAVES:
+        waves(scene)
     return scene.case, scene
