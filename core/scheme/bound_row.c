@@ -49,11 +49,11 @@ static void bound_row_xi(const struct model *model, size_t n, const double *rho,
                                        slope);
 }
 
-/* Is a point of a row of one material? */
-static bool bound_row_is_pure(const struct model *model, const struct bound_row *row, size_t c)
+/* Is a point of one material? Then it is treated as on that one's path, to the bit. */
+static bool bound_row_is_pure(const struct model *model, const double *alpha, size_t stride, size_t c)
 {
     bool pure = !model->n_alpha;
-    for (unsigned l = 0; l < model->n_alpha; l++) pure |= row->w[(model->i_alpha + l) * row->stride + c] >= 1.0;
+    for (unsigned l = 0; l < model->n_alpha; l++) pure |= alpha[l * stride + c] >= 1.0;
     return pure;
 }
 
@@ -70,7 +70,8 @@ void bound_row_sound(const struct model *model, const struct bound_row *row, dou
         rho[c] = 0.0;
         for (unsigned l = 0; l < model->n_material; l++)
             rho[c] += (model->n_alpha ? alpha[l * row->stride + c] : 1.0) * own[l * row->stride + c];
-        if (!bound_row_is_pure(model, row, c)) c2[c] -= bound_row_excess(model, alpha, &stiff, c, &modulus) / rho[c];
+        if (!bound_row_is_pure(model, alpha, row->stride, c))
+            c2[c] -= bound_row_excess(model, alpha, &stiff, c, &modulus) / rho[c];
         sound[c] = sqrt(c2[c]);
     }
 }
@@ -103,6 +104,7 @@ static void bound_row_moduli(const struct model *model, size_t n, const double *
     if (!bound_row_is_allaire(model)) return;
     bound_row_xi(model, n, rho, p, stiff);
     for (size_t c = 0; c < n; c++) {
+        if (bound_row_is_pure(model, alpha, BOUND_ROW, c)) continue;
         bound_row_excess(model, alpha, stiff, c, &modulus);
         for (unsigned l = 0; l < model->n_alpha; l++) stiff->K[l * BOUND_ROW + c] = modulus;
     }
@@ -114,6 +116,7 @@ static void bound_row_share(const struct model *model, struct bound_row *row, si
     double sum = 0.0;
     for (unsigned l = 0; l < model->n_alpha; l++) {
         double *alpha = &row->w[(model->i_alpha + l) * row->stride + c];
+        if (*alpha == 0.0) continue;
         *alpha *= inside[l * BOUND_ROW + c] / row->w[(model->i_m + l) * row->stride + c];
         sum += *alpha;
     }
