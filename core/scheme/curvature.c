@@ -18,8 +18,9 @@
 /* Product of fractions below which columns count less. */
 #define CURVATURE_TRACE 1e-2
 
-/* Weight of a cell whose columns say nothing, in means with others. */
-#define CURVATURE_DOUBT 1e-3
+/* Weight of a cell whose columns say nothing, in means with others, beside one that has them. Less would let few cells
+ * of a front speak for those around them, beside whose foot they stand. */
+#define CURVATURE_DOUBT 1.0
 
 /* Where a block counts as empty: no quotient is taken. */
 #define CURVATURE_NONE 1e-300

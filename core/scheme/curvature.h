@@ -57,7 +57,7 @@ const double *curvature_psi(const struct curvature *room);
 double curvature_psi_of(double a);
 
 /* After all that: kappa[n_cell] of the tile, the mean over a cell and those around it, 1-2-1 along each axis and with
- * (a b)^2, which is largest in the middle of a front; cells with columns count a thousand times more. It leaves nothing
+ * (a b)^2, which is largest in the middle of a front; cells with columns count twice. It leaves nothing
  * of waves of two cells, which columns see and drive, and 1 - (m h/R)^2/4 of mode m of a drop. 0 where a b is not above
  * `least`. */
 void curvature_mean(struct curvature *room, const double *a, const double *b, double least, double *kappa);

@@ -26,10 +26,15 @@ enum { HEIGHTS_REACH = 3 };
 #define HEIGHTS_PURE 0.05
 #define HEIGHTS_MIXED 0.5
 
+/* Fronts up to this wide, in cells, are columns' all; those of HEIGHTS_WIDE are none of theirs. */
+#define HEIGHTS_THIN 0.7
+#define HEIGHTS_WIDE 0.95
+
 /* Heights in cells along the column's axis, of the columns through a row, from a cell before it to one behind it;
- * `turn`: how far a column goes from one material, -1 or 1, to the other. */
+ * `turn`: how far a column goes from one material, -1 or 1, to the other; `width`: w of a front that is a tanh(x/w),
+ * along the column. */
 struct heights_columns {
-    double height[METRIC_CELLS + 2], turn[METRIC_CELLS + 2];
+    double height[METRIC_CELLS + 2], turn[METRIC_CELLS + 2], width[METRIC_CELLS + 2];
 };
 
 /* In the plane: columns that lie along rows are asked for three times, by their own row and by those beside it. */
@@ -79,6 +84,18 @@ static inline double heights_beyond(double first, double second, double sixth, d
     return heights_tail(empty, empty2) - heights_tail(1.0 - full, 1.0 - full2);
 }
 
+/* 2 sum alpha (1 - alpha), which is w of a tanh, wherever the middle of the front lies between cells. */
+static BULLA_KERNEL void heights_width_row(size_t n, size_t step, const double *restrict low, double *restrict width)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        double a = low[i], b = low[i + step], c = low[i + 2 * step], d = low[i + 3 * step], e = low[i + 4 * step],
+               f = low[i + 5 * step], g = low[i + 6 * step];
+        double outer = (a * (1.0 - a) + g * (1.0 - g)) + (b * (1.0 - b) + f * (1.0 - f));
+        width[i] = 2.0 * ((outer + (c * (1.0 - c) + e * (1.0 - e))) + d * (1.0 - d));
+    }
+}
+
 static BULLA_KERNEL void heights_columns_row(size_t n, size_t step, const double *restrict low, double *restrict height,
                                              double *restrict turn)
 {
@@ -119,6 +136,7 @@ static void heights_columns(const struct heights_row *row, int axis, const doubl
         heights_radius_row(row->n + 2, row->metric->centre[0] / row->level->h[0] - 1.0, step, low, ret->height,
                            ret->turn);
     else heights_columns_row(row->n + 2, step, low, ret->height, ret->turn);
+    heights_width_row(row->n + 2, step, low, ret->width);
 }
 
 /* Those along the first axis through the row some steps beside. */
@@ -144,18 +162,23 @@ static BULLA_KERNEL void heights_least(size_t n, const double *restrict below, c
     }
 }
 
-/* Adds what columns along an axis say, with the squares of the normal. */
+/* Adds what columns along an axis say, with the squares of the normal; width: of the front along them. */
 static BULLA_KERNEL void heights_add(size_t n, const double *restrict kappa, const double *restrict least,
-                                     const double *restrict normal, struct heights_sum *sum)
+                                     const double *restrict width, const double *restrict normal,
+                                     struct heights_sum *sum)
 {
     double *restrict k = sum->kappa, *restrict w = sum->weight, *restrict all = sum->all;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double steep = normal[i] * normal[i] - HEIGHTS_STEEP, q = 1.0 - least[i], have = k[i], with = w[i],
-               whole = all[i];
+        double across = normal[i], steep = across * across - HEIGHTS_STEEP, q = 1.0 - least[i], have = k[i],
+               with = w[i], whole = all[i];
+        double wide = width[i] * (across < 0.0 ? -across : across);
+        double thin = (HEIGHTS_WIDE - wide) / (HEIGHTS_WIDE - HEIGHTS_THIN);
         double trust = (HEIGHTS_MIXED - q) / (HEIGHTS_MIXED - HEIGHTS_PURE), weight = steep > 0.0 ? steep * steep : 0.0;
         trust = trust < 1.0 ? trust : 1.0;
+        thin = thin < 1.0 ? thin : 1.0;
         trust = trust > 0.0 ? trust * weight : 0.0;
+        trust = thin > 0.0 ? trust * thin : 0.0;
         k[i] = have + trust * kappa[i];
         w[i] = with + trust;
         all[i] = whole + weight;
@@ -217,9 +240,9 @@ static void heights_faces(const struct heights_row *row, int across, double *low
 }
 
 /* Heights and turns of three (nine) columns beside each other, of each cell of a row: place 4 + i + j of those i
- * along one axis and j along the other, with steps of 3 and 1, of 3 and 0 in the plane. */
+ * along one axis and j along the other, with steps of 3 and 1, of 3 and 0 in the plane; width of the middle one. */
 struct heights_nine {
-    const double *height[9], *turn[9];
+    const double *height[9], *turn[9], *width;
     double behind[4][3][2][METRIC_CELLS]; /* columns behind walls, if any: their heights and turns */
 };
 
@@ -313,6 +336,7 @@ static void heights_plane(const struct heights_row *row, int axis, const double 
     const double *const height[3] = {below->height + off, here->height + 1, above->height + on},
                         *const turn[3] = {below->turn + off, here->turn + 1, above->turn + on};
     for (int i = 0; i < 3; i++) nine.height[3 * i + 1] = height[i], nine.turn[3 * i + 1] = turn[i];
+    nine.width = here->width + 1;
     heights_walls(row, (int[2]){across}, (double[2]){per}, &nine);
     heights_faces(row, across, lower, upper);
     for (size_t i = 0; i < n; i++) least[i] = 1.0;
@@ -320,7 +344,7 @@ static void heights_plane(const struct heights_row *row, int axis, const double 
     heights_plane_row(n, nine.height[1], nine.height[4], nine.height[7], lower, upper, per, kappa);
     if (axis == 0 && row->mesh->beta == 1)
         heights_ring_row(n, nine.height[1], nine.height[4], nine.height[7], per, row->level->h[0], kappa);
-    heights_add(n, kappa, least, normal, sum);
+    heights_add(n, kappa, least, nine.width, normal, sum);
 }
 
 /* Columns along `axis` through nine rows, or three where they stand beside each other in these. */
@@ -337,6 +361,7 @@ static void heights_take_nine(const struct heights_row *row, int axis, struct he
                 heights_columns(row, axis, row->a + i * stride[t] + j * stride[u] - stride[t] - stride[u], of);
             ret->height[3 * i + j] = of->height + along;
             ret->turn[3 * i + j] = of->turn + along;
+            if (i == 1 && j == 1) ret->width = of->width + along;
         }
 }
 
@@ -354,7 +379,7 @@ static void heights_space(const struct heights_row *row, int axis, const double 
     for (size_t i = 0; i < n; i++) least[i] = 1.0;
     for (int k = 0; k < 9; k++) heights_least(n, nine.turn[k], nine.turn[k], nine.turn[k], nine.turn[4], least);
     heights_space_row(n, nine.height, per_t, per_u, h, kappa);
-    heights_add(n, kappa, least, normal, sum);
+    heights_add(n, kappa, least, nine.width, normal, sum);
 }
 
 /* What is trusted, over all that surfaces of this direction could have. */
