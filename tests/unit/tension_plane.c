@@ -353,6 +353,62 @@ static void test_mirrors(void **state)
     flow_stop(&flow);
 }
 
+/* A front of some cells across (0.6, 0.8), that lies on a wave of eight cells along (0.8, -0.6). */
+static double slope_width, slope_cell;
+
+static void slope_place(const double x[3], double *ret_along, double *ret_across)
+{
+    double X = (x[0] - 10e-6) / slope_cell, Y = (x[1] - 10e-6) / slope_cell;
+    *ret_along = (0.8 * X - 0.6 * Y) * M_PI / 4.0;
+    *ret_across = 0.6 * X + 0.8 * Y - 0.02 * cos(*ret_along);
+}
+
+static void set_slope(const struct model *model, const double x[3], double *w)
+{
+    double along, across;
+    slope_place(x, &along, &across);
+    w[model->i_alpha] = 0.5 * (1.0 - tanh(across / slope_width));
+    w[model->i_alpha + 1] = 1.0 - w[model->i_alpha];
+}
+
+/* kappa of a wave of the surface, in its front: how far it lies along the surface beside the wave [radians], one way
+ * before the surface, the other way behind it. */
+static double slope_shift(double width)
+{
+    struct flow flow;
+    double part[2] = {0.0};
+    int cells = 64;
+    slope_cell = 20e-6 / cells;
+    slope_width = width;
+    start(&flow, PLANE PLANE_WALLS, cells, 8, "");
+    flow_set(&flow, set_slope);
+    curve_take(flow.state->work->curve, 0, flow_level(&flow)->w);
+    double *kappa = flow_primitive(&flow, flow.state->model->pairs[0].i_kappa);
+    for (size_t c = 0; c < flow.n_cell; c++) {
+        double x[3], along, across, w[16];
+        flow_centre(&flow, c, x);
+        slope_place(x, &along, &across);
+        if (fabs(along) > 4.0 * M_PI || fabs(across) > 2.0) continue;
+        set_slope(flow.state->model, x, w);
+        double front = w[flow.state->model->i_alpha] * w[flow.state->model->i_alpha + 1];
+        part[0] += front * kappa[c] * cos(along);
+        part[1] += front * kappa[c] * sin(along) * (across > 0.0 ? 1.0 : -1.0);
+    }
+    mem_free(kappa);
+    flow_stop(&flow);
+    return part[1] / part[0];
+}
+
+/* A column through a cell off the surface crosses it beside that cell's foot: kappa of a wide front would be shifted,
+ * and feed its waves. */
+static void test_foot(void **state)
+{
+    (void)state;
+    double thin = slope_shift(0.6), wide = slope_shift(1.0);
+    print_message("foot: shift of a thin front %.3f, of a wide one %.3f\n", thin, wide);
+    assert_true(fabs(wide) < 0.04);
+}
+
 #define OVAL \
     "  - {ellipsoid: {center: [0, 0], semi-axes: [12 um, 8 um]}, material: water, density: 997, pressure: 1.1 atm}\n"
 
@@ -384,6 +440,7 @@ int main(void)
         cmocka_unit_test(test_balance),      cmocka_unit_test(test_curvature),     cmocka_unit_test(test_drop),
         cmocka_unit_test(test_mirrors),      cmocka_unit_test(test_tiles),         cmocka_unit_test(test_angle),
         cmocka_unit_test(test_angle_mirror), cmocka_unit_test(test_angle_columns), cmocka_unit_test(test_teeth),
+        cmocka_unit_test(test_foot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
