@@ -56,7 +56,8 @@ static const struct key scene_scheme_rows[] = {
      .section = &scene_scheme_limiter,
      .doc =
          "The limiter of the volume fractions. Default: thinc where fluids have surface tension in the plane, around "
-         "an axis or in space, because slopes let such surfaces grow teeth; van-albada where an elastic solid whose "
+         "an axis or in space, because it keeps their fronts thin, as curvatures want them; van-albada where an "
+         "elastic solid whose "
          "shear waves are faster than 100 m/s meets a gas there, because steeper slopes let it shake; else superbee, "
          "which keeps material interfaces within two or three cells. Give the same as `limiter` for one limiter "
          "throughout."},
@@ -274,8 +275,8 @@ static void scene_scheme_slopes(struct draft *draft, const struct keys_map *sche
                       wrong[i]);
 }
 
-/* With tension, surfaces of columns whose fractions have slopes grow teeth (docs/decisions/tension.md); stiff solids in
- * a gas shake where steep slopes make their surfaces sharp (docs/decisions/oblique-surfaces.md). */
+/* With tension, curvatures are best of thin fronts (docs/decisions/tension.md); stiff solids in a gas shake where steep
+ * slopes make their surfaces sharp (docs/decisions/oblique-surfaces.md). */
 static const char *scene_scheme_edge(struct draft *draft)
 {
     if (scene_meet_drawn(draft)) return "thinc";

@@ -89,7 +89,6 @@ static void check_print_tension(const struct scene *scene, const struct model *m
         }
         transport_print_tension(scene, model, k);
     }
-    transport_print_teeth(scene, model);
 }
 
 static void check_print_module(const char *what, const struct instance *instance)

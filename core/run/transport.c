@@ -240,33 +240,6 @@ void transport_print_slow(const struct scene *scene, const struct model *model, 
         "slow flow", u / c);
 }
 
-/* Is every material a fluid without viscosity? */
-static bool transport_inviscid(const struct scene *scene, const struct model *model)
-{
-    bool solid = false;
-    for (unsigned l = 0; l < scene->n_material; l++) solid = solid || scene->material[l].constitutive.module;
-    return !solid && !model->viscous;
-}
-
-/* The limiter by which surfaces have slopes, across or along themselves; NULL: none. */
-static const struct bulla_module *transport_slopes(const struct scene_scheme *scheme)
-{
-    const struct bulla_module *across = scheme->interface_limiter.module, *along = scene_instance_along(scheme)->module;
-    if (!across || !vet_surfaces(across->table)) return across;
-    return scheme->slant > 0.0 && !vet_surfaces(along->table) ? along : NULL;
-}
-
-void transport_print_teeth(const struct scene *scene, const struct model *model)
-{
-    const struct bulla_module *limiter = transport_slopes(&scene->scheme);
-    if (!scene->n_tension || scene->domain.dim < 2 || !limiter || !transport_inviscid(scene, model)) return;
-    printf(
-        "  %-12s without viscosity nothing damps those that slopes (%s) give a surface: with 24 cells per radius and "
-        "more they grow; with 'interface-limiter: thinc' and 'interface-along: diagonal', the defaults, none with up "
-        "to 32\n",
-        "teeth", limiter->name);
-}
-
 void transport_print_sticks(const struct scene *scene, const struct model *model)
 {
     const char *comma = "";

@@ -28,10 +28,6 @@ void transport_print_reynolds(const struct scene *scene, const struct model *mod
  * below 0.05. */
 void transport_print_slow(const struct scene *scene, const struct model *model, double speed);
 
-/* Recommends thinc for surfaces with tension in inviscid fluids at scheme.low-mach below 0.2, which get teeth with
- * superbee (docs/decisions/tension.md). */
-void transport_print_teeth(const struct scene *scene, const struct model *model);
-
 /* Which fluids stick to solids. */
 void transport_print_sticks(const struct scene *scene, const struct model *model);
 

@@ -71,10 +71,6 @@ grep -q 'alpha: thinc across surfaces, thinc along)' said || fail "without visco
 grep -q 'alpha: thinc across surfaces, koren along)' said || fail "a limiter of its own along surfaces" said
 "$BULLA" plan plane.yaml --set scheme.interface-limiter=superbee >said || fail "plan"
 grep -q 'alpha: superbee)' said || fail "superbee without viscosity" said
-"$BULLA" check plane.yaml --set scheme.interface-along=normal >said || fail "check"
-grep -q 'teeth .* slopes (mc) give a surface' said || fail "no word about slopes along surfaces" said
-"$BULLA" check plane.yaml >said || fail "check"
-! grep -q teeth said || fail "teeth with a mild tangent" said
 "$BULLA" check plane.yaml --set scheme.interface-along=axes --set scheme.along-limiter=koren >said 2>&1 || fail "check" said
 grep -q "'along-limiter' is for surfaces that lie as they like, and has no effect" said || fail "no word about axes" said
 "$BULLA" check bubble.yaml --set scheme.interface-along=normal >said 2>&1 || fail "check" said
