@@ -306,16 +306,30 @@ static void heights_walls(const struct heights_row *row, const int axes[2], cons
                                nine, nine->behind[2 * d + side]);
 }
 
+/* Would columns along an axis through cell i of a row cross a wall with an angle? */
+static bool heights_cross(const struct heights_row *row, int axis, size_t i)
+{
+    int n = row->mesh->n[axis], at = row->at[axis] + (axis ? 0 : (int)i);
+    return (heights_leans(row, axis, 0) && at < HEIGHTS_REACH) ||
+           (heights_leans(row, axis, 1) && at >= n - HEIGHTS_REACH);
+}
+
 /* Normals along an axis without those of cells whose columns cross a wall with an angle. */
 static void heights_normal(const struct heights_row *row, int axis, const double *normal, double *ret)
 {
-    int n = row->mesh->n[axis];
-    bool low = heights_leans(row, axis, 0), high = heights_leans(row, axis, 1);
+    for (size_t i = 0; i < row->n; i++) ret[i] = heights_cross(row, axis, i) ? 0.0 : normal[i];
+}
+
+/* Widths of fronts, 0 near walls with an angle: normals know that angle less well than the columns of wide fronts. */
+static const double *heights_width(const struct heights_row *row, const double *width, double *ret)
+{
+    if (!row->cosine) return width;
     for (size_t i = 0; i < row->n; i++) {
-        int at = row->at[axis] + (axis ? 0 : (int)i);
-        bool crosses = (low && at < HEIGHTS_REACH) || (high && at >= n - HEIGHTS_REACH);
-        ret[i] = crosses ? 0.0 : normal[i];
+        bool near = false;
+        for (int d = 0; d < row->mesh->dim; d++) near = near || heights_cross(row, d, i);
+        ret[i] = near ? 0.0 : width[i];
     }
+    return ret;
 }
 
 /* In the plane and around an axis: columns along `axis`, three rows of them, or one where they stand beside each other
@@ -329,7 +343,7 @@ static void heights_plane(const struct heights_row *row, int axis, const double 
                                  *below = across ? heights_along(row, -1) : here,
                                  *above = across ? heights_along(row, 1) : here;
     size_t off = across ? 1 : 0, on = across ? 1 : 2;
-    double lower[METRIC_CELLS], upper[METRIC_CELLS], kappa[METRIC_CELLS], least[METRIC_CELLS];
+    double lower[METRIC_CELLS], upper[METRIC_CELLS], kappa[METRIC_CELLS], least[METRIC_CELLS], width[METRIC_CELLS];
     double per = row->level->h[axis] / row->level->h[across];
     if (!across) heights_columns(row, axis, row->a, &own);
     struct heights_nine nine;
@@ -344,7 +358,7 @@ static void heights_plane(const struct heights_row *row, int axis, const double 
     heights_plane_row(n, nine.height[1], nine.height[4], nine.height[7], lower, upper, per, kappa);
     if (axis == 0 && row->mesh->beta == 1)
         heights_ring_row(n, nine.height[1], nine.height[4], nine.height[7], per, row->level->h[0], kappa);
-    heights_add(n, kappa, least, nine.width, normal, sum);
+    heights_add(n, kappa, least, heights_width(row, nine.width, width), normal, sum);
 }
 
 /* Columns along `axis` through nine rows, or three where they stand beside each other in these. */
@@ -372,14 +386,14 @@ static void heights_space(const struct heights_row *row, int axis, const double 
     size_t n = row->n;
     struct heights_columns columns[9];
     struct heights_nine nine;
-    double kappa[METRIC_CELLS], least[METRIC_CELLS], h = row->level->h[axis];
+    double kappa[METRIC_CELLS], least[METRIC_CELLS], width[METRIC_CELLS], h = row->level->h[axis];
     double per_t = h / row->level->h[t], per_u = h / row->level->h[u];
     heights_take_nine(row, axis, columns, &nine);
     heights_walls(row, (int[2]){t, u}, (double[2]){per_t, per_u}, &nine);
     for (size_t i = 0; i < n; i++) least[i] = 1.0;
     for (int k = 0; k < 9; k++) heights_least(n, nine.turn[k], nine.turn[k], nine.turn[k], nine.turn[4], least);
     heights_space_row(n, nine.height, per_t, per_u, h, kappa);
-    heights_add(n, kappa, least, nine.width, normal, sum);
+    heights_add(n, kappa, least, heights_width(row, nine.width, width), normal, sum);
 }
 
 /* What is trusted, over all that surfaces of this direction could have. */

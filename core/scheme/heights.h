@@ -10,10 +10,11 @@
  * A column whose ends lack q of being pure counts less from q = 0.05 on, and not at all from 0.5. So do columns of wide
  * fronts, tanh(x/w) with w from 0.7 to 0.95 cells across the surface: under some 30 to 60 degrees columns of them read
  * kappa beside the foot of a cell, one side of the front before it and the other behind, and waves of six cells grow
- * (docs/decisions/tension.md). Where a wall asks for an angle, columns across it do not count within three
- * cells of it, and those along it have a neighbour behind it whose height makes n keep that angle at the wall (Afkhami
- * & Bussmann, Int. J. Numer. Methods Fluids 57 (2008) 453-472). Of a disc of 8 cells per radius, painted sharp, kappa
- * is off by 2 % (rms), from normals of smoothed fractions 6 %; waves of 2 pi R/3 get 1.00 of their kappa, there 0.9. */
+ * (docs/decisions/tension.md). Where a wall asks for an angle, columns across it do not count within three cells of it,
+ * width is no matter there, and those along it have a neighbour behind it whose height makes n keep that angle at the
+ * wall (Afkhami & Bussmann, Int. J. Numer. Methods Fluids 57 (2008) 453-472). Of a disc of 8 cells per radius, painted
+ * sharp, kappa is off by 2 % (rms), from normals of smoothed fractions 6 %; waves of 2 pi R/3 get 1.00 of their kappa,
+ * there 0.9. */
 #ifndef HEIGHTS_H
 #define HEIGHTS_H
 

@@ -259,8 +259,8 @@ static void test_angle(void **state)
         }
 }
 
-/* Columns along the wall know its angle: of a front of less than a cell kappa is right also in the row at the wall, and
- * better in the mean of four. */
+/* Columns along the wall know its angle: of a front of a cell kappa is right also in the row at the wall, and better in
+ * the mean of four. */
 static void test_angle_columns(void **state)
 {
     (void)state;
@@ -272,7 +272,7 @@ static void test_angle_columns(void **state)
             cap_centre = a ? 0.5 * RADIUS : -0.5 * RADIUS;
             for (int k = 0; k < 2; k++) {
                 cap_rows = k ? 4 : 1;
-                mem_free(cap_curvature(i, cells, 8, angle, false, 0.7, &all, &row[k]));
+                mem_free(cap_curvature(i, cells, 8, angle, false, 0.9, &all, &row[k]));
             }
             cap_rows = 1;
             print_message("%d: columns at %d deg: %.2e, at the wall %.2e, four rows %.2e\n", i, a ? 120 : 60, all,
