@@ -390,7 +390,7 @@ struct scene_scheme {
     enum scene_closure closure;
     struct instance riemann, reconstruction, limiter;
     struct instance interface_limiter; /* of the volume fractions */
-    double slant;                      /* s_d over n_d^2, where it goes by how surfaces lie (scheme/slant.h); or 0 */
+    bool slanted;                      /* it acts as far as surfaces lie across an axis (scheme/slant.h) */
     struct instance along_limiter;     /* of what is then left to axes along surfaces; no module: `limiter` */
     int ghosts;                        /* layers of neighbours that the reconstruction needs on each side of a tile */
     double cfl, dt_fixed;              /* dt_fixed 0: from cfl */

@@ -45,7 +45,7 @@ bool scene_meet_drawn(struct draft *draft);
 /* What `surface-shear`, `surface-strain` and `interface-along` say: see the fields of struct scene_scheme. */
 bool scene_meet_free(struct draft *draft, const struct keys_map *scheme);
 bool scene_meet_sheltered(struct draft *draft, const struct keys_map *scheme);
-double scene_meet_slant(struct draft *draft, const struct keys_map *scheme); /* limiters are open */
+bool scene_meet_slanted(struct draft *draft, const struct keys_map *scheme); /* limiters are open */
 /* Warns of keys that say how solids meet fluids, in a scene that has no solid. */
 void scene_meet_idle(struct draft *draft, const struct keys_map *scheme);
 

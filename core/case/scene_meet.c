@@ -4,16 +4,10 @@
 
 #include "bulla/constitutive.h"
 #include "bulla/eos.h"
-#include "plug/vet.h"
 
 /* A solid whose shear waves are faster than this is stiff [m/s], and a gas at 1 atm softer than that [Pa]. */
 #define SCENE_MEET_STIFF 100.0
 #define SCENE_MEET_SOFT 1e7
-
-/* Of `interface-along`: s_d over n_d^2 (scheme/slant.h). */
-#define SCENE_MEET_AXES 0.0
-#define SCENE_MEET_NORMAL 1.0
-#define SCENE_MEET_DIAGONAL 2.0
 
 /* c_s^2 = mu/rho0 = 2 (e_1 + e_2) without strain, and what the springs of branches add. */
 static bool scene_meet_is_stiff(const struct scene_material *material)
@@ -95,30 +89,15 @@ bool scene_meet_drawn(struct draft *draft)
     return drawn && !scene_matter_solid(draft);
 }
 
-/* Surfaces that move along themselves must not get teeth. But where nothing is viscous, what is soft along them lets
- * their waves grow: there as little as helps (docs/decisions/edges.md). */
-static double scene_meet_aligned(struct draft *draft)
+bool scene_meet_slanted(struct draft *draft, const struct keys_map *scheme)
 {
-    const struct bulla_module *sharp = draft->scene->scheme.interface_limiter.module;
-    bool viscous = false;
-    if (!scene_meet_drawn(draft)) return SCENE_MEET_AXES;
-    for (unsigned l = 0; l < draft->scene->n_material; l++)
-        viscous = viscous || draft->scene->material[l].viscosity.module;
-    if (viscous) return SCENE_MEET_NORMAL;
-    return sharp && vet_surfaces(sharp->table) ? SCENE_MEET_DIAGONAL : SCENE_MEET_AXES;
-}
-
-double scene_meet_slant(struct draft *draft, const struct keys_map *scheme)
-{
-    enum { AUTO, NORMAL, DIAGONAL, AXES } along = (int)keys_at(scheme, "interface-along")->integer;
+    enum { AUTO, NORMAL } along = (int)keys_at(scheme, "interface-along")->integer;
     const struct scene *scene = draft->scene;
-    if (along == AUTO) return scene_meet_aligned(draft);
-    if (along == AXES) return SCENE_MEET_AXES;
-    if (scene->domain.dim > 1 && scene->n_material > 1)
-        return along == NORMAL ? SCENE_MEET_NORMAL : SCENE_MEET_DIAGONAL;
+    if (along == AUTO) return scene_meet_drawn(draft);
+    if (along != NORMAL || (scene->domain.dim > 1 && scene->n_material > 1)) return along == NORMAL;
     diag_warn(draft->keys.diag, &keys_at(scheme, "interface-along")->node->mark,
-              "'interface-along: %s' is about surfaces between materials that lie as they like, and has no effect here",
-              along == NORMAL ? "normal" : "diagonal");
+              "'interface-along: normal' is about surfaces between materials that lie as they like, and has no effect "
+              "here");
     diag_help(draft->keys.diag, "on a line and around a centre the axis is the normal");
-    return SCENE_MEET_AXES;
+    return false;
 }

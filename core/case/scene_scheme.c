@@ -63,20 +63,17 @@ static const struct key scene_scheme_rows[] = {
          "throughout."},
     {.name = "interface-along",
      .type = KEYS_CHOICE,
-     .choices = "auto|normal|diagonal|axes",
+     .choices = "auto|normal|axes",
      .fallback = "auto",
-     .doc =
-         "Along what the interface limiter acts in two and three dimensions. normal: along each axis the part n_d^2 "
-         "of it, n the normal of the surface, and `along-limiter` for the rest, so that surfaces that move along "
-         "themselves get no teeth, which their curvature would see; diagonal: 2 n_d^2, and all of it from 45 degrees "
-         "on; axes: all of it along every axis, which is cheaper. auto: where fluids have surface tension normal if "
-         "some are viscous, else diagonal if `interface-limiter` is for surfaces (thinc); else axes."},
+     .doc = "Along what the interface limiter acts in two and three dimensions. normal: along each axis the part n_d^2 "
+            "of it, n the normal of the surface, and `along-limiter` for the rest, so that surfaces that move along "
+            "themselves get no teeth, which their curvature would see; axes: all of it along every axis, which is "
+            "cheaper. auto: normal where fluids have surface tension; else axes."},
     {.name = "along-limiter",
      .type = KEYS_SECTION,
      .section = &scene_scheme_limiter,
-     .doc = "The limiter of the volume fractions along their surface, with `interface-along: normal` or `diagonal`. "
-            "Default: thinc with a beta of 1.15 with `diagonal`, else that of `limiter`, whose slopes are best for "
-            "drops that move but let waves of their surface grow where little is viscous."},
+     .doc = "The limiter of the volume fractions along their surface, with `interface-along: normal`. Default: that of "
+            "`limiter`, whose slopes are best for drops that move."},
     {.name = "exchange",
      .type = KEYS_CHOICE,
      .choices = "auto|fast|full",
@@ -208,23 +205,16 @@ static void scene_scheme_order(struct node *scheme)
 }
 
 /* What a case without a word about it gets; it stands in the resolved case, in the order of the table. */
-static struct keys_value scene_scheme_meant(struct draft *draft, const struct keys_value *absent,
-                                            const struct keys_section *section, struct node *node)
+static struct keys_value scene_scheme_default(struct draft *draft, const struct keys_value *absent,
+                                              const struct keys_section *section, const char *name)
 {
     struct keys_value value = *absent;
     struct node *scheme = keys_at(draft->root, "scheme")->map->node;
-    value.node = node;
+    value.node = tree_scalar(draft->keys.forest, &scheme->mark, TREE_PLAIN, name);
     value.map = keys_read(&draft->keys, value.node, section, value.path);
     tree_set(draft->keys.forest, scheme, absent->key->name, value.node);
     scene_scheme_order(scheme);
     return value;
-}
-
-static struct keys_value scene_scheme_default(struct draft *draft, const struct keys_value *absent,
-                                              const struct keys_section *section, const char *name)
-{
-    const struct mark *mark = &keys_at(draft->root, "scheme")->map->node->mark;
-    return scene_scheme_meant(draft, absent, section, tree_scalar(draft->keys.forest, mark, TREE_PLAIN, name));
 }
 
 /* A scene with a solid needs a solver that knows of stress. Tables of older modules end before they say so. */
@@ -313,32 +303,17 @@ static void scene_scheme_liquid(struct draft *draft, const struct keys_value *ke
     }
 }
 
-/* A tangent that is steep enough for waves of a surface not to grow and mild enough for teeth not to. */
-static struct node *scene_scheme_mild(struct draft *draft)
-{
-    struct forest *forest = draft->keys.forest;
-    const struct mark *mark = &keys_at(draft->root, "scheme")->map->node->mark;
-    struct node *mild = tree_map(forest, mark);
-    tree_set(forest, mild, "type", tree_scalar(forest, mark, TREE_PLAIN, "thinc"));
-    tree_set(forest, mild, "beta", tree_scalar(forest, mark, TREE_PLAIN, "1.15"));
-    return mild;
-}
-
 /* Of fractions along their surface. */
 static void scene_scheme_along(struct draft *draft, const struct keys_map *scheme)
 {
     const struct keys_value *along = keys_at(scheme, "along-limiter");
     struct scene *scene = draft->scene;
-    bool given = along->node || along->meant;
-    double slant = scene->scheme.slant = scene_meet_slant(draft, scheme);
-    bool mild = slant > 1.0 && !scene_matter_solid(draft);
-    if (!scheme || !(given || mild)) return;
-    struct keys_value value = *along;
-    if (!given) value = scene_scheme_meant(draft, along, &scene_scheme_limiter, scene_scheme_mild(draft));
-    scene_matter_open(draft, &value, &scene->scheme.along_limiter);
+    scene->scheme.slanted = scene_meet_slanted(draft, scheme);
+    if (!scheme || !(along->node || along->meant)) return;
+    scene_matter_open(draft, along, &scene->scheme.along_limiter);
     scene_scheme_liquid(draft, along, scene->scheme.along_limiter.module);
-    if (slant == 0.0)
-        diag_warn(draft->keys.diag, &value.node->mark,
+    if (!scene->scheme.slanted)
+        diag_warn(draft->keys.diag, &along->node->mark,
                   "'along-limiter' is for surfaces that lie as they like, and has no effect with all of "
                   "'interface-limiter' along every axis");
 }

@@ -439,7 +439,7 @@ struct model *model_new(const struct scene *scene)
     model->n_field += model->n_normal;
     model_pair_up(model);
     model->i_slant = model->n_field;
-    model->n_slant = scene->scheme.slant > 0.0 ? (unsigned)model->dim : 0;
+    model->n_slant = scene->scheme.slanted ? (unsigned)model->dim : 0;
     model->n_field += model->n_slant;
     model_family_all(model);
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;

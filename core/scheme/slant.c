@@ -65,13 +65,10 @@ static BULLA_KERNEL void slant_space(size_t n, double scale, const ptrdiff_t *st
     }
 }
 
-static BULLA_KERNEL void slant_share(size_t n, double reach, const double *restrict all, double *restrict share)
+static BULLA_KERNEL void slant_share(size_t n, const double *restrict all, double *restrict share)
 {
 #pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        double part = reach * share[i] / (all[i] + SLANT_NONE);
-        share[i] = part < 1.0 ? part : 1.0;
-    }
+    for (size_t i = 0; i < n; i++) share[i] = share[i] / (all[i] + SLANT_NONE);
 }
 
 /* Squares along axis a of all fractions: two of them have the same. */
@@ -99,7 +96,7 @@ void slant_make(const struct model *model, const struct mesh *mesh, const struct
     }
     for (int a = 0; a < mesh->dim; a++) {
         double *share = room + (size_t)a * block->pitch;
-        slant_share(n, model->scene->scheme.slant, all, share);
+        slant_share(n, all, share);
         for (int k = 0; k < mesh->n[2]; k++)
             for (int j = 0; j < mesh->n[1]; j++, ret_slant += mesh->n[0])
                 memcpy(ret_slant, share + (box_at(block, 0, j, k) - first), (size_t)mesh->n[0] * sizeof *ret_slant);
@@ -117,8 +114,7 @@ static size_t slant_apply(const struct term_tile *tile, double *u_new)
 const struct term slant_term = {
     .name = "slant",
     .owner = "core/scheme/slant.c",
-    .equation =
-        "edges of alpha: those of along-limiter + s (those of interface-limiter - those), s = n_d^2 or up to twice",
+    .equation = "edges of alpha: those of along-limiter + s (those of interface-limiter - those), s = n_d^2",
     .wanted = slant_acts,
     .apply = slant_apply,
 };

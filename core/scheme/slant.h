@@ -3,10 +3,9 @@
  * A limiter that is steeper than a surface is along an axis makes steps of it: where a surface lies along x and moves
  * along x, its fractions change slowly from cell to cell of a row, and steepened they become teeth, which curvatures
  * see (docs/decisions/edges.md). So edges take as much of the interface limiter as the surface lies across the axis,
- * or all of it unless the surface lies nearer along the axis than under 45 degrees, and `along-limiter` for the rest:
+ * and `along-limiter` for the rest:
  *
- *     edges: along + s_d (steep - along),   n_d^2 = sum_l (d_d alpha_l)^2/sum_l |grad alpha_l|^2,
- *     s_d = n_d^2 (interface-along: normal) or min(1, 2 n_d^2) (diagonal)
+ *     edges: along + s_d (steep - along),   s_d = n_d^2 = sum_l (d_d alpha_l)^2/sum_l |grad alpha_l|^2
  *
  * with differences over the 3^dim cells around, weights 1 2 1 across; 0 where all of these are alike. s_d are the last
  * fields of the state, without fluxes, and of its primitives alone: each stage makes them from the fractions that it

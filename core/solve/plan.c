@@ -55,7 +55,7 @@ static void plan_faces(const struct scene *scene, struct text *text)
     text_add(text, "L(w), tile by tile and axis by axis: gather %d layers of neighbours, reconstruction (%s with %s",
              scene->scheme.ghosts, scene->scheme.reconstruction.module->name, scene->scheme.limiter.module->name);
     if (scene->n_material > 1) text_add(text, "; alpha: %s", scene->scheme.interface_limiter.module->name);
-    if (scene->scheme.slant > 0.0)
+    if (scene->scheme.slanted)
         text_add(text, " across surfaces, %s along", scene_instance_along(&scene->scheme)->module->name);
     text_add(text, "), states (");
     plan_laws(scene, text);

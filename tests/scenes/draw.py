@@ -235,7 +235,7 @@ WIDE = 1000
 LIVELY = 2000  # from here on: lively.py
 SURFACES = 3300  # from here on: solids that meet fluids in all ways that the scheme knows
 SLANTS = 3600  # from here on: interface limiters along normals and along axes
-DIAGONALS = 3761  # those of one kind more, and limiters of their own along surfaces
+LIMITED = 3761  # normals more often, and limiters of their own along surfaces
 WAVES = 4201  # from here on: waves come in through open faces
 OTHER_LIQUIDS = [{"type": "tait", "preset": "water"}, {"type": "modified-tait", "preset": "refit"},
                  {"type": "iapws95", "preset": "water", "table-size": 64}, {"type": "stiffened-gas", "preset": "glycerol"}]
@@ -370,11 +370,11 @@ def surfaces(scene):
 
 
 def slants(scene, seed):
-    ways = ("normal", "normal", "axes") if seed < DIAGONALS else ("normal", "diagonal", "diagonal", "axes")
+    ways = ("normal",) * (2 if seed < LIMITED else 3) + ("axes",)
     if scene.dim > 1 and scene.dice.coin(0.4):
         scheme = scene.case.setdefault("scheme", {})
         scheme["interface-along"] = scene.dice.pick(*ways)
-        if seed >= DIAGONALS and scheme["interface-along"] != "axes" and scene.dice.coin(0.3):
+        if seed >= LIMITED and scheme["interface-along"] != "axes" and scene.dice.coin(0.3):
             scheme["along-limiter"] = scene.dice.pick("minmod", "koren", "van-leer")
 
 
