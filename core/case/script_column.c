@@ -19,8 +19,9 @@ struct script_column {
     double rows[]; /* [trace.n] of one that has been computed */
 };
 
-const char *const script_column_functions[] = {"min",    "max",    "first", "last", "mean", "at",  "between",
-                                               "argmin", "argmax", "abs",   "sqrt", "exp",  "log", NULL};
+const char *const script_column_functions[] = {"min",     "max",    "first",  "last",     "mean",      "at",
+                                               "between", "argmin", "argmax", "dip_time", "peak_time", "zero_time",
+                                               "abs",     "sqrt",   "exp",    "log",      NULL};
 
 /* "max": the function that is running, for its messages. */
 static const char *script_column_caller(lua_State *lua)
@@ -159,6 +160,27 @@ static double script_column_argmax(const struct trace *c)
     return c->t[script_column_extreme(c, 1)];
 }
 
+/* Where the parabola through an extreme row and its neighbours has its own extreme: never beyond the middle between
+ * rows. At the ends there is no parabola. */
+static double script_column_turn(const struct trace *c, double sign)
+{
+    size_t i = script_column_extreme(c, sign);
+    if (i == 0 || i + 1 == c->n) return c->t[i];
+    double before = c->t[i] - c->t[i - 1], after = c->t[i + 1] - c->t[i];
+    double rise = (c->v[i] - c->v[i - 1]) * after, fall = (c->v[i] - c->v[i + 1]) * before, both = rise + fall;
+    return both == 0.0 ? c->t[i] : c->t[i] + 0.5 * (rise * after - fall * before) / both;
+}
+
+static double script_column_dip(const struct trace *c)
+{
+    return script_column_turn(c, -1);
+}
+
+static double script_column_peak(const struct trace *c)
+{
+    return script_column_turn(c, 1);
+}
+
 static double script_column_first(const struct trace *c)
 {
     return c->v[0];
@@ -180,10 +202,11 @@ static const struct script_column_reduction {
     const char *name;
     double (*function)(const struct trace *);
 } script_column_reductions[] = {
-    {"min", script_column_min},       {"max", script_column_max},
-    {"first", script_column_first},   {"last", script_column_last},
-    {"mean", script_column_mean},     {"argmin", script_column_argmin},
-    {"argmax", script_column_argmax}, {NULL, NULL},
+    {"min", script_column_min},        {"max", script_column_max},
+    {"first", script_column_first},    {"last", script_column_last},
+    {"mean", script_column_mean},      {"argmin", script_column_argmin},
+    {"argmax", script_column_argmax},  {"dip_time", script_column_dip},
+    {"peak_time", script_column_peak}, {NULL, NULL},
 };
 
 /* Upvalue 1 is the name, upvalue 2 the index of the reduction, upvalue 3 the function of numbers or nil. */
@@ -217,6 +240,36 @@ static int script_column_value(lua_State *lua)
         return luaL_error(lua, "at: the run has no such time: %f is outside of %f to %f", time, c->t[0],
                           c->t[c->n - 1]);
     lua_pushnumber(lua, table_interpolate(c->n, c->t, c->v, time));
+    return 1;
+}
+
+/* Time of the passage through 0 that is `count`-th, on the straight line between two rows; the number of passages in
+ * `found`, if there are less. */
+static double script_column_passage(const struct trace *c, double count, size_t *found)
+{
+    for (size_t i = 1; i < c->n; i++) {
+        double a = c->v[i - 1], b = c->v[i];
+        if ((a < 0.0) == (b < 0.0) || (double)++*found < count) continue;
+        return c->t[i - 1] + (c->t[i] - c->t[i - 1]) * (a / (a - b));
+    }
+    return NAN;
+}
+
+static int script_column_zero(lua_State *lua)
+{
+    if (lua_gettop(lua) != 2)
+        script_column_count(lua, 1, "a column, and which of its passages through 0: zero_time(column, 2)");
+    const struct script_column *column = script_column_needed(lua);
+    const struct trace *c = &column->trace;
+    double count = lua_gettop(lua) == 2 ? script_column_number(lua, 2, "which passage") : 1.0;
+    bool known = !script_column_has_nan(c);
+    size_t found = 0;
+    if (!(count >= 1.0)) return luaL_error(lua, "zero_time: passages are counted from 1, not from %f", count);
+    double time = column->planned || !known ? c->t[0] : script_column_passage(c, count, &found);
+    if (isnan(time))
+        return luaL_error(lua, "zero_time: the column passes through 0 %d times from %f to %f, not %f times",
+                          (int)found, c->t[0], c->t[c->n - 1], count);
+    lua_pushnumber(lua, known ? time : (double)NAN);
     return 1;
 }
 
@@ -323,7 +376,10 @@ void script_column_open(lua_State *lua, int globals)
     static const char *const bare[] = {"abs", "sqrt", "exp", "log", NULL};
     static const char *const maps[] = {"abs", "acos", "asin", "atan", "ceil", "cos",  "deg",  "exp", "floor", "log",
                                        "rad", "sin",  "sqrt", "tan",  "sinh", "cosh", "tanh", "erf", NULL};
-    static const luaL_Reg timed[] = {{"at", script_column_value}, {"between", script_column_between}, {NULL, NULL}};
+    static const luaL_Reg timed[] = {{"at", script_column_value},
+                                     {"between", script_column_between},
+                                     {"zero_time", script_column_zero},
+                                     {NULL, NULL}};
     script_column_open_type(lua);
     lua_rawgeti(lua, LUA_REGISTRYINDEX, globals);
     int shown = lua_gettop(lua), math = shown + 1;

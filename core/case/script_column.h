@@ -3,7 +3,8 @@
  * A column is a value like a number: arithmetic goes row by row and is that of Lua's numbers; two columns must have
  * the same rows. Functions:
  *     of a column to a number   min max first last mean (over time) argmin argmax (the time of it)
- *                               at(column, time) (straight lines between rows)
+ *                               dip_time peak_time (that of a parabola through it and its neighbours)
+ *                               at(column, time), zero_time(column, which) (straight lines between rows)
  *     of a column to a column   between(column, from, to): the rows with from <= t <= to
  *     row by row                the functions of math that take one number; abs sqrt exp log without "math." too
  * min and max of two or more numbers are those of math. A value that is not a number reaches the result of whatever

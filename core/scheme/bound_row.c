@@ -149,39 +149,40 @@ static void bound_row_restore(const struct model *model, struct bound_row *row, 
         row->w[(model->i_alpha + l) * row->stride + c] = inside->alpha[l * BOUND_ROW + c];
 }
 
-/* Densities along the isentropes. Where a law has no sound on the way, or linear waves leave nothing of a material (a
- * trace of gas in a solid under tension), its density stays what it is inside. */
+/* Densities along the isentropes; `at`: moduli inside. Where a law has no sound on the way, or linear waves leave
+ * nothing of a material (a trace of gas in a solid under tension), its density stays what it is inside. */
 static void bound_row_compress(const struct model *model, struct bound_row *row, const double *old,
-                               const struct bound_row_inside *inside)
+                               const struct bound_row_inside *inside, struct bound_row_stiffness *at)
 {
-    struct bound_row_stiffness at, between;
+    struct bound_row_stiffness between;
     double half[SCENE_MATERIALS * BOUND_ROW], p_half[BOUND_ROW];
     const double *p = row->w + model->i_E * row->stride;
-    bound_row_moduli(model, row->n, inside->rho, inside->alpha, old, &at);
+    bound_row_moduli(model, row->n, inside->rho, inside->alpha, old, at);
     for (size_t c = 0; c < row->n; c++) p_half[c] = 0.5 * (old[c] + p[c]);
     for (unsigned l = 0; l < model->n_material; l++)
         for (size_t c = 0, i = l * BOUND_ROW; c < row->n; c++, i++)
-            half[i] = inside->rho[i] * bound_row_half(p[c] - old[c], at.K[i]);
+            half[i] = inside->rho[i] * bound_row_half(p[c] - old[c], at->K[i]);
     bound_row_moduli(model, row->n, half, inside->alpha, p_half, &between);
     for (unsigned l = 0; l < model->n_material; l++)
         for (size_t c = 0, i = l * BOUND_ROW; c < row->n; c++, i++)
-            row->w[(model->i_m + l) * row->stride + c] *= bound_row_ratio(p[c] - old[c], at.K[i], between.K[i]);
+            row->w[(model->i_m + l) * row->stride + c] *= bound_row_ratio(p[c] - old[c], at->K[i], between.K[i]);
 }
 
 /* The same, and fractions: the row has new pressures, and what lies inside has those of `old`. */
 static void bound_row_move(const struct model *model, struct bound_row *row, const double *old,
-                           const struct bound_row_inside *inside)
+                           const struct bound_row_inside *inside, struct bound_row_stiffness *at)
 {
-    bound_row_compress(model, row, old, inside);
+    bound_row_compress(model, row, old, inside, at);
     for (size_t c = 0; c < row->n && model->kapila; c++) bound_row_share(model, row, c, inside->rho);
 }
 
 void bound_row_follow(const struct model *model, struct bound_row *row, const double *old, const double *const *old_u)
 {
     struct bound_row_inside inside;
+    struct bound_row_stiffness at;
     double rho[BOUND_ROW], sound[BOUND_ROW];
     bound_row_keep(model, row, &inside);
-    bound_row_move(model, row, old, &inside);
+    bound_row_move(model, row, old, &inside, &at);
     bound_row_sound(model, row, rho, sound);
     for (size_t c = 0; c < row->n; c++)
         if (!(sound[c] > 0.0 && rho[c] > 0.0)) bound_row_restore(model, row, c, old, old_u, &inside);
@@ -217,10 +218,9 @@ void bound_row_waves(const struct model *model, struct bound_row *row, const dou
     memcpy(old, p, row->n * sizeof *p);
     bound_row_keep(model, row, &inside);
     memcpy(p, there, row->n * sizeof *p);
-    bound_row_move(model, row, old, &inside);
+    bound_row_move(model, row, old, &inside, &at);
     bound_row_sound(model, row, rho_there, sound_there);
     bound_row_keep(model, row, &outside);
-    if (model->kapila) bound_row_moduli(model, row->n, inside.rho, inside.alpha, old, &at);
     if (model->kapila) bound_row_moduli(model, row->n, outside.rho, outside.alpha, there, &beyond);
     for (size_t c = 0; c < row->n; c++) {
         double Z = rho[c] * sound[c], K = Z * sound[c], dp = there[c] - old[c];

@@ -75,6 +75,12 @@ static void test_values(void **state)
         {"last(V) - min(V)", 4},
         {"argmin(V)", 1},
         {"argmax(p)", 1},
+        {"dip_time(V) - peak_time(-V)", 0},
+        {"dip_time(V)", 1.25},
+        {"peak_time(V) + dip_time(between(V, 1, 4))", 1}, /* ends of columns */
+        {"dip_time((t - 3)^2)", 3},                       /* rows 1 and 2 apart */
+        {"zero_time(V - 5)", 0.5},
+        {"zero_time(V - 5, 2)", 3},
         {"max(abs(p))", 5},
         {"mean(V)", (5 * 1 + 3 * 1 + 5 * 2) / 4.0},
         {"at(V, 3)", 5},
@@ -119,6 +125,8 @@ static void test_nan_is_never_skipped(void **state)
     assert_true(isnan(value));
     assert_int_equal(formula_value(run, "min(abs(bad))", &value, NULL), STATUS_OK);
     assert_true(isnan(value));
+    assert_int_equal(formula_value(run, "zero_time(bad)", &value, NULL), STATUS_OK);
+    assert_true(isnan(value));
 }
 
 /* Refused when it is checked, and again over a run: the part of the text that is wrong, and a piece of the message. */
@@ -158,6 +166,9 @@ static void test_refusals(void **state)
         {"last(V) - at(V)", "at", "at takes a column and a time"},
         {"at(1, V)", "at", "at: a column of the run is needed, not a number"},
         {"at(V, V)", "at", "at: a time is needed as argument 2, not a column"},
+        {"2 * zero_time(V, 1, 2)", "zero_time", "zero_time takes a column, and which of its passages through 0"},
+        {"zero_time(V - 5, V)", "zero_time", "which passage is needed as argument 2, not a column"},
+        {"zero_time(V - 5, 0)", "zero_time", "passages are counted from 1, not from 0.0"},
         {"max(between(V, 1))", "between", "between takes a column and two times"},
         {"max(V) + abs(nil)", "abs", "a number or a column is needed as argument 1, not a nil"},
         {"abs()", "abs", "abs takes a number or a column"},
@@ -198,6 +209,7 @@ static void test_faults_of_a_run(void **state)
         {"at(V, 5)", "character 1: at: the run has no such time: 5.0 is outside of 0.0 to 4.0"},
         {"1 + max(between(V, 2.5, 3))", "character 9: between: no rows in that time span, 2.5 to 3.0"},
         {"max(none)", "character 1: the run wrote no rows of 'none'"},
+        {"zero_time(V - 5, 3)", "zero_time: the column passes through 0 2 times from 0.0 to 4.0, not 3.0 times"},
         {"1 - max(none + 1)", "character 14: the run wrote no rows of 'none'"},
         {"max(V * wall.pressure)", "character 7: these columns have different rows"},
     };
