@@ -245,13 +245,13 @@ static bool guard_owes(const struct guard *guard, const struct guard_tile *tile,
     return owes;
 }
 
-/* Relaxation of one cell; true if it is admissible afterwards. */
+/* Relaxation of one cell; true if it is admissible afterwards, but for what it owes. */
 static bool guard_repair(struct guard *guard, const struct guard_tile *tile, size_t cell)
 {
     size_t n_cell = guard->mesh->n_cell;
     if (!guard->repair || !relax_cell(tile->model, n_cell, tile->u_old + cell, tile->u + cell, tile->w + cell))
         return false;
-    if (!guard_again(guard, tile, cell)) return false;
+    if (!guard_again(guard, tile, cell) && !guard_owes(guard, tile, cell)) return false;
     guard->relaxed++;
     return true;
 }

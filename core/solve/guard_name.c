@@ -184,6 +184,17 @@ static bool guard_name_lost_pressure(const struct guard_cell *cell, unsigned l, 
     return !cell->model->linear && fabs(p - mix_pressure_none(least)) <= 1e-9 * fabs(p);
 }
 
+/* Is a mass below zero what the guard refuses? Not if it is round-off of the cell, or was so low before the step
+ * (guard_owes in guard.c): then something else is. */
+static bool guard_name_wants(const struct guard_cell *cell, unsigned l, double m)
+{
+    const struct model *model = cell->model;
+    double rho = 0.0, fill = model->eos[l].rho_fill;
+    for (unsigned k = 0; k < model->n_material; k++) rho += cell->tile->u[(model->i_m + k) * cell->n_cell + cell->at];
+    bool owed = m >= cell->tile->u_old[(model->i_m + l) * cell->n_cell + cell->at];
+    return m < -GUARD_ROUND_OFF * (rho > fill ? rho : fill) && !owed;
+}
+
 /* One material: its mass, its stiffness. */
 static bool guard_name_material(const struct guard_cell *cell, unsigned l, struct guard_name *name)
 {
@@ -194,7 +205,7 @@ static bool guard_name_material(const struct guard_cell *cell, unsigned l, struc
     double rho_c2 = cell->tile->rho_c2[l * cell->n_cell + cell->at];
     struct text text = {0};
     if (guard_name_void(cell, l, m, name)) return true;
-    if (!(m >= 0.0) || (!model->n_alpha && !(m > 0.0))) {
+    if (guard_name_wants(cell, l, m) || (!model->n_alpha && !(m > 0.0))) {
         guard_name_say(name, model->field_names[model->i_m + l], m, " kg/m3");
         return true;
     }

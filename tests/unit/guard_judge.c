@@ -1,6 +1,6 @@
 /* What the guard calls inadmissible, one cell at a time: no number, no stiffness, less than no mass, a
- * fraction without mass; and whose marks stay when
- * the first stage of an attempt was bad. */
+ * fraction without mass; what it names then, and what it repairs; and whose marks stay when the first stage of an
+ * attempt was bad. */
 #include "flow.h"
 
 /* A tile with its speeds, as a stage hands it over. */
@@ -96,6 +96,57 @@ static void test_values(void **state)
     stop(&judged);
 }
 
+/* What is owed since before the step is not what is wrong with a cell. */
+static void test_named(void **state)
+{
+    (void)state;
+    struct judged judged;
+    start(&judged);
+    const struct model *model = judged.flow.state->model;
+    double *m = judged.u + model->i_m * judged.n + 5,
+           *owed = flow_level(&judged.flow)->u_old[0] + model->i_m * judged.n + 5;
+    judged.u[5] = judged.w[5] = 1e-7;
+    *owed = *m = -1e-2;
+    assert_int_equal(bad_with(&judged, m, *m), 0);
+    assert_int_equal(bad_with(&judged, &judged.rho_c2[judged.n + 5], -1.0), 1);
+    print_message("%s\n", judged.guard->cause);
+    assert_true(strstr(judged.guard->cause, "pressure") && strstr(judged.guard->cause, "'air'"));
+    *owed = 0.0;
+    assert_int_equal(bad_with(&judged, m, *m), 1);
+    assert_non_null(strstr(judged.guard->cause, "partial_density_water = -0.01"));
+    stop(&judged);
+}
+
+/* A fraction that has grown where the mass is owed: relaxation empties it, and the debt stays. */
+static void test_repaired(void **state)
+{
+    (void)state;
+    enum { CELL = 5, DEBT = 1 };
+    struct judged judged;
+    start(&judged);
+    const struct model *model = judged.flow.state->model;
+    size_t n = judged.n;
+    double w[FLOW_FIELDS], u[FLOW_FIELDS], *old = flow_level(&judged.flow)->u_old[0];
+    for (unsigned q = 0; q < model->n_field; q++) w[q] = judged.w[q * n + CELL];
+    w[model->i_alpha + DEBT] = 2e-6;
+    w[model->i_alpha] = 1.0 - 2e-6;
+    mix_conserved(model, 1, 1, w, u);
+    u[model->i_m + DEBT] = -1e-2;
+    for (unsigned q = 0; q < model->n_field; q++) old[q * n + CELL] = judged.u[q * n + CELL] = u[q];
+    mix_primitives(model, 1, n, judged.u + CELL, judged.w + CELL);
+    guard_attempt(judged.guard);
+    guard_check(judged.guard, &judged.tile);
+    assert_int_equal(judged.guard->bad[1], 1);
+    judged.guard->repair = true;
+    guard_attempt(judged.guard);
+    guard_check(judged.guard, &judged.tile);
+    assert_int_equal(judged.guard->bad[1], 0);
+    assert_int_equal(judged.guard->relaxed, 1);
+    assert_true(judged.u[(model->i_alpha + DEBT) * n + CELL] == 0.0);
+    assert_true(judged.u[(model->i_m + DEBT) * n + CELL] == -1e-2);
+    stop(&judged);
+}
+
 /* Marks of the second stage count only if the first was clean on all ranks. Until the attempt is over no tile sees
  * them: which come before others hangs on the ranks. */
 static void test_marks(void **state)
@@ -116,6 +167,7 @@ static void test_marks(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_marks)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_named),
+                                       cmocka_unit_test(test_repaired), cmocka_unit_test(test_marks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
