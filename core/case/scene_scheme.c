@@ -68,7 +68,7 @@ static const struct key scene_scheme_rows[] = {
      .doc = "Along what the interface limiter acts in two and three dimensions. normal: along each axis the part n_d^2 "
             "of it, n the normal of the surface, and `along-limiter` for the rest, so that surfaces that move along "
             "themselves get no teeth, which their curvature would see; axes: all of it along every axis, which is "
-            "cheaper. auto: normal where fluids have surface tension; else axes."},
+            "cheaper. auto: normal where fluids have surface tension and there is no solid; else axes."},
     {.name = "along-limiter",
      .type = KEYS_SECTION,
      .section = &scene_scheme_limiter,
