@@ -456,11 +456,6 @@ static void scene_phase_company(struct draft *draft, const struct keys_value *se
                    "phase change needs the closure kapila: with allaire, mixtures are not in mechanical equilibrium");
     if (scene->scheme.closure == SCENE_ALLAIRE) diag_help(draft->keys.diag, "'closure: kapila', the default");
     if (scene->n_tension) scene_phase_curved(draft, section);
-    if (!scene_matter_solid(draft) || scene->scheme.traction != SCENE_TRACTION_COMMON) return;
-    keys_error(
-        &draft->keys, section,
-        "phase change beside a solid needs one pressure in a cell; here its materials have pressures of their own");
-    diag_help(draft->keys.diag, "'scheme: {traction: pressure}', the default beside a phase change");
 }
 
 /* Infinite rates at resolved surfaces measure the mesh. */

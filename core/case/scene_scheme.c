@@ -91,8 +91,8 @@ static const struct key scene_scheme_rows[] = {
      .fallback = "auto",
      .doc = "What solids and fluids of one cell share. common: the traction on their interface, so that each has the "
             "pressure that it needs for that; pressure: one pressure, which heats and shakes the surfaces of stretched "
-            "solids. auto: common; pressure beside a phase change, and in the plane and in space for solids that flow "
-            "(plastic, or with Maxwell branches)."},
+            "solids. auto: common; pressure in the plane and in space for solids that flow (plastic, or with Maxwell "
+            "branches)."},
     {.name = "surface-shear",
      .type = KEYS_CHOICE,
      .choices = "auto|free|kept",

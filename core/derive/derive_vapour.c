@@ -5,8 +5,10 @@
 #include "case/saturation.h"
 #include "phys/mix.h"
 #include "phys/presence.h"
+#include "phys/traction.h"
 
 #include <math.h>
+#include <string.h>
 
 static const struct scene_phase *derive_vapour_pair(const struct derive_view *tile)
 {
@@ -56,12 +58,24 @@ void derive_vapour_pressure(const struct derive_view *tile, double *out)
     }
 }
 
+/* Pressures of the liquid, which beside a stretched solid or behind surface tension are not those of the cells. */
+static void derive_vapour_pressed(const struct derive_view *tile, const struct scene_phase *pair, double *out)
+{
+    const double *p = derive_view_w(tile, tile->model->i_E);
+    struct traction_pressures parts;
+    for (size_t i = 0; i < tile->n; i += TRACTION_BATCH) {
+        size_t n = tile->n - i < TRACTION_BATCH ? tile->n - i : TRACTION_BATCH;
+        traction_part(tile->model, n, tile->n, tile->w + i, &parts);
+        memcpy(out + i, traction_pressure(tile->model, n, pair->liquid, p + i, &parts), n * sizeof *out);
+    }
+}
+
 void derive_vapour_temperature(const struct derive_view *tile, double *out)
 {
     const struct saturation curve = derive_vapour_curve(tile, derive_vapour_pair(tile));
-    const double *p = derive_view_w(tile, tile->model->i_E);
+    derive_vapour_pressed(tile, derive_vapour_pair(tile), out);
     for (size_t i = 0; i < tile->n; i++) {
-        double T = p[i] > 0.0 ? saturation_temperature(&curve, p[i]) : 0.0;
+        double T = out[i] > 0.0 ? saturation_temperature(&curve, out[i]) : 0.0;
         out[i] = isnan(T) ? 0.0 : T;
     }
 }

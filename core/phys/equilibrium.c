@@ -107,17 +107,23 @@ static BULLA_KERNEL void equilibrium_step(size_t n, double exchange, struct equi
     }
 }
 
+/* Other k at p. */
+static double equilibrium_other(const struct equilibrium_cells *cells, unsigned k, size_t i, double *ret_slope)
+{
+    double own = cells->jumps ? cells->own[k][i] : 0.0;
+    return squeeze_solid(&cells->other[k], cells->v0[k][i], cells->e0[k][i], own, cells->p[i], ret_slope);
+}
+
 /* Others follow p; scalar, since they are few. */
 static void equilibrium_others(struct equilibrium_cells *cells, struct equilibrium_newton *at)
 {
     for (unsigned k = 0; k < cells->n_other; k++) {
         for (size_t i = 0; i < cells->n; i++) {
-            double m = cells->m_other[k][i], v0 = cells->v0[k][i], p = cells->p[i];
+            double m = cells->m_other[k][i], v0 = cells->v0[k][i], slope;
             if (!(m > 0.0) || at->state[i] >= EQUILIBRIUM_DONE) continue;
-            double v = squeeze_volume(&cells->other[k], v0, cells->e0[k][i], p);
-            at->V[i] += m * v;
-            at->V_p[i] += m * squeeze_slope(&cells->other[k], v0, v, p);
-            at->H[i] += p * m * v0;
+            at->V[i] += m * equilibrium_other(cells, k, i, &slope);
+            at->V_p[i] += m * slope;
+            at->H[i] += cells->p[i] * m * v0;
             at->H_p[i] += m * v0;
         }
     }
@@ -284,11 +290,11 @@ static void equilibrium_volumes(const struct equilibrium_family *family, struct 
 {
     size_t n = cells->n;
     equilibrium_row own;
+    double slope;
     for (unsigned k = 0; k < family->n; k++)
         equilibrium_volume(&family->eos[k], n, equilibrium_pressure(cells, k, own), cells->T, at, cells->v[k]);
     for (unsigned k = 0; k < cells->n_other; k++)
-        for (size_t i = 0; i < n; i++)
-            cells->v_other[k][i] = squeeze_volume(&cells->other[k], cells->v0[k][i], cells->e0[k][i], cells->p[i]);
+        for (size_t i = 0; i < n; i++) cells->v_other[k][i] = equilibrium_other(cells, k, i, &slope);
 }
 
 static bool equilibrium_moves(size_t n, const double *state)

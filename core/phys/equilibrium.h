@@ -11,6 +11,7 @@
  * Gases that keep their heat (apart) are among the others, and lower the vapour's mole fraction all the same.
  *
  * With surface tension (jumps) p is that of the vapour and the liquid has p + jump; E comes with jump alpha_l added.
+ * A solid that shares its traction with them is another material, of pressure p + s'_nn (squeeze_solid()).
  *
  * Cells iterate together (Newton's method in p, T and m_v); what does not converge is bracketed and bisected alone
  * (equilibrium_search.h), so an answer is always found where there is one, and no cell's bits depend on another
@@ -48,8 +49,9 @@ struct equilibrium_cells {
     struct model_eos other[SCENE_MATERIALS];
     double m_other[SCENE_MATERIALS][EQUILIBRIUM_BLOCK], v0[SCENE_MATERIALS][EQUILIBRIUM_BLOCK],
         e0[SCENE_MATERIALS][EQUILIBRIUM_BLOCK], v_other[SCENE_MATERIALS][EQUILIBRIUM_BLOCK];
-    bool jumps; /* surface tension: the liquid has p + jump, energy is without what it has stored at the start */
-    double jump[EQUILIBRIUM_BLOCK];
+    bool jumps; /* the liquid has p + jump, energy is without what surfaces have stored at the start; and solids among
+                   the others have p + s'_nn, `own` at v0 */
+    double jump[EQUILIBRIUM_BLOCK], own[SCENE_MATERIALS][EQUILIBRIUM_BLOCK];
     bool apart; /* gases with a heat of their own are among the others, but the vapour is mixed with them */
     double moles[EQUILIBRIUM_BLOCK]; /* sum m R of these [J/(m3 K)] */
     double energy[EQUILIBRIUM_BLOCK], p[EQUILIBRIUM_BLOCK], T[EQUILIBRIUM_BLOCK];

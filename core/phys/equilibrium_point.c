@@ -31,6 +31,7 @@ void equilibrium_point_take(const struct equilibrium_family *family, const struc
         ret_point->m_other[k] = cells->m_other[k][i];
         ret_point->v0[k] = cells->v0[k][i];
         ret_point->e0[k] = cells->e0[k][i];
+        ret_point->own[k] = cells->jumps ? cells->own[k][i] : 0.0;
         ret_point->energy -= ret_point->m_other[k] * ret_point->e0[k];
     }
 }
@@ -90,10 +91,10 @@ static bool equilibrium_point_room(struct equilibrium_point *point)
         point->volume_p += m * (point->v_p[k] + point->v_T[k] * warming);
     }
     for (unsigned k = 0; k < point->n_other; k++) {
-        double v = squeeze_volume(&point->other[k], point->v0[k], point->e0[k], point->p);
+        double slope, v = squeeze_solid(&point->other[k], point->v0[k], point->e0[k], point->own[k], point->p, &slope);
         point->v_other[k] = v;
         point->volume += point->m_other[k] * v;
-        point->volume_p += point->m_other[k] * squeeze_slope(&point->other[k], point->v0[k], v, point->p);
+        point->volume_p += point->m_other[k] * slope;
     }
     return isfinite(point->volume);
 }
@@ -113,6 +114,7 @@ static double equilibrium_point_least(const struct equilibrium_point *point)
     for (unsigned k = 0; k < point->n_other; k++) {
         double rho = 1e-9 / point->v0[k];
         point->other[k].law->p_min(point->other[k].self, 1, &rho, &least);
+        least -= point->own[k];
         floor = least > floor ? least : floor;
     }
     return floor;

@@ -13,6 +13,7 @@ struct equilibrium_point {
     const struct model_eos *other;
     double m_other[SCENE_MATERIALS], v0[SCENE_MATERIALS], e0[SCENE_MATERIALS];
     double jump;                                         /* p of the liquid over that of the others [Pa] */
+    double own[SCENE_MATERIALS];                         /* s'_nn of the others at v0 [Pa] */
     double moles;                                        /* sum m R of gases among the others [J/(m3 K)] */
     double p, T;                                         /* start and answer */
     double v[SCENE_MATERIALS], v_other[SCENE_MATERIALS]; /* answers */

@@ -398,7 +398,7 @@ static bool model_is_split(const struct model *model)
 {
     if (model->dim > 1 && model->n_solid == model->n_material) return false;
     enum scene_traction traction = model->scene->scheme.traction;
-    bool flows = model->plastic || model->n_branch > 0, common = !model->scene->n_phase && (model->dim == 1 || !flows);
+    bool flows = model->plastic || model->n_branch > 0, common = model->dim == 1 || !flows;
     bool wanted = traction == SCENE_TRACTION_AUTO ? common : traction == SCENE_TRACTION_COMMON;
     return wanted && model->elastic && model->n_alpha > 0;
 }

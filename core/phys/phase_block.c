@@ -46,7 +46,7 @@ void phase_block_settle(const struct phase_block *block, size_t i, size_t stride
         u[(model->i_alpha + l) * stride + block->at[i]] = block->u[model->i_alpha + l][i];
         u[(model->i_m + l) * stride + block->at[i]] = block->cells.m[k][i];
     }
-    w[model->i_E * stride + block->at[i]] = block->cells.p[i];
+    w[model->i_E * stride + block->at[i]] = block->w[model->i_E][i];
 }
 
 void phase_block_gather(struct phase_block *block, size_t stride, const double *u, const double *w)
@@ -100,14 +100,19 @@ static void phase_block_owe(struct equilibrium_cells *cells)
     }
 }
 
-/* Surface tension between liquid and vapour: cells->p becomes that of the vapour, the liquid has p + jump, and both
- * with their volumes what the surface stores: sum m h = E + p + jump alpha_l of the start, since it gives jump d
- * alpha_l (tension.c). */
+/* Materials with pressures of their own: cells->p becomes that of the vapour. Behind surface tension the liquid has p +
+ * jump, and both with their volumes what the surface stores: sum m h = E + p + jump alpha_l of the start, since it
+ * gives jump d alpha_l (tension.c). Solids that share their traction have p + s'_nn. */
 static void phase_block_curve(struct phase_block *block, const struct traction_pressures *parts)
 {
     struct equilibrium_cells *cells = &block->cells;
     unsigned liquid = block->phase->member[EQUILIBRIUM_LIQUID], vapour = block->phase->member[EQUILIBRIUM_VAPOUR];
-    cells->jumps = block->model->n_pair > 0;
+    cells->jumps = block->model->lagged;
+    for (unsigned l = 0, o = 0; l < block->model->n_material && cells->jumps; l++) {
+        if (phase_block_place(block, l) < block->family.n) continue;
+        for (size_t i = 0; i < cells->n; i++) cells->own[o][i] = parts->lag[l][i] - parts->lag[vapour][i];
+        o++;
+    }
     for (size_t i = 0; i < cells->n && cells->jumps; i++) {
         cells->jump[i] = parts->lag[liquid][i] - parts->lag[vapour][i];
         cells->p[i] += parts->lag[vapour][i];
@@ -197,6 +202,7 @@ void phase_block_move(struct phase_block *block, size_t i, size_t to)
         cells->m_other[k][to] = cells->m_other[k][i];
         cells->v0[k][to] = cells->v0[k][i];
         cells->e0[k][to] = cells->e0[k][i];
+        if (cells->jumps) cells->own[k][to] = cells->own[k][i];
     }
     cells->energy[to] = cells->energy[i];
     cells->moles[to] = cells->moles[i];
@@ -205,15 +211,21 @@ void phase_block_move(struct phase_block *block, size_t i, size_t to)
     cells->T[to] = cells->T[i];
 }
 
-/* What the surface gives when the liquid of cell i fills alpha, and the mean pressure then. */
-static void phase_block_pay(const struct phase_block *block, size_t i, double alpha, size_t stride, double *w,
+/* What the surface gives when the materials of cell i fill alpha, and the mean pressure then. */
+static void phase_block_pay(const struct phase_block *block, size_t i, const double *alpha, size_t stride, double *w,
                             double *u)
 {
     const struct model *model = block->model;
-    double jump = block->cells.jump[i];
-    double before = block->u[model->i_alpha + block->phase->member[EQUILIBRIUM_LIQUID]][i];
-    u[model->i_E * stride + block->at[i]] -= jump * (alpha - before);
-    w[model->i_E * stride + block->at[i]] += jump * alpha;
+    unsigned liquid = block->phase->member[EQUILIBRIUM_LIQUID];
+    const struct equilibrium_cells *cells = &block->cells;
+    double jump = cells->jump[i], mean = jump * alpha[liquid];
+    for (unsigned l = 0, o = 0; l < model->n_material; l++) {
+        if (phase_block_place(block, l) < block->family.n) continue;
+        double thinner = cells->m_other[o][i] > 0.0 ? cells->v0[o][i] / cells->v_other[o][i] : 1.0;
+        mean += cells->own[o++][i] * thinner * alpha[l];
+    }
+    u[model->i_E * stride + block->at[i]] -= jump * (alpha[liquid] - block->u[model->i_alpha + liquid][i]);
+    w[model->i_E * stride + block->at[i]] += mean;
 }
 
 /* Is it one of the gases beside the vapour? */
@@ -228,7 +240,6 @@ void phase_block_scatter(const struct phase_block *block, size_t i, size_t strid
 {
     const struct model *model = block->model;
     const struct equilibrium_cells *cells = &block->cells;
-    unsigned liquid = block->phase->member[EQUILIBRIUM_LIQUID];
     double alpha[SCENE_MATERIALS], sum = 0.0, thin = 0.0, all = block->start.m[0][i] + block->start.m[1][i];
     double *at = u + block->at[i];
     bool same = cells->m[EQUILIBRIUM_VAPOUR][i] == block->start.m[EQUILIBRIUM_VAPOUR][i];
@@ -243,9 +254,9 @@ void phase_block_scatter(const struct phase_block *block, size_t i, size_t strid
         thin += k == EQUILIBRIUM_VAPOUR || phase_block_gas(block->phase, l) ? alpha[l] : 0.0;
     }
     if (block->alone[i] && !(thin > PHASE_PAIR_FELT)) return; /* no bubble that would be felt */
-    for (unsigned l = 0; l < model->n_material; l++) at[(model->i_alpha + l) * stride] = alpha[l] / sum;
+    for (unsigned l = 0; l < model->n_material; l++) at[(model->i_alpha + l) * stride] = alpha[l] /= sum;
     at[(model->i_m + block->phase->member[EQUILIBRIUM_VAPOUR]) * stride] = cells->m[EQUILIBRIUM_VAPOUR][i];
     at[(model->i_m + block->phase->member[EQUILIBRIUM_LIQUID]) * stride] = all - cells->m[EQUILIBRIUM_VAPOUR][i];
     w[model->i_E * stride + block->at[i]] = cells->p[i];
-    if (cells->jumps) phase_block_pay(block, i, alpha[liquid] / sum, stride, w, u);
+    if (cells->jumps) phase_block_pay(block, i, alpha, stride, w, u);
 }

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-enum { SQUEEZE_ROUNDS = 80 };
+enum { SQUEEZE_ROUNDS = 80, SQUEEZE_BEARS = 16 };
 
 /* Longest step of a specific volume, as a ratio: a Newton step may miss by orders of magnitude, a search must not. */
 #define SQUEEZE_LEAP 64.0
@@ -45,10 +45,34 @@ double squeeze_volume(const struct model_eos *eos, double v0, double e0, double 
     return v;
 }
 
-double squeeze_slope(const struct model_eos *eos, double v0, double v, double p)
+/* dv/dp, and how v answers e0, dv/de0 [m3/J]. */
+static double squeeze_slopes(const struct model_eos *eos, double v0, double v, double p, double *ret_warm)
 {
     double rho = 1.0 / v, de_dp, de_drho, rho_e, rho_c2;
     eos->law->derivatives(eos->self, 1, &rho, &p, &de_dp, &de_drho);
     eos->law->state(eos->self, 1, &rho, &p, &rho_e, &rho_c2);
+    *ret_warm = 1.0 / (rho_e + p - de_drho * rho);
     return -(v * de_dp + v - v0) / (rho_e + p - de_drho * rho);
+}
+
+double squeeze_slope(const struct model_eos *eos, double v0, double v, double p)
+{
+    double warm;
+    return squeeze_slopes(eos, v0, v, p, &warm);
+}
+
+/* At a v the solid is squeezed to p + tau/v from e0 + tau (1 - v0/v), tau = own v0: Newton's method on top of that. */
+double squeeze_solid(const struct model_eos *eos, double v0, double e0, double own, double p, double *ret_slope)
+{
+    double tau = own * v0, v = squeeze_volume(eos, v0, e0, p + own), slope, warm, gain = 1.0;
+    for (int i = 0; i < SQUEEZE_BEARS; i++) {
+        slope = squeeze_slopes(eos, v0, v, p + tau / v, &warm);
+        gain = 1.0 + tau / (v * v) * (slope - v0 * warm);
+        if (own == 0.0) break;
+        double step = (squeeze_volume(eos, v0, e0 + tau * (1.0 - v0 / v), p + tau / v) - v) / gain;
+        v += step;
+        if (fabs(step) <= 1e-15 * v) break;
+    }
+    *ret_slope = slope / gain;
+    return v;
 }

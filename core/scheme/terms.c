@@ -42,8 +42,8 @@ const struct term *const terms_all[] = {
     &hoop_term,         /* what stands against p / r and the hoop stress in curved geometry */
     &conduction_term,   /* heat from cell to cell and from material to material */
     &fick_term,         /* gases through each other */
-    &drain_term,        /* liquid that a surface has left behind goes back to it */
     &face_stress_term,  /* one traction for the materials of a cell */
+    &drain_term,        /* liquid that a surface has left behind goes back to it */
     &source_term,       /* forces, heat, mass, Lua */
     &drag_term,         /* resistance of porous media */
     &viscous_term,      /* stress and heat of what is viscous */

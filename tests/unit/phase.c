@@ -76,12 +76,15 @@ static void test_call(void **state)
         {PHASE_BOX_NASG PHASE_BOX_AIR, "{liquid: water, vapour: steam, gases: [air], direction: condensation}"},
         {PHASE_BOX_NASG PHASE_BOX_AIR PHASE_BOX_STONE,
          "{liquid: water, vapour: steam, gases: [air], gas-temperature: own}"},
+        {PHASE_BOX_NASG PHASE_BOX_GEL, "{liquid: water, vapour: steam}"},
+        {PHASE_BOX_NASG PHASE_BOX_AIR PHASE_BOX_GEL, "{liquid: water, vapour: steam, gases: [air], where: everywhere}"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct flow flow;
         struct checked checked = {0};
         phase_box_seed = 17;
-        phase_box_open(&flow, cases[i].materials, cases[i].phase, CELLS, "");
+        phase_box_open(&flow, cases[i].materials, cases[i].phase, CELLS,
+                       strstr(cases[i].materials, "gel") ? "traction: common" : "");
         flow_set(&flow, phase_box_scatter);
         check_call(&flow, &checked);
         print_message("%s: %d of %d changed, p off by %.2g\n", cases[i].phase, checked.moved, CELLS, checked.p);

@@ -5,6 +5,7 @@
 #include "flow.h"
 
 #include "phys/phase.h"
+#include "phys/traction.h"
 
 #define PHASE_BOX_PAIR(law, preset) \
     "  water: {eos: {type: " law ", preset: " preset "}}\n  steam: {eos: {type: ideal-gas, preset: " preset "}}\n"
@@ -18,6 +19,11 @@
 #define PHASE_BOX_AIR "  air: {eos: {type: ideal-gas, preset: air}}\n"
 #define PHASE_BOX_CUBIC_AIR "  air: {eos: {type: rkpr, preset: air}}\n"
 #define PHASE_BOX_STONE "  stone: {eos: {type: stiffened-gas, preset: begostone}}\n"
+
+#define PHASE_BOX_GEL                                                                                      \
+    "  gel: {eos: {type: stiffened-gas, gamma: 4.4, p-inf: 616576970}, constitutive: {type: neo-hookean, " \
+    "shear-modulus: "                                                                                      \
+    "1 MPa, reference-density: 1060}}\n"
 
 /* A periodic box of `cells` cells of these materials and this pair. */
 static inline void phase_box_open(struct flow *flow, const char *materials, const char *phase, int cells,
@@ -37,8 +43,21 @@ static inline double phase_box_between(double low, double high)
     return low * pow(high / low, flow_random(&phase_box_seed));
 }
 
-/* All materials at one pressure, with temperatures of their own; some cells hold traces, or one material alone. A
- * vapour that would be denser than any is left out. */
+/* A solid is stretched along the axis, and presses or pulls fluids of pressure p through a common traction. */
+static inline void phase_box_stretch(const struct model *model, double p, double *w)
+{
+    double mean;
+    for (unsigned s = 0; s < model->n_solid; s++) {
+        double *V = w + model->solids[s].stretch, along = phase_box_between(0.5, 2.0);
+        V[0] = along;
+        V[1] = V[2] = 1.0 / sqrt(along);
+    }
+    traction_mean(model, 1, 1, w, &mean);
+    w[model->i_E] = p + mean;
+}
+
+/* All materials at one pressure, or traction, with temperatures of their own; some cells hold traces, or one material
+ * alone. A vapour that would be denser than any is left out. */
 static inline void phase_box_scatter(const struct model *model, const double x[3], double *w)
 {
     double p = phase_box_between(1e3, 1e7), sum = 0.0;
@@ -55,17 +74,22 @@ static inline void phase_box_scatter(const struct model *model, const double x[3
     for (unsigned l = 0; l < model->n_material; l++) w[model->i_alpha + l] /= sum;
     w[model->i_u] = 50.0;
     w[model->i_E] = p;
+    if (model->split) phase_box_stretch(model, p, w);
 }
 
-/* Entropy of all materials of a cell, with that of mixing vapour and air; components at `stride`. */
+/* Entropy of the fluids of a cell, with that of mixing vapour and air; components at `stride`. What the deviator of a
+ * solid takes of the work is its heat (squeeze_solid()). */
 static inline double phase_box_entropy(const struct model *model, size_t stride, const double *u, const double *w)
 {
     const struct model_phase *phase = &model->phases[0];
     double sum = 0.0, moles = 0.0, part[SCENE_MATERIALS] = {0};
+    struct traction_pressures parts; /* large: filled as far as it is used */
+    traction_part(model, 1, stride, w, &parts);
     for (unsigned l = 0; l < model->n_material; l++) {
         double rho = w[(model->i_m + l) * stride], s, m = u[(model->i_m + l) * stride];
-        if (!(w[(model->i_alpha + l) * stride] > 0.0)) continue;
-        model->eos[l].law->entropy(model->eos[l].self, 1, &rho, &w[model->i_E * stride], &s);
+        const double *p = traction_pressure(model, 1, l, w + model->i_E * stride, &parts);
+        if (!(w[(model->i_alpha + l) * stride] > 0.0) || model_is_solid(model, l)) continue;
+        model->eos[l].law->entropy(model->eos[l].self, 1, &rho, p, &s);
         sum += m * s;
     }
     for (unsigned k = EQUILIBRIUM_VAPOUR; k < phase->n; k++) {
