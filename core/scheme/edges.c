@@ -347,9 +347,11 @@ static void edges_beside(struct edges *edges, const struct model *model, const s
                                       .thin = edges->spare});
 }
 
-/* Vapour that is squeezed: what is left of slopes. */
+/* Vapour that is squeezed: what is left of slopes. That of the pressure not where forces hold it; beside solids the
+ * paths of fluids alone and of all materials do the same. */
 static void edges_between(struct edges *edges, const struct model *model, const struct edges_row *row)
 {
+    bool alone = model->tilted && !model->forced && !row->rise[0];
     edges_squeeze(&(struct edges_squeeze){.model = model,
                                           .n = row->cells,
                                           .step = row->step,
@@ -357,7 +359,7 @@ static void edges_between(struct edges *edges, const struct model *model, const 
                                           .w = row->w,
                                           .state = row->state,
                                           .axis = row->frame->axis,
-                                          .pressure = !edges_waits(edges, model, row, model->i_E),
+                                          .pressure = alone || !edges_waits(edges, model, row, model->i_E),
                                           .thin = edges->spare});
 }
 
@@ -404,8 +406,8 @@ void edges_fill(struct edges *edges, const struct model *model, const struct fra
     if (model->reconstruction->all) edges_together(edges, model, &row);
     else edges_each(edges, model, &row);
     if (!model->reconstruction->bounded) edges_bound(edges, model, &row);
-    if (model->squeezed) edges_between(edges, model, &row);
     if (edges_waits(edges, model, &row, model->i_E)) edges_press(edges, model, &row);
+    if (model->squeezed) edges_between(edges, model, &row);
     if (model->fronts && model->conducts) edges_beside(edges, model, &row);
     edges_settle(edges, model, &row);
     edges_normalise(edges, model, &row);
