@@ -125,7 +125,6 @@ refused "does not give its entropy and enthalpy" 's/nasg, preset: water-2016/tai
 refused "only with 'where: everywhere'" 's/gases: \[air\]/nucleation: {tension: 1 MPa}/'
 refused "'onset' is for surfaces" 's/gases: \[air\]/where: everywhere, onset: 0.5/'
 refused "'wood' is for mixtures of fluids" 's/^run:/scheme: {mixture-speed: wood}\nrun:/; s/  air: .*/&\n  gel: {eos: {type: stiffened-gas, preset: begostone}, constitutive: {type: neo-hookean, shear-modulus: 1 MPa, reference-density: 1000}}/'
-refused "pressures of their own" 's/^run:/scheme: {traction: common}\nrun:/; s/  air: .*/&\n  gel: {eos: {type: stiffened-gas, preset: begostone}, constitutive: {type: neo-hookean, shear-modulus: 1 MPa, reference-density: 1000}}/'
 refused "'steam' is a solid" 's/ideal-gas, preset: water-2016}/ideal-gas, preset: water-2016}, constitutive: {type: neo-hookean, shear-modulus: 1 MPa, reference-density: 1}/'
 
 refused "alone, without a third material" 's/^initial:/surface-tension: {water+steam: 0.05}\ninitial:/'
