@@ -359,7 +359,7 @@ struct scene_refine {
 /* Section `domain:`. */
 struct scene_domain {
     int dim;        /* 1, 2, 3 */
-    int n_velocity; /* components of the velocity: dim, or more in a Cartesian scene with motion across its axes */
+    int n_velocity; /* components of the velocity: dim, or more with motion across the axes; around one: r, z, th */
     enum scene_geometry geometry;
     double lower[SCENE_AXES], upper[SCENE_AXES];
     int cells[SCENE_AXES];                         /* 1 beyond dim */
@@ -371,6 +371,12 @@ struct scene_domain {
 static inline int scene_domain_turns(const struct scene_domain *domain)
 {
     return domain->dim - 1 + (int)domain->geometry;
+}
+
+/* Has matter a velocity around the axis? */
+static inline bool scene_domain_swirls(const struct scene_domain *domain)
+{
+    return domain->geometry == SCENE_AXISYMMETRIC && domain->n_velocity == 3;
 }
 
 /* Section `mesh:`. */

@@ -33,15 +33,15 @@ static const char scene_domain_faces[] = SCENE_DOMAIN_PAIRS("x") SCENE_DOMAIN_PA
     SCENE_DOMAIN_PAIRS("z") "{'patternProperties': {'^(x[+]|y|z)': {'not': " SCENE_DOMAIN_AXIS "}}}";
 
 /* Where the radius begins at 0 there is nothing to say but axis or symmetry; elsewhere x- is a face like others. */
-#define SCENE_DOMAIN_GEOMETRY                                                                                        \
-    "{'if': {'properties': {'geometry': {'const': 'cartesian'}}}, 'then': {'properties': {'boundaries': "            \
-    "{'required': ['x-'], 'properties': {'x-': {'not': " SCENE_DOMAIN_AXIS "}}}}},"                                  \
-    " 'else': {'properties': {'lower': {'maxItems': 2, 'items': [{'minimum': 0}]}, 'velocity-components': false}}}," \
-    "{'if': {'required': ['geometry', 'lower'], 'properties': {'geometry': {'enum': ['axisymmetric', "               \
-    "'spherical']}, 'lower': {'items': [{'const': 0}]}}},"                                                           \
-    " 'then': {'properties': {'boundaries': {'properties': {'x-': " SCENE_DOMAIN_CENTRE "}}}}},"                     \
-    "{'if': {'required': ['geometry'], 'properties': {'geometry': {'const': 'spherical'}}},"                         \
-    " 'then': {'properties': {'lower': {'maxItems': 1}}}},"
+#define SCENE_DOMAIN_GEOMETRY                                                                             \
+    "{'if': {'properties': {'geometry': {'const': 'cartesian'}}}, 'then': {'properties': {'boundaries': " \
+    "{'required': ['x-'], 'properties': {'x-': {'not': " SCENE_DOMAIN_AXIS "}}}}},"                       \
+    " 'else': {'properties': {'lower': {'maxItems': 2, 'items': [{'minimum': 0}]}}}},"                    \
+    "{'if': {'required': ['geometry', 'lower'], 'properties': {'geometry': {'enum': ['axisymmetric', "    \
+    "'spherical']}, 'lower': {'items': [{'const': 0}]}}},"                                                \
+    " 'then': {'properties': {'boundaries': {'properties': {'x-': " SCENE_DOMAIN_CENTRE "}}}}},"          \
+    "{'if': {'required': ['geometry'], 'properties': {'geometry': {'const': 'spherical'}}},"              \
+    " 'then': {'properties': {'lower': {'maxItems': 1}, 'velocity-components': false}}},"
 
 /* The length of `lower` is the dimension, which all others follow; faces of axes that are not there are errors. */
 #define SCENE_DOMAIN_AXES(n, faces, none)                                                                       \
@@ -86,8 +86,9 @@ static const struct key scene_domain_rows[] = {
      .type = KEYS_INTEGER,
      .min = 1,
      .max = 3,
-     .doc = "Components of velocities, from the number of axes (the default) to 3: with more, matter in a cartesian "
-            "domain also moves across its axes, as in the shear waves of a line."},
+     .doc = "Components of velocities, from the number of axes (the default) to 3: with more, matter also moves across "
+            "the axes, as in the shear waves of a line. In an axisymmetric domain the third turns around the axis "
+            "(swirl)."},
     {.name = "boundaries",
      .type = KEYS_SECTION,
      .section = &scene_domain_boundaries_keys,
@@ -177,15 +178,15 @@ static void scene_domain_cells(struct draft *draft, const struct keys_map *domai
     scene->domain.cells_place = mem_print("%s:%d:%d", mark->source->name, mark->line, mark->column);
 }
 
-/* As many components as axes, or more where the geometry has no curvature to turn them. */
+/* As many components as axes, or more; around a centre nothing tells them apart. */
 static void scene_domain_velocity(struct draft *draft, const struct keys_map *domain)
 {
     struct scene *scene = draft->scene;
     const struct keys_value *velocity = keys_at(domain, "velocity-components");
     scene->domain.n_velocity = scene->domain.dim;
     if (!velocity->given || scene->domain.dim == 0) return;
-    if (scene->domain.geometry != SCENE_CARTESIAN)
-        keys_error(&draft->keys, velocity, "only in cartesian domains matter moves across the axes");
+    if (scene->domain.geometry == SCENE_SPHERICAL)
+        keys_error(&draft->keys, velocity, "in a spherical domain matter moves along the radius alone");
     else if (velocity->integer < scene->domain.dim)
         keys_error(&draft->keys, velocity, "%ld component%s less than the domain has axes, %d", velocity->integer,
                    velocity->integer == 1 ? " is" : "s are", scene->domain.dim);

@@ -80,6 +80,7 @@ int scene_rigid_index(struct draft *draft, const struct keys_value *value);
 
 void scene_source(struct draft *draft);
 void scene_hancock(struct draft *draft);
+void scene_swirl(struct draft *draft);
 void scene_output(struct draft *draft);
 void scene_peak(struct draft *draft);
 void scene_history(struct draft *draft);

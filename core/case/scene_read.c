@@ -96,6 +96,7 @@ static void scene_read_sections(struct draft *draft)
     scene_diffusion(draft);
     scene_source(draft);
     scene_hancock(draft);
+    scene_swirl(draft);
     scene_output(draft);
     scene_history(draft);
     scene_map(draft);

@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "levels/prolong.h"
+#include "mesh/metric.h"
 #include "scheme/bound.h"
 
 #include <math.h>
@@ -74,6 +75,16 @@ void derive_slope_rows(const struct derive_view *tile, int axis, unsigned n, con
     mem_free(w);
 }
 
+/* What turns by u_th around the axis has u_th/r more of it along the axis, with the sign of -du_th/dr. */
+static void derive_slope_whirl(const struct derive_view *tile, double *out)
+{
+    const struct level *level = tile->level;
+    const double *w = derive_view_w(tile, tile->model->i_u + 2);
+    struct metric metric;
+    metric_of_tile(tile->mesh, level, &level->tiles[level->first + tile->local], &metric);
+    for (size_t i = 0; i < tile->n; i++) out[tile->n + i] -= w[i] / metric.centre[i % (size_t)tile->mesh->n[0]];
+}
+
 void derive_slope_vorticity(const struct derive_view *tile, double *out)
 {
     int dim = tile->mesh->dim;
@@ -87,6 +98,7 @@ void derive_slope_vorticity(const struct derive_view *tile, double *out)
             derive_slope_rows(tile, axis, 1, (const int[]){(int)tile->model->i_u + of}, &slope);
             for (size_t i = 0; i < tile->n; i++) out[(size_t)component * tile->n + i] += sign * slope[i];
         }
+    if (model_turns(tile->model)) derive_slope_whirl(tile, out);
     mem_free(slope);
 }
 

@@ -387,18 +387,11 @@ static void prolong_prepare(struct prolong *prolong, const struct mesh *mesh, co
     prolong_strain(prolong);
 }
 
-/* r of the middle of the volume between a and b. */
-static double prolong_centroid(int beta, double a, double b)
-{
-    if (beta == 0) return 0.5 * (a + b);
-    if (beta == 1) return 2.0 / 3.0 * (a * a + a * b + b * b) / (a + b);
-    return 0.75 * (a + b) * (a * a + b * b) / (a * a + a * b + b * b);
-}
-
 /* Per coarse column of a fine tile: what its two fine columns get of the difference of its neighbours along axis 0,
- * their distances from the centroid over that of the neighbours. The volume-weighted mean of both is 0. */
+ * their distances from the centroid over that of the neighbours. The volume-weighted mean of both is 0. ret_turn: the
+ * part of the upper one in the volume of what turns. */
 static void prolong_gives(const struct mesh *mesh, const struct level *fine, const struct tile *tile,
-                          double (*ret_give)[2])
+                          double (*ret_give)[2], double *ret_turn)
 {
     struct metric metric;
     metric_of_tile(mesh, fine, tile, &metric);
@@ -406,10 +399,12 @@ static void prolong_gives(const struct mesh *mesh, const struct level *fine, con
         double r[7], V1 = metric.volume[2 * i], V2 = metric.volume[2 * i + 1];
         ret_give[i][0] = -0.125;
         ret_give[i][1] = 0.125;
+        const double *turn = metric.turn_volume + 2 * i;
+        ret_turn[i] = mesh->beta == 1 ? turn[1] / (turn[0] + turn[1]) : 0.0;
         if (mesh->beta == 0) continue;
         for (int k = 0; k < 7; k++) r[k] = mesh->lower[0] + (tile->at[0] * mesh->n[0] + 2 * i + k - 2) * fine->h[0];
-        double before = prolong_centroid(mesh->beta, r[0], r[2]), after = prolong_centroid(mesh->beta, r[4], r[6]);
-        double apart = prolong_centroid(mesh->beta, r[3], r[4]) - prolong_centroid(mesh->beta, r[2], r[3]);
+        double before = metric_centroid(mesh->beta, r[0], r[2]), after = metric_centroid(mesh->beta, r[4], r[6]);
+        double apart = metric_centroid(mesh->beta, r[3], r[4]) - metric_centroid(mesh->beta, r[2], r[3]);
         ret_give[i][0] = -apart * (V2 / (V1 + V2)) / (after - before);
         ret_give[i][1] = apart * (V1 / (V1 + V2)) / (after - before);
     }
@@ -439,13 +434,13 @@ static long long prolong_child(const struct prolong *prolong, const struct mesh 
     const struct model *model = prolong->model;
     const struct level *coarse = &mesh->levels[l - 1], *fine = &mesh->levels[l];
     const struct tile *tile = &fine->tiles[birth->child];
-    struct prolong_cells source = {model,           prolong->cells,  {0}, prolong->w, prolong->u,
-                                   prolong->rho_c2, prolong->elastic};
+    struct prolong_cells source = {model,           prolong->cells,   {0}, prolong->w, prolong->u,
+                                   prolong->rho_c2, prolong->elastic, 0.0};
     const double *u_old = coarse->u_old[birth->parent - coarse->first];
-    double columns[METRIC_CELLS / 2][2], mean[PROLONG_FIELDS];
+    double columns[METRIC_CELLS / 2][2], turns[METRIC_CELLS / 2], mean[PROLONG_FIELDS];
     long long limited = 0;
     memcpy(source.stride, prolong->stride, sizeof source.stride);
-    prolong_gives(mesh, fine, tile, columns);
+    prolong_gives(mesh, fine, tile, columns, turns);
     size_t count = mesh->n_cell >> mesh->dim;
     for (size_t c = 0; c < count; c++) {
         size_t at = prolong->origin, cell = 0, step = 1, rest = c;
@@ -459,6 +454,7 @@ static long long prolong_child(const struct prolong *prolong, const struct mesh 
         }
         for (unsigned q = 0; q < model->n_field; q++) mean[q] = u_old[q * mesh->n_cell + cell];
         const double *column = columns[target->at[0]];
+        source.turn = turns[target->at[0]];
         const double give[3][2] = {{column[0], column[1]}, {-0.125, 0.125}, {-0.125, 0.125}};
         struct prolong_children children;
         limited += prolong_cell_children(&source, at, mean, give, &children) < 1.0;

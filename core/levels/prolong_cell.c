@@ -92,10 +92,21 @@ static double prolong_cell_step(const double give[3][2], const double difference
     return (x + y) + give[2][o >> 2] * difference[2];
 }
 
+/* Children whose volumes have a lever get the mean back by those. */
+static void prolong_cell_turn(const struct prolong_cells *source, double mean, struct prolong_children *ret)
+{
+    double *child = ret->u[source->model->i_u + 2], column[2] = {0.0, 0.0};
+    int n = 1 << source->model->dim;
+    for (int o = 0; o < n; o++) column[o & 1] += child[o] / (0.5 * n);
+    double has = column[0] + source->turn * (column[1] - column[0]);
+    for (int o = 0; o < n; o++) child[o] += mean - has;
+}
+
 /* Mean and slopes. What must not be negative may have become so by a rounding. */
-static void prolong_cell_fill(const struct model *model, const double *mean, const cell_difference difference,
+static void prolong_cell_fill(const struct prolong_cells *source, const double *mean, const cell_difference difference,
                               const double give[3][2], double phi, struct prolong_children *ret)
 {
+    const struct model *model = source->model;
     unsigned sloped = model->n_field - model_renewed(model);
     for (unsigned q = 0; q < model->n_field; q++)
         for (int o = 0; o < 1 << model->dim; o++) {
@@ -104,6 +115,7 @@ static void prolong_cell_fill(const struct model *model, const double *mean, con
             bool positive = q < model->i_u || model_is_inner(model, q);
             ret->u[q][o] = positive && mean[q] >= 0.0 && value < 0.0 ? 0.0 : value;
         }
+    if (model_turns(model)) prolong_cell_turn(source, mean[model->i_u + 2], ret);
     elastic_settle(model, (size_t)1 << model->dim, PROLONG_CHILDREN, ret->u[0]);
 }
 
@@ -183,7 +195,7 @@ static void prolong_cell_make(const struct prolong_cells *source, size_t at, con
                               struct prolong_children *ret)
 {
     const struct model *model = source->model;
-    prolong_cell_fill(model, mean, difference, give, phi, ret);
+    prolong_cell_fill(source, mean, difference, give, phi, ret);
     prolong_cell_strain(source, at, give, phi, ret);
     for (int o = 0; o < PROLONG_CHILDREN; o++) ret->w[model->i_E][o] = source->w[model->i_E * source->pitch + at];
     mix_primitives(model, (size_t)1 << model->dim, PROLONG_CHILDREN, ret->u[0], ret->w[0]);

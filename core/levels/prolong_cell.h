@@ -18,6 +18,7 @@ struct prolong_cells {
     size_t pitch, stride[3];      /* stride: to the next cell along an axis; 0 beyond dim */
     const double *w, *u, *rho_c2; /* primitives, conserved fields, rho c_f^2 */
     const double *elastic;        /* elastic energy per volume; NULL without a solid */
+    double turn;                  /* part of the upper column of children in the volume of what turns (metric.h) */
 };
 
 /* Child o = ox + 2 oy + 4 oz; those beyond 2^dim are not set. */

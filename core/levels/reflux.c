@@ -204,7 +204,7 @@ void reflux_average(struct reflux *reflux, unsigned local, int axis)
         double *fine = reflux->fine + (size_t)neighbour->index * down->n_register * down->face_cells;
         double *mean = reflux->plane + 2 * down->n_register * plane;
         for (unsigned q = 0; q < down->n_register; q++) {
-            restrict_face(mesh, level, &level->tiles[level->first + local], axis,
+            restrict_face(mesh, level, &level->tiles[level->first + local], axis, q,
                           reflux->plane + ((size_t)side * down->n_register + q) * plane, mean);
             for (size_t i = 0; i < down->face_cells; i++)
                 reflux_count(reflux, mean[i], fine + q * down->face_cells + i);
@@ -301,6 +301,15 @@ static double reflux_area(const struct reflux *reflux, const struct metric *metr
     return metric->area[i + (source->face % 2 == 0)] / metric->volume[i];
 }
 
+/* The same of what turns, over that. */
+static double reflux_lever(const struct reflux *reflux, const struct metric *metric, const struct link_face *source,
+                           size_t cell)
+{
+    if (source->face / 2 > 0 || reflux->mesh->turns >= reflux->mesh->n_field) return 1.0;
+    size_t i = cell % (size_t)reflux->mesh->n[0], face = i + (source->face % 2 == 0);
+    return metric->turn_area[face] / metric->turn_volume[i] * (metric->volume[i] / metric->area[face]);
+}
+
 /* Values of one place of a face, register by register. */
 struct reflux_value {
     const double *fine, *coarse;
@@ -356,8 +365,10 @@ void reflux_source(const struct reflux *reflux, unsigned s, size_t index, const 
     const struct reflux_value value = {source->flux + index, reflux_coarse(reflux, s) + index, reflux->up->face_cells,
                                        dt};
     double sign = source->face % 2 == 0 ? -1.0 : 1.0; /* the cell lies on the lower or upper side of the face */
-    double scale = sign * reflux_area(reflux, metric, source, reflux_cell(reflux->mesh, source, index));
+    size_t cell = reflux_cell(reflux->mesh, source, index);
+    double scale = sign * reflux_area(reflux, metric, source, cell);
     for (unsigned q = 0; q < model->n_field; q++) ret_change[q] = scale * reflux_difference(&value, q);
+    if (model_turns(model)) ret_change[model->i_u + 2] *= reflux_lever(reflux, metric, source, cell);
     if (model->scene->mesh.reflux != SCENE_REFLUX_CORRECTED || !reflux->mesh->n_face_u) {
         for (unsigned k = 0; k < model_stretches(model); k++) reflux_by_mass(reflux, &value, k, ret_change, NULL);
         return;

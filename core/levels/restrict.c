@@ -82,13 +82,14 @@ static void restrict_box(const struct restrict_box *box, const double *fine, siz
             restrict_row(box, fine + 2 * (k * box->n[1] + j) * box->n[0], ret + k * plane + j * step);
 }
 
-static void restrict_shares(const struct mesh *mesh, const struct level *level, const struct tile *tile,
+/* turns: of what counts with a lever. */
+static void restrict_shares(const struct mesh *mesh, const struct level *level, const struct tile *tile, bool turns,
                             double *ret_share)
 {
     struct metric metric;
     metric_of_tile(mesh, level, tile, &metric);
-    for (int i = 0; i < mesh->n[0] / 2; i++)
-        ret_share[i] = metric.volume[2 * i + 1] / (metric.volume[2 * i] + metric.volume[2 * i + 1]);
+    const double *volume = turns ? metric.turn_volume : metric.volume;
+    for (int i = 0; i < mesh->n[0] / 2; i++) ret_share[i] = volume[2 * i + 1] / (volume[2 * i] + volume[2 * i + 1]);
 }
 
 /* First cell of an octant in a tile. */
@@ -113,8 +114,8 @@ void restrict_averages(const struct mesh *mesh, int l, int depth)
 {
     const struct level *level = &mesh->levels[l];
     const struct link *link = level->link;
-    double share[METRIC_CELLS / 2];
-    struct restrict_box box = {.dim = mesh->dim, .share = mesh->beta ? share : NULL};
+    double share[2][METRIC_CELLS / 2];
+    struct restrict_box box = {.dim = mesh->dim};
     size_t n[3];
     for (int d = 0; d < 3; d++) {
         box.n[d] = (size_t)mesh->n[d];
@@ -128,9 +129,12 @@ void restrict_averages(const struct mesh *mesh, int l, int depth)
         double *to = away ? child->average : restrict_target(mesh, l, child);
         size_t pitch = away ? link->octant_cells : mesh->n_cell, step = away ? n[0] : box.n[0];
         size_t plane = away ? n[0] * n[1] : box.n[0] * box.n[1];
-        if (mesh->beta) restrict_shares(mesh, level, &level->tiles[level->first + child->fine], share);
-        for (unsigned q = 0; q < mesh->n_field; q++)
+        for (int turns = 0; turns <= (mesh->turns < mesh->n_field) && mesh->beta; turns++)
+            restrict_shares(mesh, level, &level->tiles[level->first + child->fine], turns, share[turns]);
+        for (unsigned q = 0; q < mesh->n_field; q++) {
+            box.share = mesh->beta ? share[q == mesh->turns] : NULL;
             restrict_box(&box, fine + q * mesh->n_cell, step, plane, to + q * pitch);
+        }
     }
 }
 
@@ -164,7 +168,7 @@ void restrict_late(const struct mesh *mesh, int l, int depth)
     restrict_take(mesh, l, depth);
 }
 
-void restrict_face(const struct mesh *mesh, const struct level *level, const struct tile *tile, int axis,
+void restrict_face(const struct mesh *mesh, const struct level *level, const struct tile *tile, int axis, unsigned q,
                    const double *fine, double *ret_coarse)
 {
     double share[METRIC_CELLS / 2];
@@ -172,7 +176,7 @@ void restrict_face(const struct mesh *mesh, const struct level *level, const str
     for (int d = 0; d < mesh->dim; d++)
         if (d != axis) box.n[box.dim++] = (size_t)mesh->n[d];
     if (mesh->beta && axis > 0) {
-        restrict_shares(mesh, level, tile, share);
+        restrict_shares(mesh, level, tile, q == mesh->turns, share);
         box.share = share;
     }
     if (box.dim == 0) ret_coarse[0] = fine[0];

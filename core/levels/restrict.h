@@ -1,7 +1,8 @@
 /* restrict.h - from a level to the next coarser one: volume averages of the conserved fields.
  *
  * Children are added in an order that mirrors and exchanges of axes leave unchanged (diagonal pairs),
- * so that symmetric states stay symmetric to the bit; in curved geometry weighted by exact volumes. */
+ * so that symmetric states stay symmetric to the bit; in curved geometry weighted by exact volumes, with their lever
+ * for what turns. */
 #ifndef RESTRICT_H
 #define RESTRICT_H
 
@@ -18,9 +19,9 @@ void restrict_take(const struct mesh *mesh, int l, int depth);
 /* All that for tiles of level l - 1 that sleep, depth > 0. Collective. */
 void restrict_late(const struct mesh *mesh, int l, int depth);
 
-/* Mean over the sub-faces of a fine tile's face: fine[n^(d-1)] -> coarse[(n/2)^(d-1)], lower axes fastest, weighted by
- * area (axis 0 of curved geometry is no tangent of faces normal to it). */
-void restrict_face(const struct mesh *mesh, const struct level *level, const struct tile *tile, int axis,
+/* Mean over the sub-faces of a fine tile's face, of the flux of field q: fine[n^(d-1)] -> coarse[(n/2)^(d-1)], lower
+ * axes fastest, weighted by area (axis 0 of curved geometry is no tangent of faces normal to it). */
+void restrict_face(const struct mesh *mesh, const struct level *level, const struct tile *tile, int axis, unsigned q,
                    const double *fine, double *ret_coarse);
 
 #endif

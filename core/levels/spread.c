@@ -16,8 +16,8 @@ enum { SPREAD_SWEEPS = 4 };
 
 /* A change on its way: per volume of the cell that it comes from. */
 struct spread_load {
-    double change[MODEL_FIELDS], volume;
-    double left; /* part that has no place yet */
+    double change[MODEL_FIELDS], volume, lever; /* lever: volume of what turns over that */
+    double left;                                /* part that has no place yet */
 };
 
 /* Cells of a ring, and the part that each has room for. */
@@ -26,9 +26,16 @@ struct spread_ring {
     double *room, *sorted;
 };
 
-double spread_volume(const struct spread *spread, size_t cell)
+double spread_volume(const struct spread *spread, unsigned q, size_t cell)
 {
-    return spread->mesh->beta ? spread->metric->volume[cell % (size_t)spread->mesh->n[0]] : 1.0;
+    size_t i = cell % (size_t)spread->mesh->n[0];
+    if (q == spread->mesh->turns && q < spread->mesh->n_field) return spread->metric->turn_volume[i];
+    return spread->mesh->beta ? spread->metric->volume[i] : 1.0;
+}
+
+static double spread_lever(const struct spread *spread, size_t cell)
+{
+    return spread_volume(spread, spread->mesh->turns, cell) / spread_volume(spread, 0, cell);
 }
 
 /* Largest part of factor * change that leaves fractions in [0, 1] and masses, energy and strains positive, at most 1;
@@ -72,7 +79,7 @@ static void spread_collect(const struct spread *spread, const int at[3], int r, 
                 bool on = abs(i[0] - at[0]) == r || abs(i[1] - at[1]) == r || abs(i[2] - at[2]) == r;
                 size_t cell = (size_t)(i[0] + mesh->n[0] * (i[1] + mesh->n[1] * i[2]));
                 if (!on || spread->trouble[cell] != SPREAD_NONE || !spread_is_leaf(spread, cell)) continue;
-                double factor = load->volume / spread_volume(spread, cell);
+                double factor = load->volume / spread_volume(spread, 0, cell);
                 ring->cells[ring->n] = cell;
                 ring->room[ring->n++] =
                     SPREAD_PART * spread_room(spread, cell, load->change, factor, spread->model->i_V, delta);
@@ -95,11 +102,12 @@ static double spread_total(const struct spread_ring *ring)
     return sum;
 }
 
-/* Of the first n fields. */
-static void spread_add(const struct spread *spread, size_t cell, unsigned n, double factor, const double *change,
-                       double *delta)
+/* Of the first n fields. lever: what more of the field that turns. */
+static void spread_add(const struct spread *spread, size_t cell, unsigned n, double factor, double lever,
+                       const double *change, double *delta)
 {
-    for (unsigned q = 0; q < n; q++) delta[q * spread->mesh->n_cell + cell] += factor * change[q];
+    for (unsigned q = 0; q < n; q++)
+        delta[q * spread->mesh->n_cell + cell] += (q == spread->mesh->turns ? factor * lever : factor) * change[q];
 }
 
 /* Places what it can of a load in a ring. */
@@ -108,8 +116,10 @@ static void spread_place(const struct spread *spread, const struct spread_ring *
 {
     double total = spread_total(ring), share = total > load->left ? load->left / total : 1.0;
     for (size_t i = 0; i < ring->n; i++) {
-        double factor = share * ring->room[i] * load->volume / spread_volume(spread, ring->cells[i]);
-        if (factor > 0.0) spread_add(spread, ring->cells[i], spread->model->i_V, factor, load->change, delta);
+        size_t cell = ring->cells[i];
+        double factor = share * ring->room[i] * load->volume / spread_volume(spread, 0, cell);
+        double lever = load->lever / spread_lever(spread, cell);
+        if (factor > 0.0) spread_add(spread, cell, spread->model->i_V, factor, lever, load->change, delta);
     }
     load->left = total > load->left ? 0.0 : load->left - total;
 }
@@ -134,14 +144,16 @@ static void spread_keep(const struct spread *spread, size_t cell, double part, s
     double keep = part * spread_room(spread, cell, load->change, 1.0, spread->model->n_field, delta);
     if (spread->trouble[cell] != SPREAD_HALF) return;
     keep = keep < load->left ? keep : load->left;
-    spread_add(spread, cell, spread->model->n_field, keep, load->change, delta);
+    spread_add(spread, cell, spread->model->n_field, keep, 1.0, load->change, delta);
     load->left -= keep;
 }
 
 static bool spread_cell(const struct spread *spread, size_t cell, struct spread_ring *ring, double *delta, double *rest)
 {
     size_t n_cell = spread->mesh->n_cell;
-    struct spread_load load = {.volume = spread_volume(spread, cell), .left = 1.0};
+    struct spread_load load = {.volume = spread_volume(spread, 0, cell),
+                               .lever = spread_lever(spread, cell),
+                               .left = 1.0};
     double any = 0.0;
     for (unsigned q = 0; q < spread->model->n_field; q++) {
         double *change = &delta[q * n_cell + cell];
@@ -195,7 +207,7 @@ static bool spread_scale(const struct spread *spread, unsigned q, unsigned from,
             double m = spread->u[l * n_cell + cell] + delta[l * n_cell + cell];
             weight[cell] += m > 0.0 ? m : 0.0;
         }
-        total += weight[cell] * spread_volume(spread, cell);
+        total += weight[cell] * spread_volume(spread, q, cell);
     }
     if (!(total > 0.0) || (many == 1 && total + amount < 0.0)) return false;
     for (size_t cell = 0; cell < n_cell; cell++) {
@@ -217,14 +229,14 @@ static void spread_scatter(const struct spread *spread, size_t cell, const struc
         bool mass = q < model->i_u;
         if (amount == 0.0) continue;
         if (!spread_scale(spread, q, mass ? q : model->i_m, mass ? 1 : model->n_material, amount, weight, delta))
-            delta[q * spread->mesh->n_cell + cell] += amount / spread_volume(spread, cell);
+            delta[q * spread->mesh->n_cell + cell] += amount / spread_volume(spread, q, cell);
     }
 }
 
 void spread_amount(const struct spread *spread, size_t cell, const double *amount, double *delta)
 {
     struct spread_ring ring = spread_ring_new(spread->mesh->n_cell);
-    struct spread_load load = {.volume = 1.0, .left = 1.0};
+    struct spread_load load = {.volume = 1.0, .lever = 1.0, .left = 1.0};
     memcpy(load.change, amount, spread->model->i_V * sizeof *amount);
     spread_around(spread, cell, 0, &load, &ring, delta);
     if (load.left > 0.0) spread_scatter(spread, cell, &load, ring.room, delta);

@@ -38,6 +38,6 @@ bool spread_change(const struct spread *spread, double *delta, double *rest);
 void spread_amount(const struct spread *spread, size_t cell, const double *amount, double *delta);
 
 /* Volume of a cell in the units of `amount`: that of the metric, 1 where it is the same everywhere. */
-double spread_volume(const struct spread *spread, size_t cell);
+double spread_volume(const struct spread *spread, unsigned q, size_t cell);
 
 #endif

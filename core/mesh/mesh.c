@@ -23,6 +23,7 @@
 #include "mesh/rim.h"
 #include "mesh/span.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -177,6 +178,8 @@ int mesh_new(const struct scene *scene, unsigned n_field, unsigned n_alpha, stru
     mesh->beta = (int)scene->domain.geometry;
     mesh->n_field = n_field;
     mesh->n_alpha = n_alpha;
+    mesh->turns =
+        scene_domain_swirls(&scene->domain) ? n_alpha + scene->n_material + 2 : UINT_MAX; /* model_is_turn() */
     mesh->ghosts = scene->scheme.ghosts;
     mesh->n_face_u = n_alpha > 0;
     for (unsigned l = 0; l < scene->n_material; l++)

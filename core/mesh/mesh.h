@@ -78,6 +78,7 @@ struct mesh {
     int ghosts;        /* layers of neighbours that a sweep needs on each side of a tile: 2 or 3; at most n, and n / 2
                           where tiles are refined */
     unsigned n_field;  /* evolved fields */
+    unsigned turns;    /* that which counts with a lever (metric.h); UINT_MAX: none */
     unsigned n_alpha;  /* volume fractions among them (the first), for the sizes of registers */
     unsigned n_face_u; /* components of the face velocity that registers keep: all with a solid, the normal one with
                           fractions, else none */

@@ -29,6 +29,11 @@ void metric_of_cells(const struct mesh *mesh, const struct level *level, int fir
         ret->volume[i] = mesh->beta == 0 ? h : metric_volume(mesh->beta, r, next);
         ret->centre[i] = 0.5 * (r + next);
     }
+    for (int i = 0; mesh->beta == 1 && i <= n; i++) {
+        double r = lower + (first + i) * h, next = lower + (first + i + 1) * h;
+        ret->turn_area[i] = metric_area(2, r);
+        if (i < n) ret->turn_volume[i] = metric_volume(2, r, next);
+    }
 }
 
 void metric_of_tile(const struct mesh *mesh, const struct level *level, const struct tile *tile, struct metric *ret)

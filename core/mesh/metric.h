@@ -6,7 +6,11 @@
  *     beta 0: area 1,   volume h;   beta 1: area r, volume (r+^2 - r-^2)/2;
  *     beta 2: area r^2, volume (r+^3 - r-^3)/3.
  * Areas and volumes are per radian (beta 1) or per steradian (beta 2); metric_full gives the
- * factor (1, 2 pi, 4 pi) that makes them whole, used in everything that people read. */
+ * factor (1, 2 pi, 4 pi) that makes them whole, used in everything that people read.
+ *
+ * What turns around the axis (swirl, beta 1) has momentum rho u_th whose lever is the radius: it
+ * counts with areas r^2 and volumes (r+^3 - r-^3)/3, so that angular momentum is what is kept. The
+ * same as its mean times the cell's volume and the middle of that volume. */
 #ifndef METRIC_H
 #define METRIC_H
 
@@ -17,7 +21,8 @@ enum { METRIC_CELLS = 256 }; /* most cells of a tile along an axis */
 struct metric {
     double area[METRIC_CELLS + 1]; /* face i is the lower face of cell i */
     double volume[METRIC_CELLS];
-    double centre[METRIC_CELLS]; /* middle of the cell along axis 0 */
+    double centre[METRIC_CELLS];                                   /* middle of the cell along axis 0 */
+    double turn_area[METRIC_CELLS + 1], turn_volume[METRIC_CELLS]; /* beta 1: of what turns; else not filled */
 };
 
 /* Of n <= METRIC_CELLS cells of a level, from number `first` on along axis 0; those before 0 lie behind the axis or a

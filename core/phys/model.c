@@ -444,7 +444,7 @@ struct model *model_new(const struct scene *scene)
     model_family_all(model);
     model->kapila = scene->scheme.closure == SCENE_KAPILA && model->n_alpha > 0;
     model->lagged = model->split || model_jumps(model);
-    model->forced = model_is_forced(scene) || model_jumps(model);
+    model->forced = model_is_forced(scene) || model_jumps(model) || model_turns(model);
     model->linear = true;
     for (unsigned l = 0; l < model->n_material; l++) {
         model_law_open(model, l);

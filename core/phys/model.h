@@ -228,6 +228,19 @@ static inline bool model_jumps(const struct model *path)
     return path->n_pair > 0;
 }
 
+/* Does matter turn around the axis, with a velocity u_th that is the third? Its momentum counts with a lever
+ * (mesh/metric.h). */
+static inline bool model_turns(const struct model *path)
+{
+    return path->beta == 1 && path->n_velocity == 3;
+}
+
+/* Is field or primitive q that velocity or its momentum? */
+static inline bool model_is_turn(const struct model *path, unsigned q)
+{
+    return model_turns(path) && q == path->i_u + 2;
+}
+
 /* Do solids of a path draw upon each other where they meet (scheme/cling.h)? */
 static inline bool model_clings(const struct model *path)
 {

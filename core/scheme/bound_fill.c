@@ -43,11 +43,11 @@ static void bound_fill_copy(const struct bound_fill *fill)
         bound_layer_fill(fill->frame, fill->side, false, 1.0, fill->w + model->active[i] * fill->pitch);
 }
 
-/* Is this component of a stretch one of those that a mirror across `axis` turns round? */
+/* Is this component of a normal or a stretch one of those that a mirror across `axis` turns round? */
 static bool bound_fill_is_crossed(const struct model *model, int axis, unsigned q)
 {
     unsigned n = (unsigned)axis, c;
-    if (!model_is_stretch(model, q, &c) || c < 3) return false;
+    if (!model_is_stretch(model, q, &c) || c < 3) return model->n_normal && q == model->i_normal + n;
     return c == elastic_component(n, (n + 1) % 3) || c == elastic_component(n, (n + 2) % 3);
 }
 
@@ -59,11 +59,12 @@ static void bound_fill_mirror(const struct bound_fill *fill, bool no_slip)
     int axis = fill->frame->axis;
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
-        bool velocity = q >= model->i_u && q < model->i_E;
-        bool normal = model->n_normal && q == model->i_normal + (unsigned)axis;
-        bool turned = !no_slip && (normal || bound_fill_is_crossed(model, axis, q));
-        bool reversed = velocity ? no_slip || q == model->i_u + (unsigned)axis : turned;
-        bound_layer_fill(fill->frame, fill->side, true, reversed ? -1.0 : 1.0, fill->w + q * fill->pitch);
+        bool turned = !no_slip && bound_fill_is_crossed(model, axis, q), moves = q >= model->i_u && q < model->i_E;
+        bool reversed = moves ? no_slip || q == model->i_u + (unsigned)axis : turned;
+        double way = reversed ? -1.0 : 1.0;
+        if (!no_slip && axis == 0 && model_is_turn(model, q))
+            way = bound_layer_lever(fill->bound->mesh, fill->bound->level, fill->side);
+        bound_layer_fill(fill->frame, fill->side, true, way, fill->w + q * fill->pitch);
     }
 }
 
@@ -414,8 +415,7 @@ static void bound_fill_reverse(const struct bound_fill *fill, struct bound_row *
     int axis = fill->frame->axis;
     for (unsigned i = 0; i < model->n_active; i++) {
         unsigned q = model->active[i];
-        bool normal = model->n_normal && q == model->i_normal + (unsigned)axis;
-        for (size_t c = 0; c < row->n && (normal || bound_fill_is_crossed(model, axis, q)); c++)
+        for (size_t c = 0; c < row->n && bound_fill_is_crossed(model, axis, q); c++)
             row->w[q * row->stride + c] *= -1.0;
     }
 }

@@ -2,6 +2,7 @@
 #ifndef BOUND_LAYER_H
 #define BOUND_LAYER_H
 
+#include "mesh/metric.h"
 #include "scheme/frame.h"
 
 /* Layer `ghost` behind a side, counted from it (0, 1), and the layer inside that mirrors it. */
@@ -13,6 +14,15 @@ static inline int bound_layer_behind(const struct frame *frame, int side, int gh
 static inline int bound_layer_inside(const struct frame *frame, int side, int ghost)
 {
     return side ? (int)frame->n - 1 - ghost : ghost;
+}
+
+/* What turns goes on behind a mirror across the radius as a whole, with the same u_th/r, so that it bears no shear
+ * there: the radius behind it over that before it. */
+static inline double bound_layer_lever(const struct mesh *mesh, const struct level *level, int side)
+{
+    double wall = side ? mesh->upper[0] : mesh->lower[0], inside = side ? wall - level->h[0] : wall + level->h[0];
+    double r = metric_centroid(1, side ? inside : wall, side ? wall : inside);
+    return (2.0 * wall - r) / r;
 }
 
 /* Fills the layers behind a side with those inside times `factor`: mirrored, or all with the outermost one. */

@@ -33,11 +33,10 @@ static BULLA_KERNEL void divergence_rows(const struct frame_runs *lines, double 
 
 /* Rows along axis 0 in curved coordinates: rate -= (A+ (F+ - q) - A- (F- - q)) / V; q is the cell's pressure for the
  * radial momentum, else a row of zeros for all lines. */
-static BULLA_KERNEL void divergence_curved(const struct frame_runs *lines, const struct metric *metric,
-                                           const double *lower, const double *upper, const double *q, size_t q_step,
-                                           double *rate)
+static BULLA_KERNEL void divergence_curved(const struct frame_runs *lines, const double *restrict area,
+                                           const double *restrict volume, const double *lower, const double *upper,
+                                           const double *q, size_t q_step, double *rate)
 {
-    const double *restrict area = metric->area, *restrict volume = metric->volume;
     size_t n = lines->n;
     for (size_t k = 0; k < lines->count; k++) {
         const double *restrict below = lower + k * lines->row, *restrict above = upper + k * lines->row;
@@ -109,10 +108,12 @@ static void divergence_flux(const struct term_tile *tile, const struct divergenc
 {
     double *rate = tile->rates + flux->rate * tile->n_cell + span->cell;
     const double *below = flux->below + span->face, *above = flux->above + span->face + span->next;
-    bool balanced = flux->kind == TERM_BALANCED && tile->hoop;
+    const struct metric *metric = tile->metric;
+    bool balanced = flux->kind == TERM_BALANCED && tile->hoop, turns = model_is_turn(tile->model, flux->rate);
     if (span->curved && flux->kind != TERM_DIFFERENCE)
-        divergence_curved(span->lines, tile->metric, below, above, balanced ? tile->hoop + span->cell : divergence_zero,
-                          balanced ? span->lines->tile : 0, rate);
+        divergence_curved(span->lines, turns ? metric->turn_area : metric->area,
+                          turns ? metric->turn_volume : metric->volume, below, above,
+                          balanced ? tile->hoop + span->cell : divergence_zero, balanced ? span->lines->tile : 0, rate);
     else divergence_rows(span->lines, span->per_h, below, above, rate);
 }
 

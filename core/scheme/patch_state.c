@@ -22,6 +22,8 @@ void patch_state_rules(const struct scene *scene, bool given, enum patch_rule re
     for (int face = 0; face < MESH_FACES; face++) {
         const struct scene_boundary *boundary = &scene->domain.boundary[face / 2][face % 2];
         enum patch_rule rule = boundary->moves && given ? PATCH_GIVEN : rules[boundary->type];
+        if (rule == PATCH_MIRROR && face < 2 && scene_domain_swirls(&scene->domain))
+            rule = PATCH_GIVEN; /* bound_layer_lever() */
         bool known = given && face < 2 * scene->domain.dim;
         ret_rules[face] = rule == PATCH_GIVEN && !known ? PATCH_COPY : rule;
     }

@@ -107,12 +107,21 @@ static void viscous_film_derive(const struct viscous_film_batch *batch, int e, c
     }
 }
 
+/* What turns, as it would at the radius of the corner: then slopes along the radius are r d(u_th/r)/dr. */
+static void viscous_film_turn(struct viscous_film_batch *batch)
+{
+    for (unsigned c = 0; c < batch->film->corners; c++)
+        for (size_t i = 0; i < batch->n; i++)
+            batch->value[c][i] *= 0.5 * (batch->radius[0][i] + batch->radius[1][i]) / batch->radius[c & 1u][i];
+}
+
 /* Velocities by the weights of the pairs, the colour by one for all; even: that one for velocities, too. */
 static void viscous_film_gradients(struct viscous_film_batch *batch, bool even)
 {
     const struct model *path = batch->slopes->tile->model;
     for (unsigned d = 0; d < path->n_velocity; d++) {
         viscous_film_take(batch, viscous_slopes_velocity(batch->slopes, d));
+        if (model_is_turn(path, path->i_u + d)) viscous_film_turn(batch);
         for (int e = 0; e < path->dim; e++)
             viscous_film_derive(batch, e, even ? NULL : batch->weight[e], batch->strain->gradient[d][e]);
     }

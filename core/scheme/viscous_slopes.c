@@ -217,6 +217,23 @@ static void viscous_slopes_hoop(const struct viscous_slopes *slopes, const struc
         }
 }
 
+/* Of what turns the shear is r d(u_th/r)/dr: none where it turns as a whole. */
+static void viscous_slopes_turn(const struct viscous_slopes *slopes, const struct viscous_block *block, double *slope)
+{
+    const double *r = slopes->centroid + block->x, *w = viscous_slopes_velocity(slopes, 2) + block->patch;
+    const double *across = slopes->across[0] + block->x, *along = slopes->along[0] + block->x;
+    bool faces = block->axis == 0;
+    for (size_t k = 0; k < block->rows; k++, w += block->patch_row)
+        for (size_t i = 0; i < block->n; i++) {
+            size_t s = block->step;
+            double here = r[i] + slopes->part[block->x + i] * (r[i + 1] - r[i]), middle = r[i + 1];
+            double whole = w[i + 1] / r[i + 2] - (w - 1)[i] / r[i];
+            double beside = w[i + s + 1] / r[i + 2] - (w + s - 1)[i] / r[i];
+            slope[k * block->n + i] = faces ? here * (w[i + 1] / r[i + 1] - w[i] / r[i]) * across[i]
+                                            : middle * (0.5 * (whole + beside)) * along[i];
+        }
+}
+
 void viscous_slopes_strain(const struct viscous_slopes *slopes, const struct viscous_block *block,
                            struct viscous_strain *ret)
 {
@@ -227,6 +244,7 @@ void viscous_slopes_strain(const struct viscous_slopes *slopes, const struct vis
         viscous_slopes_derive(slopes, block, viscous_slopes_velocity(slopes, d), ret->gradient[d]);
     if (slopes->colour) viscous_slopes_derive(slopes, block, slopes->colour, ret->colour);
     if (tile->mesh->beta) viscous_slopes_hoop(slopes, block, ret);
+    if (model_turns(ret->path)) viscous_slopes_turn(slopes, block, ret->gradient[2][0]);
     viscous_strain_make(ret, viscous_strain_longest(tile->mesh->dim, tile->level->h));
 }
 

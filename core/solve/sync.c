@@ -198,9 +198,9 @@ static void sync_write_rest(const struct stage *stage, unsigned local, const str
                 if (any) share = sync_share(stage, change, work->rest + cell);
                 if (!write) shares[cell] += share;
                 for (unsigned q = 0; write && q < stage->model->n_field; q++)
-                    strip[q * up->face_cells] =
-                        any ? spread_volume(spread, cell) * (share / shares[cell]) * work->rest[q * mesh->n_cell + cell]
-                            : 0.0;
+                    strip[q * up->face_cells] = any ? spread_volume(spread, q, cell) * (share / shares[cell]) *
+                                                          work->rest[q * mesh->n_cell + cell]
+                                                    : 0.0;
             }
     mem_free(shares);
 }

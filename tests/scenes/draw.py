@@ -237,6 +237,7 @@ SURFACES = 3300  # from here on: solids that meet fluids in all ways that the sc
 SLANTS = 3600  # from here on: interface limiters along normals and along axes
 LIMITED = 3761  # normals more often, and limiters of their own along surfaces
 WAVES = 4201  # from here on: waves come in through open faces
+SWIRLS = 4871  # from here on: what turns around the axis
 OTHER_LIQUIDS = [{"type": "tait", "preset": "water"}, {"type": "modified-tait", "preset": "refit"},
                  {"type": "iapws95", "preset": "water", "table-size": 64}, {"type": "stiffened-gas", "preset": "glycerol"}]
 OTHER_GASES = [{"type": "helmholtz-air", "preset": "air", "table-size": 64}, {"type": "rkpr", "preset": "air"},
@@ -392,6 +393,25 @@ def waves(scene):
         scene.works = True
 
 
+def swirls(scene):
+    """A velocity around the axis, in layers and of what flows in or drags along."""
+    dice, case = scene.dice, scene.case
+    fluid = scene.kind == "axis" and not scene.solids and not scene.bodies
+    if not fluid or not dice.coin(0.5):
+        return
+    case["domain"]["velocity-components"] = 3
+    for end in case["domain"]["boundaries"].values():
+        if "velocity" in end and isinstance(end, dict):
+            end["velocity"] = end["velocity"] + [dice.number(-20, 20)]
+    for layer in case["initial"]:
+        turn = f"= {dice.number(-30, 30):.3g}*x/{scene.length:.3g}"
+        layer["velocity"] = layer.get("velocity", [0.0, 0.0]) + [turn]
+    if "acceleration" in case.get("sources", {}):
+        case["sources"]["acceleration"] += [0.0]
+    if case.get("scheme", {}).get("integrator") == "hancock":
+        case["scheme"]["integrator"] = "ssprk3"
+
+
 def draw(seed):
     """A case, as a map that is JSON and YAML, and the Scene with what is known of it."""
     scene = Scene(seed)
@@ -419,4 +439,6 @@ def draw(seed):
         slants(scene, seed)
     if seed >= WAVES:
         waves(scene)
+    if seed >= SWIRLS:
+        swirls(scene)
     return scene.case, scene

@@ -73,13 +73,22 @@ static inline double amr_primitive(const struct flow *flow, const struct amr_lea
     return mesh->levels[leaf->l].w[leaf->tile][q * mesh->n_cell + leaf->cell];
 }
 
-/* Integral over the leaves of a conserved field, and of its magnitude. */
+/* The lever of a field: the middle of the volume for what turns around the axis (mesh/metric.h). */
+static inline double amr_lever(const struct flow *flow, const struct amr_leaf *leaf, unsigned q)
+{
+    double h = flow->state->mesh->levels[leaf->l].h[0];
+    if (q != flow->state->mesh->turns) return 1.0;
+    return metric_centroid(1, leaf->x[0] - 0.5 * h, leaf->x[0] + 0.5 * h);
+}
+
+/* Integral over the leaves of a conserved field, with its lever, and of its magnitude. */
 static inline long double amr_total(const struct flow *flow, unsigned q, double *ret_size)
 {
     struct amr_leaves leaves = amr_leaves(flow);
     long double sum = 0.0L, size = 0.0L;
     for (size_t i = 0; i < leaves.n; i++) {
         long double part = (long double)amr_conserved(flow, &leaves.all[i], q) * leaves.all[i].volume;
+        part *= amr_lever(flow, &leaves.all[i], q);
         sum += part;
         size += fabsl(part);
     }

@@ -25,6 +25,10 @@ static const struct setup SETUPS[] = {
      "{geometry: axisymmetric, lower: [0, 0], upper: [1, 1], cells: [32, 32], "
      "boundaries: {x-: axis, x+: reflecting, y-: periodic, y+: periodic}}",
      "levels: 2, tile: 8", "[0, 200]", "[0, 0.4]", "[0, 0.8]", 0},
+    {"swirl",
+     "{geometry: axisymmetric, velocity-components: 3, lower: [0, 0], upper: [1, 1], cells: [32, 32], "
+     "boundaries: {x-: axis, x+: reflecting, y-: periodic, y+: periodic}}",
+     "levels: 2, tile: 8", "[0, 200, '= 100 * x']", "[0, 0.4]", "[0.3, 0.8]", 0},
     {"spherical", "{geometry: spherical, lower: [0], upper: [1], cells: [64], boundaries: {x-: axis, x+: reflecting}}",
      "levels: 3, tile: 8", "[0]", "[0.6]", "[0]", 0},
 };

@@ -207,9 +207,9 @@ static void check_face(const struct twolevel *two, unsigned t, int axis)
         sum[to] += fine[c] * face_area(mesh, two->fine, &metric, axis, c);
         area[to] += face_area(mesh, two->fine, &metric, axis, c);
     }
-    restrict_face(mesh, two->fine, tile, axis, fine, coarse);
+    restrict_face(mesh, two->fine, tile, axis, 0, fine, coarse);
     for (size_t c = 0; c < halves; c++) assert_true(fabs(coarse[c] * area[c] - sum[c]) <= 4e-16 * area[c]);
-    restrict_face(mesh, two->fine, tile, axis, same, coarse);
+    restrict_face(mesh, two->fine, tile, axis, 0, same, coarse);
     for (size_t c = 0; c < halves; c++) assert_true(coarse[c] == 0.1);
 }
 

@@ -54,7 +54,7 @@ static double total(const struct tile_world *world, const double *values, unsign
 {
     size_t n = world->flow.state->mesh->n_cell;
     double sum = 0.0;
-    for (size_t c = 0; c < n; c++) sum += values[q * n + c] * spread_volume(&world->spread, c);
+    for (size_t c = 0; c < n; c++) sum += values[q * n + c] * spread_volume(&world->spread, q, c);
     return sum;
 }
 
@@ -125,7 +125,7 @@ static void test_amount(void **state)
             const struct model *model = world.flow.state->model;
             size_t n = world.flow.state->mesh->n_cell, cell = 21;
             for (unsigned q = 0; q < model->i_V; q++)
-                amount[q] = parts[k] * world.u[q * n + cell] * spread_volume(&world.spread, cell);
+                amount[q] = parts[k] * world.u[q * n + cell] * spread_volume(&world.spread, q, cell);
             amount[1] = -amount[0];
             spread_amount(&world.spread, cell, amount, world.delta);
             for (unsigned q = model->i_m; q < model->i_V; q++) {
@@ -184,7 +184,7 @@ static void check_cold(const char *geometry, double part, bool rests)
     check_pressures(&world);
     memset(world.delta, 0, world.flow.state->model->n_field * n * sizeof *world.delta);
     double amount[FLOW_FIELDS] = {0};
-    amount[E] = -2.0 * 2.5e5 * spread_volume(&world.spread, 21);
+    amount[E] = -2.0 * 2.5e5 * spread_volume(&world.spread, E, 21);
     spread_amount(&world.spread, 21, amount, world.delta);
     assert_true(fabs(total(&world, world.delta, E) - amount[E]) <= 1e-14 * size);
     check_pressures(&world);
